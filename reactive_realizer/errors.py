@@ -1,0 +1,205 @@
+"""The one table of what can go wrong: a code, where it shows, and its sentence for people.
+
+Every refusal, warning and close reason of the realizer is a `Fault` with a code of this table; docs/errors.md is made
+from it.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import StrEnum
+from types import MappingProxyType
+
+
+class WarningType(StrEnum):
+    """Types of BML 1.0 warningFeedback, and EXECUTION_FAILURE as AsapRealizer sends it."""
+
+    PARSING_FAILURE = "PARSING_FAILURE"
+    NO_SUCH_TARGET = "NO_SUCH_TARGET"
+    IMPOSSIBLE_TO_SCHEDULE = "IMPOSSIBLE_TO_SCHEDULE"
+    BEHAVIOR_TYPE_NOT_SUPPORTED = "BEHAVIOR_TYPE_NOT_SUPPORTED"
+    CUSTOM_BEHAVIOUR_NOT_SUPPORTED = "CUSTOM_BEHAVIOUR_NOT_SUPPORTED"
+    CUSTOM_ATTRIBUTE_NOT_SUPPORTED = "CUSTOM_ATTRIBUTE_NOT_SUPPORTED"
+    CANNOT_CREATE_BEHAVIOR = "CANNOT_CREATE_BEHAVIOR"
+    EXECUTION_FAILURE = "EXECUTION_FAILURE"
+
+
+@dataclass(frozen=True, slots=True)
+class ErrorKind:
+    """A row of the table.
+
+    Attributes:
+        warning: type of the warningFeedback that tells it, if one does.
+        status: HTTP status that answers it, if a request can cause it.
+        close: WebSocket close code, if it ends a connection.
+        sentence: for people; fields in braces are filled from the details of the fault.
+    """
+
+    sentence: str
+    warning: WarningType | None = None
+    status: int | None = None
+    close: int | None = None
+
+
+_PARSING = WarningType.PARSING_FAILURE
+_SCHEDULE = WarningType.IMPOSSIBLE_TO_SCHEDULE
+_CREATE = WarningType.CANNOT_CREATE_BEHAVIOR
+_PLAYING = WarningType.EXECUTION_FAILURE
+
+ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
+    {
+        # --- reading BML
+        "bad-encoding": ErrorKind("not text in UTF-8, UTF-16, ISO-8859-1 or US-ASCII", _PARSING, 400),
+        "malformed-xml": ErrorKind("not well-formed XML: {reason}", _PARSING, 400),
+        "doctype": ErrorKind("a DOCTYPE is refused", _PARSING, 400),
+        "too-many-bytes": ErrorKind("{size} bytes, the limit is {limit}", _PARSING, 413),
+        "too-deep": ErrorKind("elements nested deeper than {limit}", _PARSING, 413),
+        "too-many-attributes": ErrorKind("more than {limit} attributes of an element", _PARSING, 413),
+        "too-many-roots": ErrorKind("more than {limit} blocks in a document; the rest is not read", _PARSING, 413),
+        "too-many-behaviors": ErrorKind("{size} behaviors in a block, the limit is {limit}", _PARSING, 413),
+        "unclosed-element": ErrorKind("not well-formed XML: the document ends inside <{element}>", _PARSING, 400),
+        "not-bml": ErrorKind("<{element}> is not a bml block", _PARSING, 400),
+        "no-block": ErrorKind("no bml block in the document", _PARSING, 400),
+        "no-block-id": ErrorKind("the bml block has no id; it is refused", _PARSING, 400),
+        "missing-attribute": ErrorKind("<{element}> needs the attribute '{attribute}'", _PARSING),
+        "unknown-attribute": ErrorKind("unknown attribute {attributes} of <{element}>; known are {known}", _PARSING),
+        "bad-attribute": ErrorKind("{attribute}='{value}' of <{element}>: {reason}", _PARSING),
+        "not-an-id": ErrorKind("an id has 1 to 200 characters, no white space, ':' or '+', and is not 'bml'"),
+        "not-a-number": ErrorKind("not a finite number"),
+        "not-whole": ErrorKind("not a whole number"),
+        "out-of-range": ErrorKind("not within {low} and {high}"),
+        "unknown-word": ErrorKind("known are {known}"),
+        "not-a-reference": ErrorKind("not a sync reference, [block:]behavior:sync[+seconds] or seconds"),
+        "absurd-time": ErrorKind("more than {limit:g} s"),
+        "unknown-element": ErrorKind("unknown {element} in <{parent}>; known are {known}", _PARSING),
+        "missing-element": ErrorKind("<{element}> needs {children} in it", _PARSING),
+        "repeated-element": ErrorKind("a second <{element}> in <{parent}>", _PARSING),
+        "stray-text": ErrorKind("text '{text}' stands where none is read", _PARSING),
+        "duplicate-id": ErrorKind("<{element}>: the id '{id}' is taken", _PARSING),
+        "utterance-too-long": ErrorKind("a text of more than {limit} characters", _PARSING, 413),
+        "more-problems": ErrorKind("{number} more problems in this block", _PARSING),
+        "unknown-behavior": ErrorKind(
+            "<{element}> is no behavior of BML 1.0; known are {known}", WarningType.BEHAVIOR_TYPE_NOT_SUPPORTED
+        ),
+        "unknown-reference": ErrorKind("no behavior '{behavior}' for {reference}; there are {known}", _SCHEDULE),
+        "unknown-sync": ErrorKind("'{behavior}' has no sync point '{sync}' for {reference}; it has {known}", _SCHEDULE),
+        # --- scheduling a block
+        "duplicate-block": ErrorKind("a block with id '{block}' has not ended yet; this one is refused", _PARSING, 409),
+        "too-many-blocks": ErrorKind("{limit} blocks are alive; this one is refused", _PARSING, 429),
+        "unknown-character": ErrorKind(
+            "no character '{character}'; there are {known}", WarningType.NO_SUCH_TARGET, 404
+        ),
+        "unknown-block": ErrorKind("no block '{block}' for {reference}: it is unknown or has ended", _SCHEDULE),
+        "contradictory-tie": ErrorKind("{tie} contradicts other constraints by {gap:g} s; it is dropped", _SCHEDULE),
+        "rigid": ErrorKind("{point} cannot be where it is tied to, {gap:g} s away; that tie is dropped", _SCHEDULE),
+        "before-block": ErrorKind("it would have to start {early:g} s before its block", _SCHEDULE),
+        "out-of-order": ErrorKind("{sync} would come {gap:g} s after {later}", _SCHEDULE),
+        "too-short": ErrorKind("no time is left between its start and its end", _SCHEDULE),
+        "no-order": ErrorKind("the strategy '{strategy}' keeps no before/after; '{text}' is dropped", _SCHEDULE),
+        "cut-tie": ErrorKind("{point} was interrupted; this behavior keeps the time predicted last", _SCHEDULE),
+        "resource-taken": ErrorKind("{behavior} is dropped: {other} has the {resource}", _SCHEDULE),
+        "not-supported": ErrorKind(
+            "<{element}> is not realized; it is left out", WarningType.BEHAVIOR_TYPE_NOT_SUPPORTED
+        ),
+        "foreign-not-supported": ErrorKind(
+            "<{element}> of {namespace} is not realized; it is left out", WarningType.CUSTOM_BEHAVIOUR_NOT_SUPPORTED
+        ),
+        "foreign-attribute": ErrorKind(
+            "the attribute {attribute} of {namespace} means nothing here", WarningType.CUSTOM_ATTRIBUTE_NOT_SUPPORTED
+        ),
+        "overtaken": ErrorKind("its sync points lost their order when they were moved", _SCHEDULE),
+        "work-failed": ErrorKind("its preparation failed: {reason}", _CREATE),
+        "never-moves": ErrorKind("still waiting for {waits} when nothing more could happen", _SCHEDULE),
+        # --- playing
+        "unit-failed": ErrorKind("it failed while playing: {reason}", _PLAYING),
+        "engine-failed": ErrorKind("the engine {engine} failed: {reason}", _PLAYING),
+        "too-many-rounds": ErrorKind("it did not come to rest within {limit} rounds of a tick", _PLAYING),
+        # --- voices
+        "voice-not-installed": ErrorKind("speech needs espeak-ng: pip install 'reactive-realizer[espeak]'", _CREATE),
+        "unknown-voice": ErrorKind("no voice '{voice}'; there are en-us, en-gb, fr, nl ..., also en-us+f3", _CREATE),
+        "voice-failed": ErrorKind("the process that speaks ended before it had spoken: {reason}", _CREATE),
+        # --- assembling a scene
+        "bad-human-file": ErrorKind("{file}: {key}: {reason}"),
+        "no-plugin": ErrorKind("no '{name}' among the {group}; there are {known}"),
+        "two-plugins": ErrorKind("'{name}' among the {group} is claimed by {known}"),
+        "no-folder": ErrorKind("no folder {folder}"),
+        "forbidden-path": ErrorKind("'{name}' is no name of an asset: it may not leave the folders", _CREATE, 400),
+        "no-asset": ErrorKind("no file '{name}' among the assets", _CREATE, 404),
+        "bad-tempo": ErrorKind("a tempo of {tempo:g} is not within {low:g} and {high:g} beats a minute", None, 400),
+        # --- making a behavior
+        "no-motion-for": ErrorKind("nothing in the binding plays <{element}> with lexeme '{lexeme}'", _CREATE),
+        "no-unit": ErrorKind("there is no motion unit '{unit}'", _CREATE),
+        "no-face": ErrorKind("no face for the lexeme '{lexeme}'; known are {known}", _CREATE),
+        "no-target": ErrorKind("no target '{target}' in the world; there are {known}", WarningType.NO_SUCH_TARGET),
+        # --- avatars, bindings, animations
+        "bad-avatar": ErrorKind("{file} is no usable avatar: {reason}"),
+        "bad-asset": ErrorKind("{file}, line {row}, <{element}>: {reason}", _CREATE),
+        "bad-expression": ErrorKind("{reason} at character {at} of '{expression}'", _CREATE),
+        "no-motion": ErrorKind("{animation} gives no pose at phase {phase:g}: {reason}", _PLAYING),
+        # --- the server
+        "bad-json": ErrorKind("not JSON: {reason}", None, 400),
+        "binary-message": ErrorKind("messages are JSON text; binary data are not read", None, 400),
+        "unknown-message": ErrorKind("no message has the type {type}; known are {known}", None, 400),
+        "bad-message": ErrorKind("{place}: {value} does not keep to {rule}", None, 400),
+        "bad-query": ErrorKind("{name}={value} is not read; wanted is {wanted}", None, 400),
+        "unknown-anticipator": ErrorKind("no anticipator '{anticipator}'; there are {known}", None, 404),
+        "not-movable": ErrorKind("'{target}' is a character, not a target that is moved", None, 400),
+        "no-demo": ErrorKind("there is no performance here", None, 404),
+        "no-clip": ErrorKind("no sound '{clip}', or not any more", None, 404),
+        "no-page": ErrorKind("the page has not been built: make page", None, 503),
+        "nothing-there": ErrorKind("there is nothing at {path}", None, 404),
+        "wrong-method": ErrorKind("{path} does not take {method}", None, 405),
+        "wrong-media-type": ErrorKind("BML comes as application/xml or text/xml, not as {type}", None, 415),
+        "no-token": ErrorKind("the token of the server is wanted, and was not given or is another", None, 401),
+        "foreign-host": ErrorKind("the host {host} is not one of this server", None, 403),
+        "foreign-origin": ErrorKind("pages from {origin} are not let in; --allow-origin does that", None, 403),
+        "too-many-clients": ErrorKind("{limit} clients are connected, and no more are let in", None, 503),
+        "too-many-messages": ErrorKind("more than {limit} messages a second", None, 429, 1008),
+        "too-slow": ErrorKind("too much has piled up for this client; it may resume by after={seq}", close=1013),
+        "feedback-gone": ErrorKind("feedback up to {seq} is not kept any more"),
+        "going-away": ErrorKind("the server ends", close=1001),
+    }
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """One thing that went wrong, as data.
+
+    Attributes:
+        code: a key of `ERRORS`.
+        details: what its sentence mentions.
+        line: 1-based line of the element in its document, None where there is no document.
+        column: 1-based column of the element's start tag.
+    """
+
+    code: str
+    details: Mapping[str, object] = field(default_factory=dict)
+    line: int | None = None
+    column: int | None = None
+
+    @property
+    def kind(self) -> ErrorKind:
+        """The row of the table."""
+        return ERRORS[self.code]
+
+    @property
+    def sentence(self) -> str:
+        """What happened, for people, without the place."""
+        return self.kind.sentence.format(**self.details)
+
+    def __str__(self) -> str:
+        place = "" if self.line is None else f"line {self.line}, column {self.column}: "
+        return place + self.sentence
+
+
+class RealizerError(Exception):
+    """Carries a fault to whoever reports it."""
+
+    def __init__(self, fault: Fault) -> None:
+        super().__init__(str(fault))
+        self.fault = fault
+
+
+def error(code: str, *, line: int | None = None, column: int | None = None, **details: object) -> RealizerError:
+    """A `RealizerError` for a code of the table."""
+    return RealizerError(Fault(code, details, line, column))
