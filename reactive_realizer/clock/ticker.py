@@ -1,0 +1,69 @@
+"""Ticks: the moments at which the realizer looks."""
+
+from collections import deque
+from collections.abc import AsyncIterator
+from dataclasses import dataclass
+from math import floor
+
+from reactive_realizer.clock.clock import Clock
+from reactive_realizer.clock.units import RESOLUTION, GlobalTime
+
+RATE = 100
+"""Ticks a second."""
+
+FRAME_EVERY = 2
+"""Ticks a frame: poses are composed at 50 Hz."""
+
+
+@dataclass(frozen=True, slots=True)
+class Tick:
+    """One look at the clock.
+
+    Attributes:
+        number: n; the tick's time is n / RATE, the decimal fraction itself rather than a sum of steps.
+        previous: time of the tick before, -1 s before the first; the tick covers what lies between.
+        frame: whether a pose is to be composed.
+    """
+
+    number: int
+    previous: GlobalTime
+    frame: bool = False
+
+    @property
+    def time(self) -> GlobalTime:
+        """Seconds on the realizer's clock."""
+        return tick_time(self.number)
+
+
+def tick_time(number: int) -> GlobalTime:
+    """When tick ``number`` is."""
+    return GlobalTime(number / RATE)
+
+
+class Ticker:
+    """Makes ticks from a clock; a tick that comes late covers the whole interval, nothing is caught up one by one.
+
+    Attributes:
+        overruns: ticks that were left out because the one before took too long.
+        lateness: how late (s) the last thousand ticks were.
+    """
+
+    def __init__(self, clock: Clock) -> None:
+        self.clock = clock
+        self.overruns = 0
+        self.lateness: deque[float] = deque(maxlen=1000)
+
+    async def ticks(self) -> AsyncIterator[Tick]:
+        """Ticks for ever, each at its time."""
+        number, previous, due_frame = 0, GlobalTime(-1.0), 0
+        while True:
+            await self.clock.wait_until(tick_time(number))
+            now = self.clock.now()
+            latest = max(number, floor((now + RESOLUTION) * RATE))
+            self.overruns += latest - number
+            self.lateness.append(now - tick_time(number))
+            frame = latest >= due_frame
+            if frame:
+                due_frame = latest - latest % FRAME_EVERY + FRAME_EVERY
+            yield Tick(latest, previous, frame)
+            number, previous = latest + 1, tick_time(latest)

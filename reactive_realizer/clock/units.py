@@ -1,0 +1,17 @@
+"""Seconds, with their frame of reference in the type."""
+
+from typing import NewType
+
+GlobalTime = NewType("GlobalTime", float)
+"""Seconds on the realizer's clock; 0 is the first tick."""
+
+BlockTime = NewType("BlockTime", float)
+"""Seconds since the start of a BML block."""
+
+RESOLUTION = 1e-9
+"""Times closer than this (s) are one time: sums of decimal fractions differ by rounding and must not miss a tick."""
+
+
+def is_due(time: GlobalTime | float | None, now: GlobalTime | float) -> bool:
+    """Whether a time has come; an unknown time has not."""
+    return time is not None and time <= now + RESOLUTION
