@@ -1,0 +1,184 @@
+"""How the text of an attribute becomes a value; a dataclass field says it once, in its metadata.
+
+The parser, the support tables and ``/capabilities`` all read it back with `attributes_of`.
+"""
+
+import dataclasses
+import math
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import StrEnum
+from typing import Any, Protocol
+
+from reactive_realizer.bml.names import BLOCK
+from reactive_realizer.bml.sync_ref import NUMBER
+from reactive_realizer.errors import error
+from reactive_realizer.limits import Limits
+
+_METADATA = "bml attribute"
+_SIGNED = re.compile(rf"[+-]?{NUMBER}")
+
+
+class AttributeType(Protocol):
+    """What values an attribute may have."""
+
+    @property
+    def description(self) -> str:
+        """For people: the kind of value, its range or words."""
+
+    def read(self, text: str, limits: Limits) -> object:
+        """The value written as `text`.
+
+        Raises:
+            RealizerError: with the reason, without the place.
+        """
+
+
+@dataclass(frozen=True, slots=True)
+class Text:
+    """Any text, as written: ids of targets, words of open vocabularies."""
+
+    description: str = "text"
+
+    def read(self, text: str, limits: Limits) -> str:
+        """The text itself."""
+        return text
+
+
+@dataclass(frozen=True, slots=True)
+class Name:
+    """An id that a reference can name."""
+
+    description: str = "id"
+
+    def read(self, text: str, limits: Limits) -> str:
+        """The id, without the white space around it."""
+        name = text.strip()
+        if name == BLOCK or not re.fullmatch(r"[^\s:+]{1,200}", name):
+            raise error("not-an-id")
+        return name
+
+
+@dataclass(frozen=True, slots=True)
+class Number:
+    """A finite number within a range."""
+
+    low: float
+    high: float
+
+    @property
+    def description(self) -> str:
+        """The range."""
+        return f"number, {self.low:g} to {self.high:g}"
+
+    def read(self, text: str, limits: Limits) -> float:
+        """The number."""
+        return _within(_finite(text), self.low, self.high)
+
+
+@dataclass(frozen=True, slots=True)
+class Integer:
+    """A whole number within a range."""
+
+    low: int
+    high: int
+
+    @property
+    def description(self) -> str:
+        """The range."""
+        return f"whole number, {self.low} to {self.high}"
+
+    def read(self, text: str, limits: Limits) -> int:
+        """The whole number."""
+        value = _within(_finite(text), self.low, self.high)
+        if value != int(value):
+            raise error("not-whole")
+        return int(value)
+
+
+@dataclass(frozen=True, slots=True)
+class Duration:
+    """Seconds from 0 to the limit of times."""
+
+    description: str = "seconds"
+
+    def read(self, text: str, limits: Limits) -> float:
+        """The duration in seconds."""
+        return _within(_finite(text), 0.0, limits.time_seconds)
+
+
+@dataclass(frozen=True, slots=True)
+class Word:
+    """A word of a closed vocabulary, in any case, with ``_``, ``-`` or nothing between its parts."""
+
+    words: type[StrEnum]
+    synonyms: Mapping[str, StrEnum] = field(default_factory=dict)
+
+    @property
+    def description(self) -> str:
+        """The words of the standard."""
+        return ", ".join(self.words)
+
+    def read(self, text: str, limits: Limits) -> StrEnum:
+        """The word."""
+        known: dict[str, StrEnum] = {**{_plain(word): word for word in self.words}, **self.synonyms}
+        word = known.get(_plain(text.strip()))
+        if word is None:
+            raise error("unknown-word", known=self.description)
+        return word
+
+
+@dataclass(frozen=True, slots=True)
+class Attribute:
+    """One attribute of an element.
+
+    Attributes:
+        name: in XML.
+        field: of the dataclass that holds its value.
+        type: what it may be.
+        required: whether an element without it is refused.
+        default: its value where it is not written.
+    """
+
+    name: str
+    field: str
+    type: AttributeType
+    required: bool
+    default: object
+
+
+def attribute(kind: AttributeType, name: str | None = None) -> Mapping[str, Any]:
+    """Metadata of a field that holds an attribute; its name is the field's in camelCase unless given."""
+    return {_METADATA: (kind, name)}
+
+
+def attributes_of(data: type) -> tuple[Attribute, ...]:
+    """The attributes that the fields of a dataclass hold, in their order."""
+    return tuple(_attribute(each) for each in dataclasses.fields(data) if _METADATA in each.metadata)
+
+
+def _attribute(each: "dataclasses.Field[Any]") -> Attribute:
+    kind, name = each.metadata[_METADATA]
+    required = each.default is dataclasses.MISSING
+    return Attribute(name or _camel(each.name), each.name, kind, required, None if required else each.default)
+
+
+def _camel(name: str) -> str:
+    return re.sub(r"_(\w)", lambda match: match[1].upper(), name)
+
+
+def _plain(word: str) -> str:
+    return re.sub(r"[-_]", "", word).upper()
+
+
+def _finite(text: str) -> float:
+    if not _SIGNED.fullmatch(text.strip()) or not math.isfinite(float(text)):
+        raise error("not-a-number")
+    return float(text)
+
+
+def _within(value: float, low: float, high: float) -> float:
+    if not low <= value <= high:
+        raise error("out-of-range", low=f"{low:g}", high=f"{high:g}")
+    return value

@@ -1,0 +1,87 @@
+"""What all behaviors have in common."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import ClassVar
+
+from reactive_realizer.bml.attributes import Integer, Name, Text, attribute
+from reactive_realizer.bml.names import BML, Location
+from reactive_realizer.bml.sync_ref import SyncRef
+
+SyncPoints = tuple[str, ...]
+"""Names of sync points, in the order in which they are reached."""
+
+_PRIORITIES = 1_000_000
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Description:
+    """Another form of the same behavior, in the language of some realizer.
+
+    Attributes:
+        priority: the highest one whose type is known is played in place of the core behavior.
+        type: name of its language, such as ``application/ssml+xml``.
+        content: what stands inside, as XML.
+    """
+
+    priority: int = field(metadata=attribute(Integer(-_PRIORITIES, _PRIORITIES)))
+    type: str = field(metadata=attribute(Text()))
+    content: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Behavior:
+    """One behavior of a block, as it was written.
+
+    Attributes:
+        id: unique in its block.
+        namespace: that of its element; the core's for documents without any.
+        name: local name of its element.
+        location: of its start tag.
+        order: its place among the behaviors of its block, in document order, from 0.
+        syncs: the constrained sync points and what they are tied to, in order of writing.
+        required: whether the block fails without it.
+        descriptions: its other forms, as written.
+        extensions: attributes of other namespaces, (namespace, local name) to value.
+        source: its own element as XML.
+    """
+
+    NAMESPACE: ClassVar[str] = BML
+    CHILDREN: ClassVar[tuple[str, ...]] = ()
+    SYNC_POINTS: ClassVar[SyncPoints] = ()
+
+    id: str = field(metadata=attribute(Name()))
+    namespace: str
+    name: str
+    location: Location
+    order: int
+    syncs: Mapping[str, SyncRef] = field(default_factory=dict)
+    required: bool = False
+    descriptions: tuple[Description, ...] = ()
+    extensions: Mapping[tuple[str, str], str] = field(default_factory=dict)
+    source: str = ""
+
+    @property
+    def sync_points(self) -> SyncPoints:
+        """All its sync points, in the order in which they are reached."""
+        return self.SYNC_POINTS
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ForeignBehavior(Behavior):
+    """A behavior of another namespace than BML's; whoever realizes that namespace knows what it means.
+
+    Attributes:
+        attributes: un-namespaced ones other than its id and sync points, as written.
+        children: what stands inside its element, as XML.
+    """
+
+    SYNC_POINTS = ("start", "ready", "strokeStart", "attackPeak", "stroke", "strokeEnd", "relax", "end")
+
+    attributes: Mapping[str, str] = field(default_factory=dict)
+    children: str = ""
+
+    @property
+    def sync_points(self) -> SyncPoints:
+        """Start, end, and those that are constrained; its realizer may know more."""
+        return tuple(name for name in self.SYNC_POINTS if name in {"start", "end", *self.syncs})

@@ -1,0 +1,95 @@
+"""From an element to a behavior."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from types import MappingProxyType
+from typing import Any, Final
+
+from reactive_realizer.bml.attributes import attributes_of
+from reactive_realizer.bml.behavior import Behavior, Description, ForeignBehavior
+from reactive_realizer.bml.behaviors import Speech
+from reactive_realizer.bml.elements import ELEMENTS
+from reactive_realizer.bml.face import Face, FaceShift
+from reactive_realizer.bml.parts import read_face, read_posture
+from reactive_realizer.bml.posture import Posture, PostureShift
+from reactive_realizer.bml.source import Source
+from reactive_realizer.bml.speech_reader import read_speech
+from reactive_realizer.bml.trees import (
+    Tree,
+    attributes_in,
+    children_of,
+    is_core,
+    listed,
+    name_of,
+    namespace_of,
+)
+from reactive_realizer.errors import Fault, RealizerError
+
+_DESCRIPTION: Final = "description"
+_FOREIGN_ATTRIBUTES: Final = attributes_of(ForeignBehavior)
+_READ_PARTS: Final[Mapping[type[Behavior], Callable[[Tree, Source, list[Fault]], dict[str, Any]]]] = {
+    Speech: read_speech,
+    Face: read_face,
+    FaceShift: read_face,
+    Posture: read_posture,
+    PostureShift: read_posture,
+}
+
+
+def read_behavior(tree: Tree, source: Source, order: int, required: bool, notes: list[Fault]) -> Behavior:
+    """The behavior that an element writes.
+
+    Args:
+        tree: the element.
+        source: its block.
+        order: of the behavior in the block.
+        required: whether the block fails without it.
+        notes: takes the faults that do not prevent it.
+
+    Raises:
+        RealizerError: it is none, or an attribute or child that it needs is missing or bad.
+    """
+    read = _core if is_core(tree) else _foreign
+    return replace(read(tree, source, notes), order=order, required=required)
+
+
+def _core(tree: Tree, source: Source, notes: list[Fault]) -> Behavior:
+    element = ELEMENTS.get(name_of(tree))
+    if element is None:
+        raise RealizerError(source.fault(tree, "unknown-behavior", known=listed(ELEMENTS)))
+    values = source.written(tree) | source.values(tree, element.attributes)
+    if element.behavior in _READ_PARTS:
+        values |= _READ_PARTS[element.behavior](tree, source, notes)
+    behavior = element.behavior(**values, namespace=element.namespace, order=0)
+    # A head that strokes several times has no single stroke to be tied.
+    points = [name for name in element.sync_points if name in behavior.sync_points]
+    names = [*(each.name for each in element.attributes), *points]
+    notes += source.unread(tree, names, [*element.children, _DESCRIPTION])
+    return replace(behavior, syncs=source.syncs(tree, points), descriptions=_descriptions(tree, source, notes))
+
+
+def _descriptions(tree: Tree, source: Source, notes: list[Fault]) -> tuple[Description, ...]:
+    """Those that can be read: without the others the behavior is still what it is."""
+    descriptions = []
+    for child in children_of(tree, _DESCRIPTION):
+        try:
+            values = source.values(child, attributes_of(Description))
+            descriptions.append(Description(**values, content=source.content(child)))
+        except RealizerError as refused:
+            notes.append(refused.fault)
+    return tuple(descriptions)
+
+
+def _foreign(tree: Tree, source: Source, notes: list[Fault]) -> Behavior:
+    values = source.written(tree) | source.values(tree, _FOREIGN_ATTRIBUTES)
+    syncs = source.syncs(tree, ForeignBehavior.SYNC_POINTS)
+    read = {*syncs, *(each.name for each in _FOREIGN_ATTRIBUTES)}
+    others = {name: value for name, value in attributes_in(tree).items() if name not in read}
+    return ForeignBehavior(
+        **values,
+        namespace=namespace_of(tree),
+        order=0,
+        syncs=syncs,
+        attributes=MappingProxyType(others),
+        children=source.content(tree),
+    )

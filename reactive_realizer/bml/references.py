@@ -1,0 +1,53 @@
+"""Whether what a block refers to inside itself exists."""
+
+from collections.abc import Iterator, Mapping
+
+from reactive_realizer.bml.behavior import Behavior, ForeignBehavior
+from reactive_realizer.bml.block import BehaviorBlock, Problem
+from reactive_realizer.bml.constraint import Constraint, Order
+from reactive_realizer.bml.names import Location
+from reactive_realizer.bml.sync_ref import SyncRef
+from reactive_realizer.bml.trees import listed
+from reactive_realizer.errors import Fault
+
+
+def check_references(block: BehaviorBlock) -> tuple[Problem, ...]:
+    """A problem for each reference to a behavior or sync point that this block should have and has not.
+
+    Other blocks, anticipators, and sync points that only the realizer of a foreign behavior knows are not judged.
+    """
+    behaviors = {behavior.id: behavior for behavior in block.behaviors}
+    return tuple(
+        Problem(fault, place)
+        for place, location, ref in _references(block)
+        if ref.block in {None, block.id} and (fault := _fault(ref, behaviors, location))
+    )
+
+
+def _references(block: BehaviorBlock) -> Iterator[tuple[str, Location, SyncRef]]:
+    """Every reference with the id and the place of what holds it."""
+    for behavior in block.behaviors:
+        for ref in behavior.syncs.values():
+            yield f"{block.id}:{behavior.id}", behavior.location, ref
+    for constraint in block.constraints:
+        place = f"{block.id}:{constraint.id}" if constraint.id else block.id
+        for ref in _refs_of(constraint):
+            yield place, constraint.location, ref
+
+
+def _refs_of(constraint: Constraint) -> tuple[SyncRef, ...]:
+    return (constraint.ref, *constraint.refs) if isinstance(constraint, Order) else constraint.refs
+
+
+def _fault(ref: SyncRef, behaviors: Mapping[str, Behavior], location: Location) -> Fault | None:
+    if ref.behavior is None:
+        return None
+    details: dict[str, object] = {"reference": str(ref), "behavior": ref.behavior, "sync": ref.sync}
+    behavior = behaviors.get(ref.behavior)
+    if behavior is None:
+        code, known = "unknown-reference", listed(behaviors)
+    elif isinstance(behavior, ForeignBehavior) or ref.sync in behavior.sync_points:
+        return None
+    else:
+        code, known = "unknown-sync", listed(behavior.sync_points)
+    return Fault(code, details | {"known": known}, location.line, location.column)

@@ -1,0 +1,101 @@
+"""References to sync points."""
+
+import math
+import re
+from collections.abc import Collection
+from dataclasses import dataclass
+from typing import Final, Self
+
+from reactive_realizer.bml.names import BLOCK
+from reactive_realizer.errors import error
+from reactive_realizer.limits import Limits
+
+NUMBER: Final = r"(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
+"""A number without its sign, as a pattern."""
+
+_SECONDS = re.compile(rf"([+-]?)\s*({NUMBER})")
+_WITH_OFFSET = re.compile(rf"(.*?)\s*([+-])\s*({NUMBER})", re.DOTALL)
+_NAME = re.compile(r"[^\s:+]+")
+_STROKE_NUMBER = re.compile(r"[0-9]{1,4}")
+_MOST_CHARACTERS = 1_000
+
+
+@dataclass(frozen=True, slots=True)
+class SyncRef:
+    """A point in time by name: ``[block:]behavior:sync[+offset]``, or ``[block:]offset`` from the start of a block.
+
+    Attributes:
+        block: id of another block, or "anticipators"; None for the block in which the reference stands.
+        behavior: id of a behavior (of an anticipator); None for the start of the block itself.
+        sync: name of its sync point, ``stroke:2`` for the second stroke; None exactly where `behavior` is.
+        offset: seconds from that point.
+    """
+
+    block: str | None
+    behavior: str | None
+    sync: str | None
+    offset: float = 0.0
+
+    @classmethod
+    def parse(cls, text: str, limits: Limits, names: Collection[str] = ()) -> Self:
+        """Reads a reference as BML 1.0 writes it.
+
+        Ids may hold hyphens, so only a number after the last ``+`` or ``-`` is an offset.
+
+        Args:
+            text: what was written.
+            limits: bound the offset.
+            names: sync points known to exist that look like a name and an offset (``s-1``); these are names.
+
+        Raises:
+            RealizerError: ``not-a-reference`` or ``absurd-time``.
+        """
+        if len(text) > _MOST_CHARACTERS:
+            raise error("not-a-reference")
+        *owners, last = (part.strip() for part in text.split(":"))
+        absolute = _SECONDS.fullmatch(last)
+        if absolute and len(owners) < 2:
+            block = owners[0] if owners else None
+            return cls._checked(block, None, None, _seconds(absolute[1], absolute[2], limits))
+        sync, offset = _split_offset(last, limits, names)
+        if len(owners) > 1 and owners[-1] == "stroke" and _STROKE_NUMBER.fullmatch(sync):
+            sync = f"{owners.pop()}:{int(sync)}"
+        if not 1 <= len(owners) <= 2:
+            raise error("not-a-reference")
+        return cls._checked(owners[0] if len(owners) == 2 else None, owners[-1], sync, offset)
+
+    @classmethod
+    def _checked(cls, block: str | None, behavior: str | None, sync: str | None, offset: float) -> Self:
+        """With every name legal, and ``bml:start`` as the start of the block."""
+        if behavior == BLOCK and sync == "start":
+            behavior = sync = None
+        names = (block, behavior, sync and sync.removeprefix("stroke:"))
+        if behavior == BLOCK or any(name is not None and not _NAME.fullmatch(name) for name in names):
+            raise error("not-a-reference")
+        return cls(None if block == BLOCK else block, behavior, sync, offset)
+
+    def __str__(self) -> str:
+        owner = "" if self.block is None else f"{self.block}:"
+        if self.behavior is None:
+            return f"{owner}{_number(self.offset)}"
+        point = f"{owner}{self.behavior}:{self.sync}"
+        # A bare "s-1" would be read as one second before "s".
+        ambiguous = _WITH_OFFSET.fullmatch(self.sync or "")
+        return f"{point}{_number(self.offset, sign='+')}" if self.offset or ambiguous else point
+
+
+def _split_offset(last: str, limits: Limits, names: Collection[str]) -> tuple[str, float]:
+    """The name and the offset of the last part of a reference."""
+    parts = None if last in names else _WITH_OFFSET.fullmatch(last)
+    return (parts[1], _seconds(parts[2], parts[3], limits)) if parts else (last, 0.0)
+
+
+def _seconds(sign: str, digits: str, limits: Limits) -> float:
+    seconds = float(sign + digits)
+    if not math.isfinite(seconds) or abs(seconds) > limits.time_seconds:
+        raise error("absurd-time", limit=limits.time_seconds)
+    return seconds + 0.0  # no negative zero
+
+
+def _number(seconds: float, sign: str = "-") -> str:
+    return f"{seconds:{sign}}".removesuffix(".0")

@@ -1,0 +1,64 @@
+"""Small readings of lxml trees, and quotations from them."""
+
+from collections.abc import Iterable, Mapping
+from types import MappingProxyType
+from typing import Final
+
+from lxml import etree
+
+from reactive_realizer.bml.names import BML, BML_EXT
+
+Tree = etree._Element
+"""An element with what is inside it."""
+
+_MOST_QUOTED: Final = 60
+_MOST_LISTED: Final = 20
+
+
+def shown(text: str) -> str:
+    """A text of the document as a message quotes it: on one line, cut where it is long."""
+    line = " ".join(text.split())
+    return line if len(line) <= _MOST_QUOTED else f"{line[:_MOST_QUOTED]}..."
+
+
+def listed(names: Iterable[str]) -> str:
+    """Names as a message lists them, cut where there are many."""
+    distinct = list(dict.fromkeys(names))
+    more = ["..."] if len(distinct) > _MOST_LISTED else []
+    return ", ".join([*map(shown, distinct[:_MOST_LISTED]), *more]) or "none"
+
+
+def name_of(tree: Tree) -> str:
+    """Its local name."""
+    return etree.QName(tree).localname
+
+
+def namespace_of(tree: Tree) -> str:
+    """Its namespace, empty where there is none."""
+    return etree.QName(tree).namespace or ""
+
+
+def is_core(tree: Tree) -> bool:
+    """Whether the element is BML's own, or of no namespace."""
+    return namespace_of(tree) in {"", BML, BML_EXT}
+
+
+def children_of(tree: Tree, *names: str) -> list[Tree]:
+    """The core elements of these names directly inside."""
+    return [child for child in tree if is_core(child) and name_of(child) in names]
+
+
+def stray_text_of(tree: Tree) -> str:
+    """The text directly inside an element where none is meant."""
+    return " ".join(f"{tree.text or ''} {' '.join(child.tail or '' for child in tree)}".split())
+
+
+def attributes_in(tree: Tree) -> dict[str, str]:
+    """The attributes that have no namespace, in order of writing."""
+    return {str(name): str(value) for name, value in tree.attrib.items() if not str(name).startswith("{")}
+
+
+def extensions_of(tree: Tree) -> Mapping[tuple[str, str], str]:
+    """The attributes that have a namespace: (namespace, local name) to value."""
+    names = ((etree.QName(name), str(value)) for name, value in tree.attrib.items())
+    return MappingProxyType({(name.namespace, name.localname): value for name, value in names if name.namespace})

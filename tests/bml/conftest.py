@@ -1,0 +1,39 @@
+"""How the tests of this room read BML."""
+
+from collections.abc import Callable
+
+import pytest
+
+from reactive_realizer.bml.block import BehaviorBlock, Parsed
+from reactive_realizer.bml.document import parse
+from reactive_realizer.bml.names import BML, BML_EXT, BMLA
+from reactive_realizer.limits import Limits
+
+Read = Callable[[str], Parsed]
+
+
+@pytest.fixture
+def read() -> Read:
+    """What came of the one block with the id b and these elements inside; prefixes ext and bmla are declared."""
+
+    def read_inside(inside: str) -> Parsed:
+        (parsed,) = parse(
+            f'<bml xmlns="{BML}" xmlns:ext="{BML_EXT}" xmlns:bmla="{BMLA}" id="b">{inside}</bml>', Limits()
+        )
+        return parsed
+
+    return read_inside
+
+
+@pytest.fixture
+def block(read: Read) -> Callable[[str], BehaviorBlock]:
+    """The same where nothing is wrong with it."""
+
+    def block_inside(inside: str) -> BehaviorBlock:
+        parsed = read(inside)
+        assert parsed.block is not None
+        assert not parsed.problems
+        assert not parsed.failed
+        return parsed.block
+
+    return block_inside

@@ -1,0 +1,179 @@
+"""Documents: several blocks, what stands between them, encodings, places."""
+
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from reactive_realizer.bml.block import Parsed
+from reactive_realizer.bml.document import parse
+from reactive_realizer.bml.names import Location
+from reactive_realizer.limits import Limits
+
+OWN_DATA = Path(__file__).parents[1] / "data" / "bml"
+REFUSED = {"no_id.xml": "no-block-id", "bmlnoid.xml": "no-block-id"}
+
+
+def read(text: str | bytes) -> list[Parsed]:
+    return parse(text, Limits())
+
+
+def ids(text: str | bytes) -> list[str | None]:
+    """The block's id, or None for what was refused."""
+    return [parsed.block and parsed.block.id for parsed in read(text)]
+
+
+def faults(text: str | bytes) -> list[tuple[str, str]]:
+    return [(problem.id, problem.fault.code) for parsed in read(text) for problem in parsed.problems]
+
+
+def test_a_document_may_hold_several_blocks_with_comments_instructions_and_a_declaration_around() -> None:
+    text = """<!-- <bml> in a comment -->
+      <?xml version="1.0" encoding="UTF-8"?>
+      <bml id="one"/> <?go <bml id="no"/> ?>
+      <bml id="two"><description><bml id="inside"/></description></bml><!-- end -->
+    """
+    assert ids(text) == ["one", "two"]
+
+
+@pytest.mark.parametrize(
+    "broken",
+    [
+        '<bml id="bad"><head></bml>',
+        '<bml id="bad"><head id="h" lexeme=NOD/></bml>',
+        '<bml id="bad">&unknown;</bml>',
+        '<bml id="bad"><head a="1" a="2"/></bml>',
+        '<bml id="bad"><x:head/></bml>',
+        '<bml id="bad">a & b</bml>',
+        '<bml id="bad">\x01</bml>',
+        '<bml id="bad">\ud800</bml>',
+        '<bml id="bad"><?xml version="1.0"?></bml>',
+        '<bml id="bad" xmlns:x="http://["></bml>',
+    ],
+)
+def test_a_malformed_block_is_reported_on_its_line_and_reading_goes_on_after_it(broken: str) -> None:
+    text = f'<bml id="one"/>\n\n{broken}\n<bml id="two"/>'
+    assert ids(text) == ["one", None, "two"]
+    assert faults(text) == [("bad", "malformed-xml")]
+    assert read(text)[1].problems[0].fault.line == 3
+
+
+def test_a_block_that_does_not_end_is_reported_with_what_was_left_open() -> None:
+    text = '<bml id="one"/>\n<bml id="two">\n  <speech id="s"><text>Hi'
+    assert ids(text) == ["one", None]
+    (problem,) = read(text)[1].problems
+    assert str(problem.fault) == "line 3, column 18: not well-formed XML: the document ends inside <text>"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        '<!DOCTYPE bml><bml id="bad"></bml>',
+        '<!DOCTYPE bml SYSTEM "http://example.org/bml.dtd"><bml id="bad"></bml>',
+        '<!DOCTYPE bml [<!ENTITY a "aaaa"><!ENTITY b "&a;&a;">]><bml id="bad">&b;</bml>',
+        '<?xml version="1.0"?>\n<!DOCTYPE bml [<!ENTITY x SYSTEM "file:///etc/passwd">]><bml id="bad">&x;</bml>',
+        "<!doctype bml><bml></bml>",
+    ],
+)
+def test_any_doctype_is_refused_and_its_block_with_it(text: str) -> None:
+    assert faults(text) == [("bml", "doctype")]
+    assert ids(f'{text}<bml id="next"/>') == [None, "next"]
+
+
+@pytest.mark.parametrize("text", ["", "  \n ", b"", "<!-- nothing -->", '<?xml version="1.0"?>', b"\xef\xbb\xbf"])
+def test_a_document_without_a_block_says_so(text: str | bytes) -> None:
+    assert faults(text) == [("bml", "no-block")]
+
+
+def test_what_stands_between_blocks_and_is_none_is_reported_and_loses_nothing() -> None:
+    assert ids('hello <bml id="one"/> <speech/> & <bml id="two"/></bml> <bml id="three"/>') == [
+        None,
+        "one",
+        None,
+        None,
+        "two",
+        None,
+        "three",
+    ]
+    assert faults('hello <speech/> & <bml id="b"/> </bml>') == [
+        ("bml", "stray-text"),
+        ("bml", "not-bml"),
+        ("bml", "malformed-xml"),
+        ("bml", "malformed-xml"),
+    ]
+
+
+@pytest.mark.parametrize("newline", ["\n", "\r\n", "\r"])
+def test_places_are_of_start_tags_in_lines_and_characters_from_one(newline: str) -> None:
+    lines = ["", '<bml id="é">  <wait', ' id="é1"/><wait id="2"/></bml> <bml id="b"', '><wait id="3"/>', "</bml>"]
+    one, two = read(newline.join(lines).encode())
+    assert one.block is not None
+    assert two.block is not None
+    assert one.block.location == Location(2, 1)
+    assert [behavior.location for behavior in one.block.behaviors] == [Location(2, 15), Location(3, 11)]
+    assert two.block.location == Location(3, 32)
+    assert [behavior.location for behavior in two.block.behaviors] == [Location(4, 2)]
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "iso-8859-1"])
+def test_bytes_are_read_in_the_encoding_that_they_declare(encoding: str) -> None:
+    declared = encoding.removesuffix("-sig")
+    text = f'<?xml version="1.0" encoding="{declared}"?><bml id="é"/>'
+    assert ids(text.encode(encoding)) == ["é"]
+    assert ids(text) == ["é"]
+
+
+@pytest.mark.parametrize("encoding", ["rot13", "zip", "utf-7", "klingon", "idna"])
+def test_other_encodings_are_refused(encoding: str) -> None:
+    assert faults(f'<?xml version="1.0" encoding="{encoding}"?><bml id="b"/>'.encode()) == [("bml", "bad-encoding")]
+
+
+def test_bytes_that_are_no_text_are_reported_with_their_line() -> None:
+    text = b'<bml id="a"/>\n<bml id="bad">\n\xff</bml><bml id="b"/>'
+    assert ids(text) == ["a", None, "b"]
+    (problem,) = read(text)[1].problems
+    assert (problem.id, problem.fault.code, problem.fault.line) == ("bad", "malformed-xml", 3)
+
+
+def check(path: Path) -> None:
+    for parsed in read(path.read_bytes()):
+        codes = [problem.fault.code for problem in parsed.problems]
+        assert codes == ([REFUSED[path.name]] if path.name in REFUSED else []), path
+        assert (parsed.block is None) == (path.name in REFUSED)
+
+
+def test_every_block_of_ours_is_read_without_a_problem() -> None:
+    paths = sorted(OWN_DATA.glob("*.xml"))
+    assert paths
+    for path in paths:
+        check(path)
+
+
+@pytest.mark.parametrize("folder", ["realizertester/bml-1", "asap/bml"])
+def test_every_block_of_the_other_realizers_is_read_without_a_problem(shared_cases: Path, folder: str) -> None:
+    paths = sorted((shared_cases / folder).rglob("*.xml"))
+    assert paths
+    for path in paths:
+        check(path)
+
+
+tokens = st.sampled_from(
+    [
+        "<bml id='a'>", "<bml", "</bml>", "<bml id='b'/>", "<!--", "-->", "<![CDATA[", "]]>", "<?xml version='1.0'?>",
+        "<!DOCTYPE x>", "<required>", "</required>", "<constraint>", "</constraint>", "<synchronize>",
+        "<sync ref='1'/>",         "<speech id='s'>", "<text>", "<sync id='t'/>", "</text>", "</speech>", "<head id='h' lexeme='N' start='", "'/>",
+        "s:t+1", "nan", "&amp;", "&x;", "<_>", "</_>", " xmlns='u}v'", " xmlns=''", "\x00", "\ud800", "é", "\r", ">", "'",
+    ]
+)  # fmt: skip
+documents = st.text() | st.binary() | st.lists(tokens, max_size=30).map("".join)
+
+
+@settings(derandomize=True, max_examples=500)
+@given(documents)
+def test_whatever_comes_there_is_an_answer(document: str | bytes) -> None:
+    answer = read(document)
+    assert answer
+    for parsed in answer:
+        assert parsed.block is not None or parsed.problems
+        assert all(str(problem.fault) and problem.id and problem.fault.kind.warning for problem in parsed.problems)

@@ -1,0 +1,259 @@
+"""Every element of BML 1.0 with every attribute."""
+
+from collections.abc import Callable
+
+import pytest
+
+from reactive_realizer.bml.behavior import ForeignBehavior
+from reactive_realizer.bml.behaviors import (
+    Gaze,
+    GazeShift,
+    Gesture,
+    Head,
+    HeadDirectionShift,
+    Locomotion,
+    Mark,
+    Pointing,
+    Speech,
+    Wait,
+)
+from reactive_realizer.bml.block import BehaviorBlock
+from reactive_realizer.bml.elements import ELEMENTS
+from reactive_realizer.bml.face import Face, FaceFacs, FaceLexeme, FaceShift
+from reactive_realizer.bml.names import BML, BML_EXT, BMLA, Location
+from reactive_realizer.bml.posture import Pose, Posture, PostureShift
+from reactive_realizer.bml.words import Influence, Mode, OffsetDirection, PosePart, Side, StanceType
+
+Block = Callable[[str], BehaviorBlock]
+
+STROKE = ("start", "ready", "strokeStart", "stroke", "strokeEnd", "relax", "end")
+HOLD = ("start", "ready", "relax", "end")
+FACE = ("start", "attackPeak", "relax", "end")
+SHIFT = ("start", "end")
+PARTS = '<faceLexeme lexeme="OPEN_MOUTH" amount="1"/><ext:faceFacs au="12" side="LEFT"/>'
+STANCE = '<stance type="SITTING"/><pose part="ARMS" lexeme="ARMS_OPEN"/><pose part="LEGS" lexeme="LEGS_CROSSED"/>'
+
+WRITTEN = {
+    '<speech id="x"><text>Hi</text></speech>': (Speech, {"text": "Hi", "marks": ()}, SHIFT),
+    '<gesture id="x" lexeme="BEAT"/>': (Gesture, {"lexeme": "BEAT", "mode": None}, STROKE),
+    '<gesture id="x" lexeme="WAVE" mode="LEFT_HAND"/>': (Gesture, {"lexeme": "WAVE", "mode": Mode.LEFT_HAND}, STROKE),
+    '<pointing id="x" target="box"/>': (Pointing, {"target": "box", "mode": None}, STROKE),
+    '<pointing id="x" target="box" mode="BOTH_HANDS"/>': (Pointing, {"mode": Mode.BOTH_HANDS}, STROKE),
+    '<head id="x" lexeme="NOD"/>': (Head, {"lexeme": "NOD", "repetition": 1, "amount": 0.5}, STROKE),
+    '<head id="x" lexeme="SHAKE" repetition="2" amount="0.8"/>': (
+        Head,
+        {"lexeme": "SHAKE", "repetition": 2, "amount": 0.8},
+        ("start", "ready", "strokeStart", "stroke:1", "stroke:2", "strokeEnd", "relax", "end"),
+    ),
+    '<headDirectionShift id="x" target="box"/>': (HeadDirectionShift, {"target": "box"}, SHIFT),
+    '<gaze id="x" target="box"/>': (
+        Gaze,
+        {"target": "box", "influence": None, "offset_angle": 0.0, "offset_direction": OffsetDirection.RIGHT},
+        HOLD,
+    ),
+    '<gaze id="x" target="box" influence="SHOULDER" offsetAngle="-12.5" offsetDirection="UPLEFT"/>': (
+        Gaze,
+        {"influence": Influence.SHOULDER, "offset_angle": -12.5, "offset_direction": OffsetDirection.UPLEFT},
+        HOLD,
+    ),
+    '<gazeShift id="x" target="box" influence="EYES" offsetAngle="5" offsetDirection="DOWN"/>': (
+        GazeShift,
+        {
+            "target": "box",
+            "influence": Influence.EYES,
+            "offset_angle": 5.0,
+            "offset_direction": OffsetDirection.DOWN,
+        },
+        SHIFT,
+    ),
+    f'<face id="x">{PARTS}</face>': (Face, {"amount": 0.5, "overshoot": 0.0}, FACE),
+    f'<face id="x" amount="0.9" overshoot="0.1">{PARTS}</face>': (Face, {"amount": 0.9, "overshoot": 0.1}, FACE),
+    f'<faceShift id="x" amount="0.9" overshoot="0.1">{PARTS}</faceShift>': (
+        FaceShift,
+        {"amount": 0.9, "overshoot": 0.1},
+        SHIFT,
+    ),
+    '<faceLexeme id="x" lexeme="RAISE_BROWS"/>': (
+        FaceLexeme,
+        {"lexeme": "RAISE_BROWS", "amount": 0.5, "overshoot": 0.0},
+        FACE,
+    ),
+    '<faceLexeme id="x" lexeme="OPEN_LIPS" amount="1" overshoot="0.2"/>': (
+        FaceLexeme,
+        {"amount": 1.0, "overshoot": 0.2},
+        FACE,
+    ),
+    '<ext:faceFacs id="x" au="1"/>': (FaceFacs, {"au": 1, "side": Side.BOTH, "amount": 0.5}, FACE),
+    '<ext:faceFacs id="x" au="12" side="LEFT" amount="0"/>': (
+        FaceFacs,
+        {"au": 12, "side": Side.LEFT, "amount": 0.0},
+        FACE,
+    ),
+    f'<posture id="x">{STANCE}</posture>': (
+        Posture,
+        {
+            "stance": StanceType.SITTING,
+            "poses": (
+                Pose(part=PosePart.ARMS, lexeme="ARMS_OPEN"),
+                Pose(part=PosePart.LEGS, lexeme="LEGS_CROSSED"),
+            ),
+        },
+        HOLD,
+    ),
+    '<postureShift id="x"><pose part="HEAD" lexeme="LEANING_FORWARD"/></postureShift>': (
+        PostureShift,
+        {"stance": None, "poses": (Pose(part=PosePart.HEAD, lexeme="LEANING_FORWARD"),)},
+        SHIFT,
+    ),
+    '<locomotion id="x" target="door"/>': (Locomotion, {"target": "door", "manner": "WALK"}, SHIFT),
+    '<locomotion id="x" target="door" manner="RUN"/>': (Locomotion, {"manner": "RUN"}, SHIFT),
+    '<wait id="x"/>': (Wait, {"duration": None, "max_wait": None}, SHIFT),
+    '<wait id="x" duration="1.5" max-wait="3"/>': (Wait, {"duration": 1.5, "max_wait": 3.0}, SHIFT),
+}
+
+
+@pytest.mark.parametrize("xml", WRITTEN)
+def test_an_element_becomes_its_behavior(block: Block, xml: str) -> None:
+    kind, values, sync_points = WRITTEN[xml]
+    (behavior,) = block(xml).behaviors
+    assert type(behavior) is kind
+    assert {name: getattr(behavior, name) for name in values} == values
+    assert behavior.sync_points == sync_points
+    assert (behavior.id, behavior.required, behavior.order) == ("x", False, 0)
+    assert behavior.namespace == (BML_EXT if kind is FaceFacs else BML)
+    assert xml.removeprefix("<ext:").removeprefix("<").startswith(behavior.name)
+
+
+def test_the_table_of_elements_has_all_of_the_core_and_the_tests_above_all_of_the_table() -> None:
+    assert {kind for kind, _, _ in WRITTEN.values()} == {element.behavior for element in ELEMENTS.values()}
+    written = " ".join(WRITTEN)
+    for element in ELEMENTS.values():
+        for attribute in element.attributes:
+            assert f" {attribute.name}=" in written, f"{attribute.name} of <{element.name}>"
+
+
+def test_the_table_says_names_types_defaults_and_sync_points() -> None:
+    gaze = ELEMENTS["gaze"]
+    assert (gaze.name, gaze.namespace, gaze.behavior, gaze.sync_points) == ("gaze", BML, Gaze, HOLD)
+    assert [(each.name, each.field, each.required, each.default) for each in gaze.attributes] == [
+        ("id", "id", True, None),
+        ("target", "target", True, None),
+        ("influence", "influence", False, None),
+        ("offsetAngle", "offset_angle", False, 0.0),
+        ("offsetDirection", "offset_direction", False, OffsetDirection.RIGHT),
+    ]
+    assert gaze.attributes[2].type.description == "EYES, HEAD, SHOULDER, WAIST, WHOLE"
+    assert gaze.attributes[3].type.description == "number, -360 to 360"
+    assert ELEMENTS["posture"].children == ("stance", "pose")
+
+
+@pytest.mark.parametrize("element", ELEMENTS.values(), ids=lambda element: element.name)
+def test_every_default_sync_point_is_an_attribute_that_holds_a_reference(block: Block, element) -> None:
+    needed = {"text": "<text>Hi</text>", "faceLexeme": PARTS, "stance": STANCE}
+    inside = "".join(needed.get(child, "") for child in element.children)
+    prefix = "ext:" if element.namespace == BML_EXT else ""
+    values = {"lexeme": "NOD", "target": "box", "au": "1"}
+    attributes = "".join(f' {each.name}="{values[each.name]}"' for each in element.attributes[1:] if each.required)
+    ties = "".join(f' {point}="other:start+{number}"' for number, point in enumerate(element.sync_points))
+    xml = f'<{prefix}{element.name} id="x"{attributes}{ties}>{inside}</{prefix}{element.name}>'
+    (behavior,) = block(xml).behaviors
+    assert {point: str(ref) for point, ref in behavior.syncs.items()} == {
+        point: "other:start" + (f"+{number}" if number else "") for number, point in enumerate(element.sync_points)
+    }
+
+
+def test_constrained_sync_points_keep_the_order_of_writing(block: Block) -> None:
+    (gesture,) = block('<gesture relax="3" id="g" start="1" lexeme="BEAT" stroke="2"/>').behaviors
+    assert list(gesture.syncs) == ["relax", "start", "stroke"]
+
+
+@pytest.mark.parametrize("word", ["LEFT_HAND", "left_hand", "Left-Hand", "lefthand", " LEFT_HAND "])
+def test_words_of_closed_vocabularies_come_in_any_case_and_with_any_hyphen(block: Block, word: str) -> None:
+    (gesture,) = block(f'<gesture id="g" lexeme="BEAT" mode="{word}"/>').behaviors
+    assert isinstance(gesture, Gesture)
+    assert gesture.mode is Mode.LEFT_HAND
+
+
+def test_words_of_open_vocabularies_stay_as_written(block: Block) -> None:
+    (head,) = block('<head id="h" lexeme="tilt-Left"/>').behaviors
+    assert isinstance(head, Head)
+    assert head.lexeme == "tilt-Left"
+
+
+@pytest.mark.parametrize(("word", "influence"), [("NECK", Influence.HEAD), ("torso", Influence.WAIST)])
+def test_influence_knows_the_words_of_other_realizers(block: Block, word: str, influence: Influence) -> None:
+    (gaze,) = block(f'<gaze id="g" target="box" influence="{word}"/>').behaviors
+    assert isinstance(gaze, Gaze)
+    assert gaze.influence is influence
+
+
+TEXTS = {
+    "Hello  world": ("Hello world", {}),
+    "\n  Hello\n\tworld  ": ("Hello world", {}),
+    "": ("", {}),
+    '<sync id="a"/>Hello': ("Hello", {"a": 0}),
+    ' <sync id="a"/> Hello': ("Hello", {"a": 0}),
+    'Hello <sync id="a"/>world': ("Hello world", {"a": 6}),
+    'Hello <sync id="a"/> world': ("Hello world", {"a": 6}),
+    'Hello<sync id="a"/> world': ("Hello world", {"a": 5}),
+    'Hello world<sync id="a"/>': ("Hello world", {"a": 11}),
+    'Hello world <sync id="a"/> ': ("Hello world", {"a": 11}),
+    'One<sync id="a"/><sync id="b"/>two': ("Onetwo", {"a": 3, "b": 3}),
+    "R&amp;D &lt;3 <![CDATA[<b>]]> <!-- not said -->é": ("R&D <3 <b> é", {}),
+}
+
+
+@pytest.mark.parametrize("inside", TEXTS)
+def test_a_mark_stands_before_its_character_of_a_text_with_single_spaces(block: Block, inside: str) -> None:
+    text, marks = TEXTS[inside]
+    (speech,) = block(f'<speech id="s"><text>{inside}</text></speech>').behaviors
+    assert isinstance(speech, Speech)
+    assert speech.text == text
+    assert speech.marks == tuple(Mark(id=name, char_index=index) for name, index in marks.items())
+    assert speech.sync_points == ("start", *marks, "end")
+
+
+def test_the_parts_of_a_face_may_do_without_ids(block: Block) -> None:
+    (face,) = block(f'<face id="f">{PARTS}</face>').behaviors
+    assert isinstance(face, Face)
+    smile, wink = face.parts
+    assert isinstance(smile, FaceLexeme)
+    assert isinstance(wink, FaceFacs)
+    assert (smile.lexeme, smile.amount, wink.au, wink.side) == ("OPEN_MOUTH", 1.0, 12, Side.LEFT)
+
+
+def test_descriptions_keep_priority_type_and_content(block: Block) -> None:
+    (speech,) = block(
+        '<speech id="s"><text>Hi</text>'
+        '<description priority="2" type="application/ssml+xml">'
+        '<speak xmlns="urn:s">Hi &amp; <b/>bye</speak></description>'
+        '<description priority="1" type="audiofile"/></speech>'
+    ).behaviors
+    first, second = speech.descriptions
+    assert (first.priority, first.type) == (2, "application/ssml+xml")
+    assert first.content.startswith("<speak")
+    assert first.content.endswith("Hi &amp; <b/>bye</speak>")
+    assert (second.priority, second.type, second.content) == (1, "audiofile", "")
+
+
+def test_a_behavior_keeps_its_place_its_source_and_the_attributes_of_other_namespaces(block: Block) -> None:
+    one, two = block('\n  <wait id="w"/>\n <head id="h" lexeme="NOD" bmla:mood="calm"/> ').behaviors
+    assert (one.order, one.location, two.order, two.location) == (0, Location(2, 3), 1, Location(3, 2))
+    assert two.extensions == {(BMLA, "mood"): "calm"}
+    assert two.source.startswith("<head xmlns=")
+    assert two.source.endswith('id="h" lexeme="NOD" bmla:mood="calm"/>')
+
+
+def test_a_behavior_of_another_namespace_is_kept_for_who_knows_it(block: Block) -> None:
+    (change,) = block(
+        '<bmla:parametervaluechange id="p" target="b1:s1" start="s1:start" end="4" bmla:x="1">'
+        "<bmla:trajectory/>text</bmla:parametervaluechange>"
+    ).behaviors
+    assert isinstance(change, ForeignBehavior)
+    assert (change.namespace, change.name, change.id) == (BMLA, "parametervaluechange", "p")
+    assert change.attributes == {"target": "b1:s1"}
+    assert {name: str(ref) for name, ref in change.syncs.items()} == {"start": "s1:start", "end": "4"}
+    assert change.sync_points == ("start", "end")
+    assert change.extensions == {(BMLA, "x"): "1"}
+    assert change.children.startswith("<bmla:trajectory")
+    assert change.children.endswith("/>text")

@@ -1,0 +1,116 @@
+"""References to sync points."""
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from reactive_realizer.bml.sync_ref import SyncRef
+from reactive_realizer.errors import RealizerError
+from reactive_realizer.limits import Limits
+
+LIMITS = Limits()
+
+MEANINGS = {
+    "3": SyncRef(None, None, None, 3.0),
+    "-1": SyncRef(None, None, None, -1.0),
+    "- 1": SyncRef(None, None, None, -1.0),
+    "+2": SyncRef(None, None, None, 2.0),
+    " .5 ": SyncRef(None, None, None, 0.5),
+    "2.": SyncRef(None, None, None, 2.0),
+    "1e3": SyncRef(None, None, None, 1000.0),
+    "bml1:2.5": SyncRef("bml1", None, None, 2.5),
+    "bml:start": SyncRef(None, None, None, 0.0),
+    "bml:start+1": SyncRef(None, None, None, 1.0),
+    "bml1:bml:start": SyncRef("bml1", None, None, 0.0),
+    "speech1:start": SyncRef(None, "speech1", "start", 0.0),
+    "Speech1:strokeStart": SyncRef(None, "Speech1", "strokeStart", 0.0),
+    "g1:end+0.5": SyncRef(None, "g1", "end", 0.5),
+    "g1:end + 0.5": SyncRef(None, "g1", "end", 0.5),
+    "g1:end -.5": SyncRef(None, "g1", "end", -0.5),
+    "g1 : end": SyncRef(None, "g1", "end", 0.0),
+    "g1:end+1e-3": SyncRef(None, "g1", "end", 0.001),
+    "bml2:g1:relax-1": SyncRef("bml2", "g1", "relax", -1.0),
+    "bml:g1:relax": SyncRef(None, "g1", "relax", 0.0),
+    "nod1:stroke:2": SyncRef(None, "nod1", "stroke:2", 0.0),
+    "nod1:stroke:2 + 1": SyncRef(None, "nod1", "stroke:2", 1.0),
+    "bml1:nod1:stroke:12": SyncRef("bml1", "nod1", "stroke:12", 0.0),
+    "speech-1:sync-a-0.5": SyncRef(None, "speech-1", "sync-a", -0.5),
+    "my-block:speech-1:sync-a": SyncRef("my-block", "speech-1", "sync-a", 0.0),
+    "anticipators:metronome:tick3+0.2": SyncRef("anticipators", "metronome", "tick3", 0.2),
+    "anticipators:exercise:3": SyncRef("anticipators", "exercise", "3", 0.0),
+}
+
+
+@pytest.mark.parametrize(("text", "meaning"), MEANINGS.items(), ids=repr)
+def test_a_reference_means_what_it_says(text: str, meaning: SyncRef) -> None:
+    assert SyncRef.parse(text, LIMITS) == meaning
+
+
+def test_a_known_name_that_looks_like_an_offset_is_a_name() -> None:
+    assert SyncRef.parse("speech1:s-1", LIMITS) == SyncRef(None, "speech1", "s", -1.0)
+    assert SyncRef.parse("speech1:s-1", LIMITS, {"s-1"}) == SyncRef(None, "speech1", "s-1", 0.0)
+    assert SyncRef.parse("speech1:s-1-0.5", LIMITS, {"s-1"}) == SyncRef(None, "speech1", "s-1", -0.5)
+    assert SyncRef.parse("speech1:s-1+0", LIMITS) == SyncRef(None, "speech1", "s-1", 0.0)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        " ",
+        "speech1",
+        ":",
+        "speech1:",
+        ":start",
+        "speech1:start+",
+        "speech1:start+x",
+        "speech1:start+nan",
+        "speech1:st art",
+        "a:b:c:d",
+        "a:b:c:stroke:1",
+        "bml:end",
+        "nan",
+        "inf",
+        "-infinity",
+        "1_000",
+        "٣",
+        "1,5",
+        "x:stroke:" + "9" * 5_000,
+        "x:y" + " " * 100_000 + "z",
+    ],
+    ids=lambda text: repr(text[:20]),
+)
+def test_what_is_no_reference_is_refused(text: str) -> None:
+    with pytest.raises(RealizerError) as refused:
+        SyncRef.parse(text, LIMITS)
+    assert refused.value.fault.code == "not-a-reference"
+
+
+@pytest.mark.parametrize("text", ["1e999", "-86401", "g1:end+1e9", "bml1:100000"])
+def test_an_absurd_offset_is_refused(text: str) -> None:
+    with pytest.raises(RealizerError) as refused:
+        SyncRef.parse(text, LIMITS)
+    assert refused.value.fault.code == "absurd-time"
+
+
+ids = st.from_regex(r"[A-Za-z_][A-Za-z0-9_.-]{0,12}", fullmatch=True).filter(lambda name: name not in {"bml", "stroke"})
+offsets = st.floats(-LIMITS.time_seconds, LIMITS.time_seconds).map(lambda seconds: seconds + 0.0)
+points = ids | st.integers(1, 9999).map(lambda number: f"stroke:{number}")
+absolute = st.builds(SyncRef, st.none() | ids, st.none(), st.none(), offsets)
+relative = st.builds(SyncRef, st.none() | ids, ids, points, offsets | st.just(0.0))
+
+
+@settings(derandomize=True, max_examples=300)
+@given(absolute | relative)
+def test_a_reference_reads_back_as_it_was_written(ref: SyncRef) -> None:
+    assert SyncRef.parse(str(ref), LIMITS) == ref
+
+
+@settings(derandomize=True, max_examples=300)
+@given(st.text() | st.text("ab1:+-. e", max_size=20))
+def test_any_text_is_a_reference_or_a_realizer_error(text: str) -> None:
+    try:
+        ref = SyncRef.parse(text, LIMITS)
+    except RealizerError:
+        return
+    assert SyncRef.parse(str(ref), LIMITS) == ref

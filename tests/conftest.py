@@ -1,0 +1,42 @@
+"""What the tests of every room share: the browser, and real input that lies beside the checkout."""
+
+import os
+import shutil
+from pathlib import Path
+
+import pytest
+
+SHARED_CASES = Path(__file__).resolve().parents[2] / "shared" / "cases"
+WITHOUT_BROWSER = os.environ.get("BROWSER") == "none"
+
+
+def pytest_report_header() -> list[str]:
+    return ["BROWSER=none: the browser tests are left out"] if WITHOUT_BROWSER else []
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    if not WITHOUT_BROWSER:
+        return
+    left_out = [item for item in items if item.get_closest_marker("browser")]
+    items[:] = [item for item in items if item not in left_out]
+    config.hook.pytest_deselected(items=left_out)
+
+
+@pytest.fixture(scope="session")
+def chromium() -> str:
+    """The path of a Chromium: $BROWSER if it names one, else the first on the PATH."""
+    named = os.environ.get("BROWSER")
+    for name in [named] if named else ["chromium", "chromium-browser", "google-chrome"]:
+        if path := shutil.which(name):
+            return path
+    pytest.fail(
+        "no Chromium found: apt-get install chromium libgl1-mesa-dri libegl1 (or BROWSER=none make test)", pytrace=False
+    )
+
+
+@pytest.fixture(scope="session")
+def shared_cases() -> Path:
+    """The BML scripts and bindings of other realizers, which may lie beside the checkout and are not ours to commit."""
+    if not SHARED_CASES.is_dir():
+        pytest.skip("no ../shared/cases beside this checkout")
+    return SHARED_CASES
