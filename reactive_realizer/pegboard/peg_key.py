@@ -1,0 +1,35 @@
+"""Names of the points in time on the board."""
+
+from typing import NamedTuple
+
+ANTICIPATORS = "anticipators"
+"""Takes the place of a block id in the name of a predicted point."""
+
+
+class BlockKey(NamedTuple):
+    """A block, of one character."""
+
+    character: str
+    block: str
+
+
+class PegKey(NamedTuple):
+    """A sync point: of a behavior, of a block (behavior None), or of an anticipator (block ``anticipators``)."""
+
+    character: str
+    block: str
+    behavior: str | None
+    sync: str
+
+    @property
+    def block_key(self) -> BlockKey:
+        """The block it belongs to."""
+        return BlockKey(self.character, self.block)
+
+    def __str__(self) -> str:
+        return ":".join(part for part in (self.block, self.behavior, self.sync) if part)
+
+
+def anticipator_key(anticipator: str, sync: str) -> PegKey:
+    """The name of a predicted point; anticipators belong to no character."""
+    return PegKey("", ANTICIPATORS, anticipator, sync)

@@ -1,0 +1,94 @@
+"""The board: every point in time of every character, by name."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from reactive_realizer.pegboard.peg_key import ANTICIPATORS, BlockKey, PegKey, anticipator_key
+from reactive_realizer.pegboard.time_peg import AnticipatorPeg, Time, TimeCell, TimePeg
+from reactive_realizer.reactive.graph import Graph
+
+
+@dataclass(frozen=True, slots=True)
+class PegView:
+    """A peg as seen from outside.
+
+    Attributes:
+        key: name of the point.
+        time: global time, s; None while unknown.
+        state: ``pinned``, ``moving`` or ``unknown``.
+        source: what it hangs on.
+    """
+
+    key: PegKey
+    time: Time
+    state: str
+    source: str
+
+
+class PegBoard:
+    """Names cells; the cells themselves keep each other right (thesis 7.3.2).
+
+    Attributes:
+        graph: where the cells live; every write is a transaction on it.
+    """
+
+    def __init__(self, graph: Graph) -> None:
+        self.graph = graph
+        self._pegs: dict[PegKey, TimeCell] = {}
+        self._blocks: dict[BlockKey, list[PegKey]] = {}
+        self._forecasts: dict[str, Callable[[str], Time]] = {}
+
+    def add(self, key: PegKey, peg: TimeCell) -> None:
+        """Name a peg; one peg may bear several names."""
+        self._pegs[key] = peg
+        self._blocks.setdefault(key.block_key, []).append(key)
+
+    def get(self, key: PegKey) -> TimeCell | None:
+        """The peg of that name."""
+        return self._pegs.get(key)
+
+    def pin_block(self, block: BlockKey) -> None:
+        """Within a transaction, cut all pegs of a block from what they hang on."""
+        for key in self._blocks.get(block, ()):
+            peg = self._pegs[key]
+            if isinstance(peg, TimePeg) and not peg.pinned:
+                peg.pin(peg.value)
+
+    def remove_block(self, block: BlockKey) -> None:
+        """Forget the names of a block; pegs that others hang on live on with them."""
+        for key in self._blocks.pop(block, ()):
+            self._pegs.pop(key, None)
+
+    def predicted(self, anticipator: str, sync: str) -> AnticipatorPeg:
+        """The peg of a predicted point, made when it is first named; unknown unless its anticipator has an answer."""
+        key = anticipator_key(anticipator, sync)
+        peg = self._pegs.get(key)
+        if not isinstance(peg, AnticipatorPeg):
+            forecast = self._forecasts.get(anticipator)
+            peg = AnticipatorPeg(self.graph, str(key), forecast(sync) if forecast else None)
+            self.add(key, peg)
+        return peg
+
+    def ask(self, anticipator: str, forecast: Callable[[str], Time]) -> None:
+        """Have an anticipator asked for the time of its points when they are first named."""
+        self._forecasts[anticipator] = forecast
+
+    def predictions(self, anticipator: str) -> dict[str, AnticipatorPeg]:
+        """The points of an anticipator that were named, by sync id."""
+        keys = self._blocks.get(BlockKey("", ANTICIPATORS), ())
+        pegs = ((key.sync, self._pegs[key]) for key in keys if key.behavior == anticipator)
+        return {sync: peg for sync, peg in pegs if isinstance(peg, AnticipatorPeg)}
+
+    def snapshot(self) -> tuple[PegView, ...]:
+        """All pegs, in order of naming."""
+        return tuple(_view(key, peg) for key, peg in self._pegs.items())
+
+
+def _view(key: PegKey, peg: TimeCell) -> PegView:
+    if peg.value is None:
+        state = "unknown"
+    elif isinstance(peg, TimePeg) and peg.pinned:
+        state = "pinned"
+    else:
+        state = "moving"
+    return PegView(key, peg.value, state, peg.describe() if isinstance(peg, TimePeg) else "predicted")

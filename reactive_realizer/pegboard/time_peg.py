@@ -1,0 +1,134 @@
+"""Time pegs: points in time that follow what they hang on (thesis 7.3.2, 7.3.3).
+
+A peg is one cell; its value is a global time in seconds, None while unknown. A sync point placed at a local time of its
+block is an `OffsetPeg` on the `BMLBlockPeg`: moved with the block, read back as a block time by subtraction.
+"""
+
+from abc import abstractmethod
+from collections.abc import Callable, Iterable, Sequence
+
+from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.reactive.cell import Cell, Derived, Source
+from reactive_realizer.reactive.graph import Graph
+
+Time = GlobalTime | None
+TimeCell = Cell[Time]
+
+
+class TimePeg(Derived[Time]):
+    """A point in time that hangs on others until it is pinned."""
+
+    __slots__ = ()
+
+    @property
+    def pinned(self) -> bool:
+        """Whether it has got its last value: its point was reached, cut, or never hung on anything."""
+        return not self.dependencies
+
+    def apart(self, name: str, time: GlobalTime) -> "TimePeg":
+        """Within a transaction: a new peg, pinned at a time, for one of the points that shared this one."""
+        peg = OffsetPeg(self.graph, name, self, 0.0)
+        peg.pin(time)
+        return peg
+
+    @abstractmethod
+    def describe(self) -> str:
+        """What it hangs on and how, for people."""
+
+
+class OffsetPeg(TimePeg):
+    """A fixed distance (s) from another peg."""
+
+    __slots__ = ("offset",)
+
+    def __init__(self, graph: Graph, name: str, link: TimeCell, offset: float) -> None:
+        self.offset = offset
+        super().__init__(graph, name, (link,), _shifted_by(offset))
+
+    def describe(self) -> str:
+        """``link + offset``."""
+        return f"{self.dependencies[0].name} {self.offset:+g} s" if self.dependencies else "pinned"
+
+
+class RatioPeg(TimePeg):
+    """A fixed fraction of the way between two other pegs: retimed, it keeps order and stretches uniformly."""
+
+    __slots__ = ("ratio",)
+
+    def __init__(self, graph: Graph, name: str, before: TimeCell, after: TimeCell, ratio: float) -> None:
+        self.ratio = ratio
+        super().__init__(graph, name, (before, after), _between(ratio))
+
+    def describe(self) -> str:
+        """``ratio of the way before .. after``."""
+        if not self.dependencies:
+            return "pinned"
+        before, after = self.dependencies
+        return f"{self.ratio:.3g} of the way {before.name} .. {after.name}"
+
+
+class LatestPeg(TimePeg):
+    """The latest of some pegs, and not before ``floor``; unknown as long as one of them is."""
+
+    __slots__ = ("floor",)
+
+    def __init__(self, graph: Graph, name: str, floor: GlobalTime, links: Sequence[TimeCell]) -> None:
+        self.floor = floor
+        super().__init__(graph, name, tuple(links), _latest(floor))
+
+    def wait_for(self, floor: GlobalTime, links: Sequence[TimeCell]) -> None:
+        """Within a transaction, hang on other pegs."""
+        self.floor = floor
+        self.rebind(tuple(links), _latest(floor))
+
+    def describe(self) -> str:
+        """``latest of ...``."""
+        return "latest of " + ", ".join([f"{self.floor:g} s", *(link.name for link in self.dependencies)])
+
+
+class BMLBlockPeg(LatestPeg):
+    """The start of a BML block: predicted from what the block waits for, pinned when it starts."""
+
+    __slots__ = ()
+
+
+class AnticipatorPeg(Source[Time]):
+    """A predicted point: absolute, written by its anticipator alone."""
+
+    __slots__ = ()
+
+
+def unknown_sources(pegs: Iterable[TimeCell]) -> list[str]:
+    """Names of the unknown points, outside of any formula, that some pegs hang on."""
+    seen: dict[TimeCell, None] = dict.fromkeys(pegs)
+    waiting = list(seen)
+    while waiting:
+        for cell in getattr(waiting.pop(), "dependencies", ()):
+            if cell not in seen:
+                seen[cell] = None
+                waiting.append(cell)
+    return [cell.name for cell in seen if cell.value is None and not getattr(cell, "dependencies", ())]
+
+
+def _shifted_by(offset: float) -> Callable[[Time], Time]:
+    def shifted(link: Time) -> Time:
+        return None if link is None else GlobalTime(link + offset)
+
+    return shifted
+
+
+def _between(ratio: float) -> Callable[[Time, Time], Time]:
+    def between(before: Time, after: Time) -> Time:
+        if before is None or after is None:
+            return None
+        return GlobalTime(before + ratio * (after - before))
+
+    return between
+
+
+def _latest(floor: GlobalTime) -> Callable[..., Time]:
+    def latest(*times: Time) -> Time:
+        known = [time for time in times if time is not None]
+        return max([floor, *known]) if len(known) == len(times) else None
+
+    return latest
