@@ -1,0 +1,36 @@
+"""What a motion needs to know of the body that it moves."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from reactive_realizer.embodiment.quaternion import IDENTITY, Quat
+from reactive_realizer.embodiment.skeleton import Place, Pose, Skeleton
+
+
+@dataclass(frozen=True, slots=True)
+class Body:
+    """A skeleton and the pose it is in, in the figure's own frame.
+
+    Attributes:
+        skeleton: its proportions.
+        pose: of its joints; for a motion that begins, the pose without additive layers, which would be added twice.
+    """
+
+    skeleton: Skeleton
+    pose: Pose = field(default_factory=dict)
+
+    def place(self, joint: str) -> Place:
+        """Where a joint is.
+
+        Raises:
+            KeyError: no such joint.
+        """
+        return self.skeleton.place(self.pose, joint)
+
+    def rotation(self, joint: str) -> Quat:
+        """A joint's rotation local to its parent."""
+        return self.pose.get(joint, IDENTITY)
+
+    def posed(self, rotations: Mapping[str, Quat]) -> "Body":
+        """This body with some joints turned otherwise."""
+        return Body(self.skeleton, {**self.pose, **rotations})

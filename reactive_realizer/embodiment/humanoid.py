@@ -1,0 +1,82 @@
+"""A character as it can be seen: its avatar, where it stands, and the pose it is in."""
+
+from collections.abc import Callable, Iterable, Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.embodiment.avatar import Avatar
+from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.frame import Frame, rotation_array
+from reactive_realizer.embodiment.pose import Layer, compose
+from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, conjugate, from_axis_angle, multiply, rotate
+from reactive_realizer.embodiment.speed_limit import SpeedLimit
+from reactive_realizer.embodiment.vector import UP, ZERO, Vec3, add, subtract
+
+_ROOT = "HumanoidRoot"
+
+Eyes = Callable[[Body], Mapping[str, Quat]]
+"""What the eyes and lids do, from the composed head: they come last."""
+
+
+class Humanoid:
+    """A figure in the world.
+
+    Args:
+        avatar: its body.
+        position: of the place on the ground that it stands on, m.
+        heading: how far it is turned to its left, rad; 0 faces +z.
+    """
+
+    def __init__(self, avatar: Avatar, position: Vec3 = ZERO, heading: float = 0.0) -> None:
+        self.avatar = avatar
+        self._position = position
+        self._turn = from_axis_angle(UP, heading)
+        self._limit = SpeedLimit(avatar.skeleton)
+        self._shown: Mapping[str, Quat] | None = None
+        self._shown_at = GlobalTime(0.0)
+        self.body = Body(avatar.skeleton)
+        """The figure without additive motion, in its own frame: where a motion that begins finds it."""
+
+    def compose(self, time: GlobalTime, layers: Iterable[Layer], face: Mapping[str, float], eyes: Eyes | None) -> Frame:
+        """The frame of a time; later ones follow from it without a jump."""
+        composed = compose(self.avatar.skeleton, layers)
+        pose = composed.pose
+        if eyes is not None:
+            pose |= eyes(Body(self.avatar.skeleton, pose))
+        if self._shown is not None and time > self._shown_at:
+            pose = self._limit(self._shown, pose, time - self._shown_at)
+        self._shown, self._shown_at = pose, time
+        self.body = Body(self.avatar.skeleton, composed.steady)
+        return Frame(time, self._root(), self._rotations(pose), self._weights(face))
+
+    def to_own_frame(self, point: Vec3) -> Vec3:
+        """A point of the world as seen from the figure, m."""
+        return rotate(conjugate(self._turn), subtract(point, self._position))
+
+    def locate(self, joint: str | None) -> Vec3 | None:
+        """Where a joint is in the world, m; None: between its eyes. An unknown joint is nowhere."""
+        name = joint or "skullbase"
+        if name not in self.avatar.skeleton.joints:
+            return None
+        body = Body(self.avatar.skeleton, self._shown or {})
+        place = body.place(name)
+        point = place.position if joint else _between_eyes(body)
+        return add(self._position, rotate(self._turn, point))
+
+    def _root(self) -> NDArray[np.float64]:
+        offset = self.avatar.skeleton.offsets[self.avatar.skeleton.joints.index(_ROOT)]
+        return np.array(add(self._position, rotate(self._turn, offset)))
+
+    def _rotations(self, pose: Mapping[str, Quat]) -> NDArray[np.float64]:
+        root = multiply(self._turn, pose.get(_ROOT, IDENTITY))
+        return rotation_array(self.avatar.skeleton, {**pose, _ROOT: root})
+
+    def _weights(self, face: Mapping[str, float]) -> NDArray[np.float64]:
+        return np.array([min(1.0, max(0.0, face.get(morph, 0.0))) for morph in self.avatar.morphs])
+
+
+def _between_eyes(body: Body) -> Vec3:
+    left, right = (body.place(f"{side}_eyeball_joint").position for side in "lr")
+    return ((left[0] + right[0]) / 2, (left[1] + right[1]) / 2, (left[2] + right[2]) / 2)

@@ -1,0 +1,138 @@
+"""The avatars, seen by their own bones."""
+
+import json
+import math
+import struct
+from importlib.resources import files
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from reactive_realizer.embodiment.avatar import Avatar, Bone
+from reactive_realizer.embodiment.frame import rotation_array
+from reactive_realizer.embodiment.quaternion import IDENTITY, from_axis_angle, multiply, rotate
+from reactive_realizer.embodiment.skeleton import Pose
+from reactive_realizer.embodiment.vector import add, distance, subtract, unit
+from reactive_realizer.errors import RealizerError
+
+AVATARS = Path(str(files("reactive_realizer"))) / "assets" / "avatars"
+
+
+@pytest.fixture(params=["female", "male"], scope="module")
+def avatar(request) -> Avatar:
+    return Avatar.read(AVATARS / f"{request.param}.glb")
+
+
+def bone_places(avatar: Avatar, pose: Pose) -> dict[str, tuple]:
+    """Forward kinematics on the avatar's own bones, as a renderer does it: name -> (position, rotation)."""
+    rotations = avatar.bone_rotations(rotation_array(avatar.skeleton, pose))
+    places: list[tuple] = []
+    for bone, rotation in zip(avatar.bones, rotations.tolist(), strict=True):
+        at, turn = places[bone.parent] if bone.parent >= 0 else ((0.0, 0.0, 0.0), IDENTITY)
+        places.append((add(at, rotate(turn, bone.translation)), multiply(turn, tuple(rotation))))
+    return {bone.name: place for bone, place in zip(avatar.bones, places, strict=True)}
+
+
+@pytest.mark.parametrize("side", ["Left", "Right"])
+def test_in_the_default_pose_wrists_hang_below_elbows_below_shoulders(avatar, side):
+    places = bone_places(avatar, {})
+    shoulder, elbow, wrist, finger = (places[side + name][0] for name in ("Arm", "ForeArm", "Hand", "HandMiddle1"))
+    assert shoulder[1] > elbow[1] + 0.2 > wrist[1] + 0.4
+    assert finger[1] < wrist[1] - 0.05
+    assert wrist == pytest.approx((shoulder[0], wrist[1], shoulder[2]), abs=0.01)
+
+
+@pytest.mark.parametrize(("side", "inward"), [("Left", (-1.0, 0.0, 0.0)), ("Right", (1.0, 0.0, 0.0))])
+def test_in_the_default_pose_palms_face_the_thighs_and_thumbs_point_forward(avatar, side, inward):
+    places = bone_places(avatar, {})
+    hand, turn = places[f"{side}Hand"]
+    # In the T-pose a palm faces the ground.
+    assert rotate(turn, (0.0, -1.0, 0.0)) == pytest.approx(inward, abs=1e-9)
+    assert places[f"{side}HandThumb2"][0][2] > hand[2]
+
+
+def test_the_legs_stand_and_the_head_is_above_the_neck(avatar):
+    places = bone_places(avatar, {})
+    for side in ("Left", "Right"):
+        assert places[f"{side}UpLeg"][0][1] > places[f"{side}Leg"][0][1] > places[f"{side}Foot"][0][1] > 0.0
+        assert places[f"{side}ToeBase"][0][2] > places[f"{side}Foot"][0][2]
+    assert places["Head"][0][1] > places["Neck"][0][1] > places["Spine2"][0][1]
+
+
+def test_the_figures_left_is_at_positive_x_and_it_faces_positive_z(avatar):
+    places = bone_places(avatar, {})
+    assert places["LeftArm"][0][0] > 0.1 > -0.1 > places["RightArm"][0][0]
+    assert places["LeftEye"][0][2] > places["Head"][0][2]
+
+
+def test_every_joint_is_where_its_bone_is_in_any_pose(avatar):
+    turns = {
+        joint: from_axis_angle(unit((i % 3 - 1.0, i % 5 - 2.0, 1.0)), 0.07 * (i % 11))
+        for i, joint in enumerate(avatar.skeleton.joints)
+    }
+    places = bone_places(avatar, turns)
+    positions = sorted(place[0] for place in places.values())
+    joints = sorted(avatar.skeleton.place(turns, joint).position for joint in avatar.skeleton.joints)
+    assert len(joints) == len(avatar.bones)
+    assert np.allclose(positions, joints, atol=1e-9)
+
+
+def test_an_elbow_bent_about_x_takes_the_hand_forward_on_both_sides(avatar):
+    bend = from_axis_angle((1.0, 0.0, 0.0), -math.pi / 2)
+    places = bone_places(avatar, {"l_elbow": bend, "r_elbow": bend})
+    for side in ("Left", "Right"):
+        forearm = unit(subtract(places[f"{side}Hand"][0], places[f"{side}ForeArm"][0]))
+        assert forearm == pytest.approx((0.0, 0.0, 1.0), abs=0.05)
+
+
+def test_the_avatars_have_54_joints_and_the_52_arkit_targets(avatar):
+    assert len(avatar.skeleton.joints) == 54
+    assert len(avatar.morphs) == 52
+    assert {"jawOpen", "eyeBlinkLeft", "mouthSmileRight"} <= set(avatar.morphs)
+    assert avatar.skeleton.parent("l_elbow") == "l_shoulder"
+    assert avatar.skeleton.chain("skullbase") == ("HumanoidRoot", "vl5", "vt10", "vt6", "vc4", "skullbase")
+
+
+def bones() -> list[Bone]:
+    chain = ["Hips", "Spine", "LeftShoulder", "Twist", "LeftArm", "LeftForeArm", "LeftHand"]
+    out = [Bone(name, i - 1, (0.1, 0.2, 0.0)) for i, name in enumerate(chain)]
+    out += [Bone("Head", 1, (0.0, 0.5, 0.0)), Bone("RightArm", 1, (-0.2, 0.3, 0.0))]
+    return [*out, Bone("RightForeArm", 8, (-0.3, 0.0, 0.0)), Bone("RightHand", 9, (-0.3, 0.0, 0.0))]
+
+
+def test_a_bone_that_is_no_joint_keeps_its_rest_and_its_length_counts_for_the_joint_below():
+    avatar = Avatar.of_bones(bones(), [], "some.glb")
+    assert "Twist" not in avatar.skeleton.joints
+    assert distance(avatar.skeleton.offset("l_shoulder"), (0.2, 0.4, 0.0)) < 1e-9
+    rotations = avatar.bone_rotations(rotation_array(avatar.skeleton, {}))
+    assert rotations[3].tolist() == list(IDENTITY)
+
+
+def test_an_avatar_without_an_arm_is_refused_by_name():
+    with pytest.raises(RealizerError, match=r"some\.glb .* no bone for r_wrist"):
+        Avatar.of_bones(bones()[:-1], [], "some.glb")
+
+
+def glb(scene: dict | bytes) -> bytes:
+    text = scene if isinstance(scene, bytes) else json.dumps(scene).encode()
+    return struct.pack("<4sIII4s", b"glTF", 2, 20 + len(text), len(text), b"JSON") + text
+
+
+@pytest.mark.parametrize(
+    ("content", "reason"),
+    [
+        (b"", "too short"),
+        (b"<html>no avatar here</html>", "not a binary glTF 2"),
+        (glb(b"{nonsense"), "cannot be read"),
+        (glb(b"[]"), "no object"),
+        (glb({"nodes": []}), "unusable skin"),
+        (glb({"nodes": [{"name": "Hips", "rotation": [0, 0, 1, 0]}], "skins": [{"joints": [0]}]}), "rests rotated"),
+        (glb({"nodes": [{"name": "Hips"}], "skins": [{"joints": [0]}], "meshes": []}), "no bone for skullbase"),
+    ],
+)
+def test_a_file_that_is_no_avatar_is_refused_with_its_name_and_the_reason(tmp_path, content, reason):
+    path = tmp_path / "wrong.glb"
+    path.write_bytes(content)
+    with pytest.raises(RealizerError, match=rf"wrong\.glb is no usable avatar: .*{reason}"):
+        Avatar.read(path)
