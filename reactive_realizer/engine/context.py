@@ -1,0 +1,37 @@
+"""What an engine is made from."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from reactive_realizer.embodiment.humanoid import Humanoid
+from reactive_realizer.embodiment.world import World
+from reactive_realizer.engine.lip_sync import LipSyncProvider
+
+
+@dataclass(frozen=True, slots=True)
+class EngineContext:
+    """Of one character; factories of engines take it, built-in ones and those of plug-ins alike.
+
+    Attributes:
+        character: its id.
+        humanoid: its figure.
+        world: what can be looked at.
+        asset: finds a file by name.
+        seed: of the randomness of this character.
+        tts: the text-to-speech binding that all characters share.
+        voice: name of this character's voice, None for the binding's default.
+        bindings: names of the character's binding files, by kind.
+        lip_sync: what the mouth does while this character speaks.
+    """
+
+    character: str
+    humanoid: Humanoid
+    world: World
+    asset: Callable[[str], Path]
+    seed: int
+    tts: Any
+    voice: str | None
+    bindings: dict[str, str]
+    lip_sync: LipSyncProvider | None = None

@@ -1,0 +1,118 @@
+"""The interface of a modality (thesis 8.6), and what all implementations share."""
+
+from collections.abc import Awaitable, Mapping
+from typing import Protocol
+
+from reactive_realizer.bml.behavior import Behavior
+from reactive_realizer.clock.ticker import Tick
+from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.embodiment.audio import AudioChange
+from reactive_realizer.embodiment.humanoid import Eyes
+from reactive_realizer.embodiment.pose import Layer
+from reactive_realizer.engine.effects import Dropped, Play
+from reactive_realizer.engine.player import Player
+from reactive_realizer.errors import Fault
+from reactive_realizer.pegboard.peg_key import BlockKey
+from reactive_realizer.planunit.plan_unit import PlanUnit
+
+
+class Engine(Protocol):
+    """One modality of one character.
+
+    Attributes:
+        name: for logs: ``character/modality``.
+        extensions: the attributes of other namespaces, (namespace, local name), that mean something to it.
+    """
+
+    name: str
+    extensions: frozenset[tuple[str, str]]
+
+    def supports(self, behavior: Behavior) -> bool:
+        """Whether behaviors of this kind are its own."""
+        ...
+
+    def prepare(self, behavior: Behavior) -> Awaitable[object] | None:
+        """Slow work that planning needs first, run off the loop; None where there is none."""
+        ...
+
+    def plan(self, block: BlockKey, behavior: Behavior, prepared: object) -> PlanUnit:
+        """A unit for the behavior, with its preferred timing; it is not in the plan yet.
+
+        Raises:
+            RealizerError: it cannot be made; the fault says why.
+        """
+        ...
+
+    def add(self, unit: PlanUnit) -> None:
+        """Take a unit with its pegs into the plan."""
+        ...
+
+    def remove(self, unit: PlanUnit) -> None:
+        """Take a unit out of the plan, without a trace."""
+        ...
+
+    def play(self, tick: Tick) -> Play:
+        """Play what is due; called once or more a tick, and never blocks."""
+        ...
+
+    def fail(self, time: GlobalTime, fault: Fault) -> Play:
+        """Drop every unit: the engine itself has failed."""
+        ...
+
+
+class DefaultEngine:
+    """An engine around a `Player`; modalities override what they have."""
+
+    extensions: frozenset[tuple[str, str]] = frozenset()
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+        self.player = Player()
+
+    def prepare(self, behavior: Behavior) -> Awaitable[object] | None:
+        """Nothing is slow."""
+        return None
+
+    def add(self, unit: PlanUnit) -> None:
+        """Take a unit into the plan."""
+        self.player.add(unit)
+
+    def remove(self, unit: PlanUnit) -> None:
+        """Take a unit out of the plan."""
+        self.player.remove(unit)
+
+    def play(self, tick: Tick) -> Play:
+        """Sync points that are due, and, where a frame is, what is seen and heard."""
+        reached, dropped = self.player.play(tick.time)
+        return Play(
+            reached,
+            dropped,
+            self.layers(tick) if tick.frame else (),
+            self.face(tick) if tick.frame else {},
+            self.eyes(tick) if tick.frame else None,
+            self.audio(tick),
+        )
+
+    def fail(self, time: GlobalTime, fault: Fault) -> Play:
+        """Drop every unit."""
+        units = self.player.units
+        for unit in units:
+            unit.drop(time)
+            self.player.remove(unit)
+        return Play(dropped=tuple(Dropped(unit, fault) for unit in units))
+
+    def layers(self, tick: Tick) -> tuple[Layer, ...]:
+        """What turns the joints now."""
+        return ()
+
+    def face(self, tick: Tick) -> Mapping[str, float]:
+        """Weights of morphs now."""
+        return {}
+
+    def eyes(self, tick: Tick) -> Eyes | None:
+        """What the eyes do now, once the head is composed."""
+        return None
+
+    def audio(self, tick: Tick) -> tuple[AudioChange, ...]:
+        """What became audible, moved or fell silent since the last tick."""
+        return ()

@@ -1,0 +1,48 @@
+"""An engine as an asyncio task: ticks in, effects out, at a barrier."""
+
+import asyncio
+import logging
+from collections.abc import Sequence
+
+from reactive_realizer.clock.ticker import Tick
+from reactive_realizer.engine.effects import Play
+from reactive_realizer.engine.engine import Engine
+from reactive_realizer.errors import Fault
+
+logger = logging.getLogger(__name__)
+
+
+class EngineTask:
+    """Runs one engine: its mailbox holds at most the tick that it is to play.
+
+    An engine that raises drops its units, with feedback; the others go on.
+    """
+
+    def __init__(self, engine: Engine) -> None:
+        self.engine = engine
+        self._mailbox: asyncio.Queue[tuple[Tick, asyncio.Future[Play]]] = asyncio.Queue(maxsize=1)
+
+    async def run(self) -> None:
+        """Play ticks until cancelled."""
+        while True:
+            tick, answer = await self._mailbox.get()
+            answer.set_result(self._play(tick))
+
+    def post(self, tick: Tick) -> "asyncio.Future[Play]":
+        """Have a tick played."""
+        answer: asyncio.Future[Play] = asyncio.get_running_loop().create_future()
+        self._mailbox.put_nowait((tick, answer))
+        return answer
+
+    def _play(self, tick: Tick) -> Play:
+        try:
+            return self.engine.play(tick)
+        except Exception as failure:
+            logger.exception("engine %s failed at tick %d", self.engine.name, tick.number)
+            return self.engine.fail(tick.time, Fault("engine-failed", {"engine": self.engine.name, "reason": failure}))
+
+
+async def play_all(tasks: Sequence[EngineTask], tick: Tick) -> list[Play]:
+    """One round of a tick: all engines at once, their effects in the order of the tasks, whoever was first."""
+    answers = [task.post(tick) for task in tasks]
+    return [await answer for answer in answers]

@@ -1,0 +1,84 @@
+"""The player of a plan: which units play now, and which may."""
+
+import logging
+
+from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.engine.effects import Dropped, Reached
+from reactive_realizer.errors import Fault
+from reactive_realizer.planunit.plan_unit import PlanUnit, UnitState
+
+logger = logging.getLogger(__name__)
+
+Played = tuple[tuple[Reached, ...], tuple[Dropped, ...]]
+
+
+class Player:
+    """A unimodal plan and its playing.
+
+    Who owns an arm, the voice, the mouth is judged when a unit starts, not when it is planned: an interrupt may come
+    between. The one that plays keeps it, the newer leaves with one warning (BML: merge keeps what is running).
+    """
+
+    def __init__(self) -> None:
+        self._units: list[PlanUnit] = []
+
+    @property
+    def units(self) -> tuple[PlanUnit, ...]:
+        """The plan, in order of planning."""
+        return tuple(self._units)
+
+    @property
+    def playing(self) -> tuple[PlanUnit, ...]:
+        """The units that play now."""
+        return tuple(unit for unit in self._units if unit.state is UnitState.IN_EXEC)
+
+    def add(self, unit: PlanUnit) -> None:
+        """Plan a unit."""
+        self._units.append(unit)
+
+    def remove(self, unit: PlanUnit) -> None:
+        """Forget a unit; one that is not there is no mistake."""
+        if unit in self._units:
+            self._units.remove(unit)
+
+    def play(self, now: GlobalTime) -> Played:
+        """Begin what is due, fire what is due, let go of what has ended."""
+        reached: list[Reached] = []
+        dropped: list[Dropped] = []
+        for unit in self._in_turn(now):
+            owner = self._owner(unit) if unit.due(now) else None
+            if owner is not None:
+                self._drop(unit, _taken(unit, owner), now, dropped)
+            else:
+                self._fire(unit, now, reached, dropped)
+        self._units = [unit for unit in self._units if unit.live]
+        return tuple(reached), tuple(dropped)
+
+    def _in_turn(self, now: GlobalTime) -> list[PlanUnit]:
+        """Units that play, then those that are due: by start, and of equal ones by id, so that the choice is one."""
+        starting = sorted(
+            (unit for unit in self._units if unit.due(now)), key=lambda u: (u.points[0].peg.value, u.behavior.id)
+        )
+        return [*self.playing, *starting]
+
+    def _owner(self, unit: PlanUnit) -> PlanUnit | None:
+        return next((other for other in self.playing if other.resources & unit.resources), None)
+
+    def _fire(self, unit: PlanUnit, now: GlobalTime, reached: list[Reached], dropped: list[Dropped]) -> None:
+        if unit.due(now):
+            unit.begin()
+        try:
+            reached.extend(Reached(unit, point, point.fired or GlobalTime(0.0)) for point in unit.fire(now))
+        except Exception as failure:
+            logger.exception("%s:%s failed while playing", unit.block.block, unit.behavior.id)
+            self._drop(unit, Fault("unit-failed", {"reason": failure}), now, dropped)
+
+    def _drop(self, unit: PlanUnit, fault: Fault, now: GlobalTime, dropped: list[Dropped]) -> None:
+        unit.drop(now)
+        dropped.append(Dropped(unit, fault))
+
+
+def _taken(unit: PlanUnit, owner: PlanUnit) -> Fault:
+    what = ", ".join(sorted(owner.resources & unit.resources))
+    names = {"behavior": f"{unit.block.block}:{unit.behavior.id}", "other": f"{owner.block.block}:{owner.behavior.id}"}
+    return Fault("resource-taken", {**names, "resource": what})

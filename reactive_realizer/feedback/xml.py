@@ -1,0 +1,98 @@
+"""Feedback as XML, in the forms of BML 1.0 (blockProgress, syncPointProgress, predictionFeedback, warningFeedback)."""
+
+from functools import singledispatch
+
+from lxml import etree
+
+from reactive_realizer.bml.names import BML, BMLA, OWN
+from reactive_realizer.feedback.messages import (
+    BehaviorPrediction,
+    BlockProgress,
+    Message,
+    PredictionFeedback,
+    SyncPointProgress,
+    WarningFeedback,
+)
+
+_STATUS = f"{{{BMLA}}}status"
+_OWN_TIME = f"{{{OWN}}}time"
+
+
+def to_xml(message: Message) -> str:
+    """The message as one line of XML."""
+    return etree.tostring(_element(message), encoding="unicode").replace("\n", " ")
+
+
+def seconds(time: float) -> str:
+    """A time with at most six decimals."""
+    text = f"{time:.6f}".rstrip("0").rstrip(".")
+    return "0" if text == "-0" else text
+
+
+@singledispatch
+def _element(message: object) -> etree._Element:
+    raise TypeError(f"no feedback: {message!r}")
+
+
+@_element.register
+def _(message: BlockProgress) -> etree._Element:
+    element = _root("blockProgress", message.character, {None: BML, "bmla": BMLA})
+    element.set("id", f"{message.block}:{message.sync}")
+    element.set("globalTime", seconds(message.time))
+    element.set(_STATUS, message.status)
+    return element
+
+
+@_element.register
+def _(message: SyncPointProgress) -> etree._Element:
+    element = _root("syncPointProgress", message.character, {None: BML, **({"rr": OWN} if message.details else {})})
+    element.set("id", f"{message.block}:{message.behavior}:{message.sync}")
+    element.set("time", seconds(message.block_time))
+    element.set("globalTime", seconds(message.time))
+    for name, value in message.details.items():
+        element.set(f"{{{OWN}}}{name}", value)
+    return element
+
+
+@_element.register
+def _(message: PredictionFeedback) -> etree._Element:
+    element = _root("predictionFeedback", message.character, {None: BML, "bmla": BMLA, "rr": OWN})
+    block = etree.SubElement(element, f"{{{BML}}}bml", id=message.block)
+    block.set("globalStart", seconds(message.start))
+    block.set("globalEnd", seconds(message.end))
+    block.set(_STATUS, message.status)
+    element.extend(_predicted(message.block, behavior) for behavior in message.behaviors)
+    return element
+
+
+@_element.register
+def _(message: WarningFeedback) -> etree._Element:
+    element = _root("warningFeedback", message.character, {None: BML})
+    element.set("id", message.id)
+    element.set("type", message.type)
+    element.text = message.text
+    return element
+
+
+def _root(name: str, character: str | None, namespaces: dict[str | None, str]) -> etree._Element:
+    # lxml takes None for the default namespace; its stubs do not.
+    element = etree.Element(f"{{{BML}}}{name}", nsmap=namespaces)  # type: ignore[arg-type]
+    if character is not None:
+        element.set("characterId", character)
+    return element
+
+
+def _predicted(block: str, prediction: BehaviorPrediction) -> etree._Element:
+    """The behavior's own element, its sync points now times; an inline sync of a speech carries its time itself."""
+    behavior = prediction.behavior
+    element = etree.fromstring(behavior.source)
+    element.set("id", f"{block}:{behavior.id}")
+    for sync in behavior.syncs:
+        del element.attrib[sync]
+    inline = {sync.get("id"): sync for sync in element.iter(f"{{{BML}}}sync")}
+    for sync, time in prediction.times.items():
+        if sync in inline:
+            inline[sync].set(_OWN_TIME, seconds(time))
+        elif ":" not in sync:
+            element.set(sync, seconds(time))
+    return element

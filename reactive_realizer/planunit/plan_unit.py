@@ -1,0 +1,166 @@
+"""A behavior in a plan: its sync points on pegs, and how far it has come."""
+
+import itertools
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import Enum
+
+from reactive_realizer.bml.behavior import Behavior
+from reactive_realizer.clock.units import RESOLUTION, GlobalTime, is_due
+from reactive_realizer.pegboard.peg_key import BlockKey, PegKey
+from reactive_realizer.pegboard.time_peg import Time, TimePeg
+from reactive_realizer.planunit.timing import Timing
+
+
+class UnitState(Enum):
+    """Where a unit stands, in the words of Kopp and Wachsmuth that the thesis uses (7.3.4)."""
+
+    PENDING = "pending"
+    """Planned; its block has not started."""
+    LURKING = "lurking"
+    """Its block plays, its own start is ahead."""
+    IN_EXEC = "in_exec"
+    DONE = "done"
+    DROPPED = "dropped"
+
+
+@dataclass(slots=True)
+class SyncPoint:
+    """A sync point of one unit.
+
+    Attributes:
+        id: the sync id.
+        peg: when; shared with the sync points it is tied to.
+        fired: the time it was reported with, None before.
+    """
+
+    id: str
+    peg: TimePeg
+    fired: Time = None
+
+
+class PlanUnit:
+    """What an engine plays for one behavior; engines make subclasses of it.
+
+    A unit fires its sync points in order, each once, with the time of its peg, however late a tick is; a point whose
+    successor is due is due itself, so that order holds whatever a live retiming did.
+
+    Attributes:
+        block: of which block.
+        behavior: what was asked for.
+        timing: what it prefers; the strategy decides.
+        resources: what of the body it owns while it plays; units that share one exclude each other.
+        points: its sync points in order; empty until the plan is committed.
+    """
+
+    def __init__(
+        self, block: BlockKey, behavior: Behavior, timing: Timing, resources: frozenset[str] = frozenset()
+    ) -> None:
+        self.block = block
+        self.behavior = behavior
+        self.timing = timing
+        self.resources = resources
+        self.points: list[SyncPoint] = []
+        self.state = UnitState.PENDING
+
+    # --- for subclasses
+
+    def on_start(self, time: GlobalTime) -> None:
+        """The unit begins to play."""
+
+    def on_sync(self, sync: str, time: GlobalTime) -> None:
+        """A sync point was reached; ``start`` and ``end`` too."""
+
+    def on_finish(self, time: GlobalTime) -> None:
+        """The unit ended or was interrupted: the way back to rest is the engine's motion."""
+
+    def end_details(self, time: GlobalTime) -> Mapping[str, str]:
+        """What the feedback of an interrupted ``end`` tells beside the time."""
+        return {}
+
+    # --- for the player and the scheduler
+
+    def key(self, sync: str) -> PegKey:
+        """The name of one of its sync points."""
+        return PegKey(self.block.character, self.block.block, self.behavior.id, sync)
+
+    @property
+    def live(self) -> bool:
+        """Whether something of it is ahead."""
+        return self.state not in (UnitState.DONE, UnitState.DROPPED)
+
+    def time(self, sync: str) -> Time:
+        """When one of its points was, or is predicted to be."""
+        point = self.point(sync)
+        return point.peg.value if point.fired is None else point.fired
+
+    def point(self, sync: str) -> SyncPoint:
+        """One of its points.
+
+        Raises:
+            KeyError: it has no such point.
+        """
+        for point in self.points:
+            if point.id == sync:
+                return point
+        raise KeyError(sync)
+
+    def ahead(self) -> list[SyncPoint]:
+        """The points not yet fired."""
+        return [point for point in self.points if point.fired is None]
+
+    def due(self, now: GlobalTime) -> bool:
+        """Whether it is its turn to begin."""
+        return self.state is UnitState.LURKING and is_due(self.points[0].peg.value, now)
+
+    def in_order(self) -> bool:
+        """Whether its known times keep the order of its points (thesis 7.15)."""
+        times = [time for point in self.points if (time := self.time(point.id)) is not None]
+        return all(a <= b + RESOLUTION for a, b in itertools.pairwise(times))
+
+    def release(self) -> None:
+        """Its block has started."""
+        if self.state is UnitState.PENDING:
+            self.state = UnitState.LURKING
+
+    def begin(self) -> None:
+        """Take the stage; the start itself fires with the next `fire`."""
+        self.state = UnitState.IN_EXEC
+
+    def fire(self, now: GlobalTime) -> list[SyncPoint]:
+        """Fire the points that are due, and those before them."""
+        ahead = self.ahead()
+        count = max((i + 1 for i, point in enumerate(ahead) if is_due(point.peg.value, now)), default=0)
+        for i, point in enumerate(ahead[:count]):
+            # A point overtaken by its successor fires with it.
+            times = [time for later in ahead[i:count] if (time := later.peg.value) is not None]
+            self._fire(point, min(times))
+        return ahead[:count]
+
+    def interrupt(self, time: GlobalTime) -> list[SyncPoint]:
+        """End now: of the points ahead only ``relax`` and ``end`` are kept, both at ``time``."""
+        self.points = [p for p in self.points if p.fired is not None or p.id in ("relax", "end")]
+        kept = self.ahead()
+        for point in kept:
+            point.fired = time
+        self._finish(time)
+        return kept
+
+    def drop(self, time: GlobalTime) -> None:
+        """Leave the plan without a word; what it moves goes back to rest."""
+        playing = self.state is UnitState.IN_EXEC
+        self.state = UnitState.DROPPED
+        if playing:
+            self.on_finish(time)
+
+    def _fire(self, point: SyncPoint, time: GlobalTime) -> None:
+        point.fired = time
+        if point is self.points[0]:
+            self.on_start(time)
+        self.on_sync(point.id, time)
+        if point is self.points[-1]:
+            self._finish(time)
+
+    def _finish(self, time: GlobalTime) -> None:
+        self.state = UnitState.DONE
+        self.on_finish(time)

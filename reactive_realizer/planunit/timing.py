@@ -1,0 +1,68 @@
+"""How long a behavior wants to take: its sync points in order and the phases between them."""
+
+import itertools
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from enum import Enum
+
+
+class PhaseKind(Enum):
+    """How a phase may be stretched."""
+
+    RIGID = "rigid"
+    ELASTIC = "elastic"
+    HOLD = "hold"
+
+
+@dataclass(frozen=True, slots=True)
+class Phase:
+    """The way from one sync point to the next.
+
+    Attributes:
+        duration: preferred, s.
+        kind: how it may be stretched.
+    """
+
+    duration: float
+    kind: PhaseKind = PhaseKind.ELASTIC
+
+
+@dataclass(frozen=True, slots=True)
+class Timing:
+    """The preferred timing of a behavior.
+
+    Attributes:
+        points: sync ids in order, from start to end; two or more.
+        phases: one between each two points.
+    """
+
+    points: tuple[str, ...]
+    phases: tuple[Phase, ...]
+
+    def __post_init__(self) -> None:
+        if len(self.phases) != len(self.points) - 1:
+            raise ValueError(f"{len(self.points)} points want {len(self.points) - 1} phases, not {len(self.phases)}")
+
+    @property
+    def rigid(self) -> bool:
+        """Whether nothing of it may be stretched."""
+        return all(phase.kind is PhaseKind.RIGID for phase in self.phases)
+
+    @property
+    def offsets(self) -> tuple[float, ...]:
+        """Preferred time (s) of each point after the first."""
+        times = [0.0]
+        for phase in self.phases:
+            times.append(times[-1] + phase.duration)
+        return tuple(times)
+
+
+def timing_at(offsets: Mapping[str, float], kind: PhaseKind = PhaseKind.ELASTIC) -> Timing:
+    """A timing from the times (s) of its points after the start, in order, all phases of one kind."""
+    times = list(offsets.values())
+    return Timing(tuple(offsets), tuple(Phase(b - a, kind) for a, b in itertools.pairwise(times)))
+
+
+def timing_of(points: Sequence[str], phases: Sequence[Phase]) -> Timing:
+    """A timing from its phases."""
+    return Timing(tuple(points), tuple(phases))
