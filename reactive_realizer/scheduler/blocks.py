@@ -1,0 +1,63 @@
+"""The blocks of all characters: those alive, and what is remembered of those that have ended."""
+
+from dataclasses import dataclass
+
+from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.pegboard.peg_key import BlockKey
+from reactive_realizer.scheduler.bml_block import BlockState, BMLBlock
+
+
+@dataclass(frozen=True, slots=True)
+class Ended:
+    """All that is kept of an ended block."""
+
+    key: BlockKey
+    state: BlockState
+    time: GlobalTime
+
+
+class Blocks:
+    """Blocks by name, in order of arrival.
+
+    Args:
+        remembered: how many ended blocks are kept.
+    """
+
+    def __init__(self, remembered: int) -> None:
+        self._remembered = remembered
+        self._alive: dict[BlockKey, BMLBlock] = {}
+        self._ended: dict[BlockKey, Ended] = {}
+
+    def __contains__(self, key: BlockKey) -> bool:
+        return key in self._alive
+
+    @property
+    def alive(self) -> tuple[BMLBlock, ...]:
+        """Accepted and not ended, in order of arrival."""
+        return tuple(self._alive.values())
+
+    @property
+    def ended(self) -> tuple[Ended, ...]:
+        """The last ones that ended, in order of ending."""
+        return tuple(self._ended.values())
+
+    def of(self, character: str) -> list[BMLBlock]:
+        """The blocks of one character that are alive."""
+        return [block for block in self._alive.values() if block.key.character == character]
+
+    def find(self, character: str, block: str) -> BMLBlock | None:
+        """A block alive of that name: the character's own, else the first of any other character."""
+        own = self._alive.get(BlockKey(character, block))
+        return own or next((other for other in self._alive.values() if other.key.block == block), None)
+
+    def add(self, block: BMLBlock) -> None:
+        """A block was accepted."""
+        self._alive[block.key] = block
+
+    def end(self, block: BMLBlock, time: GlobalTime) -> None:
+        """A block has ended."""
+        self._alive.pop(block.key, None)
+        self._ended.pop(block.key, None)
+        self._ended[block.key] = Ended(block.key, block.state, time)
+        while len(self._ended) > self._remembered:
+            self._ended.pop(next(iter(self._ended)))

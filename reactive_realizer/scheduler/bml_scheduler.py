@@ -1,0 +1,376 @@
+"""The life of blocks: accepted, prepared, planned, started, ended, interrupted (thesis 7.3.4)."""
+
+import logging
+from collections.abc import Iterable, Sequence
+
+from reactive_realizer.bml.behavior import Behavior
+from reactive_realizer.bml.block import BehaviorBlock, Parsed
+from reactive_realizer.bml.names import BLOCK, BML, BML_EXT
+from reactive_realizer.bml.words import Composition
+from reactive_realizer.clock.units import BlockTime, GlobalTime, is_due
+from reactive_realizer.engine.effects import Dropped, Play, Reached
+from reactive_realizer.engine.engine import Engine
+from reactive_realizer.errors import Fault, RealizerError
+from reactive_realizer.feedback.feedback_manager import FeedbackManager
+from reactive_realizer.feedback.messages import BlockProgress, SyncPointProgress, WarningFeedback
+from reactive_realizer.limits import Limits
+from reactive_realizer.pegboard.peg_key import BlockKey
+from reactive_realizer.pegboard.pegboard import PegBoard
+from reactive_realizer.pegboard.time_peg import unknown_sources
+from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
+from reactive_realizer.reactive.commit import Commit
+from reactive_realizer.scheduler.blocks import Blocks
+from reactive_realizer.scheduler.bml_block import BlockState, BMLBlock
+from reactive_realizer.scheduler.cast import Cast
+from reactive_realizer.scheduler.planning import Plan, Planning
+from reactive_realizer.scheduler.predictions import Predictions
+from reactive_realizer.scheduler.preparation import Preparation
+from reactive_realizer.scheduler.problem import Loss
+from reactive_realizer.scheduler.strategy import SchedulingStrategy
+from reactive_realizer.scheduler.workshop import Workshop
+
+logger = logging.getLogger(__name__)
+
+_BEFORE_ALL, _AFTER_ALL = -1.0, float("inf")
+
+
+class BMLScheduler:
+    """Owns the blocks of all characters and keeps their constraints (thesis 7.25-7.27).
+
+    Attributes:
+        refused: how many blocks were not accepted.
+        failed: how many ended FAILED.
+    """
+
+    def __init__(
+        self,
+        board: PegBoard,
+        cast: Cast,
+        feedback: FeedbackManager,
+        workshop: Workshop,
+        strategy: SchedulingStrategy,
+        limits: Limits,
+    ) -> None:
+        self.blocks = Blocks(limits.remembered_blocks)
+        self.refused = 0
+        self.failed = 0
+        self._board = board
+        self._cast = cast
+        self._feedback = feedback
+        self._workshop = workshop
+        self._limits = limits
+        self._planning = Planning(board, self.blocks, strategy)
+        self._predictions = Predictions(feedback)
+        self._preparations: dict[BMLBlock, Preparation] = {}
+        self._engines: dict[PlanUnit, Engine] = {}
+        self._arrivals = 0
+        self._touched = False
+        board.graph.listen(self._note)
+
+    # --- what comes in
+
+    def accept(self, parsed: Parsed, now: GlobalTime) -> None:
+        """Take a block in: apply its composition, prepare and plan its behaviors."""
+        character = self._character(parsed.block)
+        for problem in parsed.problems:
+            self._warn(character, problem.id, problem.fault)
+        if parsed.block is None or (fault := self._refusal(parsed.block, character)) is not None:
+            self.refused += 1
+            if parsed.block is not None and fault is not None:
+                self._warn(character, parsed.block.id, fault)
+            return
+        if parsed.block.composition is Composition.REPLACE:
+            self.interrupt_all(character, now)
+        block = self._new_block(parsed.block, character, now)
+        if parsed.failed:
+            self._end(block, BlockState.FAILED, now)
+            return
+        self._prepare(block, now)
+
+    def interrupt_all(self, character: str, now: GlobalTime) -> None:
+        """End every block of a character now."""
+        for block in self.blocks.of(character):
+            self._interrupt(block, now)
+
+    # --- what time brings
+
+    def advance(self, now: GlobalTime) -> bool:
+        """Start and end what is due, in order of time; whether anything was."""
+        ending = [block for block in self.blocks.alive if block.state.plays and not block.live_units]
+        for block in ending:
+            self._end(block, BlockState.DONE, block.end.value or now)
+        starting = [b for b in self.blocks.alive if b.state is BlockState.LURKING and is_due(b.start.value, now)]
+        for block in sorted(starting, key=lambda b: (b.start.value, b.arrival)):
+            self._start(block, now)
+        return bool(ending or starting)
+
+    def apply(self, play: Play, now: GlobalTime) -> bool:
+        """Do what an engine's playing asks for; whether anything changed."""
+        for dropped in play.dropped:
+            self._drop(dropped, now)
+        with self._board.graph.transaction("sync points reached"):
+            for reached in play.reached:
+                reached.point.peg.pin(reached.time)
+        for reached in play.reached:
+            self._report(reached)
+            self._subside(reached)
+        return bool(play.dropped or play.reached)
+
+    def clamp(self, previous: GlobalTime, now: GlobalTime, commits: Iterable[Commit]) -> None:
+        """Points ahead that were written into the past happen now; behaviors that lost their order are dropped."""
+        moved = {change.cell for commit in commits for change in commit.changes}
+        units = [u for b in self.blocks.alive for u in b.live_units if any(p.peg in moved for p in u.points)]
+        with self._board.graph.transaction("no later than now"):
+            for point in (point for unit in units for point in unit.ahead()):
+                time = point.peg.value
+                if point.peg in moved and time is not None and time < previous:
+                    point.peg.pin(now)
+        for unit in units:
+            if not unit.in_order() and all(point.fired is None for point in unit.points):
+                unit.drop(now)
+                self._drop(Dropped(unit, Fault("overtaken")), now)
+
+    def fail_restless(self, rounds: int, now: GlobalTime) -> None:
+        """Fail the blocks that keep a tick from coming to rest: those that play."""
+        for block in [block for block in self.blocks.alive if block.state.plays]:
+            self._warn(block.key.character, block.key.block, Fault("too-many-rounds", {"limit": rounds}))
+            self._leave(block.live_units, now)
+            self._end(block, BlockState.FAILED, now)
+
+    def publish(self, now: GlobalTime) -> None:
+        """Say predictions that have moved."""
+        if self._touched:
+            self._touched = False
+            for block in self.blocks.alive:
+                self._predictions.publish_moved(block, now)
+
+    def stuck(self) -> bool:
+        """Whether no block alive can move unless something new comes in."""
+        return all(block.state is not BlockState.IN_PREP and not _next_times(block) for block in self.blocks.alive)
+
+    def warn_stuck(self) -> None:
+        """Say of every block alive what it waits for."""
+        for block in self.blocks.alive:
+            waits = ", ".join(unknown_sources([block.start, block.end])) or "its activation"
+            self._warn(block.key.character, block.key.block, Fault("never-moves", {"waits": waits}))
+
+    # --- accepting
+
+    def _character(self, block: BehaviorBlock | None) -> str:
+        return (block and block.character) or self._cast.characters[0]
+
+    def _refusal(self, block: BehaviorBlock, character: str) -> Fault | None:
+        place = {"line": block.location.line, "column": block.location.column}
+        if character not in self._cast.characters:
+            known = ", ".join(self._cast.characters)
+            return Fault("unknown-character", {"character": character, "known": known}, **place)
+        if BlockKey(character, block.id) in self.blocks:
+            return Fault("duplicate-block", {"block": block.id}, **place)
+        if len(self.blocks.alive) >= self._limits.blocks_alive:
+            return Fault("too-many-blocks", {"limit": self._limits.blocks_alive}, **place)
+        return None
+
+    def _new_block(self, description: BehaviorBlock, character: str, now: GlobalTime) -> BMLBlock:
+        self._arrivals += 1
+        targets = self.blocks.of(character) if description.composition is Composition.APPEND else []
+        key = BlockKey(character, description.id)
+        block = BMLBlock(self._board, key, description, self._arrivals, now, targets)
+        self.blocks.add(block)
+        self._warn_of_attributes(block, description.id, description.extensions, description)
+        return block
+
+    def _warn_of_attributes(
+        self, block: BMLBlock, id_: str, extensions: Iterable[tuple[str, str]], at: BehaviorBlock | Behavior
+    ) -> None:
+        for namespace, name in extensions:
+            details = {"attribute": name, "namespace": namespace}
+            fault = Fault("foreign-attribute", details, at.location.line, at.location.column)
+            self._warn(block.key.character, id_, fault)
+
+    # --- planning
+
+    def _prepare(self, block: BMLBlock, now: GlobalTime) -> None:
+        engines: dict[str, tuple[Behavior, Engine]] = {}
+        losses: list[Loss] = []
+        for behavior in block.description.behaviors:
+            engine = self._cast.engine_for(block.key.character, behavior)
+            unknown = [name for name in behavior.extensions if engine is None or name not in engine.extensions]
+            self._warn_of_attributes(block, f"{block.key.block}:{behavior.id}", unknown, behavior)
+            if engine is None:
+                losses.append(_unsupported(behavior))
+            else:
+                engines[behavior.id] = (behavior, engine)
+        if self._lost(block, losses, now):
+            return
+        preparation = self._preparations[block] = Preparation(engines, self._workshop)
+        preparation.begin(lambda now: self._plan(block, now))
+        if preparation.complete:
+            self._plan(block, now)
+        else:
+            self._predictions.publish(block, now)
+
+    def _plan(self, block: BMLBlock, now: GlobalTime) -> None:
+        preparation = self._preparations.pop(block)
+        units, losses = self._units(block, preparation)
+        if self._lost(block, losses, now):
+            return
+        plan = self._planning.solve(block, list(units), now)
+        if self._lost(block, plan.losses, now):
+            return
+        self._planning.commit(block, plan, now)
+        self._hand_out(plan, units)
+        self._predictions.publish(block, now)
+
+    def _units(self, block: BMLBlock, preparation: Preparation) -> tuple[dict[PlanUnit, Engine], list[Loss]]:
+        units: dict[PlanUnit, Engine] = {}
+        losses: list[Loss] = []
+        for behavior, engine in preparation.engines.values():
+            try:
+                units[engine.plan(block.key, behavior, preparation.result(behavior.id))] = engine
+            except RealizerError as problem:
+                losses.append(_loss(behavior, problem.fault))
+        return units, losses
+
+    def _hand_out(self, plan: Plan, units: dict[PlanUnit, Engine]) -> None:
+        for unit in plan.units:
+            self._engines[unit] = units[unit]
+            units[unit].add(unit)
+
+    def _lost(self, block: BMLBlock, losses: Sequence[Loss], now: GlobalTime) -> bool:
+        """Warn of what was lost; whether the block fails by it."""
+        for loss in losses:
+            self._warn(block.key.character, ":".join(filter(None, (block.key.block, loss.behavior))), loss.fault)
+        if any(loss.required for loss in losses):
+            self._end(block, BlockState.FAILED, now)
+            return True
+        return False
+
+    # --- starting and ending
+
+    def _start(self, block: BMLBlock, now: GlobalTime) -> None:
+        time = block.start.value or GlobalTime(0.0)
+        with self._board.graph.transaction(f"start {block.key.block}"):
+            block.start.pin(time)
+        block.state = BlockState.IN_EXEC
+        for unit in block.units:
+            unit.release()
+        self._predictions.publish(block, now)
+        self._progress(block, "start", time, _BEFORE_ALL)
+
+    def _end(self, block: BMLBlock, state: BlockState, time: GlobalTime) -> None:
+        block.state = state
+        with self._board.graph.transaction(f"end {block.key.block}"):
+            block.end.pin(time)
+            # What was tied to a point that never came keeps the time predicted last.
+            self._board.pin_block(block.key)
+        self._progress(block, "end", time, _AFTER_ALL)
+        self._preparations.pop(block, None)
+        self._predictions.forget(block)
+        self._board.remove_block(block.key)
+        self.blocks.end(block, time)
+        for unit in block.units:
+            self._engines.pop(unit, None)
+        self.failed += state is BlockState.FAILED
+        logger.info("%s/%s %s at %.2f s, %d behaviors", *block.key, state.value, time, len(block.units))
+
+    def _interrupt(self, block: BMLBlock, now: GlobalTime) -> None:
+        if not block.state.plays:
+            if block in self._preparations:
+                self._preparations[block].cancel()
+            self._leave(block.units, now)
+            self._end(block, BlockState.REVOKED, now)
+            return
+        cut = False
+        for unit in block.live_units:
+            cut |= self._interrupt_unit(unit, now)
+        self._end(block, BlockState.INTERRUPTED if cut else BlockState.DONE, now if cut else block.end.value or now)
+
+    def _interrupt_unit(self, unit: PlanUnit, now: GlobalTime) -> bool:
+        """End a behavior now; whether anything of it was cut."""
+        if all(point.fired is None for point in unit.points):
+            self._leave_unit(unit, now)
+            return True
+        details = unit.end_details(now)
+        engine = self._engines[unit]
+        reached = [Reached(unit, point, point.fired or now) for point in unit.fire(now)]
+        cut = unit.live
+        if cut:
+            kept = [self._split(unit, point, now) for point in unit.interrupt(now)]
+            reached += [Reached(unit, p, now, details if p.id == "end" else {}) for p in kept]
+        engine.remove(unit)
+        self.apply(Play(tuple(reached)), now)
+        return cut
+
+    def _split(self, unit: PlanUnit, point: SyncPoint, now: GlobalTime) -> SyncPoint:
+        """Give a cut point a peg of its own: others that share the old one keep what was predicted last."""
+        with self._board.graph.transaction(f"cut {unit.key(point.id)}"):
+            point.peg = point.peg.apart(str(unit.key(point.id)), now)
+        return point
+
+    def _leave(self, units: Iterable[PlanUnit], now: GlobalTime) -> None:
+        for unit in list(units):
+            self._leave_unit(unit, now)
+
+    def _leave_unit(self, unit: PlanUnit, now: GlobalTime) -> None:
+        unit.drop(now)
+        self._engines[unit].remove(unit)
+
+    # --- playing
+
+    def _drop(self, dropped: Dropped, now: GlobalTime) -> None:
+        unit = dropped.unit
+        block = self.blocks.find(unit.block.character, unit.block.block)
+        self._warn(unit.block.character, f"{unit.block.block}:{unit.behavior.id}", dropped.fault)
+        if block is not None and unit in block.units:
+            block.units.remove(unit)
+            with self._board.graph.transaction(f"drop {unit.behavior.id}"):
+                block.end_again(now)
+        if unit in self._engines:
+            self._engines.pop(unit).remove(unit)
+
+    def _report(self, reached: Reached) -> None:
+        unit, time = reached.unit, reached.time
+        block = self.blocks.find(unit.block.character, unit.block.block)
+        if block is None or block.start.value is None:
+            return
+        local = BlockTime(time - block.start.value)
+        message = SyncPointProgress(*unit.block, unit.behavior.id, reached.point.id, local, time, reached.details)
+        order = unit.timing.points.index(reached.point.id)
+        self._feedback.progress(message, block.place(time, unit.behavior.order, order))
+
+    def _subside(self, reached: Reached) -> None:
+        block = self.blocks.find(*reached.unit.block)
+        if block is not None and block.state is BlockState.IN_EXEC and block.subsides():
+            block.state = BlockState.SUBSIDING
+
+    def _progress(self, block: BMLBlock, sync: str, time: GlobalTime, behavior: float) -> None:
+        message = BlockProgress(*block.key, sync, time, block.state.value)
+        self._feedback.progress(message, block.place(time, behavior))
+
+    def _warn(self, character: str, id_: str, fault: Fault) -> None:
+        if fault.kind.warning is not None:
+            known = None if id_ == BLOCK else character
+            self._feedback.say(WarningFeedback(known, id_, fault.kind.warning, str(fault)))
+        logger.warning("%s %s: %s", character, id_, fault)
+
+    def _note(self, commit: Commit) -> None:
+        self._touched = True
+
+
+def _next_times(block: BMLBlock) -> list[GlobalTime]:
+    """The known times that lie ahead of a block."""
+    if not block.state.plays:
+        return [] if block.start.value is None else [block.start.value]
+    return [time for unit in block.live_units for p in unit.ahead() if (time := p.peg.value) is not None]
+
+
+def _unsupported(behavior: Behavior) -> Loss:
+    core = behavior.namespace in (BML, BML_EXT)
+    details = {"element": behavior.name, "namespace": behavior.namespace}
+    return _loss(behavior, Fault("not-supported" if core else "foreign-not-supported", details))
+
+
+def _loss(behavior: Behavior, fault: Fault) -> Loss:
+    place = behavior.location
+    located = fault if fault.line else Fault(fault.code, fault.details, place.line, place.column)
+    return Loss(behavior.id, located, dropped=True, required=behavior.required)

@@ -1,0 +1,104 @@
+"""From what a block says about time to ties between points (thesis 7.1.1)."""
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
+
+from reactive_realizer.bml.behavior import Behavior
+from reactive_realizer.bml.block import BehaviorBlock
+from reactive_realizer.bml.constraint import Order, Synchronize
+from reactive_realizer.bml.sync_ref import SyncRef
+from reactive_realizer.errors import Fault, RealizerError, error
+from reactive_realizer.planunit.plan_unit import PlanUnit
+from reactive_realizer.scheduler.problem import Loss, Node, Point, Tie
+
+Locate = Callable[[SyncRef], Node]
+"""The point that a reference names, without its offset.
+
+Raises RealizerError: there is none.
+"""
+
+
+def drop_unplaceable(units: dict[str, PlanUnit], locate: Locate) -> list[Loss]:
+    """Take out the behaviors that hang on a point that can never come, and those that hang on them, and so on."""
+    losses: list[Loss] = []
+    while (lost := next(_unplaceable(units, locate), None)) is not None:
+        losses.append(lost)
+        del units[lost.behavior or ""]
+    return losses
+
+
+def ties_of(block: BehaviorBlock, units: Mapping[str, PlanUnit], locate: Locate) -> tuple[list[Tie], list[Loss]]:
+    """All `at` constraints between what is left of a block, and those constraints that name what is not there."""
+    ties = [tie for unit in units.values() for tie in _own_ties(unit.behavior, locate)]
+    losses: list[Loss] = []
+    for constraint in block.constraints:
+        if isinstance(constraint, Synchronize):
+            try:
+                ties += _synchronized(constraint, locate)
+            except RealizerError as problem:
+                fault = _located(problem.fault, constraint)
+                losses.append(Loss(None, fault, dropped=False, required=constraint.required))
+    return ties, losses
+
+
+def orders_of(block: BehaviorBlock, strategy: str) -> list[Loss]:
+    """The before/after constraints of a block, as lost by a strategy that keeps none."""
+    return [
+        Loss(
+            None,
+            Fault("no-order", {"strategy": strategy, "text": _order_text(order)}, *_place(order)),
+            dropped=False,
+            required=order.required,
+        )
+        for order in block.constraints
+        if isinstance(order, Order)
+    ]
+
+
+def _unplaceable(units: Mapping[str, PlanUnit], locate: Locate) -> Iterator[Loss]:
+    for unit in units.values():
+        behavior = unit.behavior
+        for sync, ref in behavior.syncs.items():
+            try:
+                locate(ref)
+                _own_point(unit, sync, ref)
+            except RealizerError as problem:
+                fault = _located(problem.fault, behavior)
+                yield Loss(behavior.id, fault, dropped=True, required=behavior.required)
+
+
+def _own_point(unit: PlanUnit, sync: str, ref: SyncRef) -> None:
+    known = unit.timing.points
+    if sync not in known:
+        raise error("unknown-sync", behavior=unit.behavior.id, sync=sync, reference=str(ref), known=", ".join(known))
+
+
+def _own_ties(behavior: Behavior, locate: Locate) -> list[Tie]:
+    return [
+        Tie(
+            Point(behavior.id, sync), locate(ref), ref.offset, behavior.id, f"{behavior.id}:{sync} = {ref}",
+            behavior.required,
+        )
+        for sync, ref in behavior.syncs.items()
+    ]  # fmt: skip
+
+
+def _synchronized(constraint: Synchronize, locate: Locate) -> list[Tie]:
+    first, *others = constraint.refs
+    pivot = locate(first)
+    return [
+        Tie(locate(ref), pivot, first.offset - ref.offset, None, f"{ref} = {first}", constraint.required)
+        for ref in others
+    ]
+
+
+def _located(fault: Fault, element: Behavior | Synchronize) -> Fault:
+    return replace(fault, line=element.location.line, column=element.location.column)
+
+
+def _place(order: Order) -> tuple[int, int]:
+    return order.location.line, order.location.column
+
+
+def _order_text(order: Order) -> str:
+    return f"{', '.join(str(ref) for ref in order.refs)} {order.kind} {order.ref}"

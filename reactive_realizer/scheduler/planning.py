@@ -1,0 +1,165 @@
+"""From a prepared block to a plan on the board: solved aside, committed in one transaction or not at all."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from reactive_realizer.bml.names import ANTICIPATORS
+from reactive_realizer.bml.sync_ref import SyncRef
+from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.errors import error
+from reactive_realizer.pegboard.peg_key import PegKey
+from reactive_realizer.pegboard.pegboard import PegBoard
+from reactive_realizer.pegboard.time_peg import OffsetPeg, RatioPeg, TimeCell, TimePeg
+from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
+from reactive_realizer.scheduler.blocks import Blocks
+from reactive_realizer.scheduler.bml_block import BMLBlock
+from reactive_realizer.scheduler.constraints import drop_unplaceable, orders_of, ties_of
+from reactive_realizer.scheduler.problem import (
+    AtBlock,
+    AtOffset,
+    AtRatio,
+    Item,
+    Loss,
+    Node,
+    Origin,
+    PegSpec,
+    Point,
+    Problem,
+    Tie,
+)
+from reactive_realizer.scheduler.strategy import SchedulingStrategy
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """A solved block; nothing of it is on the board yet."""
+
+    units: tuple[PlanUnit, ...]
+    pegs: Mapping[str, Mapping[str, PegSpec]]
+    losses: tuple[Loss, ...]
+
+    @property
+    def fails(self) -> bool:
+        """Whether something required was lost, so that the block fails whole."""
+        return any(loss.required for loss in self.losses)
+
+
+class Planning:
+    """Solves blocks with a strategy and commits what comes out."""
+
+    def __init__(self, board: PegBoard, blocks: Blocks, strategy: SchedulingStrategy) -> None:
+        self._board = board
+        self._blocks = blocks
+        self._strategy = strategy
+
+    def solve(self, block: BMLBlock, units: Sequence[PlanUnit], now: GlobalTime) -> Plan:
+        """A plan for the units of a block that would be ready to start now; the board stays as it is."""
+        kept = {unit.behavior.id: unit for unit in units}
+        names = _Names(block, kept, self._board, self._blocks)
+        losses = drop_unplaceable(kept, names.locate)
+        ties, lost_ties = ties_of(block.description, kept, names.locate)
+        losses += lost_ties
+        if not self._strategy.keeps_order:
+            losses += orders_of(block.description, self._strategy.name)
+        start = max(now, block.start.value or now)
+        items = tuple(Item(unit.behavior, unit.timing) for unit in kept.values())
+        solution = self._strategy.solve(Problem(items, tuple(ties), _outer_times(ties, start)))
+        planned = tuple(unit for unit in units if unit.behavior.id in solution.pegs)
+        return Plan(planned, solution.pegs, (*losses, *solution.losses))
+
+    def commit(self, block: BMLBlock, plan: Plan, now: GlobalTime) -> None:
+        """Put a plan on the board: all of it, in one transaction."""
+        with self._board.graph.transaction(f"plan {block.key.block}"):
+            builder = _PegBuilder(self._board, block)
+            for unit in plan.units:
+                specs = plan.pegs[unit.behavior.id]
+                unit.points = [SyncPoint(sync, builder.build(spec, unit.key(sync))) for sync, spec in specs.items()]
+            block.planned(now, plan.units)
+
+
+class _Names:
+    """What the references of one block name."""
+
+    def __init__(self, block: BMLBlock, units: Mapping[str, PlanUnit], board: PegBoard, blocks: Blocks) -> None:
+        self._block = block
+        self._units = units
+        self._board = board
+        self._blocks = blocks
+
+    def locate(self, ref: SyncRef) -> Node:
+        """The point that a reference names, without its offset.
+
+        Raises:
+            RealizerError: there is none.
+        """
+        if ref.block == ANTICIPATORS and ref.behavior is not None and ref.sync is not None:
+            return self._board.predicted(ref.behavior, ref.sync)
+        if ref.block not in (None, self._block.key.block):
+            return self._outside(ref)
+        if ref.behavior is None or ref.sync is None:
+            return Origin.BLOCK_START
+        unit = self._units.get(ref.behavior)
+        if unit is None:
+            raise error("unknown-reference", behavior=ref.behavior, reference=str(ref), known=_list(self._units))
+        if ref.sync not in unit.timing.points:
+            raise _no_sync(ref, unit.timing.points)
+        return Point(ref.behavior, ref.sync)
+
+    def _outside(self, ref: SyncRef) -> TimeCell:
+        """A peg of another block."""
+        other = self._blocks.find(self._block.key.character, ref.block or "")
+        if other is None:
+            raise error("unknown-block", block=ref.block, reference=str(ref))
+        if ref.behavior is None or ref.sync is None:
+            return other.start
+        peg = self._board.get(PegKey(*other.key, ref.behavior, ref.sync))
+        if peg is None:
+            units = {unit.behavior.id: unit for unit in other.units}
+            if ref.behavior in units:
+                raise _no_sync(ref, units[ref.behavior].timing.points)
+            raise error("unknown-reference", behavior=ref.behavior, reference=str(ref), known=_list(units))
+        return peg
+
+
+class _PegBuilder:
+    """Makes the pegs of a plan; what shares a description shares a peg."""
+
+    def __init__(self, board: PegBoard, block: BMLBlock) -> None:
+        self._board = board
+        self._block = block
+        self._built: dict[PegSpec, TimePeg] = {}
+
+    def build(self, spec: PegSpec, key: PegKey) -> TimePeg:
+        """The peg of a sync point, named on the board."""
+        peg = self._peg(spec, str(key))
+        self._board.add(key, peg)
+        return peg
+
+    def _peg(self, spec: PegSpec, name: str) -> TimePeg:
+        if spec not in self._built:
+            self._built[spec] = self._make(spec, name)
+        return self._built[spec]
+
+    def _make(self, spec: PegSpec, name: str) -> TimePeg:
+        graph = self._board.graph
+        match spec:
+            case AtBlock(anchor, offset):
+                return OffsetPeg(graph, name, self._block.start, anchor.time + offset)
+            case AtOffset(link, offset):
+                cell = self._peg(link, name) if isinstance(link, AtBlock | AtOffset | AtRatio) else link
+                return OffsetPeg(graph, name, cell, offset)
+            case AtRatio(before, after, ratio):
+                return RatioPeg(graph, name, self._peg(before, name), self._peg(after, name), ratio)
+
+
+def _outer_times(ties: Sequence[Tie], start: GlobalTime) -> dict[TimeCell, float | None]:
+    cells = (node for tie in ties for node in (tie.left, tie.right) if not isinstance(node, Point | Origin))
+    return {cell: None if cell.value is None else cell.value - start for cell in cells}
+
+
+def _no_sync(ref: SyncRef, known: Sequence[str]) -> Exception:
+    return error("unknown-sync", behavior=ref.behavior, sync=ref.sync, reference=str(ref), known=", ".join(known))
+
+
+def _list(units: Mapping[str, PlanUnit]) -> str:
+    return ", ".join(units) or "none"

@@ -1,0 +1,71 @@
+"""What is predicted of each block, and whether it is worth saying again."""
+
+from collections.abc import Mapping
+
+from reactive_realizer.clock.units import BlockTime, GlobalTime
+from reactive_realizer.feedback.feedback_manager import FeedbackManager
+from reactive_realizer.feedback.messages import BehaviorPrediction, PredictionFeedback
+from reactive_realizer.pegboard.time_peg import Time
+from reactive_realizer.planunit.plan_unit import PlanUnit
+from reactive_realizer.scheduler.bml_block import BMLBlock
+
+_WORTH_SAYING = 1e-3
+"""Seconds by which a published time must have moved."""
+
+_Times = Mapping[tuple[str, str], Time]
+
+
+class Predictions:
+    """Publishes predictionFeedback: when asked to, and when a published time has moved; at most once a block a tick."""
+
+    def __init__(self, feedback: FeedbackManager) -> None:
+        self._feedback = feedback
+        self._published: dict[BMLBlock, _Times] = {}
+        self._said_at: dict[BMLBlock, GlobalTime] = {}
+
+    def publish(self, block: BMLBlock, now: GlobalTime) -> None:
+        """Say what is predicted, unless this tick has said it."""
+        if self._said_at.get(block) != now:
+            self._said_at[block] = now
+            self._published[block] = _times(block)
+            self._feedback.say(_prediction(block, now))
+
+    def publish_moved(self, block: BMLBlock, now: GlobalTime) -> None:
+        """Say what is predicted if that is not what was said last."""
+        if _moved(self._published.get(block, {}), _times(block)):
+            self.publish(block, now)
+
+    def forget(self, block: BMLBlock) -> None:
+        """The block has ended."""
+        self._published.pop(block, None)
+        self._said_at.pop(block, None)
+
+
+def _times(block: BMLBlock) -> _Times:
+    times: dict[tuple[str, str], Time] = {("", "start"): block.start.value, ("", "end"): block.end.value}
+    for unit in block.units:
+        times |= {(unit.behavior.id, point.id): unit.time(point.id) for point in unit.points}
+    return times
+
+
+def _moved(old: _Times, new: _Times) -> bool:
+    return any(_differ(time, new.get(key)) for key, time in old.items()) or any(key not in old for key in new)
+
+
+def _differ(old: Time, new: Time) -> bool:
+    if old is None or new is None:
+        return old is not new
+    return abs(old - new) > _WORTH_SAYING
+
+
+def _prediction(block: BMLBlock, now: GlobalTime) -> PredictionFeedback:
+    start = now if block.start.value is None else block.start.value
+    ends = [time for unit in block.units for p in unit.points if (time := unit.time(p.id)) is not None]
+    end = block.end.value if block.end.value is not None else max([start, *ends])
+    behaviors = tuple(BehaviorPrediction(unit.behavior, _local(unit, start)) for unit in block.units)
+    return PredictionFeedback(block.key.character, block.key.block, start, end, block.state.value, behaviors)
+
+
+def _local(unit: PlanUnit, start: GlobalTime) -> dict[str, BlockTime]:
+    times = {point.id: unit.time(point.id) for point in unit.points}
+    return {sync: BlockTime(time - start) for sync, time in times.items() if time is not None}

@@ -1,0 +1,124 @@
+"""What a strategy gets and gives: a block as points, ties and preferences; a plan as descriptions of pegs."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import Enum
+from typing import NamedTuple
+
+from reactive_realizer.bml.behavior import Behavior
+from reactive_realizer.errors import Fault
+from reactive_realizer.pegboard.time_peg import TimeCell
+from reactive_realizer.planunit.timing import Timing
+
+
+class Point(NamedTuple):
+    """A sync point of a behavior of the block."""
+
+    behavior: str
+    sync: str
+
+
+class Origin(Enum):
+    """The start of the block, as a point to tie others to."""
+
+    BLOCK_START = "block start"
+
+
+Node = Point | Origin | TimeCell
+"""A point of the block, its start, or a peg of the outside: of another block or an anticipator."""
+
+
+@dataclass(frozen=True, slots=True)
+class Item:
+    """A behavior to be timed."""
+
+    behavior: Behavior
+    timing: Timing
+
+
+@dataclass(frozen=True, slots=True)
+class Tie:
+    """An `at` constraint: ``left = right + offset``.
+
+    Attributes:
+        owner: id of the behavior that names it, None for a constraint of the block.
+        text: as a person would write it.
+        required: whether the block fails without it.
+    """
+
+    left: Node
+    right: Node
+    offset: float
+    owner: str | None
+    text: str
+    required: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Problem:
+    """A block to be timed; ``times`` are those of the outer pegs after the predicted block start (s), None unknown."""
+
+    items: tuple[Item, ...]
+    ties: tuple[Tie, ...]
+    times: Mapping[TimeCell, float | None]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class AtBlock:
+    """A time (s) after the start of the block."""
+
+    anchor: "Anchor"
+    offset: float
+
+
+@dataclass(slots=True, eq=False)
+class Anchor:
+    """Where a cluster stands in its block (s); free ones are moved as a whole."""
+
+    time: float = 0.0
+    free: bool = False
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class AtOffset:
+    """A distance (s) from another peg."""
+
+    link: "PegSpec | TimeCell"
+    offset: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class AtRatio:
+    """A fraction of the way between two others."""
+
+    before: "PegSpec"
+    after: "PegSpec"
+    ratio: float
+
+
+PegSpec = AtBlock | AtOffset | AtRatio
+"""A peg to be made when the plan is committed; points that share a spec share a peg."""
+
+
+@dataclass(frozen=True, slots=True)
+class Loss:
+    """A behavior (or, with ``behavior`` None, a constraint of the block) that could not be kept, and why.
+
+    Attributes:
+        behavior: its id.
+        dropped: whether the behavior itself is lost, or only a constraint of it.
+        required: whether the block fails by it.
+    """
+
+    behavior: str | None
+    fault: Fault
+    dropped: bool
+    required: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Solution:
+    """A plan: the pegs of each behavior that is kept, point by point."""
+
+    pegs: Mapping[str, Mapping[str, PegSpec]]
+    losses: tuple[Loss, ...]

@@ -1,0 +1,250 @@
+"""SmartBody's scheduling with Elckerlyc's sorting (thesis 7.2.2, 7.3.5)."""
+
+import itertools
+from collections.abc import Iterable, Mapping
+from typing import NamedTuple
+
+from reactive_realizer.errors import Fault, RealizerError, error
+from reactive_realizer.scheduler.equalities import Equalities
+from reactive_realizer.scheduler.problem import (
+    Anchor,
+    AtBlock,
+    AtOffset,
+    AtRatio,
+    Item,
+    Loss,
+    Node,
+    Origin,
+    PegSpec,
+    Point,
+    Problem,
+    Solution,
+    Tie,
+)
+from reactive_realizer.scheduler.sorting import sort_items
+from reactive_realizer.scheduler.stretch import average_stretch, ratio_between
+
+_SAME = 1e-3
+"""Times closer than this (s) are no contradiction for a rigid behavior."""
+
+_SHORTEST = 1e-5
+"""A behavior shorter than a thousandth of a tick (s) cannot be played."""
+
+
+class Placed(NamedTuple):
+    """A peg; its time (s) after the predicted block start, as far as it is known; the anchor it hangs on, if any.
+
+    What hangs on no anchor hangs on the outside: another block's point or an anticipator's.
+    """
+
+    spec: PegSpec
+    time: float | None
+    anchor: Anchor | None
+
+
+class SmartBodyStrategy:
+    """Behaviors one by one, each tied to those already placed; at last free clusters are moved to the block start.
+
+    It keeps no before/after constraints, and what it can place depends on the order of the behaviors (thesis 7.1.6):
+    it is the reference that better strategies are measured by.
+    """
+
+    name = "smartbody"
+    keeps_order = False
+
+    def solve(self, problem: Problem) -> Solution:
+        """See `SchedulingStrategy`."""
+        return _Run(problem).solve()
+
+
+class _Run:
+    """The work on one problem."""
+
+    def __init__(self, problem: Problem) -> None:
+        self._problem = problem
+        self._ties = Equalities[Node](frozenset([Origin.BLOCK_START, *problem.times]))
+        start = Anchor()
+        self._start = Placed(AtBlock(start, 0.0), 0.0, start)
+        self._classes: dict[Node, tuple[Placed, float]] = {Origin.BLOCK_START: (self._start, 0.0)}
+        self._shared: dict[tuple[Node, float], Placed] = {}
+        self._clusters: dict[Anchor, list[Anchor]] = {}
+        self._placed: dict[str, list[Placed]] = {}
+        self._losses: list[Loss] = []
+
+    def solve(self) -> Solution:
+        for tie in self._problem.ties:
+            self._tie(tie)
+        for item in sort_items(self._problem, self._ties):
+            try:
+                self._place(item)
+            except RealizerError as problem:
+                self._lose(item, problem.fault)
+        self._normalize()
+        return Solution({item.behavior.id: self._pegs(item) for item in self._kept()}, tuple(self._losses))
+
+    def _tie(self, tie: Tie) -> None:
+        gap = self._ties.tie(tie.left, tie.right, tie.offset)
+        if gap is not None:
+            fault = Fault("contradictory-tie", {"tie": tie.text, "gap": abs(gap)})
+            self._losses.append(Loss(tie.owner, fault, dropped=False, required=tie.required))
+
+    def _place(self, item: Item) -> None:
+        """Find the peg of every point; those of earlier behaviors stand."""
+        known = self._known(item) or self._anchor(item)
+        if item.timing.rigid:
+            known = self._one_of(item, known)
+        known = self._not_before_the_block(item, known)
+        placed = _fill(item, known)
+        _check(item, placed)
+        self._join([point.anchor for point in known.values()])
+        self._accept(item, placed)
+
+    def _known(self, item: Item) -> dict[int, Placed]:
+        """The points whose class has a peg already, by index."""
+        nodes = (Point(item.behavior.id, sync) for sync in item.timing.points)
+        found = ((i, self._at(*self._ties.find(node))) for i, node in enumerate(nodes))
+        return {i: placed for i, placed in found if placed is not None}
+
+    def _at(self, root: Node, distance: float) -> Placed | None:
+        """The peg of all points at a distance from the root of their class."""
+        key = (root, round(distance, 9))
+        if key not in self._shared:
+            if root in self._classes:
+                placed, at = self._classes[root]
+                self._shared[key] = _moved(placed, distance - at)
+            elif not isinstance(root, Point | Origin):
+                time = self._problem.times[root]
+                self._shared[key] = Placed(AtOffset(root, distance), None if time is None else time + distance, None)
+        return self._shared.get(key)
+
+    def _anchor(self, item: Item) -> dict[int, Placed]:
+        """A behavior that hangs on nothing yet gets a free cluster, anchored at its first tied point or its start."""
+        nodes = [Point(item.behavior.id, sync) for sync in item.timing.points]
+        index = next((i for i, node in enumerate(nodes) if self._ties.tied(node)), 0)
+        anchor = Anchor(item.timing.offsets[index], free=True)
+        self._clusters[anchor] = [anchor]
+        return {index: Placed(AtBlock(anchor, 0.0), anchor.time, anchor)}
+
+    def _one_of(self, item: Item, known: Mapping[int, Placed]) -> dict[int, Placed]:
+        """One point places a rigid behavior; a tie of another point that it cannot meet is lost: rigid wins."""
+        first = min(known)
+        for i, gap in _gaps(item, known, first).items():
+            if abs(gap) > _SAME:
+                fault = Fault("rigid", {"point": f"{item.behavior.id}:{item.timing.points[i]}", "gap": abs(gap)})
+                self._lose(item, fault, dropped=False)
+        return {first: known[first]}
+
+    def _not_before_the_block(self, item: Item, known: dict[int, Placed]) -> dict[int, Placed]:
+        """A start before its block (thesis 7.13) is tied to the block's: the way to the first given point shortens.
+
+        That binds neither free clusters, which are moved later, nor what hangs on an outer time that has passed.
+        """
+        first = min(known)
+        given = known[first]
+        start = _fill(item, known)[0].time
+        if start is None or given.time is None or start >= -_SHORTEST:
+            return known
+        if given.anchor.free if given.anchor else given.time < 0:
+            return known
+        if first == 0 or item.timing.rigid or given.time <= 0:
+            raise error("before-block", early=-start)
+        return {0: self._start, **known}
+
+    def _join(self, anchors: Iterable[Anchor | None]) -> None:
+        """Clusters that a behavior ties together stay together; tied to something fixed they are free no more."""
+        joined = [a for a in dict.fromkeys(anchors) if a is not None and a.free]
+        fixed = len(joined) < len(dict.fromkeys(anchors))
+        cluster = [member for anchor in joined for member in self._clusters[anchor]]
+        for anchor in cluster:
+            anchor.free = not fixed
+            self._clusters[anchor] = cluster
+
+    def _accept(self, item: Item, placed: list[Placed]) -> None:
+        self._placed[item.behavior.id] = placed
+        for sync, point in zip(item.timing.points, placed, strict=True):
+            root, distance = self._ties.find(Point(item.behavior.id, sync))
+            if isinstance(root, Point):
+                self._classes.setdefault(root, (point, distance))
+                self._shared.setdefault((root, round(distance, 9)), point)
+
+    def _normalize(self) -> None:
+        """Move every free cluster so that it starts with the block (thesis 7.24)."""
+        earliest: dict[int, float] = {}
+        for placed in self._placed.values():
+            for point in placed:
+                if point.anchor is not None and point.anchor.free and point.time is not None:
+                    cluster = id(self._clusters[point.anchor])
+                    earliest[cluster] = min(earliest.get(cluster, point.time), point.time)
+        for anchor, members in self._clusters.items():
+            if anchor.free:
+                anchor.time -= earliest.get(id(members), 0.0)
+        for item in self._kept():
+            start = self._placed[item.behavior.id][0]
+            # A later behavior may have tied a cluster to something fixed while it lay before the block.
+            if start.time is not None and start.anchor and not start.anchor.free and start.time < -_SHORTEST:
+                del self._placed[item.behavior.id]
+                self._lose(item, Fault("before-block", {"early": -start.time}))
+
+    def _lose(self, item: Item, fault: Fault, *, dropped: bool = True) -> None:
+        self._losses.append(Loss(item.behavior.id, fault, dropped=dropped, required=item.behavior.required))
+
+    def _kept(self) -> list[Item]:
+        return [item for item in self._problem.items if item.behavior.id in self._placed]
+
+    def _pegs(self, item: Item) -> dict[str, PegSpec]:
+        placed = self._placed[item.behavior.id]
+        return {sync: point.spec for sync, point in zip(item.timing.points, placed, strict=True)}
+
+
+def _fill(item: Item, known: Mapping[int, Placed]) -> list[Placed]:
+    """All points from the known ones: a ratio between two of them, else at a distance from the nearest."""
+    offsets = item.timing.offsets
+    stretch = average_stretch(offsets, {i: p.time for i, p in known.items() if p.time is not None})
+    placed = []
+    for i in range(len(offsets)):
+        before = max((k for k in known if k <= i), default=None)
+        after = min((k for k in known if k >= i), default=None)
+        if before is not None and after is not None:
+            ratio = ratio_between(offsets, before, i, after)
+            placed.append(known[i] if i in known else _between(known[before], known[after], ratio))
+        else:
+            nearest = before if before is not None else min(known)
+            placed.append(_moved(known[nearest], (offsets[i] - offsets[nearest]) * stretch))
+    return placed
+
+
+def _moved(placed: Placed, distance: float) -> Placed:
+    if distance == 0:
+        return placed
+    time = None if placed.time is None else placed.time + distance
+    return Placed(AtOffset(placed.spec, distance), time, placed.anchor)
+
+
+def _between(before: Placed, after: Placed, ratio: float) -> Placed:
+    known = before.time is not None and after.time is not None
+    time = before.time + ratio * (after.time - before.time) if known else None  # type: ignore[operator]
+    return Placed(AtRatio(before.spec, after.spec, ratio), time, before.anchor)
+
+
+def _gaps(item: Item, known: Mapping[int, Placed], first: int) -> dict[int, float]:
+    """By how much (s) a rigid behavior placed by its first known point misses the others."""
+    offsets, given = item.timing.offsets, known[first].time
+    return {
+        i: placed.time - given - (offsets[i] - offsets[first])
+        for i, placed in known.items()
+        if placed.time is not None and given is not None
+    }
+
+
+def _check(item: Item, placed: list[Placed]) -> None:
+    """Refuse what cannot be played (thesis 7.14, 7.15).
+
+    Raises:
+        RealizerError: points out of order, or no time at all between start and end.
+    """
+    known = [(sync, p.time) for sync, p in zip(item.timing.points, placed, strict=True) if p.time is not None]
+    for (sync, time), (later, then) in itertools.pairwise(known):
+        if then < time - _SHORTEST:
+            raise error("out-of-order", sync=sync, later=later, gap=time - then)
+    if len(known) == len(placed) and known[-1][1] - known[0][1] < _SHORTEST:
+        raise error("too-short")
