@@ -1,0 +1,98 @@
+"""The engine of body animation (thesis 8.7): gestures, head movements, gaze, and idle life."""
+
+from collections.abc import Mapping
+from random import Random
+
+from reactive_realizer.bml.behavior import Behavior
+from reactive_realizer.bml.behaviors import Gaze, GazeShift, Gesture, Head
+from reactive_realizer.clock.ticker import Tick
+from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.humanoid import Eyes
+from reactive_realizer.embodiment.pose import Layer, LayerKind
+from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, slerp
+from reactive_realizer.engine.context import EngineContext
+from reactive_realizer.engine.engine import DefaultEngine
+from reactive_realizer.engines.animation.animation_unit import AnimationUnit
+from reactive_realizer.engines.animation.gaze_motion_unit import GazeMotionUnit
+from reactive_realizer.engines.animation.idle import Idle
+from reactive_realizer.engines.animation.motion_library import MotionLibrary
+from reactive_realizer.engines.animation.release import Release
+from reactive_realizer.engines.animation.rest_pose import REST_POSE
+from reactive_realizer.pegboard.peg_key import BlockKey
+
+GAZE = "direction of the head"
+
+
+class AnimationEngine(DefaultEngine):
+    """Turns the joints of one figure."""
+
+    def __init__(self, context: EngineContext) -> None:
+        super().__init__(f"{context.character}/animation")
+        self._humanoid = context.humanoid
+        self._library = MotionLibrary(context)
+        self._idle = Idle(Random(context.seed))
+        self._releases: list[Release] = []
+        self.extensions = self._library.extensions
+
+    def supports(self, behavior: Behavior) -> bool:
+        """Gestures, head movements and gaze, but not what lasts."""
+        return isinstance(behavior, Gesture | Head | Gaze) and not isinstance(behavior, GazeShift)
+
+    def plan(self, block: BlockKey, behavior: Behavior, prepared: object) -> AnimationUnit:
+        """The motion that the binding has for the behavior.
+
+        Raises:
+            RealizerError: it has none, or the target is not there.
+        """
+        motion = self._library.motion(behavior)
+        kind, resources = _place(behavior, motion.joints)
+        return AnimationUnit(block, behavior, motion, kind, resources, lambda: self._humanoid.body, self._release)
+
+    def layers(self, tick: Tick) -> tuple[Layer, ...]:
+        """Rest pose and idle life, what is on its way back, what plays."""
+        self._releases = [release for release in self._releases if not release.over(tick.time)]
+        return (
+            Layer(LayerKind.BASE, REST_POSE),
+            Layer(LayerKind.ADDITIVE, self._idle.rotations(tick.time)),
+            *(release.at(tick.time) for release in self._releases),
+            *(unit.layer(tick.time) for unit in self._units()),
+        )
+
+    def face(self, tick: Tick) -> Mapping[str, float]:
+        """Blinks."""
+        return self._idle.weights(tick.time)
+
+    def eyes(self, tick: Tick) -> Eyes | None:
+        """The eyes of the gaze that plays; straight ahead without one."""
+        gazing = [unit for unit in self._units() if isinstance(unit.motion, GazeMotionUnit)]
+        return _eyes_of(gazing[-1]) if gazing else None
+
+    def _units(self) -> list[AnimationUnit]:
+        return [unit for unit in self.player.playing if isinstance(unit, AnimationUnit)]
+
+    def _release(self, unit: AnimationUnit, time: GlobalTime) -> None:
+        if unit.shown.rotations:
+            self._releases.append(Release(unit.shown, time))
+
+
+def _place(behavior: Behavior, joints: frozenset[str]) -> tuple[LayerKind, frozenset[str]]:
+    """Where a motion lies, and what it owns: nodding adds to whatever the head does and owns nothing."""
+    if isinstance(behavior, Gaze):
+        return LayerKind.GAZE, frozenset({GAZE})
+    if isinstance(behavior, Head):
+        return LayerKind.ADDITIVE, frozenset()
+    arms = {"l": "left arm", "r": "right arm"}
+    return LayerKind.GESTURE, frozenset(arms[joint[0]] for joint in joints if joint[:2] in ("l_", "r_"))
+
+
+def _eyes_of(unit: AnimationUnit) -> Eyes:
+    motion = unit.motion
+    if not isinstance(motion, GazeMotionUnit):
+        raise TypeError(motion)
+
+    def eyes(composed: Body) -> dict[str, Quat]:
+        layer = motion.eye_layer(unit.phase, composed)
+        return {joint: slerp(IDENTITY, rotation, layer.weight) for joint, rotation in layer.rotations.items()}
+
+    return eyes

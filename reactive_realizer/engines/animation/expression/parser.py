@@ -1,0 +1,150 @@
+"""From the text of a formula to its tree (V. Pratt, "Top down operator precedence", 1973)."""
+
+import re
+from dataclasses import dataclass
+from typing import NoReturn
+
+from reactive_realizer.engines.animation.expression.functions import CONSTANTS, FUNCTIONS
+from reactive_realizer.engines.animation.expression.nodes import (
+    Call,
+    Choice,
+    Negation,
+    Node,
+    Number,
+    Operation,
+    Variable,
+)
+from reactive_realizer.errors import error
+
+LONGEST = 20_000
+"""Characters in one formula; the longest of 96 published animations has 700."""
+
+DEEPEST = 80
+"""Nesting of one formula. Python's own parser, which compiles it in the end, gives up at 200 parentheses."""
+
+_TOKEN = re.compile(
+    r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)|(?P<name>[A-Za-z_]\w*)|(?P<sign><=|>=|==|!=|[-+*/^(),<>]))",
+    re.ASCII,
+)
+# How tightly an operator holds its operands. A minus sign holds less tightly than a power: -t^2 is -(t^2).
+_BINDING = {"==": 1, "!=": 1, "<": 2, ">": 2, "<=": 2, ">=": 2, "+": 3, "-": 3, "*": 4, "/": 4, "^": 6}
+_SIGN = 5
+_END = ""
+
+
+@dataclass(frozen=True, slots=True)
+class _Token:
+    """One word of a formula; the end is an empty one."""
+
+    text: str
+    kind: str | None
+    at: int
+
+
+def parse(text: str) -> Node:
+    """The tree of a formula; names that are neither a function nor a constant are variables.
+
+    Raises:
+        RealizerError: "bad-expression", with the place and what is wrong there.
+    """
+    return _Parser(text).whole()
+
+
+class _Parser:
+    def __init__(self, text: str) -> None:
+        self._text = text
+        if len(text) > LONGEST:
+            self._fail(f"more than {LONGEST} characters", LONGEST)
+        self._token = self._read(0)
+
+    def whole(self) -> Node:
+        node, _ = self._expression(0, 0)
+        if self._token.text != _END:
+            self._fail(f"'{self._token.text}' where an operator should be", self._token.at)
+        return node
+
+    def _expression(self, binding: int, depth: int) -> tuple[Node, int]:
+        """A formula that holds together at least as tightly as a binding, and its height."""
+        if depth > DEEPEST:
+            self._fail(f"nested deeper than {DEEPEST}", self._token.at)
+        left, height = self._operand(depth)
+        while _BINDING.get(self._token.text, 0) > binding:
+            operator = self._take()
+            # A power groups from the right: 2^3^2 is 2^9.
+            holds = _BINDING[operator.text] - (operator.text == "^")
+            right, other = self._expression(holds, depth + 1)
+            left, height = Operation(operator.text, left, right), 1 + max(height, other)
+            if depth + height > DEEPEST:
+                self._fail(f"nested deeper than {DEEPEST}", operator.at)
+        return left, height
+
+    def _operand(self, depth: int) -> tuple[Node, int]:
+        token = self._take()
+        if token.kind == "number":
+            return Number(float(token.text)), 0
+        if token.kind == "name":
+            return self._name(token, depth)
+        if token.text == "(":
+            inside = self._expression(0, depth + 1)
+            self._expect(")")
+            return inside
+        if token.text in ("+", "-"):
+            operand, height = self._expression(_SIGN, depth + 1)
+            return (operand, height) if token.text == "+" else (Negation(operand), height + 1)
+        self._fail(
+            f"'{token.text}' where a number or a name should be" if token.text else "it ends too early", token.at
+        )
+
+    def _name(self, token: _Token, depth: int) -> tuple[Node, int]:
+        if self._token.text != "(":
+            if token.text in CONSTANTS:
+                return Number(CONSTANTS[token.text]), 0
+            return Variable(token.text), 0
+        arguments, height = self._arguments(depth)
+        if token.text == "if":
+            if len(arguments) != 3:
+                self._fail("if takes 3 arguments, a condition and two values", token.at)
+            return Choice(*arguments), height + 1
+        function = FUNCTIONS.get(token.text)
+        if function is None:
+            self._fail(f"unknown function '{token.text}'; known are if, {', '.join(sorted(FUNCTIONS))}", token.at)
+        if not function.accepts(len(arguments)):
+            self._fail(f"{token.text} takes {function.takes}, not {len(arguments)}", token.at)
+        return Call(token.text, tuple(arguments)), height + 1
+
+    def _arguments(self, depth: int) -> tuple[list[Node], int]:
+        self._expect("(")
+        arguments, highest = [], 0
+        while True:
+            node, height = self._expression(0, depth + 1)
+            arguments.append(node)
+            highest = max(highest, height)
+            if self._token.text != ",":
+                break
+            self._take()
+        self._expect(")")
+        return arguments, highest
+
+    def _expect(self, sign: str) -> None:
+        if self._token.text != sign:
+            self._fail(f"'{sign}' is missing", self._token.at)
+        self._take()
+
+    def _take(self) -> _Token:
+        token = self._token
+        self._token = self._read(token.at + len(token.text))
+        return token
+
+    def _read(self, at: int) -> _Token:
+        found = _TOKEN.match(self._text, at)
+        if found is not None:
+            kind = found.lastgroup
+            return _Token(found[str(kind)], kind, found.start(str(kind)))
+        at = len(self._text) - len(self._text[at:].lstrip())
+        if at < len(self._text):
+            self._fail(f"'{self._text[at]}' has no meaning", at)
+        return _Token(_END, None, at)
+
+    def _fail(self, reason: str, at: int) -> NoReturn:
+        shown = self._text if len(self._text) <= 80 else self._text[:77] + "..."
+        raise error("bad-expression", expression=shown, reason=reason, at=at + 1)

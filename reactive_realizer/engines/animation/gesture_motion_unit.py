@@ -1,0 +1,121 @@
+"""A gesture: a stroke from a file, with the way there and the way back."""
+
+from collections.abc import Mapping
+from itertools import pairwise
+
+from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, slerp
+from reactive_realizer.embodiment.skeleton import Pose
+from reactive_realizer.embodiment.vector import distance
+from reactive_realizer.engines.animation.easing import minimum_jerk, share
+from reactive_realizer.engines.animation.motion_unit import GESTURE_POINTS, completed
+from reactive_realizer.engines.animation.proc_animation import ProcAnimation
+
+HOLD = "postStrokeHoldDuration"
+"""The parameter of a binding that says how long the hands stay after the stroke, s."""
+
+_INNER = GESTURE_POINTS[1:-1]
+
+
+class GestureMotionUnit:
+    """Prepares from wherever the arms are, makes the stroke, holds, and retracts to the rest pose.
+
+    The animation is played from its `ready` to its `relax`; what it has before and after is left out, for how the hands
+    come and go depends on where they are. Between two points its own phase runs evenly; where two of its points
+    coincide, as ready and strokeStart mostly do, the hands wait. Preparation and retraction start and stop as people do
+    (`minimum_jerk`), every joint along its shortest arc.
+    """
+
+    def __init__(self, animation: ProcAnimation, parameters: Mapping[str, float], rest: Pose, body: Body) -> None:
+        """Plans a gesture.
+
+        Args:
+            animation: the stroke.
+            parameters: values for some of the animation's parameters, and `HOLD`.
+            rest: where the retraction ends; joints it leaves out end in the default pose.
+            body: as it is expected to be at the start: from its hands' way to the stroke follow the preferred durations
+                of preparation and retraction.
+
+        Raises:
+            RealizerError: "no-motion": the animation has no pose at its ready or relax.
+        """
+        known = {name: value for name, value in parameters.items() if name in animation.parameters}
+        self.parameters: dict[str, float] = {**animation.parameters, **known}
+        self._animation = animation
+        self._rest = rest
+        self._begin = {joint: body.rotation(joint) for joint in animation.joints}
+        timing = animation.timing(self.parameters)
+        keys = completed(timing.key_positions)
+        self._inner = [keys[point] for point in _INNER]
+        durations = self._durations(body, timing.duration, max(0.0, parameters.get(HOLD, 0.0)))
+        self._duration = sum(durations)
+        self._key_positions = _accumulated(durations)
+
+    def _durations(self, body: Body, whole: float, hold: float) -> list[float]:
+        """Of the six phases between the seven points, s."""
+        ready = body.posed(self._animation.sample(self._inner[0], self.parameters, body))
+        relax = body.posed(self._animation.sample(self._inner[-1], self.parameters, body))
+        rest = body.posed({joint: self._rest.get(joint, IDENTITY) for joint in self.joints})
+        stroke = [whole * (after - before) for before, after in pairwise(self._inner)]
+        stroke[-1] += hold
+        return [self._way(body, ready), *stroke, self._way(relax, rest)]
+
+    def _way(self, start: Body, goal: Body) -> float:
+        """How long the hands would like to take between two poses, s.
+
+        Peak speed of a minimum-jerk reach is 1.9 times its mean; with these numbers the hand stays below 2 m/s.
+        """
+        between = {joint: slerp(start.rotation(joint), goal.rotation(joint), 0.5) for joint in self.joints}
+        halfway = start.posed(between)
+        wrists = [f"{side}_wrist" for side in ("l", "r") if f"{side}_shoulder" in self.joints]
+        paths = [[body.place(wrist).position for body in (start, halfway, goal)] for wrist in wrists]
+        furthest = max((distance(begin, half) + distance(half, end) for begin, half, end in paths), default=0.0)
+        return 0.25 + 0.75 * furthest
+
+    @property
+    def joints(self) -> frozenset[str]:
+        """The joints that the animation turns."""
+        return self._animation.joints
+
+    @property
+    def key_positions(self) -> Mapping[str, float]:
+        """The seven points of a gesture, each where its preferred duration puts it."""
+        return self._key_positions
+
+    @property
+    def preferred_duration(self) -> float:
+        """From start to end, s."""
+        return self._duration
+
+    def start(self, body: Body) -> None:
+        """The hands set out from where they are now."""
+        self._begin = {joint: body.rotation(joint) for joint in self.joints}
+
+    def pose(self, phase: float, body: Body) -> dict[str, Quat]:
+        """Rotations of arms and fingers at a phase."""
+        keys = self._key_positions
+        stroke = self._animation.sample(self._animation_phase(phase), self.parameters, body)
+        if phase < keys["ready"]:
+            done = minimum_jerk(share(phase, 0.0, keys["ready"]))
+            return {joint: slerp(self._begin[joint], goal, done) for joint, goal in stroke.items()}
+        if phase > keys["relax"]:
+            done = minimum_jerk(share(phase, keys["relax"], 1.0))
+            return {joint: slerp(last, self._rest.get(joint, IDENTITY), done) for joint, last in stroke.items()}
+        return stroke
+
+    def _animation_phase(self, phase: float) -> float:
+        """The animation's own phase: its ready until the hands are there, its relax from when they leave."""
+        positions = [self._key_positions[point] for point in _INNER]
+        for (left, right), (begin, end) in zip(pairwise(positions), pairwise(self._inner), strict=True):
+            if phase < right:
+                return begin + (end - begin) * share(phase, left, right) if phase > left else begin
+        return self._inner[-1]
+
+
+def _accumulated(durations: list[float]) -> dict[str, float]:
+    """Phases of the seven points from the durations between them."""
+    total, passed, keys = sum(durations), 0.0, {"start": 0.0}
+    for point, duration in zip(_INNER, durations, strict=False):
+        passed += duration
+        keys[point] = passed / total
+    return {**keys, "end": 1.0}

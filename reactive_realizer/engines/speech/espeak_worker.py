@@ -1,0 +1,79 @@
+"""The speech worker, ``python -m`` of this module: it answers requests until its input ends.
+
+It says first which voices there are. Then each request is answered by a child forked from the same pristine state: the
+same text gives the same bytes, which espeak-ng does not promise for the second utterance of a process, and a text that
+brings the library down costs one child.
+"""
+
+import os
+import signal
+import traceback
+from collections.abc import Callable, Iterator
+from functools import partial
+from typing import BinaryIO
+
+from reactive_realizer.engines.speech.espeak_library import EspeakLibrary
+from reactive_realizer.engines.speech.messages import Message, MessageDecoder, failure
+
+_TIME_LIMIT = 20
+"""s for one child; the longest text we accept takes less than one second."""
+
+
+def main() -> None:
+    """Answers the requests on the standard input, in order, on what was the standard output."""
+    replies = os.fdopen(os.dup(1), "wb")
+    os.dup2(2, 1)  # what the library prints must not get between the replies
+    library = EspeakLibrary()
+    _send(replies, Message({"voices": library.voices(), "variants": library.variants()}).encode())
+    for request in _requests():
+        _send(replies, _in_child(partial(_speak, library, request)))
+
+
+def _send(replies: BinaryIO, encoded: bytes) -> None:
+    replies.write(encoded)
+    replies.flush()
+
+
+def _requests() -> Iterator[Message]:
+    decoder = MessageDecoder()
+    while piece := os.read(0, 65_536):
+        yield from decoder.feed(piece)
+
+
+def _speak(library: EspeakLibrary, request: Message) -> bytes:
+    spoken = library.synthesize(request.header["ssml"], request.header["voice"])
+    times = {"words": spoken.words, "marks": spoken.marks, "phonemes": spoken.phonemes}
+    return Message({"sample_rate": library.sample_rate, **times}, bytes(spoken.audio)).encode()
+
+
+def _in_child(work: Callable[[], bytes]) -> bytes:
+    """What the work gives when it is done in a child process, or the failure of that process."""
+    reading, writing = os.pipe()
+    child = os.fork()
+    if child == 0:
+        os.close(reading)
+        _be_child(work, writing)
+    os.close(writing)
+    with open(reading, "rb") as pipe:
+        answer = pipe.read()
+    exit_status = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+    return answer if exit_status == 0 else failure(exit_status).encode()
+
+
+def _be_child(work: Callable[[], bytes], writing: int) -> None:
+    exit_status = 1
+    try:
+        signal.setitimer(signal.ITIMER_REAL, _TIME_LIMIT)
+        with open(writing, "wb") as pipe:
+            pipe.write(work())
+        exit_status = 0
+    except BrokenPipeError:
+        pass  # the worker was killed, nobody waits for this
+    except BaseException:
+        traceback.print_exc()
+    finally:
+        os._exit(exit_status)  # the child must not fall back into the loop of its parent
+
+
+if __name__ == "__main__":
+    main()

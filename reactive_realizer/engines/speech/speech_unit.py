@@ -1,0 +1,46 @@
+"""A speech in a plan."""
+
+from collections.abc import Mapping
+
+from reactive_realizer.bml.behaviors import Speech
+from reactive_realizer.clock.units import RESOLUTION, GlobalTime
+from reactive_realizer.engines.speech.tts import Utterance
+from reactive_realizer.pegboard.peg_key import BlockKey
+from reactive_realizer.planunit.plan_unit import PlanUnit
+from reactive_realizer.planunit.timing import PhaseKind, timing_at
+
+VOICE = "voice"
+
+
+class SpeechUnit(PlanUnit):
+    """An utterance: rigid, as the voice spoke it; one character speaks one at a time.
+
+    Attributes:
+        utterance: words, sounds and their times.
+        started: when it began, None before.
+        cut: when it was interrupted, None if it was not.
+    """
+
+    def __init__(self, block: BlockKey, behavior: Speech, utterance: Utterance) -> None:
+        offsets = {"start": 0.0, **{mark.id: utterance.marks[mark.id] for mark in behavior.marks}}
+        timing = timing_at({**offsets, "end": utterance.duration}, PhaseKind.RIGID)
+        super().__init__(block, behavior, timing, frozenset({VOICE}))
+        self.utterance = utterance
+        self.started: GlobalTime | None = None
+        self.cut: GlobalTime | None = None
+
+    def on_start(self, time: GlobalTime) -> None:
+        """The voice begins."""
+        self.started = time
+
+    def on_finish(self, time: GlobalTime) -> None:
+        """The voice ends, before its time if it was interrupted."""
+        if self.started is not None and time < self.started + self.utterance.duration - RESOLUTION:
+            self.cut = time
+
+    def end_details(self, time: GlobalTime) -> Mapping[str, str]:
+        """The last word that began: what a listener has heard of an interrupted speech."""
+        begun = self.utterance.words_begun(time - self.started) if self.started is not None else ()
+        if not begun:
+            return {"word": "-1", "text": "", "heard": "0"}
+        return {"word": str(len(begun) - 1), "text": begun[-1].text, "heard": str(begun[-1].last)}

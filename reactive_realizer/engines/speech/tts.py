@@ -1,0 +1,97 @@
+"""What a voice makes of a text, and what a text-to-speech system must offer (thesis 8.10, TTSBinding)."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Protocol
+
+
+@dataclass(frozen=True, slots=True)
+class Word:
+    """A word of a spoken text.
+
+    Attributes:
+        text: as written, without the punctuation around it.
+        start: when it begins, s from the start of the utterance.
+        first: index of its first character in the spoken text.
+        last: index after its last character, so that ``utterance.text[first:last] == text``.
+    """
+
+    text: str
+    start: float
+    first: int
+    last: int
+
+
+@dataclass(frozen=True, slots=True)
+class Phoneme:
+    """A sound of an utterance.
+
+    Attributes:
+        symbol: IPA, stress marks included; empty for a pause.
+        start: onset, s from the start of the utterance; of a plosive the release, after its silent closure.
+        duration: s until the next phoneme.
+    """
+
+    symbol: str
+    start: float
+    duration: float
+
+
+@dataclass(frozen=True, slots=True)
+class Utterance:
+    """A text as one voice speaks it; times and audio come from the same run.
+
+    Attributes:
+        text: what is spoken.
+        duration: s.
+        words: in the order of the text.
+        marks: time of each mark, s from the start of the utterance; every mark that was asked for has one.
+        phonemes: in the order of time; empty if the voice knows none.
+        audio: mono PCM, int16 little-endian; empty if the voice makes no sound.
+        sample_rate: of the audio, Hz.
+    """
+
+    text: str
+    duration: float
+    words: tuple[Word, ...]
+    marks: Mapping[str, float]
+    phonemes: tuple[Phoneme, ...] = ()
+    audio: bytes = b""
+    sample_rate: int = 22_050
+
+    def words_begun(self, time: float) -> tuple[Word, ...]:
+        """The words that have begun at a time, s from the start of the utterance."""
+        return tuple(word for word in self.words if word.start <= time)
+
+    def time_of_character(self, index: int) -> float:
+        """When the word at or after a character begins, s; the duration where no word follows."""
+        return next((word.start for word in self.words if index < word.last), self.duration)
+
+
+class TTSBinding(Protocol):
+    """A text-to-speech system that needs time to speak: its work is awaited, off the event loop's thread.
+
+    `TextVoice` is not one of these: it answers at once, so that its speech can start in the tick that plans it.
+    """
+
+    async def start(self) -> None:
+        """Makes the voice ready.
+
+        Raises:
+            RealizerError: if it is not installed or does not start.
+        """
+
+    async def synthesize(self, text: str, marks: tuple[tuple[str, int], ...], voice: str | None) -> Utterance:
+        """Speaks a text.
+
+        Args:
+            text: plain text, no markup.
+            marks: (name, index into the text) of the places whose times are wanted.
+            voice: a name that the system knows; None for its default.
+
+        Raises:
+            RealizerError: if the voice is unknown or the synthesis failed; the next call is not affected.
+        """
+
+    async def close(self) -> None:
+        """Gives back what `start` took."""

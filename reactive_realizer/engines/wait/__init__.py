@@ -1,0 +1,1 @@
+"""Doing nothing for a while."""

@@ -1,0 +1,30 @@
+"""The engine of ``wait`` (thesis 8.12)."""
+
+from reactive_realizer.bml.behavior import Behavior
+from reactive_realizer.bml.behaviors import Wait
+from reactive_realizer.engine.context import EngineContext
+from reactive_realizer.engine.engine import DefaultEngine
+from reactive_realizer.pegboard.peg_key import BlockKey
+from reactive_realizer.planunit.plan_unit import PlanUnit
+from reactive_realizer.planunit.timing import Phase, PhaseKind, Timing
+
+
+class WaitEngine(DefaultEngine):
+    """Waits: a duration is rigid; without one a wait lasts as long as its sync points say, at most ``max-wait``."""
+
+    def __init__(self, context: EngineContext) -> None:
+        super().__init__(f"{context.character}/wait")
+
+    def supports(self, behavior: Behavior) -> bool:
+        """Waits only."""
+        return isinstance(behavior, Wait)
+
+    def plan(self, block: BlockKey, behavior: Behavior, prepared: object) -> PlanUnit:
+        """A unit that only has time."""
+        if not isinstance(behavior, Wait):
+            raise TypeError(behavior)
+        if behavior.duration is not None:
+            phase = Phase(behavior.duration, PhaseKind.RIGID)
+        else:
+            phase = Phase(behavior.max_wait or 0.0)
+        return PlanUnit(block, behavior, Timing(("start", "end"), (phase,)))

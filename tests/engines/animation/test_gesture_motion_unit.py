@@ -1,0 +1,146 @@
+"""Gestures: from wherever the arms are, through the stroke, back to rest, and never a jump."""
+
+from itertools import pairwise
+
+import pytest
+
+from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.quaternion import IDENTITY, angle, conjugate, from_euler, multiply
+from reactive_realizer.embodiment.vector import distance, subtract
+from reactive_realizer.engines.animation.easing import minimum_jerk
+from reactive_realizer.engines.animation.gesture_motion_unit import HOLD, GestureMotionUnit
+from reactive_realizer.engines.animation.motion_unit import GESTURE_POINTS
+from reactive_realizer.engines.animation.proc_animation_reader import read_proc_animation
+from reactive_realizer.engines.animation.rest_pose import REST_POSE
+
+GESTURES = ["beat_right", "beat_both", "offer_right", "offer_both", "greet_right", "conduct_right", "self_right"]
+RAISED = {"r_shoulder": from_euler(-1.4, 0.3, -0.4), "r_elbow": from_euler(-0.9, 0.0, 0.0)}
+
+
+@pytest.fixture
+def gesture(animations, skeleton):
+    def plan(name: str, pose=REST_POSE, **parameters: float) -> tuple[GestureMotionUnit, Body]:
+        body = Body(skeleton, {**REST_POSE, **pose})
+        return GestureMotionUnit(read_proc_animation(animations / f"{name}.xml"), parameters, REST_POSE, body), body
+
+    return plan
+
+
+def wrist(body: Body, side: str = "r"):
+    return body.place(f"{side}_wrist").position
+
+
+@pytest.mark.parametrize("name", GESTURES)
+def test_it_begins_where_the_arms_are_and_ends_in_the_rest_pose(gesture, name):
+    unit, body = gesture(name, RAISED)
+    begin, end = body.posed(unit.pose(0.0, body)), body.posed(unit.pose(1.0, body))
+    assert distance(wrist(begin), wrist(body)) < 1e-9
+    for joint in unit.joints:
+        assert angle(multiply(conjugate(end.rotation(joint)), REST_POSE.get(joint, IDENTITY))) < 1e-6
+
+
+@pytest.mark.parametrize("name", GESTURES)
+@pytest.mark.parametrize("pose", [REST_POSE, RAISED], ids=["at rest", "raised"])
+def test_at_its_preferred_speed_no_hand_moves_more_than_4_cm_in_20_ms(gesture, name, pose):
+    unit, body = gesture(name, pose)
+    frames = round(unit.preferred_duration / 0.02)
+    for side in ("l", "r"):
+        path = [wrist(body.posed(unit.pose(i / frames, body)), side) for i in range(frames + 1)]
+        assert max(distance(a, b) for a, b in pairwise(path)) < 0.04
+
+
+@pytest.mark.parametrize("name", GESTURES)
+def test_at_the_border_of_two_phases_nothing_jumps_and_no_hand_stops_dead(gesture, name):
+    unit, body = gesture(name)
+    step = 1e-5
+    for phase in list(unit.key_positions.values())[1:-1]:
+        before, at, after = (wrist(body.posed(unit.pose(phase + d, body))) for d in (-step, 0.0, step))
+        assert distance(before, at) < 1e-4
+        assert distance(at, after) < 1e-4
+
+
+@pytest.mark.parametrize("name", GESTURES)
+def test_the_hands_are_at_rest_at_ready_and_at_relax(gesture, name):
+    unit, body = gesture(name)
+    step = 1e-4
+    for point in ("start", "ready", "relax", "end"):
+        phase = unit.key_positions[point]
+        for other in (max(0.0, phase - step), min(1.0, phase + step)):
+            speed = distance(*(wrist(body.posed(unit.pose(p, body))) for p in (phase, other))) / step
+            assert speed / unit.preferred_duration < 0.03, (point, other)
+
+
+@pytest.mark.parametrize("name", GESTURES)
+def test_the_seven_points_are_in_order_and_preparation_takes_longer_from_further_away(gesture, name):
+    unit, _ = gesture(name)
+    assert list(unit.key_positions) == list(GESTURE_POINTS)
+    assert list(unit.key_positions.values()) == sorted(unit.key_positions.values())
+    ready = unit.key_positions["ready"] * unit.preferred_duration
+    assert 0.3 < ready < 0.9
+    there, body = gesture(name)
+    again, _ = gesture(name, there.pose(there.key_positions["ready"], body))
+    assert again.key_positions["ready"] * again.preferred_duration == pytest.approx(0.25, abs=0.01)
+
+
+def test_a_beat_goes_down_to_its_stroke_and_lifts_a_little_before(gesture):
+    unit, body = gesture("beat_right")
+    keys = unit.key_positions
+    phases = [keys["ready"] + i * (keys["strokeEnd"] - keys["ready"]) / 100 for i in range(101)]
+    heights = [wrist(body.posed(unit.pose(phase, body)))[1] for phase in phases]
+    lowest = min(range(101), key=heights.__getitem__)
+    assert phases[lowest] == pytest.approx(keys["stroke"], abs=0.02)
+    assert heights[0] < max(heights[:lowest])
+    assert max(heights) - heights[lowest] > 0.08
+
+
+def test_the_hand_of_a_beat_is_in_front_of_the_belly(gesture):
+    unit, body = gesture("beat_right")
+    at = body.posed(unit.pose(unit.key_positions["stroke"], body))
+    x, y, z = subtract(wrist(at), at.place("vt10").position)
+    assert -0.35 < x < 0.0
+    assert -0.1 < y < 0.25
+    assert 0.15 < z < 0.45
+
+
+def test_the_conductors_hand_comes_up_to_where_it_was(gesture):
+    unit, body = gesture("conduct_right")
+    ready, relax = (wrist(body.posed(unit.pose(unit.key_positions[p], body))) for p in ("ready", "relax"))
+    assert distance(ready, relax) < 0.001
+
+
+def test_after_the_stroke_the_hands_wait_as_long_as_the_binding_says(gesture):
+    without, _ = gesture("offer_right")
+    unit, body = gesture("offer_right", **{HOLD: 0.8})
+    assert unit.preferred_duration - without.preferred_duration == pytest.approx(0.8)
+    begin, end = unit.key_positions["strokeEnd"], unit.key_positions["relax"]
+    assert unit.pose(begin + 0.01, body) == unit.pose(end - 0.01, body)
+
+
+def test_an_arm_that_moved_after_planning_sets_out_from_where_it_is_at_the_start(gesture, skeleton):
+    unit, _ = gesture("beat_right")
+    moved = Body(skeleton, {**REST_POSE, **RAISED})
+    unit.start(moved)
+    assert distance(wrist(moved.posed(unit.pose(0.0, moved))), wrist(moved)) < 1e-9
+
+
+def test_a_gesture_leaves_the_other_arm_alone(gesture):
+    unit, _ = gesture("beat_right")
+    assert all(joint.startswith("r_") for joint in unit.joints)
+
+
+def test_a_bigger_beat_has_a_longer_way_and_may_grow_while_it_plays(gesture):
+    unit, body = gesture("beat_right")
+    stroke = unit.key_positions["stroke"]
+    before = wrist(body.posed(unit.pose(stroke, body)))
+    unit.parameters["a"] = 1.0
+    assert wrist(body.posed(unit.pose(stroke, body)))[1] < before[1] - 0.05
+
+
+def test_a_reach_of_minimum_jerk_starts_and_stops_softly_and_is_symmetric():
+    step = 1e-4
+    assert (minimum_jerk(0.0), minimum_jerk(0.5), minimum_jerk(1.0)) == (0.0, 0.5, 1.0)
+    assert minimum_jerk(step) / step < 1e-6
+    for i in range(11):
+        assert minimum_jerk(i / 10) + minimum_jerk(1 - i / 10) == pytest.approx(1.0)
+    speeds = [(minimum_jerk(i / 100 + step) - minimum_jerk(i / 100)) / step for i in range(100)]
+    assert max(speeds) == pytest.approx(1.875, abs=0.001)

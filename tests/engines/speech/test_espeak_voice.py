@@ -1,0 +1,217 @@
+"""The embedded voice: what espeak-ng says comes with times, and whatever happens to its process stays there."""
+
+import asyncio
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from reactive_realizer.engines.speech.espeak_voice import EspeakVoice
+from reactive_realizer.engines.speech.messages import MessageDecoder
+from reactive_realizer.errors import RealizerError
+
+pytestmark = pytest.mark.speech
+
+SENTENCE = "Please put the red box on the green table, Dr. Smith."
+LONG = "hello world " * 400
+
+
+@pytest.fixture
+async def voice():
+    voice = EspeakVoice()
+    await voice.start()
+    yield voice
+    await voice.close()
+
+
+async def spoken(voice, text, voice_name=None, **marks):
+    return await voice.synthesize(text, tuple(marks.items()), voice_name)
+
+
+async def test_every_word_has_a_time_while_there_is_sound(voice):
+    utterance = await spoken(voice, SENTENCE)
+    starts = [word.start for word in utterance.words]
+    assert [word.text for word in utterance.words] == [word.strip(".,") for word in SENTENCE.split()]
+    assert starts == sorted(set(starts))
+    assert starts[0] == 0.0
+    assert starts[-1] < utterance.duration
+
+
+async def test_the_duration_is_that_of_the_audio(voice):
+    utterance = await spoken(voice, SENTENCE)
+    assert utterance.duration == len(utterance.audio) / 2 / utterance.sample_rate
+    assert 2.0 < utterance.duration < 6.0
+
+
+async def test_a_mark_has_the_time_of_its_word(voice):
+    utterance = await spoken(voice, SENTENCE, red=SENTENCE.index("red"), table=SENTENCE.index("table"))
+    times = {word.text: word.start for word in utterance.words}
+    assert dict(utterance.marks) == {"red": times["red"], "table": times["table"]}
+
+
+async def test_a_mark_at_the_end_comes_when_the_sound_has_ended(voice):
+    utterance = await spoken(voice, SENTENCE, end=len(SENTENCE))
+    assert utterance.words[-1].start < utterance.marks["end"] <= utterance.duration
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        'In 1984 "they" (all 23 of them) paid $5.20 & <b> to bob@x.org \u2014 e.g. Dr. U.S.A. \u6f22\u5b57 \U0001f600!',
+        "of a the to",
+        "I. 'tis U.S.A. 12:30 +3 *",
+        "?",
+        "",
+    ],
+)
+async def test_every_word_and_every_mark_gets_a_time_in_order_whatever_the_text(voice, text):
+    utterance = await voice.synthesize(text, tuple((f"mark{n}", n) for n in range(len(text) + 1)), None)
+    words, marks = [word.start for word in utterance.words], list(utterance.marks.values())
+    assert len(marks) == len(text) + 1
+    assert words == sorted(words)
+    assert marks == sorted(marks)
+    assert all(0.0 <= time <= utterance.duration for time in words + marks)
+
+
+async def test_phonemes_cover_the_utterance_from_the_first_to_the_end(voice):
+    phonemes = (await spoken(voice, "Red box.")).phonemes
+    assert "".join(phoneme.symbol for phoneme in phonemes) == "ɹˈɛdbˈɑːks"  # noqa: RUF001
+    assert all(phoneme.duration >= 0.0 for phoneme in phonemes)
+
+
+async def test_the_same_text_gives_the_same_bytes_whatever_was_said_before(voice):
+    first = await spoken(voice, SENTENCE)
+    await spoken(voice, "Something else entirely.")
+    assert await spoken(voice, SENTENCE) == first
+
+
+async def test_the_same_text_gives_the_same_bytes_in_another_worker(voice):
+    other = EspeakVoice()
+    try:
+        assert await spoken(other, SENTENCE) == await spoken(voice, SENTENCE)
+    finally:
+        await other.close()
+
+
+async def test_replies_find_the_request_they_belong_to(voice):
+    texts = ["one", "one two", LONG, "three"]
+    utterances = await asyncio.gather(*(spoken(voice, text) for text in texts))
+    assert [utterance.text for utterance in utterances] == texts
+    durations = [utterance.duration for utterance in utterances]
+    assert durations[0] < durations[1] < durations[2] > durations[3]
+
+
+async def test_another_voice_speaks_otherwise(voice):
+    default = await spoken(voice, SENTENCE)
+    variant = await spoken(voice, SENTENCE, "EN-US+f3")
+    scottish = await spoken(voice, SENTENCE, "en-gb-scotland")
+    assert len({default.audio, variant.audio, scottish.audio}) == 3
+
+
+async def test_the_voices_can_be_listed(voice):
+    assert {"en-us", "en-gb", "nl"} <= set(await voice.voices())
+
+
+@pytest.mark.parametrize("name", ["klingon!", "en-us+nobody", "../../etc/passwd", "en-us+../x", "+f3"])
+async def test_an_unknown_voice_is_named_and_some_known_ones_too(voice, name):
+    with pytest.raises(RealizerError) as failure:
+        await spoken(voice, "hello", name)
+    assert failure.value.fault.code == "unknown-voice"
+    assert f"'{name}'" in str(failure.value)
+    assert "en-us" in str(failure.value)
+
+
+async def test_when_the_worker_is_killed_what_it_was_asked_for_fails_and_the_next_speech_starts_another(voice):
+    pending = [asyncio.ensure_future(spoken(voice, LONG)) for _ in range(2)]
+    await asyncio.sleep(0)
+    os.kill(worker_of(voice), signal.SIGKILL)
+    for outcome in await asyncio.gather(*pending, return_exceptions=True):
+        assert isinstance(outcome, RealizerError)
+        assert (outcome.fault.code, outcome.fault.details["reason"]) == ("voice-failed", "SIGKILL")
+    assert (voice.alive, voice.restarts) == (False, 0)
+    assert (await spoken(voice, "hello")).audio
+    assert (voice.alive, voice.restarts) == (True, 1)
+
+
+async def test_a_worker_that_died_idle_costs_nothing(voice):
+    os.kill(worker_of(voice), signal.SIGKILL)
+    await voice._process.ended
+    assert (await spoken(voice, "hello")).audio
+    assert voice.restarts == 1
+
+
+async def test_two_speeches_after_a_death_start_one_worker(voice):
+    os.kill(worker_of(voice), signal.SIGKILL)
+    await voice._process.ended
+    await asyncio.gather(spoken(voice, "one"), spoken(voice, "two"))
+    assert voice.restarts == 1
+
+
+async def test_a_killed_child_costs_one_utterance_and_the_worker_goes_on(voice):
+    pending, later = asyncio.ensure_future(spoken(voice, LONG)), asyncio.ensure_future(spoken(voice, "hello"))
+    os.kill(await child_of(worker_of(voice)), signal.SIGKILL)
+    with pytest.raises(RealizerError) as failure:
+        await pending
+    assert failure.value.fault.details["reason"] == "SIGKILL"
+    assert (await later).audio
+    assert (voice.alive, voice.restarts) == (True, 0)
+
+
+async def test_a_speech_that_is_called_off_leaves_the_others_alone(voice, caplog):
+    called_off, other = asyncio.ensure_future(spoken(voice, LONG)), asyncio.ensure_future(spoken(voice, "one two"))
+    await child_of(worker_of(voice))
+    called_off.cancel()
+    assert [word.text for word in (await other).words] == ["one", "two"]
+    assert caplog.text == ""
+
+
+async def test_a_voice_that_was_closed_has_no_process(voice):
+    worker = worker_of(voice)
+    await voice.close()
+    assert not voice.alive
+    with pytest.raises(ProcessLookupError):
+        os.kill(worker, 0)
+
+
+async def test_without_the_package_the_error_says_what_to_install(monkeypatch):
+    monkeypatch.setattr("reactive_realizer.engines.speech.espeak_voice.find_spec", lambda name: None)
+    with pytest.raises(RealizerError) as failure:
+        await EspeakVoice().start()
+    assert "reactive-realizer[espeak]" in str(failure.value)
+
+
+def test_a_child_that_does_not_come_to_an_end_is_ended():
+    hang = (
+        "import signal, sys; from reactive_realizer.engines.speech import espeak_worker as worker; "
+        "worker._TIME_LIMIT = 0.01; sys.stdout.buffer.write(worker._in_child(signal.pause))"
+    )
+    answer = subprocess.run([sys.executable, "-c", hang], check=True, stdout=subprocess.PIPE).stdout
+    assert [message.header for message in MessageDecoder().feed(answer)] == [{"failed": "SIGALRM"}]
+
+
+def test_the_worker_ends_when_the_realizer_is_gone():
+    command = [sys.executable, "-m", "reactive_realizer.engines.speech.espeak_worker"]
+    assert subprocess.run(command, check=False, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL).returncode == 0
+
+
+def test_the_library_under_the_gpl_is_loaded_by_the_worker_alone():
+    check = "import sys, reactive_realizer.engines.speech.espeak_voice; sys.exit('espeakng_loader' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", check], check=False).returncode == 0
+
+
+def worker_of(voice: EspeakVoice) -> int:
+    return voice._process.pid
+
+
+async def child_of(process: int) -> int:
+    """The child that speaks for a worker, as soon as there is one."""
+    while not (children := children_of(process)):  # noqa: ASYNC110 - a fork announces itself to nobody
+        await asyncio.sleep(0)
+    return children[0]
+
+
+def children_of(process: int) -> list[int]:
+    return [int(child) for child in Path(f"/proc/{process}/task/{process}/children").read_text().split()]

@@ -1,0 +1,81 @@
+"""The voice without sound: plausible times that depend on the text alone."""
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from reactive_realizer.engines.speech.text_voice import TextVoice
+
+TEXTS = st.text(st.sampled_from("ab 1.,!?-\u2014'"), max_size=60)
+
+
+def spoken(text: str, **marks: int):
+    return TextVoice().speak(text, tuple(marks.items()))
+
+
+def test_it_speaks_about_three_words_a_second():
+    utterance = spoken("the quick brown fox jumps over the lazy dog and then goes home to sleep")
+    assert 2.0 < len(utterance.words) / utterance.duration < 4.0
+
+
+def test_every_word_has_its_place_in_the_text_and_its_time():
+    utterance = spoken("Hello, there.")
+    assert [(word.text, word.first, word.last) for word in utterance.words] == [("Hello", 0, 5), ("there", 7, 12)]
+    assert utterance.words[0].start == 0.0
+    assert 0.0 < utterance.words[1].start < utterance.duration
+
+
+def test_a_longer_word_takes_longer():
+    assert spoken("extraordinary").duration > spoken("odd").duration
+
+
+@pytest.mark.parametrize(("short", "long"), [("one two", "one, two"), ("one, two", "one. Two")])
+def test_a_comma_takes_a_pause_and_a_full_stop_a_longer_one(short, long):
+    assert spoken(short).words[1].start < spoken(long).words[1].start
+
+
+def test_what_follows_the_last_word_takes_no_time():
+    assert spoken("one two").duration == spoken("one two ...").duration
+
+
+def test_white_space_does_not_change_the_times():
+    assert spoken("one two").duration == spoken("one \n   two").duration
+
+
+def test_a_mark_has_the_time_of_the_word_after_it():
+    utterance = spoken("put the red box", before=8, in_space=7)
+    assert utterance.marks["before"] == utterance.marks["in_space"] == utterance.words[2].start
+
+
+def test_a_mark_after_the_last_word_is_at_the_end():
+    utterance = spoken("put it here.", end=12)
+    assert utterance.marks["end"] == utterance.duration
+
+
+def test_it_makes_no_sound_and_knows_no_phonemes():
+    utterance = spoken("hello")
+    assert (utterance.audio, utterance.phonemes) == (b"", ())
+
+
+def test_nothing_to_say_takes_no_time():
+    utterance = spoken("...", mark=1)
+    assert (utterance.duration, utterance.words, utterance.marks["mark"]) == (0.0, (), 0.0)
+
+
+@settings(derandomize=True)
+@given(text=TEXTS, data=st.data())
+def test_words_begin_in_order_and_marks_keep_the_order_of_the_text(text, data):
+    places = sorted(data.draw(st.lists(st.integers(0, len(text)), max_size=4)))
+    utterance = spoken(text, **{f"mark{n}": place for n, place in enumerate(places)})
+    starts = [word.start for word in utterance.words]
+    assert starts == sorted(set(starts))
+    assert list(utterance.marks.values()) == sorted(utterance.marks.values())
+    assert all(0.0 <= time <= utterance.duration for time in [*starts, *utterance.marks.values()])
+
+
+def test_what_has_been_heard_are_the_words_that_have_begun():
+    utterance = spoken("put the red box")
+    second = utterance.words[1].start
+    assert utterance.words_begun(second - 0.001) == utterance.words[:1]
+    assert utterance.words_begun(second) == utterance.words[:2]
+    assert utterance.words_begun(-1.0) == ()
