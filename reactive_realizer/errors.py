@@ -96,6 +96,8 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
         "too-short": ErrorKind("no time is left between its start and its end", _SCHEDULE),
         "no-order": ErrorKind("the strategy '{strategy}' keeps no before/after; '{text}' is dropped", _SCHEDULE),
         "cut-tie": ErrorKind("{point} was interrupted; this behavior keeps the time predicted last", _SCHEDULE),
+        "never-comes": ErrorKind("it hangs on {point}, which never comes; it is dropped", _SCHEDULE),
+        "all-past": ErrorKind("it would have ended {late:g} s before its block starts", _SCHEDULE),
         "resource-taken": ErrorKind("{behavior} is dropped: {other} has the {resource}", _SCHEDULE),
         "not-supported": ErrorKind(
             "<{element}> is not realized; it is left out", WarningType.BEHAVIOR_TYPE_NOT_SUPPORTED
@@ -140,6 +142,7 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
         "binary-message": ErrorKind("messages are JSON text; binary data are not read", None, 400),
         "unknown-message": ErrorKind("no message has the type {type}; known are {known}", None, 400),
         "bad-message": ErrorKind("{place}: {value} does not keep to {rule}", None, 400),
+        "bad-request": ErrorKind("not a request that is understood here: {reason}", None, 400),
         "bad-query": ErrorKind("{name}={value} is not read; wanted is {wanted}", None, 400),
         "unknown-anticipator": ErrorKind("no anticipator '{anticipator}'; there are {known}", None, 404),
         "not-movable": ErrorKind("'{target}' is a character, not a target that is moved", None, 400),

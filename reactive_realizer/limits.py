@@ -27,6 +27,8 @@ class Limits:
     queued_bytes: int = 8 * 1024 * 1024
     """What may pile up for one slow client before it is closed."""
     queued_messages: int = 10_000
+    sound_bytes: int = 64 * 1024 * 1024
+    """Sounds kept for clients to fetch."""
     remembered_feedback: int = 10_000
     """Feedback messages kept for clients that resume."""
     remembered_blocks: int = 10_000

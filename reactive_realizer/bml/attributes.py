@@ -9,7 +9,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
-from typing import Any, Protocol
+from typing import Any, ClassVar, Protocol
 
 from reactive_realizer.bml.names import BLOCK
 from reactive_realizer.bml.sync_ref import NUMBER
@@ -39,7 +39,7 @@ class AttributeType(Protocol):
 class Text:
     """Any text, as written: ids of targets, words of open vocabularies."""
 
-    description: str = "text"
+    description: ClassVar[str] = "text"
 
     def read(self, text: str, limits: Limits) -> str:
         """The text itself."""
@@ -50,7 +50,7 @@ class Text:
 class Name:
     """An id that a reference can name."""
 
-    description: str = "id"
+    description: ClassVar[str] = "id"
 
     def read(self, text: str, limits: Limits) -> str:
         """The id, without the white space around it."""
@@ -101,7 +101,7 @@ class Integer:
 class Duration:
     """Seconds from 0 to the limit of times."""
 
-    description: str = "seconds"
+    description: ClassVar[str] = "seconds"
 
     def read(self, text: str, limits: Limits) -> float:
         """The duration in seconds."""

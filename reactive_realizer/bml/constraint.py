@@ -53,3 +53,4 @@ class Order:
 
 
 Constraint = Synchronize | Order
+"""What a block says apart from its behaviors."""

@@ -67,12 +67,8 @@ class RootBuilder:
     def close(self) -> Root | Problem:
         """What came of it, after its end tag."""
         if self._refused:
-            return self.problem(self._refused)
+            return Problem(self._refused, self.id)
         return Root(self._builder.close(), self._locations)
-
-    def problem(self, fault: Fault) -> Problem:
-        """It cannot be read."""
-        return Problem(fault, self.id)
 
     def _refuse(self, code: str, location: Location, **details: object) -> None:
         self._refused = self._refused or Fault(code, details, location.line, location.column)

@@ -65,13 +65,15 @@ class Player:
         return next((other for other in self.playing if other.resources & unit.resources), None)
 
     def _fire(self, unit: PlanUnit, now: GlobalTime, reached: list[Reached], dropped: list[Dropped]) -> None:
+        ahead = unit.ahead()
         if unit.due(now):
             unit.begin()
         try:
-            reached.extend(Reached(unit, point, point.fired or GlobalTime(0.0)) for point in unit.fire(now))
+            unit.fire(now)
         except Exception as failure:
-            logger.exception("%s:%s failed while playing", unit.block.block, unit.behavior.id)
+            logger.exception("%s/%s:%s failed while playing", *unit.block, unit.behavior.id)
             self._drop(unit, Fault("unit-failed", {"reason": failure}), now, dropped)
+        reached.extend(Reached(unit, point, point.fired) for point in ahead if point.fired is not None)
 
     def _drop(self, unit: PlanUnit, fault: Fault, now: GlobalTime, dropped: list[Dropped]) -> None:
         unit.drop(now)

@@ -1,5 +1,6 @@
 """Feedback as XML, in the forms of BML 1.0 (blockProgress, syncPointProgress, predictionFeedback, warningFeedback)."""
 
+import re
 from functools import singledispatch
 
 from lxml import etree
@@ -16,6 +17,8 @@ from reactive_realizer.feedback.messages import (
 
 _STATUS = f"{{{BMLA}}}status"
 _OWN_TIME = f"{{{OWN}}}time"
+_NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+"""What no XML may hold; the reason of a failure may be any text."""
 
 
 def to_xml(message: Message) -> str:
@@ -70,7 +73,7 @@ def _(message: WarningFeedback) -> etree._Element:
     element = _root("warningFeedback", message.character, {None: BML})
     element.set("id", message.id)
     element.set("type", message.type)
-    element.text = message.text
+    element.text = _NOT_XML.sub("\N{REPLACEMENT CHARACTER}", message.text)
     return element
 
 

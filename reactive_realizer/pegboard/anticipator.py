@@ -1,8 +1,10 @@
 """What predicts: the base of all anticipators (thesis 8.5.1), and in itself the one that says what it is told."""
 
+from math import isfinite
 from typing import ClassVar
 
 from reactive_realizer.clock.units import GlobalTime, is_due
+from reactive_realizer.errors import error
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.pegboard.time_peg import Time
 
@@ -27,6 +29,13 @@ class Anticipator:
         """When a point that is named for the first time is to be; None while nothing is known."""
         return None
 
+    def check(self, name: str, value: float | None) -> None:
+        """Whether an event may be told; whoever brings it from outside asks first.
+
+        Raises:
+            RealizerError: its value cannot be.
+        """
+
     def event(self, name: str, value: float | None, now: GlobalTime) -> None:
         """Something happened that concerns it; unknown events mean nothing."""
 
@@ -35,7 +44,12 @@ class Anticipator:
 
         Whatever comes over a network is late: a point not yet passed is never set before ``now``. A point that has
         passed keeps its time, unless it is to happen again.
+
+        Raises:
+            RealizerError: the time is not finite.
         """
+        if time is not None and not isfinite(time):
+            raise error("not-a-number")
         peg = self._board.predicted(self.id, sync)
         passed = is_due(peg.value, now)
         if time is None or time > now:

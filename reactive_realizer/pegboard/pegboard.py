@@ -7,6 +7,8 @@ from reactive_realizer.pegboard.peg_key import ANTICIPATORS, BlockKey, PegKey, a
 from reactive_realizer.pegboard.time_peg import AnticipatorPeg, Time, TimeCell, TimePeg
 from reactive_realizer.reactive.graph import Graph
 
+_PREDICTED = BlockKey("", ANTICIPATORS)
+
 
 @dataclass(frozen=True, slots=True)
 class PegView:
@@ -47,25 +49,32 @@ class PegBoard:
         """The peg of that name."""
         return self._pegs.get(key)
 
-    def pin_block(self, block: BlockKey) -> None:
-        """Within a transaction, cut all pegs of a block from what they hang on."""
-        for key in self._blocks.get(block, ()):
-            peg = self._pegs[key]
-            if isinstance(peg, TimePeg) and not peg.pinned:
-                peg.pin(peg.value)
+    def pin_block(self, block: BlockKey) -> list[TimePeg]:
+        """Within a transaction, cut all pegs of a block from what they hang on; those that still hung, each once."""
+        named = dict.fromkeys(self._pegs[key] for key in self._blocks.get(block, ()))
+        cut = [peg for peg in named if isinstance(peg, TimePeg) and not peg.pinned]
+        for peg in cut:
+            peg.pin(peg.value)
+        return cut
 
     def remove_block(self, block: BlockKey) -> None:
-        """Forget the names of a block; pegs that others hang on live on with them."""
+        """Forget the names of a block, and predicted points that nothing hangs on and that are known without a peg.
+
+        Pegs that others hang on live on with them.
+        """
         for key in self._blocks.pop(block, ()):
             self._pegs.pop(key, None)
+        predicted = self._blocks.get(_PREDICTED, [])
+        self._blocks[_PREDICTED] = [key for key in predicted if not self._forgettable(key)]
+        for key in set(predicted).difference(self._blocks[_PREDICTED]):
+            del self._pegs[key]
 
     def predicted(self, anticipator: str, sync: str) -> AnticipatorPeg:
         """The peg of a predicted point, made when it is first named; unknown unless its anticipator has an answer."""
         key = anticipator_key(anticipator, sync)
         peg = self._pegs.get(key)
         if not isinstance(peg, AnticipatorPeg):
-            forecast = self._forecasts.get(anticipator)
-            peg = AnticipatorPeg(self.graph, str(key), forecast(sync) if forecast else None)
+            peg = AnticipatorPeg(self.graph, str(key), self._forecast(key))
             self.add(key, peg)
         return peg
 
@@ -75,13 +84,21 @@ class PegBoard:
 
     def predictions(self, anticipator: str) -> dict[str, AnticipatorPeg]:
         """The points of an anticipator that were named, by sync id."""
-        keys = self._blocks.get(BlockKey("", ANTICIPATORS), ())
+        keys = self._blocks.get(_PREDICTED, ())
         pegs = ((key.sync, self._pegs[key]) for key in keys if key.behavior == anticipator)
         return {sync: peg for sync, peg in pegs if isinstance(peg, AnticipatorPeg)}
 
     def snapshot(self) -> tuple[PegView, ...]:
         """All pegs, in order of naming."""
         return tuple(_view(key, peg) for key, peg in self._pegs.items())
+
+    def _forecast(self, key: PegKey) -> Time:
+        forecast = self._forecasts.get(key.behavior or "")
+        return forecast(key.sync) if forecast else None
+
+    def _forgettable(self, key: PegKey) -> bool:
+        peg = self._pegs[key]
+        return not peg.dependents and peg.value == self._forecast(key)
 
 
 def _view(key: PegKey, peg: TimeCell) -> PegView:

@@ -98,6 +98,18 @@ class AnticipatorPeg(Source[Time]):
     __slots__ = ()
 
 
+def followers_of(peg: TimeCell) -> set[TimeCell]:
+    """The pegs that move with a peg; starts and ends of blocks, and what hangs on those alone, are not among them."""
+    followers: set[TimeCell] = set()
+    waiting = [peg]
+    while waiting:
+        for cell in waiting.pop().dependents:
+            if cell not in followers and not isinstance(cell, LatestPeg):
+                followers.add(cell)
+                waiting.append(cell)
+    return followers
+
+
 def unknown_sources(pegs: Iterable[TimeCell]) -> list[str]:
     """Names of the unknown points, outside of any formula, that some pegs hang on."""
     seen: dict[TimeCell, None] = dict.fromkeys(pegs)

@@ -1,6 +1,7 @@
 """A behavior in a plan: its sync points on pegs, and how far it has come."""
 
 import itertools
+import logging
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import Enum
@@ -10,6 +11,8 @@ from reactive_realizer.clock.units import RESOLUTION, GlobalTime, is_due
 from reactive_realizer.pegboard.peg_key import BlockKey, PegKey
 from reactive_realizer.pegboard.time_peg import Time, TimePeg
 from reactive_realizer.planunit.timing import Timing
+
+logger = logging.getLogger(__name__)
 
 
 class UnitState(Enum):
@@ -85,6 +88,11 @@ class PlanUnit:
         return PegKey(self.block.character, self.block.block, self.behavior.id, sync)
 
     @property
+    def begun(self) -> bool:
+        """Whether its start was reached."""
+        return bool(self.points) and self.points[0].fired is not None
+
+    @property
     def live(self) -> bool:
         """Whether something of it is ahead."""
         return self.state not in (UnitState.DONE, UnitState.DROPPED)
@@ -147,11 +155,14 @@ class PlanUnit:
         return kept
 
     def drop(self, time: GlobalTime) -> None:
-        """Leave the plan without a word; what it moves goes back to rest."""
+        """Leave the plan without a word; what it moves goes back to rest, and it leaves even if that fails."""
         playing = self.state is UnitState.IN_EXEC
         self.state = UnitState.DROPPED
         if playing:
-            self.on_finish(time)
+            try:
+                self.on_finish(time)
+            except Exception:
+                logger.exception("%s/%s:%s failed to go back to rest", *self.block, self.behavior.id)
 
     def _fire(self, point: SyncPoint, time: GlobalTime) -> None:
         point.fired = time

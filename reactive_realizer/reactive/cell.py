@@ -98,7 +98,7 @@ class Derived(Cell[T]):
         self._unlink()
         self.formula = formula
         self._link(dependencies)
-        self.graph.touch(self)
+        self.graph.write(self, formula(*(cell.value for cell in dependencies)))
 
     def pin(self, value: T) -> None:
         """Within a transaction, cut the cell from what it depends on and give it its last value."""

@@ -37,7 +37,7 @@ class Graph:
         """Writes inside are seen together, as one commit; a transaction within a transaction joins it.
 
         A body that raises commits what it wrote until then, so that the graph stays consistent: whoever may fail does
-        so before opening a transaction.
+        so before opening a transaction. Formulas do not fail.
 
         Raises:
             WriteDuringCommitError: opened by an observer or listener.

@@ -45,9 +45,13 @@ class Blocks:
         """The blocks of one character that are alive."""
         return [block for block in self._alive.values() if block.key.character == character]
 
+    def get(self, key: BlockKey) -> BMLBlock | None:
+        """The block alive of exactly that name."""
+        return self._alive.get(key)
+
     def find(self, character: str, block: str) -> BMLBlock | None:
-        """A block alive of that name: the character's own, else the first of any other character."""
-        own = self._alive.get(BlockKey(character, block))
+        """The block alive that a reference names: the character's own, else the first of any other character."""
+        own = self.get(BlockKey(character, block))
         return own or next((other for other in self._alive.values() if other.key.block == block), None)
 
     def add(self, block: BMLBlock) -> None:

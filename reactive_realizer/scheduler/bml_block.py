@@ -86,9 +86,12 @@ class BMLBlock:
         return all(any(p.id == "relax" and p.fired is not None for p in unit.points) for unit in self.live_units)
 
     def place(self, time: GlobalTime, behavior: float, sync: int = 0) -> Place:
-        """Where its feedback of a time stands in a tick; behavior -1 is the block's start, infinity its end."""
+        """Where its feedback of a time stands in a tick; behavior -1 is the block's start, infinity its end.
+
+        A block that is revoked before its predicted start counts as one that started when it ended.
+        """
         start = self.start.value
-        return Place(time, time if start is None else start, self.arrival, behavior, sync)
+        return Place(time, time if start is None else min(start, time), self.arrival, behavior, sync)
 
     def _waits(self) -> tuple[TimeCell, ...]:
         return tuple(target.end for target in self.targets)

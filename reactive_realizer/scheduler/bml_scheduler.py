@@ -16,12 +16,13 @@ from reactive_realizer.feedback.messages import BlockProgress, SyncPointProgress
 from reactive_realizer.limits import Limits
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.pegboard.time_peg import unknown_sources
-from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
+from reactive_realizer.pegboard.time_peg import Time, TimePeg, followers_of, unknown_sources
+from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint, UnitState
 from reactive_realizer.reactive.commit import Commit
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BlockState, BMLBlock
 from reactive_realizer.scheduler.cast import Cast
+from reactive_realizer.scheduler.constraints import blocks_named
 from reactive_realizer.scheduler.planning import Plan, Planning
 from reactive_realizer.scheduler.predictions import Predictions
 from reactive_realizer.scheduler.preparation import Preparation
@@ -74,7 +75,7 @@ class BMLScheduler:
         character = self._character(parsed.block)
         for problem in parsed.problems:
             self._warn(character, problem.id, problem.fault)
-        if parsed.block is None or (fault := self._refusal(parsed.block, character)) is not None:
+        if parsed.block is None or (fault := self.refusal(parsed.block)) is not None:
             self.refused += 1
             if parsed.block is not None and fault is not None:
                 self._warn(character, parsed.block.id, fault)
@@ -87,18 +88,33 @@ class BMLScheduler:
             return
         self._prepare(block, now)
 
+    def refusal(self, block: BehaviorBlock) -> Fault | None:
+        """Why a block that was read would not be accepted now; None if it would be."""
+        character = self._character(block)
+        place = {"line": block.location.line, "column": block.location.column}
+        if character not in self._cast.characters:
+            known = ", ".join(self._cast.characters)
+            return Fault("unknown-character", {"character": character, "known": known}, **place)
+        if BlockKey(character, block.id) in self.blocks:
+            return Fault("duplicate-block", {"block": block.id}, **place)
+        replaces = block.composition is Composition.REPLACE  # makes room itself
+        if not replaces and len(self.blocks.alive) >= self._limits.blocks_alive:
+            return Fault("too-many-blocks", {"limit": self._limits.blocks_alive}, **place)
+        return None
+
     def interrupt_all(self, character: str, now: GlobalTime) -> None:
-        """End every block of a character now."""
-        for block in self.blocks.of(character):
+        """End every block of a character now; the later ones first, because they may hang on the earlier ones."""
+        for block in reversed(self.blocks.of(character)):
             self._interrupt(block, now)
 
     # --- what time brings
 
     def advance(self, now: GlobalTime) -> bool:
-        """Start and end what is due, in order of time; whether anything was."""
+        """Plan what is prepared, start and end what is due, in order of time; whether anything started or ended."""
+        self._plan_prepared(now)
         ending = [block for block in self.blocks.alive if block.state.plays and not block.live_units]
         for block in ending:
-            self._end(block, BlockState.DONE, block.end.value or now)
+            self._end(block, BlockState.DONE, _known(block.end.value, now))
         starting = [b for b in self.blocks.alive if b.state is BlockState.LURKING and is_due(b.start.value, now)]
         for block in sorted(starting, key=lambda b: (b.start.value, b.arrival)):
             self._start(block, now)
@@ -126,9 +142,8 @@ class BMLScheduler:
                 if point.peg in moved and time is not None and time < previous:
                     point.peg.pin(now)
         for unit in units:
-            if not unit.in_order() and all(point.fired is None for point in unit.points):
-                unit.drop(now)
-                self._drop(Dropped(unit, Fault("overtaken")), now)
+            if not unit.begun and not unit.in_order():
+                self._drop_unit(unit, Fault("overtaken"), now)
 
     def fail_restless(self, rounds: int, now: GlobalTime) -> None:
         """Fail the blocks that keep a tick from coming to rest: those that play."""
@@ -142,33 +157,23 @@ class BMLScheduler:
         if self._touched:
             self._touched = False
             for block in self.blocks.alive:
-                self._predictions.publish_moved(block, now)
+                self._predictions.publish(block, now)
 
-    def stuck(self) -> bool:
-        """Whether no block alive can move unless something new comes in."""
-        return all(block.state is not BlockState.IN_PREP and not _next_times(block) for block in self.blocks.alive)
+    def stuck(self, now: GlobalTime) -> bool:
+        """Whether, after the tick at ``now``, no block alive can move unless something new comes in."""
+        return all(block.state is not BlockState.IN_PREP and not _can_move(block, now) for block in self.blocks.alive)
 
     def warn_stuck(self) -> None:
         """Say of every block alive what it waits for."""
         for block in self.blocks.alive:
-            waits = ", ".join(unknown_sources([block.start, block.end])) or "its activation"
+            pegs = [point.peg for unit in block.live_units for point in unit.ahead()]
+            waits = ", ".join(unknown_sources([block.start, block.end, *pegs]))
             self._warn(block.key.character, block.key.block, Fault("never-moves", {"waits": waits}))
 
     # --- accepting
 
     def _character(self, block: BehaviorBlock | None) -> str:
         return (block and block.character) or self._cast.characters[0]
-
-    def _refusal(self, block: BehaviorBlock, character: str) -> Fault | None:
-        place = {"line": block.location.line, "column": block.location.column}
-        if character not in self._cast.characters:
-            known = ", ".join(self._cast.characters)
-            return Fault("unknown-character", {"character": character, "known": known}, **place)
-        if BlockKey(character, block.id) in self.blocks:
-            return Fault("duplicate-block", {"block": block.id}, **place)
-        if len(self.blocks.alive) >= self._limits.blocks_alive:
-            return Fault("too-many-blocks", {"limit": self._limits.blocks_alive}, **place)
-        return None
 
     def _new_block(self, description: BehaviorBlock, character: str, now: GlobalTime) -> BMLBlock:
         self._arrivals += 1
@@ -203,14 +208,20 @@ class BMLScheduler:
         if self._lost(block, losses, now):
             return
         preparation = self._preparations[block] = Preparation(engines, self._workshop)
-        preparation.begin(lambda now: self._plan(block, now))
-        if preparation.complete:
-            self._plan(block, now)
-        else:
-            self._predictions.publish(block, now)
+        preparation.begin()
+        self._owe_prediction(block)
 
-    def _plan(self, block: BMLBlock, now: GlobalTime) -> None:
-        preparation = self._preparations.pop(block)
+    def _plan_prepared(self, now: GlobalTime) -> None:
+        """Plan in order of arrival; a block that names points of an earlier one waits until that is planned."""
+        for block, preparation in tuple(self._preparations.items()):
+            if preparation.complete and not self._names_unplanned(block):
+                self._plan(block, self._preparations.pop(block), now)
+
+    def _names_unplanned(self, block: BMLBlock) -> bool:
+        others = [self.blocks.find(block.key.character, name) for name in blocks_named(block.description)]
+        return any(other in self._preparations and other.arrival < block.arrival for other in others if other)
+
+    def _plan(self, block: BMLBlock, preparation: Preparation, now: GlobalTime) -> None:
         units, losses = self._units(block, preparation)
         if self._lost(block, losses, now):
             return
@@ -219,7 +230,7 @@ class BMLScheduler:
             return
         self._planning.commit(block, plan, now)
         self._hand_out(plan, units)
-        self._predictions.publish(block, now)
+        self._owe_prediction(block)
 
     def _units(self, block: BMLBlock, preparation: Preparation) -> tuple[dict[PlanUnit, Engine], list[Loss]]:
         units: dict[PlanUnit, Engine] = {}
@@ -229,6 +240,9 @@ class BMLScheduler:
                 units[engine.plan(block.key, behavior, preparation.result(behavior.id))] = engine
             except RealizerError as problem:
                 losses.append(_loss(behavior, problem.fault))
+            except Exception as failure:
+                logger.exception("%s/%s:%s could not be made", *block.key, behavior.id)
+                losses.append(_loss(behavior, Fault("work-failed", {"reason": failure})))
         return units, losses
 
     def _hand_out(self, plan: Plan, units: dict[PlanUnit, Engine]) -> None:
@@ -254,24 +268,41 @@ class BMLScheduler:
         block.state = BlockState.IN_EXEC
         for unit in block.units:
             unit.release()
-        self._predictions.publish(block, now)
+        self._owe_prediction(block)
         self._progress(block, "start", time, _BEFORE_ALL)
 
     def _end(self, block: BMLBlock, state: BlockState, time: GlobalTime) -> None:
+        self._predictions.close(block, time)
         block.state = state
         with self._board.graph.transaction(f"end {block.key.block}"):
             block.end.pin(time)
-            # What was tied to a point that never came keeps the time predicted last.
-            self._board.pin_block(block.key)
+            cut = self._board.pin_block(block.key)
         self._progress(block, "end", time, _AFTER_ALL)
         self._preparations.pop(block, None)
-        self._predictions.forget(block)
         self._board.remove_block(block.key)
         self.blocks.end(block, time)
         for unit in block.units:
             self._engines.pop(unit, None)
+        block.targets = ()
+        self._release_tied(cut, state, time)
         self.failed += state is BlockState.FAILED
         logger.info("%s/%s %s at %.2f s, %d behaviors", *block.key, state.value, time, len(block.units))
+
+    def _release_tied(self, cut: Sequence[TimePeg], state: BlockState, now: GlobalTime) -> None:
+        """Behaviors of other blocks that hang on points which never come keep the times predicted last, and say so.
+
+        Without such a time they are lost; also when a block never began and they have not begun either.
+        """
+        followers = {follower: peg for peg in cut for follower in followers_of(peg)}
+        for unit in [unit for block in self.blocks.alive for unit in block.live_units]:
+            tied = [point.peg for point in unit.ahead() if point.peg in followers]
+            if not tied:
+                continue
+            details = {"point": followers[tied[0]].name}
+            if any(peg.value is None for peg in tied) or (state is BlockState.REVOKED and not unit.begun):
+                self._drop_unit(unit, Fault("never-comes", details), now)
+            else:
+                self._warn(unit.block.character, f"{unit.block.block}:{unit.behavior.id}", Fault("cut-tie", details))
 
     def _interrupt(self, block: BMLBlock, now: GlobalTime) -> None:
         if not block.state.plays:
@@ -283,13 +314,26 @@ class BMLScheduler:
         cut = False
         for unit in block.live_units:
             cut |= self._interrupt_unit(unit, now)
-        self._end(block, BlockState.INTERRUPTED if cut else BlockState.DONE, now if cut else block.end.value or now)
+        if cut:
+            self._end(block, BlockState.INTERRUPTED, now)
+        else:
+            self._end(block, BlockState.DONE, _known(block.end.value, now))
 
     def _interrupt_unit(self, unit: PlanUnit, now: GlobalTime) -> bool:
-        """End a behavior now; whether anything of it was cut."""
-        if all(point.fired is None for point in unit.points):
+        """End a behavior now, what is due first; whether anything of it was cut."""
+        if unit.due(now):
+            unit.begin()
+        if unit.state is not UnitState.IN_EXEC:
             self._leave_unit(unit, now)
             return True
+        try:
+            return self._cut_short(unit, now)
+        except Exception as failure:
+            logger.exception("%s/%s:%s failed when it was interrupted", *unit.block, unit.behavior.id)
+            self._drop_unit(unit, Fault("unit-failed", {"reason": failure}), now)
+            return True
+
+    def _cut_short(self, unit: PlanUnit, now: GlobalTime) -> bool:
         details = unit.end_details(now)
         engine = self._engines[unit]
         reached = [Reached(unit, point, point.fired or now) for point in unit.fire(now)]
@@ -317,9 +361,14 @@ class BMLScheduler:
 
     # --- playing
 
+    def _drop_unit(self, unit: PlanUnit, fault: Fault, now: GlobalTime) -> None:
+        unit.drop(now)
+        self._drop(Dropped(unit, fault), now)
+
     def _drop(self, dropped: Dropped, now: GlobalTime) -> None:
+        """Warn of a unit that left the plan; one that had begun ends now."""
         unit = dropped.unit
-        block = self.blocks.find(unit.block.character, unit.block.block)
+        block = self.blocks.get(unit.block)
         self._warn(unit.block.character, f"{unit.block.block}:{unit.behavior.id}", dropped.fault)
         if block is not None and unit in block.units:
             block.units.remove(unit)
@@ -327,19 +376,23 @@ class BMLScheduler:
                 block.end_again(now)
         if unit in self._engines:
             self._engines.pop(unit).remove(unit)
+        if unit.begun and unit.points[-1].fired is None:
+            self._report(Reached(unit, self._split(unit, unit.points[-1], now), now))
 
     def _report(self, reached: Reached) -> None:
         unit, time = reached.unit, reached.time
-        block = self.blocks.find(unit.block.character, unit.block.block)
+        block = self.blocks.get(unit.block)
         if block is None or block.start.value is None:
             return
         local = BlockTime(time - block.start.value)
         message = SyncPointProgress(*unit.block, unit.behavior.id, reached.point.id, local, time, reached.details)
         order = unit.timing.points.index(reached.point.id)
-        self._feedback.progress(message, block.place(time, unit.behavior.order, order))
+        # A point that passed before its block started is told after that start.
+        place = block.place(max(time, block.start.value), unit.behavior.order, order)
+        self._feedback.progress(message, place)
 
     def _subside(self, reached: Reached) -> None:
-        block = self.blocks.find(*reached.unit.block)
+        block = self.blocks.get(reached.unit.block)
         if block is not None and block.state is BlockState.IN_EXEC and block.subsides():
             block.state = BlockState.SUBSIDING
 
@@ -353,15 +406,24 @@ class BMLScheduler:
             self._feedback.say(WarningFeedback(known, id_, fault.kind.warning, str(fault)))
         logger.warning("%s %s: %s", character, id_, fault)
 
+    def _owe_prediction(self, block: BMLBlock) -> None:
+        self._touched = True
+        self._predictions.owe(block)
+
     def _note(self, commit: Commit) -> None:
         self._touched = True
 
 
-def _next_times(block: BMLBlock) -> list[GlobalTime]:
-    """The known times that lie ahead of a block."""
+def _known(time: Time, now: GlobalTime) -> GlobalTime:
+    return now if time is None else time
+
+
+def _can_move(block: BMLBlock, now: GlobalTime) -> bool:
+    """Whether a time that is known lies ahead of a block."""
     if not block.state.plays:
-        return [] if block.start.value is None else [block.start.value]
-    return [time for unit in block.live_units for p in unit.ahead() if (time := p.peg.value) is not None]
+        return block.start.value is not None
+    times = (point.peg.value for unit in block.live_units for point in unit.ahead())
+    return any(time is not None and not is_due(time, now) for time in times)
 
 
 def _unsupported(behavior: Behavior) -> Loss:

@@ -18,6 +18,14 @@ Raises RealizerError: there is none.
 """
 
 
+def blocks_named(block: BehaviorBlock) -> set[str]:
+    """Ids of the blocks that the references of a block name."""
+    refs = [ref for behavior in block.behaviors for ref in behavior.syncs.values()]
+    for constraint in block.constraints:
+        refs += (constraint.ref, *constraint.refs) if isinstance(constraint, Order) else constraint.refs
+    return {ref.block for ref in refs if ref.block is not None}
+
+
 def drop_unplaceable(units: dict[str, PlanUnit], locate: Locate) -> list[Loss]:
     """Take out the behaviors that hang on a point that can never come, and those that hang on them, and so on."""
     losses: list[Loss] = []

@@ -16,29 +16,33 @@ _Times = Mapping[tuple[str, str], Time]
 
 
 class Predictions:
-    """Publishes predictionFeedback: when asked to, and when a published time has moved; at most once a block a tick."""
+    """Publishes predictionFeedback: when it is owed, and when a published time has moved; at most once a block a tick.
+
+    A tick first does all it has to do and then says what is predicted, so that the one prediction is the latest.
+    """
 
     def __init__(self, feedback: FeedbackManager) -> None:
         self._feedback = feedback
         self._published: dict[BMLBlock, _Times] = {}
-        self._said_at: dict[BMLBlock, GlobalTime] = {}
+        self._owed: set[BMLBlock] = set()
+
+    def owe(self, block: BMLBlock) -> None:
+        """Have this tick say what is predicted of a block, moved or not."""
+        self._owed.add(block)
 
     def publish(self, block: BMLBlock, now: GlobalTime) -> None:
-        """Say what is predicted, unless this tick has said it."""
-        if self._said_at.get(block) != now:
-            self._said_at[block] = now
-            self._published[block] = _times(block)
+        """Say what is predicted if that is owed or is not what was said last."""
+        times = _times(block)
+        if block in self._owed or _moved(self._published.get(block, {}), times):
+            self._owed.discard(block)
+            self._published[block] = times
             self._feedback.say(_prediction(block, now))
 
-    def publish_moved(self, block: BMLBlock, now: GlobalTime) -> None:
-        """Say what is predicted if that is not what was said last."""
-        if _moved(self._published.get(block, {}), _times(block)):
+    def close(self, block: BMLBlock, now: GlobalTime) -> None:
+        """The block ends: say what is still owed, and forget it."""
+        if block in self._owed:
             self.publish(block, now)
-
-    def forget(self, block: BMLBlock) -> None:
-        """The block has ended."""
         self._published.pop(block, None)
-        self._said_at.pop(block, None)
 
 
 def _times(block: BMLBlock) -> _Times:

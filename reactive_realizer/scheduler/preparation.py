@@ -17,18 +17,20 @@ class Preparation:
         self._results: dict[str, Result] = {}
         self._workshop = workshop
         self._cancels: list[Callable[[], None]] = []
-        self._done: Callable[[GlobalTime], None] | None = None
 
     @property
     def complete(self) -> bool:
         """Whether nothing is outstanding."""
         return len(self._results) == len(self.engines)
 
-    def begin(self, done: Callable[[GlobalTime], None]) -> None:
-        """Request the work; ``done`` is called with the time of a later tick, unless nothing needed any."""
-        self._done = done
+    def begin(self) -> None:
+        """Request the work."""
         for id_, (behavior, engine) in self.engines.items():
-            work = engine.prepare(behavior)
+            try:
+                work = engine.prepare(behavior)
+            except Exception as failure:
+                self._results[id_] = failure
+                continue
             if work is None:
                 self._results[id_] = None
             else:
@@ -55,7 +57,5 @@ class Preparation:
     def _receiver(self, id_: str) -> Callable[[Result, GlobalTime], None]:
         def receive(result: Result, now: GlobalTime) -> None:
             self._results[id_] = result
-            if self.complete and self._done is not None:
-                self._done(now)
 
         return receive

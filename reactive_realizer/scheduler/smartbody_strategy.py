@@ -91,6 +91,7 @@ class _Run:
     def _place(self, item: Item) -> None:
         """Find the peg of every point; those of earlier behaviors stand."""
         known = self._known(item) or self._anchor(item)
+        known = self._with_own_ties(item, known)
         if item.timing.rigid:
             known = self._one_of(item, known)
         known = self._not_before_the_block(item, known)
@@ -124,6 +125,17 @@ class _Run:
         anchor = Anchor(item.timing.offsets[index], free=True)
         self._clusters[anchor] = [anchor]
         return {index: Placed(AtBlock(anchor, 0.0), anchor.time, anchor)}
+
+    def _with_own_ties(self, item: Item, known: dict[int, Placed]) -> dict[int, Placed]:
+        """Points that only the behavior itself ties to each other: the first stays where it would be, others follow."""
+        leaders: dict[Node, tuple[int, float]] = {}
+        for i, sync in enumerate(item.timing.points):
+            root, distance = self._ties.find(Point(item.behavior.id, sync))
+            leader, at = leaders.setdefault(root, (i, distance))
+            if i not in known and leader != i:
+                first = known.get(leader) or _fill(item, known)[leader]
+                known = {**known, leader: first, i: _moved(first, distance - at)}
+        return known
 
     def _one_of(self, item: Item, known: Mapping[int, Placed]) -> dict[int, Placed]:
         """One point places a rigid behavior; a tie of another point that it cannot meet is lost: rigid wins."""
@@ -179,11 +191,16 @@ class _Run:
             if anchor.free:
                 anchor.time -= earliest.get(id(members), 0.0)
         for item in self._kept():
-            start = self._placed[item.behavior.id][0]
+            start, end = self._placed[item.behavior.id][0], self._placed[item.behavior.id][-1]
             # A later behavior may have tied a cluster to something fixed while it lay before the block.
-            if start.time is not None and start.anchor and not start.anchor.free and start.time < -_SHORTEST:
-                del self._placed[item.behavior.id]
-                self._lose(item, Fault("before-block", {"early": -start.time}))
+            if start.anchor is not None and _is_past(start):
+                self._remove(item, Fault("before-block", {"early": -(start.time or 0.0)}))
+            elif _is_past(end):
+                self._remove(item, Fault("all-past", {"late": -(end.time or 0.0)}))
+
+    def _remove(self, item: Item, fault: Fault) -> None:
+        del self._placed[item.behavior.id]
+        self._lose(item, fault)
 
     def _lose(self, item: Item, fault: Fault, *, dropped: bool = True) -> None:
         self._losses.append(Loss(item.behavior.id, fault, dropped=dropped, required=item.behavior.required))
@@ -211,6 +228,12 @@ def _fill(item: Item, known: Mapping[int, Placed]) -> list[Placed]:
             nearest = before if before is not None else min(known)
             placed.append(_moved(known[nearest], (offsets[i] - offsets[nearest]) * stretch))
     return placed
+
+
+def _is_past(placed: Placed) -> bool:
+    """Whether a point lies before its block; those of free clusters have been moved."""
+    free = placed.anchor is not None and placed.anchor.free
+    return not free and placed.time is not None and placed.time < -_SHORTEST
 
 
 def _moved(placed: Placed, distance: float) -> Placed:

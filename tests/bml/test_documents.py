@@ -1,6 +1,7 @@
 """Documents: several blocks, what stands between them, encodings, places."""
 
 from pathlib import Path
+from xml.sax.saxutils import quoteattr
 
 import pytest
 from hypothesis import given, settings
@@ -8,7 +9,9 @@ from hypothesis import strategies as st
 
 from reactive_realizer.bml.block import Parsed
 from reactive_realizer.bml.document import parse
+from reactive_realizer.bml.elements import ELEMENTS
 from reactive_realizer.bml.names import Location
+from reactive_realizer.bml.references import check_references
 from reactive_realizer.limits import Limits
 
 OWN_DATA = Path(__file__).parents[1] / "data" / "bml"
@@ -21,7 +24,7 @@ def read(text: str | bytes) -> list[Parsed]:
 
 def ids(text: str | bytes) -> list[str | None]:
     """The block's id, or None for what was refused."""
-    return [parsed.block and parsed.block.id for parsed in read(text)]
+    return [parsed.block.id if parsed.block else None for parsed in read(text)]
 
 
 def faults(text: str | bytes) -> list[tuple[str, str]]:
@@ -158,22 +161,45 @@ def test_every_block_of_the_other_realizers_is_read_without_a_problem(shared_cas
         check(path)
 
 
-tokens = st.sampled_from(
-    [
-        "<bml id='a'>", "<bml", "</bml>", "<bml id='b'/>", "<!--", "-->", "<![CDATA[", "]]>", "<?xml version='1.0'?>",
-        "<!DOCTYPE x>", "<required>", "</required>", "<constraint>", "</constraint>", "<synchronize>",
-        "<sync ref='1'/>",         "<speech id='s'>", "<text>", "<sync id='t'/>", "</text>", "</speech>", "<head id='h' lexeme='N' start='", "'/>",
-        "s:t+1", "nan", "&amp;", "&x;", "<_>", "</_>", " xmlns='u}v'", " xmlns=''", "\x00", "\ud800", "é", "\r", ">", "'",
-    ]
-)  # fmt: skip
+MARKUP = """<bml id='a'>|<bml|</bml>|<bml id='b'/>|<!--|-->|<![CDATA[|]]>|<?xml version='1.0'?>|<!DOCTYPE x>|<required>
+</required>|<constraint>|</constraint>|<synchronize>|</synchronize>|<after ref='h:end'>|</after>|<sync ref='1'/>
+<speech id='s'>|<text>|<sync id='t'/>|</text>|</speech>|<head id='h' lexeme='N' start='|'/>|s:t+1|nan|&amp;|&x;|<_>|</_>
+<face id='f'>|<faceLexeme lexeme='x'/>|</face>|<posture id='p'>|<pose part='ARMS' lexeme='y'/>|</posture>|<x:y| xmlns=''
+ xmlns:x='u}v'| xmlns='http://['|>|'|=|\x00|\ud800|é|\r"""
+tokens = st.sampled_from([token for line in MARKUP.split("\n") for token in line.split("|")])
 documents = st.text() | st.binary() | st.lists(tokens, max_size=30).map("".join)
 
+NAMES = [*ELEMENTS, "text", "sync", "description", "stance", "pose", "required", "constraint", "synchronize", "after"]
+VALUES = ["", "x", "y", "1", "2.5", "-1", "nan", "x:start", "y:stroke:2-1", "x:t-1", "BEAT", "LEFT_HAND", "ARMS", "é&"]
+ATTRIBUTES = [each.name for element in ELEMENTS.values() for each in element.attributes] + [
+    "start",
+    "end",
+    "ref",
+    "type",
+]
+tags = st.tuples(st.sampled_from(NAMES), st.dictionaries(st.sampled_from(ATTRIBUTES), st.sampled_from(VALUES)))
 
-@settings(derandomize=True, max_examples=500)
-@given(documents)
+
+def written(tag: tuple[str, dict[str, str]], inside: list[str]) -> str:
+    name, attributes = tag
+    says = "".join(f" {key}={quoteattr(value)}" for key, value in attributes.items())
+    return f"<{name}{says}>{''.join(inside)}</{name}>"
+
+
+elements = st.recursive(
+    st.builds(written, tags, st.just([])), lambda inside: st.builds(written, tags, st.lists(inside, max_size=4))
+)
+blocks = st.lists(elements, max_size=6).map(lambda inside: f"<bml id='b'>{''.join(inside)}</bml>")
+
+
+@settings(derandomize=True, max_examples=400)
+@given(documents | blocks)
 def test_whatever_comes_there_is_an_answer(document: str | bytes) -> None:
     answer = read(document)
     assert answer
     for parsed in answer:
-        assert parsed.block is not None or parsed.problems
-        assert all(str(problem.fault) and problem.id and problem.fault.kind.warning for problem in parsed.problems)
+        problems = list(parsed.problems)
+        if parsed.block:
+            problems += check_references(parsed.block)
+        assert parsed.block or problems
+        assert all(str(problem.fault) and problem.id and problem.fault.kind.warning for problem in problems)

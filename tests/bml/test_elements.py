@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import pytest
 
-from reactive_realizer.bml.behavior import ForeignBehavior
+from reactive_realizer.bml.behavior import Behavior, ForeignBehavior
 from reactive_realizer.bml.behaviors import (
     Gaze,
     GazeShift,
@@ -18,7 +18,7 @@ from reactive_realizer.bml.behaviors import (
     Wait,
 )
 from reactive_realizer.bml.block import BehaviorBlock
-from reactive_realizer.bml.elements import ELEMENTS
+from reactive_realizer.bml.elements import ELEMENTS, Element
 from reactive_realizer.bml.face import Face, FaceFacs, FaceLexeme, FaceShift
 from reactive_realizer.bml.names import BML, BML_EXT, BMLA, Location
 from reactive_realizer.bml.posture import Pose, Posture, PostureShift
@@ -33,7 +33,7 @@ SHIFT = ("start", "end")
 PARTS = '<faceLexeme lexeme="OPEN_MOUTH" amount="1"/><ext:faceFacs au="12" side="LEFT"/>'
 STANCE = '<stance type="SITTING"/><pose part="ARMS" lexeme="ARMS_OPEN"/><pose part="LEGS" lexeme="LEGS_CROSSED"/>'
 
-WRITTEN = {
+WRITTEN: dict[str, tuple[type[Behavior], dict[str, object], tuple[str, ...]]] = {
     '<speech id="x"><text>Hi</text></speech>': (Speech, {"text": "Hi", "marks": ()}, SHIFT),
     '<gesture id="x" lexeme="BEAT"/>': (Gesture, {"lexeme": "BEAT", "mode": None}, STROKE),
     '<gesture id="x" lexeme="WAVE" mode="LEFT_HAND"/>': (Gesture, {"lexeme": "WAVE", "mode": Mode.LEFT_HAND}, STROKE),
@@ -148,7 +148,7 @@ def test_the_table_says_names_types_defaults_and_sync_points() -> None:
 
 
 @pytest.mark.parametrize("element", ELEMENTS.values(), ids=lambda element: element.name)
-def test_every_default_sync_point_is_an_attribute_that_holds_a_reference(block: Block, element) -> None:
+def test_every_default_sync_point_is_an_attribute_that_holds_a_reference(block: Block, element: Element) -> None:
     needed = {"text": "<text>Hi</text>", "faceLexeme": PARTS, "stance": STANCE}
     inside = "".join(needed.get(child, "") for child in element.children)
     prefix = "ext:" if element.namespace == BML_EXT else ""
@@ -187,7 +187,7 @@ def test_influence_knows_the_words_of_other_realizers(block: Block, word: str, i
     assert gaze.influence is influence
 
 
-TEXTS = {
+TEXTS: dict[str, tuple[str, dict[str, int]]] = {
     "Hello  world": ("Hello world", {}),
     "\n  Hello\n\tworld  ": ("Hello world", {}),
     "": ("", {}),

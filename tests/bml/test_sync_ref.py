@@ -53,6 +53,13 @@ def test_a_known_name_that_looks_like_an_offset_is_a_name() -> None:
     assert SyncRef.parse("speech1:s-1+0", LIMITS) == SyncRef(None, "speech1", "s-1", 0.0)
 
 
+def test_a_reference_is_written_so_that_it_reads_back_the_same() -> None:
+    assert str(SyncRef(None, "speech1", "s-1", 0.0)) == "speech1:s-1+0"
+    assert str(SyncRef("b", "speech1", "end", -2.0)) == "b:speech1:end-2"
+    assert str(SyncRef("b", None, None, 0.25)) == "b:0.25"
+    assert str(SyncRef.parse("-0", LIMITS)) == "0"
+
+
 @pytest.mark.parametrize(
     "text",
     [

@@ -1,0 +1,137 @@
+"""The human file: who is in the scene, what is around, and who predicts, as TOML."""
+
+import tomllib
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, fields
+from pathlib import Path
+from typing import Any, TypeVar
+
+from reactive_realizer.embodiment.vector import ZERO, Vec3
+from reactive_realizer.errors import error
+from reactive_realizer.limits import Limits
+
+T = TypeVar("T")
+
+DEFAULT_ENGINES = ("speech", "animation", "face", "wait")
+
+
+@dataclass(frozen=True, slots=True)
+class CharacterSpec:
+    """``[character.ID]``.
+
+    Attributes:
+        avatar: name of a GLB file among the assets.
+        voice: a name that the text-to-speech binding knows; empty for its default.
+        position: of the place on the ground that it stands on, m.
+        heading: how far it is turned to its left, degrees; 0 faces +z.
+        engines: ids of engines, in rank order.
+        bindings: names of files among the assets, by kind.
+    """
+
+    avatar: str = "avatars/female.glb"
+    voice: str = ""
+    position: Vec3 = ZERO
+    heading: float = 0.0
+    engines: tuple[str, ...] = DEFAULT_ENGINES
+    bindings: Mapping[str, str] = field(default_factory=lambda: {"gesture": "gesturebinding.xml"})
+
+
+@dataclass(frozen=True, slots=True)
+class TargetSpec:
+    """``[target.ID]``: a place to look at, m."""
+
+    position: Vec3
+
+
+@dataclass(frozen=True, slots=True)
+class AnticipatorSpec:
+    """``[anticipator.ID]``: who predicts, and the numbers it is made with."""
+
+    kind: str
+    parameters: Mapping[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class HumanFile:
+    """A scene as it is specified."""
+
+    characters: Mapping[str, CharacterSpec]
+    targets: Mapping[str, TargetSpec]
+    anticipators: Mapping[str, AnticipatorSpec]
+    limits: Limits
+
+
+def read_human_file(path: Path) -> HumanFile:
+    """The scene that a file specifies.
+
+    Raises:
+        RealizerError: not TOML, an unknown key (the known ones are listed), a value of another type.
+    """
+    try:
+        table = tomllib.loads(path.read_text(encoding="utf-8"))
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as problem:
+        raise error("bad-human-file", file=path.name, key="the file", reason=problem) from problem
+    reader = _Reader(path.name)
+    reader.know("", table, ("character", "target", "anticipator", "limits"))
+    characters = reader.section(table, "character", lambda key, own: reader.read(CharacterSpec, key, own))
+    if not characters:
+        raise error("bad-human-file", file=path.name, key="character", reason="there is none")
+    return HumanFile(
+        characters,
+        reader.section(table, "target", lambda key, own: reader.read(TargetSpec, key, own)),
+        reader.section(table, "anticipator", reader.anticipator),
+        reader.read(Limits, "limits", table.get("limits", {})),
+    )
+
+
+class _Reader:
+    """Reads tables into data classes; every mistake names its key."""
+
+    def __init__(self, file: str) -> None:
+        self._file = file
+
+    def section(self, table: Mapping[str, Any], name: str, read: Callable[[str, Any], T]) -> dict[str, T]:
+        own = table.get(name, {})
+        if not isinstance(own, dict):
+            raise self._bad(name, "a table is wanted")
+        return {id_: read(f"{name}.{id_}", entry) for id_, entry in own.items()}
+
+    def anticipator(self, key: str, table: Any) -> AnticipatorSpec:
+        if not isinstance(table, dict) or not isinstance(table.get("kind"), str):
+            raise self._bad(key, "a table with a kind is wanted")
+        rest = {name: self._value(f"{key}.{name}", value, float) for name, value in table.items() if name != "kind"}
+        return AnticipatorSpec(table["kind"], rest)
+
+    def read(self, cls: Callable[..., T], key: str, table: Any) -> T:
+        if not isinstance(table, dict):
+            raise self._bad(key, "a table is wanted")
+        kinds = {own.name: own.type for own in fields(cls)}  # type: ignore[arg-type]
+        self.know(key, table, tuple(kinds))
+        values = {name: self._value(f"{key}.{name}", value, kinds[name]) for name, value in table.items()}
+        try:
+            return cls(**values)
+        except TypeError as problem:
+            raise self._bad(key, str(problem)) from problem
+
+    def know(self, key: str, table: Mapping[str, Any], known: tuple[str, ...]) -> None:
+        for name in table:
+            if name not in known:
+                raise self._bad(f"{key}.{name}".lstrip("."), f"unknown; known are {', '.join(known)}")
+
+    def _value(self, key: str, value: Any, kind: Any) -> Any:
+        """The value, if it is of the kind that the field has."""
+        number = isinstance(value, int | float) and not isinstance(value, bool) and abs(value) < float("inf")
+        if number and (kind is float or kind is type(value)):
+            return kind(value)
+        if kind is str and isinstance(value, str):
+            return value
+        if kind == Vec3 and isinstance(value, list) and len(value) == 3:
+            return tuple(self._value(key, part, float) for part in value)
+        if kind == tuple[str, ...] and isinstance(value, list):
+            return tuple(self._value(key, part, str) for part in value)
+        if kind == Mapping[str, str] and isinstance(value, dict):
+            return {name: self._value(f"{key}.{name}", part, str) for name, part in value.items()}
+        raise self._bad(key, f"{value!r} is not what is wanted there")
+
+    def _bad(self, key: str, reason: str) -> Exception:
+        return error("bad-human-file", file=self._file, key=key, reason=reason)

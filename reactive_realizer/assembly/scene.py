@@ -1,0 +1,123 @@
+"""A running scene from its specification."""
+
+import math
+from collections.abc import AsyncIterator, Callable, Mapping
+from contextlib import asynccontextmanager
+from dataclasses import dataclass, field
+from inspect import signature
+from pathlib import Path
+from typing import Any
+
+from reactive_realizer.assembly.assets import PACKAGE_ASSETS, Assets
+from reactive_realizer.assembly.human_file import AnticipatorSpec, CharacterSpec, HumanFile, read_human_file
+from reactive_realizer.assembly.registry import load
+from reactive_realizer.embodiment.avatar import Avatar
+from reactive_realizer.embodiment.humanoid import Humanoid
+from reactive_realizer.embodiment.world import World
+from reactive_realizer.engine.context import EngineContext
+from reactive_realizer.engine.engine import Engine
+from reactive_realizer.engine.lip_sync import LipSyncProvider
+from reactive_realizer.errors import error
+from reactive_realizer.pegboard.anticipator import Anticipator
+from reactive_realizer.pegboard.pegboard import PegBoard
+from reactive_realizer.realizer.character import Character
+from reactive_realizer.realizer.realizer import Realizer
+from reactive_realizer.scheduler.smartbody_strategy import SmartBodyStrategy
+
+DEFAULT_HUMAN = PACKAGE_ASSETS / "humans" / "default.toml"
+
+
+@dataclass(frozen=True, slots=True)
+class SceneOptions:
+    """What a user chooses.
+
+    Attributes:
+        human: the human file.
+        voice: id of the text-to-speech binding.
+        assets: folders searched before the package's own.
+        seed: of all randomness.
+    """
+
+    human: Path = DEFAULT_HUMAN
+    voice: str = "espeak"
+    assets: tuple[Path, ...] = ()
+    seed: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """What was assembled.
+
+    Attributes:
+        specification: as it was read.
+        avatars: name of the avatar file of each character.
+        tts: the text-to-speech binding.
+    """
+
+    realizer: Realizer
+    specification: HumanFile
+    assets: Assets
+    tts: Any
+    avatars: Mapping[str, str] = field(default_factory=dict)
+
+
+@asynccontextmanager
+async def open_scene(options: SceneOptions) -> AsyncIterator[Scene]:
+    """Assemble a scene and start its voice and its realizer; both end with the context.
+
+    Raises:
+        RealizerError: a file, plug-in or value of the specification is not there or not usable.
+    """
+    specification = read_human_file(options.human)
+    assets = Assets(options.assets)
+    world = World({target: spec.position for target, spec in specification.targets.items()})
+    tts = load("tts", options.voice)()
+    characters = [
+        _character(id_, spec, world, assets, tts, options.seed + rank)
+        for rank, (id_, spec) in enumerate(specification.characters.items())
+    ]
+    realizer = Realizer(characters, world, _anticipators(specification), SmartBodyStrategy(), specification.limits)
+    await tts.start()
+    try:
+        async with realizer:
+            avatars = {id_: spec.avatar for id_, spec in specification.characters.items()}
+            yield Scene(realizer, specification, assets, tts, avatars)
+    finally:
+        await tts.close()
+
+
+def _character(id_: str, spec: CharacterSpec, world: World, assets: Assets, tts: Any, seed: int) -> Character:
+    humanoid = Humanoid(Avatar.read(assets(spec.avatar)), spec.position, math.radians(spec.heading))
+    world.add_character(id_, humanoid.locate)
+    mouth = _Mouth()
+    context = EngineContext(id_, humanoid, world, assets, seed, tts, spec.voice or None, dict(spec.bindings), mouth)
+    engines: list[Engine] = [load("engines", name)(context) for name in spec.engines]
+    mouth.voices = [engine for engine in engines if isinstance(engine, LipSyncProvider)]
+    return Character(id_, humanoid, tuple(engines))
+
+
+class _Mouth:
+    """What the voices of a character do with its mouth, whatever the order in which its engines are made."""
+
+    def __init__(self) -> None:
+        self.voices: list[LipSyncProvider] = []
+
+    def mouth(self, time: Any) -> Mapping[str, float]:
+        return next((weights for voice in self.voices if (weights := voice.mouth(time))), {})
+
+
+def _anticipators(specification: HumanFile) -> Callable[[PegBoard], Mapping[str, Anticipator]]:
+    def make(board: PegBoard) -> Mapping[str, Anticipator]:
+        return {id_: _anticipator(id_, spec, board) for id_, spec in specification.anticipators.items()}
+
+    return make
+
+
+def _anticipator(id_: str, spec: AnticipatorSpec, board: PegBoard) -> Anticipator:
+    cls: type[Anticipator] = load("anticipators", spec.kind)
+    known = [name for name in signature(cls).parameters if name not in ("id", "board")]
+    for name in spec.parameters:
+        if name not in known:
+            reason = f"unknown; known are {', '.join(['kind', *known])}"
+            raise error("bad-human-file", file="the human file", key=f"anticipator.{id_}.{name}", reason=reason)
+    return cls(id_, board, **spec.parameters)

@@ -1,0 +1,60 @@
+"""Where a session goes: feedback as JSON lines, frames as an npz file."""
+
+import json
+from pathlib import Path
+from typing import IO
+
+import numpy as np
+
+from reactive_realizer.embodiment.frame import Frame
+from reactive_realizer.feedback.feedback_manager import Report
+from reactive_realizer.realizer.character import Character
+from reactive_realizer.realizer.realizer import Realizer
+
+
+class FeedbackWriter:
+    """Writes one JSON line a message."""
+
+    def __init__(self, stream: IO[str]) -> None:
+        self._stream = stream
+
+    def __call__(self, report: Report) -> None:
+        """Write a report."""
+        line = {"time": round(report.time, 6), "xml": report.xml}
+        self._stream.write(json.dumps(line, ensure_ascii=False) + "\n")
+        self._stream.flush()
+
+
+class FrameRecorder:
+    """Keeps the frames of all characters and writes them in the form of docs/protocol.md, frames."""
+
+    def __init__(self) -> None:
+        self._frames: dict[str, list[Frame]] = {}
+
+    def __call__(self, character: Character, frame: Frame) -> None:
+        """Keep a frame."""
+        self._frames.setdefault(character.id, []).append(frame)
+
+    def write(self, path: Path, realizer: Realizer) -> None:
+        """One npz file; with more than one character every name has the prefix ``ID/``."""
+        arrays: dict[str, object] = {}
+        for id_, character in realizer.characters.items():
+            prefix = f"{id_}/" if len(realizer.characters) > 1 else ""
+            arrays |= {prefix + name: array for name, array in self._arrays(character).items()}
+        with path.open("wb") as file:
+            np.savez(file, **arrays)  # type: ignore[arg-type]
+
+    def _arrays(self, character: Character) -> dict[str, object]:
+        frames = self._frames.get(character.id, [])
+        avatar = character.humanoid.avatar
+        skeleton = avatar.skeleton
+        return {
+            "time": np.array([frame.time for frame in frames]),
+            "joints": np.array(skeleton.joints),
+            "parents": np.array(skeleton.parents),
+            "offsets": np.array(skeleton.offsets),
+            "rotations": np.array([f.rotations for f in frames]).reshape(-1, len(skeleton.joints), 4),
+            "root": np.array([frame.root for frame in frames]).reshape(-1, 3),
+            "morphs": np.array(avatar.morphs),
+            "weights": np.array([frame.weights for frame in frames]).reshape(-1, len(avatar.morphs)),
+        }

@@ -1,0 +1,43 @@
+"""What enters a realizer; every input waits for a tick."""
+
+from dataclasses import dataclass
+
+from reactive_realizer.clock.units import GlobalTime
+
+Position = tuple[float, float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class BmlText:
+    """A document of one or more blocks."""
+
+    text: str | bytes
+
+
+@dataclass(frozen=True, slots=True)
+class Prediction:
+    """When a point of an anticipator is now said to be; None withdraws what was said."""
+
+    anticipator: str
+    sync: str
+    time: GlobalTime | None
+
+
+@dataclass(frozen=True, slots=True)
+class Event:
+    """Something happened, or was set, that an anticipator makes predictions from."""
+
+    anticipator: str
+    name: str
+    value: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class TargetMoved:
+    """A target of the world is elsewhere (m), or gone."""
+
+    target: str
+    position: Position | None
+
+
+Input = BmlText | Prediction | Event | TargetMoved

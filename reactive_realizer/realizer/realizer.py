@@ -1,0 +1,204 @@
+"""The Realizer: inputs in, ticks through, feedback, frames and sounds out."""
+
+import asyncio
+import logging
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import AsyncExitStack
+from types import TracebackType
+from typing import Self
+
+from reactive_realizer.bml.document import parse
+from reactive_realizer.clock.ticker import Tick
+from reactive_realizer.clock.units import GlobalTime, is_due
+from reactive_realizer.embodiment.audio import AudioChange
+from reactive_realizer.embodiment.frame import Frame
+from reactive_realizer.embodiment.world import World
+from reactive_realizer.engine.effects import Play
+from reactive_realizer.engine.engine_task import EngineTask, play_all
+from reactive_realizer.errors import RealizerError
+from reactive_realizer.feedback.feedback_manager import FeedbackManager
+from reactive_realizer.limits import Limits
+from reactive_realizer.pegboard.anticipator import Anticipator
+from reactive_realizer.pegboard.pegboard import PegBoard
+from reactive_realizer.reactive.commit import Commit
+from reactive_realizer.reactive.graph import Graph
+from reactive_realizer.realizer.character import Character
+from reactive_realizer.realizer.inputs import BmlText, Event, Input, Prediction, TargetMoved
+from reactive_realizer.realizer.workshop import TaskWorkshop
+from reactive_realizer.scheduler.bml_scheduler import BMLScheduler
+from reactive_realizer.scheduler.cast import Cast
+from reactive_realizer.scheduler.strategy import SchedulingStrategy
+
+logger = logging.getLogger(__name__)
+
+_MOST_ROUNDS = 100
+
+FrameListener = Callable[[Character, Frame], None]
+AudioListener = Callable[[AudioChange], None]
+
+
+class Realizer:
+    """One board, one ticker and one task an engine for all characters; used as an async context manager.
+
+    Whoever owns the clock calls `step` for every tick; whoever has something to say calls `put` at any time, and it
+    enters at the first tick at or after its time.
+
+    Attributes:
+        feedback: tells everybody who listens.
+        board: all points in time.
+        world: what can be looked at.
+        scheduler: the blocks.
+        characters: by id, the first takes what names none.
+        anticipators: by id.
+    """
+
+    def __init__(
+        self,
+        characters: Sequence[Character],
+        world: World,
+        anticipators: Callable[[PegBoard], Mapping[str, Anticipator]],
+        strategy: SchedulingStrategy,
+        limits: Limits,
+    ) -> None:
+        self.limits = limits
+        self.characters = {character.id: character for character in characters}
+        self.world = world
+        self.feedback = FeedbackManager()
+        self.board = PegBoard(Graph())
+        self.anticipators = dict(anticipators(self.board))
+        self.time = GlobalTime(0.0)
+        self._strategy = strategy
+        self._cast = Cast({character.id: character.engines for character in characters})
+        self._tasks = [EngineTask(engine) for engine in self._cast.engines]
+        self._inbox: list[tuple[GlobalTime, int, Input]] = []
+        self._entered = 0
+        self._commits: list[Commit] = []
+        self._frame_listeners: list[FrameListener] = []
+        self._audio_listeners: list[AudioListener] = []
+        self._stack = AsyncExitStack()
+        self.board.graph.listen(self._commits.append)
+
+    # --- life
+
+    async def __aenter__(self) -> Self:
+        group = await self._stack.enter_async_context(asyncio.TaskGroup())
+        running = [group.create_task(task.run(), name=task.engine.name) for task in self._tasks]
+        self._stack.callback(lambda: [task.cancel() for task in running])
+        self._workshop = TaskWorkshop(group)
+        self._stack.callback(self._workshop.close)
+        self.scheduler = BMLScheduler(
+            self.board, self._cast, self.feedback, self._workshop, self._strategy, self.limits
+        )
+        return self
+
+    async def __aexit__(
+        self, kind: type[BaseException] | None, failure: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        await self._stack.__aexit__(kind, failure, trace)
+
+    # --- the port
+
+    def put(self, entry: Input, at: GlobalTime = GlobalTime(0.0)) -> None:  # noqa: B008 - a float
+        """Have an input enter at the first tick at or after ``at``, after all that was put before."""
+        self._entered += 1
+        self._inbox.append((at, self._entered, entry))
+
+    def watch(self, listener: FrameListener) -> Callable[[], None]:
+        """Get the frames of all characters; the returned call ends that. Nothing is composed where nobody looks."""
+        self._frame_listeners.append(listener)
+        return lambda: self._frame_listeners.remove(listener)
+
+    def hear(self, listener: AudioListener) -> None:
+        """Get what becomes audible."""
+        self._audio_listeners.append(listener)
+
+    @property
+    def busy(self) -> bool:
+        """Whether something is still to enter."""
+        return bool(self._inbox) or self._workshop.busy
+
+    async def settle(self) -> None:
+        """Wait for slow work requested until now."""
+        await self._workshop.settle()
+
+    # --- a tick
+
+    async def step(self, tick: Tick) -> None:
+        """One tick, phase by phase (semantics: a tick, in phases)."""
+        self.time = tick.time
+        watched = Tick(tick.number, tick.previous, tick.frame and bool(self._frame_listeners))
+        self._commits.clear()
+        self._take_inputs(tick)
+        plays = await self._play(watched)
+        if watched.frame:
+            self._publish_frames(tick.time, plays)
+        self.scheduler.publish(tick.time)
+        self.feedback.flush(tick.time)
+
+    def _take_inputs(self, tick: Tick) -> None:
+        due = [entry for at, _, entry in sorted(self._inbox, key=lambda e: e[:2]) if is_due(at, tick.time)]
+        self._inbox = [waiting for waiting in self._inbox if not is_due(waiting[0], tick.time)]
+        with self.board.graph.transaction("inputs"):
+            for entry in due:
+                self._try(entry, tick.time)
+        self.scheduler.clamp(tick.previous, tick.time, tuple(self._commits))
+        self._workshop.deliver(tick.time)
+        for entry in due:
+            if isinstance(entry, BmlText):
+                self._read(entry, tick.time)
+
+    def _try(self, entry: Input, now: GlobalTime) -> None:
+        """Whoever brings an input may check it first; one that cannot be is left out, and all else goes on."""
+        try:
+            self._apply(entry, now)
+        except RealizerError as problem:
+            logger.warning("%s is left out: %s", entry, problem)
+        except Exception:
+            logger.exception("%s is left out", entry)
+
+    def _apply(self, entry: Input, now: GlobalTime) -> None:
+        match entry:
+            case Prediction(anticipator, sync, time):
+                self._anticipator(anticipator).predict(sync, time, now)
+            case Event(anticipator, name, value):
+                self._anticipator(anticipator).event(name, value, now)
+            case TargetMoved(target, position):
+                self.world.move(target, position)
+            case BmlText():
+                pass
+
+    def _anticipator(self, name: str) -> Anticipator:
+        if name not in self.anticipators:
+            self.anticipators[name] = Anticipator(name, self.board)
+        return self.anticipators[name]
+
+    def _read(self, entry: BmlText, now: GlobalTime) -> None:
+        for parsed in parse(entry.text, self.limits):
+            self.scheduler.accept(parsed, now)
+
+    async def _play(self, tick: Tick) -> list[Play]:
+        """Rounds of the tick until nothing changes; what the last one shows is what is seen."""
+        plays: list[Play] = []
+        for _ in range(_MOST_ROUNDS):
+            self.scheduler.advance(tick.time)
+            plays = await play_all(self._tasks, tick)
+            changed = False
+            for play in plays:
+                changed |= self.scheduler.apply(play, tick.time)
+                self._publish_audio(play)
+            if not changed and not self.scheduler.advance(tick.time):
+                return plays
+        self.scheduler.fail_restless(_MOST_ROUNDS, tick.time)
+        return plays
+
+    def _publish_audio(self, play: Play) -> None:
+        for change in play.audio:
+            for listener in self._audio_listeners:
+                listener(change)
+
+    def _publish_frames(self, time: GlobalTime, plays: Sequence[Play]) -> None:
+        by_engine = dict(zip((task.engine for task in self._tasks), plays, strict=True))
+        for character in self.characters.values():
+            frame = character.compose(time, [by_engine[engine] for engine in character.engines])
+            for listener in tuple(self._frame_listeners):
+                listener(character, frame)

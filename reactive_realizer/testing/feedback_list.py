@@ -1,0 +1,92 @@
+"""Feedback as a test reads it."""
+
+from dataclasses import dataclass
+
+from lxml import etree
+
+from reactive_realizer.bml.names import BMLA
+from reactive_realizer.feedback.feedback_manager import Report
+
+_STATUS = f"{{{BMLA}}}status"
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """One message: its element, and when it was told."""
+
+    time: float
+    element: etree._Element
+
+    @property
+    def kind(self) -> str:
+        """Local name of the element."""
+        return etree.QName(self.element).localname
+
+    @property
+    def id(self) -> str:
+        """Its id; of a prediction the block's."""
+        return str(self.element.get("id") or self.element[0].get("id"))
+
+    @property
+    def at(self) -> float:
+        """Global time of progress."""
+        return float(self.element.get("globalTime", "nan"))
+
+
+class FeedbackList:
+    """All that was told, in order."""
+
+    def __init__(self) -> None:
+        self.lines: list[Line] = []
+        self.raw: list[str] = []
+
+    def __call__(self, report: Report) -> None:
+        """Take a report."""
+        self.raw.append(report.xml)
+        self.lines.append(Line(report.time, etree.fromstring(report.xml)))
+
+    def of(self, kind: str) -> list[Line]:
+        """The messages of one kind."""
+        return [line for line in self.lines if line.kind == kind]
+
+    @property
+    def progress(self) -> list[str]:
+        """Ids of block and sync point progress, in order."""
+        return [line.id for line in self.lines if line.kind in ("blockProgress", "syncPointProgress")]
+
+    def time(self, id_: str) -> float:
+        """The globalTime at which a block or sync point was reached.
+
+        Raises:
+            AssertionError: it was reached never, or more than once.
+        """
+        found = [line.at for line in self.lines if line.kind.endswith("Progress") and line.id == id_]
+        assert len(found) == 1, f"{id_} was reported {len(found)} times"
+        return found[0]
+
+    def reached(self, id_: str) -> bool:
+        """Whether a block or sync point was reported."""
+        return id_ in self.progress
+
+    @property
+    def warnings(self) -> list[tuple[str, str]]:
+        """Id and type of every warning, in order."""
+        return [(line.id, str(line.element.get("type"))) for line in self.of("warningFeedback")]
+
+    def status(self, block: str, sync: str = "end") -> str:
+        """The status with which a block started or ended."""
+        line = next(line for line in self.of("blockProgress") if line.id == f"{block}:{sync}")
+        return str(line.element.get(_STATUS))
+
+    def predictions(self, block: str) -> list[Line]:
+        """The predictions of a block, in order."""
+        return [line for line in self.of("predictionFeedback") if line.id == block]
+
+    def predicted(self, point: str) -> float:
+        """The global time last predicted for ``block:behavior:sync``, ``block:start`` or ``block:end``."""
+        block, *behavior, sync = point.split(":")
+        element = self.predictions(block)[-1].element
+        if not behavior:
+            return float(str(element[0].get(f"global{sync.capitalize()}")))
+        own = next(child for child in element if child.get("id") == f"{block}:{behavior[0]}")
+        return float(str(element[0].get("globalStart"))) + float(str(own.get(sync)))

@@ -1,0 +1,113 @@
+"""A peg that moves while the body plays."""
+
+import numpy as np
+import pytest
+
+from reactive_realizer.embodiment.body import Body
+from reactive_realizer.testing.pilot import open_pilot
+
+HIT = '<gesture id="g" lexeme="BEAT" mode="RIGHT_HAND" stroke="anticipators:test:hit"/>'
+
+
+@pytest.fixture
+async def pilot():
+    async with open_pilot() as pilot:
+        pilot.watch()
+        yield pilot
+
+
+def wrist(pilot, character="alice", joint="r_wrist"):
+    """Where a wrist was in each frame, (F, 3), m."""
+    skeleton = pilot.realizer.characters[character].humanoid.avatar.skeleton
+    poses = [dict(zip(skeleton.joints, map(tuple, f.rotations), strict=True)) for f in pilot.frames[character]]
+    return np.array([Body(skeleton, pose).place(joint).position for pose in poses])
+
+
+def steps(path):
+    """How far a joint moved from each frame to the next, m."""
+    return np.linalg.norm(np.diff(path, axis=0), axis=1)
+
+
+async def test_the_stroke_follows_a_prediction_that_moves_while_the_arm_is_on_its_way(pilot) -> None:
+    pilot.predict("test", "hit", 1.5)
+    pilot.block("b", HIT)
+    pilot.block("next", '<head id="h" lexeme="NOD"/>', composition="APPEND")
+    await pilot.tick()
+    told = pilot.feedback
+    length = told.predicted("b:end") - 1.5
+    preparation = 1.5 - told.predicted("b:g:start")
+    await pilot.advance(1.5 - preparation / 2)
+    assert told.reached("b:g:start")
+    assert not told.reached("b:g:ready")
+
+    for moved in (1.8, 1.6):
+        said = len(told.predictions("b"))
+        pilot.predict("test", "hit", moved)
+        await pilot.tick()
+        assert len(told.predictions("b")) == said + 1
+        assert told.predicted("b:g:stroke") == pytest.approx(moved)
+        assert told.predicted("b:end") == told.predicted("next:start") == pytest.approx(moved + length)
+        await pilot.advance(0.05)
+
+    await pilot.advance(4)
+    assert told.time("b:g:stroke") == pytest.approx(1.6)
+    assert told.time("b:end") == told.time("next:start") == pytest.approx(1.6 + length)
+    assert told.warnings == []
+    path = wrist(pilot)
+    assert np.ptp(path, axis=0).max() > 0.15, "the arm did not move"
+    assert steps(path).max() < 0.05
+
+
+async def test_a_behavior_waits_for_a_point_that_nobody_has_predicted_yet(pilot) -> None:
+    pilot.block("b", HIT)
+    await pilot.advance(2)
+    assert pilot.feedback.progress == ["b:start"]
+    pilot.predict("test", "hit", 3.0)
+    await pilot.advance(4)
+    assert pilot.feedback.time("b:g:stroke") == 3.0
+    assert pilot.feedback.status("b") == "DONE"
+
+
+async def test_a_prediction_that_has_passed_already_means_now(pilot) -> None:
+    pilot.block("b", '<head id="h" lexeme="NOD" start="anticipators:test:go"/>')
+    await pilot.advance(1)
+    pilot.predict("test", "go", 0.2)
+    await pilot.tick()
+    assert pilot.feedback.time("b:h:start") == 1.0
+
+
+async def test_the_same_prediction_again_changes_nothing(pilot) -> None:
+    pilot.predict("test", "hit", 2.0)
+    pilot.block("b", HIT)
+    await pilot.advance(0.2)
+    commits, said = [], len(pilot.feedback.lines)
+    pilot.realizer.board.graph.listen(commits.append)
+    pilot.predict("test", "hit", 2.0)
+    await pilot.tick()
+    assert commits == []
+    assert len(pilot.feedback.lines) == said
+
+
+async def test_a_point_that_was_reached_keeps_its_time_and_what_is_ahead_still_moves(pilot) -> None:
+    pilot.predict("test", "stop", 1.0)
+    pilot.block("b", '<gesture id="g" lexeme="BEAT" start="anticipators:test:stop-0.5" end="anticipators:test:stop+1"/>')
+    await pilot.advance(0.7)
+    pilot.predict("test", "stop", 1.4)
+    await pilot.advance(3)
+    assert pilot.feedback.time("b:g:start") == 0.5
+    assert pilot.feedback.time("b:g:end") == pytest.approx(2.4)
+
+
+async def test_strokes_follow_the_tempo_of_the_metronome(pilot) -> None:
+    pilot.block(
+        "b",
+        """
+        <gesture id="one" lexeme="BEAT" mode="RIGHT_HAND" stroke="anticipators:metronome:tick2"/>
+        <head id="nod" lexeme="NOD" stroke="anticipators:metronome:tick4"/>
+        """,
+    )
+    await pilot.advance(2.5)
+    pilot.event("metronome", "tempo", 120)
+    await pilot.advance(2)
+    assert pilot.feedback.time("b:one:stroke") == 2.0
+    assert pilot.feedback.time("b:nod:stroke") == pytest.approx(3.0)
