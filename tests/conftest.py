@@ -5,9 +5,18 @@ import shutil
 from pathlib import Path
 
 import pytest
+from hypothesis import settings
+
+# The same examples on every run and machine, however slow it is.
+settings.register_profile("same", derandomize=True, deadline=None, database=None)
+settings.load_profile("same")
 
 SHARED_CASES = Path(__file__).resolve().parents[2] / "shared" / "cases"
 WITHOUT_BROWSER = os.environ.get("BROWSER") == "none"
+
+# The same examples every time, and no limit that a busy machine could break.
+settings.register_profile("repeatable", derandomize=True, deadline=None)
+settings.load_profile("repeatable")
 
 
 def pytest_report_header() -> list[str]:

@@ -36,6 +36,7 @@ class FaceEngine(DefaultEngine):
         self._lexemes = {_word(name): w for name, w in read_face_lexemes(context.asset(_LEXEMES)).items()}
         self._lip_sync = context.lip_sync
         self._fading: list[_Fading] = []
+        self._mouth: Mapping[str, float] = {}
 
     def supports(self, behavior: Behavior) -> bool:
         """Single lexemes."""
@@ -56,14 +57,22 @@ class FaceEngine(DefaultEngine):
 
     def face(self, tick: Tick) -> Mapping[str, float]:
         """Weights of morph targets now."""
+        mouth = self._spoken(tick.time)
         self._fading = [fading for fading in self._fading if tick.time < fading.since + _FADE]
         shown = [unit.shown(tick.time) for unit in self.player.playing if isinstance(unit, FaceUnit)]
         shown += [_faded(fading, tick.time) for fading in self._fading]
-        mouth = self._lip_sync.mouth(tick.time) if self._lip_sync else {}
         face = _added(shown)
         if mouth:
             face = {m: w * (_WHILE_SPEAKING if m.startswith(("mouth", "jaw")) else 1.0) for m, w in face.items()}
         return _added([face, mouth])
+
+    def _spoken(self, now: GlobalTime) -> Mapping[str, float]:
+        """What the voice does with the mouth; where a word is cut, the mouth closes as a face goes."""
+        mouth = self._lip_sync.mouth(now) if self._lip_sync else {}
+        if self._mouth and not mouth:
+            self._fading.append(_Fading(self._mouth, now))
+        self._mouth = mouth
+        return mouth
 
     def _release(self, unit: FaceUnit, time: GlobalTime) -> None:
         if unit.level > 0.0:
