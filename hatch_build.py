@@ -1,0 +1,35 @@
+"""Build hook: the page lies in every wheel and source distribution, so that who installs one needs no Node."""
+
+import os
+import shutil
+import subprocess
+from pathlib import Path
+from typing import Any
+
+from hatchling.builders.hooks.plugin.interface import BuildHookInterface
+
+
+class PageBuildHook(BuildHookInterface):
+    """Builds the viewer with npm where that is at hand, and else insists that it is built already.
+
+    ``SKIP_WEB_BUILD`` keeps the page as it is. An editable install needs none: the server says so when asked for it.
+    """
+
+    def initialize(self, version: str, build_data: dict[str, Any]) -> None:
+        """Put the page in its place before the files are collected.
+
+        Raises:
+            RuntimeError: there is no page and nothing to build it with.
+        """
+        if version == "editable":
+            return
+        static = Path(self.root, "reactive_realizer", "server", "static")
+        if "SKIP_WEB_BUILD" not in os.environ and shutil.which("npm"):
+            self._build_page(static)
+        if not (static / "index.html").exists():
+            raise RuntimeError("the page is not built: run `make page`, or install Node 20 or newer")
+
+    def _build_page(self, static: Path) -> None:
+        web = Path(self.root, "web")
+        subprocess.run(["npm", "ci", "--no-audit", "--no-fund"], cwd=web, check=True)
+        subprocess.run(["npm", "run", "build", "--", "--outDir", str(static), "--emptyOutDir"], cwd=web, check=True)

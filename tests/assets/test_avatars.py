@@ -1,0 +1,167 @@
+"""What the realizer and the page rely on in the default avatars."""
+
+import json
+import struct
+from itertools import product
+from pathlib import Path
+
+import pytest
+
+AVATARS = Path(__file__).resolve().parents[2] / "reactive_realizer" / "assets" / "avatars"
+PATHS = [AVATARS / "female.glb", AVATARS / "male.glb"]
+
+TRUNK = ["Hips", "Spine", "Spine1", "Spine2", "Neck", "Head"]
+ARM = ["Shoulder", "Arm", "ForeArm", "Hand"]
+LEG = ["UpLeg", "Leg", "Foot", "ToeBase"]
+FINGERS = [f"Hand{finger}{i}" for finger, i in product(["Thumb", "Index", "Middle", "Ring", "Pinky"], (1, 2, 3))]
+JOINTS = {*TRUNK, *("".join(pair) for pair in product(["Left", "Right"], [*ARM, *FINGERS, *LEG, "Eye"]))}
+
+SIDED_SHAPES = [
+    "browDown",
+    "browOuterUp",
+    "cheekSquint",
+    "eyeBlink",
+    "eyeLookDown",
+    "eyeLookIn",
+    "eyeLookOut",
+    "eyeLookUp",
+    "eyeSquint",
+    "eyeWide",
+    "mouthDimple",
+    "mouthFrown",
+    "mouthLowerDown",
+    "mouthPress",
+    "mouthSmile",
+    "mouthStretch",
+    "mouthUpperUp",
+    "noseSneer",
+]
+SINGLE_SHAPES = [
+    "browInnerUp",
+    "cheekPuff",
+    "jawForward",
+    "jawLeft",
+    "jawOpen",
+    "jawRight",
+    "mouthClose",
+    "mouthFunnel",
+    "mouthLeft",
+    "mouthPucker",
+    "mouthRight",
+    "mouthRollLower",
+    "mouthRollUpper",
+    "mouthShrugLower",
+    "mouthShrugUpper",
+    "tongueOut",
+]
+ARKIT_SHAPES = sorted([*SINGLE_SHAPES, *("".join(pair) for pair in product(SIDED_SHAPES, ["Left", "Right"]))])
+
+
+@pytest.fixture(params=PATHS, ids=lambda path: path.stem)
+def path(request):
+    return request.param
+
+
+@pytest.fixture
+def avatar(path):
+    """The JSON of a GLB: its first chunk."""
+    data = path.read_bytes()
+    magic, version, length = struct.unpack_from("<4sII", data)
+    size, kind = struct.unpack_from("<I4s", data, 12)
+    assert (magic, version, length, kind) == (b"glTF", 2, len(data), b"JSON")
+    return json.loads(data[20 : 20 + size])
+
+
+def joints(avatar):
+    return [avatar["nodes"][node] for node in avatar["skins"][0]["joints"]]
+
+
+def places(avatar):
+    """Position of each joint in meters: at rest it is the sum of the translations above it."""
+    nodes, found = avatar["nodes"], {}
+
+    def walk(node, origin):
+        place = [a + b for a, b in zip(origin, nodes[node]["translation"], strict=True)]
+        found[nodes[node]["name"]] = place
+        for child in nodes[node].get("children", []):
+            walk(child, place)
+
+    walk(avatar["skins"][0]["skeleton"], [0, 0, 0])
+    return found
+
+
+def test_a_file_is_smaller_than_3_megabytes(path):
+    assert path.stat().st_size < 3_000_000
+
+
+def test_the_skeleton_has_the_54_joints_of_mixamo_with_eyes(avatar):
+    names = [joint["name"] for joint in joints(avatar)]
+    assert len(names) == 54
+    assert set(names) == JOINTS
+
+
+def test_no_joint_is_turned_or_scaled_at_rest(avatar):
+    assert not [joint["name"] for joint in joints(avatar) if {"rotation", "scale", "matrix"} & set(joint)]
+
+
+def test_the_figure_stands_in_a_t_pose_and_faces_forward(avatar):
+    place = places(avatar)
+    for side, sign in (("Left", 1), ("Right", -1)):
+        shoulder, elbow, wrist = (place[side + joint] for joint in ("Arm", "ForeArm", "Hand"))
+        assert 0 < shoulder[0] * sign < elbow[0] * sign < wrist[0] * sign
+        assert wrist[1:] == pytest.approx(shoulder[1:], abs=1e-5)
+        assert place[side + "ToeBase"][2] > place[side + "Foot"][2]
+    assert 0.8 < place["Hips"][1] < place["Head"][1] < 1.7
+
+
+def test_the_face_has_the_52_blend_shapes_of_arkit_in_the_order_of_their_names(avatar):
+    face = next(mesh for mesh in avatar["meshes"] if mesh["name"] == "Face")
+    assert len(ARKIT_SHAPES) == 52
+    assert face["extras"]["targetNames"] == ARKIT_SHAPES
+    assert {len(primitive["targets"]) for primitive in face["primitives"]} == {52}
+
+
+def test_only_the_face_is_moved_by_blend_shapes(avatar):
+    deformed = {mesh["name"] for mesh in avatar["meshes"] for part in mesh["primitives"] if "targets" in part}
+    assert deformed == {"Face"}
+
+
+def test_vrm_names_a_bone_for_every_joint(avatar):
+    bones = avatar["extensions"]["VRMC_vrm"]["humanoid"]["humanBones"]
+    named = {bone: avatar["nodes"][entry["node"]]["name"] for bone, entry in bones.items()}
+    assert sorted(named.values()) == sorted(JOINTS)
+    expected = {"hips": "Hips", "chest": "Spine1", "leftUpperArm": "LeftArm", "rightLowerLeg": "RightLeg"}
+    expected |= {"leftThumbMetacarpal": "LeftHandThumb1", "rightLittleDistal": "RightHandPinky3"}
+    assert named.items() >= expected.items()
+
+
+def test_vrm_names_expressions_for_the_blend_shapes(avatar):
+    presets = avatar["extensions"]["VRMC_vrm"]["expressions"]["preset"]
+    moods, mouths = {"happy", "angry", "sad", "relaxed", "surprised", "neutral"}, {"aa", "ih", "ou", "ee", "oh"}
+    assert set(presets) == {*moods, *mouths, "blink", "blinkLeft", "blinkRight"}
+    blink = presets["blink"]["morphTargetBinds"]
+    assert {ARKIT_SHAPES[bind["index"]] for bind in blink} == {"eyeBlinkLeft", "eyeBlinkRight"}
+
+
+def test_a_file_carries_its_notice(avatar):
+    meta = avatar["extensions"]["VRMC_vrm"]["meta"]
+    for notice in (avatar["asset"]["copyright"], meta["copyrightInformation"]):
+        assert notice.startswith("CC0 1.0.")
+        assert "MakeHuman / MPFB" in notice
+        assert "Mika Suominen" in notice
+    assert meta["otherLicenseUrl"] == "https://creativecommons.org/publicdomain/zero/1.0/"
+
+
+def test_the_license_beside_the_files_names_the_same_sources():
+    text = (AVATARS / "LICENSE.md").read_text(encoding="utf-8")
+    for name in ("CC0 1.0", "MakeHuman", "MPFB", "Mika Suominen", *(path.name for path in PATHS)):
+        assert name in text
+
+
+def test_both_figures_have_the_same_skeleton():
+    texts = []
+    for path in PATHS:
+        data = path.read_bytes()
+        document = json.loads(data[20 : 20 + struct.unpack_from("<I", data, 12)[0]])
+        texts.append([joint["name"] for joint in joints(document)])
+    assert texts[0] == texts[1]

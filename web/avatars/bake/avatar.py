@@ -1,0 +1,112 @@
+"""One avatar from the data to its file."""
+
+from pathlib import Path
+
+import numpy as np
+
+from bake.body import Body
+from bake.characters import CHARACTERS
+from bake.eyes import build_eyes
+from bake.face import face_parts
+from bake.glb import Glb, Json
+from bake.hair import build_hair
+from bake.head_map import HeadMap
+from bake.makehuman import MakeHuman
+from bake.materials import make_materials
+from bake.mesh import Mesh, vertex_normals
+from bake.numeric import Array, Mask
+from bake.pants import build_pants
+from bake.primitive import Part, PrimitiveWriter
+from bake.rig import Rig
+from bake.shoes import build_shoes
+from bake.top import build_top
+from bake.vrm import COPYRIGHT, vrm_block
+
+_GENERATOR = "bake_avatar.py"
+"""As the committed files say it; another name would change their bytes and nothing else."""
+
+_UNDER_CLOTHES = 0.010
+"""How far covered skin is drawn back, so that it never shows through a moving garment (m)."""
+
+
+def bake(data: MakeHuman, name: str, path: Path) -> None:
+    """Write the GLB of a character of `CHARACTERS`."""
+    body = Body(data, CHARACTERS[name])
+    head = HeadMap(body)
+    garments, covered = _dress(body)
+    hair, glb = build_hair(body, head), Glb()
+    materials = make_materials(glb, body, head)
+    skin = body.positions - body.normals * (_UNDER_CLOTHES * covered)[:, None]
+    writer = PrimitiveWriter(glb, body, materials)
+    meshes = [_face(writer, body, [*face_parts(body, head, skin, covered)])]
+    eyes = build_eyes(body)
+    parts = [_body_part(body, head, skin, covered), _part("Eyes", eyes), *garments, _part("Hair", hair)]
+    meshes += [{"name": part.name, "primitives": [writer.write(part)]} for part in parts]
+    nodes, bound = _nodes(body.rig, meshes), glb.accessor(_inverse_bind_matrices(body.rig))
+    index = {node["name"]: i for i, node in enumerate(nodes)}
+    document = {
+        "asset": {"version": "2.0", "generator": _GENERATOR, "copyright": COPYRIGHT},
+        "extensionsUsed": ["KHR_materials_clearcoat", "VRMC_vrm"],
+        "extensions": {"VRMC_vrm": vrm_block(body, name, index)},
+        "scene": 0,
+        "scenes": [{"nodes": [index["Avatar"]]}],
+        "nodes": nodes,
+        "meshes": meshes,
+        "skins": [{"joints": list(range(len(body.rig.names))), "inverseBindMatrices": bound, "skeleton": 0}],
+        "materials": list(materials.values()),
+    }
+    glb.save(path, document)
+
+
+def _dress(body: Body) -> tuple[list[Part], Mask]:
+    """The garments, and which vertices of the body they hide."""
+    top, hem = build_top(body)
+    pants = build_pants(body, hem)
+    covered = top.covers(body.positions) | pants.covers(body.positions)
+    return [_part("Top", top.mesh), _part("Pants", pants.mesh), _part("Shoes", build_shoes(body))], covered
+
+
+def _part(name: str, mesh: Mesh) -> Part:
+    """A mesh with the material of its own name."""
+    normals = vertex_normals(mesh.positions, mesh.triangles) if mesh.normals is None else mesh.normals
+    return Part(name, mesh, normals, name)
+
+
+def _body_part(body: Body, head: HeadMap, skin: Array, covered: Mask) -> Part:
+    """Arms, hands and what else is seen; faces under the clothes are left out, so that no nude mesh is shipped."""
+    seen = ~covered[body.triangles].all(1) & ~head.is_head
+    uvs = body.uvs[seen].copy()
+    uvs[..., 1] = 1 - uvs[..., 1]
+    return Part("Body", Mesh(skin, body.weights, body.triangles[seen], uvs), body.normals, "BodySkin")
+
+
+def _face(writer: PrimitiveWriter, body: Body, parts: list[Part]) -> Json:
+    targets = list(body.face_units)
+    return {
+        "name": "Face",
+        "primitives": [writer.write_face(part, shaded=part.name == "Head") for part in parts],
+        "weights": [0] * len(targets),
+        "extras": {"targetNames": targets},
+    }
+
+
+def _nodes(rig: Rig, meshes: list[Json]) -> list[Json]:
+    """The joints in the order of the rig, a node for each mesh, and "Avatar" above all."""
+    nodes: list[Json] = []
+    for joint, parent in rig.parents.items():
+        offset = rig.places[joint] - (0 if parent is None else rig.places[parent])
+        node: Json = {"name": joint, "translation": [float(f"{x:.7g}") for x in offset]}
+        if children := [i for i, child in enumerate(rig.names) if rig.parents[child] == joint]:
+            node["children"] = children
+        nodes.append(node)
+    joints = len(nodes)
+    nodes += [{"name": mesh["name"], "mesh": i, "skin": 0} for i, mesh in enumerate(meshes)]
+    nodes.append({"name": "Avatar", "children": [0, *range(joints, len(nodes))]})
+    return nodes
+
+
+def _inverse_bind_matrices(rig: Rig) -> Array:
+    """Column-major (joints, 16): translations, since no joint is turned at rest."""
+    matrices = np.tile(np.eye(4, dtype="f4"), (len(rig.names), 1, 1))
+    matrices[:, 3, :3] = -np.array([rig.places[joint] for joint in rig.names])
+    return matrices.reshape(-1, 16)

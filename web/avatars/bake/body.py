@@ -1,0 +1,120 @@
+"""A naked body: shape, rig and weights of one character, in a T-pose with its soles where the shoes will hold them."""
+
+import numpy as np
+
+from bake.characters import Character
+from bake.makehuman import DECIMETER, BaseMesh, MakeHuman
+from bake.mesh import vertex_normals
+from bake.numeric import Array, Indices, Mask
+from bake.rig import bind, read_rig, t_pose
+
+SOLE = 0.018
+"""Thickness of the shoe sole, m: the whole body is lifted by this much."""
+
+_MOUTH_FIT = (
+    # upper incisors show in speech, the tongue lies lower than MakeHuman puts it
+    ("helper-upper-teeth", (0, -0.0030, 0.0015)),
+    ("helper-lower-teeth", (0, -0.0008, 0.0008)),
+    ("helper-tongue", (0, -0.0050, -0.0045)),
+)
+
+
+class Body:
+    """The base mesh of MakeHuman as one person.
+
+    Attributes:
+        character: who.
+        groups: vertex indices by group.
+        rig: joints in the T-pose.
+        places: (3,) m by joint, those of the rig.
+        positions: (v, 3) m, body and helpers, T-pose.
+        weights: (v, joints) bone weights.
+        turns: (v, 3, 3) how the T-pose turned each vertex: face units are turned likewise.
+        face_units: (v, 3) m by ARKit name, before that turn.
+        triangles: (t, 3) of the skin, without helpers.
+        uvs: (t, 3, 2) original texture coordinates of the skin.
+        normals: (v, 3) of the skin, unit.
+    """
+
+    def __init__(self, data: MakeHuman, character: Character) -> None:
+        self.character = character
+        self.groups = data.groups()
+        self._data = data
+        self._base = data.base_mesh()
+        count = len(self._base.positions)
+        self.face_units = data.face_units(count)
+        shaped = self._shape(self._base, character)
+        rig = read_rig(data.rig(), shaped, self.groups)
+        self.weights = bind(rig, data.rig_weights(), self.groups, count)
+        self.rig, rotations, translations = t_pose(rig)
+        self.places = self.rig.places
+        self.turns = np.einsum("vk,kij->vij", self.weights, rotations)
+        self.positions = np.einsum("vij,vj->vi", self.turns, shaped) + self.weights @ translations
+        for group, offset in _MOUTH_FIT:
+            self.positions[self.groups[group]] += offset
+        self.triangles, self.uvs = self.triangles_of("body")
+        self.normals = vertex_normals(self.positions, self.triangles)
+
+    def _shape(self, base: BaseMesh, character: Character) -> Array:
+        positions = base.positions
+        for target, amount in character.targets():
+            positions = positions + amount * self._data.target(target, len(base.positions))
+        positions = positions * DECIMETER
+        smile = self.face_units["mouthSmileLeft"] + self.face_units["mouthSmileRight"]
+        positions = positions + character.smile * smile
+        positions[:, 1] -= positions[self.groups["body"]][:, 1].min() - SOLE
+        return positions
+
+    @property
+    def is_skin(self) -> Mask:
+        """Which vertices belong to the body and not to a helper."""
+        return self.among(np.unique(self.triangles))
+
+    @property
+    def eye_center(self) -> Array:
+        """The point between the eyes."""
+        return (self.places["LeftEye"] + self.places["RightEye"]) / 2
+
+    def among(self, vertices: Indices) -> Mask:
+        """A mask of all vertices that is true for these."""
+        mask = np.zeros(len(self.positions), bool)
+        mask[vertices] = True
+        return mask
+
+    def weight_of(self, *parts: str) -> Array:
+        """How much each vertex follows the joints whose names contain one of the parts, 0..1."""
+        return sum_columns(self.weights, self.rig.columns(*parts))
+
+    def mask(self, name: str, size: int = 2048) -> Array:
+        """A picture (size, size), 0..1, of a part of the skin."""
+        return self._data.mask(name, size)
+
+    def moved(self, unit_name: str) -> Array:
+        """How far a face unit at full strength moves each vertex: (v, 3) m in the T-pose."""
+        return np.einsum("vij,vj->vi", self.turns, self.face_units[unit_name])
+
+    def triangles_of(self, *groups: str) -> tuple[Indices, Array]:
+        """Triangles and original texture coordinates of groups; quads are split along the shorter diagonal."""
+        triangles, uvs = [], []
+        for group, vertices, uv in self._base.faces:
+            if group in groups:
+                for corners in self._split(vertices):
+                    triangles.append([vertices[i] for i in corners])
+                    uvs.append([self._base.uvs[uv[i]] for i in corners])
+        return np.array(triangles), np.array(uvs)
+
+    def _split(self, polygon: tuple[int, ...]) -> tuple[tuple[int, int, int], ...]:
+        if len(polygon) == 3:
+            return ((0, 1, 2),)
+        a, b, c, d = (self.positions[vertex] for vertex in polygon)
+        if np.linalg.norm(a - c) > np.linalg.norm(b - d):
+            return ((0, 1, 3), (1, 2, 3))
+        return ((0, 1, 2), (0, 2, 3))
+
+
+def sum_columns(weights: Array, columns: list[int]) -> Array:
+    """The sum (v,) of some columns, in their order."""
+    total = np.zeros(len(weights))
+    for column in columns:
+        total = total + weights[:, column]
+    return total

@@ -1,0 +1,106 @@
+"""The parts that the face units move: skin of the head, inside of the mouth, teeth, tongue, lashes."""
+
+from collections.abc import Iterator
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from bake.body import Body
+from bake.hairline import scalp
+from bake.head_map import HeadMap
+from bake.mesh import Mesh, no_uvs, vertex_normals
+from bake.numeric import Array, Color, Indices, Mask, linear, smoothstep
+from bake.primitive import Part
+from bake.rig import SIDES
+
+_GUMS: Color = (140, 62, 60)
+_TONGUE: Color = (172, 78, 78)
+_WHITE: Color = (255, 255, 255)
+_LASH_BINS = 9
+
+
+def face_parts(body: Body, head: HeadMap, positions: Array, covered: Mask) -> Iterator[Part]:
+    """The parts; all of them use the vertices of the base mesh.
+
+    Args:
+        body: whose face.
+        head: its unwrap.
+        positions: (v, 3) m, the skin already drawn back under the clothes.
+        covered: (v,) what clothes hide.
+    """
+
+    def part(name: str, material: str, triangles: Indices, uvs: Array, colors: Array | None, normals: Array) -> Part:
+        return Part(name, Mesh(positions, body.weights, triangles, uvs, colors), normals, material)
+
+    seen = _seen_skin(body, head, covered)
+    yield part("Head", "Skin", head.triangles[seen], head.uvs[seen], _lip_shade(body, head), body.normals)
+    inside, no_texture = head.mouth_triangles, no_uvs(head.mouth_triangles)
+    yield part("Mouth", "Mouth", inside, no_texture, _fade(body, head, _GUMS), body.normals)
+    for row, name in enumerate(("upper-teeth", "lower-teeth")):
+        triangles, _ = body.triangles_of("helper-" + name)
+        uvs, normals = _teeth_uvs(body, triangles, row)[triangles], vertex_normals(body.positions, triangles)
+        yield part(name, "Teeth", triangles, uvs, _fade(body, head, _WHITE), normals)
+    triangles, _ = body.triangles_of("helper-tongue")
+    normals = vertex_normals(body.positions, triangles)
+    yield part("Tongue", "Tongue", triangles, no_uvs(triangles), _fade(body, head, _TONGUE), normals)
+    triangles, _ = body.triangles_of("helper-l-eyelashes-2", "helper-r-eyelashes-2")
+    normals = vertex_normals(body.positions, triangles)
+    yield part("Lashes", "Lashes", triangles, _lash_uvs(body)[triangles], None, normals)
+
+
+def _seen_skin(body: Body, head: HeadMap, covered: Mask) -> Mask:
+    """The head's triangles that neither clothes nor hair hide."""
+    under_hair = scalp(body.character.hair, head.center)(body.positions) > 6
+    under_hair &= np.abs(body.positions[:, 0]) < 0.066
+    return ~covered[head.triangles].all(1) & ~under_hair[head.triangles].all(1)
+
+
+def _fade(body: Body, head: HeadMap, color: Color) -> Array:
+    """A color (v, 3) that grows darker towards the throat and the cheeks."""
+    lips = body.positions[np.unique(head.mouth_triangles)][:, 2].max()
+    x, z = np.abs(body.positions[:, 0]), body.positions[:, 2]
+    near = smoothstep(lips - 0.050, lips - 0.006, z) * (1 - 0.88 * smoothstep(0.013, 0.026, x))
+    return linear(color)[None] * np.clip(0.10 + 0.90 * near, 0, 1)[:, None]
+
+
+def _lip_shade(body: Body, head: HeadMap) -> Array:
+    """White (v, 3) with a warm shade where the lips turn inside."""
+    distance = cKDTree(body.positions[head.lip_seam]).query(body.positions)[0]
+    near = distance < 0.006
+    shade = np.ones((len(body.positions), 3))
+    shade[near] = (0.40 + 0.60 * smoothstep(0.0008, 0.0045, distance[near]))[:, None]
+    shade[~body.among(np.unique(head.triangles))] = 1
+    shade[:, 1:] **= 1.15
+    return shade
+
+
+def _teeth_uvs(body: Body, triangles: Indices, row: int) -> Array:
+    """Texture coordinates (v, 2) around the dental arch; the upper row (0) has the upper half of the picture."""
+    x, y, z = body.positions.T
+    teeth = body.positions[np.unique(triangles)]
+    angle = np.arctan2(x, z - (teeth[:, 2].min() - 0.004)) / np.arctan2(np.abs(teeth[:, 0]).max(), 0.010)
+    down = (teeth[:, 1].max() - y) / np.ptp(teeth[:, 1])
+    return np.stack([0.5 + 0.5 * np.clip(angle, -1, 1), row * 0.5 + 0.01 + 0.48 * np.clip(down, 0, 1)], 1)
+
+
+def _lash_uvs(body: Body) -> Array:
+    """Texture coordinates (v, 2): along the lid, and outwards from its edge, which has to be found first."""
+    uvs = np.zeros((len(body.positions), 2))
+    for side, _ in SIDES:
+        lashes = body.groups[f"helper-{side[0].lower()}-eyelashes-2"]
+        p = body.positions[lashes]
+        along = (p[:, 0] - p[:, 0].min()) / np.ptp(p[:, 0])
+        from_eye = np.linalg.norm(p - body.places[side + "Eye"], axis=1)
+        outwards = np.maximum(from_eye - _lid_edge(along, from_eye), 0)
+        uvs[lashes, 0] = along * 0.998 + 0.001
+        longest = np.percentile(outwards, 95)
+        uvs[lashes, 1] = np.clip(outwards / longest / body.character.lash_length, 0.01, 0.99)
+    return uvs
+
+
+def _lid_edge(along: Array, from_eye: Array) -> Array:
+    """The distance (n,) from the eye at which the lashes begin: the least of those nearby."""
+    bins = np.clip((along * _LASH_BINS).astype(int), 0, _LASH_BINS - 1)
+    filled = np.unique(bins)
+    least = [from_eye[bins == i].min() for i in filled]
+    return np.interp(along * _LASH_BINS, filled + 0.5, least)

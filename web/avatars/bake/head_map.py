@@ -1,0 +1,118 @@
+"""The head's own texture coordinates, and where every texel lies: the face is painted in three dimensions."""
+
+import numpy as np
+from scipy.ndimage import distance_transform_edt, map_coordinates
+
+from bake.body import Body
+from bake.mesh import neighbors
+from bake.numeric import Array, Indices, Mask
+
+SIZE = 1024
+MOVES = 1e-5
+"""A vertex that a face unit moves by more than this (m) belongs to the head."""
+
+_OVERLAP = 0.06
+"""How far beyond its edges a triangle is painted, in barycentric coordinates: no seams of background color."""
+
+
+class HeadMap:
+    """A cylindrical unwrap of the head that gives the front more room than the back.
+
+    Attributes:
+        triangles: (t, 3) of head and neck.
+        mouth_triangles: (m, 3) of the inside of the mouth, which has no texture.
+        is_head: which triangles of the body's skin are one or the other.
+        uvs: (t, 3, 2) of `triangles`.
+        body_uvs: (t, 3, 2) the original ones.
+        eye: (3,) m, between the eyes.
+        center: (3,) m, middle of the skull.
+        points: (size, size, 3) m, where each texel lies.
+        cavity: (size, size) negative in creases, positive on ridges.
+    """
+
+    def __init__(self, body: Body) -> None:
+        self.eye = body.eye_center
+        self.center = np.array([0, self.eye[1] + 0.035, self.eye[2] - 0.085])
+        self.is_head = _head_triangles(body)
+        inside_mouth = (body.uvs[:, :, 0].mean(1) > 0.75) & (body.uvs[:, :, 1].mean(1) < 0.14)
+        self.triangles = body.triangles[self.is_head & ~inside_mouth]
+        self.body_uvs = body.uvs[self.is_head & ~inside_mouth]
+        self.mouth_triangles = body.triangles[self.is_head & inside_mouth]
+        heights = body.positions[np.unique(self.triangles)][:, 1]
+        self._bottom, self._top = heights.min() - 0.004, heights.max() + 0.004
+        self.uvs = self._unwrap(body.positions[self.triangles])
+        self._rasterize(body)
+
+    @property
+    def lip_seam(self) -> Indices:
+        """The vertices where the lips turn inside."""
+        return np.intersect1d(np.unique(self.mouth_triangles), np.unique(self.triangles))
+
+    def sample(self, picture: Array) -> Array:
+        """A picture (n, n) in the original texture coordinates, carried over to this unwrap."""
+        n = len(picture)
+        u, v = self._body_uv[..., 0], self._body_uv[..., 1]
+        return map_coordinates(picture, [(1 - v) * n - 0.5, u * n - 0.5], order=1, mode="nearest")
+
+    def _unwrap(self, corners: Array) -> Array:
+        azimuth = np.arctan2(corners[..., 0], corners[..., 2] - self.center[2]) / np.pi
+        across_the_back = (np.ptp(azimuth, axis=1) > 1)[:, None] & (azimuth < 0)
+        azimuth = np.where(across_the_back, azimuth + 2, azimuth)
+        height = (self._top - corners[..., 1]) / (self._top - self._bottom)
+        return np.stack([0.5 + azimuth / (1 + np.abs(azimuth)), height], -1)
+
+    def _rasterize(self, body: Body) -> None:
+        self.points = np.full((SIZE, SIZE, 3), np.nan)
+        self.cavity = np.zeros((SIZE, SIZE))
+        self._body_uv = np.zeros((SIZE, SIZE, 2))
+        radius = np.full((SIZE, SIZE), -1.0)
+        curvature = _curvature(body)
+        for triangle, uv, body_uv in zip(self.triangles, self.uvs, self.body_uvs, strict=True):
+            xs, ys, barycentric = _texels(uv * SIZE - 0.5)
+            points = barycentric @ body.positions[triangle]
+            r = np.hypot(points[:, 0], points[:, 2] - self.center[2])
+            # of two sheets over one texel, as behind an ear, the outer one is seen
+            outer = r > radius[ys, xs]
+            xs, ys, barycentric = xs[outer], ys[outer], barycentric[outer]
+            radius[ys, xs] = r[outer]
+            self.points[ys, xs] = points[outer]
+            self._body_uv[ys, xs] = barycentric @ body_uv
+            self.cavity[ys, xs] = barycentric @ curvature[triangle]
+        self._fill_gaps()
+
+    def _fill_gaps(self) -> None:
+        """Give the texels that no triangle covers what the nearest covered one has."""
+        uncovered = np.isnan(self.points[..., 0])
+        y, x = distance_transform_edt(uncovered, return_distances=False, return_indices=True)
+        self.points, self.cavity, self._body_uv = self.points[y, x], self.cavity[y, x], self._body_uv[y, x]
+
+
+def _head_triangles(body: Body) -> Mask:
+    moved = np.zeros(len(body.positions), bool)
+    for moves in body.face_units.values():
+        moved |= np.abs(moves).max(1) > MOVES
+    belongs = (body.weight_of("Head", "Neck")[body.triangles] > 0.5) | moved[body.triangles]
+    return belongs.any(1)
+
+
+def _curvature(body: Body) -> Array:
+    """How far each skin vertex stands out from the mean of its neighbors, about -1.5..1.5."""
+    links = neighbors(body.triangles, len(body.positions))
+    degree = np.maximum(np.asarray(links.sum(1)).ravel(), 1)
+    offset = body.positions - links @ body.positions / degree[:, None]
+    curvature = np.clip(np.einsum("ij,ij->i", offset, body.normals) / 0.0012, -1.5, 1.5)
+    return (curvature + links @ curvature / degree) / 2
+
+
+def _texels(corners: Array) -> tuple[Indices, Indices, Array]:
+    """The texels under a triangle with corners (3, 2) in texels: columns, rows, barycentric coordinates (n, 3)."""
+    low, high = np.floor(corners.min(0) - 1).astype(int), np.ceil(corners.max(0) + 1).astype(int)
+    xs, ys = (grid.ravel() for grid in np.meshgrid(*(np.arange(a, b + 1) for a, b in zip(low, high, strict=True))))
+    a, c = corners[1] - corners[0], corners[2] - corners[0]
+    area = a[0] * c[1] - a[1] * c[0]
+    if abs(area) < 1e-9:
+        return xs[:0], ys[:0], np.zeros((0, 3))
+    dx, dy = xs - corners[0, 0], ys - corners[0, 1]
+    l1, l2 = (dx * c[1] - dy * c[0]) / area, (a[0] * dy - a[1] * dx) / area
+    covered = (l1 > -_OVERLAP) & (l2 > -_OVERLAP) & (l1 + l2 < 1 + _OVERLAP) & (ys >= 0) & (ys < SIZE)
+    return xs[covered] % SIZE, ys[covered], np.stack([1 - l1 - l2, l1, l2], 1)[covered]
