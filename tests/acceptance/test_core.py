@@ -1,7 +1,5 @@
 """BML in, feedback out: blocks, ties and order."""
 
-from pathlib import Path
-
 import pytest
 
 from reactive_realizer.testing.pilot import open_pilot
@@ -124,23 +122,3 @@ async def test_what_is_not_realized_is_named_and_the_rest_plays(pilot) -> None:
     await pilot.advance(3)
     assert pilot.feedback.warnings == [("b:go", "BEHAVIOR_TYPE_NOT_SUPPORTED")]
     assert pilot.feedback.reached("b:h:end")
-
-
-REALIZED = {
-    "core/empty.xml": [],
-    "core/testbeatgesture.xml": ["bml1:g1:start", "bml1:g1:end"],
-    "core/testgaze.xml": ["bml1:gaze1:start", "bml1:gaze1:ready", "bml1:gaze1:relax", "bml1:gaze1:end"],
-    "core/testnodlong.xml": ["bml1:nod1:start", "bml1:nod1:end"],
-    "core/testspeech.xml": ["bml1:speech1:start", "bml1:speech1:end"],
-    "core/testspeech_nodtimedtosync.xml": ["bml1:speech1:syncstart1", "bml1:nod1:end"],
-    "core/testspeechandnod_synctimed.xml": ["bml1:speech1:s1", "bml1:nod1:end"],
-}
-
-
-@pytest.mark.parametrize("name", REALIZED)
-async def test_the_realizer_tester_scripts_play_to_their_end_without_warnings(pilot, shared_cases: Path, name) -> None:
-    pilot.perform((shared_cases / "realizertester" / "bml-1" / name).read_bytes())
-    await pilot.advance(16)
-    assert pilot.feedback.warnings == []
-    assert all(pilot.feedback.reached(point) for point in REALIZED[name])
-    assert pilot.feedback.status("bml1") == "DONE"
