@@ -1,0 +1,122 @@
+import {
+  type Material,
+  Mesh,
+  MeshLambertMaterial,
+  MeshStandardMaterial,
+  type Object3D,
+  PropertyBinding,
+  Texture,
+  Vector3,
+} from "three";
+import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
+
+import type { Pose } from "./frame";
+import type { Character, Position } from "./protocol";
+import type { Quality } from "./quality";
+
+/** One place that a morph's weight is written to; a face is several meshes that share their targets. */
+interface MorphSlot {
+  influences: number[];
+  index: number;
+}
+
+/** A loaded avatar: bones and morphs in the order of the character's frames. */
+export class Avatar {
+  /** The bone that all others hang on: it carries the root's position. */
+  private readonly root: Object3D | undefined;
+
+  private constructor(
+    readonly object: Object3D,
+    private readonly character: Character,
+    private readonly bones: (Object3D | undefined)[],
+    private readonly slots: MorphSlot[][],
+  ) {
+    this.root = bones.find((bone) => !bones.includes(bone?.parent ?? undefined));
+  }
+
+  /** Loads the character's model; rejects when it cannot be had. */
+  static async load(character: Character, quality: Quality): Promise<Avatar> {
+    const { scene } = await new GLTFLoader().loadAsync(character.avatar);
+    const meshes = meshesOf(scene);
+    for (const mesh of meshes) prepare(mesh, quality);
+    const bones = character.joints.map((name) => scene.getObjectByName(PropertyBinding.sanitizeNodeName(name)));
+    const slots = character.morphs.map((name) => slotsOf(meshes, name));
+    return new Avatar(scene, character, bones, slots);
+  }
+
+  /** Takes a pose: rotations on the bones, the root's position, weights on the morphs. */
+  apply(pose: Pose): void {
+    this.root?.position.fromArray(pose.root);
+    for (const [i, bone] of this.bones.entries()) bone?.quaternion.fromArray(pose.rotations, 4 * i);
+    for (const [i, slots] of this.slots.entries()) {
+      for (const slot of slots) slot.influences[slot.index] = pose.weights[i] ?? 0;
+    }
+  }
+
+  /** World position of the root, m. */
+  get position(): Position {
+    return worldPosition(this.root ?? this.object);
+  }
+
+  /** World position of a bone, m; null when the avatar has none of this name. */
+  bone(name: string): Position | null {
+    const bone = this.bones[this.character.joints.indexOf(name)];
+    return bone === undefined ? null : worldPosition(bone);
+  }
+
+  /** Present weight of a morph; null when the avatar has none of this name. */
+  morph(name: string): number | null {
+    const [slot] = this.slots[this.character.morphs.indexOf(name)] ?? [];
+    return slot?.influences[slot.index] ?? null;
+  }
+
+  dispose(): void {
+    this.object.removeFromParent();
+    for (const mesh of meshesOf(this.object)) {
+      mesh.geometry.dispose();
+      for (const material of [mesh.material].flat()) disposeMaterial(material);
+    }
+  }
+}
+
+function worldPosition(object: Object3D): Position {
+  return object.getWorldPosition(new Vector3()).toArray();
+}
+
+function meshesOf(root: Object3D): Mesh[] {
+  const meshes: Mesh[] = [];
+  root.traverse((node) => {
+    if (node instanceof Mesh) meshes.push(node as Mesh);
+  });
+  return meshes;
+}
+
+function disposeMaterial(material: Material): void {
+  for (const value of Object.values(material)) if (value instanceof Texture) value.dispose();
+  material.dispose();
+}
+
+function slotsOf(meshes: Mesh[], morph: string): MorphSlot[] {
+  return meshes.flatMap((mesh) => {
+    const index = mesh.morphTargetDictionary?.[morph];
+    const influences = mesh.morphTargetInfluences;
+    return index === undefined || influences === undefined ? [] : [{ influences, index }];
+  });
+}
+
+function prepare(mesh: Mesh, quality: Quality): void {
+  // The bounds of a skinned mesh are those of its rest pose, which may be out of sight while the figure is not.
+  mesh.frustumCulled = false;
+  mesh.castShadow = true;
+  mesh.receiveShadow = true;
+  const material = mesh.material;
+  if (!(material instanceof MeshStandardMaterial)) return;
+  if (quality === "low") mesh.material = plain(material);
+  else if (material.alphaTest > 0) material.alphaToCoverage = true;
+}
+
+/** The same look by the cheapest lit shading. */
+function plain(material: MeshStandardMaterial): MeshLambertMaterial {
+  const { name, color, map, alphaTest, transparent, side } = material;
+  return new MeshLambertMaterial({ name, color, map, alphaTest, transparent, side });
+}

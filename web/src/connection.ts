@@ -1,0 +1,207 @@
+import type { ServerClock } from "./clock";
+import { decodeFrame, type Frame } from "./frame";
+import { Pings } from "./pings";
+import type {
+  AudioGain,
+  AudioMove,
+  AudioStart,
+  AudioStop,
+  Bml,
+  Board,
+  Camera,
+  ClientMessage,
+  Demo,
+  Event,
+  Feedback,
+  Hello,
+  Ping,
+  Predict,
+  Ref,
+  Refused,
+  ServerMessage,
+} from "./protocol";
+
+const FIRST_RETRY = 500;
+const LONGEST_RETRY = 8000;
+
+/** What concerns speech that sounds. */
+export type AudioMessage = AudioStart | AudioMove | AudioGain | AudioStop;
+
+/** What carries something out, and is answered. */
+export type Request = Bml | Predict | Event | Demo;
+
+/** What needs no answer. */
+export type Notice = Ping | Camera;
+
+/** What the rest of the page hears of the connection. */
+export interface ConnectionListener {
+  /** The socket greeted; `renewed` when the realizer is another one than before, and nothing of it holds any more. */
+  onHello(hello: Hello, renewed: boolean): void;
+  onLost(): void;
+  onFrame(frame: Frame): void;
+  onFeedback(feedback: Feedback): void;
+  onAudio(message: AudioMessage): void;
+  onBoard(board: Board): void;
+}
+
+/** A request that the realizer refused, or that a lost connection left without an answer. */
+export class RequestError extends Error {
+  constructor(
+    readonly code: string,
+    message: string,
+  ) {
+    super(message);
+  }
+}
+
+interface Pending {
+  resolve: () => void;
+  reject: (error: RequestError) => void;
+}
+
+/**
+ * The socket to the realizer. It comes back by itself, waiting longer each time, and asks for the feedback after the
+ * last it saw, so that none is lost or seen twice.
+ */
+export class Connection {
+  private socket: WebSocket | null = null;
+  private session: string | null = null;
+  private lastFeedback: number | null = null;
+  private retryDelay = FIRST_RETRY;
+  private requests = 0;
+  private readonly pending = new Map<Ref, Pending>();
+  private readonly pings: Pings;
+
+  constructor(
+    private readonly url: URL,
+    clock: ServerClock,
+    private readonly listener: ConnectionListener,
+  ) {
+    this.pings = new Pings(clock, (message) => {
+      this.notify(message);
+    });
+  }
+
+  /** Whether the realizer has greeted on the present socket. */
+  get connected(): boolean {
+    return this.pings.running;
+  }
+
+  open(): void {
+    const socket = new WebSocket(this.address());
+    socket.binaryType = "arraybuffer";
+    socket.onmessage = (event: MessageEvent<ArrayBuffer | string>) => {
+      this.receive(event.data);
+    };
+    socket.onclose = () => {
+      this.lost();
+    };
+    this.socket = socket;
+  }
+
+  /** Sends a request; settles with its answer: a RequestError if it is refused or the connection breaks before. */
+  request(request: Request): Promise<void> {
+    if (!this.connected) return Promise.reject(new RequestError("not_connected", "Not connected to the realizer."));
+    const ref = String(++this.requests);
+    return new Promise((resolve, reject) => {
+      this.pending.set(ref, { resolve, reject });
+      this.transmit({ ...request, ref });
+    });
+  }
+
+  /** Sends a message that needs no answer; without a connection it is left out. */
+  notify(message: Notice): void {
+    if (this.connected) this.transmit(message);
+  }
+
+  private address(): URL {
+    const url = new URL(this.url);
+    if (this.lastFeedback !== null) url.searchParams.set("after", String(this.lastFeedback));
+    return url;
+  }
+
+  private transmit(message: ClientMessage): void {
+    this.socket?.send(JSON.stringify(message));
+  }
+
+  private receive(data: ArrayBuffer | string): void {
+    if (data instanceof ArrayBuffer) this.listener.onFrame(decodeFrame(data));
+    else this.dispatch(JSON.parse(data) as ServerMessage);
+  }
+
+  private dispatch(message: ServerMessage): void {
+    switch (message.type) {
+      case "hello":
+        this.greet(message);
+        break;
+      case "feedback":
+        this.takeFeedback(message);
+        break;
+      case "pong":
+        this.pings.answered(message);
+        break;
+      case "accepted":
+        this.settle(message.ref)?.resolve();
+        break;
+      case "error":
+        this.refuse(message);
+        break;
+      case "board":
+        this.listener.onBoard(message);
+        break;
+      case "audio":
+      case "audio_move":
+      case "audio_gain":
+      case "audio_stop":
+        this.listener.onAudio(message);
+        break;
+    }
+  }
+
+  private greet(hello: Hello): void {
+    const renewed = hello.session !== this.session;
+    const resumedElsewhere = renewed && this.lastFeedback !== null;
+    this.session = hello.session;
+    if (renewed) this.lastFeedback = null;
+    if (resumedElsewhere) {
+      // The realizer was restarted: it understood `after` as a number of its own session, so ask again without.
+      this.session = null;
+      this.socket?.close();
+      return;
+    }
+    this.retryDelay = FIRST_RETRY;
+    this.pings.start(hello.time);
+    this.listener.onHello(hello, renewed);
+  }
+
+  private takeFeedback(feedback: Feedback): void {
+    if (feedback.session !== this.session) return;
+    if (this.lastFeedback !== null && feedback.seq <= this.lastFeedback) return;
+    this.lastFeedback = feedback.seq;
+    this.listener.onFeedback(feedback);
+  }
+
+  private refuse(error: Refused): void {
+    const pending = error.ref === undefined ? undefined : this.settle(error.ref);
+    if (pending === undefined) console.warn(`The realizer refused a message: ${error.message}`);
+    else pending.reject(new RequestError(error.code, error.message));
+  }
+
+  private settle(ref: Ref): Pending | undefined {
+    const pending = this.pending.get(ref);
+    this.pending.delete(ref);
+    return pending;
+  }
+
+  private lost(): void {
+    this.pings.stop();
+    for (const ref of [...this.pending.keys()]) {
+      this.settle(ref)?.reject(new RequestError("connection_lost", "The connection was lost before the answer came."));
+    }
+    this.listener.onLost();
+    setTimeout(() => {
+      this.open();
+    }, this.retryDelay);
+    this.retryDelay = Math.min(2 * this.retryDelay, LONGEST_RETRY);
+  }
+}

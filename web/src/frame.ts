@@ -1,0 +1,75 @@
+/** The binary frame: one composed pose of one character. */
+
+const KIND = 1;
+const VERSION = 1;
+const HEADER_BYTES = 32;
+const QUATERNION_BYTES = 8;
+const WEIGHT_BYTES = 2;
+const QUATERNION_SCALE = 32767;
+const WEIGHT_SCALE = 65535;
+
+/** A pose in the avatar's own bones, in the order of the character's `joints` and `morphs`. */
+export interface Pose {
+  /** HumanoidRoot in the world, m. */
+  root: Float32Array;
+  /** Local rotations, x y z w each (the order of three.js; the wire has w first), 4 J numbers. */
+  rotations: Float32Array;
+  /** Morph weights, 0..1. */
+  weights: Float32Array;
+}
+
+/** A pose with its stamp. */
+export interface Frame extends Pose {
+  /** Index of the character in `hello`. */
+  character: number;
+  sequence: number;
+  /** Scheduled realizer time, s. */
+  time: number;
+}
+
+/** A pose of this many joints and morphs, all zero. */
+export function emptyPose(joints: number, morphs: number): Pose {
+  return { root: new Float32Array(3), rotations: new Float32Array(4 * joints), weights: new Float32Array(morphs) };
+}
+
+/** Reads a binary frame; throws a RangeError that says what is wrong with one that is not. */
+export function decodeFrame(data: ArrayBuffer): Frame {
+  const view = new DataView(data);
+  const [joints, morphs] = checkedCounts(view);
+  const frame: Frame = {
+    character: view.getUint16(2, true),
+    sequence: view.getUint32(4, true),
+    time: view.getFloat64(8, true),
+    ...emptyPose(joints, morphs),
+  };
+  for (let axis = 0; axis < 3; axis++) frame.root[axis] = view.getFloat32(20 + 4 * axis, true);
+  readRotations(view, HEADER_BYTES, frame.rotations);
+  readWeights(view, HEADER_BYTES + joints * QUATERNION_BYTES, frame.weights);
+  return frame;
+}
+
+function checkedCounts(view: DataView): [joints: number, morphs: number] {
+  if (view.byteLength < HEADER_BYTES) throw new RangeError(`a frame of ${view.byteLength} bytes has no whole header`);
+  const kind = view.getUint8(0);
+  const version = view.getUint8(1);
+  if (kind !== KIND || version !== VERSION) throw new RangeError(`unknown frame kind ${kind} version ${version}`);
+  const joints = view.getUint16(16, true);
+  const morphs = view.getUint16(18, true);
+  const expected = HEADER_BYTES + joints * QUATERNION_BYTES + morphs * WEIGHT_BYTES;
+  if (view.byteLength !== expected) throw new RangeError(`a frame has ${view.byteLength} bytes and not ${expected}`);
+  return [joints, morphs];
+}
+
+function readRotations(view: DataView, offset: number, rotations: Float32Array): void {
+  for (let i = 0; i < rotations.length; i += 4) {
+    const at = offset + 2 * i;
+    rotations[i] = view.getInt16(at + 2, true) / QUATERNION_SCALE;
+    rotations[i + 1] = view.getInt16(at + 4, true) / QUATERNION_SCALE;
+    rotations[i + 2] = view.getInt16(at + 6, true) / QUATERNION_SCALE;
+    rotations[i + 3] = view.getInt16(at, true) / QUATERNION_SCALE;
+  }
+}
+
+function readWeights(view: DataView, offset: number, weights: Float32Array): void {
+  for (let i = 0; i < weights.length; i++) weights[i] = view.getUint16(offset + 2 * i, true) / WEIGHT_SCALE;
+}

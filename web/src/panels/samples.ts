@@ -1,0 +1,53 @@
+/** A block of this id, composition and content, as it is shown to people. */
+function block(id: string, content: string, composition = ""): string {
+  return `<bml id="${id}"${composition}
+  xmlns="http://www.bml-initiative.org/bml/bml-1.0">${content}</bml>
+`;
+}
+
+const HELLO = `
+  <gaze id="look" target="camera" end="talk:end"/>
+  <speech id="talk" start="0.3"><text>
+    Hello there, <sync id="nice"/>nice to meet you.
+  </text></speech>
+  <gesture id="beat" lexeme="BEAT" mode="RIGHT_HAND"
+    stroke="talk:nice"/>
+  <faceLexeme id="smile" lexeme="RAISE_MOUTH_CORNERS"
+    start="talk:start" end="talk:end+1"/>
+`;
+
+const NOD = `
+  <head id="nod" lexeme="NOD" repetition="2"/>
+  <faceLexeme id="brows" lexeme="RAISE_BROWS"
+    start="nod:start" end="nod:end"/>
+`;
+
+const BEATS = `
+  <gesture id="left" lexeme="BEAT" mode="LEFT_HAND"/>
+  <gesture id="right" lexeme="BEAT" mode="RIGHT_HAND"
+    start="left:end"/>
+  <gesture id="both" lexeme="BEAT" mode="BOTH_HANDS"
+    start="right:end"/>
+`;
+
+const LOOK = `
+  <gaze id="box" target="bluebox" influence="HEAD"
+    start="0" end="2"/>
+  <gaze id="sphere" target="greensphere" influence="HEAD"
+    start="box:end" end="4"/>
+`;
+
+const WAIT = `
+  <gesture id="beat" lexeme="BEAT" mode="RIGHT_HAND"
+    stroke="anticipators:test:hit"/>
+`;
+
+/** Example blocks for the page's user by title; each takes the id that its block is to have. */
+export const SAMPLES: Record<string, (id: string) => string> = {
+  "Say hello": (id) => block(id, HELLO),
+  "Nod and raise the brows": (id) => block(id, NOD),
+  "Beat with one hand, then both": (id) => block(id, BEATS),
+  "Look at the box, then at the sphere": (id) => block(id, LOOK),
+  "Beat when it is predicted": (id) => block(id, WAIT),
+  "Stop everything": (id) => block(id, "\n", ' composition="REPLACE"'),
+};

@@ -1,0 +1,44 @@
+import { element } from "../dom";
+
+/** How long a notice stays, ms. */
+const NOTICE_STAYS = 8000;
+
+/** The connection light, the version, and notices of what went wrong. */
+export class StatusPanel {
+  private readonly light = element("light", HTMLElement);
+  private readonly connection = element("connection", HTMLElement);
+  private readonly version = element("version", HTMLElement);
+  private readonly notice = element("notice", HTMLElement);
+  private timer: ReturnType<typeof setTimeout> | undefined;
+
+  connected(version: string): void {
+    this.show("connected");
+    this.version.textContent = version;
+  }
+
+  lost(): void {
+    this.show("reconnecting");
+  }
+
+  /** The page cannot do its work at all. */
+  failed(sentence: string): void {
+    this.show("failed");
+    this.notice.textContent = `The page could not start: ${sentence}`;
+    this.notice.hidden = false;
+  }
+
+  /** Says for a while what went wrong. */
+  say = (sentence: string): void => {
+    this.notice.textContent = sentence;
+    this.notice.hidden = false;
+    clearTimeout(this.timer);
+    this.timer = setTimeout(() => {
+      this.notice.hidden = true;
+    }, NOTICE_STAYS);
+  };
+
+  private show(state: "connected" | "reconnecting" | "failed"): void {
+    this.light.dataset.state = state;
+    this.connection.textContent = state;
+  }
+}

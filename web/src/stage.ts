@@ -1,0 +1,202 @@
+import {
+  Box3,
+  CanvasTexture,
+  CircleGeometry,
+  Color,
+  DirectionalLight,
+  HemisphereLight,
+  MathUtils,
+  Mesh,
+  MeshLambertMaterial,
+  MeshStandardMaterial,
+  NeutralToneMapping,
+  PerspectiveCamera,
+  PMREMGenerator,
+  Scene,
+  SRGBColorSpace,
+  type Texture,
+  Vector3,
+  WebGLRenderer,
+} from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { RoomEnvironment } from "three/addons/environments/RoomEnvironment.js";
+
+import type { Position } from "./protocol";
+import type { Quality } from "./quality";
+
+const BACKDROP_TOP = "#eef1f4";
+const BACKDROP_BOTTOM = "#c3cad3";
+const FLOOR = "#c4cad2";
+const FLOOR_RADIUS = 5;
+
+/** Size of the picture in low quality, pixels, and how often it is drawn at most, 1/s. */
+const LOW_SIZE = [320, 240] as const;
+const LOW_RATE = 12;
+
+/** Hip height of a standing human as a part of the stature; it tells how tall they are whose roots are known. */
+const HIPS = 0.53;
+const USUAL_HIPS = 0.9;
+
+/** The first view shows from below the hips to above the head, and as far to each side as a gesture reaches, m. */
+const MARGIN = 0.05;
+const REACH = 0.5;
+const EYE_HEIGHT = 1.6;
+
+/** Light, ground, backdrop and camera; what stands on it is added to `scene` by others. */
+export class Stage {
+  readonly scene = new Scene();
+  private readonly camera = new PerspectiveCamera(30, 1, 0.05, 60);
+  private readonly renderer: WebGLRenderer;
+  private readonly controls: OrbitControls;
+  /** Where those stand whom the camera keeps in view, m; null once the user has taken the camera. */
+  private framed: Position[] | null = [];
+  private nextDraw = 0;
+
+  /** Throws when the browser has no WebGL 2. */
+  constructor(
+    private readonly container: HTMLElement,
+    private readonly quality: Quality,
+  ) {
+    const canvas = document.createElement("canvas");
+    this.renderer = new WebGLRenderer({ canvas, antialias: quality === "normal" });
+    container.prepend(canvas);
+    this.controls = this.orbit(canvas);
+    this.light();
+    this.scene.add(floor(quality));
+    if (quality === "normal") this.embellish();
+    else this.scene.background = new Color(BACKDROP_TOP);
+    new ResizeObserver(() => {
+      this.resize();
+    }).observe(container);
+  }
+
+  /** Where the camera is, m. */
+  get eye(): Position {
+    return this.camera.position.toArray();
+  }
+
+  /** Turns the camera to everyone who stands at these roots (m), unless the user has taken it. */
+  frame(roots: Position[]): void {
+    if (this.framed === null) return;
+    this.framed = roots;
+    this.look();
+  }
+
+  /** Draws, if it is time to, at a page time (ms). */
+  draw(page: number): void {
+    if (page < this.nextDraw) return;
+    if (this.quality === "low") this.nextDraw = page + 1000 / LOW_RATE;
+    this.controls.update();
+    this.renderer.render(this.scene, this.camera);
+  }
+
+  private orbit(canvas: HTMLCanvasElement): OrbitControls {
+    const controls = new OrbitControls(this.camera, canvas);
+    controls.enableDamping = true;
+    controls.minDistance = 0.4;
+    controls.maxDistance = 8;
+    controls.maxPolarAngle = 0.52 * Math.PI;
+    controls.addEventListener("start", () => {
+      this.framed = null;
+    });
+    return controls;
+  }
+
+  private light(): void {
+    const low = this.quality === "low";
+    const key = new DirectionalLight("#fff4e6", low ? 2.2 : 2.4);
+    key.position.set(1.6, 3.2, 2.6);
+    key.castShadow = !low;
+    key.shadow.mapSize.set(2048, 2048);
+    key.shadow.radius = 5;
+    key.shadow.bias = -0.0004;
+    key.shadow.normalBias = 0.02;
+    Object.assign(key.shadow.camera, { left: -2.5, right: 2.5, top: 2.5, bottom: -2.5, near: 0.5, far: 9 });
+    const rim = new DirectionalLight("#dcecff", 0.9);
+    rim.position.set(-2.2, 2.4, -2.4);
+    this.scene.add(key, rim, new HemisphereLight("#ffffff", "#b9b2a8", low ? 2 : 0.35));
+  }
+
+  private embellish(): void {
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    this.renderer.shadowMap.enabled = true;
+    this.renderer.toneMapping = NeutralToneMapping;
+    const generator = new PMREMGenerator(this.renderer);
+    this.scene.environment = generator.fromScene(new RoomEnvironment(), 0.04).texture;
+    this.scene.environmentIntensity = 0.55;
+    generator.dispose();
+    this.scene.background = painted(2, 512, (context) => {
+      const gradient = context.createLinearGradient(0, 0, 0, 512);
+      gradient.addColorStop(0, BACKDROP_TOP);
+      gradient.addColorStop(1, BACKDROP_BOTTOM);
+      return gradient;
+    });
+  }
+
+  private resize(): void {
+    const { clientWidth, clientHeight } = this.container;
+    const [width, height] = this.quality === "low" ? LOW_SIZE : [clientWidth, clientHeight];
+    if (width === 0 || height === 0) return;
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    this.look();
+  }
+
+  private look(): void {
+    if (this.framed === null) return;
+    const { target, distance } = framing(this.framed, this.camera);
+    this.controls.target.copy(target);
+    this.camera.position.set(target.x, EYE_HEIGHT, target.z + distance);
+    this.controls.update();
+  }
+}
+
+/** Where to look, and from how far in front, to see those who stand at these roots (m). */
+function framing(roots: Position[], camera: PerspectiveCamera): { target: Vector3; distance: number } {
+  const standing = roots.length === 0 ? [new Vector3(0, USUAL_HIPS, 0)] : roots.map((root) => new Vector3(...root));
+  const { min, max } = new Box3().setFromPoints(standing);
+  const top = max.y / HIPS + MARGIN;
+  const width = max.x - min.x + 2 * REACH;
+  const height = Math.max(top - min.y + MARGIN, width / camera.aspect);
+  // A narrow window that must show more height shows more of the legs, and never less of the floor than of the sky.
+  const target = new Vector3((min.x + max.x) / 2, Math.max(top - height / 2, top / 2), max.z);
+  return { target, distance: height / 2 / Math.tan(MathUtils.degToRad(camera.fov / 2)) };
+}
+
+/** A disc that fades into the backdrop. */
+function floor(quality: Quality): Mesh {
+  const options = { color: FLOOR, transparent: true, alphaMap: fading() };
+  const material =
+    quality === "low" ? new MeshLambertMaterial(options) : new MeshStandardMaterial({ ...options, roughness: 0.95 });
+  const disc = new Mesh(new CircleGeometry(FLOOR_RADIUS, 64), material);
+  disc.rotation.x = -Math.PI / 2;
+  disc.receiveShadow = true;
+  return disc;
+}
+
+function fading(): Texture {
+  return painted(256, 256, (context) => {
+    const gradient = context.createRadialGradient(128, 128, 10, 128, 128, 128);
+    gradient.addColorStop(0, "#fff");
+    gradient.addColorStop(1, "#000");
+    return gradient;
+  });
+}
+
+function painted(
+  width: number,
+  height: number,
+  fill: (context: CanvasRenderingContext2D) => CanvasGradient,
+): CanvasTexture {
+  const canvas = document.createElement("canvas");
+  canvas.width = width;
+  canvas.height = height;
+  const context = canvas.getContext("2d");
+  if (context === null) throw new Error("this browser does not paint on a canvas");
+  context.fillStyle = fill(context);
+  context.fillRect(0, 0, width, height);
+  const texture = new CanvasTexture(canvas);
+  texture.colorSpace = SRGBColorSpace;
+  return texture;
+}

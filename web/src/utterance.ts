@@ -1,0 +1,100 @@
+import type { AudioStart } from "./protocol";
+
+/** How quickly a changed gain settles, s: short, but without a click. */
+const GAIN_SETTLES = 0.02;
+
+/** When a sound begins on the audio clock, and how far into it. */
+export interface Entry {
+  at: number;
+  offset: number;
+}
+
+/** Where to enter a sound that should begin at audio time `begin`; one whose beginning has passed is joined late. */
+export function entry(begin: number, now: number): Entry {
+  return begin >= now ? { at: begin, offset: 0 } : { at: now, offset: now - begin };
+}
+
+/** One announced piece of speech: its samples, and the node that plays them once they are scheduled. */
+export class Utterance {
+  /** Realizer time of its first sample, s; moves with `audio_move`. */
+  start: number;
+  /** Audio time at which its first sample is (or would have been) played, s; null while not scheduled. */
+  begin: number | null = null;
+  /** Realizer time at which it falls silent early, s. */
+  private stopped: { time: number; fade: number } | null = null;
+  private volume: number;
+  private buffer: AudioBuffer | null = null;
+  private source: AudioBufferSourceNode | null = null;
+  private gain: GainNode | null = null;
+
+  constructor(
+    readonly announced: AudioStart,
+    private readonly context: AudioContext,
+  ) {
+    this.start = announced.start;
+    this.volume = announced.gain;
+  }
+
+  /** Realizer time after which nothing of it sounds, s. */
+  get end(): number {
+    const natural = this.start + this.announced.duration;
+    return this.stopped === null ? natural : Math.min(natural, this.stopped.time + this.stopped.fade);
+  }
+
+  get scheduled(): boolean {
+    return this.source !== null;
+  }
+
+  /** Fetches and decodes the samples; rejects when they cannot be had. */
+  async load(): Promise<void> {
+    const response = await fetch(this.announced.url);
+    if (!response.ok) throw new Error(`the sound of ${this.announced.id} is not there (HTTP ${response.status})`);
+    this.buffer = await this.context.decodeAudioData(await response.arrayBuffer());
+  }
+
+  /**
+   * Plays so that the first sample comes at audio time `begin`, replacing what was scheduled before. Without samples
+   * yet it does nothing.
+   */
+  schedule(begin: number): void {
+    this.silence();
+    if (this.buffer === null) return;
+    const { at, offset } = entry(begin, this.context.currentTime);
+    this.begin = begin;
+    this.gain = new GainNode(this.context, { gain: this.volume });
+    this.gain.connect(this.context.destination);
+    this.source = new AudioBufferSourceNode(this.context, { buffer: this.buffer });
+    this.source.connect(this.gain);
+    this.source.start(at, offset);
+    this.applyStop();
+  }
+
+  setGain(volume: number): void {
+    this.volume = volume;
+    this.gain?.gain.setTargetAtTime(volume, this.context.currentTime, GAIN_SETTLES);
+  }
+
+  /** Falls silent from realizer time `time` on, within `fade` s. */
+  stop(time: number, fade: number): void {
+    this.stopped = { time, fade };
+    this.applyStop();
+  }
+
+  /** Takes back what was scheduled. */
+  silence(): void {
+    this.source?.stop();
+    this.source?.disconnect();
+    this.gain?.disconnect();
+    this.source = this.gain = this.begin = null;
+  }
+
+  private applyStop(): void {
+    if (this.stopped === null || this.source === null || this.gain === null || this.begin === null) return;
+    const now = this.context.currentTime;
+    const from = Math.max(now, this.begin + this.stopped.time - this.start);
+    this.gain.gain.cancelScheduledValues(now);
+    this.gain.gain.setValueAtTime(this.volume, from);
+    this.gain.gain.linearRampToValueAtTime(0, from + this.stopped.fade);
+    this.source.stop(from + this.stopped.fade);
+  }
+}

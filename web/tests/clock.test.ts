@@ -1,0 +1,90 @@
+import { describe, expect, it } from "vitest";
+
+import { heardTime, PlayoutClock, ServerClock } from "../src/clock";
+
+describe("the server clock", () => {
+  it("knows nothing before the first reading", () => {
+    expect(new ServerClock().at(1)).toBeNull();
+  });
+
+  it("begins with the rough reading of the greeting", () => {
+    const clock = new ServerClock();
+    clock.reset(10, 3);
+    expect(clock.at(12)).toBeCloseTo(5, 9);
+  });
+
+  it("takes the way back as half of the round trip", () => {
+    const clock = new ServerClock();
+    clock.sample(100, 100.2, 7);
+    expect(clock.at(100.2)).toBeCloseTo(7.1, 9);
+  });
+
+  it("believes the quickest pong, which was delayed least", () => {
+    const clock = new ServerClock();
+    clock.reset(0, 40);
+    clock.sample(1, 1.4, 51.3);
+    clock.sample(2, 2.002, 52.001);
+    clock.sample(3, 3.3, 53.2);
+    expect(clock.at(4)).toBeCloseTo(54, 9);
+  });
+
+  it("forgets old pongs, so that a drift is followed", () => {
+    const clock = new ServerClock();
+    clock.sample(0, 0.001, 50);
+    for (let i = 1; i <= 16; i++) clock.sample(i, i + 0.01, i + 60.005);
+    expect(clock.at(20)).toBeCloseTo(80, 9);
+  });
+
+  it("begins anew with a new greeting", () => {
+    const clock = new ServerClock();
+    clock.sample(0, 0.001, 50);
+    clock.reset(10, 0);
+    expect(clock.at(11)).toBeCloseTo(1, 9);
+  });
+});
+
+describe("the playout clock", () => {
+  it("shows nothing before it has a master", () => {
+    expect(new PlayoutClock().at(1)).toBeNull();
+  });
+
+  it("begins where its master is and runs on between two readings", () => {
+    const clock = new PlayoutClock();
+    clock.follow(100, 5);
+    expect(clock.at(100)).toBeCloseTo(5, 9);
+    expect(clock.at(100.5)).toBeCloseTo(5.5, 9);
+  });
+
+  it.each([0.04, -0.04])("glides over a gap of %f s at a twentieth of its rate", (gap) => {
+    const clock = new PlayoutClock();
+    clock.follow(0, 10);
+    clock.follow(0.4, 10.4 + gap);
+    expect(clock.at(0.4)).toBeCloseTo(10.4 + gap / 2, 9);
+    clock.follow(1.4, 11.4 + gap);
+    expect(clock.at(1.4)).toBeCloseTo(11.4 + gap, 9);
+  });
+
+  it("jumps over a gap of more than a quarter of a second", () => {
+    const clock = new PlayoutClock();
+    clock.follow(0, 10);
+    clock.follow(0.01, 3);
+    expect(clock.at(0.01)).toBeCloseTo(3, 9);
+  });
+
+  it("never goes backwards while its master trembles as an audio clock does", () => {
+    const clock = new PlayoutClock();
+    let last = -Infinity;
+    for (let page = 0; page < 1; page += 1 / 60) {
+      clock.follow(page, Math.floor(page / 0.01) * 0.01);
+      const shown = clock.at(page) ?? -Infinity;
+      expect(shown).toBeGreaterThan(last);
+      last = shown;
+    }
+  });
+});
+
+describe("what is heard", () => {
+  it("was played one output latency ago", () => {
+    expect(heardTime({ currentTime: 3, outputLatency: 0.04, baseLatency: 0.01 })).toBeCloseTo(2.96, 9);
+  });
+});

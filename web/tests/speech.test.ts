@@ -1,0 +1,145 @@
+import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+
+import { PlayoutClock } from "../src/clock";
+import type { AudioStart } from "../src/protocol";
+import { SpeechPlayer } from "../src/speech";
+import { FakeAudio, played } from "./fake_audio";
+
+const LATENCY = 0.04;
+
+/** A page at realizer time `shown`, whose sound card is at `audioTime`. */
+function playerAt(shown: number, audioTime: number): { player: SpeechPlayer; audio: FakeAudio; failures: string[] } {
+  const clock = new PlayoutClock();
+  clock.follow(performance.now() / 1000, shown);
+  const audio = new FakeAudio(audioTime, LATENCY);
+  const failures: string[] = [];
+  const player = new SpeechPlayer(audio as unknown as AudioContext, clock, (sentence) => failures.push(sentence));
+  return { player, audio, failures };
+}
+
+function announced(start: number, duration = 2): AudioStart {
+  return { type: "audio", character: "alice", id: "s1", url: "/audio/s1.wav", start, duration, gain: 0.8 };
+}
+
+beforeEach(() => {
+  vi.useFakeTimers();
+  vi.stubGlobal("fetch", () => Promise.resolve(new Response(new ArrayBuffer(4))));
+  vi.stubGlobal("GainNode", played.GainNode);
+  vi.stubGlobal("AudioBufferSourceNode", played.Source);
+  played.reset();
+});
+
+afterEach(() => {
+  vi.useRealTimers();
+  vi.unstubAllGlobals();
+});
+
+describe("speech", () => {
+  it("is scheduled such that it is heard, and not only played, at its realizer time", async () => {
+    const { player } = playerAt(10, 3);
+    player.handle(announced(10.5));
+    await played.settled();
+    expect(played.last.at).toBeCloseTo(3.5 - LATENCY, 9);
+    expect(played.last.offset).toBe(0);
+    expect(player.records[0]).toMatchObject({ id: "s1", start: 10.5, end: 12.5 });
+  });
+
+  it("is joined in the middle when its start has passed", async () => {
+    const { player } = playerAt(11, 3);
+    player.handle(announced(10.5));
+    await played.settled();
+    expect(played.last.at).toBe(3);
+    expect(played.last.offset).toBeCloseTo(0.5 + LATENCY, 9);
+  });
+
+  it("is not played any more when its end has passed", async () => {
+    const { player } = playerAt(20, 3);
+    player.handle(announced(10.5));
+    await played.settled();
+    expect(played.sources).toEqual([]);
+  });
+
+  it("waits while the browser forbids sound and is joined late when that is lifted", async () => {
+    const { player, audio } = playerAt(11, 0);
+    audio.state = "suspended";
+    player.handle(announced(10.5));
+    await played.settled();
+    expect(played.sources).toEqual([]);
+    audio.change("running");
+    expect(played.last.offset).toBeCloseTo(0.5 + LATENCY, 9);
+  });
+
+  it("is the master of the clock exactly while it is heard", async () => {
+    const { player, audio } = playerAt(10, 3);
+    player.handle(announced(10.5));
+    await played.settled();
+    expect(player.heard()).toBeNull();
+    audio.currentTime = 4.5;
+    expect(player.heard()).toBeCloseTo(11.5, 9);
+    audio.currentTime = 5.6;
+    expect(player.heard()).toBeNull();
+  });
+
+  it("is scheduled anew when it moves", async () => {
+    const { player } = playerAt(10, 3);
+    player.handle(announced(10.5));
+    await played.settled();
+    const first = played.last;
+    player.handle({ type: "audio_move", id: "s1", start: 10.8 });
+    expect(first.stopped).toBe(true);
+    expect(played.sources).toHaveLength(2);
+    expect(played.last.at).toBeCloseTo(3.8 - LATENCY, 9);
+  });
+
+  it("falls silent at the time it is stopped at, within the fade", async () => {
+    const { player, audio } = playerAt(10, 3);
+    player.handle(announced(10.5));
+    await played.settled();
+    player.handle({ type: "audio_stop", id: "s1", time: 11, fade: 0.1 });
+    expect(played.last.stoppedAt).toBeCloseTo(4.1 - LATENCY, 9);
+    audio.currentTime = 4.05;
+    expect(player.heard()).toBeCloseTo(11.05, 9);
+    audio.currentTime = 4.3;
+    expect(player.heard()).toBeNull();
+  });
+
+  it("stays silent when it was stopped before its sound had come", async () => {
+    const { player } = playerAt(10, 3);
+    player.handle(announced(10.5));
+    player.handle({ type: "audio_stop", id: "s1", time: 10, fade: 0 });
+    await played.settled();
+    expect(played.sources).toEqual([]);
+  });
+
+  it("changes its gain while it sounds", async () => {
+    const { player } = playerAt(10, 3);
+    player.handle(announced(10.5));
+    await played.settled();
+    player.handle({ type: "audio_gain", id: "s1", gain: 0.2 });
+    expect(played.gains.at(-1)?.target).toBe(0.2);
+  });
+
+  it("that cannot be fetched is said by name", async () => {
+    vi.stubGlobal("fetch", () => Promise.resolve(new Response(null, { status: 404 })));
+    const { player, failures } = playerAt(10, 3);
+    player.handle(announced(10.5));
+    await played.settled();
+    expect(failures).toEqual(["the sound of s1 is not there (HTTP 404)"]);
+  });
+
+  it("remembers the last twenty pieces", async () => {
+    const { player } = playerAt(10, 3);
+    for (let i = 0; i < 25; i++) player.handle({ ...announced(10), id: `s${i}` });
+    await played.settled();
+    expect(player.records.map(({ id }) => id)).toEqual(Array.from({ length: 20 }, (_, i) => `s${i + 5}`));
+  });
+
+  it("is forgotten with the realizer that announced it", async () => {
+    const { player } = playerAt(10, 3);
+    player.handle(announced(10.5));
+    await played.settled();
+    player.clear();
+    expect(played.last.stopped).toBe(true);
+    expect(player.records).toEqual([]);
+  });
+});
