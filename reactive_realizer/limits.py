@@ -27,10 +27,15 @@ class Limits:
     queued_bytes: int = 8 * 1024 * 1024
     """What may pile up for one slow client before it is closed."""
     queued_messages: int = 10_000
+    predicted_points: int = 10_000
+    """Points of anticipators that clients name in predictions."""
+    targets: int = 1_000
+    """Things in the world, those that clients put there among them."""
     sound_bytes: int = 64 * 1024 * 1024
     """Sounds kept for clients to fetch."""
     remembered_feedback: int = 10_000
     """Feedback messages kept for clients that resume."""
+    remembered_feedback_bytes: int = 256 * 1024 * 1024
     remembered_blocks: int = 10_000
     """Ended blocks of which id, state and end time are kept."""
     time_seconds: float = 86_400.0

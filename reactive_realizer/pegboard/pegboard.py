@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import islice
 
 from reactive_realizer.pegboard.peg_key import ANTICIPATORS, BlockKey, PegKey, anticipator_key
 from reactive_realizer.pegboard.time_peg import AnticipatorPeg, Time, TimeCell, TimePeg
@@ -88,9 +89,10 @@ class PegBoard:
         pegs = ((key.sync, self._pegs[key]) for key in keys if key.behavior == anticipator)
         return {sync: peg for sync, peg in pegs if isinstance(peg, AnticipatorPeg)}
 
-    def snapshot(self) -> tuple[PegView, ...]:
-        """All pegs, in order of naming."""
-        return tuple(_view(key, peg) for key, peg in self._pegs.items())
+    def snapshot(self, newest: int | None = None) -> tuple[PegView, ...]:
+        """The pegs in order of naming; all, or only so many of the newest."""
+        first = 0 if newest is None else max(0, len(self._pegs) - newest)
+        return tuple(_view(key, peg) for key, peg in islice(self._pegs.items(), first, None))
 
     def _forecast(self, key: PegKey) -> Time:
         forecast = self._forecasts.get(key.behavior or "")

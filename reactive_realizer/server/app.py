@@ -1,0 +1,36 @@
+"""The application: every route over one live scene."""
+
+from aiohttp import web
+
+from reactive_realizer.server import routes_page, routes_requests, routes_state, routes_streams
+from reactive_realizer.server.audience import Audience
+from reactive_realizer.server.intake import Intake
+from reactive_realizer.server.keys import FAREWELLS, INTAKE, LIVE, SECURITY
+from reactive_realizer.server.live import Live
+from reactive_realizer.server.middleware import add_headers, let_in, tell_refusals
+from reactive_realizer.server.security import Security
+
+
+def create_app(live: Live, security: Security) -> web.Application:
+    """An application; who ticks the scene is somebody else's business.
+
+    Args:
+        live: the scene.
+        security: who is let in.
+    """
+    # aiohttp refuses a body that has the size of its limit already.
+    app = web.Application(middlewares=[tell_refusals, let_in], client_max_size=live.limits.bml_bytes + 1)
+    app[LIVE] = live
+    app[INTAKE] = Intake(live)
+    app[SECURITY] = security
+    app[FAREWELLS] = Audience()
+    for routes in (routes_page.routes, routes_requests.routes, routes_state.routes, routes_streams.routes):
+        app.add_routes(routes)
+    app.add_routes(routes_page.built_files())
+    app.on_response_prepare.append(add_headers)
+    app.on_shutdown.append(_say_farewell)
+    return app
+
+
+async def _say_farewell(app: web.Application) -> None:
+    app[FAREWELLS].tell(None)

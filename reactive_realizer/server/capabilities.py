@@ -1,0 +1,48 @@
+"""What a planner may ask of a scene."""
+
+import asyncio
+from collections.abc import Iterable
+from typing import Any
+
+from reactive_realizer.assembly.scene import Scene
+from reactive_realizer.binding.face_lexemes import read_face_lexemes
+from reactive_realizer.binding.gesture_binding import GestureBinding
+from reactive_realizer.bml.elements import ELEMENTS, Element
+
+
+async def capabilities_of(scene: Scene) -> dict[str, Any]:
+    """Elements with their attributes and sync points, and what stands in the scene's bindings, voice and world."""
+    lexemes, parameters = await asyncio.to_thread(_bound, scene)
+    return {
+        "elements": {name: _element(element) for name, element in ELEMENTS.items()},
+        "lexemes": lexemes,
+        "parameters": parameters,
+        "voices": await scene.tts.voices() if hasattr(scene.tts, "voices") else [],
+        "targets": list(scene.realizer.world.targets),
+    }
+
+
+def _element(element: Element) -> dict[str, Any]:
+    return {
+        "namespace": element.namespace,
+        "attributes": [attribute.name for attribute in element.attributes],
+        "syncPoints": element.sync_points,
+    }
+
+
+def _bound(scene: Scene) -> tuple[dict[str, list[str]], dict[str, list[str]]]:
+    """Lexemes, and attributes that become parameters of a motion, by element; it reads files."""
+    files = {character.bindings["gesture"] for character in scene.specification.characters.values()}
+    specs = [spec for file in sorted(files) for spec in GestureBinding.read(scene.assets(file)).specs]
+    faces = read_face_lexemes(scene.assets("face/lexemes.json"))
+    lexemes = _by_element((spec.behavior, spec.constraints.get("lexeme")) for spec in specs)
+    parameters = _by_element((spec.behavior, name) for spec in specs for name in spec.parameter_map)
+    return lexemes | {"faceLexeme": sorted(faces)}, parameters
+
+
+def _by_element(pairs: Iterable[tuple[str, str | None]]) -> dict[str, list[str]]:
+    found: dict[str, set[str]] = {}
+    for element, word in pairs:
+        if word is not None:
+            found.setdefault(element, set()).add(word)
+    return {element: sorted(words) for element, words in sorted(found.items())}

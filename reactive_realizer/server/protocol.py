@@ -1,0 +1,86 @@
+"""The text messages of the socket: read, checked against protocol.json, written."""
+
+import json
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, Final
+
+from reactive_realizer.errors import RealizerError, error
+from reactive_realizer.server.schema import Schema
+
+VERSION: Final = 1
+"""Rises only when an old client would break."""
+
+DOCUMENT: Final = Path(__file__).with_name("protocol.json").read_text(encoding="utf-8")
+"""The JSON Schema of every message."""
+
+Message = Mapping[str, Any]
+
+_SCHEMA = Schema(json.loads(DOCUMENT))
+_MOST_SHOWN = 60
+
+
+def _by_type(direction: str) -> dict[str, Message]:
+    names = [alternative["$ref"].rpartition("/")[2] for alternative in _SCHEMA.definitions[direction]["oneOf"]]
+    nodes = [_SCHEMA.definitions[name] for name in names]
+    return {node["properties"]["type"]["const"]: node for node in nodes}
+
+
+_FROM_CLIENT = _by_type("ClientMessage")
+
+
+def decode(text: str | bytes) -> Any:
+    """What a JSON text says.
+
+    Raises:
+        RealizerError: "bad-json"; NaN and infinities are none.
+    """
+    try:
+        return json.loads(text, parse_constant=_no_constant)
+    except (ValueError, RecursionError) as problem:
+        raise error("bad-json", reason=problem) from problem
+
+
+def encode(message: Message) -> str:
+    """A message as ASCII text."""
+    return json.dumps(message, separators=(",", ":"), allow_nan=False)
+
+
+def check(message: Any) -> None:
+    """Whether a client may say that.
+
+    Raises:
+        RealizerError: "unknown-message" or "bad-message", with the place in the message.
+    """
+    kind = message.get("type") if isinstance(message, dict) else None
+    if not isinstance(kind, str) or kind not in _FROM_CLIENT:
+        raise error("unknown-message", type=_shown(kind), known=", ".join(_FROM_CLIENT))
+    wrong = _SCHEMA.mismatch(message, _FROM_CLIENT[kind])
+    if wrong is not None:
+        raise error("bad-message", place=wrong.place or kind, value=_shown(wrong.value), rule=wrong.rule)
+
+
+def ref_of(message: Any) -> str | int | None:
+    """What an answer to a message must bear, even where the rest of the message is wrong."""
+    ref = message.get("ref") if isinstance(message, dict) else None
+    return None if ref is None or _SCHEMA.mismatch(ref, _SCHEMA.definitions["Ref"]) else ref
+
+
+def accepted(ref: str | int) -> Message:
+    """The answer to a message that has entered."""
+    return {"type": "accepted", "ref": ref}
+
+
+def refused(refusal: RealizerError, ref: str | int | None = None) -> Message:
+    """The answer to a message that was refused."""
+    answer = {"type": "error", "code": refusal.fault.code, "message": str(refusal.fault)}
+    return answer if ref is None else answer | {"ref": ref}
+
+
+def _shown(value: object) -> str:
+    text = json.dumps(value)
+    return text if len(text) <= _MOST_SHOWN else text[:_MOST_SHOWN] + "..."
+
+
+def _no_constant(name: str) -> None:
+    raise ValueError(f"{name} is no number")

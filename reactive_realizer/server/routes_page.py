@@ -1,0 +1,72 @@
+"""The page and what it loads: files, avatars, sounds, the schema."""
+
+import asyncio
+from pathlib import Path
+
+from aiohttp import web
+from aiohttp.typedefs import Handler
+
+from reactive_realizer.errors import error
+from reactive_realizer.server.keys import LIVE, SECURITY
+from reactive_realizer.server.protocol import DOCUMENT
+from reactive_realizer.server.security import COOKIE
+
+STATIC = Path(__file__).parent / "static"
+"""Where the page is built into."""
+
+routes = web.RouteTableDef()
+
+
+@routes.get("/")
+async def page(request: web.Request) -> web.StreamResponse:
+    """The page; a token in the address becomes a cookie, so that it is not in every address."""
+    if not (STATIC / "index.html").is_file():
+        raise error("no-page")
+    if "token" in request.query and request.app[SECURITY].token is not None:
+        answer = web.HTTPSeeOther(request.rel_url.with_query(_without_token(request)))
+        answer.set_cookie(COOKIE, request.query["token"], httponly=True, samesite="Strict")
+        raise answer
+    return web.FileResponse(STATIC / "index.html", headers={"Cache-Control": "no-cache"})
+
+
+@routes.get("/protocol.json")
+async def protocol(_: web.Request) -> web.Response:
+    """The JSON Schema of every message."""
+    return web.Response(text=DOCUMENT, content_type="application/schema+json")
+
+
+@routes.get("/avatars/{name:.+}")
+async def avatar(request: web.Request) -> web.StreamResponse:
+    """An avatar among the assets; nothing else of these is served."""
+    name = "avatars/" + request.match_info["name"]
+    path = await asyncio.to_thread(request.app[LIVE].scene.assets, name)
+    if path.suffix != ".glb":
+        raise error("no-asset", name=name)
+    return web.FileResponse(path, headers={"Content-Type": "model/gltf-binary"})
+
+
+@routes.get("/audio/{clip}.wav")
+async def audio(request: web.Request) -> web.Response:
+    """A sound that was announced and can still be heard."""
+    clip = request.match_info["clip"]
+    wav = request.app[LIVE].sounds.wav(clip)
+    if wav is None:
+        raise error("no-clip", clip=clip)
+    return web.Response(body=wav, content_type="audio/wav", headers={"Cache-Control": "no-store"})
+
+
+def built_files() -> list[web.RouteDef]:
+    """A route for each file of the page, as far as it is built now: no other address means anything."""
+    files = [file for file in STATIC.rglob("*") if file.is_file()]
+    return [web.get(f"/{file.relative_to(STATIC).as_posix()}", _sender(file)) for file in files]
+
+
+def _sender(file: Path) -> Handler:
+    async def send(_: web.Request) -> web.StreamResponse:
+        return web.FileResponse(file)
+
+    return send
+
+
+def _without_token(request: web.Request) -> dict[str, str]:
+    return {name: value for name, value in request.query.items() if name != "token"}

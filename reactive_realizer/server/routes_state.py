@@ -1,0 +1,63 @@
+"""How the realizer is, and what it can do."""
+
+from collections import Counter
+from dataclasses import asdict
+from statistics import quantiles
+
+from aiohttp import web
+
+from reactive_realizer import __version__
+from reactive_realizer.server.capabilities import capabilities_of
+from reactive_realizer.server.keys import LIVE
+from reactive_realizer.server.live import Live
+from reactive_realizer.server.protocol import VERSION
+
+routes = web.RouteTableDef()
+
+
+@routes.get("/status")
+async def status(request: web.Request) -> web.Response:
+    """How it goes."""
+    live = request.app[LIVE]
+    blocks = live.realizer.scheduler.blocks
+    states = [*(block.state for block in blocks.alive), *(block.state for block in blocks.ended)]
+    answer = {
+        "version": __version__,
+        "protocol": VERSION,
+        "session": live.session,
+        "time": round(live.now, 6),
+        "ticks": _ticks(live),
+        "clients": live.clients.number,
+        "blocks": Counter(state.value for state in states),
+        "worker": {name: getattr(live.scene.tts, name, None) for name in ("alive", "restarts")},
+        "limits": asdict(live.limits),
+    }
+    return web.json_response(answer)
+
+
+@routes.get("/world")
+async def world(request: web.Request) -> web.Response:
+    """Where everything is that can be looked at."""
+    places = request.app[LIVE].realizer.world.snapshot()
+    return web.json_response({"targets": {name: {"position": place} for name, place in places.items()}})
+
+
+@routes.get("/capabilities")
+async def capabilities(request: web.Request) -> web.Response:
+    """What may be asked for."""
+    return web.json_response(await capabilities_of(request.app[LIVE].scene))
+
+
+def _ticks(live: Live) -> dict[str, float | None]:
+    """How late (ms) ticks come: the median, and what one in a hundred exceeds; null before there were two."""
+    late = live.ticker.lateness
+    cuts = quantiles(late, n=100) if len(late) > 1 else [None] * 99
+    return {
+        "late_p50_ms": _milliseconds(cuts[49]),
+        "late_p99_ms": _milliseconds(cuts[98]),
+        "overruns": live.ticker.overruns,
+    }
+
+
+def _milliseconds(seconds: float | None) -> float | None:
+    return None if seconds is None else round(1000 * seconds, 3)

@@ -1,0 +1,91 @@
+"""What goes on, as long as a client likes: the socket, and feedback as server-sent events."""
+
+import socket
+from contextlib import ExitStack
+
+from aiohttp import web
+
+from reactive_realizer.errors import error
+from reactive_realizer.server.client_queue import ClientQueue
+from reactive_realizer.server.feedback_log import Entry, FeedbackLog
+from reactive_realizer.server.keys import FAREWELLS, INTAKE, LIVE
+from reactive_realizer.server.protocol import encode, refused
+from reactive_realizer.server.socket_client import SocketClient
+from reactive_realizer.server.streams import Stream, after_of, streams_of
+
+_HEARTBEAT = 30.0
+_SEND_BUFFER = 128 * 1024
+"""Bytes in the machine's hands: the less, the sooner a slow client is noticed and gets new frames instead of old."""
+
+routes = web.RouteTableDef()
+
+
+@routes.get("/ws")
+async def ws(request: web.Request) -> web.WebSocketResponse:
+    """The socket."""
+    live, intake = request.app[LIVE], request.app[INTAKE]
+    streams, after = streams_of(request.query), after_of(request.query)
+    with live.clients.one():
+        answer = web.WebSocketResponse(
+            heartbeat=_HEARTBEAT,
+            compress=False,
+            max_msg_size=live.limits.message_bytes,
+            writer_limit=_SEND_BUFFER // 2,
+        )
+        await answer.prepare(request)
+        _keep_buffer_small(request)
+        client = SocketClient(live, intake, answer, streams, after)
+        if Stream.FRAMES in streams:
+            intake.demo.page_opened()
+        with ExitStack() as stack:
+            stack.callback(request.app[FAREWELLS].join(lambda _: client.leave()))
+            await client.serve()
+        _hang_up(request)
+    return answer
+
+
+@routes.get("/feedback")
+async def feedback(request: web.Request) -> web.StreamResponse:
+    """Server-sent events; the id of each is its number."""
+    live = request.app[LIVE]
+    after = after_of(request.query, request.headers.get("Last-Event-ID"))
+    with live.clients.one():
+        answer = web.StreamResponse(headers={"Content-Type": "text/event-stream", "Cache-Control": "no-store"})
+        await answer.prepare(request)
+        _keep_buffer_small(request)
+        queue = ClientQueue(live.limits, _missed(live.feedback, after))
+
+        async def write(text: str | bytes) -> None:
+            await answer.write(text if isinstance(text, bytes) else text.encode())
+
+        with ExitStack() as stack:
+            stack.callback(live.feedback.audience.join(lambda entry: queue.put(_event(entry))))
+            stack.callback(request.app[FAREWELLS].join(lambda _: queue.end()))
+            kept_up = await queue.send_all(write)
+        if not kept_up:
+            _hang_up(request)
+    return answer
+
+
+def _missed(log: FeedbackLog, after: int | None) -> list[str]:
+    if after is None:
+        return []
+    gone = encode(refused(error("feedback-gone", seq=log.forgotten)))
+    gap = [f"event: gone\ndata: {gone}\n\n"] if after < log.forgotten else []
+    return gap + [_event(entry) for entry in log.after(after)]
+
+
+def _event(entry: Entry) -> str:
+    return f"id: {entry.seq}\ndata: {entry.text}\n\n"
+
+
+def _keep_buffer_small(request: web.Request) -> None:
+    connection = request.get_extra_info("socket")
+    if connection is not None:
+        connection.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, _SEND_BUFFER)
+
+
+def _hang_up(request: web.Request) -> None:
+    """Drop what was not sent: who does not read would keep it for ever."""
+    if request.transport is not None:
+        request.transport.abort()

@@ -1,0 +1,82 @@
+"""A server from its options, until it is told to end."""
+
+import asyncio
+import logging
+import signal
+from dataclasses import dataclass, field
+from socket import AF_INET, AF_INET6, create_server, socket
+
+from aiohttp import web
+
+from reactive_realizer.assembly.scene import SceneOptions, open_scene
+from reactive_realizer.clock.clock import SystemClock
+from reactive_realizer.server.app import create_app
+from reactive_realizer.server.live import Live
+from reactive_realizer.server.security import Security
+
+logger = logging.getLogger(__name__)
+
+_PATIENCE = 2.0
+"""s for clients to take their leave."""
+
+
+@dataclass(frozen=True, slots=True)
+class ServerOptions:
+    """What a user chooses.
+
+    Attributes:
+        host: address to bind to.
+        port: 0 for any that is free.
+        token: that every client must show; None: nobody must.
+        origins: of other pages that are let in.
+        scene: what is served.
+        performance: BML of a demo; None for none.
+    """
+
+    host: str = "127.0.0.1"
+    port: int = 8088
+    token: str | None = None
+    origins: tuple[str, ...] = ()
+    scene: SceneOptions = field(default_factory=SceneOptions)
+    performance: str | None = None
+
+
+async def serve(options: ServerOptions) -> None:
+    """Serve a scene on the machine's clock until SIGTERM or cancellation.
+
+    Raises:
+        RealizerError: the scene cannot be assembled.
+        OSError: the address cannot be bound to.
+    """
+    security = Security(options.host, options.token, options.origins)
+    if security.exposed and options.token is None:
+        logger.warning("%s can be reached from other machines and asks nobody for a token (--token)", options.host)
+    listening = _listen(options)
+    async with open_scene(options.scene) as scene, asyncio.TaskGroup() as group:
+        live = Live(scene, SystemClock(), options.performance)
+        ticking = group.create_task(live.run())
+        runner = web.AppRunner(
+            create_app(live, security),
+            handler_cancellation=True,  # a client that goes ends its stream
+            shutdown_timeout=_PATIENCE,
+            access_log=None,  # addresses may hold tokens
+        )
+        await runner.setup()
+        try:
+            await web.SockSite(runner, listening).start()
+            logger.info("serving on %s", ", ".join(f"http://{host}:{port}" for host, port, *_ in runner.addresses))
+            await _told_to_end()
+        finally:
+            await runner.cleanup()
+            ticking.cancel()
+
+
+def _listen(options: ServerOptions) -> socket:
+    """Before anything is started: an address that is taken is known at once."""
+    return create_server((options.host, options.port), family=AF_INET6 if ":" in options.host else AF_INET)
+
+
+async def _told_to_end() -> None:
+    told = asyncio.Event()
+    asyncio.get_running_loop().add_signal_handler(signal.SIGTERM, told.set)
+    await told.wait()

@@ -1,0 +1,83 @@
+"""Sounds that can still be played, for those who fetch them and for those who come late."""
+
+from dataclasses import dataclass, replace
+
+from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.embodiment.audio import AudioChange, AudioMove, AudioStart, AudioStop
+from reactive_realizer.server.audience import Audience
+from reactive_realizer.server.protocol import Message
+
+_GRACE = 10.0
+"""How long (s) after its end a sound can still be fetched: pages play a little later than the realizer."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Sound:
+    start: AudioStart
+    stop: AudioStop | None = None
+
+    @property
+    def end(self) -> float:
+        natural = self.start.start + self.start.clip.duration
+        return natural if self.stop is None else min(natural, self.stop.time + self.stop.fade)
+
+
+class SoundShelf:
+    """Follows sounds from their announcement to a little after their end.
+
+    Args:
+        most_bytes: of WAV files that are kept; the earliest announced go first.
+
+    Attributes:
+        audience: is told every change, as a message of the protocol.
+    """
+
+    def __init__(self, most_bytes: int) -> None:
+        self.audience: Audience[Message] = Audience()
+        self._most_bytes = most_bytes
+        self._sounds: dict[str, _Sound] = {}
+
+    def take(self, change: AudioChange) -> None:
+        """Take in what became audible, moved or fell silent."""
+        match change:
+            case AudioStart():
+                self._sounds[change.clip.id] = _Sound(change)
+            case AudioMove(id_, start) if id_ in self._sounds:
+                sound = self._sounds[id_]
+                self._sounds[id_] = replace(sound, start=replace(sound.start, start=start))
+            case AudioStop(id_) if id_ in self._sounds:
+                self._sounds[id_] = replace(self._sounds[id_], stop=change)
+            case _:
+                pass
+        self.audience.tell(message_of(change))
+
+    def tidy(self, now: GlobalTime) -> None:
+        """Forget what has ended, and what is too much."""
+        for id_ in [id_ for id_, sound in self._sounds.items() if sound.end + _GRACE < now]:
+            del self._sounds[id_]
+        while sum(len(sound.start.clip.wav) for sound in self._sounds.values()) > self._most_bytes:
+            del self._sounds[next(iter(self._sounds))]
+
+    def sounding(self, now: GlobalTime) -> list[Message]:
+        """What somebody who comes now must be told: all that has not ended."""
+        ahead = [sound for sound in self._sounds.values() if sound.end > now]
+        changes = [change for sound in ahead for change in (sound.start, sound.stop) if change is not None]
+        return [message_of(change) for change in changes]
+
+    def wav(self, id_: str) -> bytes | None:
+        """The WAV file of a sound."""
+        sound = self._sounds.get(id_)
+        return None if sound is None else sound.start.clip.wav
+
+
+def message_of(change: AudioChange) -> Message:
+    """A change as a message of the protocol."""
+    match change:
+        case AudioStart(character, clip, start, gain):
+            url = f"/audio/{clip.id}.wav"
+            times = {"start": round(start, 6), "duration": round(clip.duration, 6)}
+            return {"type": "audio", "character": character, "id": clip.id, "url": url, **times, "gain": gain}
+        case AudioMove(id_, start):
+            return {"type": "audio_move", "id": id_, "start": round(start, 6)}
+        case AudioStop(id_, time, fade):
+            return {"type": "audio_stop", "id": id_, "time": round(time, 6), "fade": fade}

@@ -1,0 +1,86 @@
+"""The built page in a real browser, before a scene on the machine's clock."""
+
+import asyncio
+from collections.abc import AsyncIterator, Callable
+from contextlib import AbstractAsyncContextManager, asynccontextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import pytest
+from aiohttp import web
+from playwright.async_api import Browser, Page, async_playwright
+
+from reactive_realizer.assembly.scene import SceneOptions, open_scene
+from reactive_realizer.clock.clock import SystemClock
+from reactive_realizer.server.app import create_app
+from reactive_realizer.server.live import Live
+from reactive_realizer.server.routes_page import STATIC
+from reactive_realizer.server.security import Security
+
+# Without a graphics card: Mesa's software renderer, which is quicker than the browser's own.
+FLAGS = ["--no-sandbox", "--use-gl=angle", "--use-angle=gl-egl", "--ignore-gpu-blocklist"]
+WITH_SOUND = "--autoplay-policy=no-user-gesture-required"
+SMALL = {"width": 900, "height": 500}
+
+
+@dataclass
+class Theater:
+    """A live scene, and a browser to see it in."""
+
+    live: Live
+    address: str
+    browser: Browser
+    complaints: list[str] = field(default_factory=list)
+
+    async def open(self, query: str = "?quality=low") -> Page:
+        """A page that shows every character; what it complains of is kept."""
+        page = await self.browser.new_page(viewport=SMALL)
+        page.on("pageerror", lambda problem: self.complaints.append(str(problem)))
+        page.on("console", lambda said: self.complaints.append(said.text) if said.type == "error" else None)
+        await page.goto(self.address + query)
+        everybody = [(id_, "Hips") for id_ in self.live.realizer.characters]
+        await page.wait_for_function(
+            "who => viewer.connected && viewer.framesPlayed > 0 && who.every(([id, bone]) => viewer.bone(id, bone))",
+            arg=everybody,
+        )
+        return page
+
+
+Open = Callable[..., AbstractAsyncContextManager[Theater]]
+
+
+@pytest.fixture
+def theater(chromium: str, tmp_path: Path) -> Open:
+    """Puts the scene of a human file on the air, and a browser before it."""
+    if not (STATIC / "index.html").is_file():
+        pytest.fail("the page is not built: make page", pytrace=False)
+
+    @asynccontextmanager
+    async def open_(human: str, voice: str = "text") -> AsyncIterator[Theater]:
+        file = tmp_path / "human.toml"
+        file.write_text(human, encoding="utf-8")
+        async with (
+            open_scene(SceneOptions(file, voice)) as scene,
+            served(Live(scene, SystemClock())) as (live, address),
+            async_playwright() as playwright,
+        ):
+            browser = await playwright.chromium.launch(executable_path=chromium, args=[*FLAGS, WITH_SOUND])
+            stage = Theater(live, address, browser)
+            yield stage
+            await browser.close()
+            assert not stage.complaints
+
+    return open_
+
+
+@asynccontextmanager
+async def served(live: Live) -> AsyncIterator[tuple[Live, str]]:
+    async with asyncio.TaskGroup() as group:
+        ticking = group.create_task(live.run())
+        runner = web.AppRunner(create_app(live, Security()), handler_cancellation=True, shutdown_timeout=1)
+        await runner.setup()
+        await web.TCPSite(runner, "127.0.0.1", 0).start()
+        host, port = runner.addresses[0]
+        yield live, f"http://{host}:{port}/"
+        await runner.cleanup()
+        ticking.cancel()

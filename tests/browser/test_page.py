@@ -1,0 +1,111 @@
+"""The page as somebody at a browser sees it."""
+
+import pytest
+from playwright.async_api import Page, expect
+
+from .conftest import Open
+
+pytestmark = [pytest.mark.browser, pytest.mark.timeout(120)]
+
+BML = 'xmlns="http://www.bml-initiative.org/bml/bml-1.0"'
+ALICE = '[character.alice]\nvoice = "en-us+f3"\n[anticipator.metronome]\nkind = "metronome"\n'
+TWO = ALICE + '[character.bert]\navatar = "avatars/male.glb"\nposition = [1.0, 0.0, 0.0]\n'
+GESTURE = f'<bml {BML} id="hand"><gesture id="g" lexeme="BEAT" mode="RIGHT_HAND" start="0.5"/></bml>'
+
+
+async def send(page: Page, xml: str) -> None:
+    await page.fill("#bml-text", xml)
+    await page.click("#bml-form button[type=submit]")
+    await expect(page.locator("#bml-answer")).to_have_text("Accepted")
+
+
+async def test_the_page_loads_shows_a_figure_and_runs_nothing_that_is_not_from_here(theater: Open) -> None:
+    async with theater(ALICE) as stage:
+        page = await stage.open()
+        hips = await page.evaluate("viewer.bone('alice', 'Hips')")
+        assert hips == pytest.approx([0, 0.95, 0], abs=0.1)
+        head, foot = [await page.evaluate(f"viewer.bone('alice', '{bone}')[1]") for bone in ("Head", "LeftFoot")]
+        assert head > 1.3
+        assert foot < 0.2
+
+
+async def test_it_shows_the_figure_in_full_quality_too(theater: Open) -> None:
+    async with theater(ALICE) as stage:
+        page = await stage.open("")
+        assert await page.evaluate("viewer.quality") == "normal"
+
+
+async def test_bml_that_is_sent_from_the_page_moves_the_arm_and_its_feedback_appears(theater: Open) -> None:
+    async with theater(ALICE) as stage:
+        page = await stage.open()
+        before = await page.evaluate("viewer.bone('alice', 'RightHand')")
+        await send(page, GESTURE)
+        await page.wait_for_function(
+            "before => Math.hypot(...viewer.bone('alice', 'RightHand').map((x, i) => x - before[i])) > 0.1", arg=before
+        )
+        await expect(page.locator("#feedback")).to_contain_text("hand:g:stroke")
+
+
+async def test_bml_that_is_wrong_is_answered_in_the_page_as_text(theater: Open) -> None:
+    async with theater(ALICE) as stage:
+        page = await stage.open()
+        await page.fill("#bml-text", f'<bml {BML} id="b"><img src="x" onerror="alert(1)"')
+        await page.click("#bml-form button[type=submit]")
+        await expect(page.locator("#bml-answer")).to_contain_text("line 1")
+        assert await page.locator("#bml-answer img, #feedback img").count() == 0
+
+
+@pytest.mark.speech
+async def test_speech_sounds_and_moves_the_mouth(theater: Open) -> None:
+    async with theater(ALICE, voice="espeak") as stage:
+        page = await stage.open()
+        text = "Round the rugged rock the ragged rascal ran, and on he went for ever."
+        await send(page, f'<bml {BML} id="say"><speech id="s" start="1"><text>{text}</text></speech></bml>')
+        await page.wait_for_function("() => viewer.speech.some(clip => clip.begin !== null)")
+        await page.wait_for_function("() => viewer.morph('alice', 'jawOpen') > 0.05")
+        await expect(page.locator("#feedback")).to_contain_text("say:s:end")
+        await page.wait_for_function("() => viewer.morph('alice', 'jawOpen') < 0.05")
+
+
+@pytest.mark.speech
+async def test_a_page_that_joins_late_shows_and_hears_what_is_going_on(theater: Open) -> None:
+    async with theater(TWO, voice="espeak") as stage:
+        first = await stage.open()
+        text = "This is a long story about a patient speaker. " * 8
+        await send(first, f'<bml {BML} id="say"><speech id="s"><text>{text}</text></speech></bml>')
+        await first.wait_for_function("() => viewer.speech.some(clip => clip.begin !== null)")
+        late = await stage.open()
+        await late.wait_for_function("() => viewer.speech.some(clip => clip.begin !== null)")
+        starts = [await page.evaluate("viewer.speech[0].start") for page in (first, late)]
+        assert starts[0] == starts[1]
+        await late.wait_for_function("() => viewer.morph('alice', 'jawOpen') > 0.05")
+
+
+async def test_two_figures_of_one_scene_each_do_what_is_theirs(theater: Open) -> None:
+    async with theater(TWO) as stage:
+        page = await stage.open()
+        roots = [await page.evaluate(f"viewer.bone('{id_}', 'Hips')[0]") for id_ in ("alice", "bert")]
+        assert roots == pytest.approx([0, 1], abs=0.1)
+        before = {id_: await page.evaluate(f"viewer.bone('{id_}', 'RightHand')[1]") for id_ in ("alice", "bert")}
+        await send(page, GESTURE.replace("<bml", '<bml characterId="bert"'))
+        await page.wait_for_function("y => viewer.bone('bert', 'RightHand')[1] - y > 0.1", arg=before["bert"])
+        assert abs(await page.evaluate("viewer.bone('alice', 'RightHand')[1]") - before["alice"]) < 0.05
+
+
+async def test_the_tempo_of_the_metronome_is_dragged_in_the_page(theater: Open) -> None:
+    async with theater(ALICE) as stage:
+        page = await stage.open()
+        await page.locator("#tempo").fill("120")
+        await expect(page.locator("#tempo-value")).to_contain_text("120")
+        metronome = stage.live.realizer.anticipators["metronome"]
+        while round(metronome.tempo) != 120:
+            await page.wait_for_function("last => viewer.lastFrameTime > last", arg=stage.live.now)
+
+
+async def test_the_board_lists_pegs_and_what_moved_them(theater: Open) -> None:
+    async with theater(ALICE) as stage:
+        page = await stage.open()
+        await page.click("#pegs-tab")
+        await send(page, f'<bml {BML} id="late"><wait id="w" start="anticipators:test:hit" duration="30"/></bml>')
+        await expect(page.locator("#pegs-rows")).to_contain_text("late:w:end")
+        await expect(page.locator("#pegs-rows")).to_contain_text("anticipators:test:hit")

@@ -1,0 +1,132 @@
+"""A scene on the air under a clock that stands still: real sockets, ticks by hand."""
+
+import json
+from collections.abc import AsyncIterator, Callable
+from contextlib import AbstractAsyncContextManager, asynccontextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import pytest
+from aiohttp import ClientWebSocketResponse, WSMsgType
+from aiohttp.test_utils import TestClient, TestServer
+from jsonschema import Draft202012Validator
+
+from reactive_realizer.assembly.scene import SceneOptions, open_scene
+from reactive_realizer.clock.clock import ManualClock
+from reactive_realizer.clock.ticker import Tick
+from reactive_realizer.server.app import create_app
+from reactive_realizer.server.live import Live
+from reactive_realizer.server.protocol import DOCUMENT
+from reactive_realizer.server.security import Security
+
+BML = 'xmlns="http://www.bml-initiative.org/bml/bml-1.0"'
+WAIT = f'<bml {BML} id="{{id}}"><wait id="w" duration="{{duration}}"/></bml>'
+ALICE = '[character.alice]\n[anticipator.metronome]\nkind = "metronome"\n'
+
+OPEN = Security()
+
+_SCHEMA = json.loads(DOCUMENT)
+_VALIDATORS = {
+    direction: Draft202012Validator({"$ref": f"#/$defs/{direction}", "$defs": _SCHEMA["$defs"]})
+    for direction in ("ClientMessage", "ServerMessage")
+}
+
+
+def wait(id_: str = "b1", duration: float = 0.1) -> str:
+    """A block that only has time."""
+    return WAIT.format(id=id_, duration=duration)
+
+
+@dataclass
+class Socket:
+    """A client; every message that it sees is held against the schema."""
+
+    raw: ClientWebSocketResponse
+    hello: dict[str, Any] = field(default_factory=dict)
+
+    async def say(self, **message: Any) -> None:
+        _VALIDATORS["ClientMessage"].validate(message)
+        await self.raw.send_json(message)
+
+    async def say_anything(self, text: str) -> None:
+        await self.raw.send_str(text)
+
+    async def hear(self, *types: str) -> dict[str, Any]:
+        """The next text message of one of these types; frames and other messages are passed over."""
+        while True:
+            received = await self.raw.receive(timeout=10)
+            if received.type is WSMsgType.TEXT:
+                message: dict[str, Any] = json.loads(received.data)
+                _VALIDATORS["ServerMessage"].validate(message)
+                if not types or message["type"] in types:
+                    return message
+            elif received.type is not WSMsgType.BINARY:
+                raise ConnectionError(f"closed with {self.raw.close_code}")
+
+    async def hear_feedback(self, part: str) -> dict[str, Any]:
+        """The next feedback whose XML contains something."""
+        while part not in (feedback := await self.hear("feedback"))["xml"]:
+            pass
+        return feedback
+
+    async def see(self) -> bytes:
+        """The next frame."""
+        while (received := await self.raw.receive(timeout=10)).type is not WSMsgType.BINARY:
+            assert received.type is WSMsgType.TEXT
+        data: bytes = received.data
+        return data
+
+    async def close_code(self) -> int | None:
+        """Hear everything out, until the socket is closed."""
+        async for _ in self.raw:
+            pass
+        return self.raw.close_code
+
+    async def ask(self, **message: Any) -> dict[str, Any]:
+        """Say something and hear what is answered."""
+        await self.say(**message, ref="asked")
+        return await self.hear("accepted", "error")
+
+
+@dataclass
+class OnAir:
+    """A live scene and somebody who talks to it."""
+
+    live: Live
+    client: TestClient[Any, Any]
+    ticks: AsyncIterator[Tick]
+
+    async def tick(self) -> None:
+        await self.live.step(await anext(self.ticks))
+        await self.live.realizer.settle()
+
+    async def tick_until(self, time: float) -> None:
+        while self.live.realizer.time < time - 1e-9:
+            await self.tick()
+
+    async def connect(self, query: str = "", **options: Any) -> Socket:
+        socket = Socket(await self.client.ws_connect("/ws" + query, max_msg_size=0, **options))
+        socket.hello = await socket.hear()
+        return socket
+
+
+Open = Callable[..., AbstractAsyncContextManager[OnAir]]
+
+
+@pytest.fixture
+def on_air(tmp_path: Path) -> Open:
+    """Puts the scene of a human file on the air."""
+
+    @asynccontextmanager
+    async def open_(
+        human: str = ALICE, security: Security = OPEN, performance: str | None = None
+    ) -> AsyncIterator[OnAir]:
+        file = tmp_path / "human.toml"
+        file.write_text(human, encoding="utf-8")
+        async with open_scene(SceneOptions(file, "text")) as scene:
+            live = Live(scene, ManualClock(), performance)
+            async with TestClient(TestServer(create_app(live, security))) as client:
+                yield OnAir(live, client, live.ticker.ticks())
+
+    return open_

@@ -1,0 +1,168 @@
+"""What a client must not say: each is answered, by a code and a sentence, and the socket stays open."""
+
+import json
+
+import pytest
+
+from .conftest import ALICE, BML, Open, Socket, wait
+
+BAD = {
+    "no JSON": ("{", "bad-json"),
+    "no number": ('{"type":"ping","t":NaN}', "bad-json"),
+    "a deep abyss": ("[" * 100_000, "bad-json"),
+    "no object": ("[1, 2]", "unknown-message"),
+    "a type that is no text": ('{"type":["bml"]}', "unknown-message"),
+    "no type": ('{"xml":"<bml/>"}', "unknown-message"),
+    "an unknown type": ('{"type":"explode"}', "unknown-message"),
+    "a message of the server": ('{"type":"hello"}', "unknown-message"),
+    "bml without xml": ('{"type":"bml"}', "bad-message"),
+    "xml that is no text": ('{"type":"bml","xml":7}', "bad-message"),
+    "an infinite number": ('{"type":"ping","t":1e999}', "bad-message"),
+    "a truth value for a number": ('{"type":"ping","t":true}', "bad-message"),
+    "a prediction without a time": ('{"type":"predict","anticipator":"a","sync":"s"}', "bad-message"),
+    "a prediction with two": ('{"type":"predict","anticipator":"a","sync":"s","time":1,"in":1}', "bad-message"),
+    "a time that is text": ('{"type":"predict","anticipator":"a","sync":"s","time":"soon"}', "bad-message"),
+    "a far time": ('{"type":"predict","anticipator":"a","sync":"s","time":1e8}', "absurd-time"),
+    "an absurd time": ('{"type":"predict","anticipator":"a","sync":"s","in":1e300}', "bad-message"),
+    "an anticipator with a colon": ('{"type":"predict","anticipator":"a:b","sync":"s","in":1}', "bad-message"),
+    "a name with a line break": ('{"type":"predict","anticipator":"a\\n","sync":"s","in":1}', "bad-message"),
+    "a name of a mile": (
+        json.dumps({"type": "predict", "anticipator": "a" * 201, "sync": "s", "in": 1}),
+        "bad-message",
+    ),
+    "an event of nobody": ('{"type":"event","anticipator":"nobody","event":"press"}', "unknown-anticipator"),
+    "a tempo of zero": ('{"type":"event","anticipator":"metronome","event":"tempo","value":0}', "bad-tempo"),
+    "a flat position": ('{"type":"camera","position":[1,2]}', "bad-message"),
+    "a position beyond the moon": ('{"type":"camera","position":[1,2,4e8]}', "bad-message"),
+    "a world that is a list": ('{"type":"world","set":[]}', "bad-message"),
+    "a target that is text": ('{"type":"world","set":{"bluebox":"there"}}', "bad-message"),
+    "a character that is moved": ('{"type":"world","set":{"alice":[0,0,0]}}', "not-movable"),
+    "a demo where there is none": ('{"type":"demo"}', "no-demo"),
+    "half a letter": ('{"type":"world","set":{"\\ud800":"there"}}', "bad-message"),
+}
+
+
+async def still_listens(socket: Socket) -> bool:
+    await socket.say(type="ping", t=1)
+    return (await socket.hear("pong"))["t"] == 1
+
+
+@pytest.mark.parametrize("name", BAD)
+async def test_a_bad_message_is_answered_and_the_socket_stays_open(on_air: Open, name: str) -> None:
+    text, code = BAD[name]
+    async with on_air() as air:
+        socket = await air.connect()
+        await socket.say_anything(text)
+        answer = await socket.hear("error")
+        assert answer["code"] == code
+        assert answer["message"]
+        await air.tick()
+        assert await still_listens(socket)
+
+
+async def test_the_answer_bears_the_ref_even_of_a_message_that_is_wrong_otherwise(on_air: Open) -> None:
+    async with on_air() as air:
+        socket = await air.connect()
+        await socket.say_anything('{"type":"camera","position":[1,2],"ref":"r7"}')
+        answer = await socket.hear("error")
+        assert answer["ref"] == "r7"
+        assert "position" in answer["message"]
+        await socket.say_anything('{"type":"camera","position":[1,2,3],"ref":{"not":"a ref"}}')
+        assert "ref" not in await socket.hear("error")
+
+
+async def test_binary_junk_is_answered_and_the_socket_stays_open(on_air: Open) -> None:
+    async with on_air() as air:
+        socket = await air.connect()
+        await socket.raw.send_bytes(b"\x00\xff\x13\x37")
+        assert (await socket.hear("error"))["code"] == "binary-message"
+        assert await still_listens(socket)
+
+
+async def test_unknown_fields_are_ignored(on_air: Open) -> None:
+    async with on_air() as air:
+        socket = await air.connect()
+        assert (await socket.ask(type="clock", mood="bright"))["type"] == "accepted"
+
+
+async def test_malformed_bml_is_refused_with_its_place_and_told_in_feedback(on_air: Open) -> None:
+    async with on_air() as air:
+        socket = await air.connect()
+        answer = await socket.ask(type="bml", xml=f'<bml {BML} id="b1">\n  <wait id="w"\n</bml>')
+        assert answer["code"] == "malformed-xml"
+        assert "line 3" in answer["message"]
+        await air.tick()
+        assert "PARSING_FAILURE" in (await socket.hear_feedback("warningFeedback"))["xml"]
+
+
+async def test_a_live_id_is_refused_while_the_other_block_of_the_document_plays(on_air: Open) -> None:
+    async with on_air() as air:
+        socket = await air.connect()
+        assert (await socket.ask(type="bml", xml=wait("b1", 9)))["type"] == "accepted"
+        await air.tick()
+        answer = await socket.ask(type="bml", xml=wait("b1") + wait("b2"))
+        assert answer["code"] == "duplicate-block"
+        await air.tick()
+        assert "b1" in (await socket.hear_feedback("warningFeedback"))["xml"]
+        assert await socket.hear_feedback('"b2:start"')
+
+
+async def test_more_messages_than_the_limit_of_a_second_are_answered_once_and_end_the_connection(on_air: Open) -> None:
+    async with on_air(ALICE + "[limits]\nmessages_per_second = 5\n") as air:
+        socket, other = await air.connect(), await air.connect()
+        for n in range(7):
+            await socket.say(type="ping", t=n)
+        for n in range(5):
+            assert (await socket.hear("pong"))["t"] == n
+        assert (await socket.hear("error"))["code"] == "too-many-messages"
+        assert await socket.close_code() == 1008
+        assert await still_listens(other)
+
+
+async def test_a_message_above_the_limit_of_bytes_ends_the_connection(on_air: Open) -> None:
+    async with on_air(ALICE + "[limits]\nmessage_bytes = 1000\n") as air:
+        socket, other = await air.connect(), await air.connect()
+        await socket.say(type="bml", xml="x" * 1000)
+        assert await socket.close_code() == 1009
+        assert await still_listens(other)
+
+
+async def test_bml_above_the_limit_of_bytes_is_refused(on_air: Open) -> None:
+    async with on_air(ALICE + "[limits]\nbml_bytes = 100\n") as air:
+        socket = await air.connect()
+        answer = await socket.ask(type="bml", xml=wait() + " " * 100)
+        assert answer["code"] == "too-many-bytes"
+        assert await still_listens(socket)
+
+
+async def test_more_predicted_points_than_the_limit_are_refused_and_known_ones_may_still_move(on_air: Open) -> None:
+    async with on_air(ALICE + "[limits]\npredicted_points = 2\n") as air:
+        socket = await air.connect()
+        for sync in ("a", "b"):
+            assert (await socket.ask(type="predict", anticipator="t", sync=sync, time=1))["type"] == "accepted"
+        assert (await socket.ask(type="predict", anticipator="t", sync="c", time=1))["code"] == "too-many-names"
+        assert (await socket.ask(type="predict", anticipator="t", sync="a", time=2))["type"] == "accepted"
+
+
+async def test_more_targets_than_the_limit_are_refused_and_known_ones_may_still_move(on_air: Open) -> None:
+    async with on_air(ALICE + "[limits]\ntargets = 3\n") as air:
+        socket = await air.connect()
+        things = {"cup": [0, 1, 1], "hat": [0, 2, 1]}
+        assert (await socket.ask(type="world", set=things))["type"] == "accepted"
+        await air.tick()
+        assert (await socket.ask(type="world", set={"bag": [0, 0, 1]}))["code"] == "too-many-names"
+        assert (await socket.ask(type="world", set={"cup": [1, 1, 1]}))["type"] == "accepted"
+
+
+@pytest.mark.parametrize("query", ["?streams=feedback,smell", "?after=yesterday", "?after=-1", "?after=" + "9" * 30])
+async def test_an_address_that_means_nothing_is_refused(on_air: Open, query: str) -> None:
+    async with on_air() as air, air.client.get("/ws" + query) as answer:
+        assert answer.status == 400
+        assert (await answer.json())["error"]["code"] == "bad-query"
+
+
+async def test_a_request_that_is_no_handshake_is_refused(on_air: Open) -> None:
+    async with on_air() as air, air.client.get("/ws") as answer:
+        assert answer.status == 400
+        assert (await answer.json())["error"]["code"] == "bad-request"
+        assert air.live.clients.number == 0

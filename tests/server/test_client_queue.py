@@ -1,0 +1,109 @@
+"""What waits for one client."""
+
+import asyncio
+
+import pytest
+
+from reactive_realizer.clock.clock import ManualClock
+from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.limits import Limits
+from reactive_realizer.server.client_queue import ClientQueue
+from reactive_realizer.server.rate_limit import RateLimit
+
+FEW = Limits(queued_messages=3, queued_bytes=100)
+
+
+async def sent_of(queue: ClientQueue) -> list[str | bytes]:
+    sent: list[str | bytes] = []
+
+    async def send(entry: str | bytes) -> None:
+        sent.append(entry)
+
+    queue.end()
+    assert await queue.send_all(send)
+    return sent
+
+
+async def test_texts_are_sent_in_order_until_the_end() -> None:
+    queue = ClientQueue(FEW, ["hello"])
+    queue.put("a")
+    queue.put("b")
+    assert await sent_of(queue) == ["hello", "a", "b"]
+
+
+async def test_of_frames_that_wait_the_newest_are_kept() -> None:
+    queue = ClientQueue(FEW)
+    for n in range(100):
+        queue.put_frame(bytes([n]))
+    sent: list[str | bytes] = []
+
+    async def send(entry: str | bytes) -> None:
+        sent.append(entry)
+        if entry == bytes([99]):
+            queue.end()
+
+    await queue.send_all(send)
+    assert sent == [bytes([n]) for n in range(90, 100)]
+
+
+async def test_texts_go_before_frames() -> None:
+    queue = ClientQueue(FEW)
+    queue.put_frame(b"frame")
+    queue.put("text")
+    sent: list[str | bytes] = []
+
+    async def send(entry: str | bytes) -> None:
+        sent.append(entry)
+        if entry == b"frame":
+            queue.end()
+
+    await queue.send_all(send)
+    assert sent == ["text", b"frame"]
+
+
+@pytest.mark.parametrize("texts", [["a"] * 4, ["x" * 101], ["x" * 60] * 2])
+async def test_one_text_too_many_and_the_client_is_given_up(texts: list[str]) -> None:
+    queue = ClientQueue(FEW)
+    for text in texts:
+        queue.put(text)
+    assert not await queue.send_all(never)
+
+
+async def test_a_client_is_given_up_in_the_middle_of_a_sending_that_does_not_come_to_its_end() -> None:
+    queue = ClientQueue(FEW)
+    queue.put("stuck")
+    async with asyncio.TaskGroup() as group:
+        sending = group.create_task(queue.send_all(never))
+        await asyncio.sleep(0)
+        for _ in range(4):
+            queue.put("more")
+    assert sending.result() is False
+
+
+async def test_what_is_sent_first_does_not_count_as_piled_up() -> None:
+    queue = ClientQueue(FEW, ["x" * 1000] * 10)
+    queue.put("a")
+    assert len(await sent_of(queue)) == 11
+
+
+async def test_a_timeout_of_the_sending_itself_is_not_taken_for_a_slow_client() -> None:
+    async def fail(_: str | bytes) -> None:
+        raise TimeoutError
+
+    queue = ClientQueue(FEW, ["a"])
+    with pytest.raises(TimeoutError):
+        await queue.send_all(fail)
+
+
+async def never(_: str | bytes) -> None:
+    await asyncio.Event().wait()
+
+
+async def test_a_rate_allows_a_second_at_once_and_then_what_time_brings() -> None:
+    clock = ManualClock()
+    rate = RateLimit(10, clock)
+    assert [rate.allows() for _ in range(12)] == [True] * 10 + [False] * 2
+    await clock.wait_until(GlobalTime(0.25))
+    assert [rate.allows() for _ in range(3)] == [True, True, False]
+    await clock.wait_until(GlobalTime(100.0))
+    assert [rate.allows() for _ in range(11)] == [True] * 10 + [False]

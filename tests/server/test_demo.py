@@ -1,0 +1,46 @@
+"""The demo: a performance that begins with the first page, and again on demand."""
+
+from .conftest import ALICE, Open, wait
+
+PLAY = wait("play", 5)
+
+
+async def test_the_performance_begins_with_the_first_page_that_opens_and_not_with_the_second(on_air: Open) -> None:
+    async with on_air(ALICE, performance=PLAY) as air:
+        planner = await air.connect("?streams=feedback")
+        assert planner.hello["demo"] is True
+        await air.tick()
+        assert not air.live.realizer.busy
+        await air.connect()
+        await air.tick_until(2.0)
+        await planner.hear_feedback('"play:start"')
+        await air.connect()
+        await air.tick_until(6.0)
+        (block,) = air.live.realizer.scheduler.blocks.alive
+        assert block.start.value < 2.0
+
+
+async def test_on_demand_it_begins_again_whatever_plays(on_air: Open) -> None:
+    async with on_air(ALICE, performance=PLAY) as air:
+        page = await air.connect()
+        await air.tick_until(3.0)
+        assert (await page.ask(type="demo"))["type"] == "accepted"
+        await air.tick_until(5.0)
+        assert "INTERRUPTED" in (await page.hear_feedback('"play:end"'))["xml"]
+        await page.hear_feedback('"play:start"')
+        assert not air.live.realizer.scheduler.refused
+
+
+async def test_its_metronome_counts_from_its_beginning(on_air: Open) -> None:
+    beat = wait("play").replace("<wait", '<wait start="anticipators:metronome:tick2"')
+    async with on_air(ALICE, performance=beat) as air:
+        page = await air.connect()
+        await air.tick_until(4.0)
+        begun = float((await page.hear_feedback('"play:start"'))["xml"].partition('globalTime="')[2].partition('"')[0])
+        assert f'globalTime="{begun + 2:g}"' in (await page.hear_feedback('"play:w:start"'))["xml"]
+
+
+async def test_without_a_performance_opening_a_page_begins_nothing(on_air: Open) -> None:
+    async with on_air() as air:
+        assert (await air.connect()).hello["demo"] is False
+        assert not air.live.realizer.busy

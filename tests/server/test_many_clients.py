@@ -1,0 +1,191 @@
+"""Clients that come late, come back, do not read, or are too many."""
+
+import aiohttp
+import pytest
+
+from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.embodiment.audio import AudioClip, AudioMove, AudioStart, AudioStop
+from reactive_realizer.errors import WarningType
+from reactive_realizer.feedback.feedback_manager import Report
+from reactive_realizer.feedback.messages import WarningFeedback
+from reactive_realizer.feedback.xml import to_xml
+
+from .conftest import ALICE, OnAir, Open, wait
+
+
+def report(text: str) -> Report:
+    message = WarningFeedback(None, "bml", WarningType.PARSING_FAILURE, text)
+    return Report(GlobalTime(0.0), message, to_xml(message))
+
+
+def clip(id_: str, start: float) -> AudioStart:
+    return AudioStart("alice", AudioClip(id_, b"RIFF" + id_.encode(), 2.0), GlobalTime(start))
+
+
+async def test_sounds_are_told_and_can_be_fetched(on_air: Open) -> None:
+    async with on_air() as air:
+        socket = await air.connect()
+        air.live.sounds.take(clip("c1", 0.5))
+        told = await socket.hear("audio")
+        assert told | {"url": ""} == {
+            "type": "audio",
+            "character": "alice",
+            "id": "c1",
+            "url": "",
+            "start": 0.5,
+            "duration": 2.0,
+            "gain": 1.0,
+        }
+        async with air.client.get(told["url"]) as answer:
+            assert answer.content_type == "audio/wav"
+            assert await answer.read() == b"RIFFc1"
+        air.live.sounds.take(AudioMove("c1", GlobalTime(0.75)))
+        assert await socket.hear("audio_move") == {"type": "audio_move", "id": "c1", "start": 0.75}
+        air.live.sounds.take(AudioStop("c1", GlobalTime(1.0), 0.03))
+        assert await socket.hear("audio_stop") == {"type": "audio_stop", "id": "c1", "time": 1.0, "fade": 0.03}
+
+
+async def test_whoever_comes_late_is_told_of_the_sounds_that_have_not_ended_where_they_are_now(on_air: Open) -> None:
+    async with on_air() as air:
+        sounds = air.live.sounds
+        for change in (
+            clip("over", 0.0),
+            clip("stopped", 0.5),
+            AudioStop("stopped", GlobalTime(0.6), 0.1),
+            clip("moved", 1.0),
+            AudioMove("moved", GlobalTime(2.5)),
+            clip("ending", 2.0),
+            AudioStop("ending", GlobalTime(3.5), 0.1),
+        ):
+            sounds.take(change)
+        await air.tick_until(3.0)
+        late = await air.connect()
+        told = [await late.hear("audio", "audio_stop") for _ in range(3)]
+        assert [(message["type"], message["id"]) for message in told] == [
+            ("audio", "moved"),
+            ("audio", "ending"),
+            ("audio_stop", "ending"),
+        ]
+        assert told[0]["start"] == 2.5
+
+
+async def test_a_sound_is_kept_a_little_after_its_end_and_not_longer(on_air: Open) -> None:
+    async with on_air() as air:
+        air.live.sounds.take(clip("c1", 0.0))
+        await air.tick_until(5.0)
+        async with air.client.get("/audio/c1.wav") as answer:
+            assert answer.status == 200
+        await air.tick_until(13.0)
+        async with air.client.get("/audio/c1.wav") as answer:
+            assert answer.status == 404
+            assert (await answer.json())["error"]["code"] == "no-clip"
+
+
+async def test_of_too_many_sounds_the_first_announced_go(on_air: Open) -> None:
+    async with on_air(ALICE + "[limits]\nsound_bytes = 13\n") as air:
+        for id_ in ("c1", "c2", "c3"):
+            air.live.sounds.take(clip(id_, 0.0))
+        await air.tick()
+        assert [air.live.sounds.wav(id_) is None for id_ in ("c1", "c2", "c3")] == [True, False, False]
+
+
+async def test_whoever_comes_late_gets_frames_and_feedback_from_now_on(on_air: Open) -> None:
+    async with on_air() as air:
+        air.live.feedback.append(report("before"))
+        await air.tick_until(1.0)
+        late = await air.connect()
+        air.live.feedback.append(report("after"))
+        assert "after" in (await late.hear("feedback"))["xml"]
+        await air.tick_until(1.02)
+        assert await late.see()
+
+
+async def test_whoever_comes_back_gets_the_feedback_after_the_last_it_saw(on_air: Open) -> None:
+    async with on_air() as air:
+        for n in range(1, 6):
+            air.live.feedback.append(report(f"number {n}"))
+        back = await air.connect("?after=3")
+        assert back.hello["session"] == air.live.session
+        assert [(await back.hear("feedback"))["seq"] for _ in range(2)] == [4, 5]
+        air.live.feedback.append(report("number 6"))
+        assert (await back.hear("feedback"))["seq"] == 6
+
+
+async def test_whoever_comes_back_too_late_is_told_that_something_is_gone(on_air: Open) -> None:
+    async with on_air(ALICE + "[limits]\nremembered_feedback = 2\n") as air:
+        for n in range(5):
+            air.live.feedback.append(report(str(n)))
+        back = await air.connect("?after=1")
+        assert (await back.hear("error"))["code"] == "feedback-gone"
+        assert (await back.hear("feedback"))["seq"] == 4
+
+
+async def test_feedback_is_kept_up_to_a_size_too(on_air: Open) -> None:
+    async with on_air(ALICE + "[limits]\nremembered_feedback_bytes = 30000\n") as air:
+        for letter in "abcde":
+            air.live.feedback.append(report(letter * 10_000))
+        assert air.live.feedback.forgotten == 3
+
+
+async def test_all_that_is_kept_can_be_resumed_at_once(on_air: Open) -> None:
+    async with on_air(ALICE + "[limits]\nremembered_feedback = 50\nqueued_messages = 10\n") as air:
+        for n in range(50):
+            air.live.feedback.append(report(str(n)))
+        back = await air.connect("?after=0")
+        assert [(await back.hear("feedback"))["seq"] for _ in range(50)] == list(range(1, 51))
+
+
+async def slow_reader(air: OnAir, text: str) -> tuple[int, int | None]:
+    """How many messages a client got that did not read until it was given up, and its close code."""
+    slow, quick = await air.connect("?streams=feedback"), await air.connect("?streams=feedback")
+    sent = 0
+    while len(air.live.feedback.audience) == 2:
+        air.live.feedback.append(report(text))
+        sent += 1
+        assert (await quick.hear("feedback"))["seq"] == sent, "the quick client misses nothing"
+    got = [message async for message in slow.raw if message.type is aiohttp.WSMsgType.TEXT]
+    assert (await quick.ask(type="clock"))["type"] == "accepted"
+    return len(got), slow.raw.close_code
+
+
+async def test_a_client_that_does_not_read_is_closed_and_nobody_else_misses_anything(on_air: Open) -> None:
+    async with on_air(ALICE + "[limits]\nqueued_bytes = 1000000\n") as air:
+        got, code = await slow_reader(air, "x" * 100_000)
+        assert got > 0
+        assert code == 1013
+
+
+async def test_a_client_with_too_many_messages_waiting_is_closed(on_air: Open) -> None:
+    async with on_air(ALICE + "[limits]\nqueued_messages = 20\n") as air:
+        _, code = await slow_reader(air, "x" * 100_000)
+        assert code == 1013
+
+
+async def test_a_closed_client_may_resume_where_it_stopped(on_air: Open) -> None:
+    async with on_air(ALICE + "[limits]\nqueued_messages = 20\n") as air:
+        got, _ = await slow_reader(air, "x" * 100_000)
+        back = await air.connect(f"?after={got}")
+        assert (await back.hear("feedback"))["seq"] == got + 1
+
+
+async def test_no_more_clients_than_the_limit_are_let_in(on_air: Open) -> None:
+    async with on_air(ALICE + "[limits]\nclients = 2\n") as air:
+        one = await air.connect()
+        async with air.client.get("/feedback"):
+            with pytest.raises(aiohttp.WSServerHandshakeError) as refused:
+                await air.connect()
+            assert refused.value.status == 503
+            async with air.client.get("/feedback") as answer:
+                assert (await answer.json())["error"]["code"] == "too-many-clients"
+        await one.raw.close()
+        assert (await air.connect()).hello
+
+
+async def test_all_are_sent_away_when_the_server_ends(on_air: Open) -> None:
+    async with on_air() as air:
+        socket = await air.connect()
+        assert (await socket.ask(type="bml", xml=wait()))["type"] == "accepted"
+        async with air.client.get("/feedback") as stream:
+            await air.client.app.shutdown()
+            assert await stream.read() == b""
+        assert await socket.close_code() == 1001

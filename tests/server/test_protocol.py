@@ -1,0 +1,110 @@
+"""The schema of the protocol and the validator that is driven by it."""
+
+import json
+from typing import Any
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from jsonschema import Draft202012Validator
+
+from reactive_realizer.errors import RealizerError
+from reactive_realizer.server.protocol import DOCUMENT, check, decode, encode, ref_of
+from reactive_realizer.server.schema import Schema
+
+SCHEMA = json.loads(DOCUMENT)
+DEFINITIONS = SCHEMA["$defs"]
+FROM_CLIENT = Draft202012Validator({"$ref": "#/$defs/ClientMessage", "$defs": DEFINITIONS})
+TYPES = [
+    DEFINITIONS[one["$ref"].rpartition("/")[2]]["properties"]["type"]["const"]
+    for direction in ("ClientMessage", "ServerMessage")
+    for one in DEFINITIONS[direction]["oneOf"]
+]
+
+leaves = (
+    st.none()
+    | st.booleans()
+    | st.integers(-(10**10), 10**10)
+    | st.floats(allow_nan=False, allow_infinity=False)
+    | st.text(max_size=5)
+    | st.sampled_from(["metronome", "a:b", "x" * 201, "a\n", ""])
+)
+positions = st.lists(st.floats(-20000, 20000) | leaves, min_size=2, max_size=4)
+values = leaves | positions | st.dictionaries(st.text(max_size=3) | st.just("bluebox"), leaves | positions, max_size=3)
+fields = sorted({name for node in DEFINITIONS.values() for name in node.get("properties", {})} - {"type"})
+messages = st.builds(
+    lambda kind, rest: {"type": kind, **rest},
+    st.sampled_from(TYPES),
+    st.dictionaries(st.sampled_from(fields), values, max_size=4),
+)
+good_names = st.text("abc-_", min_size=1, max_size=5)
+good_numbers = st.floats(-1000, 1000)
+nearly_right = st.one_of(
+    st.fixed_dictionaries({"type": st.just("bml"), "xml": st.text(max_size=5)}, optional={"ref": values}),
+    st.fixed_dictionaries(
+        {"type": st.just("predict"), "anticipator": good_names, "sync": good_names | leaves},
+        optional={"time": good_numbers | st.none() | leaves, "in": good_numbers, "ref": st.text(max_size=3)},
+    ),
+    st.fixed_dictionaries(
+        {"type": st.just("event"), "anticipator": good_names, "event": good_names},
+        optional={"value": good_numbers | values},
+    ),
+    st.fixed_dictionaries({"type": st.just("camera"), "position": st.lists(good_numbers, min_size=3, max_size=3)}),
+    st.fixed_dictionaries({"type": st.just("world"), "set": st.dictionaries(good_names, positions | st.none())}),
+)
+
+
+def accepts(message: Any) -> bool:
+    try:
+        check(message)
+    except RealizerError:
+        return False
+    return True
+
+
+@settings(max_examples=300)
+@given(messages | nearly_right | values)
+def test_the_validator_accepts_what_the_jsonschema_package_accepts(message: Any) -> None:
+    assert accepts(message) == FROM_CLIENT.is_valid(message)
+
+
+@settings(max_examples=100)
+@given(messages)
+def test_the_validator_reads_every_keyword_of_the_schema(message: Any) -> None:
+    ours = Schema(SCHEMA)
+    for name, node in DEFINITIONS.items():
+        theirs = Draft202012Validator({"$ref": f"#/$defs/{name}", "$defs": DEFINITIONS})
+        assert (ours.mismatch(message, node) is None) == theirs.is_valid(message), name
+
+
+def test_a_keyword_that_the_validator_does_not_know_does_not_pass_unseen() -> None:
+    with pytest.raises(KeyError):
+        Schema(SCHEMA).mismatch(1, {"multipleOf": 2})
+
+
+def test_the_schema_is_a_schema() -> None:
+    Draft202012Validator.check_schema(SCHEMA)
+
+
+def test_every_definition_has_its_own_name_as_title() -> None:
+    assert {name: node["title"] for name, node in DEFINITIONS.items()} == {name: name for name in DEFINITIONS}
+
+
+def test_a_mismatch_names_its_place() -> None:
+    with pytest.raises(RealizerError, match=r"set\.bluebox\.2"):
+        check({"type": "world", "set": {"bluebox": [0, 0, "up"]}})
+
+
+@given(leaves)
+def test_what_is_written_is_read_again(value: Any) -> None:
+    assert decode(encode({"value": value})) == {"value": value}
+
+
+@pytest.mark.parametrize("ref", ["r", 7, ""])
+def test_refs_are_texts_or_whole_numbers(ref: object) -> None:
+    assert ref_of({"ref": ref}) == ref
+
+
+@pytest.mark.parametrize("ref", [None, 1.5, [], True, "x" * 201])
+def test_other_refs_are_none(ref: object) -> None:
+    assert ref_of({"ref": ref}) is None

@@ -1,0 +1,112 @@
+"""Who is let in."""
+
+from pathlib import Path
+
+import aiohttp
+import pytest
+
+from reactive_realizer.server import routes_page
+from reactive_realizer.server.security import COOKIE, Security
+
+from .conftest import Open
+
+ELSEWHERE = "https://elsewhere.example"
+
+
+async def test_a_page_from_elsewhere_is_not_let_in(on_air: Open) -> None:
+    async with on_air() as air:
+        for path in ("/status", "/feedback", "/protocol.json"):
+            async with air.client.get(path, headers={"Origin": ELSEWHERE}) as answer:
+                assert answer.status == 403
+                assert (await answer.json())["error"]["code"] == "foreign-origin"
+        with pytest.raises(aiohttp.WSServerHandshakeError) as refused:
+            await air.connect(origin=ELSEWHERE)
+        assert refused.value.status == 403
+
+
+async def test_requests_without_origin_and_from_the_page_itself_are_let_in(on_air: Open) -> None:
+    async with on_air() as air:
+        assert (await air.connect()).hello
+        assert (await air.connect(origin=str(air.client.make_url("/").origin()))).hello
+
+
+async def test_a_page_of_an_allowed_origin_is_let_in_and_may_read_the_answers(on_air: Open) -> None:
+    async with on_air(security=Security(origins=(ELSEWHERE,))) as air:
+        assert (await air.connect(origin=ELSEWHERE)).hello
+        async with air.client.get("/status", headers={"Origin": ELSEWHERE}) as answer:
+            assert answer.status == 200
+            assert answer.headers["Access-Control-Allow-Origin"] == ELSEWHERE
+        async with air.client.options("/bml", headers={"Origin": ELSEWHERE}) as answer:
+            assert answer.status == 204
+            assert "Content-Type" in answer.headers["Access-Control-Allow-Headers"]
+        async with air.client.get("/status", headers={"Origin": "null"}) as answer:
+            assert answer.status == 403
+            assert "Access-Control-Allow-Origin" not in answer.headers
+
+
+@pytest.mark.parametrize("host", ["elsewhere.example", "elsewhere.example:8088", "192.168.1.7", "[::"])
+async def test_a_name_that_is_not_this_machines_is_refused(on_air: Open, host: str) -> None:
+    async with on_air() as air, air.client.get("/status", headers={"Host": host}) as answer:
+        assert answer.status == 403
+        assert (await answer.json())["error"]["code"] == "foreign-host"
+
+
+@pytest.mark.parametrize("host", ["localhost:8088", "127.0.0.1", "[::1]:8088"])
+async def test_the_names_of_the_loopback_are_known(on_air: Open, host: str) -> None:
+    async with on_air() as air, air.client.get("/status", headers={"Host": host}) as answer:
+        assert answer.status == 200
+
+
+async def test_an_exposed_server_is_known_by_its_numbers_and_by_the_hosts_of_allowed_origins(on_air: Open) -> None:
+    exposed = Security("0.0.0.0", origins=("http://robot.local:8088",))
+    async with on_air(security=exposed) as air:
+        for host, status in (("192.168.1.7:8088", 200), ("robot.local:8088", 200), ("elsewhere.example", 403)):
+            async with air.client.get("/status", headers={"Host": host}) as answer:
+                assert answer.status == status
+
+
+async def test_where_a_token_is_wanted_nobody_comes_in_without(on_air: Open) -> None:
+    async with on_air(security=Security(token="s3cret")) as air:
+        for options in ({}, {"headers": {"Authorization": "Bearer other"}}, {"params": {"token": "ö"}}):
+            for path in ("/", "/status", "/nothing", "/avatars/female.glb"):
+                async with air.client.get(path, **options) as answer:
+                    assert answer.status == 401
+                    assert (await answer.json())["error"]["code"] == "no-token"
+        with pytest.raises(aiohttp.WSServerHandshakeError) as refused:
+            await air.connect()
+        assert refused.value.status == 401
+
+
+async def test_a_token_is_shown_as_a_header_or_in_the_address(on_air: Open) -> None:
+    async with on_air(security=Security(token="s3cret")) as air:
+        async with air.client.get("/status", headers={"Authorization": "Bearer s3cret"}) as answer:
+            assert answer.status == 200
+        assert (await air.connect("?token=s3cret")).hello
+
+
+async def test_a_page_that_is_opened_with_the_token_keeps_it_as_a_cookie_and_not_in_its_address(
+    on_air: Open, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    static = tmp_path / "static"
+    static.mkdir()
+    (static / "index.html").write_text("hello")
+    monkeypatch.setattr(routes_page, "STATIC", static)
+    async with on_air(security=Security(token="s3cret")) as air:
+        async with air.client.get("/?quality=low&token=s3cret", allow_redirects=False) as answer:
+            assert answer.status == 303
+            assert answer.headers["Location"] == "/?quality=low"
+            cookie = answer.cookies[COOKIE]
+            assert cookie["httponly"]
+            assert cookie["samesite"] == "Strict"
+        shown = {"Cookie": f"{COOKIE}={cookie.value}"}
+        for path in ("/", "/status"):
+            async with air.client.get(path, headers=shown) as answer:
+                assert answer.status == 200
+
+
+@pytest.mark.parametrize(
+    ("host", "exposed"),
+    [("127.0.0.1", False), ("::1", False), ("localhost", False), ("0.0.0.0", True), ("robot.local", True)],
+)
+def test_other_machines_can_come_where_the_address_is_not_the_loopback(host: str, exposed: bool) -> None:
+    assert Security(host).exposed is exposed

@@ -1,0 +1,72 @@
+"""A whole server on the machine's clock, from its options to its end."""
+
+import asyncio
+import logging
+import os
+import signal
+from collections.abc import Iterator
+
+import aiohttp
+import pytest
+
+from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.server.serve import ServerOptions, serve
+
+TEXT = SceneOptions(voice="text")
+
+
+class Lines(logging.Handler):
+    """Hands out what a logger says."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.said: asyncio.Queue[str] = asyncio.Queue()
+
+    def emit(self, record: logging.LogRecord) -> None:
+        self.said.put_nowait(record.getMessage())
+
+
+@pytest.fixture
+def lines(caplog: pytest.LogCaptureFixture) -> Iterator[Lines]:
+    caplog.set_level(logging.INFO, "reactive_realizer.server.serve")
+    handler = Lines()
+    logger = logging.getLogger("reactive_realizer.server.serve")
+    logger.addHandler(handler)
+    yield handler
+    logger.removeHandler(handler)
+
+
+async def test_it_says_where_it_is_ticks_by_itself_and_ends_on_sigterm(lines: Lines) -> None:
+    async with asyncio.TaskGroup() as group:
+        serving = group.create_task(serve(ServerOptions(port=0, scene=TEXT)))
+        address = (await lines.said.get()).rpartition(" ")[2]
+        async with aiohttp.ClientSession(address) as session, session.ws_connect("/ws") as socket:
+            hello = await socket.receive_json()
+            frame = await socket.receive_bytes()
+            assert len(frame) > 32
+            assert hello["characters"][0]["id"] == "alice"
+            os.kill(os.getpid(), signal.SIGTERM)
+            async for _ in socket:
+                pass
+            assert socket.close_code == 1001
+        await serving
+
+
+async def test_a_server_that_others_can_reach_without_a_token_says_so_loudly(
+    lines: Lines, caplog: pytest.LogCaptureFixture
+) -> None:
+    async with asyncio.TaskGroup() as group:
+        serving = group.create_task(serve(ServerOptions(host="0.0.0.0", port=0, scene=TEXT)))
+        assert "--token" in await lines.said.get()
+        assert next(record.levelname for record in caplog.records) == "WARNING"
+        await lines.said.get()
+        serving.cancel()
+
+
+async def test_a_port_that_is_taken_is_an_error_and_nothing_keeps_running(lines: Lines) -> None:
+    async with asyncio.TaskGroup() as group:
+        serving = group.create_task(serve(ServerOptions(port=0, scene=TEXT)))
+        port = int((await lines.said.get()).rpartition(":")[2])
+        with pytest.raises(OSError):
+            await serve(ServerOptions(port=port, scene=TEXT))
+        serving.cancel()

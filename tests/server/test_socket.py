@@ -1,0 +1,199 @@
+"""The socket: hello, BML, feedback, frames, and the questions in between."""
+
+import struct
+
+import pytest
+
+from .conftest import ALICE, BML, Open, wait
+
+TWO = ALICE + '[character.bert]\navatar = "avatars/male.glb"\nposition = [1.0, 0.0, 0.0]\n'
+
+
+async def test_the_first_message_says_who_is_there_and_in_which_order_their_bones_come(on_air: Open) -> None:
+    async with on_air(TWO) as air:
+        hello = (await air.connect()).hello
+        assert hello["type"] == "hello"
+        assert hello["protocol"] == 1
+        assert hello["session"] == air.live.session
+        assert [(who["id"], who["index"], who["avatar"]) for who in hello["characters"]] == [
+            ("alice", 0, "/avatars/female.glb"),
+            ("bert", 1, "/avatars/male.glb"),
+        ]
+        assert hello["characters"][0]["joints"][0] == "Hips"
+        assert "jawOpen" in hello["characters"][0]["morphs"]
+        assert hello["demo"] is False
+
+
+async def test_bml_is_accepted_by_its_ref_and_told_in_feedback(on_air: Open) -> None:
+    async with on_air() as air:
+        socket = await air.connect()
+        await socket.say(type="bml", xml=wait("b1"), ref="mine")
+        assert await socket.hear("accepted") == {"type": "accepted", "ref": "mine"}
+        await air.tick_until(0.3)
+        started = await socket.hear_feedback('id="b1:start"')
+        ended = await socket.hear_feedback('id="b1:end"')
+        assert started["session"] == air.live.session
+        assert ended["time"] == pytest.approx(started["time"] + 0.1)
+        assert ended["seq"] > started["seq"]
+
+
+async def test_feedback_over_the_wire_carries_posix_times_in_milliseconds(on_air: Open) -> None:
+    async with on_air() as air:
+        socket = await air.connect()
+        air.live.feedback._epoch = 1_000_000.0
+        assert (await socket.ask(type="bml", xml=wait("b1", 0.25)))["type"] == "accepted"
+        await air.tick_until(0.4)
+        assert (
+            'bmla:posixStartTime="1000000000" bmla:posixEndTime="1000000250"'
+            in (await socket.hear_feedback("predictionFeedback"))["xml"]
+        )
+        assert 'bmla:posixTime="1000000000"' in (await socket.hear_feedback('id="b1:w:start"'))["xml"]
+        assert 'bmla:posixTime="1000000250"' in (await socket.hear_feedback('id="b1:end"'))["xml"]
+
+
+async def test_frames_come_for_every_character_fifty_times_a_second_of_its_clock(on_air: Open) -> None:
+    async with on_air(TWO) as air:
+        socket = await air.connect()
+        await air.tick_until(0.06)
+        frames = [await socket.see() for _ in range(8)]
+        headers = [struct.unpack_from("<BBHIdHH", frame) for frame in frames]
+        assert [header[2] for header in headers] == [0, 1] * 4
+        assert [header[3] for header in headers] == [0, 0, 1, 1, 2, 2, 3, 3]
+        assert [header[4] for header in headers] == [0, 0, 0.02, 0.02, 0.04, 0.04, 0.06, 0.06]
+        for frame, header in zip(frames, headers, strict=True):
+            character = socket.hello["characters"][header[2]]
+            assert header[5:] == (len(character["joints"]), len(character["morphs"]))
+            assert len(frame) == 32 + 8 * header[5] + 2 * header[6]
+
+
+async def test_the_figures_stand_where_the_human_file_puts_them(on_air: Open) -> None:
+    async with on_air(TWO) as air:
+        socket = await air.connect()
+        await air.tick()
+        alice, bert = [struct.unpack_from("<3f", await socket.see(), 20) for _ in range(2)]
+        assert alice[0] == pytest.approx(0, abs=0.05)  # it sways
+        assert bert[0] == pytest.approx(1, abs=0.05)
+        assert 0.8 < alice[1] < 1.1
+
+
+async def test_no_pose_is_composed_where_nobody_looks(on_air: Open) -> None:
+    async with on_air() as air:
+        socket = await air.connect("?streams=feedback")
+        assert not air.live.realizer._frame_listeners
+        looking = await air.connect("?streams=frames")
+        assert air.live.realizer._frame_listeners
+        await looking.raw.close()
+        assert (await socket.ask(type="bml", xml=wait()))["type"] == "accepted"
+        await air.tick()
+        await socket.hear_feedback("b1:start")
+        assert not air.live.realizer._frame_listeners
+
+
+async def test_a_socket_gets_only_the_streams_that_it_asks_for(on_air: Open) -> None:
+    async with on_air() as air:
+        silent = await air.connect("?streams=")
+        assert (await silent.ask(type="bml", xml=wait()))["type"] == "accepted"
+        await air.tick()
+        await silent.say(type="clock")
+        assert (await silent.hear())["type"] == "clock"
+
+
+async def test_a_ping_comes_back_with_realizer_time(on_air: Open) -> None:
+    async with on_air() as air:
+        socket = await air.connect()
+        await air.tick_until(0.5)
+        await socket.say(type="ping", t=12.5)
+        assert await socket.hear("pong") == {"type": "pong", "t": 12.5, "time": 0.5}
+
+
+async def test_the_clock_is_told_to_whoever_asks(on_air: Open) -> None:
+    async with on_air() as air:
+        socket = await air.connect()
+        await air.tick_until(0.25)
+        await socket.say(type="clock")
+        assert await socket.hear("clock") == {"type": "clock", "time": 0.25}
+
+
+async def test_feedback_goes_to_everybody_and_answers_to_the_one_who_asked(on_air: Open) -> None:
+    async with on_air() as air:
+        one, other = await air.connect(), await air.connect()
+        assert (await one.ask(type="bml", xml=wait("b1")))["type"] == "accepted"
+        await air.tick_until(0.2)
+        assert (await one.hear_feedback('"b1:end"'))["seq"] == (await other.hear_feedback('"b1:end"'))["seq"]
+        await other.say(type="clock")
+        assert (await other.hear("accepted", "clock"))["type"] == "clock"
+
+
+async def test_the_camera_and_things_of_the_world_move_and_vanish(on_air: Open) -> None:
+    async with on_air(ALICE + "[target.bluebox]\nposition = [0.0, 1.0, 1.0]\n") as air:
+        socket = await air.connect()
+        await socket.say(type="camera", position=[1, 2, 3])
+        assert (await socket.ask(type="world", set={"greensphere": [3, 2, 1], "bluebox": None}))["type"] == "accepted"
+        await air.tick()
+        world = air.live.realizer.world
+        assert world.position("camera") == (1, 2, 3)
+        assert world.position("greensphere") == (3, 2, 1)
+        assert world.position("bluebox") is None
+
+
+async def test_the_tempo_of_the_metronome_is_an_event_with_a_value(on_air: Open) -> None:
+    async with on_air() as air:
+        socket = await air.connect()
+        answer = await socket.ask(type="event", anticipator="metronome", event="tempo", value=120)
+        assert answer["type"] == "accepted"
+        await air.tick()
+        assert air.live.realizer.anticipators["metronome"].tempo == pytest.approx(120)
+
+
+async def test_a_block_for_the_second_character_is_played_by_it(on_air: Open) -> None:
+    async with on_air(TWO) as air:
+        socket = await air.connect()
+        xml = f'<bml {BML} id="b1" characterId="bert"><head id="h" lexeme="NOD"/></bml>'
+        assert (await socket.ask(type="bml", xml=xml))["type"] == "accepted"
+        await air.tick()
+        assert 'characterId="bert"' in (await socket.hear_feedback('"b1:start"'))["xml"]
+
+
+async def test_the_board_is_shown_to_those_who_ask_with_what_moved_it(on_air: Open) -> None:
+    async with on_air() as air:
+        socket = await air.connect("?streams=board")
+        assert (await socket.hear("board"))["pegs"] == []
+        xml = f'<bml {BML} id="b1"><wait id="w" start="anticipators:test:hit" duration="1"/></bml>'
+        assert (await socket.ask(type="bml", xml=xml))["type"] == "accepted"
+        await air.tick()
+        pegs = {peg["key"]: peg for peg in (await socket.hear("board"))["pegs"]}
+        assert pegs["anticipators:test:hit"] == {
+            "key": "anticipators:test:hit",
+            "time": None,
+            "state": "unknown",
+            "source": "predicted",
+        }
+        assert pegs["b1:w:end"]["source"] == "b1:w:start +1 s"
+        assert (await socket.ask(type="predict", anticipator="test", sync="hit", time=2.0))["type"] == "accepted"
+        await air.tick_until(0.3)
+        board = await socket.hear("board")
+        (change,) = [c for commit in board["commits"] for c in commit["changes"] if c[0] == "b1:w:end"]
+        assert change == ["b1:w:end", None, 3.0]
+
+
+async def test_the_board_is_shown_five_times_a_second_at_most(on_air: Open) -> None:
+    async with on_air() as air:
+        page, planner = await air.connect("?streams=board"), await air.connect("?streams=")
+        for n in range(100):
+            predicted = await planner.ask(type="predict", anticipator="test", sync=f"s{n}", time=50 + n)
+            assert predicted["type"] == "accepted"
+            await air.tick()
+        await page.say(type="clock")
+        times = []
+        while (message := await page.hear())["type"] != "clock":
+            times.append(message["time"])
+        assert times == [0.0, 0.0, 0.2, 0.4, 0.6, 0.8]  # the first when it came
+
+
+async def test_nothing_is_shown_of_a_board_that_stays_as_it_is(on_air: Open) -> None:
+    async with on_air() as air:
+        socket = await air.connect("?streams=board")
+        await air.tick_until(1.0)
+        await socket.say(type="clock")
+        assert (await socket.hear("board"))["time"] == 0.0
+        assert (await socket.hear())["type"] == "clock"
