@@ -49,3 +49,9 @@ def shared_cases() -> Path:
     if not SHARED_CASES.is_dir():
         pytest.skip("no ../shared/cases beside this checkout")
     return SHARED_CASES
+
+
+@pytest.fixture(scope="session")
+def tests_data() -> Path:
+    """Our own data for tests."""
+    return Path(__file__).parent / "data"

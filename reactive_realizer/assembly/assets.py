@@ -42,7 +42,8 @@ class Assets:
 
 def _within(folder: Path, file: Path) -> Path | None:
     """The file, if it is one and no link leads out of its folder."""
-    if not file.is_file():
+    try:
+        found = file.resolve(strict=True)
+    except (OSError, ValueError):  # not there, or no name that a file could have
         return None
-    found = file.resolve()
-    return found if found.is_relative_to(folder.resolve()) else None
+    return found if found.is_file() and found.is_relative_to(folder.resolve()) else None

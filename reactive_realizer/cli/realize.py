@@ -42,6 +42,8 @@ def run(options: argparse.Namespace) -> int:
     """The exit status: 1 if something could not be read, was refused or failed; 2 if a file is not there."""
     missing = [str(entry.path) for entry in options.items if not entry.path.is_file()]
     missing += [] if options.human.is_file() else [str(options.human)]
+    outputs = [Path(name) for name in (options.feedback, options.frames) if name]
+    missing += [str(output.parent) for output in outputs if not output.parent.is_dir()]
     if missing:
         print(f"no such file: {', '.join(missing)}", file=sys.stderr)
         return 2

@@ -92,7 +92,7 @@ def _predicted(block: str, prediction: BehaviorPrediction) -> etree._Element:
     element.set("id", f"{block}:{behavior.id}")
     for sync in behavior.syncs:
         del element.attrib[sync]
-    inline = {sync.get("id"): sync for sync in element.iter(f"{{{BML}}}sync")}
+    inline = {sync.get("id"): sync for sync in element.iter(f"{{{BML}}}sync", "sync")}
     for sync, time in prediction.times.items():
         if sync in inline:
             inline[sync].set(_OWN_TIME, seconds(time))

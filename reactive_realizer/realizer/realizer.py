@@ -94,7 +94,8 @@ class Realizer:
     async def __aexit__(
         self, kind: type[BaseException] | None, failure: BaseException | None, trace: TracebackType | None
     ) -> None:
-        await self._stack.__aexit__(kind, failure, trace)
+        # What went wrong outside is raised as it is: the group of engine tasks has no part in it.
+        await self._stack.aclose()
 
     # --- the port
 

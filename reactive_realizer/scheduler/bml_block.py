@@ -8,7 +8,7 @@ from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.feedback.feedback_manager import Place
 from reactive_realizer.pegboard.peg_key import BlockKey, PegKey
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.pegboard.time_peg import BMLBlockPeg, LatestPeg, TimeCell
+from reactive_realizer.pegboard.time_peg import BMLBlockPeg, LatestPeg, Time, TimeCell
 from reactive_realizer.planunit.plan_unit import PlanUnit
 
 
@@ -29,6 +29,11 @@ class BlockState(Enum):
         """Whether the block has started and not ended."""
         return self in (BlockState.IN_EXEC, BlockState.SUBSIDING)
 
+    @property
+    def ended(self) -> bool:
+        """Whether nothing of the block is ahead."""
+        return self in (BlockState.DONE, BlockState.INTERRUPTED, BlockState.REVOKED, BlockState.FAILED)
+
 
 class BMLBlock:
     """A block alive, and its two pegs.
@@ -38,6 +43,7 @@ class BMLBlock:
         description: what was asked for.
         arrival: number of arrival over all characters.
         arrived: time of the tick in which it arrived, s.
+        noticed: time of the tick in which it started; its peg may lie before that.
         start: its peg; pinned when it starts.
         end: the latest end of its behaviors.
         targets: the blocks it is appended to.
@@ -58,6 +64,7 @@ class BMLBlock:
         self.arrival = arrival
         self.arrived = arrived
         self.targets = tuple(targets)
+        self.noticed: Time = None
         self.state = BlockState.IN_PREP
         self.units: list[PlanUnit] = []
         self.start = BMLBlockPeg(board.graph, f"{key.block}:start", arrived, self._waits())
@@ -75,6 +82,11 @@ class BMLBlock:
     def end_again(self, floor: GlobalTime) -> None:
         """Within a transaction: the end follows the behaviors that are left, and is not before ``floor``."""
         self.end.wait_for(floor, (self.start, *(unit.points[-1].peg for unit in self.units)))
+
+    @property
+    def waits_for(self) -> list["BMLBlock"]:
+        """The blocks it is appended to that have not ended, whatever was predicted of their ends."""
+        return [target for target in self.targets if not target.state.ended]
 
     @property
     def live_units(self) -> list[PlanUnit]:

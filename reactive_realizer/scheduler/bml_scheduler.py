@@ -115,7 +115,7 @@ class BMLScheduler:
         ending = [block for block in self.blocks.alive if block.state.plays and not block.live_units]
         for block in ending:
             self._end(block, BlockState.DONE, _known(block.end.value, now))
-        starting = [b for b in self.blocks.alive if b.state is BlockState.LURKING and is_due(b.start.value, now)]
+        starting = [block for block in self.blocks.alive if _may_start(block) and is_due(block.start.value, now)]
         for block in sorted(starting, key=lambda b: (b.start.value, b.arrival)):
             self._start(block, now)
         return bool(ending or starting)
@@ -146,8 +146,8 @@ class BMLScheduler:
                 self._drop_unit(unit, Fault("overtaken"), now)
 
     def fail_restless(self, rounds: int, now: GlobalTime) -> None:
-        """Fail the blocks that keep a tick from coming to rest: those that play."""
-        for block in [block for block in self.blocks.alive if block.state.plays]:
+        """Fail the blocks that keep a tick from coming to rest: those that started in it and still play."""
+        for block in [block for block in self.blocks.alive if block.state.plays and block.noticed == now]:
             self._warn(block.key.character, block.key.block, Fault("too-many-rounds", {"limit": rounds}))
             self._leave(block.live_units, now)
             self._end(block, BlockState.FAILED, now)
@@ -167,7 +167,7 @@ class BMLScheduler:
         """Say of every block alive what it waits for."""
         for block in self.blocks.alive:
             pegs = [point.peg for unit in block.live_units for point in unit.ahead()]
-            waits = ", ".join(unknown_sources([block.start, block.end, *pegs]))
+            waits = ", ".join([*(str(other.end.name) for other in block.waits_for), *unknown_sources(pegs)])
             self._warn(block.key.character, block.key.block, Fault("never-moves", {"waits": waits}))
 
     # --- accepting
@@ -266,6 +266,7 @@ class BMLScheduler:
         with self._board.graph.transaction(f"start {block.key.block}"):
             block.start.pin(time)
         block.state = BlockState.IN_EXEC
+        block.noticed = now
         for unit in block.units:
             unit.release()
         self._owe_prediction(block)
@@ -302,7 +303,7 @@ class BMLScheduler:
             if any(peg.value is None for peg in tied) or (state is BlockState.REVOKED and not unit.begun):
                 self._drop_unit(unit, Fault("never-comes", details), now)
             else:
-                self._warn(unit.block.character, f"{unit.block.block}:{unit.behavior.id}", Fault("cut-tie", details))
+                self._warn_of(unit, Fault("cut-tie", details))
 
     def _interrupt(self, block: BMLBlock, now: GlobalTime) -> None:
         if not block.state.plays:
@@ -369,7 +370,7 @@ class BMLScheduler:
         """Warn of a unit that left the plan; one that had begun ends now."""
         unit = dropped.unit
         block = self.blocks.get(unit.block)
-        self._warn(unit.block.character, f"{unit.block.block}:{unit.behavior.id}", dropped.fault)
+        self._warn_of(unit, dropped.fault)
         if block is not None and unit in block.units:
             block.units.remove(unit)
             with self._board.graph.transaction(f"drop {unit.behavior.id}"):
@@ -400,6 +401,9 @@ class BMLScheduler:
         message = BlockProgress(*block.key, sync, time, block.state.value)
         self._feedback.progress(message, block.place(time, behavior))
 
+    def _warn_of(self, unit: PlanUnit, fault: Fault) -> None:
+        self._warn(unit.block.character, f"{unit.block.block}:{unit.behavior.id}", _located(fault, unit.behavior))
+
     def _warn(self, character: str, id_: str, fault: Fault) -> None:
         if fault.kind.warning is not None:
             known = None if id_ == BLOCK else character
@@ -418,10 +422,15 @@ def _known(time: Time, now: GlobalTime) -> GlobalTime:
     return now if time is None else time
 
 
+def _may_start(block: BMLBlock) -> bool:
+    # The last one is most likely to be still there: of a long queue each block looks at one.
+    return block.state is BlockState.LURKING and all(target.state.ended for target in reversed(block.targets))
+
+
 def _can_move(block: BMLBlock, now: GlobalTime) -> bool:
     """Whether a time that is known lies ahead of a block."""
     if not block.state.plays:
-        return block.start.value is not None
+        return _may_start(block)
     times = (point.peg.value for unit in block.live_units for point in unit.ahead())
     return any(time is not None and not is_due(time, now) for time in times)
 
@@ -433,6 +442,9 @@ def _unsupported(behavior: Behavior) -> Loss:
 
 
 def _loss(behavior: Behavior, fault: Fault) -> Loss:
+    return Loss(behavior.id, _located(fault, behavior), dropped=True, required=behavior.required)
+
+
+def _located(fault: Fault, behavior: Behavior) -> Fault:
     place = behavior.location
-    located = fault if fault.line else Fault(fault.code, fault.details, place.line, place.column)
-    return Loss(behavior.id, located, dropped=True, required=behavior.required)
+    return fault if fault.line else Fault(fault.code, fault.details, place.line, place.column)

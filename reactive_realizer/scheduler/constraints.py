@@ -84,8 +84,8 @@ def _own_point(unit: PlanUnit, sync: str, ref: SyncRef) -> None:
 def _own_ties(behavior: Behavior, locate: Locate) -> list[Tie]:
     return [
         Tie(
-            Point(behavior.id, sync), locate(ref), ref.offset, behavior.id, f"{behavior.id}:{sync} = {ref}",
-            behavior.required,
+            Point(behavior.id, sync), locate(ref), ref.offset, behavior.id, behavior.location,
+            f"{behavior.id}:{sync} = {ref}", behavior.required,
         )
         for sync, ref in behavior.syncs.items()
     ]  # fmt: skip
@@ -95,7 +95,15 @@ def _synchronized(constraint: Synchronize, locate: Locate) -> list[Tie]:
     first, *others = constraint.refs
     pivot = locate(first)
     return [
-        Tie(locate(ref), pivot, first.offset - ref.offset, None, f"{ref} = {first}", constraint.required)
+        Tie(
+            locate(ref),
+            pivot,
+            first.offset - ref.offset,
+            None,
+            constraint.location,
+            f"{ref} = {first}",
+            constraint.required,
+        )
         for ref in others
     ]
 

@@ -11,6 +11,7 @@ from reactive_realizer.pegboard.peg_key import PegKey
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.pegboard.time_peg import OffsetPeg, RatioPeg, TimeCell, TimePeg
 from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
+from reactive_realizer.reactive.graph import Graph
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.scheduler.constraints import drop_unplaceable, orders_of, ties_of
@@ -70,10 +71,12 @@ class Planning:
     def commit(self, block: BMLBlock, plan: Plan, now: GlobalTime) -> None:
         """Put a plan on the board: all of it, in one transaction."""
         with self._board.graph.transaction(f"plan {block.key.block}"):
-            builder = _PegBuilder(self._board, block)
+            keys = {unit.key(sync): spec for unit in plan.units for sync, spec in plan.pegs[unit.behavior.id].items()}
+            pegs = _PegBuilder(self._board.graph, block, keys).build()
+            for key, peg in pegs.items():
+                self._board.add(key, peg)
             for unit in plan.units:
-                specs = plan.pegs[unit.behavior.id]
-                unit.points = [SyncPoint(sync, builder.build(spec, unit.key(sync))) for sync, spec in specs.items()]
+                unit.points = [SyncPoint(sync, pegs[unit.key(sync)]) for sync in plan.pegs[unit.behavior.id]]
             block.planned(now, plan.units)
 
 
@@ -122,34 +125,35 @@ class _Names:
 
 
 class _PegBuilder:
-    """Makes the pegs of a plan; what shares a description shares a peg."""
+    """Makes the pegs of a plan; what shares a description shares a peg, which bears the name of the first."""
 
-    def __init__(self, board: PegBoard, block: BMLBlock) -> None:
-        self._board = board
+    def __init__(self, graph: Graph, block: BMLBlock, specs: Mapping[PegKey, PegSpec]) -> None:
+        self._graph = graph
         self._block = block
+        self._specs = specs
+        self._names: dict[PegSpec, str] = {}
+        for key, spec in specs.items():
+            self._names.setdefault(spec, str(key))
         self._built: dict[PegSpec, TimePeg] = {}
 
-    def build(self, spec: PegSpec, key: PegKey) -> TimePeg:
-        """The peg of a sync point, named on the board."""
-        peg = self._peg(spec, str(key))
-        self._board.add(key, peg)
-        return peg
+    def build(self) -> dict[PegKey, TimePeg]:
+        """The peg of each sync point."""
+        return {key: self._peg(spec) for key, spec in self._specs.items()}
 
-    def _peg(self, spec: PegSpec, name: str) -> TimePeg:
+    def _peg(self, spec: PegSpec) -> TimePeg:
         if spec not in self._built:
-            self._built[spec] = self._make(spec, name)
+            self._built[spec] = self._make(spec, self._names.get(spec, f"{self._block.key.block}:a dropped behavior"))
         return self._built[spec]
 
     def _make(self, spec: PegSpec, name: str) -> TimePeg:
-        graph = self._board.graph
         match spec:
             case AtBlock(anchor, offset):
-                return OffsetPeg(graph, name, self._block.start, anchor.time + offset)
+                return OffsetPeg(self._graph, name, self._block.start, anchor.time + offset)
             case AtOffset(link, offset):
-                cell = self._peg(link, name) if isinstance(link, AtBlock | AtOffset | AtRatio) else link
-                return OffsetPeg(graph, name, cell, offset)
+                cell = self._peg(link) if isinstance(link, AtBlock | AtOffset | AtRatio) else link
+                return OffsetPeg(self._graph, name, cell, offset)
             case AtRatio(before, after, ratio):
-                return RatioPeg(graph, name, self._peg(before, name), self._peg(after, name), ratio)
+                return RatioPeg(self._graph, name, self._peg(before), self._peg(after), ratio)
 
 
 def _outer_times(ties: Sequence[Tie], start: GlobalTime) -> dict[TimeCell, float | None]:

@@ -39,9 +39,10 @@ class Predictions:
             self._feedback.say(_prediction(block, now))
 
     def close(self, block: BMLBlock, now: GlobalTime) -> None:
-        """The block ends: say what is still owed, and forget it."""
-        if block in self._owed:
+        """The block ends: say what is still owed, if it has played at all, and forget it."""
+        if block in self._owed and block.state.plays:
             self.publish(block, now)
+        self._owed.discard(block)
         self._published.pop(block, None)
 
 

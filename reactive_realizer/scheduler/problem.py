@@ -6,6 +6,7 @@ from enum import Enum
 from typing import NamedTuple
 
 from reactive_realizer.bml.behavior import Behavior
+from reactive_realizer.bml.names import Location
 from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.time_peg import TimeCell
 from reactive_realizer.planunit.timing import Timing
@@ -42,6 +43,7 @@ class Tie:
 
     Attributes:
         owner: id of the behavior that names it, None for a constraint of the block.
+        location: of what names it.
         text: as a person would write it.
         required: whether the block fails without it.
     """
@@ -50,6 +52,7 @@ class Tie:
     right: Node
     offset: float
     owner: str | None
+    location: Location
     text: str
     required: bool
 

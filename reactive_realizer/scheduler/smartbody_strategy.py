@@ -2,6 +2,8 @@
 
 import itertools
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from math import isfinite
 from typing import NamedTuple
 
 from reactive_realizer.errors import Fault, RealizerError, error
@@ -85,19 +87,21 @@ class _Run:
     def _tie(self, tie: Tie) -> None:
         gap = self._ties.tie(tie.left, tie.right, tie.offset)
         if gap is not None:
-            fault = Fault("contradictory-tie", {"tie": tie.text, "gap": abs(gap)})
+            code = "contradictory-tie" if isfinite(gap) else "outer-tie"
+            place = tie.location
+            fault = Fault(code, {"tie": tie.text, "gap": abs(gap)}, place.line, place.column)
             self._losses.append(Loss(tie.owner, fault, dropped=False, required=tie.required))
 
     def _place(self, item: Item) -> None:
         """Find the peg of every point; those of earlier behaviors stand."""
-        known = self._known(item) or self._anchor(item)
-        known = self._with_own_ties(item, known)
+        tied = self._with_own_ties(item, self._known(item) or self._anchor(item))
         if item.timing.rigid:
-            known = self._one_of(item, known)
-        known = self._not_before_the_block(item, known)
+            tied = self._met(item, tied)
+        first = min(tied)
+        known = self._not_before_the_block(item, {first: tied[first]} if item.timing.rigid else tied)
         placed = _fill(item, known)
         _check(item, placed)
-        self._join([point.anchor for point in known.values()])
+        self._join([point.anchor for point in (*tied.values(), *known.values())])
         self._accept(item, placed)
 
     def _known(self, item: Item) -> dict[int, Placed]:
@@ -137,14 +141,31 @@ class _Run:
                 known = {**known, leader: first, i: _moved(first, distance - at)}
         return known
 
-    def _one_of(self, item: Item, known: Mapping[int, Placed]) -> dict[int, Placed]:
-        """One point places a rigid behavior; a tie of another point that it cannot meet is lost: rigid wins."""
+    def _met(self, item: Item, known: Mapping[int, Placed]) -> dict[int, Placed]:
+        """The first point places a rigid behavior; a tie of another one that it cannot meet is lost: rigid wins."""
+        met = {}
+        for i, placed in sorted(known.items()):
+            point = f"{item.behavior.id}:{item.timing.points[i]}"
+            gap = self._gap(item, known, i)
+            if gap is None:
+                self._lose(item, Fault("outer-tie", {"tie": point}), dropped=False)
+            elif abs(gap) > _SAME:
+                self._lose(item, Fault("rigid", {"point": point, "gap": abs(gap)}), dropped=False)
+            else:
+                met[i] = placed
+        return met
+
+    def _gap(self, item: Item, known: Mapping[int, Placed], index: int) -> float | None:
+        """By how much (s) a rigid behavior placed by its first known point misses another; None if nobody knows yet."""
         first = min(known)
-        for i, gap in _gaps(item, known, first).items():
-            if abs(gap) > _SAME:
-                fault = Fault("rigid", {"point": f"{item.behavior.id}:{item.timing.points[i]}", "gap": abs(gap)})
-                self._lose(item, fault, dropped=False)
-        return {first: known[first]}
+        preferred = item.timing.offsets[index] - item.timing.offsets[first]
+        before, after = known[first].time, known[index].time
+        if before is not None and after is not None:
+            return after - before - preferred
+        (root, here), (other, there) = (
+            self._ties.find(Point(item.behavior.id, item.timing.points[i])) for i in (first, index)
+        )
+        return there - here - preferred if root == other else None
 
     def _not_before_the_block(self, item: Item, known: dict[int, Placed]) -> dict[int, Placed]:
         """A start before its block (thesis 7.13) is tied to the block's: the way to the first given point shortens.
@@ -176,8 +197,8 @@ class _Run:
         for sync, point in zip(item.timing.points, placed, strict=True):
             root, distance = self._ties.find(Point(item.behavior.id, sync))
             if isinstance(root, Point):
+                # The first one leads: a point that a rigid behavior could not bring there is no measure for others.
                 self._classes.setdefault(root, (point, distance))
-                self._shared.setdefault((root, round(distance, 9)), point)
 
     def _normalize(self) -> None:
         """Move every free cluster so that it starts with the block (thesis 7.24)."""
@@ -203,7 +224,9 @@ class _Run:
         self._lose(item, fault)
 
     def _lose(self, item: Item, fault: Fault, *, dropped: bool = True) -> None:
-        self._losses.append(Loss(item.behavior.id, fault, dropped=dropped, required=item.behavior.required))
+        place = item.behavior.location
+        located = replace(fault, line=place.line, column=place.column)
+        self._losses.append(Loss(item.behavior.id, located, dropped=dropped, required=item.behavior.required))
 
     def _kept(self) -> list[Item]:
         return [item for item in self._problem.items if item.behavior.id in self._placed]
@@ -247,16 +270,6 @@ def _between(before: Placed, after: Placed, ratio: float) -> Placed:
     known = before.time is not None and after.time is not None
     time = before.time + ratio * (after.time - before.time) if known else None  # type: ignore[operator]
     return Placed(AtRatio(before.spec, after.spec, ratio), time, before.anchor)
-
-
-def _gaps(item: Item, known: Mapping[int, Placed], first: int) -> dict[int, float]:
-    """By how much (s) a rigid behavior placed by its first known point misses the others."""
-    offsets, given = item.timing.offsets, known[first].time
-    return {
-        i: placed.time - given - (offsets[i] - offsets[first])
-        for i, placed in known.items()
-        if placed.time is not None and given is not None
-    }
 
 
 def _check(item: Item, placed: list[Placed]) -> None:

@@ -90,7 +90,9 @@ async def test_the_same_prediction_again_changes_nothing(pilot) -> None:
 
 async def test_a_point_that_was_reached_keeps_its_time_and_what_is_ahead_still_moves(pilot) -> None:
     pilot.predict("test", "stop", 1.0)
-    pilot.block("b", '<gesture id="g" lexeme="BEAT" start="anticipators:test:stop-0.5" end="anticipators:test:stop+1"/>')
+    pilot.block(
+        "b", '<gesture id="g" lexeme="BEAT" start="anticipators:test:stop-0.5" end="anticipators:test:stop+1"/>'
+    )
     await pilot.advance(0.7)
     pilot.predict("test", "stop", 1.4)
     await pilot.advance(3)

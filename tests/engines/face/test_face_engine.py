@@ -9,7 +9,9 @@ import pytest
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.testing.pilot import open_pilot
 
-SMILE = '<faceLexeme id="f" lexeme="RAISE_MOUTH_CORNERS" amount="{amount}" start="0" attackPeak="0.5" relax="1.5" end="2"/>'
+SMILE = (
+    '<faceLexeme id="f" lexeme="RAISE_MOUTH_CORNERS" amount="{amount}" start="0" attackPeak="0.5" relax="1.5" end="2"/>'
+)
 
 
 @pytest.fixture

@@ -1,0 +1,56 @@
+"""What has ended is let go of."""
+
+import gc
+import weakref
+
+from reactive_realizer.scheduler.bml_block import BMLBlock
+
+
+async def test_300_blocks_leave_nothing_behind(pilot) -> None:
+    pilot.predict("test", "hit", 0.1)
+    pilot.block("forever", '<head id="h" lexeme="NOD" start="anticipators:never:comes"/>')
+    blocks = []
+    for number in range(300):
+        pilot.block(
+            f"b{number}",
+            f"""
+            <head id="h" lexeme="NOD" start="anticipators:metronome:tick{number}" end="anticipators:test:hit+9"/>
+            <head id="i" lexeme="NOD" start="nobody:end"/>
+            <wait id="w" start="forever:0" duration="0.01"/>
+            <gesture id="g" lexeme="BEAT" stroke="anticipators:new{number}:hit"/>
+            """,
+            composition="REPLACE" if number % 7 == 0 else "APPEND",
+        )
+        await pilot.tick()
+        blocks.append(weakref.ref(pilot.realizer.scheduler.blocks.alive[-1]))
+        if number % 10 == 9:
+            pilot.block("last", composition="REPLACE")
+            await pilot.tick()
+    board = pilot.realizer.board
+    assert [str(view.key) for view in board.snapshot()] == ["anticipators:test:hit"]
+    assert board.predicted("test", "hit").dependents == {}
+    assert all(engine.player.units == () for engine in pilot.realizer.characters["alice"].engines)
+    gc.collect()
+    assert [block() for block in blocks if block() is not None] == []
+    assert not [thing for thing in gc.get_objects() if isinstance(thing, BMLBlock)]
+
+
+async def test_blocks_that_are_appended_to_each_other_for_ever_do_not_keep_the_first(pilot) -> None:
+    pilot.block("b0", '<wait id="w" duration="0.05"/>')
+    await pilot.tick()
+    first = weakref.ref(pilot.realizer.scheduler.blocks.alive[0])
+    for number in range(1, 20):
+        pilot.block(f"b{number}", '<wait id="w" duration="0.05"/>', composition="APPEND")
+        await pilot.advance(0.04)
+    assert pilot.realizer.scheduler.blocks.alive
+    gc.collect()
+    assert first() is None
+
+
+async def test_only_the_last_ended_blocks_are_remembered(pilot) -> None:
+    blocks = pilot.realizer.scheduler.blocks
+    blocks._remembered = 5
+    for number in range(10):
+        pilot.block(f"b{number}")
+    await pilot.tick()
+    assert [ended.key.block for ended in blocks.ended] == [f"b{n}" for n in range(5, 10)]

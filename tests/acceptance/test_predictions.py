@@ -1,0 +1,112 @@
+"""Predictions: when they are sent, and what they say."""
+
+import pytest
+from lxml import etree
+
+HIT = "anticipators:test:hit"
+NOD = f'<head id="h" lexeme="NOD" end="{HIT}"/>'
+
+
+def said_at(pilot, block):
+    return [line.time for line in pilot.feedback.predictions(block)]
+
+
+def status(line):
+    return next(value for name, value in line.element[0].attrib.items() if name.endswith("status"))
+
+
+async def test_a_block_that_starts_at_once_is_predicted_once_with_all_that_is_known(pilot) -> None:
+    pilot.block("b", '<head id="h" lexeme="NOD" amount="0.4" start="1" end="3"/>')
+    await pilot.tick()
+    (line,) = pilot.feedback.predictions("b")
+    block, head = line.element
+    assert (block.get("globalStart"), block.get("globalEnd"), status(line)) == ("0", "3", "IN_EXEC")
+    assert (head.get("id"), head.get("start"), head.get("end")) == ("b:h", "1", "3")
+    assert (head.get("lexeme"), head.get("amount")) == ("NOD", "0.4")
+    assert line.element.get("characterId") == "alice"
+
+
+async def test_the_clock_alone_moves_no_prediction(pilot) -> None:
+    pilot.block("b", NOD)
+    pilot.block("next", '<speech id="s"><text>Then this.</text></speech>', composition="APPEND")
+    await pilot.advance(2)
+    assert said_at(pilot, "b") == said_at(pilot, "next") == [0.0]
+
+
+async def test_an_unknown_end_is_predicted_as_the_last_known_point(pilot) -> None:
+    pilot.block("b", f'{NOD}<wait id="w" duration="2"/>')
+    await pilot.tick()
+    assert pilot.feedback.predicted("b:end") == 2.0
+    head = pilot.feedback.predictions("b")[-1].element[1]
+    assert head.get("end") is None
+
+
+async def test_a_block_that_waits_for_the_unknown_is_predicted_as_if_it_came_now(pilot) -> None:
+    pilot.block("b", NOD)
+    await pilot.advance(0.5)
+    pilot.block("next", '<wait id="w" duration="1"/>', composition="APPEND")
+    await pilot.tick()
+    assert (pilot.feedback.predicted("next:start"), pilot.feedback.predicted("next:end")) == (0.5, 0.5)
+    assert status(pilot.feedback.predictions("next")[0]) == "LURKING"
+
+
+async def test_it_is_said_again_when_a_time_moves_by_more_than_a_millisecond_or_becomes_known(pilot) -> None:
+    pilot.block("b", NOD)
+    pilot.block("next", composition="APPEND")
+    await pilot.tick()
+    for time, said in [(3.0, 2), (3.0005, 2), (3.0009, 2), (3.0015, 3), (2.0, 4), (None, 5), (2.5, 6)]:
+        pilot.predict("test", "hit", time)
+        await pilot.tick()
+        assert len(pilot.feedback.predictions("b")) == said
+        assert len(pilot.feedback.predictions("next")) == said
+        if time is not None:
+            assert pilot.feedback.predicted("b:end") == pytest.approx(time, abs=1e-3)
+            assert pilot.feedback.predicted("next:start") == pytest.approx(time, abs=1e-3)
+
+
+async def test_many_moves_in_a_tick_are_one_prediction(pilot) -> None:
+    pilot.block("b", NOD)
+    await pilot.tick()
+    for time in (3.0, 4.0, 5.0):
+        pilot.predict("test", "hit", time)
+    await pilot.tick()
+    assert len(pilot.feedback.predictions("b")) == 2
+    assert pilot.feedback.predicted("b:end") == 5.0
+
+
+async def test_what_changes_in_the_tick_in_which_a_block_starts_is_in_its_prediction(pilot) -> None:
+    right = '<gesture id="{}" lexeme="BEAT" mode="RIGHT_HAND" start="0" end="{}"/>'
+    pilot.block("b", right.format("one", 2) + right.format("two", 5))
+    await pilot.tick()
+    (line,) = pilot.feedback.predictions("b")
+    assert line.element[0].get("globalEnd") == "2"
+    assert [element.get("id") for element in line.element[1:]] == ["b:one"]
+
+
+async def test_an_empty_block_is_predicted_too(pilot) -> None:
+    pilot.block("b")
+    await pilot.tick()
+    assert [(line.kind, line.id) for line in pilot.feedback.lines] == [
+        ("predictionFeedback", "b"),
+        ("blockProgress", "b:start"),
+        ("blockProgress", "b:end"),
+    ]
+
+
+async def test_an_inline_sync_of_a_speech_carries_its_predicted_time(pilot) -> None:
+    pilot.block("b", '<speech id="s"><text>Well <sync id="now"/>then.</text></speech>')
+    await pilot.advance(3)
+    speech = pilot.feedback.predictions("b")[0].element[1]
+    sync = next(child for child in speech.iter() if etree.QName(child).localname == "sync")
+    predicted = next(float(value) for name, value in sync.attrib.items() if name.endswith("time"))
+    assert predicted == pytest.approx(pilot.feedback.time("b:s:now"))
+
+
+async def test_a_block_that_has_ended_is_predicted_no_more(pilot) -> None:
+    pilot.predict("test", "hit", 1.0)
+    pilot.block("b", NOD)
+    await pilot.advance(2)
+    said = len(pilot.feedback.lines)
+    pilot.predict("test", "hit", 5.0)
+    await pilot.advance(1)
+    assert len(pilot.feedback.lines) == said

@@ -1,0 +1,57 @@
+"""The thesis's examples of what the order of behaviors does to SmartBody's scheduler, as BML (7.2.2, 7.3.5)."""
+
+import pytest
+
+SPEECH = '<speech id="speech1"><text>Yes, <sync id="sync1"/>that was great.</text></speech>'
+NOD_ON_SPEECH = '<head id="nod1" lexeme="NOD" start="speech1:start" end="speech1:sync1"/>'
+NOD_3_TO_5 = '<head id="nod1" lexeme="NOD" start="3" end="5"/>'
+BEAT_ON_NOD = '<gesture id="beat1" lexeme="BEAT" stroke="nod1:stroke"/>'
+BEATS = '<gesture id="g1" lexeme="BEAT"/><gesture id="g2" lexeme="BEAT" start="g1:end"/>'
+NOD_AROUND = '<head id="nod1" lexeme="NOD" repetition="5" start="g1:start-2" end="g2:end+3"/>'
+
+
+@pytest.mark.parametrize("order", [(SPEECH, NOD_ON_SPEECH), (NOD_ON_SPEECH, SPEECH)], ids=["27a", "27b"])
+async def test_27_a_nod_on_words_is_timed_by_them_in_either_order(pilot, order) -> None:
+    pilot.block("bml1", "".join(order))
+    await pilot.advance(5)
+    told = pilot.feedback
+    assert told.warnings == []
+    assert told.time("bml1:nod1:start") == told.time("bml1:speech1:start") == 0.0
+    assert told.time("bml1:nod1:end") == told.time("bml1:speech1:sync1") > 0.2
+
+
+async def test_28a_a_beat_on_the_stroke_of_a_nod_follows_it(pilot) -> None:
+    pilot.block("bml1", NOD_3_TO_5 + BEAT_ON_NOD)
+    await pilot.advance(8)
+    told = pilot.feedback
+    assert told.warnings == []
+    assert (told.time("bml1:nod1:start"), told.time("bml1:nod1:end")) == (3.0, 5.0)
+    assert told.time("bml1:beat1:stroke") == told.time("bml1:nod1:stroke")
+
+
+async def test_28b_the_other_way_round_the_nod_is_dropped_with_one_warning_and_the_beat_plays(pilot) -> None:
+    pilot.block("bml1", BEAT_ON_NOD + NOD_3_TO_5)
+    await pilot.advance(8)
+    told = pilot.feedback
+    assert told.warnings == [("bml1:nod1", "IMPOSSIBLE_TO_SCHEDULE")]
+    assert told.reached("bml1:beat1:end")
+    assert not told.reached("bml1:nod1:start")
+    assert told.status("bml1") == "DONE"
+
+
+async def test_29a_a_nod_around_two_gestures_is_scheduled_where_it_comes_last(pilot) -> None:
+    pilot.block("bml1", BEATS + NOD_AROUND)
+    await pilot.advance(14)
+    told = pilot.feedback
+    assert told.warnings == []
+    assert told.time("bml1:nod1:start") == 0.0
+    assert told.time("bml1:g1:start") == pytest.approx(2.0)
+    assert told.time("bml1:g2:start") == told.time("bml1:g1:end")
+    assert told.time("bml1:nod1:end") == pytest.approx(told.time("bml1:g2:end") + 3.0)
+
+
+async def test_29b_with_the_nod_first_a_gesture_is_dropped_with_one_warning(pilot) -> None:
+    pilot.block("bml1", NOD_AROUND + BEATS)
+    await pilot.advance(14)
+    assert pilot.feedback.warnings == [("bml1:g2", "IMPOSSIBLE_TO_SCHEDULE")]
+    assert pilot.feedback.status("bml1") == "DONE"

@@ -1,0 +1,99 @@
+"""A metronome predicts every beat, whatever its tempo was before."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from anticipators.metronome import Metronome
+from reactive_realizer.errors import RealizerError
+from reactive_realizer.pegboard.pegboard import PegBoard
+from reactive_realizer.reactive.graph import Graph
+
+
+def metronome(tempo=60.0) -> Metronome:
+    return Metronome("m", PegBoard(Graph()), tempo)
+
+
+def beat(m, number):
+    return m._board.predicted("m", f"tick{number}").value
+
+
+def event(m, name, value, now):
+    with m._board.graph.transaction("event"):
+        m.event(name, value, now)
+
+
+def test_beats_are_counted_from_the_start() -> None:
+    m = metronome(120)
+    assert [beat(m, n) for n in (0, 1, 2, 100)] == [0.0, 0.5, 1.0, 50.0]
+    assert m._board.predicted("m", "tock").value is None
+
+
+def test_a_new_tempo_holds_from_the_beat_before_and_moves_every_beat_ahead() -> None:
+    m = metronome(60)
+    before = [beat(m, n) for n in range(6)]
+    event(m, "tempo", 30, 2.5)
+    assert [beat(m, n) for n in range(6)] == [*before[:3], 4.0, 6.0, 8.0]
+    assert m.tempo == pytest.approx(30)
+
+
+def test_a_beat_that_passed_has_its_time_also_where_it_is_first_named_later() -> None:
+    m = metronome(60)
+    event(m, "tempo", 120, 2.5)
+    assert [beat(m, n) for n in range(5)] == [0.0, 1.0, 2.0, 2.5, 3.0]
+
+
+def test_beats_that_would_have_been_due_do_not_all_come_at_once() -> None:
+    m = metronome(60)
+    assert beat(m, 3) == 3.0
+    event(m, "tempo", 240, 2.9)
+    assert [beat(m, n) for n in (2, 3, 4)] == pytest.approx([2.0, 2.9, 3.15])
+
+
+def test_a_tempo_dragged_about_between_two_beats_counts_as_the_last() -> None:
+    m = metronome(60)
+    event(m, "tempo", 30, 2.2)
+    event(m, "tempo", 20, 3.5)
+    event(m, "tempo", 40, 3.6)
+    assert [beat(m, n) for n in (2, 3, 4)] == pytest.approx([2.0, 3.6, 5.1])
+
+
+def test_a_start_counts_anew() -> None:
+    m = metronome(60)
+    assert beat(m, 1) == 1.0
+    event(m, "start", None, 10.0)
+    assert [beat(m, 0), beat(m, 1)] == [10.0, 11.0]
+
+
+@pytest.mark.parametrize("tempo", [9.9, 401.0, float("nan"), -60.0, 0.0])
+def test_a_tempo_that_nobody_beats_is_refused_and_changes_nothing(tempo) -> None:
+    m = metronome(60)
+    with pytest.raises(RealizerError, match="beats a minute"):
+        event(m, "tempo", tempo, 1.5)
+    assert beat(m, 2) == 2.0
+    with pytest.raises(RealizerError):
+        metronome(tempo)
+
+
+def test_unknown_events_mean_nothing() -> None:
+    m = metronome(60)
+    event(m, "kick", 1.0, 1.5)
+    assert beat(m, 2) == 2.0
+
+
+@given(st.lists(st.tuples(st.floats(0.01, 3.0), st.integers(10, 400)), max_size=8), st.booleans())
+def test_beats_never_go_back_and_those_that_passed_keep_their_times(changes, named_before) -> None:
+    m = metronome(60)
+    numbers = range(40)
+    if named_before:
+        assert all(beat(m, n) is not None for n in numbers)
+    now, passed = 0.0, {}
+    for wait, tempo in changes:
+        now += wait
+        passed |= {n: m.forecast(f"tick{n}") for n in numbers if m.forecast(f"tick{n}") <= now}
+        event(m, "tempo", tempo, now)
+        times = [m.forecast(f"tick{n}") for n in numbers]
+        assert times == sorted(times)
+        assert all(times[n] == pytest.approx(time, abs=1e-9) for n, time in passed.items())
+        assert all(time >= now for n, time in enumerate(times) if n not in passed)
+        assert [beat(m, n) for n in numbers] == pytest.approx(times, abs=1e-9)

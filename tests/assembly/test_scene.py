@@ -1,0 +1,143 @@
+"""A scene is what its files say, or says which line of them cannot be."""
+
+from pathlib import Path
+
+import pytest
+
+from reactive_realizer.assembly.assets import PACKAGE_ASSETS, Assets
+from reactive_realizer.assembly.human_file import read_human_file
+from reactive_realizer.assembly.registry import load, names
+from reactive_realizer.assembly.scene import DEFAULT_HUMAN, SceneOptions, open_scene
+from reactive_realizer.errors import RealizerError
+from reactive_realizer.limits import Limits
+
+ALICE = "[character.alice]\n"
+
+
+@pytest.fixture
+def human(tmp_path: Path):
+    def write(text: str) -> Path:
+        file = tmp_path / "human.toml"
+        file.write_text(text)
+        return file
+
+    return write
+
+
+def test_the_default_has_one_character_and_the_usual_targets() -> None:
+    default = read_human_file(DEFAULT_HUMAN)
+    assert len(default.characters) == 1
+    assert set(default.targets) >= {"viewer", "camera", "bluebox", "greensphere"}
+    assert default.limits == Limits()
+
+
+def test_what_a_character_does_not_say_has_its_default(human) -> None:
+    read = read_human_file(human("[character.alice]\nheading = 90\n[limits]\nclients = 3\n"))
+    alice = read.characters["alice"]
+    assert (alice.heading, alice.position) == (90.0, (0.0, 0.0, 0.0))
+    assert read.limits.clients == 3
+
+
+@pytest.mark.parametrize(
+    ("text", "mentions"),
+    [
+        ("[character.alice]\nheight = 2", ["character.alice.height", "heading", "avatar"]),
+        (ALICE + "[table]", ["table", "character, target, anticipator, limits"]),
+        (ALICE + "[limits]\nblocks = 1", ["limits.blocks", "blocks_alive"]),
+        (ALICE + "[target.box]\nplace = [1, 2, 3]", ["target.box.place", "position"]),
+        (ALICE + "[target.box]", ["target.box", "position"]),
+        (ALICE + "[target.box]\nposition = [1, 2]", ["target.box.position"]),
+        (ALICE + "[target.box]\nposition = [1, 2, nan]", ["target.box.position"]),
+        (ALICE + "[anticipator.m]\ntempo = 60", ["anticipator.m", "kind"]),
+        (ALICE + "[limits]\nclients = 1.5", ["limits.clients"]),
+        (ALICE + "[limits]\nclients = true", ["limits.clients"]),
+        ("[character.alice]\nheading = 'left'", ["character.alice.heading", "left"]),
+        ("[target.box]\nposition = [1, 2, 3]", ["character"]),
+        ("character = 3", ["character", "table"]),
+        ("this is not TOML", ["human.toml"]),
+    ],
+)
+def test_a_key_that_is_unknown_or_wrong_is_named(human, text, mentions) -> None:
+    with pytest.raises(RealizerError) as refused:
+        read_human_file(human(text))
+    assert all(mention in str(refused.value) for mention in mentions)
+
+
+@pytest.mark.parametrize(
+    ("text", "mentions"),
+    [
+        (ALICE + 'engines = ["speech", "tail"]', ["tail", "speech, wait"]),
+        (ALICE + '[anticipator.m]\nkind = "oracle"', ["oracle", "metronome"]),
+        (ALICE + '[anticipator.m]\nkind = "metronome"\nspeed = 3', ["anticipator.m.speed", "tempo"]),
+        (ALICE + '[anticipator.m]\nkind = "metronome"\ntempo = 3', ["tempo of 3"]),
+        (ALICE + 'avatar = "../secret.glb"', ["../secret.glb"]),
+        (ALICE + 'avatar = "nobody.glb"', ["nobody.glb"]),
+    ],
+)
+async def test_what_a_scene_cannot_be_made_of_is_named(human, text, mentions) -> None:
+    with pytest.raises(RealizerError) as refused:
+        async with open_scene(SceneOptions(human(text), voice="text")):
+            pass
+    assert all(mention in str(refused.value) for mention in mentions)
+
+
+def test_the_built_in_plug_ins_stand_where_everybodys_do() -> None:
+    assert set(names("engines")) >= {"animation", "face", "speech", "wait"}
+    assert load("anticipators", "metronome").kind == "metronome"
+    with pytest.raises(RealizerError, match="no 'nothing' among the engines; there are animation"):
+        load("engines", "nothing")
+
+
+# --- assets
+
+
+@pytest.fixture
+def folders(tmp_path: Path) -> tuple[Path, Path]:
+    one, two = tmp_path / "one", tmp_path / "two"
+    for folder in (one, two):
+        (folder / "sub").mkdir(parents=True)
+        (folder / "sub" / "both.xml").write_text("")
+        (folder / f"only-{folder.name}.xml").write_text("")
+    return one, two
+
+
+def test_a_name_is_looked_for_in_the_folders_in_their_order_and_then_in_the_package(folders) -> None:
+    one, two = folders
+    assets = Assets(folders)
+    assert assets("sub/both.xml") == one / "sub" / "both.xml"
+    assert assets("only-two.xml") == two / "only-two.xml"
+    assert assets("gesturebinding.xml") == PACKAGE_ASSETS / "gesturebinding.xml"
+
+
+def test_leading_folders_of_a_name_are_left_out_one_by_one(folders) -> None:
+    assert Assets(folders)("Humanoids/shared/sub/both.xml") == folders[0] / "sub" / "both.xml"
+
+
+@pytest.mark.parametrize(
+    "name", ["../one/only-one.xml", "sub/../only-one.xml", "/etc/passwd", "..", "sub\\both.xml", "", "."]
+)
+def test_a_name_that_leaves_the_folders_is_refused(folders, name) -> None:
+    with pytest.raises(RealizerError) as refused:
+        Assets(folders)(name)
+    assert refused.value.fault.code == "forbidden-path"
+
+
+def test_a_link_that_leads_out_of_its_folder_is_no_file_of_it(folders, tmp_path) -> None:
+    (tmp_path / "secret.xml").write_text("")
+    (folders[0] / "link.xml").symlink_to(tmp_path / "secret.xml")
+    (folders[0] / "inner.xml").symlink_to(folders[0] / "only-one.xml")
+    assets = Assets(folders)
+    assert assets("inner.xml") == folders[0] / "only-one.xml"
+    with pytest.raises(RealizerError, match=r"no file 'link\.xml'"):
+        assets("link.xml")
+
+
+@pytest.mark.parametrize("name", ["nothing.xml", "sub", "x" * 1000, "a\0b"])
+def test_a_name_that_nothing_has_is_answered(folders, name) -> None:
+    with pytest.raises(RealizerError):
+        Assets(folders)(name)
+
+
+def test_a_folder_that_is_not_there_is_named(tmp_path) -> None:
+    with pytest.raises(RealizerError, match="nowhere"):
+        Assets((tmp_path / "nowhere",))

@@ -1,0 +1,259 @@
+"""`realize` and `check`, as whoever calls them sees them."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from reactive_realizer.__main__ import main
+from reactive_realizer.testing.pilot import block
+
+HELLO = block(
+    "hello",
+    """
+    <speech id="say"><text>Hello, <sync id="you"/>how are you?</text></speech>
+    <gesture id="g" lexeme="BEAT" stroke="say:you"/>
+    <gaze id="look" target="bluebox" start="0.5" end="2"/>
+    """,
+)
+
+
+@pytest.fixture
+def bml(tmp_path: Path):
+    def write(text: str, name: str = "a.xml") -> str:
+        (tmp_path / name).write_text(text)
+        return str(tmp_path / name)
+
+    return write
+
+
+@pytest.fixture
+def realize(tmp_path: Path, capsys):
+    """Runs ``realize``: exit status, feedback as (time, xml), stderr."""
+
+    def run(*arguments: str):
+        file = tmp_path / "feedback.jsonl"
+        status = main(["realize", *arguments, "--voice", "text", "--feedback", str(file)])
+        lines = [json.loads(line) for line in file.read_text().splitlines()] if file.is_file() else []
+        assert all(set(line) == {"time", "xml"} for line in lines)
+        captured = capsys.readouterr()
+        assert captured.out == "", "stdout carries only what was asked for"
+        return status, [(line["time"], line["xml"]) for line in lines], captured.err
+
+    return run
+
+
+def ids(feedback, kind="Progress"):
+    return [xml.partition('id="')[2].partition('"')[0] for _, xml in feedback if f"{kind} " in xml]
+
+
+def test_a_session_ends_with_its_last_block(realize, bml) -> None:
+    status, feedback, errors = realize(bml(HELLO))
+    assert status == 0
+    assert ids(feedback)[0] == "hello:start"
+    assert ids(feedback)[-1] == "hello:end"
+    assert errors == ""
+
+
+def test_files_enter_at_their_times_in_order(realize, bml) -> None:
+    one, two = bml(block("one"), "one.xml"), bml(block("two"), "two@.xml")
+    _, feedback, _ = realize(f"{two}@1.5", one)
+    starts = [(time, xml) for time, xml in feedback if ":start" in xml]
+    assert [(time, "two" in xml) for time, xml in starts] == [(0.0, False), (1.5, True)]
+
+
+def test_only_a_suffix_that_is_a_number_is_a_time(realize, bml) -> None:
+    assert realize(bml(block("b"), "me@home"))[0] == 0
+
+
+@pytest.mark.parametrize(
+    ("text", "status"),
+    [
+        (HELLO, 0),
+        (block("b", '<head id="h" lexeme="NOD" start="nobody:end"/>'), 0),
+        (block("b", '<teleport id="t"/>'), 0),
+        (block("b", '<wait id="w" duration="3"/>') + block("c", composition="REPLACE"), 0),
+        (block("b", '<head id="h" lexeme="NOD" start="anticipators:never:comes"/>'), 0),
+        ("<bml", 1),
+        ("<bml/>", 1),
+        ("", 1),
+        (block("b", '<wait id="w" duration="1"/>') + block("b"), 1),
+        (block("b", characterId="carol"), 1),
+        (block("b", '<required><gesture id="g" lexeme="SAMBA"/></required>'), 1),
+        (block("b") + "<bml id='c'><oops></bml>" + block("d"), 1),
+    ],
+)
+def test_the_exit_status_says_whether_every_block_was_taken_and_none_failed(realize, bml, text, status) -> None:
+    assert realize(bml(text))[0] == status
+
+
+def test_a_malformed_block_is_told_with_its_own_line_and_reading_goes_on(realize, bml) -> None:
+    text = f"<?xml version='1.0'?>\n<!-- one -->\n{block('a')}\n<bml id='bad'>\n<oops>\n</bml>\n{block('z')}"
+    _, feedback, _ = realize(bml(text))
+    assert [id_ for id_ in ids(feedback) if id_.endswith("end")] == ["a:end", "z:end"]
+    (warning,) = [xml for _, xml in feedback if "warningFeedback" in xml]
+    assert "line 6" in warning or "line 5" in warning or "line 4" in warning
+
+
+def test_what_still_waits_when_nothing_can_move_is_named(realize, bml) -> None:
+    text = block("b", '<head id="h" lexeme="NOD" start="anticipators:never:comes" end="2"/>')
+    text += block("next", composition="APPEND")
+    status, feedback, _ = realize(bml(text))
+    assert status == 0
+    warnings = [xml for _, xml in feedback if "warningFeedback" in xml]
+    assert "never:comes" in warnings[0]
+    assert 'id="b"' in warnings[0]
+    assert "b:end" in warnings[1]
+    assert feedback[-1][0] < 3
+
+
+def test_until_ends_a_session(realize, bml) -> None:
+    status, feedback, _ = realize(bml(block("b", '<wait id="w" duration="50"/>')), "--until", "1")
+    assert status == 0
+    assert ids(feedback) == ["b:start", "b:w:start"]
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["no-such-file.xml"],
+        ["{file}", "--human", "no-such-file.toml"],
+        ["{file}", "--clock", "sundial"],
+        ["{file}", "--until", "nan"],
+        ["{file}", "--until", "-1"],
+        ["{file}", "--seed", "x"],
+        ["{file}", "--assets", "no-such-folder"],
+        ["{file}", "--feedback", "no-such-folder/feedback"],
+        ["{file}", "--frames", "no-such-folder/frames.npz"],
+        [],
+    ],
+)
+def test_a_file_that_is_not_there_and_a_wrong_option_are_2(bml, arguments, capsys) -> None:
+    file = bml(block("b"))
+    try:
+        status = main(["realize", "--voice", "text", *(argument.format(file=file) for argument in arguments)])
+    except SystemExit as ended:
+        status = ended.code
+    assert status == 2
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    assert captured.err
+    assert "Traceback" not in captured.err
+
+
+@pytest.mark.parametrize("command", ["realize", "check"])
+def test_every_command_has_help_with_an_example(command, capsys) -> None:
+    with pytest.raises(SystemExit) as ended:
+        main([command, "--help"])
+    assert ended.value.code == 0
+    assert f"example: reactive-realizer {command}" in capsys.readouterr().out
+
+
+def test_feedback_goes_to_stdout_when_asked_and_nothing_else_does(bml, capsys) -> None:
+    assert main(["realize", bml(HELLO), "--voice", "text", "--feedback", "-"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert len(lines) > 10
+    assert all(set(json.loads(line)) == {"time", "xml"} for line in lines)
+
+
+# --- frames
+
+
+def frames_of(bml, tmp_path, *options):
+    file = tmp_path / "frames.npz"
+    assert main(["realize", bml(HELLO), "--voice", "text", "--frames", str(file), *options]) == 0
+    return np.load(file)
+
+
+def test_frames_have_the_names_shapes_and_times_that_are_promised(bml, tmp_path) -> None:
+    frames = frames_of(bml, tmp_path)
+    assert set(frames) == {"time", "joints", "parents", "offsets", "rotations", "root", "morphs", "weights"}
+    count, joints, morphs = len(frames["time"]), len(frames["joints"]), len(frames["morphs"])
+    assert frames["parents"].shape == (joints,)
+    assert np.issubdtype(frames["parents"].dtype, np.integer)
+    assert frames["offsets"].shape == (joints, 3)
+    assert frames["rotations"].shape == (count, joints, 4)
+    assert frames["root"].shape == (count, 3)
+    assert frames["weights"].shape == (count, morphs)
+    assert np.allclose(frames["time"], np.arange(count) * 0.02, atol=1e-12)
+    assert frames["time"][-1] > 1.5
+    assert np.allclose(np.linalg.norm(frames["rotations"], axis=-1), 1)
+    assert ((frames["weights"] >= 0) & (frames["weights"] <= 1)).all()
+    assert {"r_wrist", "skullbase"} <= set(frames["joints"])
+
+
+def test_with_two_characters_every_name_has_the_character_before_it(bml, tmp_path, tests_data) -> None:
+    frames = frames_of(bml, tmp_path, "--human", str(tests_data / "humans" / "two.toml"))
+    assert {name.partition("/")[0] for name in frames} == {"alice", "bob"}
+    assert np.array_equal(frames["alice/time"], frames["bob/time"])
+
+
+# --- the same every time
+
+
+def session(bml, tmp_path, name, seed, *voice):
+    feedback, frames = tmp_path / f"{name}.jsonl", tmp_path / f"{name}.npz"
+    command = [sys.executable, "-m", "reactive_realizer", "realize", bml(HELLO), *voice]
+    command += ["--feedback", str(feedback), "--frames", str(frames)]
+    subprocess.run(command, check=True, env={**os.environ, "PYTHONHASHSEED": seed}, timeout=50)
+    arrays = np.load(frames)
+    return feedback.read_bytes(), {key: arrays[key].tobytes() for key in arrays}
+
+
+@pytest.mark.parametrize("voice", ["text", pytest.param("espeak", marks=pytest.mark.speech)])
+def test_the_same_input_gives_the_same_bytes_whatever_the_hash_seed(bml, tmp_path, voice) -> None:
+    one = session(bml, tmp_path, "one", "0", "--voice", voice)
+    assert session(bml, tmp_path, "two", "1", "--voice", voice) == one
+    assert len(one[0].splitlines()) > 10
+
+
+# --- check
+
+
+def check(capsys, *files):
+    status = main(["check", *files])
+    return status, capsys.readouterr().out.splitlines()
+
+
+def test_a_file_that_is_fine_is_answered_by_nothing(bml, capsys) -> None:
+    assert check(capsys, bml(HELLO)) == (0, [])
+
+
+def test_what_is_legal_and_not_yet_realized_is_no_problem(bml, capsys) -> None:
+    assert check(capsys, bml(block("b", '<locomotion id="go" target="bluebox"/>'))) == (0, [])
+
+
+def test_every_problem_has_file_line_and_column_of_its_start_tag(bml, capsys) -> None:
+    file = bml(
+        block(
+            "b",
+            """
+  <head id="h" lexeme="NOD" speed="3"/>
+  <gaze id="g" target="nowhere"/>
+  <head id="i" lexeme="NOD" start="nobody:end"/><head id="j" lexeme="NOD" end="h:sunset"/>
+  <wait id="w" duration="-1"/>
+""",
+        )
+    )
+    status, lines = check(capsys, file)
+    assert status == 1
+    places = [":".join(line.removeprefix(f"{file}:").split(":")[:2]) for line in lines]
+    assert [place.partition(":")[0] for place in places] == ["2", "3", "4", "4", "5"]
+    assert places[0] == "2:1"
+    reasons = ["speed", "nowhere", "nobody", "sunset", "-1"]
+    assert all(reason in line for reason, line in zip(reasons, lines, strict=True))
+
+
+def test_targets_are_those_of_the_human_file(bml, capsys, tests_data) -> None:
+    file = bml(block("b", '<gaze id="g" target="bob"/>'))
+    assert check(capsys, file)[0] == 1
+    assert check(capsys, file, "--human", str(tests_data / "humans" / "two.toml"))[0] == 0
+
+
+def test_check_answers_2_where_a_file_is_not_there(capsys) -> None:
+    assert main(["check", "no-such-file.xml"]) == 2
+    assert "no-such-file.xml" in capsys.readouterr().err

@@ -1,0 +1,84 @@
+"""Ticks are n / 100 s; what comes late covers what it missed."""
+
+import pytest
+
+from reactive_realizer.clock.clock import ManualClock, SystemClock
+from reactive_realizer.clock.ticker import Ticker
+from reactive_realizer.clock.units import GlobalTime, is_due
+
+
+class LateClock(ManualClock):
+    """Arrives later than asked, by one delay after the other."""
+
+    def __init__(self, *delays: float) -> None:
+        super().__init__()
+        self._delays = list(delays)
+
+    async def wait_until(self, moment: GlobalTime) -> None:
+        late = self._delays.pop(0) if self._delays else 0.0
+        await super().wait_until(GlobalTime(max(moment, self.now()) + late))
+
+
+async def ticks(clock, count):
+    ticker = Ticker(clock)
+    found = []
+    async for tick in ticker.ticks():
+        found.append(tick)
+        if len(found) == count:
+            return ticker, found
+    raise AssertionError
+
+
+async def test_ticks_are_hundredths_of_a_second_themselves_and_no_sums() -> None:
+    _, found = await ticks(ManualClock(), 1001)
+    assert [tick.time for tick in found[:4]] == [0.0, 0.01, 0.02, 0.03]
+    assert found[1000].time == 10.0
+
+
+async def test_the_first_tick_covers_time_0() -> None:
+    _, (first, second) = await ticks(ManualClock(), 2)
+    assert first.previous < 0 == first.time
+    assert second.previous == 0.0
+
+
+async def test_every_second_tick_has_a_frame() -> None:
+    _, found = await ticks(ManualClock(), 6)
+    assert [tick.frame for tick in found] == [True, False, True, False, True, False]
+
+
+async def test_a_late_tick_covers_the_whole_interval_and_what_was_left_out_is_counted() -> None:
+    ticker, found = await ticks(LateClock(0.0, 0.0, 0.053), 4)
+    assert [tick.number for tick in found] == [0, 1, 7, 8]
+    assert [tick.previous for tick in found] == [-1.0, 0.0, 0.01, 0.07]
+    assert ticker.overruns == 5
+    assert max(ticker.lateness) == pytest.approx(0.053)
+
+
+async def test_a_frame_that_was_missed_comes_with_the_next_tick_and_the_rhythm_goes_on() -> None:
+    _, found = await ticks(LateClock(0.0, 0.02), 5)
+    assert [(tick.number, tick.frame) for tick in found] == [(0, True), (3, True), (4, True), (5, False), (6, True)]
+
+
+async def test_a_tick_a_hair_early_is_not_the_one_before() -> None:
+    _, found = await ticks(LateClock(*[1e-12] * 3), 3)
+    assert [tick.number for tick in found] == [0, 1, 2]
+
+
+async def test_the_manual_clock_does_not_go_back() -> None:
+    clock = ManualClock()
+    await clock.wait_until(GlobalTime(1.0))
+    with pytest.raises(ValueError, match="does not go back"):
+        await clock.wait_until(GlobalTime(0.5))
+
+
+async def test_the_system_clock_never_waits_for_what_has_passed() -> None:
+    clock = SystemClock()
+    await clock.wait_until(GlobalTime(-1.0))
+    assert clock.now() >= 0.0
+    assert clock.epoch > 1e9
+
+
+def test_an_unknown_time_is_never_due_and_rounding_misses_no_tick() -> None:
+    assert not is_due(None, 1.0)
+    assert is_due(0.1 + 0.2, 0.3)
+    assert not is_due(0.31, 0.3)

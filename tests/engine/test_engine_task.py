@@ -1,0 +1,91 @@
+"""Engines play at once, their effects come in the order of their ranks, and one that fails fails alone."""
+
+import asyncio
+
+import pytest
+
+from reactive_realizer.bml.behaviors import Wait
+from reactive_realizer.bml.names import BML, Location
+from reactive_realizer.clock.ticker import Tick
+from reactive_realizer.engine.engine import DefaultEngine
+from reactive_realizer.engine.engine_task import EngineTask, play_all
+from reactive_realizer.pegboard.peg_key import BlockKey
+from reactive_realizer.pegboard.time_peg import AnticipatorPeg, OffsetPeg
+from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
+from reactive_realizer.planunit.timing import timing_at
+from reactive_realizer.reactive.graph import Graph
+
+
+def unit(name, start, end, *resources):
+    behavior = Wait(id=name, namespace=BML, name="wait", location=Location(1, 1), order=0)
+    made = PlanUnit(BlockKey("alice", "b"), behavior, timing_at({"start": 0.0, "end": 1.0}), frozenset(resources))
+    graph = Graph()
+    times = {"start": start, "end": end}
+    made.points = [
+        SyncPoint(sync, OffsetPeg(graph, sync, AnticipatorPeg(graph, sync, times[sync]), 0.0)) for sync in times
+    ]
+    made.release()
+    return made
+
+
+def engine(name, *units):
+    made = DefaultEngine(name)
+    for each in units:
+        made.add(each)
+    return made
+
+
+@pytest.fixture
+async def play():
+    running = []
+
+    async def play_engines(number, *engines):
+        tasks = [EngineTask(each) for each in engines]
+        running.extend(asyncio.ensure_future(task.run()) for task in tasks)
+        return await play_all(tasks, Tick(number, 0.0))
+
+    yield play_engines
+    for task in running:
+        task.cancel()
+
+
+def reached(play):
+    return [(each.unit.behavior.id, each.point.id, each.time) for each in play.reached]
+
+
+def dropped(play):
+    return [(each.unit.behavior.id, each.fault.code) for each in play.dropped]
+
+
+async def test_effects_come_in_the_order_of_the_engines(play) -> None:
+    plays = await play(100, engine("one", unit("a", 0.0, 2.0)), engine("two", unit("b", 0.5, 0.7)))
+    assert [reached(each) for each in plays] == [[("a", "start", 0.0)], [("b", "start", 0.5), ("b", "end", 0.7)]]
+
+
+async def test_who_plays_keeps_what_it_owns_and_the_newer_leaves(play) -> None:
+    arms = engine("arms", unit("late", 0.5, 2.0, "arm"), unit("early", 0.0, 2.0, "arm"), unit("other", 0.5, 2.0, "leg"))
+    (played,) = await play(100, arms)
+    assert dropped(played) == [("late", "resource-taken")]
+    assert [each.behavior.id for each in arms.player.playing] == ["early", "other"]
+
+
+async def test_what_ends_makes_room_for_what_starts_in_the_same_tick(play) -> None:
+    arms = engine("arms", unit("first", 0.0, 0.9, "arm"))
+    await play(10, arms)
+    arms.add(unit("second", 0.9, 2.0, "arm"))
+    (played,) = await play(100, arms)
+    assert reached(played) == [("first", "end", 0.9), ("second", "start", 0.9)]
+
+
+async def test_an_engine_that_raises_drops_its_units_and_the_others_play(play) -> None:
+    class Broken(DefaultEngine):
+        def play(self, tick):
+            raise ZeroDivisionError
+
+    broken = Broken("alice/broken")
+    broken.add(unit("a", 0.0, 2.0))
+    broken.add(unit("b", 5.0, 6.0))
+    first, second = await play(100, broken, engine("fine", unit("c", 0.0, 2.0)))
+    assert dropped(first) == [("a", "engine-failed"), ("b", "engine-failed")]
+    assert broken.player.units == ()
+    assert reached(second) == [("c", "start", 0.0)]

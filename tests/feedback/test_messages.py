@@ -1,0 +1,148 @@
+"""Feedback has the forms of BML 1.0, and one order."""
+
+import logging
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from lxml import etree
+
+from reactive_realizer.bml.document import parse
+from reactive_realizer.bml.names import BML, BMLA, OWN
+from reactive_realizer.errors import WarningType
+from reactive_realizer.feedback.feedback_manager import FeedbackManager, Place
+from reactive_realizer.feedback.messages import (
+    BehaviorPrediction,
+    BlockProgress,
+    PredictionFeedback,
+    SyncPointProgress,
+    WarningFeedback,
+)
+from reactive_realizer.feedback.xml import seconds, to_xml
+from reactive_realizer.limits import Limits
+
+
+def read(message):
+    xml = to_xml(message)
+    assert "\n" not in xml
+    return etree.fromstring(xml)
+
+
+def test_block_progress_has_id_time_character_and_status() -> None:
+    element = read(BlockProgress("alice", "b", "start", 1.5, "IN_EXEC"))
+    assert element.tag == f"{{{BML}}}blockProgress"
+    assert dict(element.attrib) == {
+        "id": "b:start",
+        "globalTime": "1.5",
+        "characterId": "alice",
+        f"{{{BMLA}}}status": "IN_EXEC",
+    }
+
+
+def test_sync_point_progress_has_the_time_in_its_block_and_on_the_clock() -> None:
+    element = read(SyncPointProgress("alice", "b", "h", "stroke:1", 0.5, 2.0, {"word": "3"}))
+    assert element.tag == f"{{{BML}}}syncPointProgress"
+    assert dict(element.attrib) == {
+        "id": "b:h:stroke:1",
+        "time": "0.5",
+        "globalTime": "2",
+        "characterId": "alice",
+        f"{{{OWN}}}word": "3",
+    }
+
+
+def test_a_warning_has_a_type_and_says_why() -> None:
+    element = read(WarningFeedback("alice", "b:h", WarningType.NO_SUCH_TARGET, "there is no <such> target & no other"))
+    assert dict(element.attrib) == {"id": "b:h", "type": "NO_SUCH_TARGET", "characterId": "alice"}
+    assert element.text == "there is no <such> target & no other"
+
+
+def test_a_warning_of_a_document_names_no_character() -> None:
+    assert "characterId" not in read(WarningFeedback(None, "bml", WarningType.PARSING_FAILURE, "no block")).attrib
+
+
+@given(st.text())
+def test_whatever_the_reason_it_can_be_told(text) -> None:
+    read(WarningFeedback("alice", "b", WarningType.EXECUTION_FAILURE, text))
+
+
+@pytest.mark.parametrize(
+    ("time", "text"),
+    [(0.0, "0"), (-0.0, "0"), (1.0, "1"), (0.1 + 0.2, "0.3"), (1 / 3, "0.333333"), (1e-7, "0"), (100.0, "100")],
+)
+def test_times_have_at_most_six_decimals_and_no_more_than_they_need(time, text) -> None:
+    assert seconds(time) == text
+
+
+PREDICTED = """
+<speech id="say" start="1"><text>Well <sync id="now"/>then.</text></speech>
+<head id="h" lexeme="NOD" amount="0.3" stroke="say:now"/>
+"""
+
+
+@pytest.mark.parametrize("namespace", [f' xmlns="{BML}"', ""])
+def test_a_prediction_gives_every_behavior_with_all_it_was_written_with_and_its_known_times(namespace) -> None:
+    (parsed,) = parse(f'<bml{namespace} id="b">{PREDICTED}</bml>', Limits())
+    say, head = parsed.block.behaviors
+    predicted = (
+        BehaviorPrediction(say, {"start": 1.0, "now": 1.4, "end": 2.0}),
+        BehaviorPrediction(head, {"start": 1.0, "stroke:1": 1.4, "end": 3.25}),
+    )
+    element = read(PredictionFeedback("alice", "b", 10.0, 13.25, "LURKING", predicted))
+    (block,) = element.findall(f"{{{BML}}}bml")
+    assert dict(block.attrib) == {
+        "id": "b",
+        "globalStart": "10",
+        "globalEnd": "13.25",
+        f"{{{BMLA}}}status": "LURKING",
+    }
+    speech, nod = element[1:]
+    assert (etree.QName(speech).localname, speech.get("id"), speech.get("start")) == ("speech", "b:say", "1")
+    assert "".join(speech.itertext()).strip() == "Well then."
+    assert next(e for e in speech.iter() if etree.QName(e).localname == "sync").get(f"{{{OWN}}}time") == "1.4"
+    assert dict(nod.attrib) == {"id": "b:h", "lexeme": "NOD", "amount": "0.3", "start": "1", "end": "3.25"}
+
+
+@pytest.fixture
+def told():
+    manager = FeedbackManager()
+    reports = []
+    manager.listen(reports.append)
+    return manager, reports
+
+
+def progress(name, time):
+    return SyncPointProgress("alice", "b", name, "start", 0.0, time)
+
+
+def test_within_a_tick_progress_is_told_by_time_then_block_then_behavior_then_sync_point(told) -> None:
+    manager, reports = told
+    places = {
+        "late": Place(2.0, 0.0, 1, 0, 0),
+        "second block": Place(1.0, 1.0, 1, 0, 0),
+        "arrived later": Place(1.0, 0.0, 2, 0, 0),
+        "second behavior": Place(1.0, 0.0, 1, 1, 0),
+        "second point": Place(1.0, 0.0, 1, 0, 1),
+        "first": Place(1.0, 0.0, 1, 0, 0),
+    }
+    for name, place in places.items():
+        manager.progress(progress(name, place.time), place)
+    manager.say(WarningFeedback("alice", "b", WarningType.NO_SUCH_TARGET, "said last, told first"))
+    manager.flush(2.0)
+    told_ids = [getattr(report.message, "behavior", "warning") for report in reports]
+    assert told_ids == ["warning", *reversed(places)]
+    assert {report.time for report in reports} == {2.0}
+    manager.flush(3.0)
+    assert len(reports) == 7, "nothing is told twice"
+
+
+def test_a_listener_that_fails_keeps_nothing_from_the_others(told, caplog) -> None:
+    manager, reports = told
+    stop = manager.listen(lambda report: 1 / 0)
+    manager.listen(lambda report: stop())
+    with caplog.at_level(logging.CRITICAL):
+        for _ in range(2):
+            manager.progress(progress("h", 0.0), Place(0.0, 0.0, 1, 0, 0))
+            manager.flush(0.0)
+    assert len(reports) == 2
+    stop()

@@ -1,0 +1,164 @@
+"""Sync points fire once, in order, with the time of their peg, however late a tick is."""
+
+import pytest
+
+from reactive_realizer.bml.behaviors import Wait
+from reactive_realizer.bml.names import BML, Location
+from reactive_realizer.pegboard.peg_key import BlockKey
+from reactive_realizer.pegboard.time_peg import AnticipatorPeg, OffsetPeg
+from reactive_realizer.planunit.phase_clock import PhaseClock
+from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint, UnitState
+from reactive_realizer.planunit.timing import Phase, PhaseKind, Timing, timing_at
+from reactive_realizer.reactive.graph import Graph
+
+
+class Told(PlanUnit):
+    """Notes what it is told."""
+
+    def __init__(self, **times) -> None:
+        behavior = Wait(id="w", namespace=BML, name="wait", location=Location(1, 1), order=0)
+        known = {sync: float(i) for i, sync in enumerate(times)}
+        super().__init__(BlockKey("alice", "b"), behavior, timing_at(known))
+        self.told: list[tuple] = []
+        graph = Graph()
+        self.sources = {sync: AnticipatorPeg(graph, sync, time) for sync, time in times.items()}
+        self.points = [SyncPoint(sync, OffsetPeg(graph, sync, peg, 0.0)) for sync, peg in self.sources.items()]
+        self.release()
+
+    def on_start(self, time):
+        self.told.append(("begins", time))
+
+    def on_sync(self, sync, time):
+        self.told.append((sync, time))
+
+    def on_finish(self, time):
+        self.told.append(("finished", time))
+
+    def move(self, sync, time):
+        peg = self.sources[sync]
+        with peg.graph.transaction("move"):
+            peg.set(time)
+
+    def fired(self, now):
+        return [(point.id, point.fired) for point in self.fire(now)]
+
+
+def test_a_unit_begins_when_its_block_plays_and_its_start_is_due() -> None:
+    unit = Told(start=1.0, end=2.0)
+    unit.state = UnitState.PENDING
+    assert not unit.due(1.0)
+    unit.release()
+    assert not unit.due(0.99)
+    assert unit.due(1.0)
+
+
+def test_points_fire_with_the_time_of_their_peg_and_only_once() -> None:
+    unit = Told(start=1.0, stroke=1.234, end=2.0)
+    unit.begin()
+    assert unit.fired(1.24) == [("start", 1.0), ("stroke", 1.234)]
+    assert unit.fired(1.25) == []
+    assert unit.fired(9.0) == [("end", 2.0)]
+    assert unit.told == [("begins", 1.0), ("start", 1.0), ("stroke", 1.234), ("end", 2.0), ("finished", 2.0)]
+    assert unit.state is UnitState.DONE
+
+
+def test_a_point_that_its_successor_overtook_fires_with_it() -> None:
+    unit = Told(start=1.0, stroke=5.0, end=2.0)
+    unit.begin()
+    assert unit.fired(2.0) == [("start", 1.0), ("stroke", 2.0), ("end", 2.0)]
+
+
+def test_an_unknown_point_waits_unless_its_successor_is_due() -> None:
+    unit = Told(start=1.0, stroke=None, end=3.0)
+    unit.begin()
+    assert unit.fired(2.0) == [("start", 1.0)]
+    assert unit.fired(3.0) == [("stroke", 3.0), ("end", 3.0)]
+
+
+def test_of_an_interrupted_unit_only_relax_and_end_are_told_at_the_interruption() -> None:
+    unit = Told(start=0.0, ready=1.0, stroke=2.0, relax=3.0, end=4.0)
+    unit.begin()
+    unit.fire(1.5)
+    assert [(point.id, point.fired) for point in unit.interrupt(1.5)] == [("relax", 1.5), ("end", 1.5)]
+    assert unit.told[-1] == ("finished", 1.5)
+    assert [point.id for point in unit.points] == ["start", "ready", "relax", "end"]
+
+
+def test_past_its_relax_only_the_end_is_left_to_tell() -> None:
+    unit = Told(start=0.0, relax=3.0, end=4.0)
+    unit.begin()
+    unit.fire(3.5)
+    assert [(point.id, point.fired) for point in unit.interrupt(3.6)] == [("end", 3.6)]
+
+
+def test_a_unit_that_is_dropped_while_it_plays_goes_back_to_rest_and_one_that_waits_has_nothing_to_do() -> None:
+    playing, waiting = Told(start=0.0, end=4.0), Told(start=0.0, end=4.0)
+    playing.begin()
+    playing.drop(1.0)
+    waiting.drop(1.0)
+    assert playing.told == [("finished", 1.0)]
+    assert waiting.told == []
+    assert not playing.live
+
+
+def test_a_unit_leaves_even_if_it_fails_to_go_back_to_rest() -> None:
+    unit = Told(start=0.0, end=4.0)
+    unit.on_finish = lambda time: 1 / 0
+    unit.begin()
+    unit.drop(1.0)
+    assert unit.state is UnitState.DROPPED
+
+
+def test_order_is_judged_by_what_is_known() -> None:
+    assert Told(start=0.0, stroke=None, end=1.0).in_order()
+    assert not Told(start=2.0, stroke=None, end=1.0).in_order()
+
+
+def test_it_has_no_other_points() -> None:
+    with pytest.raises(KeyError):
+        Told(start=0.0, end=1.0).time("stroke")
+
+
+def test_a_timing_knows_its_offsets_and_whether_it_can_be_stretched() -> None:
+    timing = timing_at({"start": 0.0, "mark": 0.4, "end": 1.5}, PhaseKind.RIGID)
+    assert timing.offsets == (0.0, 0.4, 1.5)
+    assert timing.rigid
+    assert not Timing(("start", "stroke", "end"), (Phase(1.0, PhaseKind.RIGID), Phase(1.0))).rigid
+    with pytest.raises(ValueError, match="2 points want 1 phases"):
+        Timing(("start", "end"), ())
+
+
+def phases(unit, clock, *times):
+    return pytest.approx([clock.advance(unit, time) for time in times])
+
+
+def test_the_phase_walks_evenly_from_key_to_key() -> None:
+    unit = Told(start=0.0, stroke=1.0, end=3.0)
+    clock = PhaseClock({"start": 0.0, "stroke": 0.5, "end": 1.0})
+    unit.begin()
+    assert phases(unit, clock, 0.0, 0.5, 1.0, 2.0, 3.0, 4.0) == [0.0, 0.25, 0.5, 0.75, 1.0, 1.0]
+
+
+def test_a_key_that_moves_changes_the_pace_and_never_the_phase() -> None:
+    unit = Told(start=0.0, stroke=1.0, end=3.0)
+    clock = PhaseClock({"start": 0.0, "stroke": 0.5, "end": 1.0})
+    unit.begin()
+    assert clock.advance(unit, 0.5) == pytest.approx(0.25)
+    unit.move("stroke", 1.5)
+    assert phases(unit, clock, 0.5, 1.0, 1.5) == [0.25, 0.375, 0.5]
+
+
+def test_the_phase_waits_where_the_next_key_is_unknown() -> None:
+    unit = Told(start=0.0, stroke=None, end=None)
+    clock = PhaseClock({"start": 0.0, "stroke": 0.5, "end": 1.0})
+    unit.begin()
+    assert phases(unit, clock, 0.0, 1.0) == [0.0, 0.0]
+    unit.move("stroke", 2.0)
+    assert phases(unit, clock, 1.5, 2.0) == [0.25, 0.5]
+
+
+def test_a_unit_that_joins_late_is_at_the_phase_of_now() -> None:
+    unit = Told(start=0.0, end=4.0)
+    clock = PhaseClock({"start": 0.0, "end": 1.0})
+    unit.begin()
+    assert phases(unit, clock, 3.0, 3.5) == [0.75, 0.875]

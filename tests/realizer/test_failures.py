@@ -1,0 +1,222 @@
+"""A unit that fails drops itself, an engine that fails drops its units; all else goes on."""
+
+import asyncio
+
+import pytest
+
+from reactive_realizer.assembly.scene import Scene, SceneOptions, open_scene
+from reactive_realizer.bml.behavior import ForeignBehavior
+from reactive_realizer.clock.ticker import Tick, tick_time
+from reactive_realizer.embodiment.world import World
+from reactive_realizer.engine.engine import DefaultEngine
+from reactive_realizer.limits import Limits
+from reactive_realizer.planunit.plan_unit import PlanUnit
+from reactive_realizer.planunit.timing import timing_at
+from reactive_realizer.realizer.character import Character
+from reactive_realizer.realizer.inputs import BmlText
+from reactive_realizer.realizer.realizer import Realizer
+from reactive_realizer.scheduler.smartbody_strategy import SmartBodyStrategy
+from reactive_realizer.testing.pilot import RealizerPilot, block
+
+TESTS = "urn:tests"
+
+
+class FailingUnit(PlanUnit):
+    """Fails at what its behavior says."""
+
+    def _fail_at(self, moment):
+        if moment in self.behavior.attributes.get("fail", "").split():
+            raise ValueError(f"\x00{moment}")
+
+    def on_start(self, time):
+        self._fail_at("on_start")
+
+    def on_sync(self, sync, time):
+        self._fail_at(sync)
+
+    def on_finish(self, time):
+        self._fail_at("on_finish")
+
+    def end_details(self, time):
+        self._fail_at("end_details")
+        return {}
+
+
+class FailingEngine(DefaultEngine):
+    """Plays behaviors of the tests' own namespace, and fails where they say."""
+
+    extensions = frozenset()
+
+    def __init__(self, name):
+        super().__init__(name)
+        self.played = []
+
+    def supports(self, behavior):
+        return isinstance(behavior, ForeignBehavior) and behavior.namespace == TESTS
+
+    def prepare(self, behavior):
+        fail = behavior.attributes.get("fail")
+        if fail == "prepare":
+            raise ValueError("prepare")
+        takes = behavior.attributes.get("takes")
+        return None if takes is None else self._work(float(takes), fail)
+
+    async def _work(self, takes, fail):
+        for _ in range(int(takes)):
+            await asyncio.sleep(0)
+        if fail == "work":
+            raise ValueError("work")
+        return takes
+
+    def plan(self, block, behavior, prepared):
+        if behavior.attributes.get("fail") == "plan":
+            raise ValueError("plan")
+        offsets = {"start": 0.0, "stroke": 0.5, "end": 1.0}
+        if "takes" in behavior.attributes:
+            assert prepared == float(behavior.attributes["takes"])
+        return FailingUnit(block, behavior, timing_at(offsets))
+
+    def play(self, tick):
+        if any(unit.begun and unit.behavior.attributes.get("fail") == "engine" for unit in self.player.units):
+            raise ValueError("engine")
+        self.played.append(tick.number)
+        return super().play(tick)
+
+
+@pytest.fixture
+async def pilot():
+    """Alice, with two engines of the tests beside her own waits."""
+    async with open_scene(SceneOptions(voice="text")) as scene:
+        alice = scene.realizer.characters["alice"]
+        engines = (FailingEngine("alice/failing"), *alice.engines)
+        character = Character("alice", alice.humanoid, engines)
+        async with Realizer([character], World({}), lambda board: {}, SmartBodyStrategy(), Limits()) as realizer:
+            yield RealizerPilot(Scene(realizer, scene.specification, scene.assets, scene.tts))
+
+
+def own(fail, id_="x", **attributes):
+    more = "".join(f' {name}="{value}"' for name, value in attributes.items())
+    return f'<thing xmlns="{TESTS}" id="{id_}" fail="{fail}"{more}/>'
+
+
+WAIT = '<wait id="w" duration="2"/>'
+
+
+@pytest.mark.parametrize(
+    ("fail", "reached"),
+    [
+        ("on_start", ["start", "end"]),
+        ("stroke", ["start", "stroke", "end"]),
+        ("end", ["start", "stroke", "end"]),
+        ("on_finish", ["start", "stroke", "end"]),
+        ("stroke on_finish", ["start", "stroke", "end"]),
+    ],
+)
+async def test_a_unit_that_fails_is_warned_of_ends_and_leaves_the_rest_alone(pilot, fail, reached) -> None:
+    pilot.block("b", own(fail) + WAIT + own("", "fine"))
+    await pilot.advance(3)
+    told = pilot.feedback
+    assert told.warnings == [("b:x", "EXECUTION_FAILURE")]
+    assert [id_ for id_ in told.progress if id_.startswith("b:x")] == [f"b:x:{sync}" for sync in reached]
+    assert told.reached("b:fine:end")
+    assert told.time("b:end") == 2.0
+    assert told.status("b") == "DONE"
+
+
+@pytest.mark.parametrize("fail", ["end_details", "on_finish"])
+async def test_a_unit_that_fails_at_its_interruption_is_gone_all_the_same(pilot, fail) -> None:
+    pilot.block("b", own(fail) + WAIT)
+    await pilot.advance(0.2)
+    pilot.block("new", composition="REPLACE")
+    await pilot.advance(3)
+    told = pilot.feedback
+    assert told.warnings == [("b:x", "EXECUTION_FAILURE")]
+    assert told.time("b:w:end") == told.time("b:end") == 0.2
+    assert told.status("new") == "DONE"
+
+
+@pytest.mark.parametrize("fail", ["prepare", "work", "plan"])
+async def test_a_behavior_that_cannot_be_made_is_left_out_whatever_went_wrong(pilot, fail) -> None:
+    pilot.block("b", own(fail, takes=1) + WAIT)
+    await pilot.advance(3)
+    assert pilot.feedback.warnings == [("b:x", "CANNOT_CREATE_BEHAVIOR")]
+    assert fail in pilot.feedback.of("warningFeedback")[0].element.text
+    assert pilot.feedback.reached("b:w:end")
+
+
+async def test_an_engine_that_fails_drops_its_units_with_feedback_and_the_others_go_on(pilot) -> None:
+    pilot.block("b", own("engine") + WAIT + own("", "y"))
+    pilot.block("c", own("", "z"))
+    await pilot.advance(3)
+    told = pilot.feedback
+    assert sorted(told.warnings) == [(f"{name}", "EXECUTION_FAILURE") for name in ("b:x", "b:y", "c:z")]
+    assert told.time("b:w:end") == 2.0
+    assert told.reached("c:end")
+    pilot.block("d", own("", "again"))
+    await pilot.advance(2)
+    assert told.reached("d:again:end")
+
+
+async def test_results_of_slow_work_enter_in_order_of_request_whichever_was_first(pilot) -> None:
+    pilot.block("slow", own("", takes=50))
+    pilot.block("quick", own("", takes=1))
+    await pilot.tick()
+    assert pilot.feedback.progress == []
+    assert [line.id for line in pilot.feedback.of("predictionFeedback")] == ["slow", "quick"]
+    await pilot.tick()
+    assert pilot.feedback.progress[:4] == ["slow:start", "slow:x:start", "quick:start", "quick:x:start"]
+    assert pilot.feedback.time("slow:start") == pilot.feedback.time("quick:start") == 0.01
+
+
+async def test_what_is_appended_to_a_block_in_preparation_waits_for_it(pilot) -> None:
+    pilot.block("slow", own("", takes=5))
+    pilot.block("next", WAIT, composition="APPEND")
+    await pilot.advance(4)
+    assert pilot.feedback.time("next:start") == pilot.feedback.time("slow:end") == 1.01
+    assert pilot.feedback.status("next") == "DONE"
+
+
+async def test_a_block_that_names_points_of_one_in_preparation_waits_for_its_plan(pilot) -> None:
+    pilot.block("slow", own("", takes=5))
+    pilot.block("next", '<wait id="w" start="slow:x:stroke" duration="1"/>')
+    pilot.block("beside", WAIT)
+    await pilot.advance(4)
+    assert pilot.feedback.warnings == []
+    assert pilot.feedback.time("beside:start") == 0.0
+    assert pilot.feedback.time("next:w:start") == pilot.feedback.time("slow:x:stroke")
+
+
+async def test_work_for_a_block_that_is_replaced_meanwhile_is_given_up(pilot) -> None:
+    pilot.block("slow", own("", takes=1_000_000))
+    await pilot.realizer.step(_tick(0))
+    pilot.block("new", composition="REPLACE")
+    await pilot.realizer.step(_tick(1))
+    assert not pilot.realizer.busy
+    assert pilot.feedback.progress == ["slow:end", "new:start", "new:end"]
+    assert pilot.feedback.status("slow") == "REVOKED"
+
+
+async def test_inputs_of_a_tick_enter_by_time_and_then_in_the_order_in_which_they_were_put(pilot) -> None:
+    for name, at in [("c", 0.02), ("a", 0.01), ("d", 0.02), ("b", 0.01), ("late", 5.0)]:
+        pilot.realizer.put(BmlText(block(name)), at)
+    await pilot.realizer.step(_tick(2))
+    assert [id_ for id_ in pilot.feedback.progress if id_.endswith("start")] == [f"{n}:start" for n in "abcd"]
+    assert pilot.realizer.busy
+
+
+async def test_nothing_is_composed_where_nobody_looks(pilot) -> None:
+    asked = []
+    engine = pilot.realizer.characters["alice"].engines[0]
+    engine.layers = lambda tick: asked.append(tick.number) or ()
+    await pilot.advance(0.05)
+    assert asked == []
+    stop = pilot.realizer.watch(lambda character, frame: None)
+    await pilot.advance(0.05)
+    assert asked == [6, 8]
+    stop()
+    await pilot.advance(0.05)
+    assert asked == [6, 8]
+
+
+def _tick(number):
+    return Tick(number, tick_time(number - 1))

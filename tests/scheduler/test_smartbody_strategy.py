@@ -1,0 +1,364 @@
+"""SmartBody's scheduling with Elckerlyc's sorting: a problem in, pegs out (thesis 7.2.2, 7.3.5, 8.7.3)."""
+
+import math
+from itertools import pairwise
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from reactive_realizer.bml.behavior import Behavior
+from reactive_realizer.bml.names import BML, Location
+from reactive_realizer.pegboard.time_peg import AnticipatorPeg
+from reactive_realizer.planunit.timing import PhaseKind, timing_at
+from reactive_realizer.reactive.graph import Graph
+from reactive_realizer.scheduler.problem import AtBlock, AtOffset, AtRatio, Item, Origin, Point, Problem, Tie
+from reactive_realizer.scheduler.smartbody_strategy import SmartBodyStrategy
+
+LINE = Location(7, 3)
+START = Origin.BLOCK_START
+GRAPH = Graph()
+NOD = {"start": 0.0, "stroke": 0.4, "end": 1.0}
+BEAT = {"start": 0.0, "ready": 0.3, "stroke": 0.5, "relax": 0.8, "end": 1.2}
+SPEECH = {"start": 0.0, "sync1": 0.5, "end": 2.0}
+
+
+def item(id_, offsets, rigid=False):
+    behavior = Behavior(id=id_, namespace=BML, name="test", location=LINE, order=0)
+    return Item(behavior, timing_at(offsets, PhaseKind.RIGID if rigid else PhaseKind.ELASTIC))
+
+
+def speech(id_="speech1"):
+    return item(id_, SPEECH, rigid=True)
+
+
+def node(text):
+    return Point(*text.split(":")) if isinstance(text, str) else text
+
+
+def tie(left, right, offset=0.0, owner=None, required=False):
+    """``left`` is ``right + offset``; points as ``behavior:sync``."""
+    left = node(left)
+    return Tie(left, node(right), offset, owner or left.behavior, LINE, f"{left} = {right} + {offset}", required)
+
+
+def outer(time):
+    return AnticipatorPeg(GRAPH, "outer", time)
+
+
+class Plan:
+    """What came out, as times."""
+
+    def __init__(self, items, *ties, **times) -> None:
+        cells = {n for t in ties for n in (t.left, t.right) if isinstance(n, AnticipatorPeg)}
+        self.problem = Problem(tuple(items), ties, {cell: cell.value for cell in cells})
+        self.solution = SmartBodyStrategy().solve(self.problem)
+
+    def __getitem__(self, point):
+        behavior, sync = point.split(":")
+        return time_of(self.solution.pegs[behavior][sync])
+
+    @property
+    def kept(self):
+        return set(self.solution.pegs)
+
+    @property
+    def losses(self):
+        return [(loss.behavior, loss.fault.code, loss.dropped) for loss in self.solution.losses]
+
+    def times(self, behavior):
+        return [time_of(spec) for spec in self.solution.pegs[behavior].values()]
+
+
+def time_of(spec):
+    match spec:
+        case AtBlock(anchor, offset):
+            return anchor.time + offset
+        case AtOffset(link, offset):
+            time = link.value if isinstance(link, AnticipatorPeg) else time_of(link)
+            return None if time is None else time + offset
+        case AtRatio(before, after, ratio):
+            a, b = time_of(before), time_of(after)
+            return None if a is None or b is None else a + ratio * (b - a)
+
+
+# --- the thesis's examples
+
+
+@pytest.mark.parametrize("order", [1, -1], ids=["27a", "27b"])
+def test_27_a_nod_stretches_to_the_words_in_either_order_because_rigid_ones_of_a_cycle_go_first(order) -> None:
+    items = [speech(), item("nod1", NOD)][::order]
+    plan = Plan(items, tie("nod1:start", "speech1:start"), tie("nod1:end", "speech1:sync1"))
+    assert plan.losses == []
+    assert plan.times("speech1") == [0.0, 0.5, 2.0]
+    assert plan.times("nod1") == pytest.approx([0.0, 0.2, 0.5])
+
+
+EXAMPLE_28 = (
+    tie("nod1:start", START, 3.0),
+    tie("nod1:end", START, 5.0),
+    tie("beat1:stroke", "nod1:stroke"),
+)
+
+
+def test_28a_a_beat_follows_the_stroke_of_a_nod_between_two_times() -> None:
+    plan = Plan([item("nod1", NOD), item("beat1", BEAT)], *EXAMPLE_28)
+    assert plan.losses == []
+    assert plan.times("nod1") == pytest.approx([3.0, 3.8, 5.0])
+    assert plan["beat1:stroke"] == pytest.approx(3.8)
+    assert plan["beat1:start"] == pytest.approx(3.3)
+
+
+def test_28b_the_other_way_round_the_nod_cannot_be_kept_and_is_dropped() -> None:
+    plan = Plan([item("beat1", BEAT), item("nod1", NOD)], *EXAMPLE_28)
+    assert plan.losses == [("nod1", "out-of-order", True)]
+    assert plan.times("beat1") == pytest.approx(list(BEAT.values()))
+
+
+EXAMPLE_29 = (
+    tie("g2:start", "g1:end"),
+    tie("nod1:start", "g1:start", -2.0),
+    tie("nod1:end", "g2:end", 3.0),
+)
+
+
+def test_29a_a_cycle_of_ties_with_offsets_is_met_where_the_nod_comes_last() -> None:
+    plan = Plan([item("g1", BEAT), item("g2", BEAT), item("nod1", NOD)], *EXAMPLE_29)
+    assert plan.losses == []
+    assert (plan["nod1:start"], plan["g1:start"]) == pytest.approx((0.0, 2.0))
+    assert plan["g2:start"] == pytest.approx(plan["g1:end"])
+    assert plan["nod1:end"] == pytest.approx(plan["g2:end"] + 3.0)
+
+
+def test_29b_with_the_nod_first_one_of_the_gestures_is_lost() -> None:
+    plan = Plan([item("nod1", NOD), item("g1", BEAT), item("g2", BEAT)], *EXAMPLE_29)
+    assert [(loss, code) for loss, code, _ in plan.losses] == [("g2", "out-of-order")]
+    assert plan.kept == {"nod1", "g1"}
+
+
+# --- where points come to lie
+
+
+def test_what_is_tied_to_nothing_starts_with_its_block_and_takes_the_time_it_wants() -> None:
+    assert Plan([item("g", BEAT)]).times("g") == list(BEAT.values())
+
+
+def test_between_two_ties_all_phases_stretch_alike() -> None:
+    plan = Plan([item("g", BEAT)], tie("g:start", START, 1.0), tie("g:end", START, 1.0 + 2 * 1.2))
+    assert plan.times("g") == pytest.approx([1.0 + 2 * time for time in BEAT.values()])
+
+
+def test_outside_of_two_ties_the_average_stretch_goes_on() -> None:
+    plan = Plan([item("g", BEAT)], tie("g:ready", START, 1.0), tie("g:relax", START, 2.0))
+    assert plan.times("g") == pytest.approx([1 - 0.3 * 2, 1.0, 1.4, 2.0, 2.0 + 0.4 * 2])
+
+
+def test_between_three_ties_each_part_has_its_own_stretch_and_the_outside_the_average() -> None:
+    plan = Plan(
+        [item("g", BEAT)],
+        tie("g:ready", START, 1.0),
+        tie("g:stroke", START, 1.1),
+        tie("g:relax", START, 2.0),
+    )
+    assert plan.times("g") == pytest.approx([0.4, 1.0, 1.1, 2.0, 2.8])
+
+
+def test_one_tie_moves_a_behavior_as_a_whole() -> None:
+    plan = Plan([item("g", BEAT)], tie("g:stroke", START, 2.0))
+    assert plan.times("g") == pytest.approx([1.5 + time for time in BEAT.values()])
+
+
+def test_an_offset_is_a_distance_to_the_point_that_is_named() -> None:
+    plan = Plan([item("a", NOD), item("b", NOD)], tie("b:start", "a:end", 0.25))
+    assert plan["b:start"] == plan["a:end"] + 0.25
+
+
+def test_a_behavior_may_tie_its_own_points() -> None:
+    plan = Plan([item("a", BEAT)], tie("a:end", "a:start", 2.4))
+    assert plan.times("a") == pytest.approx([2 * time for time in BEAT.values()])
+
+
+def test_clusters_start_with_the_block_each_for_itself() -> None:
+    ties = tie("b:end", "a:start"), tie("c:start", "d:end", 1.0)
+    plan = Plan([item(name, NOD) for name in "abcd"], *ties)
+    assert (plan["b:start"], plan["a:start"]) == pytest.approx((0.0, 1.0))
+    assert (plan["d:start"], plan["c:start"]) == pytest.approx((0.0, 2.0))
+
+
+def test_a_cluster_with_a_given_time_is_not_moved() -> None:
+    plan = Plan([item("a", NOD), item("b", NOD)], tie("b:start", "a:end"), tie("b:end", START, 10.0))
+    assert (plan["a:start"], plan["b:start"], plan["b:end"]) == pytest.approx((0.0, 1.0, 10.0))
+
+
+def test_what_would_start_before_its_block_starts_with_it_and_hurries() -> None:
+    plan = Plan([item("g", BEAT)], tie("g:stroke", START, 0.25))
+    assert plan.times("g") == pytest.approx([time / 2 for time in BEAT.values()])
+
+
+def test_a_speech_can_not_hurry() -> None:
+    assert Plan([speech()], tie("speech1:sync1", START, 0.25)).losses == [("speech1", "before-block", True)]
+
+
+def test_an_unknown_time_leaves_what_hangs_on_it_unknown() -> None:
+    hit = outer(None)
+    plan = Plan([item("g", BEAT), item("h", NOD)], tie("g:stroke", hit), tie("h:start", "g:end"))
+    assert plan.losses == []
+    assert plan["g:stroke"] is plan["h:end"] is None
+
+
+def test_what_hangs_on_the_outside_follows_it() -> None:
+    hit = outer(2.0)
+    plan = Plan([item("g", BEAT)], tie("g:stroke", hit, 0.5))
+    assert plan["g:start"] == 2.0
+    with GRAPH.transaction("test"):
+        hit.set(3.0)
+    assert plan["g:start"] == 3.0
+
+
+def test_what_hangs_on_a_point_that_has_passed_joins_late() -> None:
+    assert Plan([item("g", NOD)], tie("g:start", outer(-0.5))).times("g") == pytest.approx([-0.5, -0.1, 0.5])
+
+
+def test_unless_it_would_have_ended_by_now() -> None:
+    plan = Plan([item("g", NOD)], tie("g:start", outer(-1.5)))
+    assert plan.losses == [("g", "all-past", True)]
+    assert plan.kept == set()
+
+
+# --- what cannot be
+
+
+def test_a_cycle_of_ties_that_says_the_same_twice_is_legal() -> None:
+    ties = (
+        tie("b:start", "a:end"),
+        tie("a:end", "b:start"),
+        tie("b:start", "a:start", 1.0),
+        tie("a:end", "a:start", 1.0),
+    )
+    plan = Plan([item("a", NOD), item("b", NOD)], *ties)
+    assert plan.losses == []
+    assert plan["b:start"] == pytest.approx(plan["a:end"])
+
+
+def test_a_tie_that_contradicts_others_is_named_and_dropped_and_the_rest_holds() -> None:
+    ties = tie("b:start", "a:end"), tie("a:end", "b:start", 0.5, owner="a", required=True)
+    plan = Plan([item("a", NOD), item("b", NOD)], *ties)
+    assert plan.losses == [("a", "contradictory-tie", False)]
+    (loss,) = plan.solution.losses
+    assert loss.required
+    assert loss.fault.details["gap"] == pytest.approx(0.5)
+    assert plan["b:start"] == pytest.approx(plan["a:end"])
+
+
+def test_two_points_of_the_outside_cannot_be_made_one() -> None:
+    one, two = outer(1.0), outer(2.0)
+    plan = Plan([item("a", NOD)], tie("a:start", one), tie("a:start", two))
+    assert plan.losses == [("a", "outer-tie", False)]
+    assert plan["a:start"] == 1.0
+
+
+def test_rigid_wins_and_the_tie_that_it_cannot_meet_is_lost_with_its_amount() -> None:
+    plan = Plan([speech()], tie("speech1:start", START, 1.0), tie("speech1:end", START, 4.0))
+    assert plan.losses == [("speech1", "rigid", False)]
+    assert plan.solution.losses[0].fault.details == {"point": "speech1:end", "gap": pytest.approx(1.0)}
+    assert plan.times("speech1") == [1.0, 1.5, 3.0]
+
+
+def test_what_a_rigid_behavior_meets_stays_with_it_when_clusters_are_moved() -> None:
+    ties = tie("nod:end", "speech1:end", -0.5), tie("speech1:sync1", "beat:start")
+    plan = Plan([item("nod", NOD), item("beat", BEAT), speech()], *ties)
+    assert plan.losses == []
+    assert plan["nod:end"] == pytest.approx(plan["speech1:end"] - 0.5)
+    assert plan["speech1:sync1"] == pytest.approx(plan["beat:start"])
+
+
+def test_a_rigid_behavior_cannot_hang_on_two_times_while_one_of_them_is_unknown() -> None:
+    plan = Plan([speech()], tie("speech1:start", outer(None)), tie("speech1:end", START, 9.0))
+    assert plan.losses == [("speech1", "outer-tie", False)]
+    hit = outer(None)
+    plan = Plan([speech()], tie("speech1:start", hit), tie("speech1:end", hit, 2.0))
+    assert plan.losses == []
+
+
+def test_points_out_of_order_cannot_be_played() -> None:
+    plan = Plan([item("g", BEAT), item("h", NOD)], tie("g:start", START, 3.0), tie("g:end", START, 2.0))
+    assert plan.losses == [("g", "out-of-order", True)]
+    assert plan.kept == {"h"}
+
+
+def test_no_time_at_all_is_too_short() -> None:
+    assert Plan([item("g", BEAT)], tie("g:start", START, 3.0), tie("g:end", START, 3.0)).losses == [
+        ("g", "too-short", True)
+    ]
+
+
+def test_a_start_before_the_block_is_past() -> None:
+    plan = Plan([item("g", BEAT)], tie("g:start", START, -1.0))
+    assert plan.losses == [("g", "before-block", True)]
+    assert plan.solution.losses[0].fault.details["early"] == pytest.approx(1.0)
+
+
+# --- whatever is asked
+
+
+_SYNCS = {"nod": list(NOD), "beat": list(BEAT), "speech": list(SPEECH)}
+_OFFSETS = {"nod": NOD, "beat": BEAT, "speech": SPEECH}
+
+
+@st.composite
+def problems(draw):
+    """Up to seven behaviors; ties to each other, the start of the block, and the outside; mostly too many."""
+    kinds = draw(st.lists(st.sampled_from(sorted(_OFFSETS)), min_size=1, max_size=7))
+    items = [item(f"{kind}{i}", _OFFSETS[kind], rigid=kind == "speech") for i, kind in enumerate(kinds)]
+    points = [Point(each.behavior.id, sync) for each in items for sync in each.timing.points]
+    outside = [outer(draw(st.sampled_from([None, -0.5, 0.0, 1.0, 4.0]))) for _ in range(2)]
+    rights = st.sampled_from([*points, START, *outside])
+    offsets = st.sampled_from([0.0, 0.0, 0.5, 1.0, -0.5, 3.0])
+    drawn = draw(st.lists(st.tuples(st.sampled_from(points), rights, offsets), max_size=8))
+    return items, [tie(left, right, offset) for left, right, offset in drawn]
+
+
+@given(problems())
+def test_whatever_is_kept_keeps_its_order_its_ties_and_does_not_start_before_its_block(drawn) -> None:
+    items, ties = drawn
+    plan = Plan(items, *ties)
+    assert {(loss.fault.line, loss.fault.column) for loss in plan.solution.losses} <= {(7, 3)}
+    lost = {loss for loss, _, dropped in plan.losses if dropped}
+    assert plan.kept == {each.behavior.id for each in items} - lost
+    forgiven = {loss.behavior for loss in plan.solution.losses if not loss.dropped}
+    hanging = hanging_on_outside(ties)
+    for id_ in plan.kept:
+        known = [time for time in plan.times(id_) if time is not None]
+        assert all(a <= b + 1e-5 for a, b in pairwise(known)), "thesis 7.15"
+        assert id_ in hanging or not known or known[0] >= -2e-5, "before its block"
+    for each in ties:
+        sides = [side for side in (each.left, each.right) if isinstance(side, Point)]
+        if any(side.behavior not in plan.kept or side.behavior in forgiven for side in sides):
+            continue
+        left, right = value(plan, each.left), value(plan, each.right)
+        if left is not None and right is not None:
+            assert math.isclose(left, right + each.offset, abs_tol=1e-6), each.text
+
+
+def value(plan, side):
+    if isinstance(side, Point):
+        return time_of(plan.solution.pegs[side.behavior][side.sync])
+    return 0.0 if side is START else side.value
+
+
+def hanging_on_outside(ties):
+    """Behaviors that the outside may pull before the start of their block."""
+    hanging = set()
+    for _ in ties:
+        for each in ties:
+            sides = [side.behavior for side in (each.left, each.right) if isinstance(side, Point)]
+            if isinstance(each.right, AnticipatorPeg) or hanging & set(sides):
+                hanging |= set(sides)
+    return hanging
+
+
+@given(problems())
+def test_the_same_problem_has_the_same_plan(drawn) -> None:
+    items, ties = drawn
+    one, two = Plan(items, *ties), Plan(items, *ties)
+    assert {id_: one.times(id_) for id_ in one.kept} == {id_: two.times(id_) for id_ in two.kept}
