@@ -5,7 +5,7 @@ from it.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from types import MappingProxyType
 
@@ -191,6 +191,10 @@ class Fault:
     def sentence(self) -> str:
         """What happened, for people, without the place."""
         return self.kind.sentence.format(**self.details)
+
+    def located(self, line: int, column: int) -> "Fault":
+        """This fault with a place, unless it has one."""
+        return self if self.line is not None else replace(self, line=line, column=column)
 
     def __str__(self) -> str:
         place = "" if self.line is None else f"line {self.line}, column {self.column}: "

@@ -3,36 +3,30 @@
 import logging
 from collections.abc import Iterable, Sequence
 
-from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.block import BehaviorBlock, Parsed
-from reactive_realizer.bml.names import BLOCK, BML, BML_EXT
 from reactive_realizer.bml.words import Composition
-from reactive_realizer.clock.units import BlockTime, GlobalTime, is_due
+from reactive_realizer.clock.units import GlobalTime, is_due
 from reactive_realizer.engine.effects import Dropped, Play, Reached
-from reactive_realizer.engine.engine import Engine
-from reactive_realizer.errors import Fault, RealizerError
+from reactive_realizer.errors import Fault
 from reactive_realizer.feedback.feedback_manager import FeedbackManager
-from reactive_realizer.feedback.messages import BlockProgress, SyncPointProgress, WarningFeedback
 from reactive_realizer.limits import Limits
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.pegboard.time_peg import Time, TimePeg, followers_of, unknown_sources
 from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint, UnitState
 from reactive_realizer.reactive.commit import Commit
+from reactive_realizer.scheduler.block_planner import BlockPlanner
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BlockState, BMLBlock
 from reactive_realizer.scheduler.cast import Cast
-from reactive_realizer.scheduler.constraints import blocks_named
-from reactive_realizer.scheduler.planning import Plan, Planning
+from reactive_realizer.scheduler.planning import Planning
 from reactive_realizer.scheduler.predictions import Predictions
-from reactive_realizer.scheduler.preparation import Preparation
 from reactive_realizer.scheduler.problem import Loss
+from reactive_realizer.scheduler.reporter import Reporter
 from reactive_realizer.scheduler.strategy import SchedulingStrategy
 from reactive_realizer.scheduler.workshop import Workshop
 
 logger = logging.getLogger(__name__)
-
-_BEFORE_ALL, _AFTER_ALL = -1.0, float("inf")
 
 
 class BMLScheduler:
@@ -57,13 +51,11 @@ class BMLScheduler:
         self.failed = 0
         self._board = board
         self._cast = cast
-        self._feedback = feedback
-        self._workshop = workshop
         self._limits = limits
-        self._planning = Planning(board, self.blocks, strategy)
+        self._reporter = Reporter(feedback, self.blocks)
+        planning = Planning(board, self.blocks, strategy)
+        self._planner = BlockPlanner(cast, self.blocks, planning, workshop, self._reporter)
         self._predictions = Predictions(feedback)
-        self._preparations: dict[BMLBlock, Preparation] = {}
-        self._engines: dict[PlanUnit, Engine] = {}
         self._arrivals = 0
         self._touched = False
         board.graph.listen(self._note)
@@ -74,11 +66,11 @@ class BMLScheduler:
         """Take a block in: apply its composition, prepare and plan its behaviors."""
         character = self._character(parsed.block)
         for problem in parsed.problems:
-            self._warn(character, problem.id, problem.fault)
+            self._reporter.warn(character, problem.id, problem.fault)
         if parsed.block is None or (fault := self.refusal(parsed.block)) is not None:
             self.refused += 1
             if parsed.block is not None and fault is not None:
-                self._warn(character, parsed.block.id, fault)
+                self._reporter.warn(character, parsed.block.id, fault)
             return
         if parsed.block.composition is Composition.REPLACE:
             self.interrupt_all(character, now)
@@ -128,7 +120,7 @@ class BMLScheduler:
             for reached in play.reached:
                 reached.point.peg.pin(reached.time)
         for reached in play.reached:
-            self._report(reached)
+            self._reporter.reached(reached)
             self._subside(reached)
         return bool(play.dropped or play.reached)
 
@@ -148,7 +140,7 @@ class BMLScheduler:
     def fail_restless(self, rounds: int, now: GlobalTime) -> None:
         """Fail the blocks that keep a tick from coming to rest: those that started in it and still play."""
         for block in [block for block in self.blocks.alive if block.state.plays and block.noticed == now]:
-            self._warn(block.key.character, block.key.block, Fault("too-many-rounds", {"limit": rounds}))
+            self._reporter.warn(block.key.character, block.key.block, Fault("too-many-rounds", {"limit": rounds}))
             self._leave(block.live_units, now)
             self._end(block, BlockState.FAILED, now)
 
@@ -168,7 +160,7 @@ class BMLScheduler:
         for block in self.blocks.alive:
             pegs = [point.peg for unit in block.live_units for point in unit.ahead()]
             waits = ", ".join([*(str(other.end.name) for other in block.waits_for), *unknown_sources(pegs)])
-            self._warn(block.key.character, block.key.block, Fault("never-moves", {"waits": waits}))
+            self._reporter.warn(block.key.character, block.key.block, Fault("never-moves", {"waits": waits}))
 
     # --- accepting
 
@@ -181,83 +173,29 @@ class BMLScheduler:
         key = BlockKey(character, description.id)
         block = BMLBlock(self._board, key, description, self._arrivals, now, targets)
         self.blocks.add(block)
-        self._warn_of_attributes(block, description.id, description.extensions, description)
+        self._reporter.meaningless(block, description.extensions, description)
         return block
-
-    def _warn_of_attributes(
-        self, block: BMLBlock, id_: str, extensions: Iterable[tuple[str, str]], at: BehaviorBlock | Behavior
-    ) -> None:
-        for namespace, name in extensions:
-            details = {"attribute": name, "namespace": namespace}
-            fault = Fault("foreign-attribute", details, at.location.line, at.location.column)
-            self._warn(block.key.character, id_, fault)
 
     # --- planning
 
     def _prepare(self, block: BMLBlock, now: GlobalTime) -> None:
-        engines: dict[str, tuple[Behavior, Engine]] = {}
-        losses: list[Loss] = []
-        for behavior in block.description.behaviors:
-            engine = self._cast.engine_for(block.key.character, behavior)
-            unknown = [name for name in behavior.extensions if engine is None or name not in engine.extensions]
-            self._warn_of_attributes(block, f"{block.key.block}:{behavior.id}", unknown, behavior)
-            if engine is None:
-                losses.append(_unsupported(behavior))
-            else:
-                engines[behavior.id] = (behavior, engine)
-        if self._lost(block, losses, now):
-            return
-        preparation = self._preparations[block] = Preparation(engines, self._workshop)
-        preparation.begin()
-        self._owe_prediction(block)
+        if not self._lost(block, self._planner.prepare(block), now):
+            self._owe_prediction(block)
 
     def _plan_prepared(self, now: GlobalTime) -> None:
-        """Plan in order of arrival; a block that names points of an earlier one waits until that is planned."""
-        for block, preparation in tuple(self._preparations.items()):
-            if preparation.complete and not self._names_unplanned(block):
-                self._plan(block, self._preparations.pop(block), now)
-
-    def _names_unplanned(self, block: BMLBlock) -> bool:
-        others = [self.blocks.find(block.key.character, name) for name in blocks_named(block.description)]
-        return any(other in self._preparations and other.arrival < block.arrival for other in others if other)
-
-    def _plan(self, block: BMLBlock, preparation: Preparation, now: GlobalTime) -> None:
-        units, losses = self._units(block, preparation)
-        if self._lost(block, losses, now):
-            return
-        plan = self._planning.solve(block, list(units), now)
-        if self._lost(block, plan.losses, now):
-            return
-        self._planning.commit(block, plan, now)
-        self._hand_out(plan, units)
-        self._owe_prediction(block)
-
-    def _units(self, block: BMLBlock, preparation: Preparation) -> tuple[dict[PlanUnit, Engine], list[Loss]]:
-        units: dict[PlanUnit, Engine] = {}
-        losses: list[Loss] = []
-        for behavior, engine in preparation.engines.values():
-            try:
-                units[engine.plan(block.key, behavior, preparation.result(behavior.id))] = engine
-            except RealizerError as problem:
-                losses.append(_loss(behavior, problem.fault))
-            except Exception as failure:
-                logger.exception("%s/%s:%s could not be made", *block.key, behavior.id)
-                losses.append(_loss(behavior, Fault("work-failed", {"reason": failure})))
-        return units, losses
-
-    def _hand_out(self, plan: Plan, units: dict[PlanUnit, Engine]) -> None:
-        for unit in plan.units:
-            self._engines[unit] = units[unit]
-            units[unit].add(unit)
+        for block in self._planner.ready():
+            draft = self._planner.plan(block, now)
+            if not self._lost(block, draft.losses, now):
+                self._planner.commit(block, draft, now)
+                self._owe_prediction(block)
 
     def _lost(self, block: BMLBlock, losses: Sequence[Loss], now: GlobalTime) -> bool:
         """Warn of what was lost; whether the block fails by it."""
-        for loss in losses:
-            self._warn(block.key.character, ":".join(filter(None, (block.key.block, loss.behavior))), loss.fault)
-        if any(loss.required for loss in losses):
+        self._reporter.lost(block, losses)
+        fails = any(loss.required for loss in losses)
+        if fails:
             self._end(block, BlockState.FAILED, now)
-            return True
-        return False
+        return fails
 
     # --- starting and ending
 
@@ -270,7 +208,7 @@ class BMLScheduler:
         for unit in block.units:
             unit.release()
         self._owe_prediction(block)
-        self._progress(block, "start", time, _BEFORE_ALL)
+        self._reporter.started(block, time)
 
     def _end(self, block: BMLBlock, state: BlockState, time: GlobalTime) -> None:
         self._predictions.close(block, time)
@@ -278,12 +216,11 @@ class BMLScheduler:
         with self._board.graph.transaction(f"end {block.key.block}"):
             block.end.pin(time)
             cut = self._board.pin_block(block.key)
-        self._progress(block, "end", time, _AFTER_ALL)
-        self._preparations.pop(block, None)
+        self._reporter.ended(block, time)
         self._board.remove_block(block.key)
         self.blocks.end(block, time)
         for unit in block.units:
-            self._engines.pop(unit, None)
+            self._cast.take(unit)
         block.targets = ()
         self._release_tied(cut, state, time)
         self.failed += state is BlockState.FAILED
@@ -303,12 +240,11 @@ class BMLScheduler:
             if any(peg.value is None for peg in tied) or (state is BlockState.REVOKED and not unit.begun):
                 self._drop_unit(unit, Fault("never-comes", details), now)
             else:
-                self._warn_of(unit, Fault("cut-tie", details))
+                self._reporter.warn_of(unit, Fault("cut-tie", details))
 
     def _interrupt(self, block: BMLBlock, now: GlobalTime) -> None:
         if not block.state.plays:
-            if block in self._preparations:
-                self._preparations[block].cancel()
+            self._planner.cancel(block)
             self._leave(block.units, now)
             self._end(block, BlockState.REVOKED, now)
             return
@@ -336,13 +272,12 @@ class BMLScheduler:
 
     def _cut_short(self, unit: PlanUnit, now: GlobalTime) -> bool:
         details = unit.end_details(now)
-        engine = self._engines[unit]
         reached = [Reached(unit, point, point.fired or now) for point in unit.fire(now)]
         cut = unit.live
         if cut:
             kept = [self._split(unit, point, now) for point in unit.interrupt(now)]
             reached += [Reached(unit, p, now, details if p.id == "end" else {}) for p in kept]
-        engine.remove(unit)
+        self._cast.take(unit)
         self.apply(Play(tuple(reached)), now)
         return cut
 
@@ -358,7 +293,7 @@ class BMLScheduler:
 
     def _leave_unit(self, unit: PlanUnit, now: GlobalTime) -> None:
         unit.drop(now)
-        self._engines[unit].remove(unit)
+        self._cast.take(unit)
 
     # --- playing
 
@@ -370,45 +305,19 @@ class BMLScheduler:
         """Warn of a unit that left the plan; one that had begun ends now."""
         unit = dropped.unit
         block = self.blocks.get(unit.block)
-        self._warn_of(unit, dropped.fault)
+        self._reporter.warn_of(unit, dropped.fault)
         if block is not None and unit in block.units:
             block.units.remove(unit)
             with self._board.graph.transaction(f"drop {unit.behavior.id}"):
                 block.end_again(now)
-        if unit in self._engines:
-            self._engines.pop(unit).remove(unit)
+        self._cast.take(unit)
         if unit.begun and unit.points[-1].fired is None:
-            self._report(Reached(unit, self._split(unit, unit.points[-1], now), now))
-
-    def _report(self, reached: Reached) -> None:
-        unit, time = reached.unit, reached.time
-        block = self.blocks.get(unit.block)
-        if block is None or block.start.value is None:
-            return
-        local = BlockTime(time - block.start.value)
-        message = SyncPointProgress(*unit.block, unit.behavior.id, reached.point.id, local, time, reached.details)
-        order = unit.timing.points.index(reached.point.id)
-        # A point that passed before its block started is told after that start.
-        place = block.place(max(time, block.start.value), unit.behavior.order, order)
-        self._feedback.progress(message, place)
+            self._reporter.reached(Reached(unit, self._split(unit, unit.points[-1], now), now))
 
     def _subside(self, reached: Reached) -> None:
         block = self.blocks.get(reached.unit.block)
         if block is not None and block.state is BlockState.IN_EXEC and block.subsides():
             block.state = BlockState.SUBSIDING
-
-    def _progress(self, block: BMLBlock, sync: str, time: GlobalTime, behavior: float) -> None:
-        message = BlockProgress(*block.key, sync, time, block.state.value)
-        self._feedback.progress(message, block.place(time, behavior))
-
-    def _warn_of(self, unit: PlanUnit, fault: Fault) -> None:
-        self._warn(unit.block.character, f"{unit.block.block}:{unit.behavior.id}", _located(fault, unit.behavior))
-
-    def _warn(self, character: str, id_: str, fault: Fault) -> None:
-        if fault.kind.warning is not None:
-            known = None if id_ == BLOCK else character
-            self._feedback.say(WarningFeedback(known, id_, fault.kind.warning, str(fault)))
-        logger.warning("%s %s: %s", character, id_, fault)
 
     def _owe_prediction(self, block: BMLBlock) -> None:
         self._touched = True
@@ -433,18 +342,3 @@ def _can_move(block: BMLBlock, now: GlobalTime) -> bool:
         return _may_start(block)
     times = (point.peg.value for unit in block.live_units for point in unit.ahead())
     return any(time is not None and not is_due(time, now) for time in times)
-
-
-def _unsupported(behavior: Behavior) -> Loss:
-    core = behavior.namespace in (BML, BML_EXT)
-    details = {"element": behavior.name, "namespace": behavior.namespace}
-    return _loss(behavior, Fault("not-supported" if core else "foreign-not-supported", details))
-
-
-def _loss(behavior: Behavior, fault: Fault) -> Loss:
-    return Loss(behavior.id, _located(fault, behavior), dropped=True, required=behavior.required)
-
-
-def _located(fault: Fault, behavior: Behavior) -> Fault:
-    place = behavior.location
-    return fault if fault.line else Fault(fault.code, fault.details, place.line, place.column)

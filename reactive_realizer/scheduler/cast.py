@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.engine.engine import Engine
+from reactive_realizer.planunit.plan_unit import PlanUnit
 
 
 class Cast:
@@ -15,6 +16,7 @@ class Cast:
 
     def __init__(self, engines: Mapping[str, Sequence[Engine]]) -> None:
         self._engines = {character: tuple(own) for character, own in engines.items()}
+        self._playing: dict[PlanUnit, Engine] = {}
 
     @property
     def characters(self) -> tuple[str, ...]:
@@ -29,3 +31,14 @@ class Cast:
     def engine_for(self, character: str, behavior: Behavior) -> Engine | None:
         """The first engine of a character that plays such behaviors."""
         return next((engine for engine in self._engines[character] if engine.supports(behavior)), None)
+
+    def give(self, unit: PlanUnit, engine: Engine) -> None:
+        """Have an engine play a unit that has its pegs."""
+        self._playing[unit] = engine
+        engine.add(unit)
+
+    def take(self, unit: PlanUnit) -> None:
+        """Take a unit from the engine that plays it; one that nobody plays is no mistake."""
+        engine = self._playing.pop(unit, None)
+        if engine is not None:
+            engine.remove(unit)
