@@ -1,6 +1,7 @@
 """The interface of a modality (thesis 8.6), and what all implementations share."""
 
 from collections.abc import Awaitable, Mapping
+from dataclasses import replace
 from typing import Protocol
 
 from reactive_realizer.bml.behavior import Behavior
@@ -83,15 +84,14 @@ class DefaultEngine:
 
     def play(self, tick: Tick) -> Play:
         """Sync points that are due, and, where a frame is, what is seen and heard."""
-        reached, dropped = self.player.play(tick.time)
-        return Play(
-            reached,
-            dropped,
-            self.layers(tick) if tick.frame else (),
-            self.face(tick) if tick.frame else {},
-            self.eyes(tick) if tick.frame else None,
-            self.audio(tick),
+        play = Play(
+            self.player.play(tick.time),
+            layers=self.layers(tick) if tick.frame else (),
+            face=self.face(tick) if tick.frame else {},
+            eyes=self.eyes(tick) if tick.frame else None,
+            audio=self.audio(tick),
         )
+        return replace(play, dropped=self.player.take_dropped())
 
     def fail(self, time: GlobalTime, fault: Fault) -> Play:
         """Drop every unit."""

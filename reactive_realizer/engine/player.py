@@ -1,6 +1,8 @@
 """The player of a plan: which units play now, and which may."""
 
 import logging
+from collections.abc import Callable
+from typing import TypeVar
 
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.engine.effects import Dropped, Reached
@@ -9,7 +11,8 @@ from reactive_realizer.planunit.plan_unit import PlanUnit, UnitState
 
 logger = logging.getLogger(__name__)
 
-Played = tuple[tuple[Reached, ...], tuple[Dropped, ...]]
+U = TypeVar("U", bound=PlanUnit)
+T = TypeVar("T")
 
 
 class Player:
@@ -21,6 +24,7 @@ class Player:
 
     def __init__(self) -> None:
         self._units: list[PlanUnit] = []
+        self._dropped: list[Dropped] = []
 
     @property
     def units(self) -> tuple[PlanUnit, ...]:
@@ -41,18 +45,34 @@ class Player:
         if unit in self._units:
             self._units.remove(unit)
 
-    def play(self, now: GlobalTime) -> Played:
+    def play(self, now: GlobalTime) -> tuple[Reached, ...]:
         """Begin what is due, fire what is due, let go of what has ended."""
         reached: list[Reached] = []
-        dropped: list[Dropped] = []
         for unit in self._in_turn(now):
             owner = self._owner(unit) if unit.due(now) else None
             if owner is not None:
-                self._drop(unit, _taken(unit, owner), now, dropped)
+                self._drop(unit, _taken(unit, owner), now)
             else:
-                self._fire(unit, now, reached, dropped)
+                self._fire(unit, now, reached)
         self._units = [unit for unit in self._units if unit.live]
-        return tuple(reached), tuple(dropped)
+        return tuple(reached)
+
+    def show(self, kind: type[U], show: Callable[[U], T], now: GlobalTime) -> list[T]:
+        """What every unit of a kind that plays shows; one that fails leaves, the others go on."""
+        shown: list[T] = []
+        for unit in self.playing:
+            if isinstance(unit, kind):
+                try:
+                    shown.append(show(unit))
+                except Exception as failure:
+                    self._fail(unit, failure, now)
+        return shown
+
+    def take_dropped(self) -> tuple[Dropped, ...]:
+        """The units that left since the last call."""
+        dropped, self._dropped = tuple(self._dropped), []
+        self._units = [unit for unit in self._units if unit.live]
+        return dropped
 
     def _in_turn(self, now: GlobalTime) -> list[PlanUnit]:
         """Units that play, then those that are due: by start, and of equal ones by id, so that the choice is one."""
@@ -64,20 +84,23 @@ class Player:
     def _owner(self, unit: PlanUnit) -> PlanUnit | None:
         return next((other for other in self.playing if other.resources & unit.resources), None)
 
-    def _fire(self, unit: PlanUnit, now: GlobalTime, reached: list[Reached], dropped: list[Dropped]) -> None:
+    def _fire(self, unit: PlanUnit, now: GlobalTime, reached: list[Reached]) -> None:
         ahead = unit.ahead()
         if unit.due(now):
             unit.begin()
         try:
             unit.fire(now)
         except Exception as failure:
-            logger.exception("%s/%s:%s failed while playing", *unit.block, unit.behavior.id)
-            self._drop(unit, Fault("unit-failed", {"reason": failure}), now, dropped)
+            self._fail(unit, failure, now)
         reached.extend(Reached(unit, point, point.fired) for point in ahead if point.fired is not None)
 
-    def _drop(self, unit: PlanUnit, fault: Fault, now: GlobalTime, dropped: list[Dropped]) -> None:
+    def _fail(self, unit: PlanUnit, failure: Exception, now: GlobalTime) -> None:
+        logger.error("%s/%s:%s failed while playing", *unit.block, unit.behavior.id, exc_info=failure)
+        self._drop(unit, Fault("unit-failed", {"reason": failure}), now)
+
+    def _drop(self, unit: PlanUnit, fault: Fault, now: GlobalTime) -> None:
         unit.drop(now)
-        dropped.append(Dropped(unit, fault))
+        self._dropped.append(Dropped(unit, fault))
 
 
 def _taken(unit: PlanUnit, owner: PlanUnit) -> Fault:

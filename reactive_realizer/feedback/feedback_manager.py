@@ -4,8 +4,9 @@ import logging
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from reactive_realizer.clock.ticker import RATE
 from reactive_realizer.clock.units import GlobalTime
-from reactive_realizer.feedback.messages import BlockProgress, Message, SyncPointProgress
+from reactive_realizer.feedback.messages import BlockProgress, Message, SyncPointProgress, WarningFeedback
 from reactive_realizer.feedback.xml import to_xml
 
 logger = logging.getLogger(__name__)
@@ -65,6 +66,8 @@ class FeedbackManager:
             self._tell(Report(time, message, to_xml(message)))
 
     def _tell(self, report: Report) -> None:
+        level = logging.WARNING if isinstance(report.message, WarningFeedback) else logging.DEBUG
+        logger.log(level, "tick %d: %s", round(report.time * RATE), report.xml)
         for listener in tuple(self._listeners):
             try:
                 listener(report)

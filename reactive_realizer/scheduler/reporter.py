@@ -1,6 +1,5 @@
 """What the scheduler has to tell, as feedback in its place."""
 
-import logging
 from collections.abc import Iterable
 
 from reactive_realizer.bml.behavior import Behavior
@@ -15,8 +14,6 @@ from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.scheduler.problem import Loss
-
-logger = logging.getLogger(__name__)
 
 _BEFORE_ALL, _AFTER_ALL = -1.0, float("inf")
 
@@ -72,7 +69,6 @@ class Reporter:
         if fault.kind.warning is not None:
             known = None if id_ == BLOCK else character
             self._feedback.say(WarningFeedback(known, id_, fault.kind.warning, str(fault)))
-        logger.warning("%s %s: %s", character, id_, fault)
 
     def _progress(self, block: BMLBlock, sync: str, time: GlobalTime, behavior: float) -> None:
         message = BlockProgress(*block.key, sync, time, block.state.value)

@@ -56,7 +56,7 @@ class AnimationEngine(DefaultEngine):
             Layer(LayerKind.BASE, REST_POSE),
             Layer(LayerKind.ADDITIVE, self._idle.rotations(tick.time)),
             *(release.at(tick.time) for release in self._releases),
-            *(unit.layer(tick.time) for unit in self._units()),
+            *self.player.show(AnimationUnit, lambda unit: unit.layer(tick.time), tick.time),
         )
 
     def face(self, tick: Tick) -> Mapping[str, float]:
@@ -65,11 +65,9 @@ class AnimationEngine(DefaultEngine):
 
     def eyes(self, tick: Tick) -> Eyes | None:
         """The eyes of the gaze that plays; straight ahead without one."""
-        gazing = [unit for unit in self._units() if isinstance(unit.motion, GazeMotionUnit)]
-        return _eyes_of(gazing[-1]) if gazing else None
-
-    def _units(self) -> list[AnimationUnit]:
-        return [unit for unit in self.player.playing if isinstance(unit, AnimationUnit)]
+        units = (unit for unit in self.player.playing if isinstance(unit, AnimationUnit))
+        gazing = [(unit, unit.motion) for unit in units if isinstance(unit.motion, GazeMotionUnit)]
+        return _eyes_of(*gazing[-1]) if gazing else None
 
     def _release(self, unit: AnimationUnit, time: GlobalTime) -> None:
         if unit.shown.rotations:
@@ -86,11 +84,7 @@ def _place(behavior: Behavior, joints: frozenset[str]) -> tuple[LayerKind, froze
     return LayerKind.GESTURE, frozenset(arms[joint[0]] for joint in joints if joint[:2] in ("l_", "r_"))
 
 
-def _eyes_of(unit: AnimationUnit) -> Eyes:
-    motion = unit.motion
-    if not isinstance(motion, GazeMotionUnit):
-        raise TypeError(motion)
-
+def _eyes_of(unit: AnimationUnit, motion: GazeMotionUnit) -> Eyes:
     def eyes(composed: Body) -> dict[str, Quat]:
         layer = motion.eye_layer(unit.phase, composed)
         return {joint: slerp(IDENTITY, rotation, layer.weight) for joint, rotation in layer.rotations.items()}

@@ -59,7 +59,7 @@ class FaceEngine(DefaultEngine):
         """Weights of morph targets now."""
         mouth = self._spoken(tick.time)
         self._fading = [fading for fading in self._fading if tick.time < fading.since + _FADE]
-        shown = [unit.shown(tick.time) for unit in self.player.playing if isinstance(unit, FaceUnit)]
+        shown = self.player.show(FaceUnit, lambda unit: unit.shown(tick.time), tick.time)
         shown += [_faded(fading, tick.time) for fading in self._fading]
         face = _added(shown)
         if mouth:

@@ -1,0 +1,73 @@
+"""Motions between pegs, as frames show them."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.testing.pilot import open_pilot
+
+BINDING = """
+<gesturebinding>
+  <MotionUnitSpec type="gesture">
+    <constraints><constraint name="lexeme" value="BREAKS"/></constraints>
+    <MotionUnit type="ProcAnimation" file="breaks.xml"/>
+  </MotionUnitSpec>
+  <MotionUnitSpec type="gesture">
+    <constraints><constraint name="lexeme" value="LIFT"/></constraints>
+    <MotionUnit type="ProcAnimation" file="lift.xml"/>
+  </MotionUnitSpec>
+</gesturebinding>
+"""
+BREAKS = '<ProcAnimation prefDuration="1"><Rotation target="l_elbow" rotation="0 - sqrt(0.5 - t);0;0"/></ProcAnimation>'
+LIFT = '<ProcAnimation prefDuration="2"><Rotation target="r_elbow" rotation="0 - sin(t*pi);0;0"/></ProcAnimation>'
+
+
+@pytest.fixture
+async def pilot(tmp_path: Path):
+    for name, text in {"gesturebinding.xml": BINDING, "breaks.xml": BREAKS, "lift.xml": LIFT}.items():
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    async with open_pilot(SceneOptions(voice="text", assets=(tmp_path,))) as pilot:
+        pilot.watch()
+        yield pilot
+
+
+def rotations(pilot, joint):
+    """A joint's rotation in each frame, (F, 4)."""
+    joints = pilot.realizer.characters["alice"].humanoid.avatar.skeleton.joints
+    return np.array([frame.rotations for frame in pilot.frames["alice"]])[:, joints.index(joint)]
+
+
+def turns(path):
+    """By how much a joint turned from each frame to the next, rad, (F - 1,)."""
+    return 2 * np.arccos(np.clip(np.abs(np.sum(path[1:] * path[:-1], axis=1)), 0, 1))
+
+
+async def test_a_motion_that_has_no_pose_any_more_stops_with_a_warning_and_the_rest_moves_on(pilot) -> None:
+    pilot.block("b", '<gesture id="bad" lexeme="BREAKS"/><gesture id="good" lexeme="LIFT"/>')
+    await pilot.advance(4)
+    assert pilot.feedback.warnings == [("b:bad", "EXECUTION_FAILURE")]
+    assert pilot.feedback.time("b:bad:end") < 0.6
+    assert pilot.feedback.time("b:good:end") == 2.0
+    assert turns(rotations(pilot, "r_elbow")[40:60]).max() > 0.001
+
+
+async def test_a_motion_that_is_cut_goes_back_to_rest_without_a_jump(pilot) -> None:
+    await pilot.advance(0.1)
+    pilot.block("b", '<gesture id="g" lexeme="LIFT"/>')
+    await pilot.advance(1)
+    pilot.block("stop", composition="REPLACE")
+    await pilot.advance(2)
+    path = rotations(pilot, "r_elbow")
+    assert turns(path).max() < 0.3
+    assert turns(path[[0, -1]]) < 0.01
+
+
+async def test_a_figure_that_does_nothing_breathes_and_blinks(pilot) -> None:
+    await pilot.advance(10)
+    assert turns(rotations(pilot, "vt6")).max() > 0
+    morphs = pilot.realizer.characters["alice"].humanoid.avatar.morphs
+    lids = np.array([frame.weights for frame in pilot.frames["alice"]])[:, morphs.index("eyeBlinkLeft")]
+    assert lids.max() > 0.8
+    assert np.median(lids) == 0
