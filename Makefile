@@ -18,7 +18,7 @@ PAGE := $(STATIC)/index.html
 PAGE_SOURCES := $(shell find web \( -name node_modules -o -name dist -o -name avatars -o -name tests \) -prune -o -type f -print 2>/dev/null)
 
 .DEFAULT_GOAL := help
-.PHONY: help install page demo test check format wheel avatars clean
+.PHONY: help install page demo test check format docs wheel avatars clean
 .DELETE_ON_ERROR:
 
 help: ## List what can be made
@@ -46,6 +46,11 @@ check: $(INSTALLED) $(NODE_MODULES) ## Check format, style, types and who import
 format: $(INSTALLED) ## Format the Python sources
 	$(BIN)/ruff format .
 	$(BIN)/ruff check --fix .
+
+docs: $(INSTALLED) ## Write the pages of docs/ that are made from the code
+	$(BIN)/python docs/make_support.py
+	$(BIN)/python docs/make_errors.py
+	$(BIN)/python docs/make_limits.py
 
 wheel: $(INSTALLED) $(PAGE) ## Build the wheel, page included, into dist/
 	SKIP_WEB_BUILD=1 $(PIP) wheel --no-deps --build-constraint constraints.txt --wheel-dir dist .

@@ -1,0 +1,185 @@
+"""Writes docs/support.md from the parser's tables, the engines of the default scene, and its bindings."""
+
+import asyncio
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+
+from reactive_realizer.assembly.scene import Scene, SceneOptions, open_scene
+from reactive_realizer.binding.face_lexemes import read_face_lexemes
+from reactive_realizer.binding.gesture_binding import GestureBinding
+from reactive_realizer.bml.attributes import Attribute, Integer, attributes_of
+from reactive_realizer.bml.behavior import Behavior, Description
+from reactive_realizer.bml.behaviors import Mark
+from reactive_realizer.bml.block import BehaviorBlock
+from reactive_realizer.bml.document import parse
+from reactive_realizer.bml.elements import ELEMENTS, Element
+from reactive_realizer.bml.names import BML, BML_EXT
+from reactive_realizer.bml.posture import Pose, Stance
+from reactive_realizer.errors import ERRORS
+from reactive_realizer.limits import Limits
+
+PAGE = Path(__file__).with_name("support.md")
+
+_CHILDREN = {
+    "speech": "<text>Hello.</text>",
+    "face": '<faceLexeme lexeme="CLOSE_EYES"/>',
+    "faceShift": '<faceLexeme lexeme="CLOSE_EYES"/>',
+    "posture": '<stance type="STANDING"/>',
+    "postureShift": '<stance type="STANDING"/>',
+}
+"""What an element needs inside to be read."""
+
+_INSIDE: tuple[tuple[str, type, bool], ...] = (
+    ("sync of a speech's text", Mark, True),
+    ("stance of a posture", Stance, False),
+    ("pose of a posture", Pose, False),
+    ("description of any behavior", Description, False),
+)
+"""Elements inside of behaviors: their title, what is read from them, and whether that is realized."""
+
+_NOTES = {
+    "gesture mode": "without it: the right hand",
+    "gaze target": "a name of the world, a character, or its joint: `alice:l_wrist`",
+    "gaze influence": "without it: HEAD; `NECK` is HEAD, `TORSO` is WAIST; WHOLE leaves the feet where they stand",
+    "wait duration": "nothing stretches it",
+    "wait max-wait": "how long it lasts where neither `duration` nor its sync points say it",
+}
+
+_HEAD = """\
+# What is supported
+
+This page is made by `make docs` from the code that reads BML and the engines that play it. Everything of the BML 1.0
+core, and `faceFacs` of the core extensions, is *read* and checked: ids, references, values. *Realized* means that it
+is seen or heard. What is read and not realized is left out with one warning, and the rest of the block plays.
+"""
+
+_SYNC_POINTS = """\
+
+Every sync point is an attribute that may be tied to another point. `head` with a `repetition` n above 1 has `stroke:1`
+to `stroke:n` in the place of `stroke`; `speech` has its inline `<sync id="..."/>` between `start` and `end`.
+
+An attribute without a namespace that is not in these tables is passed over with a warning (`PARSING_FAILURE`); one
+whose value cannot be read drops its behavior, with the same warning.
+"""
+
+_LEXEMES = """\
+
+## Lexemes
+
+Words are read in any case, with `_` or `-`. One that is not in this table drops its behavior with a warning
+(`CANNOT_CREATE_BEHAVIOR`). Those of `gesture` and `head` are entries of a binding that can be exchanged:
+[how to add a gesture](gesture.md).
+
+"""
+
+_AROUND = """\
+
+## Around behaviors
+
+| element | realized | |
+|---|---|---|
+| `required` | yes | what is inside must succeed, or the block ends FAILED and nothing of it plays |
+| `constraint`, `synchronize` | yes | the points of its `<sync ref="..."/>` are one; an absolute one pins them |
+| `constraint`, `before`, `after` | no | dropped, warning `IMPOSSIBLE_TO_SCHEDULE`; in `required` the block fails |
+| `description` | no | its attributes are checked, then the core behavior plays |
+
+## Other namespaces
+
+| what | realized | |
+|---|---|---|
+| `dynamic="true"` on `gaze`, of `http://hmi.ewi.utwente.nl/bmlt` | yes | the gaze follows a target that moves |
+| other attributes | no | warning `CUSTOM_ATTRIBUTE_NOT_SUPPORTED`; what they stand on plays |
+| elements, those of BMLA and BMLT among them | no | warning `CUSTOM_BEHAVIOUR_NOT_SUPPORTED` |
+"""
+
+
+def page() -> str:
+    """The page as Markdown."""
+    return asyncio.run(_page())
+
+
+async def _page() -> str:
+    async with open_scene(SceneOptions(voice="text")) as scene:
+        engines = {name: _engine(element, scene) for name, element in ELEMENTS.items()}
+        lexemes = _lexemes(scene)
+    attributes = [_own_table(each, engines[name] is not None) for name, each in ELEMENTS.items()]
+    inside = [_attributes(title, attributes_of(data), realized) for title, data, realized in _INSIDE]
+    block = "\n## The block\n\n" + _attribute_table("bml", attributes_of(BehaviorBlock), True)
+    return "".join(
+        [_HEAD, block, _elements(engines), _SYNC_POINTS, *attributes, *inside, _LEXEMES, lexemes, _AROUND],
+    )
+
+
+def _engine(element: Element, scene: Scene) -> str | None:
+    """The engine that says it supports the behavior."""
+    behavior = _example(element)
+    (character,) = scene.realizer.characters.values()
+    return next((engine.name.partition("/")[2] for engine in character.engines if engine.supports(behavior)), None)
+
+
+def _example(element: Element) -> Behavior:
+    """The behavior of the least that can be written of an element."""
+    name = f"ext:{element.name}" if element.namespace == BML_EXT else element.name
+    needed = " ".join(f'{each.name}="{_sample(each)}"' for each in element.attributes if each.required)
+    written = f"<{name} {needed}>{_CHILDREN.get(element.name, '')}</{name}>"
+    (parsed,) = parse(f'<bml xmlns="{BML}" xmlns:ext="{BML_EXT}" id="b">{written}</bml>', Limits())
+    if parsed.block is None or not parsed.block.behaviors:
+        raise ValueError(f"{written} is no example of {element.name}: {parsed.problems}")
+    return parsed.block.behaviors[0]
+
+
+def _sample(attribute: Attribute) -> str:
+    return "1" if isinstance(attribute.type, Integer) else "example"
+
+
+def _elements(engines: Mapping[str, str | None]) -> str:
+    rows = (_element_row(element, engines[name]) for name, element in ELEMENTS.items())
+    return "\n## Behaviors\n\n" + _table(("element", "realized by the engine", "warning", "sync points"), rows)
+
+
+def _element_row(element: Element, engine: str | None) -> tuple[str, ...]:
+    warning = "" if engine else f"`{ERRORS['not-supported'].warning}`"
+    return f"`{element.name}`", engine or "none", warning, ", ".join(element.sync_points)
+
+
+def _own_table(element: Element, realized: bool) -> str:
+    return _attributes(element.name, element.attributes, realized)
+
+
+def _attributes(title: str, attributes: Iterable[Attribute], realized: bool) -> str:
+    return f"\n### {title}\n\n" + _attribute_table(title, attributes, realized)
+
+
+def _attribute_table(element: str, attributes: Iterable[Attribute], realized: bool) -> str:
+    rows = (_attribute_row(element, each, realized) for each in attributes)
+    return _table(("attribute", "value", "default", "realized", ""), rows)
+
+
+def _attribute_row(element: str, attribute: Attribute, realized: bool) -> tuple[str, ...]:
+    default = "must be written" if attribute.required else _default(attribute.default)
+    note = _NOTES.get(f"{element} {attribute.name}", "")
+    return f"`{attribute.name}`", attribute.type.description, default, "yes" if realized else "no", note
+
+
+def _default(value: object) -> str:
+    if value is None:
+        return ""
+    return f"{value:g}" if isinstance(value, float) else str(value)
+
+
+def _lexemes(scene: Scene) -> str:
+    """Words that mean something in the package's own files."""
+    found: dict[str, set[str]] = {}
+    for spec in GestureBinding.read(scene.assets("gesturebinding.xml")).specs:
+        found.setdefault(spec.behavior, set()).add(spec.constraints["lexeme"])
+    found["faceLexeme"] = set(read_face_lexemes(scene.assets("face/lexemes.json")))
+    rows = ((f"`{element}`", ", ".join(sorted(words))) for element, words in sorted(found.items()))
+    return _table(("element", "words of the default scene"), rows)
+
+
+def _table(head: tuple[str, ...], rows: Iterable[tuple[str, ...]]) -> str:
+    return "".join(f"| {' | '.join(cells)} |\n" for cells in (head, ("---",) * len(head), *rows))
+
+
+if __name__ == "__main__":
+    PAGE.write_text(page(), encoding="utf-8")

@@ -1,0 +1,74 @@
+"""The commands on the pages do what the pages say; what a page shows of their output is what they print."""
+
+import re
+import shlex
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from reactive_realizer.__main__ import main
+
+from .conftest import EXAMPLES, REPOSITORY, Fence, fences
+
+PAGES = ["README.md", *(f"docs/{path.name}" for path in sorted((REPOSITORY / "docs").glob("*.md")))]
+SESSIONS = [fence for name in PAGES for fence in fences(name, "console")]
+RUN = ("realize", "check")
+
+
+def commands(session: Fence) -> Iterator[tuple[list[str], list[str]]]:
+    """Each command and the lines that are shown under it."""
+    for command in re.split(r"^\$ ", session.text, flags=re.MULTILINE)[1:]:
+        line, *shown = command.splitlines()
+        yield shlex.split(line), shown
+
+
+def fits(printed: str, shown: str) -> bool:
+    """Whether a line is as shown; three dots stand for the rest of it."""
+    return printed.startswith(shown[:-3]) if shown.endswith("...") else printed == shown
+
+
+def run(arguments: list[str]) -> int:
+    try:
+        return main(arguments)
+    except SystemExit as ended:
+        return int(ended.code or 0)
+
+
+@pytest.fixture
+def elsewhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A folder with the examples, into which commands may write."""
+    (tmp_path / "examples").symlink_to(EXAMPLES)
+    monkeypatch.chdir(tmp_path)
+
+
+@pytest.mark.usefixtures("elsewhere")
+@pytest.mark.parametrize("session", SESSIONS, ids=str)
+def test_a_session_of_a_page_goes_as_it_is_shown(session: Fence, capsys: pytest.CaptureFixture[str]) -> None:
+    status = 0
+    for (program, *arguments), shown in commands(session):
+        if program == "reactive-realizer" and arguments[0] in RUN:
+            status = run(arguments)
+            printed = capsys.readouterr().out.splitlines()
+            assert len(printed) == len(shown), printed
+            assert [line for line, whole in zip(printed, shown, strict=True) if not fits(line, whole)] == []
+        elif program == "echo":
+            assert shown == [str(status)]
+        else:  # servers and their clients are run elsewhere
+            assert program in ("reactive-realizer", "make", "python", "curl")
+
+
+@pytest.mark.usefixtures("elsewhere")
+def test_the_frames_of_the_page_are_read_as_it_says(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["realize", "examples/say_hello.xml", "--voice", "text", "--frames", "hello.npz"]) == 0
+    (program,) = fences("docs/cli.md", "python")
+    exec(compile(program.text, str(program), "exec"), {})
+    assert re.fullmatch(r"\(\d+, 4\)\n", capsys.readouterr().out)
+
+
+@pytest.mark.parametrize("command", ["realize", "check", "serve", "demo"])
+def test_the_page_names_every_option(command: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run([command, "--help"]) == 0
+    options = set(re.findall(r"--[a-z-]+", capsys.readouterr().out)) - {"--help"}
+    text = (REPOSITORY / "docs" / "cli.md").read_text(encoding="utf-8")
+    assert {option for option in options if f"`{option}" not in text} == set()

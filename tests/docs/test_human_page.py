@@ -1,0 +1,49 @@
+"""docs/human.md: its example is played, and its tables are those of the code."""
+
+import re
+from dataclasses import fields
+from pathlib import Path
+
+import pytest
+
+from reactive_realizer.assembly.human_file import CharacterSpec, read_human_file
+from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.testing.pilot import open_pilot
+
+from .conftest import EXAMPLES, fences, page
+
+HUMAN, BLOCKS = EXAMPLES / "two_characters.toml", EXAMPLES / "two_characters.xml"
+
+
+async def test_both_characters_play_and_one_waits_for_the_words_of_the_other() -> None:
+    async with open_pilot(SceneOptions(HUMAN, "text")) as pilot:
+        pilot.watch()
+        pilot.perform(BLOCKS.read_bytes())
+        await pilot.advance(6)
+        told = pilot.feedback
+        assert told.warnings == []
+        assert (told.status("ask"), told.status("answer")) == ("DONE", "DONE")
+        assert told.time("answer:nod:start") == told.time("ask:words:end")
+        assert told.time("answer:words:start") == pytest.approx(told.time("ask:words:end") + 0.3)
+        for frames in (pilot.frames["alice"], pilot.frames["bert"]):
+            assert max(abs(frame.rotations - frames[0].rotations).max() for frame in frames) > 0.1
+
+
+def test_the_page_shows_the_files_of_the_example() -> None:
+    assert fences("docs/human.md", "toml")[0].text == HUMAN.read_text(encoding="utf-8")
+    assert fences("docs/human.md", "xml")[0].text == BLOCKS.read_text(encoding="utf-8")
+
+
+def test_the_table_lists_every_key_of_a_character() -> None:
+    rows = re.findall(r"^\| `(\w+)` \|", page("docs/human.md"), re.MULTILINE)
+    assert rows == [each.name for each in fields(CharacterSpec)]
+
+
+@pytest.mark.parametrize("name", ["docs/gesture.md", "docs/human.md"])
+def test_every_human_file_on_a_page_can_be_read(name: str, tmp_path: Path) -> None:
+    examples = fences(name, "toml")
+    assert examples
+    for example in examples:
+        file = tmp_path / "human.toml"
+        file.write_text(example.text, encoding="utf-8")
+        assert read_human_file(file).characters

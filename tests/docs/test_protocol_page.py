@@ -1,0 +1,89 @@
+"""docs/protocol.md against the schema, the routes and the frames of the server."""
+
+import json
+import re
+from collections.abc import AsyncIterator
+from typing import Any
+
+import numpy as np
+import pytest
+from aiohttp.test_utils import TestClient, TestServer
+from jsonschema import Draft202012Validator
+
+from reactive_realizer.assembly.scene import SceneOptions, open_scene
+from reactive_realizer.clock.clock import ManualClock
+from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.server.app import create_app
+from reactive_realizer.server.frame_codec import encode_frame
+from reactive_realizer.server.live import Live
+from reactive_realizer.server.protocol import DOCUMENT
+from reactive_realizer.server.routes_page import STATIC
+from reactive_realizer.server.security import Security
+
+from .conftest import Fence, fences, page
+
+SCHEMA = json.loads(DOCUMENT)
+EXAMPLES = fences("docs/protocol.md", "json") + fences("docs/anticipators.md", "json")
+MESSAGES = [example for example in EXAMPLES if not example.note]
+ANSWERS = [example for example in EXAMPLES if example.note]
+
+
+@pytest.fixture
+async def client() -> AsyncIterator[TestClient[Any, Any]]:
+    async with open_scene(SceneOptions(voice="text")) as scene:
+        app = create_app(Live(scene, ManualClock()), Security())
+        async with TestClient(TestServer(app)) as client:
+            yield client
+
+
+@pytest.mark.parametrize("example", MESSAGES, ids=str)
+def test_every_message_of_the_page_keeps_to_the_schema(example: Fence) -> None:
+    Draft202012Validator(SCHEMA).validate(json.loads(example.text))
+
+
+@pytest.mark.parametrize("direction", ["ClientMessage", "ServerMessage"])
+def test_there_is_an_example_of_every_message(direction: str) -> None:
+    validator = Draft202012Validator({"$ref": f"#/$defs/{direction}", "$defs": SCHEMA["$defs"]})
+    messages = [json.loads(example.text) for example in MESSAGES]
+    shown = {message["type"] for message in messages if validator.is_valid(message)}
+    names = [alternative["$ref"].rpartition("/")[2] for alternative in SCHEMA["$defs"][direction]["oneOf"]]
+    assert shown == {SCHEMA["$defs"][name]["properties"]["type"]["const"] for name in names}
+
+
+@pytest.mark.parametrize("example", ANSWERS, ids=str)
+async def test_a_request_is_answered_with_the_fields_that_the_page_shows(client: TestClient, example: Fence) -> None:
+    method, path, status = example.note.removeprefix("answer: ").split()
+    options = {"data": "<bml/>", "headers": {"Content-Type": "text/xml"}} if method == "POST" else {}
+    answer = await client.request(method, path, **options)
+    told, shown = await answer.json(), json.loads(example.text)
+    assert answer.status == int(status)
+    assert told.keys() == shown.keys()
+    if "error" in shown:
+        assert told == shown
+    for name in ("ticks", "worker"):
+        assert told.get(name, {}).keys() == shown.get(name, {}).keys()
+
+
+def routes_of(client: TestClient) -> set[str]:
+    """Method and path of every route, the files of the page aside."""
+    files = {f"/{file.relative_to(STATIC).as_posix()}" for file in STATIC.rglob("*")}
+    routes = [(route.method, route.resource.canonical) for route in client.app.router.routes() if route.resource]
+    return {f"{method} {path}" for method, path in routes if method in ("GET", "POST") and path not in files}
+
+
+async def test_the_page_lists_every_route(client: TestClient) -> None:
+    listed = set(re.findall(r"^\| `((?:GET|POST) \S+)` \|", page("docs/protocol.md"), re.MULTILINE))
+    assert listed == routes_of(client)
+
+
+def test_the_program_on_the_page_reads_a_frame() -> None:
+    (program,) = fences("docs/protocol.md", "python")
+    names: dict[str, Any] = {}
+    exec(compile(program.text, str(program), "exec"), names)
+    rotations = np.array([[1.0, 0.0, 0.0, 0.0], [0.5, -0.5, 0.5, 0.5]])
+    weights = np.array([0.0, 0.25, 1.0])
+    frame = encode_frame(1, 7, GlobalTime(2.5), np.array([0.5, 1.0, -1.0]), rotations, weights)
+    read = names["read_frame"](frame)
+    assert (read["character"], read["time"], read["root"]) == (1, 2.5, [0.5, 1.0, -1.0])
+    assert read["rotations"] == pytest.approx(rotations, abs=1e-4)
+    assert read["weights"] == pytest.approx(weights, abs=1e-4)
