@@ -1,6 +1,7 @@
 """Where a session goes: feedback as JSON lines, frames as an npz file."""
 
 import json
+import os
 from pathlib import Path
 from typing import IO
 
@@ -21,8 +22,12 @@ class FeedbackWriter:
     def __call__(self, report: Report) -> None:
         """Write a report."""
         line = {"time": round(report.time, 6), "xml": report.xml}
-        self._stream.write(json.dumps(line, ensure_ascii=False) + "\n")
-        self._stream.flush()
+        try:
+            self._stream.write(json.dumps(line, ensure_ascii=False) + "\n")
+            self._stream.flush()
+        except BrokenPipeError:
+            # Whoever read has gone, as `head` does: the session goes on, nobody is told.
+            os.dup2(os.open(os.devnull, os.O_WRONLY), self._stream.fileno())
 
 
 class FrameRecorder:

@@ -22,14 +22,16 @@ class Engine(Protocol):
 
     Attributes:
         name: for logs: ``character/modality``.
+        behaviors: the kinds of behaviors it plays.
         extensions: the attributes of other namespaces, (namespace, local name), that mean something to it.
     """
 
     name: str
+    behaviors: frozenset[type[Behavior]]
     extensions: frozenset[tuple[str, str]]
 
     def supports(self, behavior: Behavior) -> bool:
-        """Whether behaviors of this kind are its own."""
+        """Whether a behavior is its own."""
         ...
 
     def prepare(self, behavior: Behavior) -> Awaitable[object] | None:
@@ -64,11 +66,16 @@ class Engine(Protocol):
 class DefaultEngine:
     """An engine around a `Player`; modalities override what they have."""
 
+    behaviors: frozenset[type[Behavior]] = frozenset()
     extensions: frozenset[tuple[str, str]] = frozenset()
 
     def __init__(self, name: str) -> None:
         self.name = name
         self.player = Player()
+
+    def supports(self, behavior: Behavior) -> bool:
+        """Behaviors of its kinds, and no special cases of these."""
+        return type(behavior) in self.behaviors
 
     def prepare(self, behavior: Behavior) -> Awaitable[object] | None:
         """Nothing is slow."""

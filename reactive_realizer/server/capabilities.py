@@ -7,14 +7,17 @@ from typing import Any
 from reactive_realizer.assembly.scene import Scene
 from reactive_realizer.binding.face_lexemes import read_face_lexemes
 from reactive_realizer.binding.gesture_binding import GestureBinding
+from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.elements import ELEMENTS, Element
 
 
 async def capabilities_of(scene: Scene) -> dict[str, Any]:
     """Elements with their attributes and sync points, and what stands in the scene's bindings, voice and world."""
     lexemes, parameters = await asyncio.to_thread(_bound, scene)
+    engines = [engine for character in scene.realizer.characters.values() for engine in character.engines]
+    realized = frozenset[type[Behavior]]().union(*(engine.behaviors for engine in engines))
     return {
-        "elements": {name: _element(element) for name, element in ELEMENTS.items()},
+        "elements": {name: _element(element, realized) for name, element in ELEMENTS.items()},
         "lexemes": lexemes,
         "parameters": parameters,
         "voices": await scene.tts.voices() if hasattr(scene.tts, "voices") else [],
@@ -22,9 +25,10 @@ async def capabilities_of(scene: Scene) -> dict[str, Any]:
     }
 
 
-def _element(element: Element) -> dict[str, Any]:
+def _element(element: Element, realized: frozenset[type[Behavior]]) -> dict[str, Any]:
     return {
         "namespace": element.namespace,
+        "realized": element.behavior in realized,
         "attributes": [attribute.name for attribute in element.attributes],
         "syncPoints": element.sync_points,
     }

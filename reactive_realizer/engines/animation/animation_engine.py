@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from random import Random
 
 from reactive_realizer.bml.behavior import Behavior
-from reactive_realizer.bml.behaviors import Gaze, GazeShift, Gesture, Head
+from reactive_realizer.bml.behaviors import Gaze, Gesture, Head
 from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body
@@ -27,6 +27,8 @@ GAZE = "direction of the head"
 class AnimationEngine(DefaultEngine):
     """Turns the joints of one figure."""
 
+    behaviors = frozenset({Gesture, Head, Gaze})
+
     def __init__(self, context: EngineContext) -> None:
         super().__init__(f"{context.character}/animation")
         self._humanoid = context.humanoid
@@ -34,10 +36,6 @@ class AnimationEngine(DefaultEngine):
         self._idle = Idle(Random(context.seed))
         self._releases: list[Release] = []
         self.extensions = self._library.extensions
-
-    def supports(self, behavior: Behavior) -> bool:
-        """Gestures, head movements and gaze, but not what lasts."""
-        return isinstance(behavior, Gesture | Head | Gaze) and not isinstance(behavior, GazeShift)
 
     def plan(self, block: BlockKey, behavior: Behavior, prepared: object) -> AnimationUnit:
         """The motion that the binding has for the behavior.

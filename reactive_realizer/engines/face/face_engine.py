@@ -31,16 +31,14 @@ class _Fading:
 class FaceEngine(DefaultEngine):
     """Mixes expressions with the mouth of the voice; whoever speaks has the mouth."""
 
+    behaviors = frozenset({FaceLexeme})
+
     def __init__(self, context: EngineContext) -> None:
         super().__init__(f"{context.character}/face")
         self._lexemes = {_word(name): w for name, w in read_face_lexemes(context.asset(_LEXEMES)).items()}
         self._lip_sync = context.lip_sync
         self._fading: list[_Fading] = []
         self._mouth: Mapping[str, float] = {}
-
-    def supports(self, behavior: Behavior) -> bool:
-        """Single lexemes."""
-        return isinstance(behavior, FaceLexeme)
 
     def plan(self, block: BlockKey, behavior: Behavior, prepared: object) -> FaceUnit:
         """The face that a lexeme means.

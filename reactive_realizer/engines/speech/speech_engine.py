@@ -20,16 +20,14 @@ from reactive_realizer.pegboard.peg_key import BlockKey
 class SpeechEngine(DefaultEngine):
     """Speaks with the voice of its character; offers what the mouth does (`LipSyncProvider`)."""
 
+    behaviors = frozenset({Speech})
+
     def __init__(self, context: EngineContext) -> None:
         super().__init__(f"{context.character}/speech")
         self._tts: TextVoice | TTSBinding = context.tts
         self._voice = context.voice
         self._announcer = Announcer(context.character)
         self._tracks: dict[SpeechUnit, VisemeTrack] = {}
-
-    def supports(self, behavior: Behavior) -> bool:
-        """Speeches only."""
-        return isinstance(behavior, Speech)
 
     def prepare(self, behavior: Behavior) -> Awaitable[object] | None:
         """Synthesis, unless the voice answers at once."""

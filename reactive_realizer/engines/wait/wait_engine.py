@@ -10,14 +10,12 @@ from reactive_realizer.planunit.timing import Phase, PhaseKind, Timing
 
 
 class WaitEngine(DefaultEngine):
-    """Waits: a duration is rigid; without one a wait lasts as long as its sync points say, at most ``max-wait``."""
+    """Waits: a duration is rigid; without one a wait lasts as its sync points say, else as ``max-wait`` says."""
+
+    behaviors = frozenset({Wait})
 
     def __init__(self, context: EngineContext) -> None:
         super().__init__(f"{context.character}/wait")
-
-    def supports(self, behavior: Behavior) -> bool:
-        """Waits only."""
-        return isinstance(behavior, Wait)
 
     def plan(self, block: BlockKey, behavior: Behavior, prepared: object) -> PlanUnit:
         """A unit that only has time."""
