@@ -6,8 +6,8 @@ All functions are pure. Directions are yaw (to the figure's left) and pitch (up)
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from enum import StrEnum
 
+from reactive_realizer.bml.words import Influence
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, conjugate, from_euler, rotate
 from reactive_realizer.embodiment.vector import Vec3, add, length, scale, subtract
@@ -22,16 +22,6 @@ EYE_PITCH = math.radians(25.0)
 
 # What the joints must leave to the eyes is less than these can do, so that a nod does not lose the target.
 _COMFORT = 0.8
-
-
-class Influence(StrEnum):
-    """What takes part in a gaze; each includes the ones before it (BML 1.0)."""
-
-    EYES = "EYES"
-    HEAD = "HEAD"
-    SHOULDER = "SHOULDER"
-    WAIST = "WAIST"
-    WHOLE = "WHOLE"
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,6 +4,7 @@ import math
 from collections.abc import Callable, Mapping
 from types import MappingProxyType
 
+from reactive_realizer.bml.words import Influence
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.pose import Layer, LayerKind
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, slerp
@@ -11,7 +12,6 @@ from reactive_realizer.embodiment.skeleton import Pose
 from reactive_realizer.embodiment.vector import Vec3
 from reactive_realizer.engines.animation.easing import minimum_jerk, share
 from reactive_realizer.engines.animation.gaze import (
-    Influence,
     aim_eyes,
     gaze_joints,
     offset_target,

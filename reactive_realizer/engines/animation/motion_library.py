@@ -9,10 +9,10 @@ from reactive_realizer.binding.gesture_binding import GestureBinding, UnitSpec, 
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.behaviors import Gaze
 from reactive_realizer.bml.names import BMLT
+from reactive_realizer.bml.words import Influence
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.vector import ZERO, Vec3
 from reactive_realizer.engine.context import EngineContext
-from reactive_realizer.engines.animation.gaze import Influence
 from reactive_realizer.engines.animation.gaze_motion_unit import GazeMotionUnit
 from reactive_realizer.engines.animation.gesture_motion_unit import GestureMotionUnit
 from reactive_realizer.engines.animation.motion_unit import MotionUnit
@@ -72,10 +72,9 @@ class MotionLibrary:
     def _gaze(self, behavior: Gaze) -> GazeMotionUnit:
         if self._context.world.position(behavior.target) is None:
             raise error("no-target", target=behavior.target, known=", ".join(self._context.world.targets))
-        influence = Influence(behavior.influence.value) if behavior.influence else Influence.HEAD
         return GazeMotionUnit(
             self._target(behavior.target, behavior.extensions.get(DYNAMIC) == "true"),
-            influence,
+            behavior.influence or Influence.HEAD,
             REST_POSE,
             behavior.offset_angle,
             behavior.offset_direction.value,

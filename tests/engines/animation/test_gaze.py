@@ -7,6 +7,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from reactive_realizer.bml.words import Influence
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.pose import Layer, LayerKind, compose
 from reactive_realizer.embodiment.quaternion import (
@@ -23,7 +24,6 @@ from reactive_realizer.engines.animation.gaze import (
     EYE_PITCH,
     EYE_YAW,
     EYES,
-    Influence,
     aim_eyes,
     eye_point,
     gaze_joints,
