@@ -69,6 +69,7 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
         "out-of-range": ErrorKind("not within {low} and {high}"),
         "unknown-word": ErrorKind("known are {known}"),
         "not-a-reference": ErrorKind("not a sync reference, [block:]behavior:sync[+seconds] or seconds"),
+        "only-block-start": ErrorKind("of a block itself only its start can be named, as in bml:start"),
         "absurd-time": ErrorKind("more than {limit:g} s"),
         "unknown-element": ErrorKind("unknown {element} in <{parent}>; known are {known}", _PARSING),
         "missing-element": ErrorKind("<{element}> needs {children} in it", _PARSING),

@@ -48,7 +48,7 @@ class SyncRef:
             names: sync points known to exist that look like a name and an offset (``s-1``); these are names.
 
         Raises:
-            RealizerError: ``not-a-reference`` or ``absurd-time``.
+            RealizerError: ``not-a-reference``, ``only-block-start`` or ``absurd-time``.
         """
         if len(text) > _MOST_CHARACTERS:
             raise error("not-a-reference")
@@ -69,8 +69,10 @@ class SyncRef:
         """With every name legal, and ``bml:start`` as the start of the block."""
         if behavior == BLOCK and sync == "start":
             behavior = sync = None
+        if behavior == BLOCK:
+            raise error("only-block-start")
         names = (block, behavior, sync and sync.removeprefix("stroke:"))
-        if behavior == BLOCK or any(name is not None and not _NAME.fullmatch(name) for name in names):
+        if any(name is not None and not _NAME.fullmatch(name) for name in names):
             raise error("not-a-reference")
         return cls(None if block == BLOCK else block, behavior, sync, offset)
 

@@ -39,12 +39,18 @@ class PegBoard:
         self.graph = graph
         self._pegs: dict[PegKey, TimeCell] = {}
         self._blocks: dict[BlockKey, list[PegKey]] = {}
+        self._owners: dict[TimeCell, BlockKey] = {}
         self._forecasts: dict[str, Callable[[str], Time]] = {}
 
     def add(self, key: PegKey, peg: TimeCell) -> None:
         """Name a peg; one peg may bear several names."""
         self._pegs[key] = peg
         self._blocks.setdefault(key.block_key, []).append(key)
+        self._owners.setdefault(peg, key.block_key)
+
+    def owner(self, peg: TimeCell) -> BlockKey | None:
+        """The block that a peg is named for; None for one that has no name."""
+        return self._owners.get(peg)
 
     def get(self, key: PegKey) -> TimeCell | None:
         """The peg of that name."""
@@ -63,12 +69,12 @@ class PegBoard:
 
         Pegs that others hang on live on with them.
         """
-        for key in self._blocks.pop(block, ()):
-            self._pegs.pop(key, None)
+        for key in dict.fromkeys(self._blocks.pop(block, ())):
+            self._owners.pop(self._pegs.pop(key), None)
         predicted = self._blocks.get(_PREDICTED, [])
         self._blocks[_PREDICTED] = [key for key in predicted if not self._forgettable(key)]
         for key in set(predicted).difference(self._blocks[_PREDICTED]):
-            del self._pegs[key]
+            self._owners.pop(self._pegs.pop(key), None)
 
     def predicted(self, anticipator: str, sync: str) -> AnticipatorPeg:
         """The peg of a predicted point, made when it is first named; unknown unless its anticipator has an answer."""

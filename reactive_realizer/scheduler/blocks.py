@@ -49,6 +49,12 @@ class Blocks:
         """The block alive of exactly that name."""
         return self._alive.get(key)
 
+    def last_of(self, character: str) -> list[BMLBlock]:
+        """The blocks of a character that no other one waits for: when they have ended, all have."""
+        own = self.of(character)
+        awaited = {target for block in own for target in block.targets}
+        return [block for block in own if block not in awaited]
+
     def find(self, character: str, block: str) -> BMLBlock | None:
         """The block alive that a reference names: the character's own, else the first of any other character."""
         own = self.get(BlockKey(character, block))

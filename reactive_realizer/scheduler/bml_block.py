@@ -46,7 +46,7 @@ class BMLBlock:
         noticed: time of the tick in which it started; its peg may lie before that.
         start: its peg; pinned when it starts.
         end: the latest end of its behaviors.
-        targets: the blocks it is appended to.
+        targets: the blocks it waits for; what these wait for in turn is not among them.
         units: its behaviors that are planned and not dropped, in document order.
     """
 
@@ -78,6 +78,11 @@ class BMLBlock:
         self.start.wait_for(now, self._waits())
         self.end_again(now)
         self.state = BlockState.LURKING
+
+    def wait_instead(self, ended: "BMLBlock") -> None:
+        """Within a transaction: wait for what an ended target waited for, in its place."""
+        self.targets = (*(target for target in self.targets if target is not ended), *ended.waits_for)
+        self.start.wait_for(self.start.floor, self._waits())
 
     def end_again(self, floor: GlobalTime) -> None:
         """Within a transaction: the end follows the behaviors that are left, and is not before ``floor``."""

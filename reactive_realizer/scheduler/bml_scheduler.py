@@ -57,7 +57,7 @@ class BMLScheduler:
         self._planner = BlockPlanner(cast, self.blocks, planning, workshop, self._reporter)
         self._predictions = Predictions(feedback)
         self._arrivals = 0
-        self._touched = False
+        self._moved: set[BlockKey | None] = set()
         board.graph.listen(self._note)
 
     # --- what comes in
@@ -127,7 +127,11 @@ class BMLScheduler:
     def clamp(self, previous: GlobalTime, now: GlobalTime, commits: Iterable[Commit]) -> None:
         """Points ahead that were written into the past happen now; behaviors that lost their order are dropped."""
         moved = {change.cell for commit in commits for change in commit.changes}
-        units = [u for b in self.blocks.alive for u in b.live_units if any(p.peg in moved for p in u.points)]
+        if not moved:
+            return
+        owners = {self._board.owner(cell) for cell in moved}
+        blocks = [block for block in self.blocks.alive if block.key in owners]
+        units = [u for block in blocks for u in block.live_units if any(p.peg in moved for p in u.points)]
         with self._board.graph.transaction("no later than now"):
             for point in (point for unit in units for point in unit.ahead()):
                 time = point.peg.value
@@ -146,9 +150,9 @@ class BMLScheduler:
 
     def publish(self, now: GlobalTime) -> None:
         """Say predictions that have moved."""
-        if self._touched:
-            self._touched = False
-            for block in self.blocks.alive:
+        moved, self._moved = self._moved, set()
+        for block in self.blocks.alive if moved else ():
+            if block.key in moved:
                 self._predictions.publish(block, now)
 
     def stuck(self, now: GlobalTime) -> bool:
@@ -169,7 +173,7 @@ class BMLScheduler:
 
     def _new_block(self, description: BehaviorBlock, character: str, now: GlobalTime) -> BMLBlock:
         self._arrivals += 1
-        targets = self.blocks.of(character) if description.composition is Composition.APPEND else []
+        targets = self.blocks.last_of(character) if description.composition is Composition.APPEND else []
         key = BlockKey(character, description.id)
         block = BMLBlock(self._board, key, description, self._arrivals, now, targets)
         self.blocks.add(block)
@@ -221,10 +225,18 @@ class BMLScheduler:
         self.blocks.end(block, time)
         for unit in block.units:
             self._cast.take(unit)
-        block.targets = ()
+        self._hand_over_targets(block)
         self._release_tied(cut, state, time)
         self.failed += state is BlockState.FAILED
         logger.info("%s/%s %s at %.2f s, %d behaviors", *block.key, state.value, time, len(block.units))
+
+    def _hand_over_targets(self, ended: BMLBlock) -> None:
+        """Who waited for a block that ended before its turn waits for what that one waited for."""
+        with self._board.graph.transaction(f"after {ended.key.block}"):
+            for block in self.blocks.alive:
+                if ended in block.targets and ended.waits_for:
+                    block.wait_instead(ended)
+        ended.targets = ()
 
     def _release_tied(self, cut: Sequence[TimePeg], state: BlockState, now: GlobalTime) -> None:
         """Behaviors of other blocks that hang on points which never come keep the times predicted last, and say so.
@@ -320,11 +332,11 @@ class BMLScheduler:
             block.state = BlockState.SUBSIDING
 
     def _owe_prediction(self, block: BMLBlock) -> None:
-        self._touched = True
+        self._moved.add(block.key)
         self._predictions.owe(block)
 
     def _note(self, commit: Commit) -> None:
-        self._touched = True
+        self._moved.update(self._board.owner(change.cell) for change in commit.changes)
 
 
 def _known(time: Time, now: GlobalTime) -> GlobalTime:

@@ -99,6 +99,7 @@ class _Run:
             tied = self._met(item, tied)
         first = min(tied)
         known = self._not_before_the_block(item, {first: tied[first]} if item.timing.rigid else tied)
+        _check_given(item, known)
         placed = _fill(item, known)
         _check(item, placed)
         self._join([point.anchor for point in (*tied.values(), *known.values())])
@@ -270,6 +271,18 @@ def _between(before: Placed, after: Placed, ratio: float) -> Placed:
     known = before.time is not None and after.time is not None
     time = before.time + ratio * (after.time - before.time) if known else None  # type: ignore[operator]
     return Placed(AtRatio(before.spec, after.spec, ratio), time, before.anchor)
+
+
+def _check_given(item: Item, known: Mapping[int, Placed]) -> None:
+    """Refuse times that were asked for and are out of order, by the names they were asked for.
+
+    Raises:
+        RealizerError: "out-of-order".
+    """
+    given = [(item.timing.points[i], time) for i, p in sorted(known.items()) if (time := p.time) is not None]
+    for (sync, time), (later, then) in itertools.combinations(given, 2):
+        if then < time - _SHORTEST:
+            raise error("out-of-order", sync=sync, later=later, gap=time - then)
 
 
 def _check(item: Item, placed: list[Placed]) -> None:

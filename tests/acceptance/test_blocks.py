@@ -222,3 +222,20 @@ async def test_a_required_tie_that_contradicts_others_fails_the_block(pilot) -> 
     await pilot.tick()
     assert pilot.feedback.status("b") == "FAILED"
     assert pilot.feedback.warnings == [("b", "IMPOSSIBLE_TO_SCHEDULE")]
+
+
+async def test_a_block_appended_to_one_that_fails_still_waits_for_what_that_one_waited_for(pilot) -> None:
+    pilot.block("long", '<wait id="w" duration="1"/>')
+    pilot.block("bad", '<required><gesture id="g" lexeme="NO-SUCH"/></required>', composition="APPEND")
+    pilot.block("next", '<wait id="w" duration="0.2"/>', composition="APPEND")
+    await pilot.advance(2)
+    assert pilot.feedback.status("bad") == "FAILED"
+    assert pilot.feedback.time("next:start") == pilot.feedback.time("long:end") == 1.0
+
+
+async def test_a_queue_plays_in_order_without_a_gap(pilot) -> None:
+    for number in range(30):
+        pilot.block(f"b{number}", '<wait id="w" duration="0.05"/>', composition="APPEND")
+    await pilot.advance(2)
+    starts = [pilot.feedback.time(f"b{number}:start") for number in range(30)]
+    assert starts == pytest.approx([0.05 * number for number in range(30)])

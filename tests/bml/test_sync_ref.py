@@ -75,7 +75,6 @@ def test_a_reference_is_written_so_that_it_reads_back_the_same() -> None:
         "speech1:st art",
         "a:b:c:d",
         "a:b:c:stroke:1",
-        "bml:end",
         "nan",
         "inf",
         "-infinity",
@@ -91,6 +90,12 @@ def test_what_is_no_reference_is_refused(text: str) -> None:
     with pytest.raises(RealizerError) as refused:
         SyncRef.parse(text, LIMITS)
     assert refused.value.fault.code == "not-a-reference"
+
+
+def test_the_end_of_a_block_cannot_be_named_and_the_answer_says_so() -> None:
+    with pytest.raises(RealizerError) as refused:
+        SyncRef.parse("bml:end", LIMITS)
+    assert refused.value.fault.code == "only-block-start"
 
 
 @pytest.mark.parametrize("text", ["1e999", "-86401", "g1:end+1e9", "bml1:100000"])
