@@ -10,6 +10,6 @@ from reactive_realizer.clock.units import GlobalTime
 class LipSyncProvider(Protocol):
     """A timed track of the mouth, offered by a speech engine and handed to the face engine by `assembly`."""
 
-    def mouth(self, time: GlobalTime) -> Mapping[str, float]:
-        """Weights (0..1) of ARKit morphs at a time; empty while nothing is said."""
+    def mouth(self, time: GlobalTime) -> Mapping[str, float] | None:
+        """Weights (0..1) of ARKit morphs at a time; empty in a pause of what is said, None while nothing is said."""
         ...

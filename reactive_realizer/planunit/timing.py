@@ -1,7 +1,7 @@
 """How long a behavior wants to take: its sync points in order and the phases between them."""
 
 import itertools
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import Enum
 
@@ -61,8 +61,3 @@ def timing_at(offsets: Mapping[str, float], kind: PhaseKind = PhaseKind.ELASTIC)
     """A timing from the times (s) of its points after the start, in order, all phases of one kind."""
     times = list(offsets.values())
     return Timing(tuple(offsets), tuple(Phase(b - a, kind) for a, b in itertools.pairwise(times)))
-
-
-def timing_of(points: Sequence[str], phases: Sequence[Phase]) -> Timing:
-    """A timing from its phases."""
-    return Timing(tuple(points), tuple(phases))

@@ -39,8 +39,7 @@ class GestureMotionUnit:
         Raises:
             RealizerError: "no-motion": the animation has no pose at its ready or relax.
         """
-        known = {name: value for name, value in parameters.items() if name in animation.parameters}
-        self.parameters: dict[str, float] = {**animation.parameters, **known}
+        self.parameters = animation.values(parameters)
         self._animation = animation
         self._rest = rest
         self._begin = {joint: body.rotation(joint) for joint in animation.joints}
@@ -63,14 +62,18 @@ class GestureMotionUnit:
     def _way(self, start: Body, goal: Body) -> float:
         """How long the hands would like to take between two poses, s.
 
-        Peak speed of a minimum-jerk reach is 1.9 times its mean; with these numbers the hand stays below 2 m/s.
+        Peak speed of a minimum-jerk reach is 1.9 times its mean; with these numbers a wrist stays below 2 m/s, and
+        a fingertip, which also swings about the wrist, below 2.5 m/s.
         """
         between = {joint: slerp(start.rotation(joint), goal.rotation(joint), 0.5) for joint in self.joints}
-        halfway = start.posed(between)
-        wrists = [f"{side}_wrist" for side in ("l", "r") if f"{side}_shoulder" in self.joints]
-        paths = [[body.place(wrist).position for body in (start, halfway, goal)] for wrist in wrists]
-        furthest = max((distance(begin, half) + distance(half, end) for begin, half, end in paths), default=0.0)
-        return 0.25 + 0.75 * furthest
+        bodies = (start, start.posed(between), goal)
+        return max(0.25 + 0.75 * self._furthest("wrist", bodies), 0.84 * self._furthest("middle3", bodies))
+
+    def _furthest(self, joint: str, bodies: tuple[Body, ...]) -> float:
+        """The longer of the ways of a joint of the left and of the right arm, m; 0 where neither arm is turned."""
+        names = (f"{side}_{joint}" for side in ("l", "r") if f"{side}_shoulder" in self.joints)
+        paths = [[body.place(name).position for body in bodies] for name in names if name in bodies[0].skeleton]
+        return max((sum(distance(a, b) for a, b in pairwise(path)) for path in paths), default=0.0)
 
     @property
     def joints(self) -> frozenset[str]:

@@ -88,6 +88,10 @@ class ProcAnimation:
         yield from (track.path for track in self.effectors)
         yield from (key.rotation for track in self.keyframes for key in track.keyframes)
 
+    def values(self, parameters: Mapping[str, float]) -> dict[str, float]:
+        """Values of its parameters: as given, else its own; names that it does not know are of no effect."""
+        return {name: parameters.get(name, value) for name, value in self.parameters.items()}
+
     def timing(self, parameters: Mapping[str, float]) -> Timing:
         """When things happen, for given values of the parameters.
 

@@ -27,8 +27,7 @@ class ProcMotionUnit:
         Raises:
             RealizerError: "no-motion": durations or key positions make no sense with these values.
         """
-        known = {name: value for name, value in parameters.items() if name in animation.parameters}
-        self.parameters: dict[str, float] = {**animation.parameters, **known}
+        self.parameters = animation.values(parameters)
         self._animation = animation
         # Where things happen is planned once: a parameter that changes while it plays changes the motion only.
         self._timing = animation.timing(self.parameters)

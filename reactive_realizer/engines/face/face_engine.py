@@ -1,7 +1,6 @@
 """The engine of the face (thesis 8.9)."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 from reactive_realizer.binding.face_lexemes import read_face_lexemes
 from reactive_realizer.bml.behavior import Behavior
@@ -11,21 +10,12 @@ from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.engine.context import EngineContext
 from reactive_realizer.engine.engine import DefaultEngine
 from reactive_realizer.engines.face.face_unit import FaceUnit
+from reactive_realizer.engines.face.fadings import Fadings
+from reactive_realizer.engines.face.mouth_share import MouthShare
 from reactive_realizer.errors import error
 from reactive_realizer.pegboard.peg_key import BlockKey
 
 _LEXEMES = "face/lexemes.json"
-_WHILE_SPEAKING = 0.5
-"""Share of an expression's mouth that is shown while words need the mouth."""
-
-_FADE = 0.25
-"""s in which a face that was cut goes."""
-
-
-@dataclass(frozen=True, slots=True)
-class _Fading:
-    weights: Mapping[str, float]
-    since: GlobalTime
 
 
 class FaceEngine(DefaultEngine):
@@ -37,7 +27,9 @@ class FaceEngine(DefaultEngine):
         super().__init__(f"{context.character}/face")
         self._lexemes = {_word(name): w for name, w in read_face_lexemes(context.asset(_LEXEMES)).items()}
         self._lip_sync = context.lip_sync
-        self._fading: list[_Fading] = []
+        self._share = MouthShare()
+        self._faces = Fadings()
+        self._mouths = Fadings()
         self._mouth: Mapping[str, float] = {}
 
     def plan(self, block: BlockKey, behavior: Behavior, prepared: object) -> FaceUnit:
@@ -55,31 +47,25 @@ class FaceEngine(DefaultEngine):
 
     def face(self, tick: Tick) -> Mapping[str, float]:
         """Weights of morph targets now."""
-        mouth = self._spoken(tick.time)
-        self._fading = [fading for fading in self._fading if tick.time < fading.since + _FADE]
+        mouth = self._lip_sync.mouth(tick.time) if self._lip_sync else None
+        share = self._share.at(tick.time, mouth is not None)
         shown = self.player.show(FaceUnit, lambda unit: unit.shown(tick.time), tick.time)
-        shown += [_faded(fading, tick.time) for fading in self._fading]
-        face = _added(shown)
-        if mouth:
-            face = {m: w * (_WHILE_SPEAKING if m.startswith(("mouth", "jaw")) else 1.0) for m, w in face.items()}
-        return _added([face, mouth])
+        face = _added(shown + self._faces.shown(tick.time))
+        face = {m: w * (share if m.startswith(("mouth", "jaw")) else 1.0) for m, w in face.items()}
+        spoken = self._spoken(mouth or {}, tick.time)
+        # The more of the two, not both: lips that smile need not be spread once more for an "ee".
+        return {m: max(face.get(m, 0.0), spoken.get(m, 0.0)) for m in face | spoken}
 
-    def _spoken(self, now: GlobalTime) -> Mapping[str, float]:
+    def _spoken(self, mouth: Mapping[str, float], now: GlobalTime) -> dict[str, float]:
         """What the voice does with the mouth; where a word is cut, the mouth closes as a face goes."""
-        mouth = self._lip_sync.mouth(now) if self._lip_sync else {}
         if self._mouth and not mouth:
-            self._fading.append(_Fading(self._mouth, now))
+            self._mouths.add(self._mouth, now)
         self._mouth = mouth
-        return mouth
+        return _added([mouth, *self._mouths.shown(now)])
 
     def _release(self, unit: FaceUnit, time: GlobalTime) -> None:
         if unit.level > 0.0:
-            self._fading.append(_Fading({m: w * unit.level for m, w in unit.weights.items()}, time))
-
-
-def _faded(fading: _Fading, now: GlobalTime) -> dict[str, float]:
-    left = 1.0 - (now - fading.since) / _FADE
-    return {morph: weight * left for morph, weight in fading.weights.items()}
+            self._faces.add({m: w * unit.level for m, w in unit.weights.items()}, time)
 
 
 def _added(faces: Sequence[Mapping[str, float]]) -> dict[str, float]:

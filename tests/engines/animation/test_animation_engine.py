@@ -71,3 +71,22 @@ async def test_a_figure_that_does_nothing_breathes_and_blinks(pilot) -> None:
     lids = np.array([frame.weights for frame in pilot.frames["alice"]])[:, morphs.index("eyeBlinkLeft")]
     assert lids.max() > 0.8
     assert np.median(lids) == 0
+
+
+@pytest.mark.parametrize(("hit", "moved", "to"), [(1.3, 1.0, 1.0), (5.0, 4.6, 4.62)], ids=["to now", "much nearer"])
+async def test_a_stroke_that_is_moved_late_sets_the_hand_off_without_a_jerk(hit, moved, to) -> None:
+    async with open_pilot(SceneOptions(voice="text")) as pilot:
+        pilot.watch()
+        pilot.predict("test", "hit", hit)
+        pilot.block("b", '<gesture id="g" lexeme="BEAT" mode="RIGHT_HAND" stroke="anticipators:test:hit"/>')
+        await pilot.advance(moved)
+        pilot.predict("test", "hit", to)
+        await pilot.advance(1)
+        skeleton = pilot.realizer.characters["alice"].humanoid.avatar.skeleton
+        poses = [
+            dict(zip(skeleton.joints, map(tuple, frame.rotations), strict=True)) for frame in pilot.frames["alice"]
+        ]
+        path = np.array([skeleton.place(pose, "r_wrist").position for pose in poses])
+        steps = np.linalg.norm(np.diff(path, axis=0), axis=1)
+        assert steps.max() > 0.03, "it hurries"
+        assert np.diff(steps).max() < 0.0151

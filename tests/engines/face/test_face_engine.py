@@ -90,6 +90,26 @@ async def test_the_mouth_opens_while_words_sound_and_closes_softly_when_they_are
 
 
 @pytest.mark.speech
+async def test_a_smile_leaves_half_the_mouth_to_a_whole_speech_pauses_included_and_never_jumps() -> None:
+    async with open_pilot(SceneOptions()) as pilot:
+        pilot.watch()
+        smile = (
+            '<faceLexeme id="f" lexeme="RAISE_MOUTH_CORNERS" amount="1" start="0" attackPeak="1" relax="6.5" end="7"/>'
+        )
+        said = 'Bananas, <sync id="m"/>papayas. Soft, warm apples: all of them are there.'
+        pilot.block("b", f'{smile}<speech id="s" start="1.5"><text>{said}</text></speech>')
+        await pilot.advance(7)
+        assert pilot.feedback.time("b:s:end") < 6.2, "the smile is still held"
+        for morph in ("mouthSmileLeft", "mouthSmileRight", "mouthUpperUpLeft", "cheekSquintLeft"):
+            assert np.abs(np.diff(weight(pilot, morph))).max() < 0.12
+        smiling, end = weight(pilot, "mouthSmileLeft"), round(50 * pilot.feedback.time("b:s:end"))
+        assert smiling[74] == pytest.approx(smiling.max())
+        during = smiling[87 : end - 1]
+        assert during == pytest.approx(0.5 * smiling[74], abs=0.02)
+        assert smiling[end + 11] == pytest.approx(smiling[74], rel=0.05), "and has its mouth back"
+
+
+@pytest.mark.speech
 async def test_a_killed_worker_costs_its_speech_and_nothing_else() -> None:
     async with open_pilot(SceneOptions()) as pilot:
         pilot.block("b", '<speech id="s"><text>Never heard.</text></speech><head id="h" lexeme="NOD"/>')
