@@ -1,18 +1,25 @@
 """The human file: who is in the scene, what is around, and who predicts, as TOML."""
 
+import re
 import tomllib
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import asdict, dataclass, field, fields, replace
 from pathlib import Path
-from typing import Any, TypeVar
+from sys import float_info
+from typing import Any, Final, TypeVar
 
+from reactive_realizer.bml.names import BLOCK
 from reactive_realizer.embodiment.vector import ZERO, Vec3
 from reactive_realizer.errors import error
 from reactive_realizer.limits import Limits
 
 T = TypeVar("T")
 
-DEFAULT_ENGINES = ("speech", "animation", "face", "wait")
+DEFAULT_ENGINES: Final = ("speech", "animation", "face", "wait")
+DEFAULT_BINDINGS: Final[Mapping[str, str]] = {"gesture": "gesturebinding.xml"}
+
+_ID: Final = re.compile(r"[^\s:+\x00-\x1f\x7f]{1,200}")
+"""What BML can refer to."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,7 +32,7 @@ class CharacterSpec:
         position: of the place on the ground that it stands on, m.
         heading: how far it is turned to its left, degrees; 0 faces +z.
         engines: ids of engines, in rank order.
-        bindings: names of files among the assets, by kind.
+        bindings: names of files among the assets, by kind; those of `DEFAULT_BINDINGS` where nothing is said.
     """
 
     avatar: str = "avatars/female.glb"
@@ -33,7 +40,7 @@ class CharacterSpec:
     position: Vec3 = ZERO
     heading: float = 0.0
     engines: tuple[str, ...] = DEFAULT_ENGINES
-    bindings: Mapping[str, str] = field(default_factory=lambda: {"gesture": "gesturebinding.xml"})
+    bindings: Mapping[str, str] = field(default_factory=lambda: DEFAULT_BINDINGS)
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,23 +72,23 @@ def read_human_file(path: Path) -> HumanFile:
     """The scene that a file specifies.
 
     Raises:
-        RealizerError: not TOML, an unknown key (the known ones are listed), a value of another type.
+        RealizerError: not TOML, an id that nothing can refer to or that is taken, an unknown key (the known ones are
+            listed), a value of another type or out of range.
     """
     try:
         table = tomllib.loads(path.read_text(encoding="utf-8"))
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as problem:
+    except (ValueError, RecursionError) as problem:
         raise error("bad-human-file", file=path.name, key="the file", reason=problem) from problem
     reader = _Reader(path.name)
     reader.know("", table, ("character", "target", "anticipator", "limits"))
-    characters = reader.section(table, "character", lambda key, own: reader.read(CharacterSpec, key, own))
+    characters = reader.section(table, "character", reader.character)
     if not characters:
         raise error("bad-human-file", file=path.name, key="character", reason="there is none")
-    return HumanFile(
-        characters,
-        reader.section(table, "target", lambda key, own: reader.read(TargetSpec, key, own)),
-        reader.section(table, "anticipator", reader.anticipator),
-        reader.read(Limits, "limits", table.get("limits", {})),
-    )
+    targets = reader.section(table, "target", lambda key, own: reader.read(TargetSpec, key, own))
+    for id_ in characters.keys() & targets.keys():
+        raise error("bad-human-file", file=path.name, key=f"target.{id_}", reason="a character has this id")
+    anticipators = reader.section(table, "anticipator", reader.anticipator)
+    return HumanFile(characters, targets, anticipators, reader.limits(table.get("limits", {})))
 
 
 class _Reader:
@@ -94,7 +101,25 @@ class _Reader:
         own = table.get(name, {})
         if not isinstance(own, dict):
             raise self._bad(name, "a table is wanted")
+        for id_ in own:
+            if id_ == BLOCK or not _ID.fullmatch(id_):
+                raise self._bad(f"{name}.{id_!r}", error("not-an-id").fault.sentence)
         return {id_: read(f"{name}.{id_}", entry) for id_, entry in own.items()}
+
+    def character(self, key: str, table: Any) -> CharacterSpec:
+        spec = self.read(CharacterSpec, key, table)
+        self.know(f"{key}.bindings", spec.bindings, tuple(DEFAULT_BINDINGS))
+        for rank, engine in enumerate(spec.engines):
+            if engine in spec.engines[:rank]:
+                raise self._bad(f"{key}.engines", f"{engine!r} stands there twice")
+        return replace(spec, bindings={**DEFAULT_BINDINGS, **spec.bindings})
+
+    def limits(self, table: Any) -> Limits:
+        limits = self.read(Limits, "limits", table)
+        for name, value in asdict(limits).items():
+            if value < 1:
+                raise self._bad(f"limits.{name}", f"{value} is less than 1")
+        return limits
 
     def anticipator(self, key: str, table: Any) -> AnticipatorSpec:
         if not isinstance(table, dict) or not isinstance(table.get("kind"), str):
@@ -120,7 +145,7 @@ class _Reader:
 
     def _value(self, key: str, value: Any, kind: Any) -> Any:
         """The value, if it is of the kind that the field has."""
-        number = isinstance(value, int | float) and not isinstance(value, bool) and abs(value) < float("inf")
+        number = isinstance(value, int | float) and not isinstance(value, bool) and abs(value) <= float_info.max
         if number and (kind is float or kind is type(value)):
             return kind(value)
         if kind is str and isinstance(value, str):

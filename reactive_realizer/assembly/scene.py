@@ -17,7 +17,8 @@ from reactive_realizer.embodiment.world import World
 from reactive_realizer.engine.context import EngineContext
 from reactive_realizer.engine.engine import Engine
 from reactive_realizer.engine.lip_sync import LipSyncProvider
-from reactive_realizer.errors import error
+from reactive_realizer.engine.tts import TTSBinding
+from reactive_realizer.errors import RealizerError, error
 from reactive_realizer.pegboard.anticipator import Anticipator
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.realizer.character import Character
@@ -57,7 +58,7 @@ class Scene:
     realizer: Realizer
     specification: HumanFile
     assets: Assets
-    tts: Any
+    tts: TTSBinding
     avatars: Mapping[str, str] = field(default_factory=dict)
 
 
@@ -71,12 +72,13 @@ async def open_scene(options: SceneOptions) -> AsyncIterator[Scene]:
     specification = read_human_file(options.human)
     assets = Assets(options.assets)
     world = World({target: spec.position for target, spec in specification.targets.items()})
-    tts = load("tts", options.voice)()
+    tts: TTSBinding = load("tts", options.voice)()
     characters = [
         _character(id_, spec, world, assets, tts, options.seed + rank)
         for rank, (id_, spec) in enumerate(specification.characters.items())
     ]
-    realizer = Realizer(characters, world, _anticipators(specification), SmartBodyStrategy(), specification.limits)
+    anticipators = _anticipators(options.human.name, specification.anticipators)
+    realizer = Realizer(characters, world, anticipators, SmartBodyStrategy(), specification.limits)
     await tts.start()
     try:
         async with realizer:
@@ -86,7 +88,7 @@ async def open_scene(options: SceneOptions) -> AsyncIterator[Scene]:
         await tts.close()
 
 
-def _character(id_: str, spec: CharacterSpec, world: World, assets: Assets, tts: Any, seed: int) -> Character:
+def _character(id_: str, spec: CharacterSpec, world: World, assets: Assets, tts: TTSBinding, seed: int) -> Character:
     humanoid = Humanoid(Avatar.read(assets(spec.avatar)), spec.position, math.radians(spec.heading))
     world.add_character(id_, humanoid.locate)
     mouth = _Mouth()
@@ -102,22 +104,26 @@ class _Mouth:
     def __init__(self) -> None:
         self.voices: list[LipSyncProvider] = []
 
-    def mouth(self, time: Any) -> Mapping[str, float]:
-        return next((weights for voice in self.voices if (weights := voice.mouth(time))), {})
+    def mouth(self, time: Any) -> Mapping[str, float] | None:
+        return next((weights for voice in self.voices if (weights := voice.mouth(time)) is not None), None)
 
 
-def _anticipators(specification: HumanFile) -> Callable[[PegBoard], Mapping[str, Anticipator]]:
+def _anticipators(file: str, specs: Mapping[str, AnticipatorSpec]) -> Callable[[PegBoard], Mapping[str, Anticipator]]:
     def make(board: PegBoard) -> Mapping[str, Anticipator]:
-        return {id_: _anticipator(id_, spec, board) for id_, spec in specification.anticipators.items()}
+        return {id_: _anticipator(file, id_, spec, board) for id_, spec in specs.items()}
 
     return make
 
 
-def _anticipator(id_: str, spec: AnticipatorSpec, board: PegBoard) -> Anticipator:
+def _anticipator(file: str, id_: str, spec: AnticipatorSpec, board: PegBoard) -> Anticipator:
     cls: type[Anticipator] = load("anticipators", spec.kind)
     known = [name for name in signature(cls).parameters if name not in ("id", "board")]
     for name in spec.parameters:
         if name not in known:
             reason = f"unknown; known are {', '.join(['kind', *known])}"
-            raise error("bad-human-file", file="the human file", key=f"anticipator.{id_}.{name}", reason=reason)
-    return cls(id_, board, **spec.parameters)
+            raise error("bad-human-file", file=file, key=f"anticipator.{id_}.{name}", reason=reason)
+    try:
+        return cls(id_, board, **spec.parameters)
+    except RealizerError as refused:
+        reason = refused.fault.sentence
+        raise error("bad-human-file", file=file, key=f"anticipator.{id_}", reason=reason) from refused

@@ -3,11 +3,11 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from reactive_realizer.embodiment.humanoid import Humanoid
 from reactive_realizer.embodiment.world import World
 from reactive_realizer.engine.lip_sync import LipSyncProvider
+from reactive_realizer.engine.tts import TTSBinding
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,7 +31,7 @@ class EngineContext:
     world: World
     asset: Callable[[str], Path]
     seed: int
-    tts: Any
+    tts: TTSBinding
     voice: str | None
     bindings: dict[str, str]
     lip_sync: LipSyncProvider | None = None

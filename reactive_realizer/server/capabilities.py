@@ -20,7 +20,7 @@ async def capabilities_of(scene: Scene) -> dict[str, Any]:
         "elements": {name: _element(element, realized) for name, element in ELEMENTS.items()},
         "lexemes": lexemes,
         "parameters": parameters,
-        "voices": await scene.tts.voices() if hasattr(scene.tts, "voices") else [],
+        "voices": await scene.tts.voices(),
         "targets": list(scene.realizer.world.targets),
     }
 

@@ -3,7 +3,7 @@
 import io
 import wave
 
-from reactive_realizer.engines.speech.tts import Utterance
+from reactive_realizer.engine.tts import Utterance
 
 
 def wav_bytes(utterance: Utterance) -> bytes:

@@ -5,11 +5,14 @@ import logging
 import sys
 from collections import deque
 from contextlib import suppress
+from functools import partial
 from typing import Any, Self, cast
 
 from reactive_realizer.engines.speech.messages import Message, MessageDecoder, failure
 
 _WORKER = "reactive_realizer.engines.speech.espeak_worker"
+_START_PATIENCE = 30.0
+"""s for a worker to say hello: it has to load the library first."""
 _log = logging.getLogger(__name__)
 
 
@@ -17,7 +20,7 @@ class EspeakProcess(asyncio.SubprocessProtocol):
     """One run of the worker: requests go in, replies come back in the same order.
 
     A reply that nobody waits for any more is dropped when it comes. When the process ends, every request that is not
-    answered gets a failure.
+    answered gets a failure. A worker that keeps its next answer back for longer than the patience hangs, and is killed.
 
     Attributes:
         hello: the first message of the worker: its voices and their variants.
@@ -25,20 +28,27 @@ class EspeakProcess(asyncio.SubprocessProtocol):
     """
 
     _transport: asyncio.SubprocessTransport
+    _watch: asyncio.TimerHandle
 
-    def __init__(self) -> None:
+    def __init__(self, patience: float) -> None:
         loop = asyncio.get_running_loop()
         self.hello: asyncio.Future[Message] = loop.create_future()
         self.ended: asyncio.Future[None] = loop.create_future()
         self._unanswered = deque([self.hello])
         self._decoder = MessageDecoder()
+        self._patience = patience
+        self._hung = False
 
     @classmethod
-    async def start(cls) -> Self:
-        """A new worker process, in a session of its own: an interrupt from the terminal is the realizer's affair."""
+    async def start(cls, patience: float) -> Self:
+        """A new worker process, in a session of its own: an interrupt from the terminal is the realizer's affair.
+
+        Args:
+            patience: how long it may take over one answer, s.
+        """
         loop = asyncio.get_running_loop()
         command = (sys.executable, "-m", _WORKER)
-        _, process = await loop.subprocess_exec(cls, *command, stderr=None, start_new_session=True)
+        _, process = await loop.subprocess_exec(partial(cls, patience), *command, stderr=None, start_new_session=True)
         return process
 
     @property
@@ -50,6 +60,8 @@ class EspeakProcess(asyncio.SubprocessProtocol):
         """Sends a request; the future is its reply."""
         reply: asyncio.Future[Message] = asyncio.get_running_loop().create_future()
         self._unanswered.append(reply)
+        if len(self._unanswered) == 1:
+            self._expect_answer()
         if self.ended.done():
             self._fail_unanswered()
         else:
@@ -58,18 +70,19 @@ class EspeakProcess(asyncio.SubprocessProtocol):
 
     async def close(self) -> None:
         """Ends the process, whatever it is doing."""
-        with suppress(ProcessLookupError):
-            self._transport.kill()
+        self._kill()
         await asyncio.shield(self.ended)
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         """The process runs."""
         self._transport = cast("asyncio.SubprocessTransport", transport)
+        self._watch = asyncio.get_running_loop().call_later(_START_PATIENCE, self._give_up)
 
     def pipe_data_received(self, fd: int, data: bytes) -> None:
         """A piece of a reply came."""
         for message in self._decoder.feed(data):
             _answer(self._unanswered.popleft(), message)
+            self._expect_answer()
 
     def process_exited(self) -> None:
         """The worker ended; a child of it may still hold its pipes."""
@@ -81,9 +94,26 @@ class EspeakProcess(asyncio.SubprocessProtocol):
         self.ended.set_result(None)
         self._fail_unanswered()
 
+    def _expect_answer(self) -> None:
+        """Waits anew: requests queue in the worker, so that only the first of them takes its time."""
+        self._watch.cancel()
+        if self._unanswered:
+            self._watch = asyncio.get_running_loop().call_later(self._patience, self._give_up)
+
+    def _give_up(self) -> None:
+        _log.warning("the speech worker %d does not answer and is killed", self.pid)
+        self._hung = True
+        self._kill()
+
+    def _kill(self) -> None:
+        with suppress(ProcessLookupError):
+            self._transport.kill()
+
     def _fail_unanswered(self) -> None:
+        self._watch.cancel()
+        failed = Message({"failed": "no answer"}) if self._hung else failure(self._transport.get_returncode() or 0)
         while self._unanswered:
-            _answer(self._unanswered.popleft(), failure(self._transport.get_returncode() or 0))
+            _answer(self._unanswered.popleft(), failed)
 
 
 def _answer(reply: asyncio.Future[Message], message: Message) -> None:

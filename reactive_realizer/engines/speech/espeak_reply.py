@@ -8,9 +8,9 @@ from types import MappingProxyType
 
 import numpy as np
 
+from reactive_realizer.engine.tts import Phoneme, Utterance, Word
 from reactive_realizer.engines.speech.messages import Message
 from reactive_realizer.engines.speech.ssml import Markup
-from reactive_realizer.engines.speech.tts import Phoneme, Utterance, Word
 from reactive_realizer.engines.speech.words import word_spans
 
 _BYTES_PER_SAMPLE = 2

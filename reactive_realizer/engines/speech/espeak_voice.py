@@ -3,28 +3,37 @@
 import asyncio
 from importlib.util import find_spec
 
+from reactive_realizer.engine.tts import Utterance
 from reactive_realizer.engines.speech.espeak_process import EspeakProcess
 from reactive_realizer.engines.speech.espeak_reply import as_utterance
 from reactive_realizer.engines.speech.messages import Message
 from reactive_realizer.engines.speech.ssml import marked_up
-from reactive_realizer.engines.speech.tts import Utterance
 from reactive_realizer.errors import error
+
+_PATIENCE = 10.0
+"""s; the worker itself ends after 5 s what the library does not come to an end with."""
 
 
 class EspeakVoice:
     """A `TTSBinding` over the speech worker.
 
-    A worker that ended, for whatever reason, costs the utterances it was asked for; the next request starts another.
+    A worker that ended, for whatever reason, or hangs costs the utterances it was asked for; the next request starts
+    another.
     Names of voices are those of espeak-ng, upper or lower case, with or without a variant: ``en-us``, ``nl``,
     ``en-gb+f3``.
+
+    Args:
+        default_voice: what speaks where a character names no voice.
+        patience: how long the worker may take over one utterance, s.
 
     Attributes:
         restarts: how many workers were started after the first.
     """
 
-    def __init__(self, default_voice: str = "en-us") -> None:
+    def __init__(self, default_voice: str = "en-us", patience: float = _PATIENCE) -> None:
         self.restarts = 0
         self._default_voice = default_voice
+        self._patience = patience
         self._process: EspeakProcess | None = None
         self._starting = asyncio.Lock()
 
@@ -69,7 +78,7 @@ class EspeakVoice:
             if self._process is None or self._process.ended.done():
                 _require_espeak()
                 self.restarts += self._process is not None
-                self._process = await EspeakProcess.start()
+                self._process = await EspeakProcess.start(self._patience)
         return self._process, _succeeded(await asyncio.shield(self._process.hello))
 
 

@@ -15,8 +15,8 @@ from typing import BinaryIO
 from reactive_realizer.engines.speech.espeak_library import EspeakLibrary
 from reactive_realizer.engines.speech.messages import Message, MessageDecoder, failure
 
-_TIME_LIMIT = 20
-"""s for one child; the longest text we accept takes less than one second."""
+_TIME_LIMIT = 5
+"""s for one child, less than anyone's patience with the worker; the longest text we accept takes less than one."""
 
 
 def main() -> None:

@@ -9,11 +9,11 @@ from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.audio import AudioChange
 from reactive_realizer.engine.context import EngineContext
 from reactive_realizer.engine.engine import DefaultEngine
+from reactive_realizer.engine.tts import Utterance
 from reactive_realizer.engines.speech.announcer import Announcer
 from reactive_realizer.engines.speech.speech_unit import SpeechUnit
-from reactive_realizer.engines.speech.text_voice import TextVoice
-from reactive_realizer.engines.speech.tts import TTSBinding, Utterance
 from reactive_realizer.engines.speech.viseme_track import VisemeTrack
+from reactive_realizer.errors import error
 from reactive_realizer.pegboard.peg_key import BlockKey
 
 
@@ -24,43 +24,43 @@ class SpeechEngine(DefaultEngine):
 
     def __init__(self, context: EngineContext) -> None:
         super().__init__(f"{context.character}/speech")
-        self._tts: TextVoice | TTSBinding = context.tts
+        self._tts = context.tts
         self._voice = context.voice
         self._announcer = Announcer(context.character)
         self._tracks: dict[SpeechUnit, VisemeTrack] = {}
 
     def prepare(self, behavior: Behavior) -> Awaitable[object] | None:
         """Synthesis, unless the voice answers at once."""
-        if isinstance(self._tts, TextVoice) or not isinstance(behavior, Speech):
-            return None
-        return self._tts.synthesize(behavior.text, _marks(behavior), self._voice)
+        spoken = self._speak(behavior)
+        return None if isinstance(spoken, Utterance) else spoken
 
     def plan(self, block: BlockKey, behavior: Behavior, prepared: object) -> SpeechUnit:
         """A unit as long as the utterance is."""
-        if not isinstance(behavior, Speech):
-            raise TypeError(behavior)
-        if isinstance(self._tts, TextVoice):
-            return SpeechUnit(block, behavior, self._tts.speak(behavior.text, _marks(behavior)))
-        if not isinstance(prepared, Utterance):
-            raise TypeError(prepared)
-        return SpeechUnit(block, behavior, prepared)
+        utterance = self._speak(behavior) if prepared is None else prepared
+        if not isinstance(behavior, Speech) or not isinstance(utterance, Utterance):
+            raise TypeError(behavior, utterance)
+        if not utterance.words:
+            raise error("nothing-to-say")
+        return SpeechUnit(block, behavior, utterance)
 
     def audio(self, tick: Tick) -> tuple[AudioChange, ...]:
         """What became audible, moved or fell silent."""
         return self._announcer.changes(unit for unit in self.player.units if isinstance(unit, SpeechUnit))
 
-    def mouth(self, time: GlobalTime) -> Mapping[str, float]:
-        """Weights of ARKit morphs for what is being said; the mouth closes by itself when a speech is cut."""
+    def mouth(self, time: GlobalTime) -> Mapping[str, float] | None:
+        """Weights of ARKit morphs for what is being said, None while nothing sounds, at once when a speech is cut."""
         for unit in self.player.playing:
-            if isinstance(unit, SpeechUnit) and unit.started is not None:
+            if isinstance(unit, SpeechUnit) and unit.started is not None and unit.utterance.phonemes:
                 return self._track(unit).weights(time - unit.started)
-        return {}
+        return None
+
+    def _speak(self, behavior: Behavior) -> Utterance | Awaitable[Utterance]:
+        if not isinstance(behavior, Speech):
+            raise TypeError(behavior)
+        marks = tuple((mark.id, mark.char_index) for mark in behavior.marks)
+        return self._tts.synthesize(behavior.text, marks, self._voice)
 
     def _track(self, unit: SpeechUnit) -> VisemeTrack:
         if unit not in self._tracks:
             self._tracks = {unit: VisemeTrack(unit.utterance)}
         return self._tracks[unit]
-
-
-def _marks(behavior: Speech) -> tuple[tuple[str, int], ...]:
-    return tuple((mark.id, mark.char_index) for mark in behavior.marks)

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 from reactive_realizer.bml.behaviors import Speech
 from reactive_realizer.clock.units import RESOLUTION, GlobalTime
-from reactive_realizer.engines.speech.tts import Utterance
+from reactive_realizer.engine.tts import Utterance
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.planunit.timing import PhaseKind, timing_at

@@ -4,7 +4,7 @@ from dataclasses import replace
 from itertools import pairwise
 from types import MappingProxyType
 
-from reactive_realizer.engines.speech.tts import Utterance, Word
+from reactive_realizer.engine.tts import Utterance, Word
 from reactive_realizer.engines.speech.words import word_spans
 
 _CHARACTER = 0.06
@@ -16,7 +16,7 @@ _SENTENCE = 0.4
 
 
 class TextVoice:
-    """Speaks by showing: every character takes the same time, punctuation takes a pause.
+    """A `TTSBinding` that speaks by showing: every character takes the same time, punctuation takes a pause.
 
     The times depend on the text alone, so they are the same on every machine. They come without waiting.
     """
@@ -27,13 +27,18 @@ class TextVoice:
     async def close(self) -> None:
         """Nothing was taken."""
 
-    def speak(self, text: str, marks: tuple[tuple[str, int], ...]) -> Utterance:
+    async def voices(self) -> tuple[str, ...]:
+        """There is one voice, whatever the name that is asked for."""
+        return ()
+
+    def synthesize(self, text: str, marks: tuple[tuple[str, int], ...], voice: str | None = None) -> Utterance:
         """The utterance of a plain text, without phonemes and sound.
 
         Args:
             text: plain text, no markup; runs of white space count as one space.
             marks: (name, index into the text) of the places whose times are wanted; each gets the start of the word at
                 or after it, or the end of the utterance.
+            voice: not read.
         """
         words = _timed(text)
         duration = words[-1].start + _CHARACTER * len(words[-1].text) if words else 0.0

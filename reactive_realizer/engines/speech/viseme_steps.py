@@ -1,37 +1,62 @@
 """When a mouth goes from one viseme to the next.
 
-Every phoneme wants its viseme for as long as it sounds. The mouth takes a step around the border between two of them; a
-sound shorter than the steps at its borders is not reached in full, which is how co-articulation looks. Sounds that the
-lips make (p, b, m, f, v) do not put up with that: the steps around them lie outside of them, as wide as there is room
-before the next such sound.
+Every phoneme wants its viseme for as long as it sounds. The mouth takes a step around the border between two of them;
+a sound shorter than a step is not reached in full, which is how co-articulation looks. Sounds that the lips make (p, b,
+m, f, v) do not put up with that: the steps around them lie outside of them, as far as there is room before the next
+such sound. p, b and m keep the time to close the lips in any case, if need be a little early or late.
 """
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import accumulate, groupby, pairwise
 from operator import itemgetter
 
-from reactive_realizer.engines.speech.tts import Phoneme, Utterance
+from reactive_realizer.engine.tts import Phoneme, Utterance
 from reactive_realizer.engines.speech.visemes import SILENCE, VisemeTable
 
-STEP = 0.08
-"""s from one viseme to the next, where nothing is in the way."""
-SHORTEST_STEP = 0.04
-"""s; where lip sounds stand closer than this allows, the lips stay together for a shorter time rather than jump."""
+STEP = 0.07
+"""s from one viseme to the next, always: in a frame of 20 ms no weight changes by more than 0.29."""
 CLOSURE = 0.04
 """s of silence before the release of a plosive, which is its onset in an utterance (espeak-ng: 0.030-0.045 s)."""
-_LIPS = frozenset({"PP", "FF"})
+_TOUCH = 0.01
+"""s that the lips stay together at least, so that a frame shows it."""
+_CLOSED = "PP"
+_LIPS = frozenset({_CLOSED, "FF"})
 _LIP_PLOSIVES = frozenset("pb")
 _PLOSIVES = _LIP_PLOSIVES | frozenset("tdkgcɟqɢʈɖ\u0261")
 _STRESS = "ˈˌ"
 
 
 @dataclass(frozen=True, slots=True)
-class Step:
-    """The way from one viseme to the next, in s from the start of the utterance."""
+class _Border:
+    """Where one viseme is wanted no more and the next one is.
 
-    begin: float
-    end: float
+    Attributes:
+        left: whether the lips make the viseme before.
+        entered: whether they make the viseme after.
+        since: from when the one before is wanted, s.
+        at: the border, s.
+        until: until when the one after is wanted, s.
+        opened: when the lips were free last before, s.
+        closed: when they are wanted next after, s.
+    """
+
+    left: bool
+    entered: bool
+    since: float
+    at: float
+    until: float
+    opened: float
+    closed: float
+
+    @property
+    def wish(self) -> float:
+        """When its step would begin, were it not for its neighbors, s."""
+        if self.left == self.entered:
+            return self.at - STEP / 2
+        if self.entered:
+            return self.at - STEP + _given(self.at - self.opened, self.until - self.at)
+        return self.at - _given(self.closed - self.at, self.at - self.since)
 
 
 def wanted_visemes(utterance: Utterance, table: VisemeTable) -> list[tuple[str, float]]:
@@ -40,52 +65,50 @@ def wanted_visemes(utterance: Utterance, table: VisemeTable) -> list[tuple[str, 
     return [next(equal) for _, equal in groupby(wanted, key=itemgetter(0))]
 
 
-def steps_between(wanted: Sequence[tuple[str, float]], duration: float) -> list[Step]:
-    """One step between each two visemes; neither begins nor ends ever decrease.
+def step_begins(wanted: Sequence[tuple[str, float]], duration: float) -> list[float]:
+    """When the step between each two visemes begins, s; never decreasing, and the last step ends in time.
 
-    So each step is at every time further than the next one, and no weight is ever negative.
+    So each step is at every time as far as the next one or further, and no weight is negative. Where wishes are out of
+    order, a step begins in the middle between the latest wish before and the earliest after; for that, the time that
+    closed lips need is taken out of the time line and put back.
 
     Args:
         wanted: visemes with the times from which they are wanted, s.
-        duration: of the utterance, s.
+        duration: of the utterance, s, a step at least.
     """
-    borders = [(left in _LIPS, entered in _LIPS, at) for (left, _), (entered, at) in pairwise(wanted)]
-    opened = accumulate((at if left else 0.0 for left, _, at in borders), max)
-    closed = _accumulated_back((at if entered else duration for _, entered, at in borders), min)
-    steps = [_step(*border, *room) for border, *room in zip(borders, opened, closed, strict=True)]
-    begins = accumulate((step.begin for step in steps), max)
-    ends = _accumulated_back((step.end for step in steps), min)
-    return [_widened(begin, end, duration) for begin, end in zip(begins, ends, strict=True)]
+    closings = sum(viseme == _CLOSED for viseme, _ in wanted)
+    closing = min(STEP + _TOUCH, (duration - STEP) / max(closings, 1))
+    kept = [*accumulate(closing * (left == _CLOSED) for (left, _), _ in pairwise(wanted))]
+    wishes = [border.wish - time for border, time in zip(_borders(wanted, duration), kept, strict=True)]
+    latest = duration - STEP - closing * closings
+    after, before = accumulate(wishes, max), _from_the_end(accumulate(reversed(wishes), min))
+    middles = [(early + late) / 2 for early, late in zip(after, before, strict=True)]
+    return [max(0.0, min(middle, latest)) + time for middle, time in zip(middles, kept, strict=True)]
 
 
-def _accumulated_back(values: Iterable[float], function: Callable[[float, float], float]) -> list[float]:
-    return [*accumulate(reversed([*values]), function)][::-1]
-
-
-def _step(left_lips: bool, entered_lips: bool, at: float, opened: float, closed: float) -> Step:
-    """The step over one border, wherever its neighbors are.
+def _given(room: float, hold: float) -> float:
+    """What lips give of the time that they are together, s.
 
     Args:
-        left_lips: whether the lips made the sound before.
-        entered_lips: whether they make the sound after.
-        at: the border, s.
-        opened: when the lips were free last before, s.
-        closed: when they are wanted next after, s.
+        room: between them and the next or last time that lips are together, s; a sound there needs two steps.
+        hold: how long they are together, s.
     """
-    if left_lips and entered_lips:
-        return Step(at - STEP / 4, at + STEP / 4)
-    if entered_lips:
-        return Step(at - min(STEP, (at - opened) / 2), at)
-    if left_lips:
-        return Step(at, at + min(STEP, (closed - at) / 2))
-    return Step(at - STEP / 2, at + STEP / 2)
+    return max(0.0, min(STEP - room / 2, hold - _TOUCH))
 
 
-def _widened(begin: float, end: float, duration: float) -> Step:
-    """A step of the shortest width at least, inside the utterance."""
-    missing = max(0.0, SHORTEST_STEP - (end - begin))
-    begin, end = begin - missing / 2, end + missing / 2
-    return Step(max(0.0, min(begin, duration - SHORTEST_STEP)), min(duration, max(end, SHORTEST_STEP)))
+def _borders(wanted: Sequence[tuple[str, float]], duration: float) -> list[_Border]:
+    lips = [(left in _LIPS, entered in _LIPS) for (left, _), (entered, _) in pairwise(wanted)]
+    times = [at for _, at in wanted[1:]]
+    opened = accumulate((at if left else 0.0 for (left, _), at in zip(lips, times, strict=True)), max)
+    wanted_from = [at if entered else duration for (_, entered), at in zip(lips, times, strict=True)]
+    closed = _from_the_end(accumulate(reversed(wanted_from), min))
+    spans = zip([0.0, *times], times, [*times[1:], duration], strict=False)
+    rows = zip(lips, spans, opened, closed, strict=True)
+    return [_Border(*sides, *span, free, taken) for sides, span, free, taken in rows]
+
+
+def _from_the_end(values: Iterable[float]) -> list[float]:
+    return [*values][::-1]
 
 
 def _onsets(utterance: Utterance, table: VisemeTable) -> Iterator[tuple[str, float]]:

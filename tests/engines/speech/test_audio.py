@@ -3,8 +3,8 @@
 import io
 import wave
 
+from reactive_realizer.engine.tts import Utterance
 from reactive_realizer.engines.speech.audio import wav_bytes
-from reactive_realizer.engines.speech.tts import Utterance
 
 
 def test_a_wav_file_holds_the_samples_as_they_are():

@@ -150,6 +150,32 @@ async def test_two_speeches_after_a_death_start_one_worker(voice):
     assert voice.restarts == 1
 
 
+async def test_a_worker_that_hangs_is_killed_and_the_next_speech_starts_another():
+    voice = EspeakVoice(patience=1.0)
+    await voice.start()
+    try:
+        os.kill(worker_of(voice), signal.SIGSTOP)
+        async with asyncio.timeout(20):
+            outcomes = await asyncio.gather(spoken(voice, "one"), spoken(voice, "two"), return_exceptions=True)
+        assert [outcome.fault.code for outcome in outcomes] == ["voice-failed"] * 2
+        assert outcomes[0].fault.details["reason"] == "no answer"
+        assert (voice.alive, voice.restarts) == (False, 0)
+        assert (await spoken(voice, "hello")).audio
+        assert voice.restarts == 1
+    finally:
+        await voice.close()
+
+
+async def test_the_patience_with_a_worker_is_for_each_answer_however_many_wait(voice):
+    process = voice._process
+    first, second = (process.request({"ssml": "<speak>one</speak>", "voice": "gmw/en"}) for _ in range(2))
+    deadline = process._watch.when()
+    await first
+    assert process._watch.when() > deadline
+    await second
+    assert process._watch.cancelled()
+
+
 async def test_a_killed_child_costs_one_utterance_and_the_worker_goes_on(voice):
     pending, later = asyncio.ensure_future(spoken(voice, LONG)), asyncio.ensure_future(spoken(voice, "hello"))
     os.kill(await child_of(worker_of(voice)), signal.SIGKILL)

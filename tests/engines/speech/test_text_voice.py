@@ -10,7 +10,7 @@ TEXTS = st.text(st.sampled_from("ab 1.,!?-\u2014'"), max_size=60)
 
 
 def spoken(text: str, **marks: int):
-    return TextVoice().speak(text, tuple(marks.items()))
+    return TextVoice().synthesize(text, tuple(marks.items()))
 
 
 def test_it_speaks_about_three_words_a_second():

@@ -1,6 +1,6 @@
 """What a voice makes of a text, and what a text-to-speech system must offer (thesis 8.10, TTSBinding)."""
 
-from collections.abc import Mapping
+from collections.abc import Awaitable, Mapping
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -69,20 +69,33 @@ class Utterance:
 
 
 class TTSBinding(Protocol):
-    """A text-to-speech system that needs time to speak: its work is awaited, off the event loop's thread.
-
-    `TextVoice` is not one of these: it answers at once, so that its speech can start in the tick that plans it.
-    """
+    """A text-to-speech system, which all characters of a scene share."""
 
     async def start(self) -> None:
-        """Makes the voice ready.
+        """Makes the voices ready.
 
         Raises:
-            RealizerError: if it is not installed or does not start.
+            RealizerError: if they are not installed or do not start.
         """
 
-    async def synthesize(self, text: str, marks: tuple[tuple[str, int], ...], voice: str | None) -> Utterance:
+    async def close(self) -> None:
+        """Gives back what `start` took."""
+
+    async def voices(self) -> tuple[str, ...]:
+        """The names that `synthesize` knows, sorted; none if the system has one voice only.
+
+        Raises:
+            RealizerError: as `start`.
+        """
+        ...
+
+    def synthesize(
+        self, text: str, marks: tuple[tuple[str, int], ...], voice: str | None
+    ) -> Utterance | Awaitable[Utterance]:
         """Speaks a text.
+
+        A system that needs time gives an awaitable and works off the event loop's thread; with one that does not, a
+        speech can start in the tick that plans it.
 
         Args:
             text: plain text, no markup.
@@ -92,6 +105,4 @@ class TTSBinding(Protocol):
         Raises:
             RealizerError: if the voice is unknown or the synthesis failed; the next call is not affected.
         """
-
-    async def close(self) -> None:
-        """Gives back what `start` took."""
+        ...

@@ -1,0 +1,30 @@
+"""Speeches in a plan, with either kind of voice."""
+
+import pytest
+
+from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.testing.pilot import open_pilot
+
+VOICES = ["text", pytest.param("espeak", marks=pytest.mark.speech)]
+
+
+@pytest.mark.parametrize("voice", VOICES)
+@pytest.mark.parametrize("text", ["<text/>", "<text>...</text>", '<text><sync id="m"/></text>'])
+async def test_a_speech_without_a_word_is_answered_with_a_warning_and_the_rest_of_the_block_plays(voice, text) -> None:
+    async with open_pilot(SceneOptions(voice=voice)) as pilot:
+        pilot.block("b", f'<speech id="s">{text}</speech><wait id="w" duration="0.1"/>')
+        await pilot.advance(1)
+        assert pilot.feedback.warnings == [("b:s", "CANNOT_CREATE_BEHAVIOR")]
+        assert "no word" in pilot.feedback.of("warningFeedback")[0].element.text
+        assert pilot.feedback.reached("b:w:end")
+
+
+@pytest.mark.parametrize("voice", VOICES)
+async def test_a_speech_starts_with_its_block_and_has_a_time_for_its_mark(voice) -> None:
+    async with open_pilot(SceneOptions(voice=voice)) as pilot:
+        pilot.block("b", '<speech id="s"><text>Put it <sync id="m"/>here.</text></speech>')
+        await pilot.advance(3)
+        assert not pilot.feedback.warnings
+        times = [pilot.feedback.time(f"b:s:{sync}") for sync in ("start", "m", "end")]
+        assert times == sorted(times)
+        assert times[0] == pilot.feedback.time("b:start")
