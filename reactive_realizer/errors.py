@@ -63,7 +63,9 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
         "missing-attribute": ErrorKind("<{element}> needs the attribute '{attribute}'", _PARSING),
         "unknown-attribute": ErrorKind("unknown attribute {attributes} of <{element}>; known are {known}", _PARSING),
         "bad-attribute": ErrorKind("{attribute}='{value}' of <{element}>: {reason}", _PARSING),
-        "not-an-id": ErrorKind("an id has 1 to 200 characters, no white space, ':' or '+', and is not 'bml'"),
+        "not-an-id": ErrorKind(
+            "an id has 1 to 200 characters, no white space, control character, ':' or '+', and is not 'bml'"
+        ),
         "not-a-number": ErrorKind("not a finite number"),
         "not-whole": ErrorKind("not a whole number"),
         "out-of-range": ErrorKind("not within {low} and {high}"),
@@ -120,7 +122,8 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
         # --- voices
         "voice-not-installed": ErrorKind("speech needs espeak-ng: pip install 'reactive-realizer[espeak]'", _CREATE),
         "unknown-voice": ErrorKind("no voice '{voice}'; there are en-us, en-gb, fr, nl ..., also en-us+f3", _CREATE),
-        "voice-failed": ErrorKind("the process that speaks ended before it had spoken: {reason}", _CREATE),
+        "nothing-to-say": ErrorKind("there is no word in its text", _CREATE),
+        "voice-failed": ErrorKind("the process that speaks failed before it had spoken: {reason}", _CREATE),
         # --- assembling a scene
         "bad-human-file": ErrorKind("{file}: {key}: {reason}"),
         "no-plugin": ErrorKind("no '{name}' among the {group}; there are {known}"),
@@ -147,6 +150,9 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
         "bad-request": ErrorKind("not a request that is understood here: {reason}", None, 400),
         "bad-query": ErrorKind("{name}={value} is not read; wanted is {wanted}", None, 400),
         "unknown-anticipator": ErrorKind("no anticipator '{anticipator}'; there are {known}", None, 404),
+        "predicts-itself": ErrorKind(
+            "'{anticipator}' is a {kind}, which makes its own predictions and takes none", None, 409
+        ),
         "not-movable": ErrorKind("'{target}' is a character, not a target that is moved", None, 400),
         "too-many-names": ErrorKind("there are {limit} {things}, and no more are made", None, 429),
         "no-demo": ErrorKind("there is no performance here", None, 404),
@@ -155,6 +161,7 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
         "nothing-there": ErrorKind("there is nothing at {path}", None, 404),
         "wrong-method": ErrorKind("{path} does not take {method}", None, 405),
         "wrong-media-type": ErrorKind("BML comes as application/xml or text/xml, not as {type}", None, 415),
+        "wrong-charset": ErrorKind("BML comes in UTF-8, UTF-16, ISO-8859-1 or US-ASCII, not in {charset}", None, 415),
         "no-token": ErrorKind("the token of the server is wanted, and was not given or is another", None, 401),
         "foreign-host": ErrorKind("the host {host} is not one of this server", None, 403),
         "foreign-origin": ErrorKind("pages from {origin} are not let in; --allow-origin does that", None, 403),

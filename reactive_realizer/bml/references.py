@@ -19,13 +19,13 @@ def check_references(block: BehaviorBlock) -> tuple[Problem, ...]:
     behaviors = {behavior.id: behavior for behavior in block.behaviors}
     return tuple(
         Problem(fault, place)
-        for place, location, ref in _references(block)
+        for place, location, ref in references_of(block)
         if ref.block in {None, block.id} and (fault := _fault(ref, behaviors, location))
     )
 
 
-def _references(block: BehaviorBlock) -> Iterator[tuple[str, Location, SyncRef]]:
-    """Every reference with the id and the place of what holds it."""
+def references_of(block: BehaviorBlock) -> Iterator[tuple[str, Location, SyncRef]]:
+    """Every reference with the id (``block:behavior``, or the block's) and the place of what holds it."""
     for behavior in block.behaviors:
         for ref in behavior.syncs.values():
             yield f"{block.id}:{behavior.id}", behavior.location, ref

@@ -9,12 +9,11 @@ from pathlib import Path
 from reactive_realizer.assembly.scene import DEFAULT_HUMAN, SceneOptions, open_scene
 from reactive_realizer.bml.block import BehaviorBlock
 from reactive_realizer.bml.document import parse
-from reactive_realizer.bml.references import check_references
+from reactive_realizer.bml.names import ANTICIPATORS
+from reactive_realizer.bml.references import check_references, references_of
 from reactive_realizer.embodiment.world import World
-from reactive_realizer.errors import Fault, WarningType
+from reactive_realizer.errors import Fault
 from reactive_realizer.realizer.realizer import Realizer
-
-_REALIZED_LATER = (WarningType.BEHAVIOR_TYPE_NOT_SUPPORTED, WarningType.CUSTOM_BEHAVIOUR_NOT_SUPPORTED)
 
 
 def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
@@ -41,19 +40,38 @@ def run(options: argparse.Namespace) -> int:
 
 async def _check(options: argparse.Namespace) -> list[str]:
     async with open_scene(SceneOptions(options.human, voice="text")) as scene:
-        return [problem for path in options.files for problem in _problems(path, scene.realizer)]
+        checker = _Checker(scene.realizer)
+        return [problem for path in options.files for problem in checker.problems(path)]
 
 
-def _problems(path: Path, realizer: Realizer) -> list[str]:
-    found = []
-    for parsed in parse(path.read_bytes(), realizer.limits):
-        found += [problem.fault for problem in parsed.problems]
-        if parsed.block is not None:
-            found += [problem.fault for problem in check_references(parsed.block)]
-            found += _unknown_targets(parsed.block, realizer.world)
-            found += filter(None, [realizer.scheduler.refusal(parsed.block)])
-    wrong = [fault for fault in found if fault.kind.warning not in _REALIZED_LATER]
-    return [f"{path}:{fault.line or 1}:{fault.column or 1}: {fault.sentence}" for fault in sorted(wrong, key=_place)]
+class _Checker:
+    """Reads files one after the other; a block may refer to those before it, in its file or an earlier one."""
+
+    def __init__(self, realizer: Realizer) -> None:
+        self._realizer = realizer
+        self._earlier: set[str] = set()
+
+    def problems(self, path: Path) -> list[str]:
+        """What is wrong with a file, line by line."""
+        faults = sorted(self._faults(path.read_bytes()), key=_place)
+        return [f"{path}:{fault.line or 1}:{fault.column or 1}: {fault.sentence}" for fault in faults]
+
+    def _faults(self, text: bytes) -> Iterator[Fault]:
+        admission = self._realizer.scheduler.admission()
+        for parsed in parse(text, self._realizer.limits):
+            yield from (problem.fault for problem in parsed.problems)
+            if parsed.block is not None:
+                yield from filter(None, [admission.take(parsed.block, parsed.failed)])
+                yield from (problem.fault for problem in check_references(parsed.block))
+                yield from self._unknown_blocks(parsed.block)
+                yield from _unknown_targets(parsed.block, self._realizer.world)
+                self._earlier.add(parsed.block.id)
+
+    def _unknown_blocks(self, block: BehaviorBlock) -> Iterator[Fault]:
+        known = {None, ANTICIPATORS, block.id, *self._earlier}
+        for _, location, ref in references_of(block):
+            if ref.block not in known:
+                yield Fault("unknown-block", {"block": ref.block, "reference": ref}, location.line, location.column)
 
 
 def _unknown_targets(block: BehaviorBlock, world: World) -> Iterator[Fault]:

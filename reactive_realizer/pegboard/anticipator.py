@@ -36,6 +36,15 @@ class Anticipator:
             RealizerError: its value cannot be.
         """
 
+    def check_prediction(self) -> None:
+        """Whether others may say when its points are to be; whoever brings a prediction from outside asks first.
+
+        Raises:
+            RealizerError: it is of a kind that predicts by itself.
+        """
+        if self.kind != Anticipator.kind:
+            raise error("predicts-itself", anticipator=self.id, kind=self.kind)
+
     def event(self, name: str, value: float | None, now: GlobalTime) -> None:
         """Something happened that concerns it; unknown events mean nothing."""
 

@@ -160,6 +160,7 @@ class Realizer:
     def _apply(self, entry: Input, now: GlobalTime) -> None:
         match entry:
             case Prediction(anticipator, sync, time):
+                self._anticipator(anticipator).check_prediction()
                 self._anticipator(anticipator).predict(sync, time, now)
             case Event(anticipator, name, value):
                 self._anticipator(anticipator).event(name, value, now)

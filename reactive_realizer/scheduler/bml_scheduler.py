@@ -15,6 +15,7 @@ from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.pegboard.time_peg import Time, TimePeg, followers_of, unknown_sources
 from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint, UnitState
 from reactive_realizer.reactive.commit import Commit
+from reactive_realizer.scheduler.admission import Admission
 from reactive_realizer.scheduler.block_planner import BlockPlanner
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BlockState, BMLBlock
@@ -67,7 +68,7 @@ class BMLScheduler:
         character = self._character(parsed.block)
         for problem in parsed.problems:
             self._reporter.warn(character, problem.id, problem.fault)
-        if parsed.block is None or (fault := self.refusal(parsed.block)) is not None:
+        if parsed.block is None or (fault := self.admission().take(parsed.block)) is not None:
             self.refused += 1
             if parsed.block is not None and fault is not None:
                 self._reporter.warn(character, parsed.block.id, fault)
@@ -80,19 +81,10 @@ class BMLScheduler:
             return
         self._prepare(block, now)
 
-    def refusal(self, block: BehaviorBlock) -> Fault | None:
-        """Why a block that was read would not be accepted now; None if it would be."""
-        character = self._character(block)
-        place = {"line": block.location.line, "column": block.location.column}
-        if character not in self._cast.characters:
-            known = ", ".join(self._cast.characters)
-            return Fault("unknown-character", {"character": character, "known": known}, **place)
-        if BlockKey(character, block.id) in self.blocks:
-            return Fault("duplicate-block", {"block": block.id}, **place)
-        replaces = block.composition is Composition.REPLACE  # makes room itself
-        if not replaces and len(self.blocks.alive) >= self._limits.blocks_alive:
-            return Fault("too-many-blocks", {"limit": self._limits.blocks_alive}, **place)
-        return None
+    def admission(self) -> Admission:
+        """Judges blocks that would enter now; nothing changes here."""
+        alive = (block.key for block in self.blocks.alive)
+        return Admission(self._cast.characters, self._limits.blocks_alive, alive)
 
     def interrupt_all(self, character: str, now: GlobalTime) -> None:
         """End every block of a character now; the later ones first, because they may hang on the earlier ones."""

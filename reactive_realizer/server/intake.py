@@ -5,15 +5,26 @@ from collections.abc import Sequence
 from typing import Any
 from xml.sax.saxutils import quoteattr
 
-from reactive_realizer.bml.block import Parsed
 from reactive_realizer.bml.document import parse
 from reactive_realizer.bml.names import BML
 from reactive_realizer.clock.units import GlobalTime
-from reactive_realizer.errors import RealizerError, error
+from reactive_realizer.errors import Fault, RealizerError, error
 from reactive_realizer.realizer.inputs import BmlText, Event, Position, Prediction, TargetMoved
 from reactive_realizer.server.demo import Demo
 from reactive_realizer.server.live import Live
 from reactive_realizer.server.protocol import Message
+
+
+class BlocksRefused(RealizerError):
+    """Some blocks of a document were refused; it says why the first one was.
+
+    Attributes:
+        entered: ids of the others, which have entered.
+    """
+
+    def __init__(self, first: Fault, entered: list[str]) -> None:
+        super().__init__(first)
+        self.entered = entered
 
 
 class Intake:
@@ -30,23 +41,37 @@ class Intake:
         self._points: set[tuple[str, str]] = set()
         self.demo = Demo(live, self.stop)
 
-    async def document(self, text: bytes) -> list[str]:
+    async def document(self, text: str | bytes) -> list[str]:
         """Take in a document if every block of it can be accepted; their ids.
 
         Raises:
             RealizerError: why the first of the others is refused; nothing has entered.
         """
-        blocks = await self._read(text)
-        for refusal in self._refusals(blocks):
-            raise refusal
+        ids, faults = await self._judge(text)
+        if faults:
+            raise RealizerError(faults[0])
         self._realizer.put(BmlText(text))
-        return [parsed.block.id for parsed in blocks if parsed.block is not None]
+        return ids
+
+    async def blocks(self, text: str) -> list[str]:
+        """Take in the blocks of a document that can be accepted, whatever the others are; their ids.
+
+        It enters as a file does: feedback tells of each of the others.
+
+        Raises:
+            BlocksRefused: why the first of the others is refused.
+        """
+        ids, faults = await self._judge(text)
+        self._realizer.put(BmlText(text))
+        if faults:
+            raise BlocksRefused(faults[0], ids)
+        return ids
 
     def predict(self, message: Message) -> GlobalTime | None:
         """Take in a prediction; when it is for.
 
         Raises:
-            RealizerError: a time too far from now, or one point too many.
+            RealizerError: a time too far from now, one point too many, or an anticipator that predicts by itself.
         """
         if "in" in message:
             time: float | None = self._live.now + message["in"]
@@ -55,6 +80,8 @@ class Intake:
         limit = self._live.limits.time_seconds
         if time is not None and abs(time - self._live.now) > limit:
             raise error("absurd-time", limit=limit)
+        if message["anticipator"] in self._realizer.anticipators:
+            self._realizer.anticipators[message["anticipator"]].check_prediction()
         self._name_point(message["anticipator"], message["sync"])
         predicted = None if time is None else GlobalTime(time)
         self._realizer.put(Prediction(message["anticipator"], message["sync"], predicted))
@@ -69,15 +96,13 @@ class Intake:
             self._realizer.put(BmlText(f'<bml xmlns="{BML}" {attributes} composition="REPLACE"/>'))
         return [id_] * len(self._realizer.characters)
 
-    async def message(self, message: Message) -> None:
-        """Take in a checked message of the socket that is no question.
+    def message(self, message: Message) -> None:
+        """Take in a checked message of the socket that is neither BML nor a question.
 
         Raises:
             RealizerError: why it is refused.
         """
         match message["type"]:
-            case "bml":
-                await self._bml(message["xml"])
             case "predict":
                 self.predict(message)
             case "event":
@@ -89,24 +114,19 @@ class Intake:
             case _:  # "demo" is what is left of the protocol
                 self.demo.perform()
 
-    async def _bml(self, text: str) -> None:
-        """As a file: blocks that can be read play whatever the others are; feedback tells of each of those."""
-        blocks = await self._read(text)
-        refusals = self._refusals(blocks)
-        self._realizer.put(BmlText(text))
-        for refusal in refusals:
-            raise refusal
-
-    async def _read(self, text: str | bytes) -> list[Parsed]:
-        """Aside: a large document takes longer than a tick."""
-        return await asyncio.to_thread(parse, text, self._live.limits)
-
-    def _refusals(self, blocks: Sequence[Parsed]) -> list[RealizerError]:
-        faults = [
-            parsed.problems[0].fault if parsed.block is None else self._realizer.scheduler.refusal(parsed.block)
-            for parsed in blocks
-        ]
-        return [RealizerError(fault) for fault in faults if fault is not None]
+    async def _judge(self, text: str | bytes) -> tuple[list[str], list[Fault]]:
+        """The ids of the blocks that can be accepted, and why the others cannot."""
+        # Aside: a large document takes longer than a tick.
+        read = await asyncio.to_thread(parse, text, self._live.limits)
+        admission = self._realizer.scheduler.admission()
+        ids, faults = [], []
+        for parsed in read:
+            fault = parsed.problems[0].fault if parsed.block is None else admission.take(parsed.block, parsed.failed)
+            if fault is not None:
+                faults.append(fault)
+            elif parsed.block is not None:
+                ids.append(parsed.block.id)
+        return ids, faults
 
     def _event(self, anticipator: str, name: str, value: float | None) -> None:
         known = self._realizer.anticipators

@@ -1,7 +1,7 @@
 """The text messages of the socket: read, checked against protocol.json, written."""
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Final
 
@@ -66,15 +66,17 @@ def ref_of(message: Any) -> str | int | None:
     return None if ref is None or _SCHEMA.mismatch(ref, _SCHEMA.definitions["Ref"]) else ref
 
 
-def accepted(ref: str | int) -> Message:
-    """The answer to a message that has entered."""
-    return {"type": "accepted", "ref": ref}
+def accepted(ref: str | int, blocks: Sequence[str] | None = None) -> Message:
+    """The answer to a message that has entered; of BML, with the ids of its blocks."""
+    answer = {"type": "accepted", "ref": ref}
+    return answer if blocks is None else answer | {"blocks": blocks}
 
 
-def refused(refusal: RealizerError, ref: str | int | None = None) -> Message:
-    """The answer to a message that was refused."""
+def refused(refusal: RealizerError, ref: str | int | None = None, blocks: Sequence[str] | None = None) -> Message:
+    """The answer to a message that was refused; of BML, with the ids of the blocks that entered nevertheless."""
     answer = {"type": "error", "code": refusal.fault.code, "message": str(refusal.fault)}
-    return answer if ref is None else answer | {"ref": ref}
+    more = {"ref": ref, "blocks": blocks}
+    return answer | {name: value for name, value in more.items() if value is not None}
 
 
 def _shown(value: object) -> str:

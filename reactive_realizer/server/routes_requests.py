@@ -3,6 +3,7 @@
 from aiohttp import web
 
 from reactive_realizer.errors import error
+from reactive_realizer.server.charset import text_of
 from reactive_realizer.server.keys import INTAKE
 from reactive_realizer.server.protocol import check, decode
 
@@ -16,7 +17,8 @@ async def bml(request: web.Request) -> web.Response:
     """A document enters whole, or not at all."""
     if request.content_type not in _XML:
         raise error("wrong-media-type", type=request.content_type)
-    blocks = await request.app[INTAKE].document(await request.read())
+    text = text_of(await request.read(), request.charset)
+    blocks = await request.app[INTAKE].document(text)
     return web.json_response({"blocks": blocks}, status=202)
 
 

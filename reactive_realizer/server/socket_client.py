@@ -8,7 +8,7 @@ from aiohttp import WSMessage, WSMsgType, web
 
 from reactive_realizer.errors import ERRORS, RealizerError, error
 from reactive_realizer.server.client_queue import ClientQueue
-from reactive_realizer.server.intake import Intake
+from reactive_realizer.server.intake import BlocksRefused, Intake
 from reactive_realizer.server.live import Live
 from reactive_realizer.server.protocol import Message, accepted, check, decode, encode, ref_of, refused
 from reactive_realizer.server.rate_limit import RateLimit
@@ -124,18 +124,24 @@ class SocketClient:
             message = decode(received.data)
             ref = ref_of(message)
             check(message)
-            await self._answer(message)
+            blocks = await self._answer(message)
+        except BlocksRefused as refusal:
+            self._tell(refused(refusal, ref, refusal.entered))
         except RealizerError as refusal:
             self._tell(refused(refusal, ref))
-            return
-        if ref is not None:
-            self._tell(accepted(ref))
+        else:
+            if ref is not None:
+                self._tell(accepted(ref, blocks))
 
-    async def _answer(self, message: Message) -> None:
+    async def _answer(self, message: Message) -> list[str] | None:
+        """The ids of the blocks that it had, if it is BML."""
         match message["type"]:
             case "ping":
                 self._tell({"type": "pong", "t": message["t"], "time": round(self._live.now, 6)})
             case "clock":
                 self._tell({"type": "clock", "time": round(self._live.now, 6)})
+            case "bml":
+                return await self._intake.blocks(message["xml"])
             case _:
-                await self._intake.message(message)
+                self._intake.message(message)
+        return None

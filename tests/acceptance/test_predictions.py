@@ -33,6 +33,15 @@ async def test_the_clock_alone_moves_no_prediction(pilot) -> None:
     assert said_at(pilot, "b") == said_at(pilot, "next") == [0.0]
 
 
+async def test_a_tick_of_the_metronome_is_where_its_tempo_puts_it_whatever_others_say(pilot, caplog) -> None:
+    pilot.block("b", '<head id="h" lexeme="NOD" stroke="anticipators:metronome:tick3"/>')
+    await pilot.tick()
+    pilot.predict("metronome", "tick3", 1.5)
+    await pilot.tick()
+    assert pilot.feedback.predicted("b:h:stroke") == 3.0
+    assert "'metronome' is a metronome" in caplog.text
+
+
 async def test_an_unknown_end_is_predicted_as_the_last_known_point(pilot) -> None:
     pilot.block("b", f'{NOD}<wait id="w" duration="2"/>')
     await pilot.tick()

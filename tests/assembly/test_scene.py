@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from reactive_realizer.assembly.assets import PACKAGE_ASSETS, Assets
-from reactive_realizer.assembly.human_file import read_human_file
+from reactive_realizer.assembly.human_file import DEFAULT_BINDINGS, read_human_file
 from reactive_realizer.assembly.registry import load, names
 from reactive_realizer.assembly.scene import DEFAULT_HUMAN, SceneOptions, open_scene
 from reactive_realizer.errors import RealizerError
@@ -55,6 +55,17 @@ def test_what_a_character_does_not_say_has_its_default(human) -> None:
         ("[target.box]\nposition = [1, 2, 3]", ["character"]),
         ("character = 3", ["character", "table"]),
         ("this is not TOML", ["human.toml"]),
+        ("[" * 100_000, ["human.toml"]),
+        (ALICE + "heading = 1" + "0" * 400, ["character.alice.heading"]),
+        (ALICE + "heading = 1" + "0" * 5000, ["human.toml"]),
+        (ALICE + 'bindings = { foo = "x" }', ["character.alice.bindings.foo", "known are gesture"]),
+        (ALICE + "bindings = { gesture = 3 }", ["character.alice.bindings.gesture"]),
+        (ALICE + 'engines = ["speech", "wait", "speech"]', ["character.alice.engines", "'speech'", "twice"]),
+        (ALICE + "physics = false", ["character.alice.physics", "known are avatar"]),
+        (ALICE + "[target.alice]\nposition = [1, 2, 3]", ["target.alice", "a character"]),
+        (ALICE + "[limits]\nblocks_alive = -1", ["limits.blocks_alive", "-1"]),
+        (ALICE + "[limits]\nclients = 0", ["limits.clients", "less than 1"]),
+        (ALICE + "[limits]\ntime_seconds = 0.5", ["limits.time_seconds"]),
     ],
 )
 def test_a_key_that_is_unknown_or_wrong_is_named(human, text, mentions) -> None:
@@ -63,13 +74,29 @@ def test_a_key_that_is_unknown_or_wrong_is_named(human, text, mentions) -> None:
     assert all(mention in str(refused.value) for mention in mentions)
 
 
+@pytest.mark.parametrize("id_", ["", "a b", "a:b", "a+b", "a\\u0000", "a\\u007f", "a\\n", "bml", "a" * 201])
+@pytest.mark.parametrize("section", ["character", "target", "anticipator"])
+def test_an_id_that_no_reference_can_name_is_refused(human, section, id_) -> None:
+    with pytest.raises(RealizerError) as refused:
+        read_human_file(human(f'[character.alice]\n[{section}."{id_}"]'))
+    assert all(part in str(refused.value) for part in ["human.toml", section, "control character"])
+
+
+def test_a_kind_of_binding_that_is_not_named_has_its_default(human) -> None:
+    assert read_human_file(human(ALICE + "bindings = {}")).characters["alice"].bindings == DEFAULT_BINDINGS
+
+
+def test_every_kind_of_binding_has_a_file_in_the_package() -> None:
+    assert all(Assets()(file).is_file() for file in DEFAULT_BINDINGS.values())
+
+
 @pytest.mark.parametrize(
     ("text", "mentions"),
     [
         (ALICE + 'engines = ["speech", "tail"]', ["tail", "speech, wait"]),
         (ALICE + '[anticipator.m]\nkind = "oracle"', ["oracle", "metronome"]),
-        (ALICE + '[anticipator.m]\nkind = "metronome"\nspeed = 3', ["anticipator.m.speed", "tempo"]),
-        (ALICE + '[anticipator.m]\nkind = "metronome"\ntempo = 3', ["tempo of 3"]),
+        (ALICE + '[anticipator.m]\nkind = "metronome"\nspeed = 3', ["human.toml: anticipator.m.speed", "tempo"]),
+        (ALICE + '[anticipator.m]\nkind = "metronome"\ntempo = 3', ["human.toml: anticipator.m: a tempo of 3 "]),
         (ALICE + 'avatar = "../secret.glb"', ["../secret.glb"]),
         (ALICE + 'avatar = "nobody.glb"', ["nobody.glb"]),
     ],

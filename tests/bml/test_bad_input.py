@@ -18,7 +18,8 @@ DROPPED = {
     '<head id="x"/>': ("b:x", "<head> needs the attribute 'lexeme'"),
     '<head id="a:b" lexeme="NOD"/>': (
         "b:a:b",
-        "id='a:b' of <head>: an id has 1 to 200 characters, no white space, ':' or '+', and is not 'bml'",
+        "id='a:b' of <head>: an id has 1 to 200 characters, no white space, control character, ':' or '+', "
+        "and is not 'bml'",
     ),
     '<head id="x" lexeme="NOD" amount="much"/>': ("b:x", "amount='much' of <head>: not a finite number"),
     '<head id="x" lexeme="NOD" amount="nan"/>': ("b:x", "amount='nan' of <head>: not a finite number"),

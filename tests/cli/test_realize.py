@@ -227,6 +227,48 @@ def test_what_is_legal_and_not_yet_realized_is_no_problem(bml, capsys) -> None:
     assert check(capsys, bml(block("b", '<locomotion id="go" target="bluebox"/>'))) == (0, [])
 
 
+def test_an_element_that_bml_does_not_have_is_a_problem(bml, capsys) -> None:
+    status, (line,) = check(capsys, bml(block("b", '<speach id="s"/>')))
+    assert status == 1
+    assert "<speach> is no behavior" in line
+
+
+def test_a_block_may_refer_to_those_before_it_in_its_file_and_in_earlier_files(bml, capsys) -> None:
+    first = bml(block("one") + block("two", '<head id="h" lexeme="NOD" start="one:0.5"/>'), "first.xml")
+    second = bml(block("three", '<head id="h" lexeme="NOD" start="two:h:end" stroke="anticipators:m:hit"/>'), "2.xml")
+    assert check(capsys, first, second) == (0, [])
+    status, lines = check(capsys, second, first)
+    assert status == 1
+    assert lines == [f"{second}:1:{lines[0].split(':')[2]}: no block 'two' for two:h:end: it is unknown or has ended"]
+
+
+def test_a_reference_to_a_block_that_comes_later_is_a_problem_also_in_a_constraint(bml, capsys) -> None:
+    tie = '<constraint><synchronize><sync ref="h:start"/><sync ref="later:w:end"/></synchronize></constraint>'
+    later = block("later", '<wait id="w" duration="1"/>')
+    status, (line,) = check(capsys, bml(block("b", '<head id="h" lexeme="NOD"/>' + tie) + later))
+    assert status == 1
+    assert "no block 'later'" in line
+
+
+def test_two_blocks_of_one_file_have_two_ids_unless_a_replace_ends_the_first(bml, capsys) -> None:
+    twice = bml(f"{block('b')}\n{block('b')}", "twice.xml")
+    status, lines = check(capsys, twice)
+    assert status == 1
+    assert lines == [f"{twice}:2:1: a block with id 'b' has not ended yet; this one is refused"]
+    replaced = bml(block("b") + block("c", composition="REPLACE") + block("b"), "replaced.xml")
+    assert check(capsys, replaced) == (0, [])
+    assert check(capsys, bml(block("b"), "one.xml"), bml(block("b"), "two.xml")) == (0, [])
+
+
+@pytest.mark.parametrize("command", ["realize", "check"])
+@pytest.mark.parametrize("mistake", ["bindings = { foo = 'x' }", "[limits]\nblocks_alive = -1"])
+def test_a_human_file_that_cannot_be_is_2_and_one_line_says_why(bml, capsys, command, mistake) -> None:
+    human = bml(f"[character.alice]\n{mistake}", "human.toml")
+    assert main([command, bml(block("b")), "--human", human]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith("human.toml: ")
+
+
 def test_every_problem_has_file_line_and_column_of_its_start_tag(bml, capsys) -> None:
     file = bml(
         block(

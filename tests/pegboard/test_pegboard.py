@@ -20,6 +20,8 @@ def board() -> PegBoard:
 
 
 class Clockwork(Anticipator):
+    kind = "clockwork"
+
     def forecast(self, sync):
         return 7.0 if sync == "seven" else None
 
@@ -47,6 +49,12 @@ def test_a_point_that_is_named_for_the_first_time_is_asked_for(board) -> None:
     assert board.predicted("clock", "eight").value is None
     assert board.predicted("nobody", "seven").value is None
     assert set(board.predictions("clock")) == {"seven", "eight"}
+
+
+def test_one_that_predicts_by_itself_takes_no_predictions_from_outside(board) -> None:
+    Anticipator("partner", board).check_prediction()
+    with pytest.raises(RealizerError, match="'clock' is a clockwork, which makes its own predictions"):
+        Clockwork("clock", board).check_prediction()
 
 
 def test_one_point_has_one_peg(board) -> None:

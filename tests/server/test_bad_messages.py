@@ -30,6 +30,12 @@ BAD = {
         json.dumps({"type": "predict", "anticipator": "a" * 201, "sync": "s", "in": 1}),
         "bad-message",
     ),
+    "a name with a control character": (r'{"type":"predict","anticipator":"a\u0001","sync":"s","in":1}', "bad-message"),
+    "a point with a delete": (r'{"type":"predict","anticipator":"a","sync":"s\u007f","in":1}', "bad-message"),
+    "a point with half a letter": (r'{"type":"predict","anticipator":"a","sync":"\udfff","in":1}', "bad-message"),
+    "a target with a control character": (r'{"type":"world","set":{"a\u0000":[0,0,0]}}', "bad-message"),
+    "a target that is half a letter": (r'{"type":"world","set":{"\ud800":[0,0,0]}}', "bad-message"),
+    "a prediction of a tick": ('{"type":"predict","anticipator":"metronome","sync":"tick3","in":1}', "predicts-itself"),
     "an event of nobody": ('{"type":"event","anticipator":"nobody","event":"press"}', "unknown-anticipator"),
     "a tempo of zero": ('{"type":"event","anticipator":"metronome","event":"tempo","value":0}', "bad-tempo"),
     "a flat position": ('{"type":"camera","position":[1,2]}', "bad-message"),
@@ -79,6 +85,13 @@ async def test_binary_junk_is_answered_and_the_socket_stays_open(on_air: Open) -
         assert await still_listens(socket)
 
 
+async def test_names_may_have_letters_of_every_alphabet(on_air: Open) -> None:
+    async with on_air() as air:
+        socket = await air.connect()
+        for name in ("vélo", "眼鏡", "\N{GRINNING FACE}"):
+            assert (await socket.ask(type="world", set={name: [0, 0, 0]}))["type"] == "accepted"
+
+
 async def test_unknown_fields_are_ignored(on_air: Open) -> None:
     async with on_air() as air:
         socket = await air.connect()
@@ -90,6 +103,7 @@ async def test_malformed_bml_is_refused_with_its_place_and_told_in_feedback(on_a
         socket = await air.connect()
         answer = await socket.ask(type="bml", xml=f'<bml {BML} id="b1">\n  <wait id="w"\n</bml>')
         assert answer["code"] == "malformed-xml"
+        assert answer["blocks"] == []
         assert "line 3" in answer["message"]
         await air.tick()
         assert "PARSING_FAILURE" in (await socket.hear_feedback("warningFeedback"))["xml"]
@@ -102,6 +116,7 @@ async def test_a_live_id_is_refused_while_the_other_block_of_the_document_plays(
         await air.tick()
         answer = await socket.ask(type="bml", xml=wait("b1") + wait("b2"))
         assert answer["code"] == "duplicate-block"
+        assert answer["blocks"] == ["b2"]
         await air.tick()
         assert "b1" in (await socket.hear_feedback("warningFeedback"))["xml"]
         assert await socket.hear_feedback('"b2:start"')

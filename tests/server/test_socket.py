@@ -28,7 +28,7 @@ async def test_bml_is_accepted_by_its_ref_and_told_in_feedback(on_air: Open) -> 
     async with on_air() as air:
         socket = await air.connect()
         await socket.say(type="bml", xml=wait("b1"), ref="mine")
-        assert await socket.hear("accepted") == {"type": "accepted", "ref": "mine"}
+        assert await socket.hear("accepted") == {"type": "accepted", "ref": "mine", "blocks": ["b1"]}
         await air.tick_until(0.3)
         started = await socket.hear_feedback('id="b1:start"')
         ended = await socket.hear_feedback('id="b1:end"')

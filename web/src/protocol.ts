@@ -23,7 +23,7 @@ export type Predict1 = {
   [k: string]: unknown;
 };
 /**
- * A part of a sync reference.
+ * A part of a sync reference: no white space, control character, colon, plus sign or half of a surrogate pair.
  */
 export type Name = string;
 export type Seconds = number;
@@ -46,9 +46,13 @@ export type ServerMessage =
  * @maxItems 3
  */
 export type Change = [string, number | null, number | null];
+/**
+ * In answers to bml: the ids of the blocks that entered, in order; none where nothing could be read.
+ */
+export type Entered = string[];
 
 /**
- * A BML document of one or more blocks. Each block that cannot be read is told in feedback, the others play; an error tells the first of them.
+ * A BML document of one or more blocks. Blocks that can be accepted enter, whatever the others are; of those, feedback tells each and error the first. The answer lists the blocks that entered.
  */
 export interface Bml {
   type: "bml";
@@ -234,13 +238,15 @@ export interface Commit {
 export interface Accepted {
   type: "accepted";
   ref: Ref;
+  blocks?: Entered;
 }
 /**
- * A message was refused; code is one of the table of errors.
+ * A message, or part of a bml message, was refused; code is one of the table of errors.
  */
 export interface Refused {
   type: "error";
   ref?: Ref;
   code: string;
   message: string;
+  blocks?: Entered;
 }

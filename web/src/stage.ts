@@ -29,8 +29,8 @@ const BACKDROP_BOTTOM = "#c3cad3";
 const FLOOR = "#c4cad2";
 const FLOOR_RADIUS = 5;
 
-/** Size of the picture in low quality, pixels, and how often it is drawn at most, 1/s. */
-const LOW_SIZE = [320, 240] as const;
+/** Pixels of the picture in low quality, whatever its shape, and how often it is drawn at most, 1/s. */
+const LOW_PIXELS = 320 * 240;
 const LOW_RATE = 12;
 
 /** Hip height of a standing human as a part of the stature; it tells how tall they are whose roots are known. */
@@ -135,10 +135,10 @@ export class Stage {
 
   private resize(): void {
     const { clientWidth, clientHeight } = this.container;
-    const [width, height] = this.quality === "low" ? LOW_SIZE : [clientWidth, clientHeight];
-    if (width === 0 || height === 0) return;
-    this.renderer.setSize(width, height, false);
-    this.camera.aspect = width / height;
+    if (clientWidth === 0 || clientHeight === 0) return;
+    const scale = this.quality === "low" ? Math.sqrt(LOW_PIXELS / (clientWidth * clientHeight)) : 1;
+    this.renderer.setSize(Math.round(clientWidth * scale), Math.round(clientHeight * scale), false);
+    this.camera.aspect = clientWidth / clientHeight;
     this.camera.updateProjectionMatrix();
     this.look();
   }
