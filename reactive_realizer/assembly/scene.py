@@ -6,11 +6,11 @@ from contextlib import asynccontextmanager
 from dataclasses import dataclass, field
 from inspect import signature
 from pathlib import Path
-from typing import Any
 
 from reactive_realizer.assembly.assets import PACKAGE_ASSETS, Assets
 from reactive_realizer.assembly.human_file import AnticipatorSpec, CharacterSpec, HumanFile, read_human_file
 from reactive_realizer.assembly.registry import load
+from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.avatar import Avatar
 from reactive_realizer.embodiment.humanoid import Humanoid
 from reactive_realizer.embodiment.world import World
@@ -104,7 +104,7 @@ class _Mouth:
     def __init__(self) -> None:
         self.voices: list[LipSyncProvider] = []
 
-    def mouth(self, time: Any) -> Mapping[str, float] | None:
+    def mouth(self, time: GlobalTime) -> Mapping[str, float] | None:
         return next((weights for voice in self.voices if (weights := voice.mouth(time)) is not None), None)
 
 
