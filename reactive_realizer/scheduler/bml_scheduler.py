@@ -6,20 +6,20 @@ from collections.abc import Iterable, Sequence
 from reactive_realizer.bml.block import BehaviorBlock, Parsed
 from reactive_realizer.bml.words import Composition
 from reactive_realizer.clock.units import GlobalTime, is_due
-from reactive_realizer.engine.effects import Dropped, Play, Reached
+from reactive_realizer.engine.effects import Play
 from reactive_realizer.errors import Fault
 from reactive_realizer.feedback.feedback_manager import FeedbackManager
 from reactive_realizer.limits import Limits
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.pegboard.time_peg import Time, TimePeg, followers_of, unknown_sources
-from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint, UnitState
+from reactive_realizer.pegboard.time_peg import unknown_sources
 from reactive_realizer.reactive.commit import Commit
 from reactive_realizer.scheduler.admission import Admission
 from reactive_realizer.scheduler.block_planner import BlockPlanner
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BlockState, BMLBlock
 from reactive_realizer.scheduler.cast import Cast
+from reactive_realizer.scheduler.endings import Endings
 from reactive_realizer.scheduler.planning import Planning
 from reactive_realizer.scheduler.predictions import Predictions
 from reactive_realizer.scheduler.problem import Loss
@@ -35,7 +35,6 @@ class BMLScheduler:
 
     Attributes:
         refused: how many blocks were not accepted.
-        failed: how many ended FAILED.
     """
 
     def __init__(
@@ -49,7 +48,6 @@ class BMLScheduler:
     ) -> None:
         self.blocks = Blocks(limits.remembered_blocks)
         self.refused = 0
-        self.failed = 0
         self._board = board
         self._cast = cast
         self._limits = limits
@@ -57,9 +55,15 @@ class BMLScheduler:
         planning = Planning(board, self.blocks, strategy)
         self._planner = BlockPlanner(cast, self.blocks, planning, workshop, self._reporter)
         self._predictions = Predictions(feedback)
+        self._endings = Endings(board, cast, self.blocks, self._reporter, self._predictions)
         self._arrivals = 0
         self._moved: set[BlockKey | None] = set()
         board.graph.listen(self._note)
+
+    @property
+    def failed(self) -> int:
+        """How many blocks ended FAILED."""
+        return self._endings.failed
 
     # --- what comes in
 
@@ -77,7 +81,7 @@ class BMLScheduler:
             self.interrupt_all(character, now)
         block = self._new_block(parsed.block, character, now)
         if parsed.failed:
-            self._end(block, BlockState.FAILED, now)
+            self._endings.end(block, BlockState.FAILED, now)
             return
         self._prepare(block, now)
 
@@ -89,7 +93,8 @@ class BMLScheduler:
     def interrupt_all(self, character: str, now: GlobalTime) -> None:
         """End every block of a character now; the later ones first, because they may hang on the earlier ones."""
         for block in reversed(self.blocks.of(character)):
-            self._interrupt(block, now)
+            self._planner.cancel(block)
+            self._endings.interrupt(block, now)
 
     # --- what time brings
 
@@ -98,7 +103,7 @@ class BMLScheduler:
         self._plan_prepared(now)
         ending = [block for block in self.blocks.alive if block.state.plays and not block.live_units]
         for block in ending:
-            self._end(block, BlockState.DONE, _known(block.end.value, now))
+            self._endings.end(block, BlockState.DONE, now if block.end.value is None else block.end.value)
         starting = [block for block in self.blocks.alive if _may_start(block) and is_due(block.start.value, now)]
         for block in sorted(starting, key=lambda b: (b.start.value, b.arrival)):
             self._start(block, now)
@@ -107,13 +112,8 @@ class BMLScheduler:
     def apply(self, play: Play, now: GlobalTime) -> bool:
         """Do what an engine's playing asks for; whether anything changed."""
         for dropped in play.dropped:
-            self._drop(dropped, now)
-        with self._board.graph.transaction("sync points reached"):
-            for reached in play.reached:
-                reached.point.peg.pin(reached.time)
-        for reached in play.reached:
-            self._reporter.reached(reached)
-            self._subside(reached)
+            self._endings.drop(dropped, now)
+        self._endings.reach(play.reached)
         return bool(play.dropped or play.reached)
 
     def clamp(self, previous: GlobalTime, now: GlobalTime, commits: Iterable[Commit]) -> None:
@@ -131,14 +131,13 @@ class BMLScheduler:
                     point.peg.pin(now)
         for unit in units:
             if not unit.begun and not unit.in_order():
-                self._drop_unit(unit, Fault("overtaken"), now)
+                self._endings.drop_unit(unit, Fault("overtaken"), now)
 
     def fail_restless(self, rounds: int, now: GlobalTime) -> None:
         """Fail the blocks that keep a tick from coming to rest: those that started in it and still play."""
         for block in [block for block in self.blocks.alive if block.state.plays and block.noticed == now]:
             self._reporter.warn(block.key.character, block.key.block, Fault("too-many-rounds", {"limit": rounds}))
-            self._leave(block.live_units, now)
-            self._end(block, BlockState.FAILED, now)
+            self._endings.fail(block, now)
 
     def publish(self, now: GlobalTime) -> None:
         """Say predictions that have moved."""
@@ -190,10 +189,10 @@ class BMLScheduler:
         self._reporter.lost(block, losses)
         fails = any(loss.required for loss in losses)
         if fails:
-            self._end(block, BlockState.FAILED, now)
+            self._endings.end(block, BlockState.FAILED, now)
         return fails
 
-    # --- starting and ending
+    # --- starting
 
     def _start(self, block: BMLBlock, now: GlobalTime) -> None:
         time = block.start.value or GlobalTime(0.0)
@@ -206,133 +205,12 @@ class BMLScheduler:
         self._owe_prediction(block)
         self._reporter.started(block, time)
 
-    def _end(self, block: BMLBlock, state: BlockState, time: GlobalTime) -> None:
-        self._predictions.close(block, time)
-        block.state = state
-        with self._board.graph.transaction(f"end {block.key.block}"):
-            block.end.pin(time)
-            cut = self._board.pin_block(block.key)
-        self._reporter.ended(block, time)
-        self._board.remove_block(block.key)
-        self.blocks.end(block, time)
-        for unit in block.units:
-            self._cast.take(unit)
-        self._hand_over_targets(block)
-        self._release_tied(cut, state, time)
-        self.failed += state is BlockState.FAILED
-        logger.info("%s/%s %s at %.2f s, %d behaviors", *block.key, state.value, time, len(block.units))
-
-    def _hand_over_targets(self, ended: BMLBlock) -> None:
-        """Who waited for a block that ended before its turn waits for what that one waited for."""
-        with self._board.graph.transaction(f"after {ended.key.block}"):
-            for block in self.blocks.alive:
-                if ended in block.targets and ended.waits_for:
-                    block.wait_instead(ended)
-        ended.targets = ()
-
-    def _release_tied(self, cut: Sequence[TimePeg], state: BlockState, now: GlobalTime) -> None:
-        """Behaviors of other blocks that hang on points which never come keep the times predicted last, and say so.
-
-        Without such a time they are lost; also when a block never began and they have not begun either.
-        """
-        followers = {follower: peg for peg in cut for follower in followers_of(peg)}
-        for unit in [unit for block in self.blocks.alive for unit in block.live_units]:
-            tied = [point.peg for point in unit.ahead() if point.peg in followers]
-            if not tied:
-                continue
-            details = {"point": followers[tied[0]].name}
-            if any(peg.value is None for peg in tied) or (state is BlockState.REVOKED and not unit.begun):
-                self._drop_unit(unit, Fault("never-comes", details), now)
-            else:
-                self._reporter.warn_of(unit, Fault("cut-tie", details))
-
-    def _interrupt(self, block: BMLBlock, now: GlobalTime) -> None:
-        if not block.state.plays:
-            self._planner.cancel(block)
-            self._leave(block.units, now)
-            self._end(block, BlockState.REVOKED, now)
-            return
-        cut = False
-        for unit in block.live_units:
-            cut |= self._interrupt_unit(unit, now)
-        if cut:
-            self._end(block, BlockState.INTERRUPTED, now)
-        else:
-            self._end(block, BlockState.DONE, _known(block.end.value, now))
-
-    def _interrupt_unit(self, unit: PlanUnit, now: GlobalTime) -> bool:
-        """End a behavior now, what is due first; whether anything of it was cut."""
-        if unit.due(now):
-            unit.begin()
-        if unit.state is not UnitState.IN_EXEC:
-            self._leave_unit(unit, now)
-            return True
-        try:
-            return self._cut_short(unit, now)
-        except Exception as failure:
-            logger.exception("%s/%s:%s failed when it was interrupted", *unit.block, unit.behavior.id)
-            self._drop_unit(unit, Fault("unit-failed", {"reason": failure}), now)
-            return True
-
-    def _cut_short(self, unit: PlanUnit, now: GlobalTime) -> bool:
-        details = unit.end_details(now)
-        reached = [Reached(unit, point, point.fired or now) for point in unit.fire(now)]
-        cut = unit.live
-        if cut:
-            kept = [self._split(unit, point, now) for point in unit.interrupt(now)]
-            reached += [Reached(unit, p, now, details if p.id == "end" else {}) for p in kept]
-        self._cast.take(unit)
-        self.apply(Play(tuple(reached)), now)
-        return cut
-
-    def _split(self, unit: PlanUnit, point: SyncPoint, now: GlobalTime) -> SyncPoint:
-        """Give a cut point a peg of its own: others that share the old one keep what was predicted last."""
-        with self._board.graph.transaction(f"cut {unit.key(point.id)}"):
-            point.peg = point.peg.apart(str(unit.key(point.id)), now)
-        return point
-
-    def _leave(self, units: Iterable[PlanUnit], now: GlobalTime) -> None:
-        for unit in list(units):
-            self._leave_unit(unit, now)
-
-    def _leave_unit(self, unit: PlanUnit, now: GlobalTime) -> None:
-        unit.drop(now)
-        self._cast.take(unit)
-
-    # --- playing
-
-    def _drop_unit(self, unit: PlanUnit, fault: Fault, now: GlobalTime) -> None:
-        unit.drop(now)
-        self._drop(Dropped(unit, fault), now)
-
-    def _drop(self, dropped: Dropped, now: GlobalTime) -> None:
-        """Warn of a unit that left the plan; one that had begun ends now."""
-        unit = dropped.unit
-        block = self.blocks.get(unit.block)
-        self._reporter.warn_of(unit, dropped.fault)
-        if block is not None and unit in block.units:
-            block.units.remove(unit)
-            with self._board.graph.transaction(f"drop {unit.behavior.id}"):
-                block.end_again(now)
-        self._cast.take(unit)
-        if unit.begun and unit.points[-1].fired is None:
-            self._reporter.reached(Reached(unit, self._split(unit, unit.points[-1], now), now))
-
-    def _subside(self, reached: Reached) -> None:
-        block = self.blocks.get(reached.unit.block)
-        if block is not None and block.state is BlockState.IN_EXEC and block.subsides():
-            block.state = BlockState.SUBSIDING
-
     def _owe_prediction(self, block: BMLBlock) -> None:
         self._moved.add(block.key)
         self._predictions.owe(block)
 
     def _note(self, commit: Commit) -> None:
         self._moved.update(self._board.owner(change.cell) for change in commit.changes)
-
-
-def _known(time: Time, now: GlobalTime) -> GlobalTime:
-    return now if time is None else time
 
 
 def _may_start(block: BMLBlock) -> bool:
