@@ -9,7 +9,6 @@ if TYPE_CHECKING:
     from reactive_realizer.reactive.graph import Graph
 
 T = TypeVar("T")
-Observer = Callable[[Any], None]
 
 
 class Cell(Generic[T]):

@@ -42,7 +42,6 @@ class BMLBlock:
         key: its name.
         description: what was asked for.
         arrival: number of arrival over all characters.
-        arrived: time of the tick in which it arrived, s.
         noticed: time of the tick in which it started; its peg may lie before that.
         start: its peg; pinned when it starts.
         end: the latest end of its behaviors.
@@ -62,7 +61,6 @@ class BMLBlock:
         self.key = key
         self.description = description
         self.arrival = arrival
-        self.arrived = arrived
         self.targets = tuple(targets)
         self.noticed: Time = None
         self.state = BlockState.IN_PREP

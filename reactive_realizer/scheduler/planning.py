@@ -39,11 +39,6 @@ class Plan:
     pegs: Mapping[str, Mapping[str, PegSpec]]
     losses: tuple[Loss, ...]
 
-    @property
-    def fails(self) -> bool:
-        """Whether something required was lost, so that the block fails whole."""
-        return any(loss.required for loss in self.losses)
-
 
 class Planning:
     """Solves blocks with a strategy and commits what comes out."""
