@@ -13,6 +13,8 @@ from reactive_realizer.reactive.graph import Graph
 
 Time = GlobalTime | None
 TimeCell = Cell[Time]
+Bound = tuple[TimeCell, float]
+"""A peg and a distance (s) from it."""
 
 
 class TimePeg(Derived[Time]):
@@ -65,6 +67,40 @@ class RatioPeg(TimePeg):
             return "pinned"
         before, after = self.dependencies
         return f"{self.ratio:.3g} of the way {before.name} .. {after.name}"
+
+
+class AfterPeg(TimePeg):
+    """Where another peg is, but not before any of its bounds, each a peg and a distance (s): a live `after`.
+
+    A bound that is unknown is waited for. Whoever moves a bound pushes this peg (thesis 7.4.1).
+    """
+
+    __slots__ = ("bounds",)
+
+    def __init__(self, graph: Graph, name: str, natural: TimeCell, bounds: Sequence[Bound]) -> None:
+        self.bounds = tuple(distance for _, distance in bounds)
+        super().__init__(graph, name, (natural, *(cell for cell, _ in bounds)), _not_before(self.bounds))
+
+    def describe(self) -> str:
+        """``natural, not before ...``."""
+        return _bounded(self, "before")
+
+
+class BeforePeg(TimePeg):
+    """Where another peg is, but not after any of its bounds, each a peg and a distance (s): a live `before`.
+
+    A bound that is unknown binds nothing.
+    """
+
+    __slots__ = ("bounds",)
+
+    def __init__(self, graph: Graph, name: str, natural: TimeCell, bounds: Sequence[Bound]) -> None:
+        self.bounds = tuple(distance for _, distance in bounds)
+        super().__init__(graph, name, (natural, *(cell for cell, _ in bounds)), _not_after(self.bounds))
+
+    def describe(self) -> str:
+        """``natural, not after ...``."""
+        return _bounded(self, "after")
 
 
 class LatestPeg(TimePeg):
@@ -136,6 +172,31 @@ def _between(ratio: float) -> Callable[[Time, Time], Time]:
         return GlobalTime(before + ratio * (after - before))
 
     return between
+
+
+def _not_before(distances: tuple[float, ...]) -> Callable[..., Time]:
+    def not_before(natural: Time, *bounds: Time) -> Time:
+        known = [b + d for b, d in zip(bounds, distances, strict=True) if b is not None]
+        return None if natural is None or len(known) < len(bounds) else GlobalTime(max(natural, *known))
+
+    return not_before
+
+
+def _not_after(distances: tuple[float, ...]) -> Callable[..., Time]:
+    def not_after(natural: Time, *bounds: Time) -> Time:
+        if natural is None:
+            return None
+        return GlobalTime(min([natural, *(b + d for b, d in zip(bounds, distances, strict=True) if b is not None)]))
+
+    return not_after
+
+
+def _bounded(peg: AfterPeg | BeforePeg, side: str) -> str:
+    if not peg.dependencies:
+        return "pinned"
+    natural, *cells = peg.dependencies
+    bounds = ", ".join(f"{cell.name} {distance:+g} s" for cell, distance in zip(cells, peg.bounds, strict=True))
+    return f"{natural.name}, not {side} {bounds}"
 
 
 def _latest(floor: GlobalTime) -> Callable[..., Time]:

@@ -4,6 +4,7 @@ import itertools
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import Enum
+from math import inf
 
 
 class PhaseKind(Enum):
@@ -12,6 +13,9 @@ class PhaseKind(Enum):
     RIGID = "rigid"
     ELASTIC = "elastic"
     HOLD = "hold"
+    """Takes time first, so that the phases around it keep theirs."""
+    FREE = "free"
+    """Without a preference: it is as long as its ends say."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,10 +25,14 @@ class Phase:
     Attributes:
         duration: preferred, s.
         kind: how it may be stretched.
+        minimum: authored limit, s; given up before any constraint is.
+        maximum: likewise.
     """
 
     duration: float
     kind: PhaseKind = PhaseKind.ELASTIC
+    minimum: float = 0.0
+    maximum: float = inf
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,6 +55,11 @@ class Timing:
     def rigid(self) -> bool:
         """Whether nothing of it may be stretched."""
         return all(phase.kind is PhaseKind.RIGID for phase in self.phases)
+
+    @property
+    def free(self) -> bool:
+        """Whether it follows what others leave to it, and moves nothing."""
+        return all(phase.kind is PhaseKind.FREE for phase in self.phases)
 
     @property
     def offsets(self) -> tuple[float, ...]:

@@ -1,15 +1,15 @@
 """From what a block says about time to ties between points (thesis 7.1.1)."""
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import replace
 
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.block import BehaviorBlock
-from reactive_realizer.bml.constraint import Order, Synchronize
+from reactive_realizer.bml.constraint import Constraint, OrderKind, Synchronize
+from reactive_realizer.bml.constraint import Order as OrderConstraint
 from reactive_realizer.bml.sync_ref import SyncRef
 from reactive_realizer.errors import Fault, RealizerError, error
 from reactive_realizer.planunit.plan_unit import PlanUnit
-from reactive_realizer.scheduler.problem import Loss, Node, Point, Tie
+from reactive_realizer.scheduler.problem import Loss, Node, Order, Point, Tie
 
 Locate = Callable[[SyncRef], Node]
 """The point that a reference names, without its offset.
@@ -22,7 +22,7 @@ def blocks_named(block: BehaviorBlock) -> set[str]:
     """Ids of the blocks that the references of a block name."""
     refs = [ref for behavior in block.behaviors for ref in behavior.syncs.values()]
     for constraint in block.constraints:
-        refs += (constraint.ref, *constraint.refs) if isinstance(constraint, Order) else constraint.refs
+        refs += (constraint.ref, *constraint.refs) if isinstance(constraint, OrderConstraint) else constraint.refs
     return {ref.block for ref in refs if ref.block is not None}
 
 
@@ -49,18 +49,18 @@ def ties_of(block: BehaviorBlock, units: Mapping[str, PlanUnit], locate: Locate)
     return ties, losses
 
 
-def orders_of(block: BehaviorBlock, strategy: str) -> list[Loss]:
-    """The before/after constraints of a block, as lost by a strategy that keeps none."""
-    return [
-        Loss(
-            None,
-            Fault("no-order", {"strategy": strategy, "text": _order_text(order)}, *_place(order)),
-            dropped=False,
-            required=order.required,
-        )
-        for order in block.constraints
-        if isinstance(order, Order)
-    ]
+def orders_of(block: BehaviorBlock, locate: Locate) -> tuple[list[Order], list[Loss]]:
+    """All before/after constraints between what is left of a block, and those that name what is not there."""
+    orders: list[Order] = []
+    losses: list[Loss] = []
+    for constraint in block.constraints:
+        if isinstance(constraint, OrderConstraint):
+            try:
+                orders += _ordered(constraint, locate)
+            except RealizerError as problem:
+                fault = _located(problem.fault, constraint)
+                losses.append(Loss(None, fault, dropped=False, required=constraint.required))
+    return orders, losses
 
 
 def _unplaceable(units: Mapping[str, PlanUnit], locate: Locate) -> Iterator[Loss]:
@@ -108,13 +108,17 @@ def _synchronized(constraint: Synchronize, locate: Locate) -> list[Tie]:
     ]
 
 
-def _located(fault: Fault, element: Behavior | Synchronize) -> Fault:
-    return replace(fault, line=element.location.line, column=element.location.column)
+def _ordered(constraint: OrderConstraint, locate: Locate) -> list[Order]:
+    pivot, orders = constraint.ref, []
+    for ref in constraint.refs:
+        late, early = (ref, pivot) if constraint.kind is OrderKind.AFTER else (pivot, ref)
+        text = f"{ref} {constraint.kind} {pivot}"
+        distance = early.offset - late.offset
+        name = f"{constraint.id or ''} {text}"
+        order = Order(locate(late), locate(early), distance, name, constraint.location, text, constraint.required)
+        orders.append(order)
+    return orders
 
 
-def _place(order: Order) -> tuple[int, int]:
-    return order.location.line, order.location.column
-
-
-def _order_text(order: Order) -> str:
-    return f"{', '.join(str(ref) for ref in order.refs)} {order.kind} {order.ref}"
+def _located(fault: Fault, element: Behavior | Constraint) -> Fault:
+    return fault.located(element.location.line, element.location.column)

@@ -9,19 +9,23 @@ from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.errors import error
 from reactive_realizer.pegboard.peg_key import PegKey
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.pegboard.time_peg import OffsetPeg, RatioPeg, TimeCell, TimePeg
+from reactive_realizer.pegboard.time_peg import AfterPeg, BeforePeg, Bound, OffsetPeg, RatioPeg, TimeCell, TimePeg
 from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
+from reactive_realizer.reactive.cell import Cell
 from reactive_realizer.reactive.graph import Graph
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.scheduler.constraints import drop_unplaceable, orders_of, ties_of
 from reactive_realizer.scheduler.problem import (
     AtBlock,
+    AtLeast,
+    AtMost,
     AtOffset,
     AtRatio,
     Item,
     Loss,
     Node,
+    Order,
     Origin,
     PegSpec,
     Point,
@@ -55,11 +59,12 @@ class Planning:
         losses = drop_unplaceable(kept, names.locate)
         ties, lost_ties = ties_of(block.description, kept, names.locate)
         losses += lost_ties
-        if not self._strategy.keeps_order:
-            losses += orders_of(block.description, self._strategy.name)
+        orders, lost_orders = orders_of(block.description, names.locate)
+        losses += lost_orders
         start = max(now, block.start.value or now)
         items = tuple(Item(unit.behavior, unit.timing) for unit in kept.values())
-        solution = self._strategy.solve(Problem(items, tuple(ties), _outer_times(ties, start)))
+        times = _outer_times([*ties, *orders], start)
+        solution = self._strategy.solve(Problem(items, tuple(ties), times, tuple(orders)))
         planned = tuple(unit for unit in units if unit.behavior.id in solution.pegs)
         return Plan(planned, solution.pegs, (*losses, *solution.losses))
 
@@ -145,14 +150,24 @@ class _PegBuilder:
             case AtBlock(anchor, offset):
                 return OffsetPeg(self._graph, name, self._block.start, anchor.time + offset)
             case AtOffset(link, offset):
-                cell = self._peg(link) if isinstance(link, AtBlock | AtOffset | AtRatio) else link
-                return OffsetPeg(self._graph, name, cell, offset)
+                return OffsetPeg(self._graph, name, self._cell(link), offset)
             case AtRatio(before, after, ratio):
-                return RatioPeg(self._graph, name, self._peg(before), self._peg(after), ratio)
+                return RatioPeg(self._graph, name, self._cell(before), self._cell(after), ratio)
+            case AtLeast(natural, bounds):
+                return AfterPeg(self._graph, name, self._cell(natural), self._bounds(bounds))
+            case AtMost(natural, bounds):
+                return BeforePeg(self._graph, name, self._cell(natural), self._bounds(bounds))
+
+    def _cell(self, link: PegSpec | TimeCell) -> TimeCell:
+        return link if isinstance(link, Cell) else self._peg(link)
+
+    def _bounds(self, bounds: Sequence[tuple[PegSpec | TimeCell, float]]) -> list[Bound]:
+        return [(self._cell(link), distance) for link, distance in bounds]
 
 
-def _outer_times(ties: Sequence[Tie], start: GlobalTime) -> dict[TimeCell, float | None]:
-    cells = (node for tie in ties for node in (tie.left, tie.right) if not isinstance(node, Point | Origin))
+def _outer_times(constraints: Sequence[Tie | Order], start: GlobalTime) -> dict[TimeCell, float | None]:
+    nodes = [node for each in constraints for node in each.nodes]
+    cells = (node for node in nodes if not isinstance(node, Point | Origin))
     return {cell: None if cell.value is None else cell.value - start for cell in cells}
 
 

@@ -56,14 +56,52 @@ class Tie:
     text: str
     required: bool
 
+    @property
+    def nodes(self) -> tuple[Node, Node]:
+        """What it ties."""
+        return self.left, self.right
+
+
+@dataclass(frozen=True, slots=True)
+class Order:
+    """An `after` constraint: ``later >= earlier + offset``; a `before` is one with its sides exchanged (thesis 7.12).
+
+    Attributes:
+        name: the same in any order of the block's elements; among equal ones the last is given up first.
+        location: of what names it.
+        text: as a person would write it.
+        required: whether the block fails without it.
+    """
+
+    later: Node
+    earlier: Node
+    offset: float
+    name: str
+    location: Location
+    text: str
+    required: bool
+
+    @property
+    def nodes(self) -> tuple[Node, Node]:
+        """What it orders."""
+        return self.later, self.earlier
+
 
 @dataclass(frozen=True, slots=True)
 class Problem:
-    """A block to be timed; ``times`` are those of the outer pegs after the predicted block start (s), None unknown."""
+    """A block to be timed.
+
+    Attributes:
+        items: its behaviors.
+        ties: its `at` constraints.
+        orders: its before/after constraints.
+        times: of the outer pegs, s after the predicted block start, None while unknown.
+    """
 
     items: tuple[Item, ...]
     ties: tuple[Tie, ...]
     times: Mapping[TimeCell, float | None]
+    orders: tuple[Order, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -94,12 +132,28 @@ class AtOffset:
 class AtRatio:
     """A fraction of the way between two others."""
 
-    before: "PegSpec"
-    after: "PegSpec"
+    before: "PegSpec | TimeCell"
+    after: "PegSpec | TimeCell"
     ratio: float
 
 
-PegSpec = AtBlock | AtOffset | AtRatio
+@dataclass(frozen=True, slots=True, eq=False)
+class AtLeast:
+    """Where another peg would be, but not before any bound, each a peg and a distance (s): an `after` kept alive."""
+
+    natural: "PegSpec | TimeCell"
+    bounds: "tuple[tuple[PegSpec | TimeCell, float], ...]"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class AtMost:
+    """Where another peg would be, but not after any bound, each a peg and a distance (s): a `before` kept alive."""
+
+    natural: "PegSpec | TimeCell"
+    bounds: "tuple[tuple[PegSpec | TimeCell, float], ...]"
+
+
+PegSpec = AtBlock | AtOffset | AtRatio | AtLeast | AtMost
 """A peg to be made when the plan is committed; points that share a spec share a peg."""
 
 
@@ -111,12 +165,14 @@ class Loss:
         behavior: its id.
         dropped: whether the behavior itself is lost, or only a constraint of it.
         required: whether the block fails by it.
+        constraint: the one that is not kept, if it is one.
     """
 
     behavior: str | None
     fault: Fault
     dropped: bool
     required: bool
+    constraint: Tie | Order | None = None
 
 
 @dataclass(frozen=True, slots=True)

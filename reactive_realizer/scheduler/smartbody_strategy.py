@@ -16,6 +16,7 @@ from reactive_realizer.scheduler.problem import (
     Item,
     Loss,
     Node,
+    Order,
     Origin,
     PegSpec,
     Point,
@@ -52,7 +53,6 @@ class SmartBodyStrategy:
     """
 
     name = "smartbody"
-    keeps_order = False
 
     def solve(self, problem: Problem) -> Solution:
         """See `SchedulingStrategy`."""
@@ -76,6 +76,7 @@ class _Run:
     def solve(self) -> Solution:
         for tie in self._problem.ties:
             self._tie(tie)
+        self._losses += [_unkept(order) for order in self._problem.orders]
         for item in sort_items(self._problem, self._ties):
             try:
                 self._place(item)
@@ -90,7 +91,7 @@ class _Run:
             code = "contradictory-tie" if isfinite(gap) else "outer-tie"
             place = tie.location
             fault = Fault(code, {"tie": tie.text, "gap": abs(gap)}, place.line, place.column)
-            self._losses.append(Loss(tie.owner, fault, dropped=False, required=tie.required))
+            self._losses.append(Loss(tie.owner, fault, dropped=False, required=tie.required, constraint=tie))
 
     def _place(self, item: Item) -> None:
         """Find the peg of every point; those of earlier behaviors stand."""
@@ -235,6 +236,12 @@ class _Run:
     def _pegs(self, item: Item) -> dict[str, PegSpec]:
         placed = self._placed[item.behavior.id]
         return {sync: point.spec for sync, point in zip(item.timing.points, placed, strict=True)}
+
+
+def _unkept(order: Order) -> Loss:
+    place = order.location
+    fault = Fault("no-order", {"strategy": SmartBodyStrategy.name, "text": order.text}, place.line, place.column)
+    return Loss(None, fault, dropped=False, required=order.required, constraint=order)
 
 
 def _fill(item: Item, known: Mapping[int, Placed]) -> list[Placed]:

@@ -10,11 +10,9 @@ class SchedulingStrategy(Protocol):
 
     Attributes:
         name: by which users choose it.
-        keeps_order: whether it keeps before/after constraints.
     """
 
     name: str
-    keeps_order: bool
 
     def solve(self, problem: Problem) -> Solution:
         """A plan for as much of the problem as can be met; it writes nothing anywhere."""
