@@ -1,5 +1,6 @@
 """What playing gives back: an engine changes nothing outside itself, it says what is to be changed."""
 
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
@@ -8,6 +9,7 @@ from reactive_realizer.embodiment.audio import AudioChange
 from reactive_realizer.embodiment.humanoid import Eyes
 from reactive_realizer.embodiment.pose import Layer
 from reactive_realizer.errors import Fault
+from reactive_realizer.planunit.parameter import Parameter
 from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
 
 
@@ -37,6 +39,80 @@ class Dropped:
 
 
 @dataclass(frozen=True, slots=True)
+class ActivateBlock:
+    """A preplanned block is to start.
+
+    Attributes:
+        unit: who asks.
+        target: id of the block.
+        time: from when on.
+    """
+
+    unit: PlanUnit
+    target: str
+    time: GlobalTime
+
+
+@dataclass(frozen=True, slots=True)
+class InterruptBlock:
+    """A block, or some behaviors of it, are to be cut.
+
+    Attributes:
+        unit: who asks.
+        target: id of the block.
+        include: ids of the behaviors to be cut; none named: all.
+        exclude: ids of the behaviors to be spared.
+        gently: whether a speech may end its word.
+        time: when.
+    """
+
+    unit: PlanUnit
+    target: str
+    include: tuple[str, ...]
+    exclude: tuple[str, ...]
+    gently: bool
+    time: GlobalTime
+
+
+@dataclass(frozen=True, slots=True)
+class BindParameter:
+    """A unit wants to change a parameter of a behavior: ``unit.bind(parameter)`` is called, or the unit is dropped.
+
+    Attributes:
+        unit: who asks.
+        block: id of the target's block.
+        behavior: id of the target.
+        parameter: its name.
+    """
+
+    unit: "ParameterUser"
+    block: str
+    behavior: str
+    parameter: str
+
+
+@dataclass(frozen=True, slots=True)
+class SetParameter:
+    """A parameter is to have a value from now on; ignored if another unit has bound the parameter since."""
+
+    unit: PlanUnit
+    parameter: Parameter
+    value: float
+
+
+class ParameterUser(PlanUnit, ABC):
+    """A unit that changes a parameter of another one."""
+
+    @abstractmethod
+    def bind(self, parameter: Parameter) -> None:
+        """Change this one."""
+
+
+Request = ActivateBlock | InterruptBlock | BindParameter | SetParameter
+"""What an engine asks the scheduler to do, in the same tick."""
+
+
+@dataclass(frozen=True, slots=True)
 class Play:
     """All that an engine says in one round of a tick.
 
@@ -47,6 +123,7 @@ class Play:
         face: weights of morphs, 0..1, in the frame that is due; those of several engines add up.
         eyes: what the eyes do in the frame that is due, once the head is composed.
         audio: what became audible, moved or fell silent.
+        requests: what others are to do.
     """
 
     reached: tuple[Reached, ...] = ()
@@ -55,3 +132,4 @@ class Play:
     face: Mapping[str, float] = field(default_factory=dict)
     eyes: Eyes | None = None
     audio: tuple[AudioChange, ...] = ()
+    requests: tuple[Request, ...] = ()

@@ -10,7 +10,7 @@ from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.audio import AudioChange
 from reactive_realizer.embodiment.humanoid import Eyes
 from reactive_realizer.embodiment.pose import Layer
-from reactive_realizer.engine.effects import Dropped, Play
+from reactive_realizer.engine.effects import Dropped, Play, Request
 from reactive_realizer.engine.player import Player
 from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.peg_key import BlockKey
@@ -24,9 +24,11 @@ class Engine(Protocol):
         name: for logs: ``character/modality``.
         behaviors: the kinds of behaviors it plays.
         extensions: the attributes of other namespaces, (namespace, local name), that mean something to it.
+        leads: whether it plays before the others in each round of a tick: what it asks for is done before they play.
     """
 
     name: str
+    leads: bool
     behaviors: frozenset[type[Behavior]]
     extensions: frozenset[tuple[str, str]]
 
@@ -66,6 +68,7 @@ class Engine(Protocol):
 class DefaultEngine:
     """An engine around a `Player`; modalities override what they have."""
 
+    leads: bool = False
     behaviors: frozenset[type[Behavior]] = frozenset()
     extensions: frozenset[tuple[str, str]] = frozenset()
 
@@ -97,6 +100,7 @@ class DefaultEngine:
             face=self.face(tick) if tick.frame else {},
             eyes=self.eyes(tick) if tick.frame else None,
             audio=self.audio(tick),
+            requests=self.requests(tick),
         )
         return replace(play, dropped=self.player.take_dropped())
 
@@ -107,6 +111,10 @@ class DefaultEngine:
             unit.drop(time)
             self.player.remove(unit)
         return Play(dropped=tuple(Dropped(unit, fault) for unit in units))
+
+    def requests(self, tick: Tick) -> tuple[Request, ...]:
+        """What others are to do now."""
+        return ()
 
     def layers(self, tick: Tick) -> tuple[Layer, ...]:
         """What turns the joints now."""

@@ -10,6 +10,7 @@ from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.clock.units import RESOLUTION, GlobalTime, is_due
 from reactive_realizer.pegboard.peg_key import BlockKey, PegKey
 from reactive_realizer.pegboard.time_peg import Time, TimePeg
+from reactive_realizer.planunit.parameter import Parameter
 from reactive_realizer.planunit.timing import Timing
 
 logger = logging.getLogger(__name__)
@@ -54,6 +55,7 @@ class PlanUnit:
         timing: what it prefers; the strategy decides.
         resources: what of the body it owns while it plays; units that share one exclude each other.
         points: its sync points in order; empty until the plan is committed.
+        parameters: what of it may be changed while it plays, by name.
     """
 
     def __init__(
@@ -64,6 +66,7 @@ class PlanUnit:
         self.timing = timing
         self.resources = resources
         self.points: list[SyncPoint] = []
+        self.parameters: dict[str, Parameter] = {}
         self.state = UnitState.PENDING
 
     # --- for subclasses
@@ -76,6 +79,14 @@ class PlanUnit:
 
     def on_finish(self, time: GlobalTime) -> None:
         """The unit ended or was interrupted: the way back to rest is the engine's motion."""
+
+    def preference(self) -> Timing:
+        """How it would like to be timed if it began now; a chunk is planned anew when it starts (thesis 12.1.4)."""
+        return self.timing
+
+    def gentle_end(self, time: GlobalTime) -> GlobalTime:
+        """When it can end without breaking off in the middle of something, if it is asked to at a time."""
+        return time
 
     def end_details(self, time: GlobalTime) -> Mapping[str, str]:
         """What the feedback of an interrupted ``end`` tells beside the time."""

@@ -42,10 +42,12 @@ class Timing:
     Attributes:
         points: sync ids in order, from start to end; two or more.
         phases: one between each two points.
+        instant: whether it is an event, all its points at one time; other behaviors take time (thesis 7.14).
     """
 
     points: tuple[str, ...]
     phases: tuple[Phase, ...]
+    instant: bool = False
 
     def __post_init__(self) -> None:
         if len(self.phases) != len(self.points) - 1:

@@ -302,5 +302,5 @@ def _check(item: Item, placed: list[Placed]) -> None:
     for (sync, time), (later, then) in itertools.pairwise(known):
         if then < time - _SHORTEST:
             raise error("out-of-order", sync=sync, later=later, gap=time - then)
-    if len(known) == len(placed) and known[-1][1] - known[0][1] < _SHORTEST:
+    if not item.timing.instant and len(known) == len(placed) and known[-1][1] - known[0][1] < _SHORTEST:
         raise error("too-short")
