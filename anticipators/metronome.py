@@ -3,7 +3,7 @@
 import re
 from typing import NamedTuple
 
-from reactive_realizer.clock.units import RESOLUTION, GlobalTime, is_due
+from reactive_realizer.clock.units import RESOLUTION, GlobalTime
 from reactive_realizer.errors import error
 from reactive_realizer.pegboard.anticipator import Anticipator
 from reactive_realizer.pegboard.pegboard import PegBoard
@@ -77,9 +77,7 @@ class Metronome(Anticipator):
         # Quicker than time goes: a beat that would have been due under the new tempo comes now.
         time = max(GlobalTime(self._time(following - 1) + period), now)
         self._changes.append(_Change(following, time, period))
-        for sync, peg in self._board.predictions(self.id).items():
-            if not is_due(peg.value, now):
-                self.predict(sync, self.forecast(sync), now)
+        self.revise(now)
 
     def _time(self, beat: int) -> GlobalTime:
         change = next(change for change in reversed(self._changes) if change.beat <= beat)

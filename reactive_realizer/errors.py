@@ -71,7 +71,9 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
         "out-of-range": ErrorKind("not within {low} and {high}"),
         "unknown-word": ErrorKind("known are {known}"),
         "not-a-reference": ErrorKind("not a sync reference, [block:]behavior:sync[+seconds] or seconds"),
-        "only-block-start": ErrorKind("of a block itself only its start can be named, as in bml:start"),
+        "only-block-start": ErrorKind(
+            "of its own block a reference may name the start, of another one start, relax and end"
+        ),
         "absurd-time": ErrorKind("more than {limit:g} s"),
         "unknown-element": ErrorKind("unknown {element} in <{parent}>; known are {known}", _PARSING),
         "missing-element": ErrorKind("<{element}> needs {children} in it", _PARSING),
@@ -92,9 +94,29 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
             "no character '{character}'; there are {known}", WarningType.NO_SUCH_TARGET, 404
         ),
         "unknown-block": ErrorKind("no block '{block}' for {reference}: it is unknown or has ended", _SCHEDULE),
+        "unknown-owner": ErrorKind(
+            "'{block}' for {reference} is no behavior here, and no block, or one that has ended; there are {known}",
+            _SCHEDULE,
+        ),
         "contradictory-tie": ErrorKind("{tie} contradicts other constraints by {gap:g} s; it is dropped", _SCHEDULE),
         "outer-tie": ErrorKind("{tie} ties two times that both come from elsewhere; it is dropped", _SCHEDULE),
         "rigid": ErrorKind("{point} cannot be where it is tied to, {gap:g} s away; that tie is dropped", _SCHEDULE),
+        "cyclic-reference": ErrorKind("{reference} hangs on the block '{block}' itself", _SCHEDULE),
+        "unknown-target-block": ErrorKind("{attribute}: there never was a block '{block}'; not waited for", _SCHEDULE),
+        "started-already": ErrorKind("'{block}' has started; nothing can be put before it. Refused", _SCHEDULE),
+        "cyclic-composition": ErrorKind(
+            "'{block}' is to come before '{other}' and waits for it too; it is refused", _SCHEDULE
+        ),
+        "no-such-block": ErrorKind("there never was a block '{block}'", WarningType.NO_SUCH_TARGET),
+        "block-ended": ErrorKind("the block '{block}' has ended", _SCHEDULE),
+        "not-preplanned": ErrorKind("the block '{block}' is not preplanned: it starts without", _SCHEDULE),
+        "activated-already": ErrorKind("the block '{block}' is activated already", _SCHEDULE),
+        "no-such-behavior": ErrorKind("the block '{block}' has no behavior '{behavior}'", WarningType.NO_SUCH_TARGET),
+        "behavior-ended": ErrorKind("'{behavior}' of the block '{block}' has ended", _SCHEDULE),
+        "not-planned": ErrorKind("'{behavior}' of the block '{block}' is still being prepared", _SCHEDULE),
+        "no-such-parameter": ErrorKind(
+            "'{behavior}' has no parameter '{parameter}'; it has {known}", WarningType.NO_SUCH_TARGET
+        ),
         "before-block": ErrorKind("it would have to start {early:g} s before its block", _SCHEDULE),
         "out-of-order": ErrorKind("{sync} would come {gap:g} s after {later}", _SCHEDULE),
         "too-short": ErrorKind("no time is left between its start and its end", _SCHEDULE),
@@ -132,6 +154,8 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
         "forbidden-path": ErrorKind("'{name}' is no name of an asset: it may not leave the folders", _CREATE, 400),
         "no-asset": ErrorKind("no file '{name}' among the assets", _CREATE, 404),
         "bad-tempo": ErrorKind("a tempo of {tempo:g} is not within {low:g} and {high:g} beats a minute", None, 400),
+        "bad-number": ErrorKind("{name}={value} is not within {low:g} and {high:g}", None, 400),
+        "bad-peak-name": ErrorKind("'{name}' cannot name a peak: wanted is a letter, then letters, digits, '_', each name once"),
         # --- making a behavior
         "no-motion-for": ErrorKind("nothing in the binding plays <{element}> with lexeme '{lexeme}'", _CREATE),
         "no-unit": ErrorKind("there is no motion unit '{unit}'", _CREATE),
@@ -142,6 +166,20 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
         "bad-asset": ErrorKind("{file}, line {row}, <{element}>: {reason}", _CREATE),
         "bad-expression": ErrorKind("{reason} at character {at} of '{expression}'", _CREATE),
         "no-motion": ErrorKind("{animation} gives no pose at phase {phase:g}: {reason}", _PLAYING),
+        # --- changing parameters
+        "no-trajectory": ErrorKind("no trajectory '{trajectory}'; known are {known}", _CREATE),
+        "parameter-range": ErrorKind(
+            "the {parameter} of '{behavior}' is from {low:g} to {high:g}, and {value:g} is not within", _PLAYING
+        ),
+        # --- recorded sessions
+        "bad-recording": ErrorKind("{file}, line {row}: {reason}"),
+        "not-recorded": ErrorKind("a message of type {type} is no input of a recorded session"),
+        "lost-input": ErrorKind("input {seq} stands where input {wanted} was to come"),
+        "ticks-out-of-order": ErrorKind("tick {tick} stands after tick {last}"),
+        "replay-differs": ErrorKind(
+            "at {time:g} s the recording goes on with work {request}, which is not there in this replay: files or "
+            "versions are others than they were"
+        ),
         # --- the server
         "bad-json": ErrorKind("not JSON: {reason}", None, 400),
         "binary-message": ErrorKind("messages are JSON text; binary data are not read", None, 400),

@@ -15,7 +15,7 @@ from reactive_realizer.limits import Limits
 
 T = TypeVar("T")
 
-DEFAULT_ENGINES: Final = ("speech", "animation", "face", "wait")
+DEFAULT_ENGINES: Final = ("speech", "animation", "face", "wait", "activate", "interrupt", "parameter-value-change")
 DEFAULT_BINDINGS: Final[Mapping[str, str]] = {"gesture": "gesturebinding.xml"}
 
 _ID: Final = re.compile(r"[^\s:+\x00-\x1f\x7f]{1,200}")
@@ -52,10 +52,10 @@ class TargetSpec:
 
 @dataclass(frozen=True, slots=True)
 class AnticipatorSpec:
-    """``[anticipator.ID]``: who predicts, and the numbers it is made with."""
+    """``[anticipator.ID]``: who predicts, and the numbers and lists of names it is made with."""
 
     kind: str
-    parameters: Mapping[str, float] = field(default_factory=dict)
+    parameters: Mapping[str, float | tuple[str, ...]] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)
@@ -124,7 +124,8 @@ class _Reader:
     def anticipator(self, key: str, table: Any) -> AnticipatorSpec:
         if not isinstance(table, dict) or not isinstance(table.get("kind"), str):
             raise self._bad(key, "a table with a kind is wanted")
-        rest = {name: self._value(f"{key}.{name}", value, float) for name, value in table.items() if name != "kind"}
+        kinds = {name: tuple[str, ...] if isinstance(value, list) else float for name, value in table.items()}
+        rest = {name: self._value(f"{key}.{name}", table[name], kinds[name]) for name in table if name != "kind"}
         return AnticipatorSpec(table["kind"], rest)
 
     def read(self, cls: Callable[..., T], key: str, table: Any) -> T:

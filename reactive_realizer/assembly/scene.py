@@ -4,7 +4,7 @@ import math
 from collections.abc import AsyncIterator, Callable, Mapping
 from contextlib import asynccontextmanager
 from dataclasses import dataclass, field
-from inspect import signature
+from inspect import Parameter, signature
 from pathlib import Path
 
 from reactive_realizer.assembly.assets import PACKAGE_ASSETS, Assets
@@ -117,13 +117,24 @@ def _anticipators(file: str, specs: Mapping[str, AnticipatorSpec]) -> Callable[[
 
 def _anticipator(file: str, id_: str, spec: AnticipatorSpec, board: PegBoard) -> Anticipator:
     cls: type[Anticipator] = load("anticipators", spec.kind)
-    known = [name for name in signature(cls).parameters if name not in ("id", "board")]
-    for name in spec.parameters:
-        if name not in known:
-            reason = f"unknown; known are {', '.join(['kind', *known])}"
-            raise error("bad-human-file", file=file, key=f"anticipator.{id_}.{name}", reason=reason)
+    defaults = _parameters(cls)
+    for name, value in spec.parameters.items():
+        if name not in defaults:
+            reason = f"unknown; known are {', '.join(['kind', *defaults])}"
+        elif isinstance(value, tuple) is not isinstance(defaults[name], tuple):
+            reason = f"wanted is a {'list of names' if isinstance(defaults[name], tuple) else 'number'}"
+        else:
+            continue
+        raise error("bad-human-file", file=file, key=f"anticipator.{id_}.{name}", reason=reason)
     try:
         return cls(id_, board, **spec.parameters)
     except RealizerError as refused:
         reason = refused.fault.sentence
         raise error("bad-human-file", file=file, key=f"anticipator.{id_}", reason=reason) from refused
+
+
+def _parameters(cls: type[Anticipator]) -> Mapping[str, object]:
+    """What a human file may say of an anticipator, with its defaults; keyword-only parameters are for programs."""
+    parameters = signature(cls).parameters.values()
+    given = [own for own in parameters if own.kind is Parameter.POSITIONAL_OR_KEYWORD]
+    return {own.name: own.default for own in given if own.name not in ("id", "board")}

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Any, ClassVar, Protocol
 
-from reactive_realizer.bml.names import BLOCK
+from reactive_realizer.bml.names import BLOCK, CONTINUOUS
 from reactive_realizer.bml.sync_ref import NUMBER
 from reactive_realizer.errors import error
 from reactive_realizer.limits import Limits
@@ -61,15 +61,57 @@ class Name:
 
 
 @dataclass(frozen=True, slots=True)
+class Names:
+    """Ids with commas between them, each once; there may be none."""
+
+    description: ClassVar[str] = "ids, separated by commas"
+
+    def read(self, text: str, limits: Limits) -> tuple[str, ...]:
+        """The ids, in order of writing."""
+        names = text.split(",") if text.strip() else []
+        return tuple(dict.fromkeys(Name().read(name, limits) for name in names))
+
+
+@dataclass(frozen=True, slots=True)
+class BehaviorName:
+    """The id of a behavior, with that of its block before it or without."""
+
+    description: ClassVar[str] = "[block:]behavior"
+
+    def read(self, text: str, limits: Limits) -> str:
+        """Both ids, without the white space around them."""
+        names = text.split(":")
+        if len(names) > 2:
+            raise error("not-an-id")
+        return ":".join(Name().read(name, limits) for name in names)
+
+
+@dataclass(frozen=True, slots=True)
+class Boolean:
+    """Yes or no, as XML Schema writes it, in any case."""
+
+    description: ClassVar[str] = "true, false"
+
+    def read(self, text: str, limits: Limits) -> bool:
+        """Whether it is yes."""
+        word = text.strip().lower()
+        if word not in {"true", "false", "1", "0"}:
+            raise error("unknown-word", known=self.description)
+        return word in {"true", "1"}
+
+
+@dataclass(frozen=True, slots=True)
 class Number:
     """A finite number within a range."""
 
-    low: float
-    high: float
+    low: float = -math.inf
+    high: float = math.inf
 
     @property
     def description(self) -> str:
         """The range."""
+        if math.isinf(self.low) and math.isinf(self.high):
+            return "number"
         return f"number, {self.low:g} to {self.high:g}"
 
     def read(self, text: str, limits: Limits) -> float:
@@ -134,11 +176,12 @@ class Attribute:
     """One attribute of an element.
 
     Attributes:
-        name: in XML.
+        name: in XML, without namespace.
         field: of the dataclass that holds its value.
         type: what it may be.
         required: whether an element without it is refused.
         default: its value where it is not written.
+        continuous: whether it stands in the namespace of BMLA or of BMLT; else in none.
     """
 
     name: str
@@ -146,11 +189,23 @@ class Attribute:
     type: AttributeType
     required: bool
     default: object
+    continuous: bool
+
+    @property
+    def spellings(self) -> tuple[str, ...]:
+        """Its names in Clark notation; where several are written the first one counts."""
+        return tuple(f"{{{namespace}}}{self.name}" for namespace in CONTINUOUS) if self.continuous else (self.name,)
 
 
-def attribute(kind: AttributeType, name: str | None = None) -> Mapping[str, Any]:
-    """Metadata of a field that holds an attribute; its name is the field's in camelCase unless given."""
-    return {_METADATA: (kind, name)}
+def attribute(kind: AttributeType, name: str | None = None, continuous: bool = False) -> Mapping[str, Any]:
+    """Metadata of a field that holds an attribute.
+
+    Args:
+        kind: what values it may have.
+        name: its name; without one, the field's in camelCase.
+        continuous: whether it is BMLA's and BMLT's; else it stands without a namespace.
+    """
+    return {_METADATA: (kind, name, continuous)}
 
 
 def attributes_of(data: type) -> tuple[Attribute, ...]:
@@ -159,9 +214,10 @@ def attributes_of(data: type) -> tuple[Attribute, ...]:
 
 
 def _attribute(each: "dataclasses.Field[Any]") -> Attribute:
-    kind, name = each.metadata[_METADATA]
+    kind, given, continuous = each.metadata[_METADATA]
+    name = given or _camel(each.name)
     required = each.default is dataclasses.MISSING
-    return Attribute(name or _camel(each.name), each.name, kind, required, None if required else each.default)
+    return Attribute(name, each.name, kind, required, None if required else each.default, continuous)
 
 
 def _camel(name: str) -> str:

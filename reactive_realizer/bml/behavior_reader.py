@@ -8,9 +8,10 @@ from typing import Any, Final
 from reactive_realizer.bml.attributes import attributes_of
 from reactive_realizer.bml.behavior import Behavior, Description, ForeignBehavior
 from reactive_realizer.bml.behaviors import Speech
-from reactive_realizer.bml.elements import ELEMENTS
+from reactive_realizer.bml.continuous import ParameterValueChange
+from reactive_realizer.bml.elements import ELEMENTS, Element
 from reactive_realizer.bml.face import Face, FaceShift
-from reactive_realizer.bml.parts import read_face, read_posture
+from reactive_realizer.bml.parts import read_change, read_face, read_posture
 from reactive_realizer.bml.posture import Posture, PostureShift
 from reactive_realizer.bml.source import Source
 from reactive_realizer.bml.speech_reader import read_speech
@@ -18,6 +19,7 @@ from reactive_realizer.bml.trees import (
     Tree,
     attributes_in,
     children_of,
+    is_continuous,
     is_core,
     listed,
     name_of,
@@ -33,6 +35,7 @@ _READ_PARTS: Final[Mapping[type[Behavior], Callable[[Tree, Source, list[Fault]],
     FaceShift: read_face,
     Posture: read_posture,
     PostureShift: read_posture,
+    ParameterValueChange: read_change,
 }
 
 
@@ -49,18 +52,25 @@ def read_behavior(tree: Tree, source: Source, order: int, required: bool, notes:
     Raises:
         RealizerError: it is none, or an attribute or child that it needs is missing or bad.
     """
-    read = _core if is_core(tree) else _foreign
-    return replace(read(tree, source, notes), order=order, required=required)
+    element = _element_of(tree)
+    if element is None and is_core(tree):
+        known = [name for name, each in ELEMENTS.items() if not each.continuous]
+        raise RealizerError(source.fault(tree, "unknown-behavior", known=listed(known)))
+    behavior = _known(tree, element, source, notes) if element else _foreign(tree, source, notes)
+    return replace(behavior, order=order, required=required)
 
 
-def _core(tree: Tree, source: Source, notes: list[Fault]) -> Behavior:
+def _element_of(tree: Tree) -> Element | None:
     element = ELEMENTS.get(name_of(tree))
-    if element is None:
-        raise RealizerError(source.fault(tree, "unknown-behavior", known=listed(ELEMENTS)))
+    return element if element and (is_continuous(tree) if element.continuous else is_core(tree)) else None
+
+
+def _known(tree: Tree, element: Element, source: Source, notes: list[Fault]) -> Behavior:
     values = source.written(tree) | source.values(tree, element.attributes)
     if element.behavior in _READ_PARTS:
         values |= _READ_PARTS[element.behavior](tree, source, notes)
-    behavior = element.behavior(**values, namespace=element.namespace, order=0)
+    namespace = namespace_of(tree) if element.continuous else element.namespace
+    behavior = element.behavior(**values, namespace=namespace, order=0)
     # A head that strokes several times has no single stroke to be tied.
     points = [name for name in element.sync_points if name in behavior.sync_points]
     names = [*(each.name for each in element.attributes), *points]

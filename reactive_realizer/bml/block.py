@@ -3,8 +3,9 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from reactive_realizer.bml.attributes import Name, Text, Word, attribute
+from reactive_realizer.bml.attributes import Boolean, Name, Names, Text, attribute
 from reactive_realizer.bml.behavior import Behavior
+from reactive_realizer.bml.composition import CompositionText
 from reactive_realizer.bml.constraint import Constraint
 from reactive_realizer.bml.names import Location
 from reactive_realizer.bml.words import Composition
@@ -19,6 +20,14 @@ class BehaviorBlock:
         id: unique among the blocks alive.
         character: id of who is meant; None is the first one.
         composition: how it joins the earlier blocks.
+        append_after: blocks that have ended before it starts; BMLA's appendAfter.
+        chunk_after: blocks that subside before it starts: all that is left of them is in retraction.
+        prepend_before: blocks that do not start before it has ended.
+        chunk_before: blocks that do not start before it subsides.
+        interrupts: blocks that are interrupted when it comes in; BMLA's interrupt.
+        on_start: planned blocks that start when it starts.
+        preplan: whether it waits to be activated.
+        external_refs: whether its references may name behaviors of other blocks; only drafts have to say so.
         behaviors: in document order, also those inside ``<required>``.
         constraints: in document order.
         extensions: attributes of other namespaces, (namespace, local name) to value.
@@ -27,7 +36,15 @@ class BehaviorBlock:
 
     id: str = field(metadata=attribute(Name()))
     character: str | None = field(default=None, metadata=attribute(Text(), "characterId"))
-    composition: Composition = field(default=Composition.MERGE, metadata=attribute(Word(Composition)))
+    composition: Composition = field(default=Composition.MERGE, metadata=attribute(CompositionText()))
+    append_after: tuple[str, ...] = field(default=(), metadata=attribute(Names(), continuous=True))
+    chunk_after: tuple[str, ...] = field(default=(), metadata=attribute(Names(), continuous=True))
+    prepend_before: tuple[str, ...] = field(default=(), metadata=attribute(Names(), continuous=True))
+    chunk_before: tuple[str, ...] = field(default=(), metadata=attribute(Names(), continuous=True))
+    interrupts: tuple[str, ...] = field(default=(), metadata=attribute(Names(), "interrupt", continuous=True))
+    on_start: tuple[str, ...] = field(default=(), metadata=attribute(Names(), continuous=True))
+    preplan: bool = field(default=False, metadata=attribute(Boolean(), continuous=True))
+    external_refs: bool = field(default=False, metadata=attribute(Boolean(), "allowexternalrefs", continuous=True))
     behaviors: tuple[Behavior, ...] = ()
     constraints: tuple[Constraint, ...] = ()
     extensions: Mapping[tuple[str, str], str] = field(default_factory=dict)

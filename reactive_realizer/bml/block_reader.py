@@ -1,22 +1,26 @@
 """From a top-level element to a block."""
 
 from collections.abc import Iterator
+from itertools import chain
 from typing import Any, Final
 
 from reactive_realizer.bml.attributes import attributes_of
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.behavior_reader import read_behavior
 from reactive_realizer.bml.block import BehaviorBlock, Parsed, Problem
+from reactive_realizer.bml.composition import Joining
 from reactive_realizer.bml.constraint import Constraint
 from reactive_realizer.bml.constraint_reader import CONSTRAINTS, read_constraint
 from reactive_realizer.bml.names import BLOCK
 from reactive_realizer.bml.root_builder import Root
 from reactive_realizer.bml.source import Source
-from reactive_realizer.bml.trees import Tree, children_of, extensions_of, is_core, name_of, shown
+from reactive_realizer.bml.trees import Tree, children_of, extensions_of, is_continuous, is_core, name_of, shown
 from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.limits import Limits
 
 _ID, *_OTHERS = attributes_of(BehaviorBlock)
+_PLAIN: Final = [each.name for each in (_ID, *_OTHERS) if not each.continuous]
+_CONTINUOUS: Final = frozenset(name for each in _OTHERS if each.continuous for name in each.spellings)
 _REQUIRED: Final = "required"
 _CONSTRAINT: Final = "constraint"
 
@@ -47,7 +51,7 @@ class BlockReader:
             **attributes,
             behaviors=tuple(self._behaviors.values()),
             constraints=tuple(self._constraints),
-            extensions=extensions_of(self._tree),
+            extensions=extensions_of(self._tree, _CONTINUOUS),
             location=self._source.location(self._tree),
         )
         return Parsed(block, self._ordered_problems(), self._failed)
@@ -67,14 +71,22 @@ class BlockReader:
                 values |= self._source.values(self._tree, [attribute])
             except RealizerError as refused:
                 self._report([refused.fault])
-        self._report(self._source.unread_attributes(self._tree, [_ID.name, *(each.name for each in _OTHERS)]))
-        return values
+        self._report(self._source.unread_attributes(self._tree, _PLAIN))
+        joining = values.pop("composition", Joining())
+        return values | {
+            "composition": joining.composition,
+            "append_after": _each_once(joining.append_after, values.get("append_after", ())),
+            "chunk_after": _each_once(joining.chunk_after, values.get("chunk_after", ())),
+        }
 
     def _read_children(self) -> None:
         children = list(self._children(self._tree, required=False))
         behaviors = [child for child in children if not _is(child[0], _CONSTRAINT)]
         if len(behaviors) > self._limits.behaviors_per_block:
             raise self._error("too-many-behaviors", size=len(behaviors), limit=self._limits.behaviors_per_block)
+        for tree, _ in behaviors:
+            if is_continuous(tree) and not tree.get("id"):
+                self._source.name(tree)
         for order, (tree, required) in enumerate(behaviors):
             self._read_behavior(tree, order, required)
         for tree, required in children:
@@ -139,6 +151,10 @@ class BlockReader:
 
 def _is(tree: Tree, name: str) -> bool:
     return is_core(tree) and name_of(tree) == name
+
+
+def _each_once(*lists: tuple[str, ...]) -> tuple[str, ...]:
+    return tuple(dict.fromkeys(chain(*lists)))
 
 
 def _position(problem: Problem) -> tuple[int, int]:

@@ -1,4 +1,4 @@
-"""The table of the core behaviors, from which parser, support tables and ``/capabilities`` are made."""
+"""The table of the behaviors, from which parser, support tables and ``/capabilities`` are made."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -17,17 +17,19 @@ from reactive_realizer.bml.behaviors import (
     Speech,
     Wait,
 )
+from reactive_realizer.bml.continuous import Activate, Interrupt, ParameterValueChange
 from reactive_realizer.bml.face import Face, FaceFacs, FaceLexeme, FaceShift
+from reactive_realizer.bml.names import CONTINUOUS
 from reactive_realizer.bml.posture import Posture, PostureShift
 
 
 @dataclass(frozen=True, slots=True)
 class Element:
-    """An element of BML 1.0 that is a behavior.
+    """An element of BML 1.0 or of continuous interaction that is a behavior.
 
     Attributes:
         name: local name.
-        namespace: the core's or that of the core extensions.
+        namespace: the core's, that of the core extensions, or BMLA's, which may be BMLT's too.
         behavior: the class of what is read from it.
         attributes: those other than sync points.
     """
@@ -36,6 +38,11 @@ class Element:
     namespace: str
     behavior: type[Behavior]
     attributes: tuple[Attribute, ...]
+
+    @property
+    def continuous(self) -> bool:
+        """Whether it stands in the namespace of BMLA or of BMLT."""
+        return self.namespace in CONTINUOUS
 
     @property
     def children(self) -> tuple[str, ...]:
@@ -49,8 +56,13 @@ class Element:
 
 
 def _element(behavior: type[Behavior]) -> Element:
+    return Element(_name(behavior), behavior.NAMESPACE, behavior, attributes_of(behavior))
+
+
+def _name(behavior: type[Behavior]) -> str:
+    """BML 1.0 writes it in camelCase, BMLA in small letters."""
     name = behavior.__name__
-    return Element(name[0].lower() + name[1:], behavior.NAMESPACE, behavior, attributes_of(behavior))
+    return name.lower() if behavior.NAMESPACE in CONTINUOUS else name[0].lower() + name[1:]
 
 
 _BEHAVIORS = (
@@ -69,7 +81,10 @@ _BEHAVIORS = (
     PostureShift,
     Locomotion,
     Wait,
+    Activate,
+    Interrupt,
+    ParameterValueChange,
 )
 
 ELEMENTS: Mapping[str, Element] = MappingProxyType({each.name: each for each in map(_element, _BEHAVIORS)})
-"""The core behaviors by the name of their element; core and core extensions share no name."""
+"""The behaviors by the name of their element; no two of them share one."""

@@ -11,6 +11,8 @@ BMLA: Final = "http://www.asap-project.org/bmla"
 """Behavior for continuous interaction, of AsapRealizer."""
 BMLT: Final = "http://hmi.ewi.utwente.nl/bmlt"
 """Twente's extensions, of Elckerlyc."""
+CONTINUOUS: Final = (BMLA, BMLT)
+"""The namespaces of continuous interaction: what both name means the same in either."""
 OWN: Final = "urn:reactive-realizer:1"
 """What this realizer adds."""
 

@@ -1,10 +1,11 @@
-"""The parts of faces and postures."""
+"""The parts of faces, postures, and changes of parameters."""
 
 from collections.abc import Iterable
 from typing import Any
 
 from reactive_realizer.bml.attributes import attributes_of
 from reactive_realizer.bml.behavior import Behavior
+from reactive_realizer.bml.continuous import ParameterValueChange, Trajectory
 from reactive_realizer.bml.elements import ELEMENTS
 from reactive_realizer.bml.face import Face
 from reactive_realizer.bml.posture import Pose, Posture, Stance
@@ -34,6 +35,19 @@ def _expression(tree: Tree, source: Source, notes: list[Fault]) -> Behavior:
     return element.behavior(**values, id=tree.get("id", ""), namespace=element.namespace, order=0)
 
 
+def read_change(tree: Tree, source: Source, notes: list[Fault]) -> dict[str, Any]:
+    """The trajectory of a change of a parameter.
+
+    Raises:
+        RealizerError: there is none, there are two, or it is bad.
+    """
+    trajectories = children_of(tree, "trajectory")
+    _check_some(trajectories, tree, ParameterValueChange.CHILDREN, source)
+    if len(trajectories) > 1:
+        raise _repeated(trajectories[1], "trajectory", tree, source)
+    return {"trajectory": Trajectory(**_values(trajectories[0], Trajectory, source, notes))}
+
+
 def read_posture(tree: Tree, source: Source, notes: list[Fault]) -> dict[str, Any]:
     """The stance and the poses of a posture.
 
@@ -43,13 +57,13 @@ def read_posture(tree: Tree, source: Source, notes: list[Fault]) -> dict[str, An
     stances, poses = children_of(tree, "stance"), children_of(tree, "pose")
     _check_some(stances + poses, tree, Posture.CHILDREN, source)
     if len(stances) > 1:
-        raise _repeated(stances[1], "stance", source)
+        raise _repeated(stances[1], "stance", tree, source)
     stance = Stance(**_values(stances[0], Stance, source, notes)).type if stances else None
     by_part: dict[PosePart, Pose] = {}
     for child in poses:
         pose = Pose(**_values(child, Pose, source, notes))
         if pose.part in by_part:
-            raise _repeated(child, f"pose part='{pose.part}'", source)
+            raise _repeated(child, f"pose part='{pose.part}'", tree, source)
         by_part[pose.part] = pose
     return {"stance": stance, "poses": tuple(by_part.values())}
 
@@ -66,5 +80,5 @@ def _check_some(parts: list[Tree], tree: Tree, names: Iterable[str], source: Sou
         raise RealizerError(source.fault(tree, "missing-element", children=wanted))
 
 
-def _repeated(tree: Tree, element: str, source: Source) -> RealizerError:
-    return RealizerError(source.fault(tree, "repeated-element", element=element, parent="posture"))
+def _repeated(child: Tree, element: str, tree: Tree, source: Source) -> RealizerError:
+    return RealizerError(source.fault(child, "repeated-element", element=element, parent=name_of(tree)))

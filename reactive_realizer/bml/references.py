@@ -1,4 +1,4 @@
-"""Whether what a block refers to inside itself exists."""
+"""Whether what a block refers to exists."""
 
 from collections.abc import Iterator, Mapping
 
@@ -33,6 +33,15 @@ def references_of(block: BehaviorBlock) -> Iterator[tuple[str, Location, SyncRef
         place = f"{block.id}:{constraint.id}" if constraint.id else block.id
         for ref in _refs_of(constraint):
             yield place, constraint.location, ref
+
+
+def unknown_block(ref: SyncRef, block: BehaviorBlock) -> Fault:
+    """Why a reference of a block names nothing when there is no block of the name that it names."""
+    details = {"block": ref.block, "reference": str(ref)}
+    if ref.behavior is not None:
+        return Fault("unknown-block", details)
+    # It may as well have meant a behavior: b1:end is that of either.
+    return Fault("unknown-owner", details | {"known": listed(behavior.id for behavior in block.behaviors)})
 
 
 def _refs_of(constraint: Constraint) -> tuple[SyncRef, ...]:

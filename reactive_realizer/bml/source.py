@@ -1,6 +1,9 @@
 """The attributes of the elements of one block."""
 
-from collections.abc import Iterable, Mapping
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping
+from functools import partial
+from itertools import count
 from types import MappingProxyType
 from typing import Any, Final
 from xml.sax.saxutils import escape
@@ -15,7 +18,7 @@ from reactive_realizer.bml.trees import (
     Tree,
     attributes_in,
     extensions_of,
-    is_core,
+    is_part,
     listed,
     name_of,
     shown,
@@ -41,6 +44,9 @@ class Source:
         self.limits = limits
         self._written = 0
         self._locations = root.locations
+        self._block = root.tree.get("id", "").strip()
+        self._behaviors = {id_.strip() for each in _behaviors_in(root.tree) if (id_ := each.get("id"))}
+        self._numbers: defaultdict[str, Iterator[int]] = defaultdict(partial(count, 1))
         self._marks = frozenset(id_ for mark in root.tree.iter("{*}sync") if (id_ := mark.get("id")))
 
     def location(self, tree: Tree) -> Location:
@@ -78,6 +84,14 @@ class Source:
             "source": self.xml(tree),
         }
 
+    def name(self, tree: Tree) -> None:
+        """Give a behavior the first free id of its element: activate1."""
+        element = name_of(tree)
+        ids = (f"{element}{number}" for number in self._numbers[element])
+        free = next(id_ for id_ in ids if id_ not in self._behaviors)
+        tree.set("id", free)
+        self._behaviors.add(free)
+
     def fault(self, tree: Tree, code: str, **details: object) -> Fault:
         """Something wrong with an element."""
         place = self.location(tree)
@@ -89,11 +103,11 @@ class Source:
         Raises:
             RealizerError: ``missing-attribute`` or ``bad-attribute``.
         """
-        written = attributes_in(tree)
-        missing = [each.name for each in attributes if each.required and each.name not in written]
+        texts = [(each, _text_of(tree, each)) for each in attributes]
+        missing = [each.name for each, text in texts if each.required and text is None]
         if missing:
             raise RealizerError(self.fault(tree, "missing-attribute", attribute=missing[0]))
-        return {each.field: self._read(tree, each, written[each.name]) for each in attributes if each.name in written}
+        return {each.field: self._read(tree, each, text) for each, text in texts if text is not None}
 
     def _read(self, tree: Tree, attribute: Attribute, text: str) -> object:
         try:
@@ -120,7 +134,7 @@ class Source:
         if text is None:
             raise RealizerError(self.fault(tree, "missing-attribute", attribute=name))
         try:
-            return SyncRef.parse(text, self.limits, self._marks)
+            return SyncRef.parse(text, self.limits, self._marks).read_in(self._block, self._behaviors)
         except RealizerError as refused:
             raise self._bad(tree, name, text, refused) from None
 
@@ -147,7 +161,7 @@ class Source:
     def unread_children(self, tree: Tree, names: Iterable[str]) -> list[Fault]:
         """One fault for all child elements that are none of these."""
         known = list(names)
-        unknown = [child for child in tree if not is_core(child) or name_of(child) not in known]
+        unknown = [child for child in tree if not is_part(child, tree) or name_of(child) not in known]
         if not unknown:
             return []
         details = {"parent": name_of(tree), "known": listed(known)}
@@ -157,3 +171,12 @@ class Source:
         """One fault for all text directly inside an element where none is meant."""
         stray = stray_text_of(tree)
         return [self.fault(tree, "stray-text", text=shown(stray))] if stray else []
+
+
+def _text_of(tree: Tree, attribute: Attribute) -> str | None:
+    return next((str(tree.attrib[name]) for name in attribute.spellings if name in tree.attrib), None)
+
+
+def _behaviors_in(block: Tree) -> Iterator[Tree]:
+    holders = [block, *block.iter("{*}required")]
+    return (child for holder in holders for child in holder if name_of(child) not in {"constraint", "required"})

@@ -3,7 +3,7 @@
 import math
 import re
 from collections.abc import Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final, Self
 
 from reactive_realizer.bml.names import BLOCK
@@ -12,6 +12,9 @@ from reactive_realizer.limits import Limits
 
 NUMBER: Final = r"(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
 """A number without its sign, as a pattern."""
+
+BLOCK_POINTS: Final = ("start", "relax", "end")
+"""The sync points of a block: it starts, all of it that goes on is in retraction, nothing of it goes on."""
 
 _SECONDS = re.compile(rf"([+-]?)\s*({NUMBER})")
 _WITH_OFFSET = re.compile(rf"(.*?)\s*([+-])\s*({NUMBER})", re.DOTALL)
@@ -24,10 +27,14 @@ _MOST_CHARACTERS = 1_000
 class SyncRef:
     """A point in time by name: ``[block:]behavior:sync[+offset]``, or ``[block:]offset`` from the start of a block.
 
+    A block has sync points too (thesis 12.1.3): ``b1:relax`` is that of another block where no behavior of the block
+    in which it stands is called b1, and ``b1:bml:relax`` is that of the block in any case.
+
     Attributes:
         block: id of another block, or "anticipators"; None for the block in which the reference stands.
-        behavior: id of a behavior (of an anticipator); None for the start of the block itself.
-        sync: name of its sync point, ``stroke:2`` for the second stroke; None exactly where `behavior` is.
+        behavior: id of a behavior (of an anticipator); None for the block itself.
+        sync: name of its sync point, ``stroke:2`` for the second stroke; of a block "relax", "end", or None for its
+            start.
         offset: seconds from that point.
     """
 
@@ -66,24 +73,51 @@ class SyncRef:
 
     @classmethod
     def _checked(cls, block: str | None, behavior: str | None, sync: str | None, offset: float) -> Self:
-        """With every name legal, and ``bml:start`` as the start of the block."""
-        if behavior == BLOCK and sync == "start":
-            behavior = sync = None
+        """With every name legal."""
+        block = None if block == BLOCK else block
         if behavior == BLOCK:
-            raise error("only-block-start")
+            behavior, sync = None, _block_point(block, sync)
         names = (block, behavior, sync and sync.removeprefix("stroke:"))
         if any(name is not None and not _NAME.fullmatch(name) for name in names):
             raise error("not-a-reference")
-        return cls(None if block == BLOCK else block, behavior, sync, offset)
+        return cls(block, behavior, sync, offset)
+
+    def read_in(self, block: str, behaviors: Collection[str]) -> Self:
+        """What it names where it stands: behaviors of that block come before other blocks of the same name.
+
+        Args:
+            block: id of the block.
+            behaviors: ids of its behaviors.
+
+        Raises:
+            RealizerError: ``only-block-start``.
+        """
+        if self.behavior is None:
+            named = self.block
+        elif self.block is None and self.behavior not in behaviors and self.sync in BLOCK_POINTS:
+            named = self.behavior
+        else:
+            return self
+        other = None if named == block else named
+        return replace(self, block=other, behavior=None, sync=_block_point(other, self.sync))
 
     def __str__(self) -> str:
         owner = "" if self.block is None else f"{self.block}:"
-        if self.behavior is None:
+        if self.sync is None:
             return f"{owner}{_number(self.offset)}"
-        point = f"{owner}{self.behavior}:{self.sync}"
+        point = f"{owner}{self.sync}" if self.behavior is None else f"{owner}{self.behavior}:{self.sync}"
         # A bare "s-1" would be read as one second before "s".
-        ambiguous = _WITH_OFFSET.fullmatch(self.sync or "")
+        ambiguous = _WITH_OFFSET.fullmatch(self.sync)
         return f"{point}{_number(self.offset, sign='+')}" if self.offset or ambiguous else point
+
+
+def _block_point(block: str | None, sync: str | None) -> str | None:
+    """A sync point of a block (None: the one in which the reference stands), None for its start."""
+    if sync in {None, "start"}:
+        return None
+    if block is None or sync not in BLOCK_POINTS:
+        raise error("only-block-start")
+    return sync
 
 
 def _split_offset(last: str, limits: Limits, names: Collection[str]) -> tuple[str, float]:

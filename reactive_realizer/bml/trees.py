@@ -1,12 +1,12 @@
 """Small readings of lxml trees, and quotations from them."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from types import MappingProxyType
 from typing import Final
 
 from lxml import etree
 
-from reactive_realizer.bml.names import BML, BML_EXT
+from reactive_realizer.bml.names import BML, BML_EXT, CONTINUOUS
 
 Tree = etree._Element
 """An element with what is inside it."""
@@ -43,9 +43,19 @@ def is_core(tree: Tree) -> bool:
     return namespace_of(tree) in {"", BML, BML_EXT}
 
 
+def is_continuous(tree: Tree) -> bool:
+    """Whether the element is of continuous interaction: BMLA's or BMLT's."""
+    return namespace_of(tree) in CONTINUOUS
+
+
+def is_part(child: Tree, tree: Tree) -> bool:
+    """Whether a child is of the language of its parent: core, or of continuous interaction as its parent is."""
+    return is_core(child) or (is_continuous(child) and is_continuous(tree))
+
+
 def children_of(tree: Tree, *names: str) -> list[Tree]:
-    """The core elements of these names directly inside."""
-    return [child for child in tree if is_core(child) and name_of(child) in names]
+    """The parts of these names directly inside."""
+    return [child for child in tree if is_part(child, tree) and name_of(child) in names]
 
 
 def stray_text_of(tree: Tree) -> str:
@@ -58,7 +68,7 @@ def attributes_in(tree: Tree) -> dict[str, str]:
     return {str(name): str(value) for name, value in tree.attrib.items() if not str(name).startswith("{")}
 
 
-def extensions_of(tree: Tree) -> Mapping[tuple[str, str], str]:
-    """The attributes that have a namespace: (namespace, local name) to value."""
-    names = ((etree.QName(name), str(value)) for name, value in tree.attrib.items())
+def extensions_of(tree: Tree, known: Collection[str] = ()) -> Mapping[tuple[str, str], str]:
+    """The attributes that have a namespace, but for some in Clark notation: (namespace, local name) to value."""
+    names = ((etree.QName(name), str(value)) for name, value in tree.attrib.items() if name not in known)
     return MappingProxyType({(name.namespace, name.localname): value for name, value in names if name.namespace})

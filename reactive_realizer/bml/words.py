@@ -1,4 +1,4 @@
-"""The closed vocabularies of BML 1.0; a word's value is its spelling in the standard."""
+"""The closed vocabularies of BML 1.0 and of continuous interaction; a word's value is its spelling there."""
 
 from enum import StrEnum
 
@@ -40,6 +40,13 @@ class OffsetDirection(StrEnum):
     UPLEFT = "UPLEFT"
     DOWNLEFT = "DOWNLEFT"
     DOWNRIGHT = "DOWNRIGHT"
+
+
+class InterruptSpeech(StrEnum):
+    """Where a speech that is interrupted ends: at once, or before its next word."""
+
+    NOW = "now"
+    WORD = "word"
 
 
 class Side(StrEnum):

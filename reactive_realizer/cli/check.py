@@ -10,7 +10,7 @@ from reactive_realizer.assembly.scene import DEFAULT_HUMAN, SceneOptions, open_s
 from reactive_realizer.bml.block import BehaviorBlock
 from reactive_realizer.bml.document import parse
 from reactive_realizer.bml.names import ANTICIPATORS
-from reactive_realizer.bml.references import check_references, references_of
+from reactive_realizer.bml.references import check_references, references_of, unknown_block
 from reactive_realizer.embodiment.world import World
 from reactive_realizer.errors import Fault
 from reactive_realizer.realizer.realizer import Realizer
@@ -71,7 +71,7 @@ class _Checker:
         known = {None, ANTICIPATORS, block.id, *self._earlier}
         for _, location, ref in references_of(block):
             if ref.block not in known:
-                yield Fault("unknown-block", {"block": ref.block, "reference": ref}, location.line, location.column)
+                yield unknown_block(ref, block).located(location.line, location.column)
 
 
 def _unknown_targets(block: BehaviorBlock, world: World) -> Iterator[Fault]:

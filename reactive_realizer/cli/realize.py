@@ -5,18 +5,25 @@ import asyncio
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import IO
 
+from reactive_realizer import __version__
 from reactive_realizer.assembly.scene import DEFAULT_HUMAN, SceneOptions, open_scene
 from reactive_realizer.cli.items import Item, item, seconds
 from reactive_realizer.cli.output import FeedbackWriter, FrameRecorder
 from reactive_realizer.clock.clock import ManualClock, SystemClock
 from reactive_realizer.realizer.inputs import BmlText
 from reactive_realizer.realizer.realizer import Realizer
+from reactive_realizer.realizer.replay import replay
 from reactive_realizer.realizer.session import run_until_done
+from reactive_realizer.server.recording import read_recording
 
 _UNTIL = 600.0
+_WITH_REPLAY = ("replay", "feedback", "frames", "verbose", "run")
+"""What can be said beside ``--replay``: all else is as it was recorded."""
 
 
 def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
@@ -26,7 +33,7 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
         help="play BML files and write what comes out",
         epilog="example: reactive-realizer realize hello.xml more.xml@2.5 --voice text --feedback - --frames out.npz",
     )
-    parser.add_argument("items", nargs="+", type=item, metavar="ITEM", help="a file, or file@seconds")
+    parser.add_argument("items", nargs="*", type=item, metavar="ITEM", help="a file, or file@seconds")
     parser.add_argument("--clock", choices=("virtual", "real"), default="virtual")
     parser.add_argument("--human", type=Path, default=DEFAULT_HUMAN, metavar="FILE")
     parser.add_argument("--voice", choices=("espeak", "text"), default="espeak")
@@ -35,37 +42,73 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
     parser.add_argument("--until", type=seconds, default=_UNTIL, metavar="SECONDS")
     parser.add_argument("--assets", type=Path, action="append", default=[], metavar="DIR")
     parser.add_argument("--seed", type=int, default=0, metavar="N")
-    parser.set_defaults(run=run)
+    parser.add_argument("--replay", type=Path, metavar="FILE", help="what serve --record wrote, in the place of items")
+    parser.set_defaults(run=partial(run, parser))
 
 
-def run(options: argparse.Namespace) -> int:
+def run(parser: argparse.ArgumentParser, options: argparse.Namespace) -> int:
     """The exit status: 1 if something could not be read, was refused or failed; 2 if a file is not there."""
-    missing = [str(entry.path) for entry in options.items if not entry.path.is_file()]
-    missing += [] if options.human.is_file() else [str(options.human)]
+    _check_combination(parser, options)
+    inputs = [options.replay] if options.replay else [*(entry.path for entry in options.items), options.human]
+    missing = [str(path) for path in inputs if not path.is_file()]
     outputs = [Path(name) for name in (options.feedback, options.frames) if name]
     missing += [str(output.parent) for output in outputs if not output.parent.is_dir()]
     if missing:
         print(f"no such file: {', '.join(missing)}", file=sys.stderr)
         return 2
-    return asyncio.run(_realize(options))
+    return asyncio.run(_replay(options) if options.replay else _realize(options))
+
+
+def _check_combination(parser: argparse.ArgumentParser, options: argparse.Namespace) -> None:
+    if not options.replay and not options.items:
+        parser.error("the following arguments are required: ITEM, or --replay")
+    fixed = [name for name in vars(options) if name not in _WITH_REPLAY and _is_given(parser, options, name)]
+    if options.replay and fixed:
+        parser.error(f"a recording has its own {', '.join(fixed)}")
+
+
+def _is_given(parser: argparse.ArgumentParser, options: argparse.Namespace, name: str) -> bool:
+    given = getattr(options, name)
+    return bool(given) and given != parser.get_default(name)
 
 
 async def _realize(options: argparse.Namespace) -> int:
     scene_options = SceneOptions(options.human, options.voice, tuple(options.assets), options.seed)
     async with open_scene(scene_options) as scene:
-        realizer = scene.realizer
-        unread = sum(not _put(realizer, entry) for entry in sorted(options.items, key=lambda e: e.time))
-        recorder = FrameRecorder()
-        if options.frames:
-            realizer.watch(recorder)
-        with _feedback(options.feedback) as stream:
-            if stream is not None:
-                realizer.feedback.listen(FeedbackWriter(stream))
+        unread = sum(not _put(scene.realizer, entry) for entry in sorted(options.items, key=lambda e: e.time))
+        with _written(options, scene.realizer):
             clock = ManualClock() if options.clock == "virtual" else SystemClock()
-            await run_until_done(realizer, clock, options.until)
-        if options.frames:
-            recorder.write(options.frames, realizer)
-        return 1 if unread or realizer.scheduler.refused or realizer.scheduler.failed else 0
+            await run_until_done(scene.realizer, clock, options.until)
+        return 1 if unread else _status(scene.realizer)
+
+
+async def _replay(options: argparse.Namespace) -> int:
+    recording = read_recording(options.replay)
+    if recording.version != __version__:
+        print(f"recorded by version {recording.version}, this is {__version__}", file=sys.stderr)
+    with TemporaryDirectory() as folder:
+        async with open_scene(recording.options(Path(folder))) as scene:
+            with _written(options, scene.realizer):
+                await replay(scene.realizer, recording.ticks)
+            return _status(scene.realizer)
+
+
+def _status(realizer: Realizer) -> int:
+    return 1 if realizer.scheduler.refused or realizer.scheduler.failed else 0
+
+
+@contextmanager
+def _written(options: argparse.Namespace, realizer: Realizer) -> Iterator[None]:
+    """What comes out while it lasts goes where the options say."""
+    recorder = FrameRecorder()
+    if options.frames:
+        realizer.watch(recorder)
+    with _feedback(options.feedback) as stream:
+        if stream is not None:
+            realizer.feedback.listen(FeedbackWriter(stream))
+        yield
+    if options.frames:
+        recorder.write(options.frames, realizer)
 
 
 def _put(realizer: Realizer, entry: Item) -> bool:

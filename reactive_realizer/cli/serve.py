@@ -31,11 +31,12 @@ def _add(
     parser.add_argument("--token", metavar="T", help="that every client must show")
     parser.add_argument("--allow-origin", action="append", default=[], metavar="O", help="of another page to let in")
     parser.add_argument("--seed", type=int, default=0, metavar="N")
+    parser.add_argument("--record", type=Path, metavar="FILE", help="what enters, for realize --replay")
     parser.set_defaults(run=run, performance=performance)
 
 
 def run(options: argparse.Namespace) -> int:
-    """The exit status: 2 if the human file is not there or the address is taken."""
+    """The exit status: 2 if the human file is not there, a file cannot be written, or the address is taken."""
     if not options.human.is_file():
         print(f"no such file: {options.human}", file=sys.stderr)
         return 2
@@ -56,4 +57,5 @@ def _server_options(options: argparse.Namespace) -> ServerOptions:
         origins=tuple(options.allow_origin),
         scene=SceneOptions(options.human, options.voice, tuple(options.assets), options.seed),
         performance=options.performance.read_text(encoding="utf-8") if options.performance else None,
+        record=options.record,
     )

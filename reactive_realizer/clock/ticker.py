@@ -4,6 +4,7 @@ from collections import deque
 from collections.abc import AsyncIterator
 from dataclasses import dataclass
 from math import floor
+from typing import Self
 
 from reactive_realizer.clock.clock import Clock
 from reactive_realizer.clock.units import RESOLUTION, GlobalTime
@@ -28,6 +29,13 @@ class Tick:
     number: int
     previous: GlobalTime
     frame: bool = False
+
+    @classmethod
+    def following(cls, last: "Tick | None", number: int) -> Self:
+        """Tick ``number`` where ``last`` was the one before; None where it is the first."""
+        if last is None:
+            return cls(number, GlobalTime(-1.0), frame=True)
+        return cls(number, last.time, number // FRAME_EVERY > last.number // FRAME_EVERY)
 
     @property
     def time(self) -> GlobalTime:
@@ -55,15 +63,13 @@ class Ticker:
 
     async def ticks(self) -> AsyncIterator[Tick]:
         """Ticks for ever, each at its time."""
-        number, previous, due_frame = 0, GlobalTime(-1.0), 0
+        last: Tick | None = None
         while True:
+            number = 0 if last is None else last.number + 1
             await self.clock.wait_until(tick_time(number))
             now = self.clock.now()
             latest = max(number, floor((now + RESOLUTION) * RATE))
             self.overruns += latest - number
             self.lateness.append(now - tick_time(number))
-            frame = latest >= due_frame
-            if frame:
-                due_frame = latest - latest % FRAME_EVERY + FRAME_EVERY
-            yield Tick(latest, previous, frame)
-            number, previous = latest + 1, tick_time(latest)
+            last = Tick.following(last, latest)
+            yield last

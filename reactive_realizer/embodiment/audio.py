@@ -33,6 +33,15 @@ class AudioMove:
 
 
 @dataclass(frozen=True, slots=True)
+class AudioGain:
+    """A clip is to sound with another gain from a time on; 1 is as recorded."""
+
+    id: str
+    gain: float
+    time: GlobalTime
+
+
+@dataclass(frozen=True, slots=True)
 class AudioStop:
     """A clip falls silent at a time, faded out over ``fade`` s."""
 
@@ -41,4 +50,4 @@ class AudioStop:
     fade: float
 
 
-AudioChange = AudioStart | AudioMove | AudioStop
+AudioChange = AudioStart | AudioMove | AudioGain | AudioStop

@@ -1,13 +1,17 @@
 """What an engine is made from."""
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from reactive_realizer.embodiment.humanoid import Humanoid
 from reactive_realizer.embodiment.world import World
 from reactive_realizer.engine.lip_sync import LipSyncProvider
 from reactive_realizer.engine.tts import TTSBinding
+from reactive_realizer.reactive.graph import Graph
+
+Trajectory = Callable[[float], float]
+"""What share of its way a value has come after a share of its time; 0 to 1, and 1 at 1."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,6 +28,8 @@ class EngineContext:
         voice: name of this character's voice, None for the binding's default.
         bindings: names of the character's binding files, by kind.
         lip_sync: what the mouth does while this character speaks.
+        graph: where the parameters of its behaviors are cells.
+        trajectories: ways from one value of a parameter to another, by name.
     """
 
     character: str
@@ -35,3 +41,5 @@ class EngineContext:
     voice: str | None
     bindings: dict[str, str]
     lip_sync: LipSyncProvider | None = None
+    graph: Graph = field(default_factory=Graph)
+    trajectories: Mapping[str, Trajectory] = field(default_factory=dict)

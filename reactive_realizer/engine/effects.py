@@ -100,15 +100,32 @@ class SetParameter:
     value: float
 
 
+@dataclass(frozen=True, slots=True)
+class EndUnit:
+    """A unit ends of its own accord before its time: nothing is missing of it, and nobody is warned.
+
+    Attributes:
+        unit: which; it plays.
+        time: when; its points ahead are dealt with as those of an interrupted one.
+    """
+
+    unit: PlanUnit
+    time: GlobalTime
+
+
 class ParameterUser(PlanUnit, ABC):
     """A unit that changes a parameter of another one."""
 
     @abstractmethod
     def bind(self, parameter: Parameter) -> None:
-        """Change this one."""
+        """Change this one.
+
+        Raises:
+            RealizerError: it cannot be changed so; the unit is to be dropped.
+        """
 
 
-Request = ActivateBlock | InterruptBlock | BindParameter | SetParameter
+Request = ActivateBlock | InterruptBlock | BindParameter | SetParameter | EndUnit
 """What an engine asks the scheduler to do, in the same tick."""
 
 

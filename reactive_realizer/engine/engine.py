@@ -2,6 +2,7 @@
 
 from collections.abc import Awaitable, Mapping
 from dataclasses import replace
+from types import MappingProxyType
 from typing import Protocol
 
 from reactive_realizer.bml.behavior import Behavior
@@ -14,6 +15,7 @@ from reactive_realizer.engine.effects import Dropped, Play, Request
 from reactive_realizer.engine.player import Player
 from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.peg_key import BlockKey
+from reactive_realizer.planunit.parameter import Range
 from reactive_realizer.planunit.plan_unit import PlanUnit
 
 
@@ -24,6 +26,7 @@ class Engine(Protocol):
         name: for logs: ``character/modality``.
         behaviors: the kinds of behaviors it plays.
         extensions: the attributes of other namespaces, (namespace, local name), that mean something to it.
+        parameters: what of a kind of behaviors may be changed while it plays, by name.
         leads: whether it plays before the others in each round of a tick: what it asks for is done before they play.
     """
 
@@ -31,6 +34,7 @@ class Engine(Protocol):
     leads: bool
     behaviors: frozenset[type[Behavior]]
     extensions: frozenset[tuple[str, str]]
+    parameters: Mapping[type[Behavior], Mapping[str, Range]]
 
     def supports(self, behavior: Behavior) -> bool:
         """Whether a behavior is its own."""
@@ -71,6 +75,7 @@ class DefaultEngine:
     leads: bool = False
     behaviors: frozenset[type[Behavior]] = frozenset()
     extensions: frozenset[tuple[str, str]] = frozenset()
+    parameters: Mapping[type[Behavior], Mapping[str, Range]] = MappingProxyType({})
 
     def __init__(self, name: str) -> None:
         self.name = name
@@ -100,7 +105,7 @@ class DefaultEngine:
             face=self.face(tick) if tick.frame else {},
             eyes=self.eyes(tick) if tick.frame else None,
             audio=self.audio(tick),
-            requests=self.requests(tick),
+            requests=(*self.player.take_ending(), *self.requests(tick)),
         )
         return replace(play, dropped=self.player.take_dropped())
 

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from typing import TypeVar
 
 from reactive_realizer.clock.units import GlobalTime
-from reactive_realizer.engine.effects import Dropped, Reached
+from reactive_realizer.engine.effects import Dropped, EndUnit, Reached
 from reactive_realizer.errors import Fault
 from reactive_realizer.planunit.plan_unit import PlanUnit, UnitState
 
@@ -19,12 +19,15 @@ class Player:
     """A unimodal plan and its playing.
 
     Who owns an arm, the voice, the mouth is judged when a unit starts, not when it is planned: an interrupt may come
-    between. The one that plays keeps it, the newer leaves with one warning (BML: merge keeps what is running).
+    between. The one that plays keeps it, the newer leaves with one warning (BML: merge keeps what is running). Only the
+    way back to rest may be taken over: the one that plays ends then, and the newer begins (co-articulation; S. Kopp and
+    I. Wachsmuth, "Synthesizing multimodal utterances for conversational agents", 2004; thesis 12.1.3).
     """
 
     def __init__(self) -> None:
         self._units: list[PlanUnit] = []
         self._dropped: list[Dropped] = []
+        self._ending: list[EndUnit] = []
 
     @property
     def units(self) -> tuple[PlanUnit, ...]:
@@ -49,10 +52,7 @@ class Player:
         """Begin what is due, fire what is due, let go of what has ended."""
         reached: list[Reached] = []
         for unit in self._in_turn(now):
-            owner = self._owner(unit) if unit.due(now) else None
-            if owner is not None:
-                self._drop(unit, _taken(unit, owner), now)
-            else:
+            if not self._held(unit, now):
                 self._fire(unit, now, reached)
         self._units = [unit for unit in self._units if unit.live]
         return tuple(reached)
@@ -68,6 +68,11 @@ class Player:
                     self._fail(unit, failure, now)
         return shown
 
+    def take_ending(self) -> tuple[EndUnit, ...]:
+        """The units that are to end now because others take over from them, since the last call."""
+        ending, self._ending = tuple(self._ending), []
+        return ending
+
     def take_dropped(self) -> tuple[Dropped, ...]:
         """The units that left since the last call."""
         dropped, self._dropped = tuple(self._dropped), []
@@ -81,8 +86,18 @@ class Player:
         )
         return [*self.playing, *starting]
 
-    def _owner(self, unit: PlanUnit) -> PlanUnit | None:
-        return next((other for other in self.playing if other.resources & unit.resources), None)
+    def _held(self, unit: PlanUnit, now: GlobalTime) -> bool:
+        """Whether others have what a unit needs to begin: it leaves, or begins without them next round."""
+        start = unit.points[0].peg.value
+        if start is None or not unit.due(now):
+            return False
+        owners = [other for other in self.playing if other.resources & unit.resources]
+        staying = [owner for owner in owners if not owner.subsiding(start)]
+        if staying:
+            self._drop(unit, _taken(unit, staying[0]), now)
+        else:
+            self._ending += [EndUnit(owner, start) for owner in owners]
+        return bool(owners)
 
     def _fire(self, unit: PlanUnit, now: GlobalTime, reached: list[Reached]) -> None:
         ahead = unit.ahead()

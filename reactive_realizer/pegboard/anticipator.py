@@ -14,6 +14,9 @@ class Anticipator:
 
     All calls come within a transaction of the realizer's input phase.
 
+    A point is one moment, like the third beat, or, like the press of a key, each time the next one: then it is renewed
+    on the board whenever it has come.
+
     Attributes:
         id: by which BML names it, ``anticipators:ID:SYNC``.
     """
@@ -45,8 +48,25 @@ class Anticipator:
         if self.kind != Anticipator.kind:
             raise error("predicts-itself", anticipator=self.id, kind=self.kind)
 
+    def advance(self, now: GlobalTime) -> None:
+        """It is ``now``: asked at every tick, before whatever comes in."""
+
     def event(self, name: str, value: float | None, now: GlobalTime) -> None:
         """Something happened that concerns it; unknown events mean nothing."""
+
+    def hear(self, name: str, text: str, now: GlobalTime) -> None:
+        """Like `event`, of words that were said."""
+
+    def revise(self, now: GlobalTime) -> None:
+        """Predict all points anew that were named and have not passed."""
+        for sync, peg in self._board.predictions(self.id).items():
+            if not is_due(peg.value, now):
+                self.predict(sync, self.forecast(sync), now)
+
+    def withdraw(self, now: GlobalTime) -> None:
+        """Take back what was said of all points."""
+        for sync in self._board.predictions(self.id):
+            self.predict(sync, None, now)
 
     def predict(self, sync: str, time: Time, now: GlobalTime) -> None:
         """Say when a point is to be; None withdraws what was said.

@@ -48,6 +48,16 @@ class PegBoard:
         self._blocks.setdefault(key.block_key, []).append(key)
         self._owners.setdefault(peg, key.block_key)
 
+    def replace(self, key: PegKey, peg: TimePeg) -> None:
+        """Within a transaction, give a name to another peg; what hung on the old one hangs on the new one."""
+        old = self._pegs[key]
+        if isinstance(old, TimePeg) and not old.pinned:
+            old.pin(old.value)
+        old.replace_by(peg)
+        self._owners.pop(old, None)
+        self._pegs[key] = peg
+        self._owners.setdefault(peg, key.block_key)
+
     def owner(self, peg: TimeCell) -> BlockKey | None:
         """The block that a peg is named for; None for one that has no name."""
         return self._owners.get(peg)
@@ -84,6 +94,14 @@ class PegBoard:
             peg = AnticipatorPeg(self.graph, str(key), self._forecast(key))
             self.add(key, peg)
         return peg
+
+    def renew(self, anticipator: str, sync: str) -> None:
+        """Have a predicted point mean the next time it happens; what hangs on it already keeps this one."""
+        key = anticipator_key(anticipator, sync)
+        if key in self._pegs:
+            self._owners.pop(self._pegs[key], None)
+            self._pegs[key] = AnticipatorPeg(self.graph, str(key), self._forecast(key))
+            self._owners[self._pegs[key]] = key.block_key
 
     def ask(self, anticipator: str, forecast: Callable[[str], Time]) -> None:
         """Have an anticipator asked for the time of its points when they are first named."""

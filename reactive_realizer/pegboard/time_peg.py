@@ -146,6 +146,20 @@ def followers_of(peg: TimeCell) -> set[TimeCell]:
     return followers
 
 
+def hangs_on(peg: TimeCell, other: TimeCell) -> bool:
+    """Whether a peg moves with another one."""
+    seen = {peg}
+    waiting = [peg]
+    while waiting:
+        cell = waiting.pop()
+        if cell is other:
+            return True
+        new = [each for each in getattr(cell, "dependencies", ()) if each not in seen and each.rank >= other.rank]
+        seen.update(new)
+        waiting += new
+    return False
+
+
 def unknown_sources(pegs: Iterable[TimeCell]) -> list[str]:
     """Names of the unknown points, outside of any formula, that some pegs hang on."""
     seen: dict[TimeCell, None] = dict.fromkeys(pegs)

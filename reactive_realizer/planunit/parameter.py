@@ -1,7 +1,7 @@
 """What of a behavior may be changed while it plays (thesis 6.6.6)."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from reactive_realizer.reactive.cell import Source
 
@@ -9,18 +9,38 @@ if TYPE_CHECKING:
     from reactive_realizer.planunit.plan_unit import PlanUnit
 
 
+class Range(NamedTuple):
+    """The values that mean something, both ends among them, in the unit of the parameter."""
+
+    low: float
+    high: float
+
+    def __contains__(self, value: object) -> bool:
+        return isinstance(value, float) and self.low <= value <= self.high
+
+
 @dataclass(slots=True, eq=False)
 class Parameter:
-    """A value with a range, as a cell: whatever shows it follows.
+    """A value of a unit as a cell: whatever shows it follows.
 
     Attributes:
-        cell: the value; written by the scheduler alone.
-        low: smallest value that means something.
-        high: largest.
+        unit: whose it is.
+        cell: the value.
+        range: of its values.
         owner: the unit that changed it last; of two that change it, the later start wins.
     """
 
+    unit: "PlanUnit"
     cell: Source[float]
-    low: float
-    high: float
+    range: Range
     owner: "PlanUnit | None" = None
+
+    @property
+    def value(self) -> float:
+        """What it is now."""
+        return self.cell.value
+
+    def set(self, value: float) -> None:
+        """Give it a value, as a transaction of its own or within one; for the scheduler alone."""
+        with self.cell.graph.transaction(f"set {self.cell.name}"):
+            self.cell.set(value)

@@ -35,11 +35,13 @@ class SyncPoint:
     Attributes:
         id: the sync id.
         peg: when; shared with the sync points it is tied to.
+        tied: whether BML says when; else it is where its behavior would like it.
         fired: the time it was reported with, None before.
     """
 
     id: str
     peg: TimePeg
+    tied: bool = False
     fired: Time = None
 
 
@@ -128,6 +130,11 @@ class PlanUnit:
         """The points not yet fired."""
         return [point for point in self.points if point.fired is None]
 
+    def subsiding(self, time: GlobalTime) -> bool:
+        """Whether at a time nothing is left of it but a way back to rest that BML says nothing of."""
+        relaxed = any(point.id == "relax" and is_due(point.fired, time) for point in self.points)
+        return relaxed and not self.points[-1].tied
+
     def due(self, now: GlobalTime) -> bool:
         """Whether it is its turn to begin."""
         return self.state is UnitState.LURKING and is_due(self.points[0].peg.value, now)
@@ -146,9 +153,9 @@ class PlanUnit:
         """Take the stage; the start itself fires with the next `fire`."""
         self.state = UnitState.IN_EXEC
 
-    def fire(self, now: GlobalTime) -> list[SyncPoint]:
-        """Fire the points that are due, and those before them."""
-        ahead = self.ahead()
+    def fire(self, now: GlobalTime, *, end: bool = True) -> list[SyncPoint]:
+        """Fire the points that are due, and those before them; the end only if it may."""
+        ahead = [point for point in self.ahead() if end or point is not self.points[-1]]
         count = max((i + 1 for i, point in enumerate(ahead) if is_due(point.peg.value, now)), default=0)
         for i, point in enumerate(ahead[:count]):
             # A point overtaken by its successor fires with it.

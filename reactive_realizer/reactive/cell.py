@@ -1,14 +1,22 @@
 """A value that others may depend on."""
 
-from collections.abc import Callable
+import asyncio
+import logging
+from collections.abc import AsyncIterator, Callable
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
-from reactive_realizer.reactive.errors import PropagationCycleError
+from reactive_realizer.reactive.commit import Stamp
+from reactive_realizer.reactive.errors import CellError
+from reactive_realizer.reactive.failure import Failure
+from reactive_realizer.reactive.order import raise_rank, refuse_cycle
+from reactive_realizer.reactive.subscription import Subscription
 
 if TYPE_CHECKING:
     from reactive_realizer.reactive.graph import Graph
 
 T = TypeVar("T")
+
+logger = logging.getLogger(__name__)
 
 
 class Cell(Generic[T]):
@@ -18,50 +26,103 @@ class Cell(Generic[T]):
         name: for people: errors, logs, the viewer.
         rank: greater than the rank of everything the cell depends on.
         sequence: order of creation; decides among cells of one rank, so that propagation has one order.
+        dependents: what is computed from it, in order of linking.
+        dependencies: what it is computed from.
+        stamp: of the commit that gave it its value; None for one made outside of a transaction and never changed.
+        disposed: whether it keeps its value for ever.
     """
 
-    __slots__ = ("_observers", "_value", "dependents", "graph", "name", "rank", "sequence")
+    __slots__ = ("_value", "dependents", "disposed", "graph", "name", "observers", "rank", "sequence", "stamp")
 
-    def __init__(self, graph: "Graph", name: str, value: T) -> None:
+    dependencies: "tuple[Cell[Any], ...]" = ()
+
+    _value: T | Failure
+
+    def __init__(self, graph: "Graph", name: str) -> None:
         self.graph = graph
         self.name = name
         self.rank = 0
-        self.sequence = graph.next_sequence()
         self.dependents: dict[Derived[Any], None] = {}
-        self._observers: dict[object, Callable[[T], None]] = {}
-        self._value = value
+        self.observers: dict[Subscription, None] = {}
+        self.stamp: Stamp | None = None
+        self.disposed = False
+        self.sequence = graph.enter(self)
 
     @property
     def value(self) -> T:
-        """The current value, never stale: inside a transaction what was written so far is propagated first."""
+        """The current value, never stale: inside a transaction what was written so far is propagated first.
+
+        Raises:
+            CellError: there is none, because its formula or one that it depends on raised.
+        """
+        self.graph.settle()
+        value = self._value
+        if isinstance(value, Failure):
+            raise CellError(self.name, value)
+        return value
+
+    @property
+    def result(self) -> T | Failure:
+        """The current value, or why there is none."""
         self.graph.settle()
         return self._value
 
-    def observe(self, callback: Callable[[T], None]) -> "Subscription":
-        """Call ``callback(value)`` after each commit that changed this cell; it may not write."""
-        subscription = Subscription(self._observers)
-        self._observers[subscription] = callback
-        return subscription
+    def observe(self, tell: Callable[[T | Failure], None], ended: Callable[[], object] = lambda: None) -> Subscription:
+        """Call ``tell(value)`` after each commit that changed this cell, and ``ended()`` when it is disposed of.
 
-    def notify(self) -> None:
-        """Tell the observers; one that is disposed of meanwhile is left out."""
-        for key, callback in list(self._observers.items()):
-            if key in self._observers:
-                callback(self._value)
+        Neither may write. What one raises is logged, and the others are told.
+        """
+        return Subscription(self.observers, tell, ended)
+
+    def changes(self) -> AsyncIterator[T | Failure]:
+        """The values that commits give the cell from now on; who is slow gets the last one only.
+
+        It ends when the cell is disposed of. Nothing is held between two values, so that it may be left anywhere.
+        """
+        return self._changes_since(self._value)
+
+    def replace_by(self, other: "Cell[T]") -> None:
+        """Within a transaction, have all that hangs on this cell hang on another one. Observers stay.
+
+        Raises:
+            PropagationCycleError: the other depends on one of those; nothing changes.
+        """
+        refuse_cycle(self.dependents, (other,))
+        for dependent in list(self.dependents):
+            dependent.hang_on(tuple(other if cell is self else cell for cell in dependent.dependencies))
+
+    def dispose(self) -> None:
+        """Take the cell out of propagation, at any time: it keeps the value it has.
+
+        What hangs on it goes on with that value as a constant; its observers are told no more.
+        """
+        self.graph.settle()
+        self.disposed = True
+        for subscription in list(self.observers):
+            subscription.dispose()
+            subscription.ended()
+
+    async def _changes_since(self, seen: T | Failure) -> AsyncIterator[T | Failure]:
+        while True:
+            # NaN is not equal to itself, but the same.
+            if self._value is not seen and self._value != seen:
+                seen = self._value
+                yield seen
+            elif self.disposed:
+                return
+            else:
+                await self._next_change()
+
+    async def _next_change(self) -> None:
+        changed = asyncio.Event()
+        subscription = self.observe(lambda _: changed.set(), changed.set)
+        try:
+            await changed.wait()
+        finally:
+            subscription.dispose()
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__} {self.name} = {self._value}>"
-
-
-class Subscription:
-    """Undoes an `observe`; disposing twice is harmless."""
-
-    def __init__(self, observers: dict[object, Any]) -> None:
-        self._observers = observers
-
-    def dispose(self) -> None:
-        """Stop being told."""
-        self._observers.pop(self, None)
 
 
 class Source(Cell[T]):
@@ -69,83 +130,91 @@ class Source(Cell[T]):
 
     __slots__ = ()
 
+    def __init__(self, graph: "Graph", name: str, value: T) -> None:
+        super().__init__(graph, name)
+        self._value = value
+
     def set(self, value: T) -> None:
-        """Write within a transaction; an equal value changes nothing."""
+        """Write within a transaction; an equal value changes nothing.
+
+        Raises:
+            WriteOutsideTransactionError: no transaction is open.
+            DisposedCellError: the cell keeps its value for ever.
+        """
         self.graph.write(self, value)
 
 
 class Derived(Cell[T]):
-    """A cell computed from others by a pure formula over their values, in the order of ``dependencies``."""
+    """A cell computed from others by a pure formula over their values, in the order of ``dependencies``.
+
+    A formula that raises leaves a `Failure` in the cell, and so does one of the cells it depends on; it heals with the
+    next value that can be computed.
+    """
 
     __slots__ = ("dependencies", "formula")
 
     def __init__(
         self, graph: "Graph", name: str, dependencies: tuple[Cell[Any], ...], formula: Callable[..., T]
     ) -> None:
-        super().__init__(graph, name, formula(*(cell.value for cell in dependencies)))
+        super().__init__(graph, name)
+        graph.settle()
         self.formula = formula
-        self.dependencies: tuple[Cell[Any], ...] = ()
         self._link(dependencies)
+        self._value = self.compute()
 
     def rebind(self, dependencies: tuple[Cell[Any], ...], formula: Callable[..., T]) -> None:
         """Within a transaction, depend on other cells by another formula.
 
         Raises:
             PropagationCycleError: one of them depends on this cell; nothing changes.
+            DisposedCellError: the cell keeps its value for ever.
         """
-        self._refuse_cycle(dependencies)
-        self._unlink()
+        refuse_cycle((self,), dependencies)
+        self.hang_on(dependencies)
         self.formula = formula
+
+    def hang_on(self, dependencies: tuple[Cell[Any], ...]) -> None:
+        """Within a transaction, depend on other cells by the same formula; whoever calls has refused cycles."""
+        self.graph.touch(self)
+        self._unlink()
         self._link(dependencies)
-        self.graph.write(self, formula(*(cell.value for cell in dependencies)))
 
     def pin(self, value: T) -> None:
-        """Within a transaction, cut the cell from what it depends on and give it its last value."""
-        self._unlink()
-        self.graph.write(self, value)
+        """Within a transaction, cut the cell from what it depends on and give it its last value.
 
-    def compute(self) -> T:
-        """The formula applied to the current values."""
-        return self.formula(*[cell._value for cell in self.dependencies])
+        Raises:
+            DisposedCellError: it has its last value.
+        """
+        self.graph.write(self, value)
+        self.graph.leave_alone(self)
+        self._unlink()
+
+    def dispose(self) -> None:
+        """Take the cell out of propagation, at any time: it keeps the value it has, cut from what it depends on."""
+        super().dispose()
+        self._unlink()
+
+    def compute(self) -> T | Failure:
+        """The formula applied to the current values, or why that is not possible."""
+        values = []
+        for cell in self.dependencies:
+            value = cell._value
+            if type(value) is Failure:
+                return value
+            values.append(value)
+        try:
+            return self.formula(*values)
+        except Exception as error:
+            logger.exception("the formula of '%s' raised", self.name)
+            return Failure(self.name, f"{type(error).__name__}: {error}", error.with_traceback(None))
 
     def _link(self, dependencies: tuple[Cell[Any], ...]) -> None:
-        self.dependencies = dependencies
+        self.dependencies: tuple[Cell[Any], ...] = dependencies
         for cell in dependencies:
             cell.dependents[self] = None
-        _raise_rank(self, 1 + max((cell.rank for cell in dependencies), default=-1))
+        raise_rank(self, 1 + max((cell.rank for cell in dependencies), default=-1))
 
     def _unlink(self) -> None:
         for cell in self.dependencies:
             cell.dependents.pop(self, None)
         self.dependencies = ()
-
-    def _refuse_cycle(self, dependencies: tuple[Cell[Any], ...]) -> None:
-        below: dict[Cell[Any], Cell[Any]] = {}
-        waiting: list[Cell[Any]] = list(dependencies)
-        while waiting:
-            cell = waiting.pop()
-            if cell is self:
-                raise PropagationCycleError(_path(self, below))
-            for source in getattr(cell, "dependencies", ()):
-                if source not in below:
-                    below[source] = cell
-                    waiting.append(source)
-
-
-def _raise_rank(cell: Cell[Any], rank: int) -> None:
-    # Ranks only grow: a rank higher than needed costs nothing, lowering one would cost a walk.
-    waiting = [(cell, rank)]
-    while waiting:
-        cell, rank = waiting.pop()
-        if rank > cell.rank:
-            cell.graph.rerank(cell, rank)
-            waiting.extend((dependent, rank + 1) for dependent in cell.dependents)
-
-
-def _path(cell: Cell[Any], below: dict[Cell[Any], Cell[Any]]) -> tuple[str, ...]:
-    names = [cell.name]
-    step = below.get(cell)
-    while step is not None and step is not cell:
-        names.append(step.name)
-        step = below.get(step)
-    return (*names, cell.name)

@@ -8,7 +8,7 @@ if TYPE_CHECKING:
 
 
 class Change(NamedTuple):
-    """A cell that has another value after a commit than before."""
+    """A cell that has another value after a commit than before; a value may be a `Failure`."""
 
     cell: "Cell[Any]"
     old: Any
@@ -16,15 +16,38 @@ class Change(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Commit:
-    """The record of a transaction.
+class Stamp:
+    """Which commit it was; each cell keeps that of the one that gave it its value.
 
     Attributes:
         sequence: number of the commit, from 1.
         cause: who wrote, for people.
-        changes: in order of recomputation; a cell that went A -> B -> A is not among them.
+        time: when, as the owner of the graph tells time.
     """
 
     sequence: int
     cause: str
+    time: float
+
+
+@dataclass(frozen=True, slots=True)
+class Commit:
+    """The record of a transaction that changed or made something.
+
+    Attributes:
+        stamp: which it was.
+        changes: in order of recomputation; a cell that went A -> B -> A is not among them.
+    """
+
+    stamp: Stamp
     changes: tuple[Change, ...]
+
+    @property
+    def sequence(self) -> int:
+        """Number of the commit, from 1."""
+        return self.stamp.sequence
+
+    @property
+    def cause(self) -> str:
+        """Who wrote, for people."""
+        return self.stamp.cause

@@ -1,8 +1,19 @@
 """Misuse of the graph: mistakes of a programmer, not of a user."""
 
+from reactive_realizer.reactive.failure import Failure
+
 
 class ReactiveError(RuntimeError):
     """Base of the errors of this room."""
+
+
+class CellError(ReactiveError):
+    """A cell was read that has no value, because its formula, or one that it depends on, raised."""
+
+    def __init__(self, name: str, failure: Failure) -> None:
+        by = "" if failure.cell == name else f" through '{failure.cell}'"
+        super().__init__(f"'{name}' has failed{by}: {failure.reason}")
+        self.failure = failure
 
 
 class PropagationCycleError(ReactiveError):
@@ -19,3 +30,7 @@ class WriteOutsideTransactionError(ReactiveError):
 
 class WriteDuringCommitError(ReactiveError):
     """An observer wrote a cell; observers only look."""
+
+
+class DisposedCellError(ReactiveError):
+    """A cell was written after it was disposed of."""

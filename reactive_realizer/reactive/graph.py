@@ -1,13 +1,23 @@
 """Transactions: many writes, one propagation, one record."""
 
+import logging
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from heapq import heappop, heappush
+from operator import attrgetter
 from typing import Any
 
 from reactive_realizer.reactive.cell import Cell, Derived
-from reactive_realizer.reactive.commit import Change, Commit
-from reactive_realizer.reactive.errors import WriteDuringCommitError, WriteOutsideTransactionError
+from reactive_realizer.reactive.commit import Change, Commit, Stamp
+from reactive_realizer.reactive.errors import (
+    DisposedCellError,
+    WriteDuringCommitError,
+    WriteOutsideTransactionError,
+)
+
+logger = logging.getLogger(__name__)
+
+_SEQUENCE = attrgetter("sequence")
 
 
 class Graph:
@@ -16,9 +26,13 @@ class Graph:
     Cells that a write reaches are recomputed once each, in the order (rank, sequence), and no further than values
     really change (equality cut-off). Touched cells wait in one bucket a rank: measured several times cheaper than one
     heap of cells.
+
+    Attributes:
+        time: what its owner says the time is; noted in commits.
     """
 
     def __init__(self) -> None:
+        self.time = 0.0
         self._sequence = 0
         self._commits = 0
         self._depth = 0
@@ -26,10 +40,14 @@ class Graph:
         self._buckets: dict[int, dict[Derived[Any], None]] = {}
         self._ranks: list[int] = []
         self._before: dict[Cell[Any], Any] = {}
+        self._made: list[Cell[Any]] = []
         self._listeners: list[Callable[[Commit], None]] = []
 
     def listen(self, listener: Callable[[Commit], None]) -> None:
-        """Call ``listener(commit)`` after every commit that changed something, after the observers of the cells."""
+        """Call ``listener(commit)`` after every commit that changed something, after the observers of the cells.
+
+        It may not write; what it raises is logged.
+        """
         self._listeners.append(listener)
 
     @contextmanager
@@ -37,7 +55,7 @@ class Graph:
         """Writes inside are seen together, as one commit; a transaction within a transaction joins it.
 
         A body that raises commits what it wrote until then, so that the graph stays consistent: whoever may fail does
-        so before opening a transaction. Formulas do not fail.
+        so before opening a transaction.
 
         Raises:
             WriteDuringCommitError: opened by an observer or listener.
@@ -50,72 +68,100 @@ class Graph:
         finally:
             if self._depth == 1:
                 self.settle()
-            self._depth -= 1
-            if self._depth == 0:
                 self._commit(cause)
+            self._depth -= 1
+
+    # --- for the cells
+
+    def enter(self, cell: Cell[Any]) -> int:
+        """Take in a new cell, which gets its number."""
+        if self._depth:
+            self._made.append(cell)
+        self._sequence += 1
+        return self._sequence
 
     def write(self, cell: Cell[Any], value: Any) -> None:
-        """Give a cell its value and wake what depends on it; for the cells themselves."""
-        if self._depth == 0:
-            raise WriteOutsideTransactionError(f"'{cell.name}' is written outside a transaction")
-        old = cell._value
-        if value == old:
-            return
-        self._before.setdefault(cell, old)
-        cell._value = value
-        for dependent in cell.dependents:
-            self.touch(dependent)
+        """Give a cell its value and wake what depends on it."""
+        self._check_writable(cell)
+        self._give(cell, value)
 
     def touch(self, cell: Derived[Any]) -> None:
         """Have a derived cell recomputed before its value is next read."""
+        self._check_writable(cell)
+        self._wake(cell)
+
+    def leave_alone(self, cell: Derived[Any]) -> None:
+        """Do not recompute a cell that was touched."""
+        self._buckets.get(cell.rank, {}).pop(cell, None)
+
+    def rerank(self, cell: Cell[Any], rank: int) -> None:
+        """Move a cell to a higher rank, also where it waits to be recomputed."""
+        waiting = cell in self._buckets.get(cell.rank, ())
+        if waiting:
+            self.leave_alone(cell)  # type: ignore[arg-type]
+        cell.rank = rank
+        if waiting:
+            self._wake(cell)  # type: ignore[arg-type]
+
+    def settle(self) -> None:
+        """Recompute what was touched, lowest rank first."""
+        while self._ranks:
+            rank = heappop(self._ranks)
+            for cell in sorted(self._buckets.pop(rank), key=_SEQUENCE):
+                self._give(cell, cell.compute())
+
+    def _give(self, cell: Cell[Any], value: Any) -> None:
+        old = cell._value
+        if value != old:
+            self._before.setdefault(cell, old)
+            cell._value = value
+            for dependent in cell.dependents:
+                self._wake(dependent)
+
+    def _check_writable(self, cell: Cell[Any]) -> None:
         if self._depth == 0:
-            raise WriteOutsideTransactionError(f"'{cell.name}' is changed outside a transaction")
+            raise WriteOutsideTransactionError(f"'{cell.name}' is written outside a transaction")
+        if cell.disposed:
+            raise DisposedCellError(f"'{cell.name}' is written after it was disposed of")
+
+    def _wake(self, cell: Derived[Any]) -> None:
         bucket = self._buckets.get(cell.rank)
         if bucket is None:
             bucket = self._buckets[cell.rank] = {}
             heappush(self._ranks, cell.rank)
         bucket[cell] = None
 
-    def settle(self) -> None:
-        """Recompute what was touched, lowest rank first."""
-        while self._ranks:
-            rank = heappop(self._ranks)
-            for cell in sorted(self._buckets.pop(rank), key=_by_sequence):
-                # A touched cell may have been pinned since: then it has no formula to follow any more.
-                if cell.dependencies:
-                    self.write(cell, cell.compute())
-
-    def rerank(self, cell: Cell[Any], rank: int) -> None:
-        """Move a cell to a higher rank, also where it waits to be recomputed; for the cells themselves."""
-        bucket = self._buckets.get(cell.rank, {})
-        waiting = cell in bucket
-        if waiting:
-            bucket.pop(cell)  # type: ignore[call-overload]
-        cell.rank = rank
-        if waiting:
-            self.touch(cell)  # type: ignore[arg-type]
-
-    def next_sequence(self) -> int:
-        """A number for a new cell."""
-        self._sequence += 1
-        return self._sequence
-
     def _commit(self, cause: str) -> None:
-        changes = tuple(Change(cell, old, cell._value) for cell, old in self._before.items() if cell._value != old)
+        changes = tuple([Change(cell, old, cell._value) for cell, old in self._before.items() if cell._value != old])
+        made = list(self._made)
         self._before.clear()
-        if not changes:
+        self._made.clear()
+        if not changes and not made:
             return
         self._commits += 1
-        commit = Commit(self._commits, cause, changes)
+        commit = Commit(Stamp(self._commits, cause, self.time), changes)
+        for cell in made:
+            cell.stamp = commit.stamp
+        for change in changes:
+            change.cell.stamp = commit.stamp
+        self._tell(commit)
+
+    def _tell(self, commit: Commit) -> None:
         self._notifying = True
         try:
-            for change in changes:
-                change.cell.notify()
+            for cell, _, new in commit.changes:
+                for subscription in list(cell.observers) if cell.observers else ():
+                    # An observer may have disposed of one that comes after it.
+                    if subscription in cell.observers:
+                        _try(subscription.tell, new, cell.name)
             for listener in self._listeners:
-                listener(commit)
+                _try(listener, commit, commit.cause)
         finally:
             self._notifying = False
 
 
-def _by_sequence(cell: Cell[Any]) -> int:
-    return cell.sequence
+def _try(tell: Callable[[Any], None], value: object, about: str) -> None:
+    try:
+        tell(value)
+    except Exception:
+        logger.exception("%r, which was told of '%s', raised", tell, about)

@@ -25,11 +25,12 @@ class Prediction:
 
 @dataclass(frozen=True, slots=True)
 class Event:
-    """Something happened, or was set, that an anticipator makes predictions from."""
+    """Something happened, was set or was said, that an anticipator makes predictions from."""
 
     anticipator: str
     name: str
     value: float | None = None
+    text: str | None = None
 
 
 @dataclass(frozen=True, slots=True)

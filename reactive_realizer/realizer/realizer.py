@@ -23,6 +23,7 @@ from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.reactive.commit import Commit
 from reactive_realizer.reactive.graph import Graph
 from reactive_realizer.realizer.character import Character
+from reactive_realizer.realizer.entered import Delivery, Entered
 from reactive_realizer.realizer.inputs import BmlText, Event, Input, Prediction, TargetMoved
 from reactive_realizer.realizer.workshop import TaskWorkshop
 from reactive_realizer.scheduler.bml_scheduler import BMLScheduler
@@ -35,6 +36,7 @@ _MOST_ROUNDS = 100
 
 FrameListener = Callable[[Character, Frame], None]
 AudioListener = Callable[[AudioChange], None]
+EntryListener = Callable[[Entered], None]
 
 
 class Realizer:
@@ -69,12 +71,14 @@ class Realizer:
         self.time = GlobalTime(0.0)
         self._strategy = strategy
         self._cast = Cast({character.id: character.engines for character in characters})
-        self._tasks = [EngineTask(engine) for engine in self._cast.engines]
+        self._leading = [EngineTask(engine) for engine in self._cast.engines if engine.leads]
+        self._following = [EngineTask(engine) for engine in self._cast.engines if not engine.leads]
         self._inbox: list[tuple[GlobalTime, int, Input]] = []
         self._entered = 0
         self._commits: list[Commit] = []
         self._frame_listeners: list[FrameListener] = []
         self._audio_listeners: list[AudioListener] = []
+        self._entry_listeners: list[EntryListener] = []
         self._stack = AsyncExitStack()
         self.board.graph.listen(self._commits.append)
 
@@ -82,7 +86,7 @@ class Realizer:
 
     async def __aenter__(self) -> Self:
         group = await self._stack.enter_async_context(asyncio.TaskGroup())
-        running = [group.create_task(task.run(), name=task.engine.name) for task in self._tasks]
+        running = [group.create_task(task.run(), name=task.engine.name) for task in (*self._leading, *self._following)]
         self._stack.callback(lambda: [task.cancel() for task in running])
         self._workshop = TaskWorkshop(group)
         self._stack.callback(self._workshop.close)
@@ -113,6 +117,10 @@ class Realizer:
         """Get what becomes audible."""
         self._audio_listeners.append(listener)
 
+    def record(self, listener: EntryListener) -> None:
+        """Get what enters, tick by tick, before anything comes of it."""
+        self._entry_listeners.append(listener)
+
     @property
     def busy(self) -> bool:
         """Whether something is still to enter."""
@@ -124,46 +132,55 @@ class Realizer:
 
     # --- a tick
 
-    async def step(self, tick: Tick) -> None:
-        """One tick, phase by phase (semantics: a tick, in phases)."""
+    async def step(self, tick: Tick, work: Sequence[Delivery] | None = None) -> None:
+        """One tick, phase by phase (semantics: a tick, in phases).
+
+        Args:
+            tick: after all that were before.
+            work: what is handed over of the slow work; None: whatever is there.
+        """
         self.time = tick.time
         watched = Tick(tick.number, tick.previous, tick.frame and bool(self._frame_listeners))
         self._commits.clear()
-        self._take_inputs(tick)
+        self._take_inputs(tick, self._workshop.ready() if work is None else tuple(work))
         plays = await self._play(watched)
         if watched.frame:
             self._publish_frames(tick.time, plays)
         self.scheduler.publish(tick.time)
         self.feedback.flush(tick.time)
 
-    def _take_inputs(self, tick: Tick) -> None:
+    def _take_inputs(self, tick: Tick, work: tuple[Delivery, ...]) -> None:
         due = [entry for at, _, entry in sorted(self._inbox, key=lambda e: e[:2]) if is_due(at, tick.time)]
         self._inbox = [waiting for waiting in self._inbox if not is_due(waiting[0], tick.time)]
+        for listener in self._entry_listeners:
+            listener(Entered(tick.number, tuple(due), work))
         with self.board.graph.transaction("inputs"):
+            for anticipator in self.anticipators.values():
+                self._try(anticipator.id, anticipator.advance, tick.time)
             for entry in due:
-                self._try(entry, tick.time)
+                self._try(entry, self._apply, entry, tick.time)
         self.scheduler.clamp(tick.previous, tick.time, tuple(self._commits))
-        self._workshop.deliver(tick.time)
+        self._workshop.deliver(work, tick.time)
         for entry in due:
             if isinstance(entry, BmlText):
                 self._read(entry, tick.time)
 
-    def _try(self, entry: Input, now: GlobalTime) -> None:
+    def _try(self, what: object, act: Callable[..., None], *arguments: object) -> None:
         """Whoever brings an input may check it first; one that cannot be is left out, and all else goes on."""
         try:
-            self._apply(entry, now)
+            act(*arguments)
         except RealizerError as problem:
-            logger.warning("%s is left out: %s", entry, problem)
+            logger.warning("%s is left out: %s", what, problem)
         except Exception:
-            logger.exception("%s is left out", entry)
+            logger.exception("%s is left out", what)
 
     def _apply(self, entry: Input, now: GlobalTime) -> None:
         match entry:
             case Prediction(anticipator, sync, time):
                 self._anticipator(anticipator).check_prediction()
                 self._anticipator(anticipator).predict(sync, time, now)
-            case Event(anticipator, name, value):
-                self._anticipator(anticipator).event(name, value, now)
+            case Event(anticipator):
+                _tell(self._anticipator(anticipator), entry, now)
             case TargetMoved(target, position):
                 self.world.move(target, position)
             case BmlText():
@@ -183,10 +200,11 @@ class Realizer:
         plays: list[Play] = []
         for _ in range(_MOST_ROUNDS):
             self.scheduler.advance(tick.time)
-            plays = await play_all(self._tasks, tick)
-            changed = False
+            if self.scheduler.apply(await play_all(self._leading, tick), tick.time):
+                continue
+            plays = await play_all(self._following, tick)
+            changed = self.scheduler.apply(plays, tick.time)
             for play in plays:
-                changed |= self.scheduler.apply(play, tick.time)
                 self._publish_audio(play)
             if not changed and not self.scheduler.advance(tick.time):
                 return plays
@@ -199,8 +217,16 @@ class Realizer:
                 listener(change)
 
     def _publish_frames(self, time: GlobalTime, plays: Sequence[Play]) -> None:
-        by_engine = dict(zip((task.engine for task in self._tasks), plays, strict=True))
+        by_engine = dict(zip((task.engine for task in self._following), plays, strict=True))
         for character in self.characters.values():
-            frame = character.compose(time, [by_engine[engine] for engine in character.engines])
+            frame = character.compose(time, [by_engine[engine] for engine in character.engines if engine in by_engine])
             for listener in tuple(self._frame_listeners):
                 listener(character, frame)
+
+
+def _tell(anticipator: Anticipator, event: Event, now: GlobalTime) -> None:
+    if event.text is None:
+        anticipator.check(event.name, event.value)
+        anticipator.event(event.name, event.value, now)
+    else:
+        anticipator.hear(event.name, event.text, now)

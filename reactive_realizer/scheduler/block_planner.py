@@ -1,7 +1,8 @@
 """From a block that was accepted to its plan: engines prepare and plan its behaviors, the strategy times them."""
 
+import asyncio
 import logging
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
 from reactive_realizer.bml.behavior import Behavior
@@ -14,13 +15,17 @@ from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.scheduler.cast import Cast
 from reactive_realizer.scheduler.constraints import blocks_named
-from reactive_realizer.scheduler.planning import Plan, Planning
+from reactive_realizer.scheduler.planning import Plan, Planning, Task
 from reactive_realizer.scheduler.preparation import Preparation
 from reactive_realizer.scheduler.problem import Loss
 from reactive_realizer.scheduler.reporter import Reporter
-from reactive_realizer.scheduler.workshop import Workshop
+from reactive_realizer.scheduler.workshop import Result, Workshop
 
 logger = logging.getLogger(__name__)
+
+
+_MOST_AT_ONCE = 50
+"""Behaviors of a block that are still solved on the loop."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,6 +43,22 @@ class Draft:
     losses: tuple[Loss, ...]
 
 
+@dataclass(slots=True, eq=False)
+class _Solving:
+    """A big block while it is solved off the loop.
+
+    Attributes:
+        plan: None as long as it is.
+    """
+
+    engines: Mapping[PlanUnit, Engine]
+    refused: list[Loss]
+    task: Task
+    plan: Plan | None = None
+    failure: Exception | None = None
+    cancel: Callable[[], None] = lambda: None
+
+
 class BlockPlanner:
     """Prepares blocks side by side and plans them in order of arrival."""
 
@@ -48,6 +69,7 @@ class BlockPlanner:
         self._workshop = workshop
         self._reporter = reporter
         self._preparations: dict[BMLBlock, Preparation] = {}
+        self._solving: dict[BMLBlock, _Solving] = {}
 
     def prepare(self, block: BMLBlock) -> list[Loss]:
         """Have the engines begin with their slow work; the behaviors that no engine plays are lost."""
@@ -70,18 +92,22 @@ class BlockPlanner:
         """Give up what is prepared for a block, if anything is."""
         if block in self._preparations:
             self._preparations.pop(block).cancel()
+        if block in self._solving:
+            self._solving.pop(block).cancel()
 
-    def ready(self) -> Iterator[BMLBlock]:
-        """Prepared blocks in order of arrival; one that names points of an earlier one waits until that is planned."""
-        for block, preparation in tuple(self._preparations.items()):
-            if preparation.complete and not self._names_unplanned(block):
-                yield block
+    def drafts(self, now: GlobalTime) -> Iterator[tuple[BMLBlock, Draft]]:
+        """Blocks that can be committed, as if they were to start now, in order of arrival.
 
-    def plan(self, block: BMLBlock, now: GlobalTime) -> Draft:
-        """Plan a prepared block as if it were to start now."""
-        engines, refused = _units(block, self._preparations.pop(block))
-        plan = self._planning.solve(block, list(engines), now)
-        return Draft(plan, engines, (*refused, *plan.losses))
+        One that names points of an earlier block waits until that is planned.
+        """
+        for block in self._blocks.alive:
+            if block in self._preparations and self._may_plan(block):
+                engines, refused = _units(block, self._preparations.pop(block))
+                timings = {unit: unit.timing for unit in engines}
+                self._solving[block] = _Solving(engines, refused, self._planning.pose(block, timings, now))
+                self._solve(block, self._solving[block])
+            if block in self._solving and (draft := self._draft(block, self._solving[block], now)) is not None:
+                yield block, draft
 
     def commit(self, block: BMLBlock, draft: Draft, now: GlobalTime) -> None:
         """Put a draft on the board and into the engines' plans."""
@@ -89,15 +115,61 @@ class BlockPlanner:
         for unit in draft.plan.units:
             self._cast.give(unit, draft.engines[unit])
 
-    def _names_unplanned(self, block: BMLBlock) -> bool:
+    def renew(self, block: BMLBlock, now: GlobalTime) -> None:
+        """Within a transaction: plan a block anew that starts now, from how its engines prefer it now (thesis 12.1.4).
+
+        The plan that is there stays if the new one would lose anything.
+        """
+        before = {unit: unit.points for unit in block.units}
+        task = self._planning.pose(block, {unit: unit.preference() for unit in block.units}, now)
+        plan = self._planning.solve(task)
+        if not plan.losses and len(plan.units) == len(before):
+            self._planning.recommit(block, plan)
+
+    def _solve(self, block: BMLBlock, solving: _Solving) -> None:
+        """Solve at once, or off the loop if that would hold it up."""
+        if len(solving.task.units) <= _MOST_AT_ONCE:
+            solving.plan = self._planning.solve(solving.task)
+            return
+
+        def receive(result: Result, now: GlobalTime) -> None:
+            if isinstance(result, Plan):
+                solving.plan = result
+            elif isinstance(result, Exception):
+                solving.failure = result
+
+        work = asyncio.to_thread(self._planning.solve, solving.task)
+        solving.plan = None
+        solving.cancel = self._workshop.request(f"solve {block.key.block}", work, receive)
+
+    def _draft(self, block: BMLBlock, solving: _Solving, now: GlobalTime) -> Draft | None:
+        """What came out, if it did and times from outside are still what they were."""
+        if solving.failure is not None:
+            raise solving.failure
+        if solving.plan is None:
+            return None
+        if self._planning.is_stale(block, solving.task, now):
+            timings = {unit: unit.timing for unit in solving.engines}
+            solving.task = self._planning.pose(block, timings, now)
+            self._solve(block, solving)
+            return self._draft(block, solving, now) if solving.plan is not None else None
+        del self._solving[block]
+        return Draft(solving.plan, solving.engines, (*solving.refused, *solving.plan.losses))
+
+    def _may_plan(self, block: BMLBlock) -> bool:
+        if not self._preparations[block].complete:
+            return False
         others = [self._blocks.find(block.key.character, name) for name in blocks_named(block.description)]
-        return any(other in self._preparations and other.arrival < block.arrival for other in others if other)
+        earlier = [other for other in others if other is not None and other.arrival < block.arrival]
+        return not any(other in self._preparations or other in self._solving for other in earlier)
 
 
 def _units(block: BMLBlock, preparation: Preparation) -> tuple[dict[PlanUnit, Engine], list[Loss]]:
     units: dict[PlanUnit, Engine] = {}
     losses: list[Loss] = []
     for behavior, engine in preparation.engines.values():
+        if behavior.id in block.cancelled:
+            continue
         try:
             units[engine.plan(block.key, behavior, preparation.result(behavior.id))] = engine
         except RealizerError as problem:

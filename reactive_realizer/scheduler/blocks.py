@@ -50,10 +50,17 @@ class Blocks:
         return self._alive.get(key)
 
     def last_of(self, character: str) -> list[BMLBlock]:
-        """The blocks of a character that no other one waits for: when they have ended, all have."""
-        own = self.of(character)
-        awaited = {target for block in own for target in block.targets}
+        """The blocks of a character that no other one waits for: when they have ended, all have.
+
+        Those that are preplanned and not activated do not count.
+        """
+        own = [block for block in self.of(character) if not block.asleep]
+        awaited = {wait.target for block in own for wait in block.waits if not wait.chunk}
         return [block for block in own if block not in awaited]
+
+    def has_ended(self, character: str, block: str) -> bool:
+        """Whether a name is remembered as that of an ended block, of the character or of any other."""
+        return BlockKey(character, block) in self._ended or any(key.block == block for key in self._ended)
 
     def find(self, character: str, block: str) -> BMLBlock | None:
         """The block alive that a reference names: the character's own, else the first of any other character."""

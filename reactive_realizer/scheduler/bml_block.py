@@ -1,21 +1,25 @@
 """A block of the stream, from its arrival to its end (thesis 7.3.4)."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from enum import Enum
 
 from reactive_realizer.bml.block import BehaviorBlock
-from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.clock.units import GlobalTime, is_due
 from reactive_realizer.feedback.feedback_manager import Place
 from reactive_realizer.pegboard.peg_key import BlockKey, PegKey
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.pegboard.time_peg import BMLBlockPeg, LatestPeg, Time, TimeCell
-from reactive_realizer.planunit.plan_unit import PlanUnit
+from reactive_realizer.pegboard.time_peg import AnticipatorPeg, BMLBlockPeg, LatestPeg, Time, TimeCell
+from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
+from reactive_realizer.scheduler.problem import Order, Tie
 
 
 class BlockState(Enum):
     """Where a block stands; the words are those of BMLA's status."""
 
     IN_PREP = "IN_PREP"
+    PENDING = "PENDING"
+    """Planned, and not to start before it is activated (BMLA preplan)."""
     LURKING = "LURKING"
     IN_EXEC = "IN_EXEC"
     SUBSIDING = "SUBSIDING"
@@ -35,18 +39,48 @@ class BlockState(Enum):
         return self in (BlockState.DONE, BlockState.INTERRUPTED, BlockState.REVOKED, BlockState.FAILED)
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Wait:
+    """A block does not start before another one is over.
+
+    Attributes:
+        target: the other one.
+        chunk: whether it is enough that the other subsides (thesis 12.1.3).
+        implied: whether the target stands for all that it waits for itself, as the last one of an APPEND does.
+    """
+
+    target: "BMLBlock"
+    chunk: bool = False
+    implied: bool = False
+
+    @property
+    def peg(self) -> TimeCell:
+        """When the wait is predicted to be over."""
+        return self.target.relax if self.chunk else self.target.end
+
+    @property
+    def over(self) -> bool:
+        """Whether it is; what was predicted does not matter."""
+        state = self.target.state
+        return state.ended or (self.chunk and state is BlockState.SUBSIDING)
+
+
 class BMLBlock:
-    """A block alive, and its two pegs.
+    """A block alive, and its pegs.
 
     Attributes:
         key: its name.
         description: what was asked for.
         arrival: number of arrival over all characters.
         noticed: time of the tick in which it started; its peg may lie before that.
+        activation: when a preplanned block was activated, None before; None for others.
         start: its peg; pinned when it starts.
+        relax: when it subsides: the latest relax of its behaviors, or end of those that have none.
         end: the latest end of its behaviors.
-        targets: the blocks it waits for; what these wait for in turn is not among them.
+        waits: for other blocks.
         units: its behaviors that are planned and not dropped, in document order.
+        cancelled: ids of behaviors that were interrupted before the block started.
+        kept: the constraints of its plan.
     """
 
     def __init__(
@@ -56,40 +90,68 @@ class BMLBlock:
         description: BehaviorBlock,
         arrival: int,
         arrived: GlobalTime,
-        targets: Sequence["BMLBlock"],
+        waits: Iterable[Wait],
     ) -> None:
         self.key = key
         self.description = description
         self.arrival = arrival
-        self.targets = tuple(targets)
+        self.waits = tuple(waits)
         self.noticed: Time = None
         self.state = BlockState.IN_PREP
         self.units: list[PlanUnit] = []
-        self.start = BMLBlockPeg(board.graph, f"{key.block}:start", arrived, self._waits())
-        self.end = LatestPeg(board.graph, f"{key.block}:end", arrived, (self.start,))
-        board.add(PegKey(*key, None, "start"), self.start)
-        board.add(PegKey(*key, None, "end"), self.end)
+        self.cancelled: set[str] = set()
+        self.kept: tuple[Tie | Order, ...] = ()
+        name = key.block
+        self.activation = AnticipatorPeg(board.graph, f"{name}:activation", None) if description.preplan else None
+        self.start = BMLBlockPeg(board.graph, f"{name}:start", arrived, self._awaited())
+        self.relax = LatestPeg(board.graph, f"{name}:relax", arrived, (self.start,))
+        self.end = LatestPeg(board.graph, f"{name}:end", arrived, (self.start,))
+        for sync, peg in (("start", self.start), ("relax", self.relax), ("end", self.end)):
+            board.add(PegKey(*key, None, sync), peg)
 
-    def planned(self, now: GlobalTime, units: Sequence[PlanUnit]) -> None:
-        """Within a transaction: the block is ready to start, now or when its targets have ended."""
-        self.units = list(units)
-        self.start.wait_for(now, self._waits())
-        self.end_again(now)
-        self.state = BlockState.LURKING
+    def planned(self, now: GlobalTime, units: Sequence[PlanUnit], kept: Sequence[Tie | Order]) -> None:
+        """Within a transaction: the block is ready to start, now or when what it waits for is over."""
+        self.replanned(now, units, kept)
+        self.start.wait_for(now, self._awaited())
+        self.state = BlockState.PENDING if self.asleep else BlockState.LURKING
+
+    def replanned(self, floor: GlobalTime, units: Sequence[PlanUnit], kept: Sequence[Tie | Order]) -> None:
+        """Within a transaction: it has other behaviors or other pegs; it ends not before ``floor``."""
+        self.units, self.kept = list(units), tuple(kept)
+        self.end_again(floor)
+
+    @property
+    def asleep(self) -> bool:
+        """Whether it is preplanned and was not activated."""
+        return self.activation is not None and self.activation.value is None
+
+    def activate(self, time: GlobalTime) -> None:
+        """Within a transaction: start at a time, if nothing else is waited for."""
+        if self.activation is not None:
+            self.activation.set(time)
+        if self.state is BlockState.PENDING:
+            self.state = BlockState.LURKING
+
+    def wait_also(self, wait: Wait) -> None:
+        """Within a transaction: something was put before it."""
+        self.waits += (wait,)
+        self.start.wait_for(self.start.floor, self._awaited())
 
     def wait_instead(self, ended: "BMLBlock") -> None:
-        """Within a transaction: wait for what an ended target waited for, in its place."""
-        self.targets = (*(target for target in self.targets if target is not ended), *ended.waits_for)
-        self.start.wait_for(self.start.floor, self._waits())
+        """Within a transaction: wait for what an ended target stood for."""
+        others = (wait for wait in self.waits if wait.target is not ended)
+        self.waits = (*others, *(wait for wait in ended.waits if not wait.over))
+        self.start.wait_for(self.start.floor, self._awaited())
 
     def end_again(self, floor: GlobalTime) -> None:
         """Within a transaction: the end follows the behaviors that are left, and is not before ``floor``."""
+        self.relax.wait_for(floor, (self.start, *(_subsiding(unit).peg for unit in self.units)))
         self.end.wait_for(floor, (self.start, *(unit.points[-1].peg for unit in self.units)))
 
     @property
-    def waits_for(self) -> list["BMLBlock"]:
-        """The blocks it is appended to that have not ended, whatever was predicted of their ends."""
-        return [target for target in self.targets if not target.state.ended]
+    def waits_for(self) -> list[Wait]:
+        """What it waits for and is not over."""
+        return [wait for wait in self.waits if not wait.over]
 
     @property
     def live_units(self) -> list[PlanUnit]:
@@ -97,8 +159,10 @@ class BMLBlock:
         return [unit for unit in self.units if unit.live]
 
     def subsides(self) -> bool:
-        """Whether every behavior has ended or is past its relax."""
-        return all(any(p.id == "relax" and p.fired is not None for p in unit.points) for unit in self.live_units)
+        """Whether nothing but ways back to rest is, or in a late tick was, ahead of it."""
+        relax, end = self.relax.value, self.end.value
+        early = relax is not None and (end is None or not is_due(end, relax))
+        return early and all(_subsiding(unit).fired is not None for unit in self.units)
 
     def place(self, time: GlobalTime, behavior: float, sync: int = 0) -> Place:
         """Where its feedback of a time stands in a tick; behavior -1 is the block's start, infinity its end.
@@ -108,5 +172,10 @@ class BMLBlock:
         start = self.start.value
         return Place(time, time if start is None else min(start, time), self.arrival, behavior, sync)
 
-    def _waits(self) -> tuple[TimeCell, ...]:
-        return tuple(target.end for target in self.targets)
+    def _awaited(self) -> tuple[TimeCell, ...]:
+        return (*([self.activation] if self.activation is not None else ()), *(wait.peg for wait in self.waits))
+
+
+def _subsiding(unit: PlanUnit) -> SyncPoint:
+    """Its relax, or its end if it has none."""
+    return next((point for point in unit.points if point.id == "relax"), unit.points[-1])

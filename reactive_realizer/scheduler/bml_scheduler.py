@@ -20,10 +20,12 @@ from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BlockState, BMLBlock
 from reactive_realizer.scheduler.cast import Cast
 from reactive_realizer.scheduler.endings import Endings
+from reactive_realizer.scheduler.joining import Joining
 from reactive_realizer.scheduler.planning import Planning
 from reactive_realizer.scheduler.predictions import Predictions
 from reactive_realizer.scheduler.problem import Loss
 from reactive_realizer.scheduler.reporter import Reporter
+from reactive_realizer.scheduler.requests import Requests
 from reactive_realizer.scheduler.strategy import SchedulingStrategy
 from reactive_realizer.scheduler.workshop import Workshop
 
@@ -56,6 +58,7 @@ class BMLScheduler:
         self._planner = BlockPlanner(cast, self.blocks, planning, workshop, self._reporter)
         self._predictions = Predictions(feedback)
         self._endings = Endings(board, cast, self.blocks, self._reporter, self._predictions)
+        self._requests = Requests(board, self.blocks, self._planner, self._endings, self._reporter)
         self._arrivals = 0
         self._moved: set[BlockKey | None] = set()
         board.graph.listen(self._note)
@@ -77,9 +80,14 @@ class BMLScheduler:
             if parsed.block is not None and fault is not None:
                 self._reporter.warn(character, parsed.block.id, fault)
             return
-        if parsed.block.composition is Composition.REPLACE:
-            self.interrupt_all(character, now)
-        block = self._new_block(parsed.block, character, now)
+        self._make_room(parsed.block, character, now)
+        joining = Joining(self.blocks, character, parsed.block)
+        if (fault := joining.refusal()) is not None:
+            self.refused += 1
+            place = parsed.block.location
+            self._reporter.warn(character, parsed.block.id, fault.located(place.line, place.column))
+            return
+        block = self._new_block(parsed.block, character, joining, now)
         if parsed.failed:
             self._endings.end(block, BlockState.FAILED, now)
             return
@@ -93,28 +101,30 @@ class BMLScheduler:
     def interrupt_all(self, character: str, now: GlobalTime) -> None:
         """End every block of a character now; the later ones first, because they may hang on the earlier ones."""
         for block in reversed(self.blocks.of(character)):
-            self._planner.cancel(block)
-            self._endings.interrupt(block, now)
+            self._requests.interrupt(block, now)
 
     # --- what time brings
 
     def advance(self, now: GlobalTime) -> bool:
         """Plan what is prepared, start and end what is due, in order of time; whether anything started or ended."""
         self._plan_prepared(now)
+        cut = self._endings.cut_due(now)
         ending = [block for block in self.blocks.alive if block.state.plays and not block.live_units]
         for block in ending:
             self._endings.end(block, BlockState.DONE, now if block.end.value is None else block.end.value)
         starting = [block for block in self.blocks.alive if _may_start(block) and is_due(block.start.value, now)]
         for block in sorted(starting, key=lambda b: (b.start.value, b.arrival)):
             self._start(block, now)
-        return bool(ending or starting)
+        return bool(cut or ending or starting)
 
-    def apply(self, play: Play, now: GlobalTime) -> bool:
-        """Do what an engine's playing asks for; whether anything changed."""
-        for dropped in play.dropped:
-            self._endings.drop(dropped, now)
-        self._endings.reach(play.reached)
-        return bool(play.dropped or play.reached)
+    def apply(self, plays: Sequence[Play], now: GlobalTime) -> bool:
+        """Do what the playing of engines asks for, in their order; whether anything changed."""
+        for play in plays:
+            for dropped in play.dropped:
+                self._endings.drop(dropped, now)
+            self._endings.reach(play.reached)
+        asked = self._requests.do([request for play in plays for request in play.requests], now)
+        return asked or any(play.dropped or play.reached for play in plays)
 
     def clamp(self, previous: GlobalTime, now: GlobalTime, commits: Iterable[Commit]) -> None:
         """Points ahead that were written into the past happen now; behaviors that lost their order are dropped."""
@@ -154,7 +164,8 @@ class BMLScheduler:
         """Say of every block alive what it waits for."""
         for block in self.blocks.alive:
             pegs = [point.peg for unit in block.live_units for point in unit.ahead()]
-            waits = ", ".join([*(str(other.end.name) for other in block.waits_for), *unknown_sources(pegs)])
+            unknown = unknown_sources([block.start, *pegs])
+            waits = ", ".join(dict.fromkeys([*(wait.peg.name for wait in block.waits_for), *unknown]))
             self._reporter.warn(block.key.character, block.key.block, Fault("never-moves", {"waits": waits}))
 
     # --- accepting
@@ -162,13 +173,25 @@ class BMLScheduler:
     def _character(self, block: BehaviorBlock | None) -> str:
         return (block and block.character) or self._cast.characters[0]
 
-    def _new_block(self, description: BehaviorBlock, character: str, now: GlobalTime) -> BMLBlock:
+    def _make_room(self, description: BehaviorBlock, character: str, now: GlobalTime) -> None:
+        """End what the new block is to end, before anything of it is known to others."""
+        if description.composition is Composition.REPLACE:
+            self.interrupt_all(character, now)
+        for name in description.interrupts:
+            block = self.blocks.find(character, name)
+            if block is not None:
+                self._requests.interrupt(block, now)
+
+    def _new_block(self, description: BehaviorBlock, character: str, joining: Joining, now: GlobalTime) -> BMLBlock:
         self._arrivals += 1
-        targets = self.blocks.last_of(character) if description.composition is Composition.APPEND else []
         key = BlockKey(character, description.id)
-        block = BMLBlock(self._board, key, description, self._arrivals, now, targets)
+        block = BMLBlock(self._board, key, description, self._arrivals, now, joining.waits())
         self.blocks.add(block)
+        with self._board.graph.transaction(f"put {description.id} before others"):
+            joining.push_back(block)
         self._reporter.meaningless(block, description.extensions, description)
+        for fault in joining.unknown:
+            self._reporter.warn(character, description.id, fault)
         return block
 
     # --- planning
@@ -178,8 +201,7 @@ class BMLScheduler:
             self._owe_prediction(block)
 
     def _plan_prepared(self, now: GlobalTime) -> None:
-        for block in self._planner.ready():
-            draft = self._planner.plan(block, now)
+        for block, draft in self._planner.drafts(now):
             if not self._lost(block, draft.losses, now):
                 self._planner.commit(block, draft, now)
                 self._owe_prediction(block)
@@ -198,12 +220,18 @@ class BMLScheduler:
         time = block.start.value or GlobalTime(0.0)
         with self._board.graph.transaction(f"start {block.key.block}"):
             block.start.pin(time)
+            if any(wait.chunk for wait in block.waits):
+                self._planner.renew(block, now)
         block.state = BlockState.IN_EXEC
         block.noticed = now
         for unit in block.units:
             unit.release()
         self._owe_prediction(block)
         self._reporter.started(block, time)
+        for name in block.description.on_start:
+            fault = self._requests.activate(block.key.character, name, time)
+            if fault is not None:
+                self._reporter.warn(block.key.character, block.key.block, fault)
 
     def _owe_prediction(self, block: BMLBlock) -> None:
         self._moved.add(block.key)
@@ -215,7 +243,7 @@ class BMLScheduler:
 
 def _may_start(block: BMLBlock) -> bool:
     # The last one is most likely to be still there: of a long queue each block looks at one.
-    return block.state is BlockState.LURKING and all(target.state.ended for target in reversed(block.targets))
+    return block.state is BlockState.LURKING and all(wait.over for wait in reversed(block.waits))
 
 
 def _can_move(block: BMLBlock, now: GlobalTime) -> bool:

@@ -1,11 +1,12 @@
 """How behaviors and blocks end: by themselves, cut short, dropped, revoked, failed."""
 
 import logging
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 
-from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.clock.units import GlobalTime, is_due
 from reactive_realizer.engine.effects import Dropped, Reached
 from reactive_realizer.errors import Fault
+from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.pegboard.time_peg import TimePeg, followers_of
 from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint, UnitState
@@ -34,6 +35,7 @@ class Endings:
         self._blocks = blocks
         self._reporter = reporter
         self._predictions = predictions
+        self._cuts: dict[PlanUnit, GlobalTime] = {}
 
     def end(self, block: BMLBlock, state: BlockState, time: GlobalTime) -> None:
         """A block ends in a state; what others had tied to it is let go."""
@@ -41,6 +43,8 @@ class Endings:
         block.state = state
         with self._board.graph.transaction(f"end {block.key.block}"):
             block.end.pin(time)
+            if not block.relax.pinned:
+                block.relax.pin(time)
             cut = self._board.pin_block(block.key)
         self._reporter.ended(block, time)
         self._board.remove_block(block.key)
@@ -57,28 +61,66 @@ class Endings:
         self._leave(block.live_units, now)
         self.end(block, BlockState.FAILED, now)
 
-    def interrupt(self, block: BMLBlock, now: GlobalTime) -> None:
-        """A block is cut: what is due happens first; one that has not started is revoked."""
+    def interrupt(self, block: BMLBlock, time: GlobalTime, spared: Collection[str] = (), gently: bool = False) -> None:
+        """Cut a block at a time: what is due happens first; one that has not started is revoked.
+
+        Args:
+            block: alive.
+            time: not after this tick.
+            spared: ids of behaviors that go on.
+            gently: whether each may end what it cannot break off in the middle of: a speech its word.
+        """
         if not block.state.plays:
-            self._leave(block.units, now)
-            self.end(block, BlockState.REVOKED, now)
+            self._revoke(block, time, spared)
             return
-        cut = False
-        for unit in block.live_units:
-            cut |= self._interrupt_unit(unit, now)
-        if cut:
-            self.end(block, BlockState.INTERRUPTED, now)
-        else:
-            self.end(block, BlockState.DONE, block.end.value if block.end.value is not None else now)
+        chosen = [unit for unit in block.live_units if unit.behavior.id not in spared]
+        later = {unit: last for unit in chosen if gently and (last := unit.gentle_end(time)) > time and unit.begun}
+        for unit, last in later.items():
+            self._cut_later(unit, last)
+        self._cut(block, [unit for unit in chosen if unit not in later], time)
+
+    def cut_due(self, now: GlobalTime) -> bool:
+        """Cut what was to end its word first; whether anything was due."""
+        due = [(time, unit) for unit, time in self._cuts.items() if is_due(time, now)]
+        for time, unit in sorted(due, key=lambda cut: cut[0]):
+            block = self._blocks.get(unit.block)
+            if block is not None and unit in block.live_units:
+                self._cut(block, [unit], time)
+            self._cuts.pop(unit, None)
+        return bool(due)
+
+    def finish(self, unit: PlanUnit, time: GlobalTime) -> None:
+        """A playing behavior ends of its own accord, before what was planned: its end moves to a time."""
+        block = self._blocks.get(unit.block)
+        if block is None or unit.state is not UnitState.IN_EXEC:
+            return
+        try:
+            reached = [Reached(unit, point, time) for point in unit.interrupt(time)]
+        except Exception as failure:
+            logger.exception("%s/%s:%s failed when it ended", *unit.block, unit.behavior.id)
+            self.drop_unit(unit, Fault("unit-failed", {"reason": failure}), time)
+            return
+        others = {point.peg for other in block.units if other is not unit for point in other.points}
+        for each in reached:
+            if each.point.peg in others:
+                self._split(unit, each.point, time)
+        self._cast.take(unit)
+        self.reach(reached)
+        with self._board.graph.transaction(f"end {unit.behavior.id}"):
+            block.end_again(block.end.floor)
 
     def reach(self, reached: Sequence[Reached]) -> None:
-        """Sync points were reached: they keep their times, and are told."""
+        """Sync points were reached: they keep their times, and are told; a block may subside by it."""
+        self._tell(reached)
+        for block in {each.unit.block: None for each in reached}:
+            self._subside(block)
+
+    def _tell(self, reached: Sequence[Reached]) -> None:
         with self._board.graph.transaction("sync points reached"):
             for each in reached:
                 each.point.peg.pin(each.time)
         for each in reached:
             self._reporter.reached(each)
-            self._subside(each)
 
     def drop_unit(self, unit: PlanUnit, fault: Fault, now: GlobalTime) -> None:
         """A behavior cannot be played on."""
@@ -98,6 +140,50 @@ class Endings:
         if unit.begun and unit.points[-1].fired is None:
             self._reporter.reached(Reached(unit, self._split(unit, unit.points[-1], now), now))
 
+    def _revoke(self, block: BMLBlock, time: GlobalTime, spared: Collection[str]) -> None:
+        """Behaviors of a block that has not started vanish, and the block with the last of them."""
+        names = {behavior.id for behavior in block.description.behaviors} - block.cancelled
+        gone = names.difference(spared)
+        block.cancelled |= gone
+        units = [unit for unit in block.units if unit.behavior.id in gone]
+        self._leave(units, time)
+        if gone == names:
+            self.end(block, BlockState.REVOKED, time)
+            return
+        with self._board.graph.transaction(f"revoke a part of {block.key.block}"):
+            block.units = [unit for unit in block.units if unit not in units]
+            if block.state is not BlockState.IN_PREP:
+                block.end_again(block.end.floor)
+
+    def _cut(self, block: BMLBlock, units: Sequence[PlanUnit], time: GlobalTime) -> None:
+        """Some behaviors of a playing block end now; the block too if nothing is left of it."""
+        ahead = [point.peg for unit in units for point in unit.ahead() if not is_due(point.peg.value, time)]
+        cut = [self._interrupt_unit(unit, time) for unit in units]
+        if not block.live_units and any(cut):
+            self.end(block, BlockState.INTERRUPTED, time)
+        elif not block.live_units:
+            self.end(block, BlockState.DONE, block.end.value if block.end.value is not None else time)
+        else:
+            pegs = [peg for peg in dict.fromkeys(ahead) if not peg.pinned]
+            with self._board.graph.transaction(f"cut a part of {block.key.block}"):
+                for peg in pegs:
+                    peg.pin(peg.value)
+                block.end_again(block.end.floor)
+            self._release_tied(pegs, BlockState.INTERRUPTED, time)
+            self._subside(block.key)
+
+    def _cut_later(self, unit: PlanUnit, time: GlobalTime) -> None:
+        """It ends at a time ahead, which is known from now on; one that would end by then anyway goes on."""
+        if is_due(unit.time("end"), time):
+            return
+        self._cuts[unit] = time
+        block = self._blocks.get(unit.block)
+        with self._board.graph.transaction(f"cut {unit.key('end')}"):
+            end = unit.points[-1]
+            end.peg = end.peg.apart(str(unit.key("end")), time)
+            if block is not None:
+                block.end_again(block.end.floor)
+
     def _interrupt_unit(self, unit: PlanUnit, now: GlobalTime) -> bool:
         """End a behavior now, what is due first; whether anything of it was cut."""
         if unit.due(now):
@@ -114,13 +200,14 @@ class Endings:
 
     def _cut_short(self, unit: PlanUnit, now: GlobalTime) -> bool:
         details = unit.end_details(now)
-        reached = [Reached(unit, point, point.fired or now) for point in unit.fire(now)]
+        fired = unit.fire(now, end=unit not in self._cuts)
+        reached = [Reached(unit, point, point.fired or now) for point in fired]
         cut = unit.live
         if cut:
             kept = [self._split(unit, point, now) for point in unit.interrupt(now)]
             reached += [Reached(unit, p, now, details if p.id == "end" else {}) for p in kept]
         self._cast.take(unit)
-        self.reach(reached)
+        self._tell(reached)
         return cut
 
     def _split(self, unit: PlanUnit, point: SyncPoint, now: GlobalTime) -> SyncPoint:
@@ -138,12 +225,12 @@ class Endings:
         self._cast.take(unit)
 
     def _hand_over_targets(self, ended: BMLBlock) -> None:
-        """Who waited for a block that ended before its turn waits for what that one waited for."""
+        """Who waited for all, and for this block as the last one, waits for what that one waited for."""
         with self._board.graph.transaction(f"after {ended.key.block}"):
             for block in self._blocks.alive:
-                if ended in block.targets and ended.waits_for:
+                if ended.waits_for and any(wait.implied and wait.target is ended for wait in block.waits):
                     block.wait_instead(ended)
-        ended.targets = ()
+        ended.waits = ()
 
     def _release_tied(self, cut: Sequence[TimePeg], state: BlockState, now: GlobalTime) -> None:
         """Behaviors of other blocks that hang on points which never come keep the times predicted last, and say so.
@@ -161,7 +248,12 @@ class Endings:
             else:
                 self._reporter.warn_of(unit, Fault("cut-tie", details))
 
-    def _subside(self, reached: Reached) -> None:
-        block = self._blocks.get(reached.unit.block)
-        if block is not None and block.state is BlockState.IN_EXEC and block.subsides():
-            block.state = BlockState.SUBSIDING
+    def _subside(self, key: BlockKey) -> None:
+        block = self._blocks.get(key)
+        time = None if block is None else block.relax.value
+        if block is None or time is None or block.state is not BlockState.IN_EXEC or not block.subsides():
+            return
+        with self._board.graph.transaction(f"subside {key.block}"):
+            block.relax.pin(time)
+        block.state = BlockState.SUBSIDING
+        self._reporter.subsided(block, time)

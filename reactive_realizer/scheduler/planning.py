@@ -5,12 +5,23 @@ from dataclasses import dataclass
 
 from reactive_realizer.bml.names import ANTICIPATORS
 from reactive_realizer.bml.sync_ref import SyncRef
-from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.clock.units import RESOLUTION, GlobalTime
 from reactive_realizer.errors import error
 from reactive_realizer.pegboard.peg_key import PegKey
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.pegboard.time_peg import AfterPeg, BeforePeg, Bound, OffsetPeg, RatioPeg, TimeCell, TimePeg
+from reactive_realizer.pegboard.time_peg import (
+    AfterPeg,
+    BeforePeg,
+    Bound,
+    OffsetPeg,
+    RatioPeg,
+    Time,
+    TimeCell,
+    TimePeg,
+    hangs_on,
+)
 from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
+from reactive_realizer.planunit.timing import Timing
 from reactive_realizer.reactive.cell import Cell
 from reactive_realizer.reactive.graph import Graph
 from reactive_realizer.scheduler.blocks import Blocks
@@ -30,9 +41,19 @@ from reactive_realizer.scheduler.problem import (
     PegSpec,
     Point,
     Problem,
+    Solution,
     Tie,
 )
 from reactive_realizer.scheduler.strategy import SchedulingStrategy
+
+
+@dataclass(frozen=True, slots=True)
+class Task:
+    """A block as a problem to be solved, and what was lost before that."""
+
+    units: tuple[PlanUnit, ...]
+    problem: Problem
+    losses: tuple[Loss, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,6 +63,7 @@ class Plan:
     units: tuple[PlanUnit, ...]
     pegs: Mapping[str, Mapping[str, PegSpec]]
     losses: tuple[Loss, ...]
+    kept: tuple[Tie | Order, ...]
 
 
 class Planning:
@@ -52,32 +74,62 @@ class Planning:
         self._blocks = blocks
         self._strategy = strategy
 
-    def solve(self, block: BMLBlock, units: Sequence[PlanUnit], now: GlobalTime) -> Plan:
-        """A plan for the units of a block that would be ready to start now; the board stays as it is."""
-        kept = {unit.behavior.id: unit for unit in units}
+    def pose(self, block: BMLBlock, timings: Mapping[PlanUnit, Timing], now: GlobalTime) -> Task:
+        """What is to be solved for a block that would be ready to start now; the board stays as it is.
+
+        Args:
+            block: whose.
+            timings: its behaviors, with their preferences.
+            now: the time of the tick.
+        """
+        kept = {unit.behavior.id: unit for unit in timings}
         names = _Names(block, kept, self._board, self._blocks)
         losses = drop_unplaceable(kept, names.locate)
         ties, lost_ties = ties_of(block.description, kept, names.locate)
-        losses += lost_ties
         orders, lost_orders = orders_of(block.description, names.locate)
-        losses += lost_orders
-        start = max(now, block.start.value or now)
-        items = tuple(Item(unit.behavior, unit.timing) for unit in kept.values())
-        times = _outer_times([*ties, *orders], start)
-        solution = self._strategy.solve(Problem(items, tuple(ties), times, tuple(orders)))
-        planned = tuple(unit for unit in units if unit.behavior.id in solution.pegs)
-        return Plan(planned, solution.pegs, (*losses, *solution.losses))
+        items = tuple(Item(unit.behavior, timings[unit]) for unit in kept.values())
+        times = _outer_times([*ties, *orders], predicted_start(block, now))
+        problem = Problem(items, tuple(ties), times, tuple(orders))
+        return Task(tuple(kept.values()), problem, (*losses, *lost_ties, *lost_orders))
+
+    def solve(self, task: Task) -> Plan:
+        """A plan by the strategy; it may be called in another thread, for it reads and writes nothing but the task."""
+        solution = self._strategy.solve(task.problem)
+        planned = tuple(unit for unit in task.units if unit.behavior.id in solution.pegs)
+        kept = _kept(task.problem, solution)
+        return Plan(planned, solution.pegs, (*task.losses, *solution.losses), kept)
+
+    def is_stale(self, block: BMLBlock, task: Task, now: GlobalTime) -> bool:
+        """Whether times from outside are not what they were when the problem was posed."""
+        start = predicted_start(block, now)
+        return any(_moved(cell.value, time, start) for cell, time in task.problem.times.items())
 
     def commit(self, block: BMLBlock, plan: Plan, now: GlobalTime) -> None:
         """Put a plan on the board: all of it, in one transaction."""
         with self._board.graph.transaction(f"plan {block.key.block}"):
-            keys = {unit.key(sync): spec for unit in plan.units for sync, spec in plan.pegs[unit.behavior.id].items()}
-            pegs = _PegBuilder(self._board.graph, block, keys).build()
-            for key, peg in pegs.items():
+            for key, peg in self._hang(block, plan).items():
                 self._board.add(key, peg)
-            for unit in plan.units:
-                unit.points = [SyncPoint(sync, pegs[unit.key(sync)]) for sync in plan.pegs[unit.behavior.id]]
-            block.planned(now, plan.units)
+            block.planned(now, plan.units, plan.kept)
+
+    def recommit(self, block: BMLBlock, plan: Plan) -> None:
+        """Within a transaction, put another plan in the place of that on the board; who hung on that hangs on this."""
+        for key, peg in self._hang(block, plan).items():
+            self._board.replace(key, peg)
+        block.replanned(block.end.floor, plan.units, plan.kept)
+
+    def _hang(self, block: BMLBlock, plan: Plan) -> dict[PegKey, TimePeg]:
+        keys = {unit.key(sync): spec for unit in plan.units for sync, spec in plan.pegs[unit.behavior.id].items()}
+        pegs = _PegBuilder(self._board.graph, block, keys).build()
+        tied = {node for each in plan.kept for node in each.nodes if isinstance(node, Point)}
+        for unit in plan.units:
+            id_ = unit.behavior.id
+            unit.points = [SyncPoint(sync, pegs[unit.key(sync)], Point(id_, sync) in tied) for sync in plan.pegs[id_]]
+        return pegs
+
+
+def predicted_start(block: BMLBlock, now: GlobalTime) -> GlobalTime:
+    """When a block that was not started yet is expected to start."""
+    return max(now, block.start.value or now)
 
 
 class _Names:
@@ -113,9 +165,9 @@ class _Names:
         other = self._blocks.find(self._block.key.character, ref.block or "")
         if other is None:
             raise error("unknown-block", block=ref.block, reference=str(ref))
-        if ref.behavior is None or ref.sync is None:
-            return other.start
-        peg = self._board.get(PegKey(*other.key, ref.behavior, ref.sync))
+        peg = self._board.get(PegKey(*other.key, ref.behavior, ref.sync or "start"))
+        if peg is not None and hangs_on(peg, self._block.start):
+            raise error("cyclic-reference", block=self._block.key.block, reference=str(ref))
         if peg is None:
             units = {unit.behavior.id: unit for unit in other.units}
             if ref.behavior in units:
@@ -169,6 +221,23 @@ def _outer_times(constraints: Sequence[Tie | Order], start: GlobalTime) -> dict[
     nodes = [node for each in constraints for node in each.nodes]
     cells = (node for node in nodes if not isinstance(node, Point | Origin))
     return {cell: None if cell.value is None else cell.value - start for cell in cells}
+
+
+def _moved(now: Time, planned: float | None, start: GlobalTime) -> bool:
+    if now is None or planned is None:
+        return now is not planned
+    return abs(now - start - planned) > RESOLUTION
+
+
+def _kept(problem: Problem, solution: Solution) -> tuple[Tie | Order, ...]:
+    lost = {id(loss.constraint) for loss in solution.losses}
+    constraints: list[Tie | Order] = [*problem.ties, *problem.orders]
+    return tuple(
+        each
+        for each in constraints
+        if id(each) not in lost
+        and all(not isinstance(node, Point) or node.behavior in solution.pegs for node in each.nodes)
+    )
 
 
 def _no_sync(ref: SyncRef, known: Sequence[str]) -> Exception:

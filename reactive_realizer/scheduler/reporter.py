@@ -16,6 +16,7 @@ from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.scheduler.problem import Loss
 
 _BEFORE_ALL, _AFTER_ALL = -1.0, float("inf")
+_SUBSIDING, _ENDING = 0, 1
 
 
 class Reporter:
@@ -29,9 +30,13 @@ class Reporter:
         """A block started, before anything in it."""
         self._progress(block, "start", time, _BEFORE_ALL)
 
+    def subsided(self, block: BMLBlock, time: GlobalTime) -> None:
+        """Nothing of a block is ahead but ways back to rest."""
+        self._progress(block, "relax", time, _AFTER_ALL, _SUBSIDING)
+
     def ended(self, block: BMLBlock, time: GlobalTime) -> None:
         """A block ended, after everything in it."""
-        self._progress(block, "end", time, _AFTER_ALL)
+        self._progress(block, "end", time, _AFTER_ALL, _ENDING)
 
     def reached(self, reached: Reached) -> None:
         """A behavior reached a sync point."""
@@ -70,6 +75,6 @@ class Reporter:
             known = None if id_ == BLOCK else character
             self._feedback.say(WarningFeedback(known, id_, fault.kind.warning, str(fault)))
 
-    def _progress(self, block: BMLBlock, sync: str, time: GlobalTime, behavior: float) -> None:
+    def _progress(self, block: BMLBlock, sync: str, time: GlobalTime, behavior: float, order: int = 0) -> None:
         message = BlockProgress(*block.key, sync, time, block.state.value)
-        self._feedback.progress(message, block.place(time, behavior))
+        self._feedback.progress(message, block.place(time, behavior, order))

@@ -150,9 +150,9 @@ class _Run:
             point = f"{item.behavior.id}:{item.timing.points[i]}"
             gap = self._gap(item, known, i)
             if gap is None:
-                self._lose(item, Fault("outer-tie", {"tie": point}), dropped=False)
+                self._lose_ties(item, i, Fault("outer-tie", {"tie": point}))
             elif abs(gap) > _SAME:
-                self._lose(item, Fault("rigid", {"point": point, "gap": abs(gap)}), dropped=False)
+                self._lose_ties(item, i, Fault("rigid", {"point": point, "gap": abs(gap)}))
             else:
                 met[i] = placed
         return met
@@ -225,10 +225,19 @@ class _Run:
         del self._placed[item.behavior.id]
         self._lose(item, fault)
 
-    def _lose(self, item: Item, fault: Fault, *, dropped: bool = True) -> None:
+    def _lose(self, item: Item, fault: Fault) -> None:
         place = item.behavior.location
         located = replace(fault, line=place.line, column=place.column)
-        self._losses.append(Loss(item.behavior.id, located, dropped=dropped, required=item.behavior.required))
+        self._losses.append(Loss(item.behavior.id, located, dropped=True, required=item.behavior.required))
+
+    def _lose_ties(self, item: Item, index: int, fault: Fault) -> None:
+        """A point of a rigid behavior is not where its ties want it."""
+        point, place = Point(item.behavior.id, item.timing.points[index]), item.behavior.location
+        located = replace(fault, line=place.line, column=place.column)
+        for tie in self._problem.ties:
+            if point in tie.nodes:
+                loss = Loss(item.behavior.id, located, dropped=False, required=tie.required, constraint=tie)
+                self._losses.append(loss)
 
     def _kept(self) -> list[Item]:
         return [item for item in self._problem.items if item.behavior.id in self._placed]

@@ -106,7 +106,7 @@ class Intake:
             case "predict":
                 self.predict(message)
             case "event":
-                self._event(message["anticipator"], message["event"], message.get("value"))
+                self._event(Event(message["anticipator"], message["event"], message.get("value"), message.get("text")))
             case "camera":
                 self._realizer.put(TargetMoved("camera", _position(message["position"])))
             case "world":
@@ -128,12 +128,13 @@ class Intake:
                 ids.append(parsed.block.id)
         return ids, faults
 
-    def _event(self, anticipator: str, name: str, value: float | None) -> None:
+    def _event(self, event: Event) -> None:
         known = self._realizer.anticipators
-        if anticipator not in known:
-            raise error("unknown-anticipator", anticipator=anticipator, known=", ".join(known) or "none")
-        known[anticipator].check(name, value)
-        self._realizer.put(Event(anticipator, name, value))
+        if event.anticipator not in known:
+            raise error("unknown-anticipator", anticipator=event.anticipator, known=", ".join(known) or "none")
+        if event.text is None:
+            known[event.anticipator].check(event.name, event.value)
+        self._realizer.put(event)
 
     def _name_point(self, anticipator: str, sync: str) -> None:
         """Points stay on the board once they are named."""

@@ -3,7 +3,9 @@
 import asyncio
 import logging
 import signal
+from contextlib import AsyncExitStack
 from dataclasses import dataclass, field
+from pathlib import Path
 from socket import AF_INET, AF_INET6, create_server, socket
 
 from aiohttp import web
@@ -12,6 +14,7 @@ from reactive_realizer.assembly.scene import SceneOptions, open_scene
 from reactive_realizer.clock.clock import SystemClock
 from reactive_realizer.server.app import create_app
 from reactive_realizer.server.live import Live
+from reactive_realizer.server.recorder import Recorder, recording_file
 from reactive_realizer.server.security import Security
 
 logger = logging.getLogger(__name__)
@@ -31,6 +34,7 @@ class ServerOptions:
         origins: of other pages that are let in.
         scene: what is served.
         performance: BML of a demo; None for none.
+        record: the file that the session is recorded into; None for none.
     """
 
     host: str = "127.0.0.1"
@@ -39,6 +43,7 @@ class ServerOptions:
     origins: tuple[str, ...] = ()
     scene: SceneOptions = field(default_factory=SceneOptions)
     performance: str | None = None
+    record: Path | None = None
 
 
 async def serve(options: ServerOptions) -> None:
@@ -46,14 +51,19 @@ async def serve(options: ServerOptions) -> None:
 
     Raises:
         RealizerError: the scene cannot be assembled.
-        OSError: the address cannot be bound to.
+        OSError: the address cannot be bound to, or the session cannot be recorded into its file.
     """
     security = Security(options.host, options.token, options.origins)
     if security.exposed and options.token is None:
         logger.warning("%s can be reached from other machines and asks nobody for a token (--token)", options.host)
-    listening = _listen(options)
-    async with open_scene(options.scene) as scene, asyncio.TaskGroup() as group:
+    async with AsyncExitStack() as stack:
+        listening = stack.enter_context(_listen(options))
+        record = stack.enter_context(recording_file(options.record)) if options.record else None
+        scene = await stack.enter_async_context(open_scene(options.scene))
+        group = await stack.enter_async_context(asyncio.TaskGroup())
         live = Live(scene, SystemClock(), options.performance)
+        if record is not None:
+            live.realizer.record(Recorder(record, options.scene, live.clock.epoch))
         ticking = group.create_task(live.run())
         runner = web.AppRunner(
             create_app(live, security),

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, replace
 
 from reactive_realizer.clock.units import GlobalTime
-from reactive_realizer.embodiment.audio import AudioChange, AudioMove, AudioStart, AudioStop
+from reactive_realizer.embodiment.audio import AudioChange, AudioGain, AudioMove, AudioStart, AudioStop
 from reactive_realizer.server.audience import Audience
 from reactive_realizer.server.protocol import Message
 
@@ -38,13 +38,16 @@ class SoundShelf:
         self._sounds: dict[str, _Sound] = {}
 
     def take(self, change: AudioChange) -> None:
-        """Take in what became audible, moved or fell silent."""
+        """Take in what became audible, moved, got louder or fell silent."""
         match change:
             case AudioStart():
                 self._sounds[change.clip.id] = _Sound(change)
             case AudioMove(id_, start) if id_ in self._sounds:
                 sound = self._sounds[id_]
                 self._sounds[id_] = replace(sound, start=replace(sound.start, start=start))
+            case AudioGain(id_, gain) if id_ in self._sounds:
+                sound = self._sounds[id_]
+                self._sounds[id_] = replace(sound, start=replace(sound.start, gain=gain))
             case AudioStop(id_) if id_ in self._sounds:
                 self._sounds[id_] = replace(self._sounds[id_], stop=change)
             case _:
@@ -76,8 +79,11 @@ def message_of(change: AudioChange) -> Message:
         case AudioStart(character, clip, start, gain):
             url = f"/audio/{clip.id}.wav"
             times = {"start": round(start, 6), "duration": round(clip.duration, 6)}
-            return {"type": "audio", "character": character, "id": clip.id, "url": url, **times, "gain": gain}
+            volume = {"gain": round(gain, 6)}
+            return {"type": "audio", "character": character, "id": clip.id, "url": url, **times, **volume}
         case AudioMove(id_, start):
             return {"type": "audio_move", "id": id_, "start": round(start, 6)}
+        case AudioGain(id_, gain, time):
+            return {"type": "audio_gain", "id": id_, "gain": round(gain, 6), "time": round(time, 6)}
         case AudioStop(id_, time, fade):
             return {"type": "audio_stop", "id": id_, "time": round(time, 6), "fade": fade}

@@ -42,8 +42,16 @@ class FeedbackList:
 
     def __call__(self, report: Report) -> None:
         """Take a report."""
-        self.raw.append(report.xml)
-        self.lines.append(Line(report.time, etree.fromstring(report.xml)))
+        self.add(report.time, report.xml)
+
+    def add(self, time: float, xml: str) -> None:
+        """Take a message that was told at a time, s.
+
+        Raises:
+            lxml.etree.XMLSyntaxError: it is no XML.
+        """
+        self.lines.append(Line(time, etree.fromstring(xml)))
+        self.raw.append(xml)
 
     def of(self, kind: str) -> list[Line]:
         """The messages of one kind."""

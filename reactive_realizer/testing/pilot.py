@@ -56,9 +56,9 @@ class RealizerPilot:
         """Say at the next tick when a point is to be."""
         self.realizer.put(Prediction(anticipator, sync, None if time is None else GlobalTime(time)), self.now)
 
-    def event(self, anticipator: str, name: str, value: float | None = None) -> None:
+    def event(self, anticipator: str, name: str, value: float | None = None, text: str | None = None) -> None:
         """Have an event happen at the next tick."""
-        self.realizer.put(Event(anticipator, name, value), self.now)
+        self.realizer.put(Event(anticipator, name, value, text), self.now)
 
     def move(self, target: str, position: tuple[float, float, float] | None) -> None:
         """Put a target elsewhere at the next tick."""

@@ -100,8 +100,10 @@ def check_feedback(pilot):
         name, _, point = line.id.partition(":")
         if line.kind == "blockProgress":
             assert (point == "start") == (name not in open_blocks) or told_revoked(line)
-            (open_blocks.add if point == "start" else open_blocks.discard)(name)
+            if point == "start":
+                open_blocks.add(name)
             if point == "end":
+                open_blocks.discard(name)
                 reached = Counter({id_: n for id_, n in reached.items() if not id_.startswith(f"{name}:")})
         elif line.kind == "syncPointProgress":
             assert name in open_blocks, f"{line.id} outside of its block"

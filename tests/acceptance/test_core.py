@@ -50,7 +50,21 @@ async def test_every_sync_point_is_reported_once_in_order_between_the_start_and_
     pilot.block("b", '<gesture id="g" lexeme="BEAT"/>')
     await pilot.advance(5)
     points = [f"b:g:{sync}" for sync in ("start", "ready", "strokeStart", "stroke", "strokeEnd", "relax", "end")]
-    assert pilot.feedback.progress == ["b:start", *points, "b:end"]
+    assert [point for point in pilot.feedback.progress if point != "b:relax"] == ["b:start", *points, "b:end"]
+
+
+async def test_a_block_subsides_when_all_that_is_left_of_it_is_on_its_way_back_to_rest(pilot) -> None:
+    pilot.block("b", '<gesture id="g" lexeme="BEAT"/><wait id="w" duration="0.2"/>')
+    await pilot.advance(5)
+    assert pilot.feedback.time("b:relax") == pilot.feedback.time("b:g:relax")
+    assert pilot.feedback.progress[-4:] == ["b:g:relax", "b:relax", "b:g:end", "b:end"]
+    assert pilot.feedback.status("b", "relax") == "SUBSIDING"
+
+
+async def test_a_block_without_a_way_back_to_rest_ends_and_does_not_subside(pilot) -> None:
+    pilot.block("b", '<wait id="w" duration="0.2"/>')
+    await pilot.advance(1)
+    assert pilot.feedback.progress == ["b:start", "b:w:start", "b:w:end", "b:end"]
 
 
 async def test_an_empty_block_starts_and_ends_in_one_tick(pilot) -> None:

@@ -13,6 +13,8 @@ from reactive_realizer.limits import Limits
 Read = Callable[[str], Parsed]
 
 SAY = '<speech id="x"><text>{}</text></speech>'
+CHANGE = '<bmla:parametervaluechange id="x" target="s" paramId="volume"><trajectory {}/></bmla:parametervaluechange>'
+
 DROPPED = {
     '<head lexeme="NOD"/>': ("b", "<head> needs the attribute 'id'"),
     '<head id="x"/>': ("b:x", "<head> needs the attribute 'lexeme'"),
@@ -67,10 +69,34 @@ DROPPED = {
         "a second <pose part='ARMS'> in <posture>",
     ),
     '<wait id="same"/>': ("b:same", "<wait>: the id 'same' is taken"),
-    '<bmla:interrupt target="b1"/>': ("b", "<interrupt> needs the attribute 'id'"),
-    '<bmla:interrupt id="x" start="then"/>': (
-        "b:x",
+    '<bmla:interrupt target="b1" start="then"/>': (
+        "b:interrupt1",
         "start='then' of <interrupt>: not a sync reference, [block:]behavior:sync[+seconds] or seconds",
+    ),
+    '<bmla:interrupt id="x"/>': ("b:x", "<interrupt> needs the attribute 'target'"),
+    '<bmla:interrupt id="x" target="b1" include="a,,b"/>': (
+        "b:x",
+        "include='a,,b' of <interrupt>: an id has 1 to 200 characters, no white space, control character, ':' or '+', "
+        "and is not 'bml'",
+    ),
+    '<bmla:interrupt id="x" target="b1" speech="later"/>': (
+        "b:x",
+        "speech='later' of <interrupt>: known are now, word",
+    ),
+    '<bmla:parametervaluechange id="x" target="b1:s" paramId="volume"/>': (
+        "b:x",
+        "<parametervaluechange> needs <trajectory> in it",
+    ),
+    CHANGE.format(""): ("b:x", "<trajectory> needs the attribute 'type'"),
+    CHANGE.format('type="linear"'): ("b:x", "<trajectory> needs the attribute 'targetValue'"),
+    CHANGE.format('type="linear" targetValue="loud"'): (
+        "b:x",
+        "targetValue='loud' of <trajectory>: not a finite number",
+    ),
+    '<bmlt:noise id="x" start="bml:end"/>': (
+        "b:x",
+        "start='bml:end' of <noise>: of its own block a reference may name the start, of another one start, relax and "
+        "end",
     ),
     '<constraint id="x"><synchronize><sync ref="1"/></synchronize></constraint>': (
         "b:x",
@@ -159,7 +185,7 @@ def test_a_bad_attribute_of_a_block_has_its_default() -> None:
     assert parsed.block is not None
     assert (parsed.block.composition, len(parsed.block.behaviors)) == ("MERGE", 1)
     assert [(problem.id, problem.fault.sentence) for problem in parsed.problems] == [
-        ("b", "composition='SOMEHOW' of <bml>: known are MERGE, APPEND, REPLACE"),
+        ("b", "composition='SOMEHOW' of <bml>: known are MERGE, APPEND, REPLACE, APPEND-AFTER(ids), CHUNK-AFTER(ids)"),
         ("b", "unknown attribute mood of <bml>; known are id, characterId, composition"),
         ("b", "text 'so' stands where none is read"),
     ]

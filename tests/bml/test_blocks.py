@@ -25,13 +25,13 @@ def test_a_block_alone_merges_and_is_for_the_first_character() -> None:
 
 
 def test_a_block_says_character_composition_and_attributes_of_other_namespaces() -> None:
-    xml = f'<bml xmlns="{BML}" xmlns:a="{BMLA}" id="b" characterId="Alice" composition="APPEND" a:preplan="true"/>'
+    xml = f'<bml xmlns="{BML}" xmlns:a="{BMLA}" id="b" characterId="Alice" composition="APPEND" a:mood="calm"/>'
     (parsed,) = parse(xml, Limits())
     assert parsed.block == BehaviorBlock(
         id="b",
         character="Alice",
         composition=Composition.APPEND,
-        extensions={(BMLA, "preplan"): "true"},
+        extensions={(BMLA, "mood"): "calm"},
         location=Location(1, 1),
     )
 
@@ -120,9 +120,9 @@ def test_references_inside_the_block_are_held_against_what_it_has(block: Block) 
 
 
 MISSING = {
-    '<head id="h" lexeme="NOD" start="nobody:end+1"/>': (
+    '<head id="h" lexeme="NOD" start="nobody:ready+1"/>': (
         "b:h",
-        "line 1, column {column}: no behavior 'nobody' for nobody:end+1; there are nod, h",
+        "line 1, column {column}: no behavior 'nobody' for nobody:ready+1; there are nod, h",
     ),
     '<head id="h" lexeme="NOD" start="nod:apex"/>': (
         "b:h",
@@ -133,13 +133,13 @@ MISSING = {
         "b:h",
         "line 1, column {column}: no behavior 'nobody' for b:nobody:end; there are nod, h",
     ),
-    '<constraint id="c"><after ref="nod:end"><sync ref="say:end"/></after></constraint>': (
+    '<constraint id="c"><after ref="nod:end"><sync ref="say:word"/></after></constraint>': (
         "b:c",
-        "line 1, column {column}: no behavior 'say' for say:end; there are nod",
+        "line 1, column {column}: no behavior 'say' for say:word; there are nod",
     ),
-    '<constraint><synchronize><sync ref="1"/><sync ref="say:end"/></synchronize></constraint>': (
+    '<constraint><synchronize><sync ref="1"/><sync ref="say:word"/></synchronize></constraint>': (
         "b",
-        "line 1, column {column}: no behavior 'say' for say:end; there are nod",
+        "line 1, column {column}: no behavior 'say' for say:word; there are nod",
     ),
 }
 

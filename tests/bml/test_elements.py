@@ -1,4 +1,4 @@
-"""Every element of BML 1.0 with every attribute."""
+"""Every element of BML 1.0 and of continuous interaction with every attribute."""
 
 from collections.abc import Callable
 
@@ -18,11 +18,12 @@ from reactive_realizer.bml.behaviors import (
     Wait,
 )
 from reactive_realizer.bml.block import BehaviorBlock
+from reactive_realizer.bml.continuous import Activate, Interrupt, ParameterValueChange, Trajectory
 from reactive_realizer.bml.elements import ELEMENTS, Element
 from reactive_realizer.bml.face import Face, FaceFacs, FaceLexeme, FaceShift
-from reactive_realizer.bml.names import BML, BML_EXT, BMLA, Location
+from reactive_realizer.bml.names import BML, BML_EXT, BMLA, BMLT, Location
 from reactive_realizer.bml.posture import Pose, Posture, PostureShift
-from reactive_realizer.bml.words import Influence, Mode, OffsetDirection, PosePart, Side, StanceType
+from reactive_realizer.bml.words import Influence, InterruptSpeech, Mode, OffsetDirection, PosePart, Side, StanceType
 
 Block = Callable[[str], BehaviorBlock]
 
@@ -32,6 +33,8 @@ FACE = ("start", "attackPeak", "relax", "end")
 SHIFT = ("start", "end")
 PARTS = '<faceLexeme lexeme="OPEN_MOUTH" amount="1"/><ext:faceFacs au="12" side="LEFT"/>'
 STANCE = '<stance type="SITTING"/><pose part="ARMS" lexeme="ARMS_OPEN"/><pose part="LEGS" lexeme="LEGS_CROSSED"/>'
+CHANGE = '<bmla:trajectory type="linear" initialValue="-0.5" targetValue="90"/>'
+PREFIXES = {BML: "", BML_EXT: "ext:", BMLA: "bmla:"}
 
 WRITTEN: dict[str, tuple[type[Behavior], dict[str, object], tuple[str, ...]]] = {
     '<speech id="x"><text>Hi</text></speech>': (Speech, {"text": "Hi", "marks": ()}, SHIFT),
@@ -109,6 +112,28 @@ WRITTEN: dict[str, tuple[type[Behavior], dict[str, object], tuple[str, ...]]] = 
     '<locomotion id="x" target="door" manner="RUN"/>': (Locomotion, {"manner": "RUN"}, SHIFT),
     '<wait id="x"/>': (Wait, {"duration": None, "max_wait": None}, SHIFT),
     '<wait id="x" duration="1.5" max-wait="3"/>': (Wait, {"duration": 1.5, "max_wait": 3.0}, SHIFT),
+    '<bmla:activate id="x" target="b1"/>': (Activate, {"target": "b1"}, SHIFT),
+    '<bmla:interrupt id="x" target="b1"/>': (
+        Interrupt,
+        {"target": "b1", "include": (), "exclude": (), "speech": InterruptSpeech.NOW},
+        SHIFT,
+    ),
+    '<bmla:interrupt id="x" target="b1" include="a, b" exclude="c" speech="WORD"/>': (
+        Interrupt,
+        {"include": ("a", "b"), "exclude": ("c",), "speech": InterruptSpeech.WORD},
+        SHIFT,
+    ),
+    f'<bmla:parametervaluechange id="x" target="b1:s" paramId="volume">{CHANGE}</bmla:parametervaluechange>': (
+        ParameterValueChange,
+        {
+            "target": "b1:s",
+            "target_block": "b1",
+            "target_behavior": "s",
+            "parameter": "volume",
+            "trajectory": Trajectory(type="linear", target_value=90.0, initial_value=-0.5),
+        },
+        ("start", "stroke", "end"),
+    ),
 }
 
 
@@ -120,8 +145,8 @@ def test_an_element_becomes_its_behavior(block: Block, xml: str) -> None:
     assert {name: getattr(behavior, name) for name in values} == values
     assert behavior.sync_points == sync_points
     assert (behavior.id, behavior.required, behavior.order) == ("x", False, 0)
-    assert behavior.namespace == (BML_EXT if kind is FaceFacs else BML)
-    assert xml.removeprefix("<ext:").removeprefix("<").startswith(behavior.name)
+    assert behavior.namespace == kind.NAMESPACE
+    assert xml.startswith(f"<{PREFIXES[kind.NAMESPACE]}{behavior.name} ")
 
 
 def test_the_table_of_elements_has_all_of_the_core_and_the_tests_above_all_of_the_table() -> None:
@@ -149,16 +174,16 @@ def test_the_table_says_names_types_defaults_and_sync_points() -> None:
 
 @pytest.mark.parametrize("element", ELEMENTS.values(), ids=lambda element: element.name)
 def test_every_default_sync_point_is_an_attribute_that_holds_a_reference(block: Block, element: Element) -> None:
-    needed = {"text": "<text>Hi</text>", "faceLexeme": PARTS, "stance": STANCE}
+    needed = {"text": "<text>Hi</text>", "faceLexeme": PARTS, "stance": STANCE, "trajectory": CHANGE}
     inside = "".join(needed.get(child, "") for child in element.children)
-    prefix = "ext:" if element.namespace == BML_EXT else ""
-    values = {"lexeme": "NOD", "target": "box", "au": "1"}
+    prefix = PREFIXES[element.namespace]
+    values = {"lexeme": "NOD", "target": "box", "au": "1", "paramId": "volume"}
     attributes = "".join(f' {each.name}="{values[each.name]}"' for each in element.attributes[1:] if each.required)
-    ties = "".join(f' {point}="other:start+{number}"' for number, point in enumerate(element.sync_points))
+    ties = "".join(f' {point}="other:h:start+{number}"' for number, point in enumerate(element.sync_points))
     xml = f'<{prefix}{element.name} id="x"{attributes}{ties}>{inside}</{prefix}{element.name}>'
     (behavior,) = block(xml).behaviors
     assert {point: str(ref) for point, ref in behavior.syncs.items()} == {
-        point: "other:start" + (f"+{number}" if number else "") for number, point in enumerate(element.sync_points)
+        point: "other:h:start" + (f"+{number}" if number else "") for number, point in enumerate(element.sync_points)
     }
 
 
@@ -245,15 +270,14 @@ def test_a_behavior_keeps_its_place_its_source_and_the_attributes_of_other_names
 
 
 def test_a_behavior_of_another_namespace_is_kept_for_who_knows_it(block: Block) -> None:
-    (change,) = block(
-        '<bmla:parametervaluechange id="p" target="b1:s1" start="s1:start" end="4" bmla:x="1">'
-        "<bmla:trajectory/>text</bmla:parametervaluechange>"
+    (noise,) = block(
+        '<bmlt:noise id="n" joint="vl5" start="s1:start" end="4" bmla:x="1"><bmlt:parameter/>text</bmlt:noise>'
     ).behaviors
-    assert isinstance(change, ForeignBehavior)
-    assert (change.namespace, change.name, change.id) == (BMLA, "parametervaluechange", "p")
-    assert change.attributes == {"target": "b1:s1"}
-    assert {name: str(ref) for name, ref in change.syncs.items()} == {"start": "s1:start", "end": "4"}
-    assert change.sync_points == ("start", "end")
-    assert change.extensions == {(BMLA, "x"): "1"}
-    assert change.children.startswith("<bmla:trajectory")
-    assert change.children.endswith("/>text")
+    assert isinstance(noise, ForeignBehavior)
+    assert (noise.namespace, noise.name, noise.id) == (BMLT, "noise", "n")
+    assert noise.attributes == {"joint": "vl5"}
+    assert {name: str(ref) for name, ref in noise.syncs.items()} == {"start": "s1:0", "end": "4"}
+    assert noise.sync_points == ("start", "end")
+    assert noise.extensions == {(BMLA, "x"): "1"}
+    assert noise.children.startswith("<bmlt:parameter")
+    assert noise.children.endswith("/>text")

@@ -92,10 +92,35 @@ def test_what_is_no_reference_is_refused(text: str) -> None:
     assert refused.value.fault.code == "not-a-reference"
 
 
-def test_the_end_of_a_block_cannot_be_named_and_the_answer_says_so() -> None:
+@pytest.mark.parametrize("text", ["bml:end", "bml:relax", "b:bml:end", "b:end", "b1:bml:ready", "bml:bml:relax"])
+def test_the_end_of_its_own_block_cannot_be_named_and_the_answer_says_so(text: str) -> None:
     with pytest.raises(RealizerError) as refused:
-        SyncRef.parse("bml:end", LIMITS)
+        SyncRef.parse(text, LIMITS).read_in("b", {"g1"})
     assert refused.value.fault.code == "only-block-start"
+
+
+BLOCK_POINTS = {
+    "b1:start": SyncRef("b1", None, None),
+    "b1:start+1": SyncRef("b1", None, None, 1.0),
+    "b1:relax": SyncRef("b1", None, "relax"),
+    "b1:end - 0.5": SyncRef("b1", None, "end", -0.5),
+    "b1:bml:end": SyncRef("b1", None, "end"),
+    "g1:bml:end": SyncRef("g1", None, "end"),
+    "b:start": SyncRef(None, None, None),
+    "b:1": SyncRef(None, None, None, 1.0),
+    "g1:end": SyncRef(None, "g1", "end"),
+    "g2:stroke": SyncRef(None, "g2", "stroke"),
+    "b1:g1:end": SyncRef("b1", "g1", "end"),
+}
+
+
+@pytest.mark.parametrize(("text", "meaning"), BLOCK_POINTS.items(), ids=repr)
+def test_a_block_has_sync_points_and_behaviors_of_the_own_block_come_before_it(text: str, meaning: SyncRef) -> None:
+    assert SyncRef.parse(text, LIMITS).read_in("b", {"g1"}) == meaning
+
+
+def test_a_point_of_a_block_is_written_without_the_word_bml() -> None:
+    assert str(SyncRef("b1", None, "relax", 0.5)) == "b1:relax+0.5"
 
 
 @pytest.mark.parametrize("text", ["1e999", "-86401", "g1:end+1e9", "bml1:100000"])

@@ -1,6 +1,7 @@
 """The engine of ``speech`` (thesis 8.10)."""
 
 from collections.abc import Awaitable, Mapping
+from types import MappingProxyType
 
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.behaviors import Speech
@@ -11,7 +12,7 @@ from reactive_realizer.engine.context import EngineContext
 from reactive_realizer.engine.engine import DefaultEngine
 from reactive_realizer.engine.tts import Utterance
 from reactive_realizer.engines.speech.announcer import Announcer
-from reactive_realizer.engines.speech.speech_unit import SpeechUnit
+from reactive_realizer.engines.speech.speech_unit import VOLUME, SpeechUnit
 from reactive_realizer.engines.speech.viseme_track import VisemeTrack
 from reactive_realizer.errors import error
 from reactive_realizer.pegboard.peg_key import BlockKey
@@ -21,11 +22,13 @@ class SpeechEngine(DefaultEngine):
     """Speaks with the voice of its character; offers what the mouth does (`LipSyncProvider`)."""
 
     behaviors = frozenset({Speech})
+    parameters = MappingProxyType({Speech: {"volume": VOLUME}})
 
     def __init__(self, context: EngineContext) -> None:
         super().__init__(f"{context.character}/speech")
         self._tts = context.tts
         self._voice = context.voice
+        self._graph = context.graph
         self._announcer = Announcer(context.character)
         self._tracks: dict[SpeechUnit, VisemeTrack] = {}
 
@@ -41,11 +44,12 @@ class SpeechEngine(DefaultEngine):
             raise TypeError(behavior, utterance)
         if not utterance.words:
             raise error("nothing-to-say")
-        return SpeechUnit(block, behavior, utterance)
+        return SpeechUnit(block, behavior, utterance, self._graph)
 
     def audio(self, tick: Tick) -> tuple[AudioChange, ...]:
-        """What became audible, moved or fell silent."""
-        return self._announcer.changes(unit for unit in self.player.units if isinstance(unit, SpeechUnit))
+        """What became audible, moved, got louder or fell silent."""
+        units = (unit for unit in self.player.units if isinstance(unit, SpeechUnit))
+        return self._announcer.changes(units, tick.time)
 
     def mouth(self, time: GlobalTime) -> Mapping[str, float] | None:
         """Weights of ARKit morphs for what is being said, None while nothing sounds, at once when a speech is cut."""

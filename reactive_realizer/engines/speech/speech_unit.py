@@ -6,10 +6,17 @@ from reactive_realizer.bml.behaviors import Speech
 from reactive_realizer.clock.units import RESOLUTION, GlobalTime
 from reactive_realizer.engine.tts import Utterance
 from reactive_realizer.pegboard.peg_key import BlockKey
+from reactive_realizer.planunit.parameter import Parameter, Range
 from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.planunit.timing import PhaseKind, timing_at
+from reactive_realizer.reactive.cell import Source
+from reactive_realizer.reactive.graph import Graph
 
 VOICE = "voice"
+VOLUME = Range(0.0, 100.0)
+
+_AS_RECORDED = 50.0
+"""The volume at which a speech sounds as its voice made it."""
 
 
 class SpeechUnit(PlanUnit):
@@ -21,13 +28,20 @@ class SpeechUnit(PlanUnit):
         cut: when it was interrupted, None if it was not.
     """
 
-    def __init__(self, block: BlockKey, behavior: Speech, utterance: Utterance) -> None:
+    def __init__(self, block: BlockKey, behavior: Speech, utterance: Utterance, graph: Graph) -> None:
         offsets = {"start": 0.0, **{mark.id: utterance.marks[mark.id] for mark in behavior.marks}}
         timing = timing_at({**offsets, "end": utterance.duration}, PhaseKind.RIGID)
         super().__init__(block, behavior, timing, frozenset({VOICE}))
         self.utterance = utterance
         self.started: GlobalTime | None = None
         self.cut: GlobalTime | None = None
+        self._volume = Parameter(self, Source(graph, str(self.key("volume")), _AS_RECORDED), VOLUME)
+        self.parameters["volume"] = self._volume
+
+    @property
+    def gain(self) -> float:
+        """How loud it is; 1 is as recorded."""
+        return self._volume.value / _AS_RECORDED
 
     def on_start(self, time: GlobalTime) -> None:
         """The voice begins."""
@@ -37,6 +51,12 @@ class SpeechUnit(PlanUnit):
         """The voice ends, before its time if it was interrupted."""
         if self.started is not None and time < self.started + self.utterance.duration - RESOLUTION:
             self.cut = time
+
+    def gentle_end(self, time: GlobalTime) -> GlobalTime:
+        """The end of the word that sounds, which is the start of the next one or the end of the speech."""
+        if self.started is None:
+            return time
+        return GlobalTime(self.started + self.utterance.next_word(time - self.started))
 
     def end_details(self, time: GlobalTime) -> Mapping[str, str]:
         """The last word that began: what a listener has heard of an interrupted speech."""

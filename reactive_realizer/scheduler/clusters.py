@@ -1,0 +1,51 @@
+"""Behaviors that `at` constraints hold together (thesis 7.1.3.1)."""
+
+from collections.abc import Collection
+from dataclasses import dataclass
+
+from reactive_realizer.scheduler.plan_view import PlanView
+from reactive_realizer.scheduler.problem import Point, Tie
+
+
+@dataclass(frozen=True, slots=True)
+class Cluster:
+    """Behaviors that are tied to each other.
+
+    Attributes:
+        behaviors: their ids.
+        ties: those of them and between them.
+    """
+
+    behaviors: frozenset[str]
+    ties: tuple[Tie, ...]
+
+    def grounded(self, plan: PlanView) -> bool:
+        """Whether it is tied to the block's start or the outside (7.20, 7.35), or to what is not there any more."""
+        return any(not isinstance(node, Point) or node not in plan.times for tie in self.ties for node in tie.nodes)
+
+    def joins_late(self, plan: PlanView) -> bool:
+        """Whether it is tied to a time of the outside before the start of its block."""
+        outer = [plan.time(node) for tie in self.ties for node in tie.nodes if node in plan.outer]
+        return plan.start is not None and any(time is not None and time < plan.start for time in outer)
+
+
+def clusters_of(plan: PlanView, behaviors: Collection[str]) -> list[Cluster]:
+    """The clusters of some behaviors of a plan, as if there were no others (7.16, 7.17)."""
+    members = {id_: {id_} for id_ in behaviors}
+    own: dict[str, list[Tie]] = {id_: [] for id_ in behaviors}
+    for tie in plan.kept:
+        ids = [n.behavior for n in tie.nodes if isinstance(n, Point) and n.behavior in members]
+        if isinstance(tie, Tie) and ids:
+            own[ids[0]].append(tie)
+            _merge(members, ids[0], ids[-1])
+    groups = {id(group): group for group in members.values()}
+    return [
+        Cluster(frozenset(group), tuple(tie for id_ in sorted(group) for tie in own[id_])) for group in groups.values()
+    ]
+
+
+def _merge(members: dict[str, set[str]], one: str, other: str) -> None:
+    few, many = sorted((members[one], members[other]), key=len)
+    if few is not many:
+        many |= few
+        members.update(dict.fromkeys(few, many))

@@ -1,0 +1,80 @@
+"""How a block joins the others: after them, in front of them, or in their place (thesis 6.6.8; BMLA)."""
+
+from collections.abc import Iterator, Sequence
+
+from reactive_realizer.bml.block import BehaviorBlock
+from reactive_realizer.bml.words import Composition
+from reactive_realizer.errors import Fault
+from reactive_realizer.scheduler.blocks import Blocks
+from reactive_realizer.scheduler.bml_block import BMLBlock, Wait
+
+
+class Joining:
+    """Reads the composition of one new block against the blocks alive.
+
+    A target that has ended counts as over. So does one that was never seen; that is said.
+
+    Attributes:
+        unknown: faults for the names that no block ever had.
+    """
+
+    def __init__(self, blocks: Blocks, character: str, description: BehaviorBlock) -> None:
+        self._blocks = blocks
+        self._character = character
+        self._description = description
+        self.unknown: list[Fault] = []
+        self.interrupted = self._known("interrupt", description.interrupts)
+        self._after = self._known("appendAfter", description.append_after)
+        self._after_chunks = self._known("chunkAfter", description.chunk_after)
+        self._before = self._known("prependBefore", description.prepend_before)
+        self._before_chunks = self._known("chunkBefore", description.chunk_before)
+
+    def waits(self) -> list[Wait]:
+        """What the new block waits for."""
+        append = self._description.composition is Composition.APPEND
+        return [
+            *(Wait(block, implied=True) for block in (self._blocks.last_of(self._character) if append else ())),
+            *(Wait(block) for block in self._after),
+            *(Wait(block, chunk=True) for block in self._after_chunks),
+        ]
+
+    def refusal(self) -> Fault | None:
+        """Why the block cannot be put before another one, if it cannot.
+
+        The other one has started, or the new one would wait for it in turn.
+        """
+        waiting = [wait.target for wait in self.waits()]
+        for block in (*self._before, *self._before_chunks):
+            if block.state.plays:
+                return Fault("started-already", {"block": block.key.block})
+            if any(block is other for other in _all_awaited(waiting)):
+                return Fault("cyclic-composition", {"block": self._description.id, "other": block.key.block})
+        return None
+
+    def push_back(self, block: BMLBlock) -> None:
+        """Within a transaction: those that the new block is put before wait for it."""
+        for later in self._before:
+            later.wait_also(Wait(block))
+        for later in self._before_chunks:
+            later.wait_also(Wait(block, chunk=True))
+
+    def _known(self, attribute: str, names: Sequence[str]) -> list[BMLBlock]:
+        found = {name: self._blocks.find(self._character, name) for name in names}
+        for name, block in found.items():
+            if block is None and not self._blocks.has_ended(self._character, name):
+                place = self._description.location
+                fault = Fault("unknown-target-block", {"attribute": attribute, "block": name})
+                self.unknown.append(fault.located(place.line, place.column))
+        return [block for block in found.values() if block is not None]
+
+
+def _all_awaited(blocks: Sequence[BMLBlock]) -> Iterator[BMLBlock]:
+    """Some blocks, and all that they wait for."""
+    seen = dict.fromkeys(blocks)
+    waiting = list(seen)
+    while waiting:
+        block = waiting.pop()
+        yield block
+        new = [wait.target for wait in block.waits if wait.target not in seen]
+        seen |= dict.fromkeys(new)
+        waiting += new

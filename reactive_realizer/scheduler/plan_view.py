@@ -1,0 +1,77 @@
+"""A plan as times at one moment: what can be checked of a solution and of a block that plays."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Self
+
+from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.pegboard.time_peg import TimeCell
+from reactive_realizer.planunit.timing import Timing
+from reactive_realizer.scheduler.bml_block import BMLBlock
+from reactive_realizer.scheduler.problem import Node, Order, Origin, Point, Problem, Solution, Tie
+from reactive_realizer.scheduler.spec_times import SpecTimes
+
+
+@dataclass(frozen=True, slots=True)
+class PlanView:
+    """The points of a block and their times (s), all on one axis.
+
+    Attributes:
+        timings: what each behavior prefers, by id.
+        times: of the points that are still to come or have come, None while unknown; cut ones are not among them.
+        past: the points that keep their times whatever happens: fired, or pinned.
+        kept: the constraints that are to hold.
+        outer: times of the pegs that these name outside of the block.
+        start: of the block, None while unknown.
+        earliest: at which what has not begun could begin.
+        end: of the block; None where that is not known.
+        end_floor: before which the block does not end whatever its behaviors do.
+    """
+
+    timings: Mapping[str, Timing]
+    times: Mapping[Point, float | None]
+    past: frozenset[Point]
+    kept: tuple[Tie | Order, ...]
+    outer: Mapping[TimeCell, float | None]
+    start: float | None
+    earliest: float | None
+    end: float | None = None
+    end_floor: float = 0.0
+
+    @classmethod
+    def of_solution(cls, problem: Problem, solution: Solution) -> Self:
+        """What a strategy answered, in times after the start of the block."""
+        time_of = SpecTimes(problem.times)
+        timings = {i.behavior.id: i.timing for i in problem.items if i.behavior.id in solution.pegs}
+        times = {Point(id_, sync): time_of(spec) for id_, pegs in solution.pegs.items() for sync, spec in pegs.items()}
+        lost = {loss.constraint for loss in solution.losses}
+        constraints: tuple[Tie | Order, ...] = (*problem.ties, *problem.orders)
+        kept = tuple(each for each in constraints if each not in lost)
+        return cls(timings, times, frozenset(), kept, problem.times, 0.0, 0.0)
+
+    @classmethod
+    def of_block(cls, block: BMLBlock, now: GlobalTime) -> Self:
+        """A block on the board, in global times, at the end of the tick at ``now``."""
+        points = {Point(unit.behavior.id, p.id): p for unit in block.units for p in unit.points}
+        start = block.start.value
+        return cls(
+            timings={unit.behavior.id: unit.timing for unit in block.units},
+            times={key: p.peg.value if p.fired is None else p.fired for key, p in points.items()},
+            past=frozenset(key for key, p in points.items() if p.fired is not None or p.peg.pinned),
+            kept=block.kept,
+            outer={n: n.value for each in block.kept for n in each.nodes if not isinstance(n, Point | Origin)},
+            start=start,
+            earliest=None if start is None else max(start, now),
+            end=block.end.value,
+            end_floor=block.end.floor,
+        )
+
+    def time(self, node: Node) -> float | None:
+        """When something is; None while it is unknown, or if it is not there (any more)."""
+        if isinstance(node, Point):
+            return self.times.get(node)
+        return self.start if isinstance(node, Origin) else self.outer[node]
+
+    def movable(self, node: Node) -> bool:
+        """Whether what is asked of it can still be met; the outside is as it is."""
+        return not isinstance(node, Point) or (node in self.times and node not in self.past)

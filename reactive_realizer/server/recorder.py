@@ -1,0 +1,83 @@
+"""A session as it happens, into a file of JSON lines: recording.json says what stands in a line."""
+
+import json
+import logging
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager, suppress
+from dataclasses import asdict, fields
+from pathlib import Path
+from typing import IO
+
+from reactive_realizer import __version__
+from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.clock.ticker import RATE, tick_time
+from reactive_realizer.realizer.entered import Delivery, Entered
+from reactive_realizer.server.protocol import Message
+from reactive_realizer.server.recorded_input import message_of
+
+logger = logging.getLogger(__name__)
+
+
+@contextmanager
+def recording_file(path: Path) -> Iterator[IO[str]]:
+    """A file to record into; what was in it is gone.
+
+    Raises:
+        OSError: it cannot be written.
+    """
+    stream = path.open("w", encoding="ascii")
+    try:
+        yield stream
+    finally:
+        with suppress(OSError):  # the recorder has said so
+            stream.close()
+
+
+class Recorder:
+    """Listens to what enters a realizer and writes it down, a tick at a time, before anything comes of it.
+
+    So a session that was killed can be had again up to the tick in which it was. If the file cannot be written any
+    more, recording ends, and the session goes on.
+
+    Args:
+        stream: what is written to.
+        options: with which the scene was assembled.
+        started: POSIX time (s) of realizer time 0.
+    """
+
+    def __init__(self, stream: IO[str], options: SceneOptions, started: float) -> None:
+        self._stream: IO[str] | None = stream
+        self._inputs = 0
+        scene = _scene(options)
+        self._write([{"recording": 1, "version": __version__, "rate": RATE, "started": started, "scene": scene}])
+
+    def __call__(self, entered: Entered) -> None:
+        """Write what a tick took in; its own line is the last, and says that the others are all there."""
+        lines = []
+        for entry in entered.inputs:
+            self._inputs += 1
+            place = {"seq": self._inputs, "tick": entered.tick, "time": tick_time(entered.tick)}
+            lines.append({**place, "input": message_of(entry)})
+        work = {"work": [_delivery(delivery) for delivery in entered.work]} if entered.work else {}
+        self._write([*lines, {"tick": entered.tick, **work}])
+
+    def _write(self, lines: list[Mapping[str, object]]) -> None:
+        if self._stream is None:
+            return
+        try:
+            self._stream.write("".join(json.dumps(line, default=str) + "\n" for line in lines))
+            self._stream.flush()
+        except OSError as problem:
+            logger.error("the session is not recorded any further: %s", problem)
+            self._stream = None
+
+
+def _scene(options: SceneOptions) -> Message:
+    plain = {field.name: getattr(options, field.name) for field in fields(options)}
+    human = options.human.read_text(encoding="utf-8")
+    return plain | {"human": human, "assets": [str(folder.resolve()) for folder in options.assets]}
+
+
+def _delivery(delivery: Delivery) -> Message:
+    failure = delivery.failure
+    return {"request": delivery.request} | ({} if failure is None else {"failure": asdict(failure)})

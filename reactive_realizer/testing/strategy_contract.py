@@ -1,0 +1,124 @@
+"""What every scheduling strategy has to keep to, as pytest classes to inherit from; needs pytest and Hypothesis."""
+
+from math import isfinite
+from typing import ClassVar
+
+from hypothesis import HealthCheck, given, settings
+
+from reactive_realizer.scheduler.plan_view import PlanView
+from reactive_realizer.scheduler.problem import Point, Problem, Solution
+from reactive_realizer.scheduler.strategy import SchedulingStrategy
+from reactive_realizer.scheduler.verify import Violation, verify
+from reactive_realizer.testing.problems import TIMINGS, after, at, feasible_problems, item, outer, problem, problems
+
+_inherited = settings(suppress_health_check=[HealthCheck.differing_executors])
+
+_MANY = 1_000
+
+
+def violations(asked: Problem, solution: Solution) -> list[Violation]:
+    """The equations that a solution breaks."""
+    return verify(PlanView.of_solution(asked, solution))
+
+
+class StrategyContract:
+    """For any strategy: it may lose what it cannot keep, but it says so, and what it says it kept holds.
+
+    Attributes:
+        strategy: the one under test; set by the inheriting class.
+    """
+
+    strategy: ClassVar[SchedulingStrategy]
+
+    @_inherited
+    @given(feasible_problems())
+    def test_what_it_says_it_kept_of_what_can_be_kept_holds(self, asked: Problem) -> None:
+        assert violations(asked, self.strategy.solve(asked)) == []
+
+    @_inherited
+    @given(problems())
+    def test_every_behavior_is_kept_with_all_its_points_or_lost(self, asked: Problem) -> None:
+        solution = self.strategy.solve(asked)
+        dropped = [loss.behavior or "" for loss in solution.losses if loss.dropped]
+        assert sorted([*dropped, *solution.pegs]) == sorted(each.behavior.id for each in asked.items)
+        for each in asked.items:
+            if each.behavior.id in solution.pegs:
+                assert tuple(solution.pegs[each.behavior.id]) == each.timing.points
+
+    @_inherited
+    @given(problems())
+    def test_losing_what_is_required_is_marked(self, asked: Problem) -> None:
+        solution = self.strategy.solve(asked)
+        required = {each.behavior.id for each in asked.items if each.behavior.required}
+        for loss in solution.losses:
+            needed = loss.behavior in required if loss.constraint is None else loss.constraint.required
+            assert loss.required or not needed, loss
+
+    @_inherited
+    @given(problems())
+    def test_every_loss_says_why_and_where(self, asked: Problem) -> None:
+        for loss in self.strategy.solve(asked).losses:
+            assert loss.fault.sentence
+            assert loss.fault.line == 1
+
+    @_inherited
+    @given(problems())
+    def test_every_time_is_a_number_or_unknown(self, asked: Problem) -> None:
+        view = PlanView.of_solution(asked, self.strategy.solve(asked))
+        assert all(time is None or isfinite(time) for time in view.times.values())
+
+    @_inherited
+    @given(problems())
+    def test_the_same_problem_has_the_same_plan(self, asked: Problem) -> None:
+        one, two = self.strategy.solve(asked), self.strategy.solve(asked)
+        assert PlanView.of_solution(asked, one).times == PlanView.of_solution(asked, two).times
+        assert one.losses == two.losses
+
+    def test_an_empty_block_is_planned(self) -> None:
+        assert self.strategy.solve(problem([])) == Solution({}, ())
+
+    def test_what_is_tied_to_nothing_starts_with_its_block_and_takes_the_time_it_wants(self) -> None:
+        asked = problem([item(kind, timing) for kind, timing in TIMINGS.items()])
+        times = PlanView.of_solution(asked, self.strategy.solve(asked)).times
+        for kind, timing in TIMINGS.items():
+            assert [times[Point(kind, sync)] for sync in timing.points] == list(timing.offsets)
+
+    def test_what_is_tied_to_an_unknown_time_waits_for_it(self) -> None:
+        asked = problem([item("g", TIMINGS["beat"]), item("n", TIMINGS["nod"])], at("g:stroke", outer("hit", None)))
+        times = PlanView.of_solution(asked, self.strategy.solve(asked)).times
+        assert times[Point("g", "start")] is times[Point("g", "stroke")] is times[Point("g", "end")] is None
+        assert times[Point("n", "start")] == 0.0
+
+    def test_many_behaviors_each_after_the_one_before_it_are_planned_in_any_order(self) -> None:
+        items = [item(f"n{i}", TIMINGS["nod"]) for i in range(_MANY)]
+        ties = [at(f"n{i}:start", f"n{i - 1}:end") for i in range(1, _MANY)]
+        for asked in (problem(items, *ties), problem(items[::-1], *ties[::-1])):
+            solution = self.strategy.solve(asked)
+            assert solution.losses == ()
+            assert violations(asked, solution) == []
+
+
+class CompleteStrategyContract(StrategyContract):
+    """For a strategy that keeps whatever can be kept, before/after too, in whatever order a block is written."""
+
+    @_inherited
+    @given(feasible_problems())
+    def test_what_can_be_met_is_met(self, asked: Problem) -> None:
+        assert self.strategy.solve(asked).losses == ()
+
+    @_inherited
+    @given(problems())
+    def test_what_it_says_it_kept_holds_whatever_was_asked(self, asked: Problem) -> None:
+        assert violations(asked, self.strategy.solve(asked)) == []
+
+    @_inherited
+    @given(problems())
+    def test_the_order_of_behaviors_and_constraints_changes_nothing(self, asked: Problem) -> None:
+        turned = Problem(asked.items[::-1], asked.ties[::-1], asked.times, asked.orders[::-1])
+        one, two = self.strategy.solve(asked), self.strategy.solve(turned)
+        assert PlanView.of_solution(asked, one).times == PlanView.of_solution(turned, two).times
+        assert sorted(str(loss.fault) for loss in one.losses) == sorted(str(loss.fault) for loss in two.losses)
+
+    def test_what_is_after_an_unknown_time_waits_for_it(self) -> None:
+        asked = problem([item("n", TIMINGS["nod"])], after("n:start", outer("hit", None)))
+        assert PlanView.of_solution(asked, self.strategy.solve(asked)).times[Point("n", "start")] is None

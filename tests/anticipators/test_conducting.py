@@ -1,0 +1,77 @@
+"""A conductor who listens knows the next beats."""
+
+import pytest
+
+from anticipators.conducting import Conducting
+from reactive_realizer.errors import RealizerError
+from reactive_realizer.pegboard.pegboard import PegBoard
+from reactive_realizer.reactive.graph import Graph
+
+from .conftest import Stage, rhythm_of
+
+
+def play(stage: Stage, conducting: Conducting, *beats: float) -> None:
+    for beat in beats:
+        stage.event(beat, conducting, "beat")
+
+
+def test_beats_are_counted_from_the_first_that_is_heard(stage) -> None:
+    conducting = Conducting("c", stage.board)
+    assert stage.time(conducting, "beat1") is None
+    play(stage, conducting, 2.0, 2.5)
+    assert [stage.time(conducting, f"beat{n}") for n in (0, 1, 2, 3, 5)] == [None, 2.0, 2.5, 3.0, 4.0]
+    assert stage.time(conducting, "bar1") is None
+
+
+def test_every_beat_moves_those_ahead_and_none_that_passed(stage) -> None:
+    conducting = Conducting("c", stage.board)
+    play(stage, conducting, 0.0, 1.0)
+    assert [stage.time(conducting, f"beat{n}") for n in (2, 3, 4)] == [1.0, 2.0, 3.0]
+    play(stage, conducting, 2.1)
+    assert [stage.time(conducting, f"beat{n}") for n in (2, 3, 4)] == pytest.approx([1.0, 2.0, 3.07])
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_an_orchestra_that_slows_down_is_followed(stage, seed) -> None:
+    conducting = Conducting("c", stage.board)
+    for number, beat in enumerate(rhythm_of(lambda n: 0.5 * 1.01**n, 50, seed), start=1):
+        if number > 4:
+            assert stage.time(conducting, f"beat{number}") == pytest.approx(beat, abs=0.1)
+        play(stage, conducting, beat)
+
+
+def test_only_so_many_beats_are_predicted_ahead(stage) -> None:
+    conducting = Conducting("c", stage.board, ahead=4)
+    play(stage, conducting, 0.0, 1.0)
+    assert [stage.time(conducting, f"beat{n}") for n in (6, 7)] == [5.0, None]
+    play(stage, conducting, 2.0)
+    assert [stage.time(conducting, f"beat{n}") for n in (6, 7)] == [5.0, 6.0]
+
+
+def test_a_start_forgets_the_music(stage) -> None:
+    conducting = Conducting("c", stage.board)
+    play(stage, conducting, 0.0, 1.0)
+    assert stage.time(conducting, "beat3") == 2.0
+    stage.event(5.0, conducting, "start")
+    assert [stage.time(conducting, f"beat{n}") for n in (1, 2, 3)] == [None, None, None]
+    play(stage, conducting, 9.0, 9.5)
+    assert [stage.time(conducting, f"beat{n}") for n in (1, 2, 3)] == [9.0, 9.5, 10.0]
+
+
+def test_a_thousand_beats_a_second_are_one_every_fifth_of_one(stage) -> None:
+    conducting = Conducting("c", stage.board)
+    play(stage, conducting, *(n / 1000 for n in range(2001)))
+    assert [stage.time(conducting, f"beat{n}") for n in (1, 6, 11, 12)] == pytest.approx([0.0, 1.0, 2.0, 2.2])
+
+
+def test_unknown_events_mean_nothing(stage) -> None:
+    conducting = Conducting("c", stage.board)
+    play(stage, conducting, 0.0, 1.0)
+    stage.event(1.5, conducting, "cough", 3.0)
+    assert stage.time(conducting, "beat3") == 2.0
+
+
+@pytest.mark.parametrize("wrong", [{"phase": 0.0}, {"phase": float("nan")}, {"period": 2.0}, {"ahead": 1e9}])
+def test_a_parameter_out_of_its_range_is_refused(wrong) -> None:
+    with pytest.raises(RealizerError, match=next(iter(wrong))):
+        Conducting("c", PegBoard(Graph()), **wrong)

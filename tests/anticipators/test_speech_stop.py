@@ -1,0 +1,160 @@
+"""The end of a turn is predicted when the voice is gone, and the better the more was understood."""
+
+from math import exp
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from anticipators.speech_stop import SpeechStop
+from anticipators.turn_model import PauseModel, Turn
+from reactive_realizer.errors import RealizerError
+from reactive_realizer.pegboard.pegboard import PegBoard
+from reactive_realizer.reactive.graph import Graph
+
+PLAIN, FINISHED, OPEN = "I live in a house", "I live in a house.", "I live in a house and"
+
+
+@pytest.fixture
+def user(stage):
+    return User(stage)
+
+
+class User:
+    """Somebody whose voice is detected and whose words are understood."""
+
+    def __init__(self, stage, **parameters) -> None:
+        self.stage = stage
+        self.stop = SpeechStop("user", stage.board, **parameters)
+
+    def voice(self, now: float, value: float) -> float | None:
+        self.stage.event(now, self.stop, "voice", value)
+        return self.time
+
+    def words(self, now: float, text: str) -> float | None:
+        self.stage.at(now, self.stop.advance)
+        self.stage.at(now, lambda at: self.stop.hear("words", text, at))
+        return self.time
+
+    @property
+    def time(self) -> float | None:
+        return self.stage.time(self.stop, "stop")
+
+
+def silence(words: str, certainty: float = 0.9, pause: float = 0.4) -> float:
+    return PauseModel(certainty, pause).end(Turn(words, False, 0.0))
+
+
+def test_it_is_unknown_while_the_voice_sounds_and_predicted_as_soon_as_it_is_gone(user) -> None:
+    assert user.time is None
+    assert user.voice(1.0, 0.0) is None
+    assert user.voice(2.0, 0.9) is None
+    assert user.voice(4.0, 0.1) == pytest.approx(4.0 + 0.88, abs=1e-2)
+
+
+def test_silent_frames_change_nothing(user) -> None:
+    user.voice(1.0, 1.0)
+    said = user.voice(2.0, 0.2)
+    assert [user.voice(2.0 + n / 50, n / 100) for n in range(40)] == [said] * 40
+
+
+def test_a_user_who_goes_on_takes_it_back(user) -> None:
+    user.voice(1.0, 1.0)
+    user.voice(2.0, 0.0)
+    assert user.voice(2.4, 1.0) is None
+    assert user.voice(3.0, 0.0) == pytest.approx(3.0 + silence(""))
+
+
+def test_finished_words_bring_it_forward_and_open_ones_put_it_off() -> None:
+    assert silence(FINISHED) < silence(PLAIN) < silence(OPEN)
+    assert silence("") == silence(PLAIN)
+    assert silence("Wait, um") == silence("I see,") == silence("to the")
+
+
+def test_words_that_are_understood_after_the_voice_is_gone_refine_it(user) -> None:
+    user.voice(1.0, 1.0)
+    user.words(2.0, OPEN)
+    assert user.voice(3.0, 0.0) == pytest.approx(3.0 + silence(OPEN))
+    assert user.words(3.05, PLAIN) == pytest.approx(3.0 + silence(PLAIN))
+    assert user.words(3.1, FINISHED) == pytest.approx(3.0 + silence(FINISHED))
+
+
+def test_an_end_that_should_have_been_is_now(user) -> None:
+    user.voice(1.0, 1.0)
+    user.voice(3.0, 0.0)
+    assert user.words(3.5, FINISHED) == 3.5
+
+
+def test_words_alone_are_enough_and_every_new_one_puts_it_off(user) -> None:
+    assert user.words(1.0, "I live") == pytest.approx(1.0 + silence(PLAIN))
+    assert user.words(1.4, "I live in a") == pytest.approx(1.4 + silence(OPEN))
+    assert user.words(1.9, FINISHED) == pytest.approx(1.9 + silence(FINISHED))
+    assert user.words(2.0, f"{FINISHED} ") == pytest.approx(1.9 + silence(FINISHED))
+
+
+def test_it_can_be_taken_back_for_a_second_after_it_came_and_then_means_the_next_turn(user) -> None:
+    user.voice(1.0, 1.0)
+    came = user.voice(2.0, 0.0)
+    user.voice(came + 0.9, 0.0)
+    assert user.time == came
+    assert user.voice(came + 0.95, 1.0) is None
+    came = user.voice(5.0, 0.0)
+    user.voice(came + 1.1, 0.0)
+    assert user.time is None
+    user.voice(10.0, 1.0)
+    assert user.voice(11.0, 0.0) == pytest.approx(11.0 + silence(""))
+
+
+def test_the_words_of_a_turn_do_not_count_for_the_next_one(user) -> None:
+    user.voice(1.0, 1.0)
+    user.words(1.5, FINISHED)
+    user.voice(2.0, 0.0)
+    user.voice(9.0, 1.0)
+    assert user.voice(10.0, 0.0) == pytest.approx(10.0 + silence(""))
+
+
+def test_words_told_again_after_the_turn_begin_no_other_one(user) -> None:
+    user.words(1.0, FINISHED)
+    assert user.words(9.0, FINISHED) is None
+    assert user.words(10.0, "Yes.") == pytest.approx(10.0 + silence(FINISHED))
+
+
+def test_another_model_of_turns_may_stand_in(stage) -> None:
+    class Punctual:
+        def end(self, turn: Turn) -> float:
+            return 60.0
+
+    user = User(stage, model=Punctual())
+    assert user.voice(1.0, 1.0) == 60.0
+
+
+def test_other_points_and_events_mean_nothing(user) -> None:
+    user.voice(1.0, 1.0)
+    said = user.voice(2.0, 0.0)
+    user.stage.event(2.1, user.stop, "laughter", 1.0)
+    user.stage.at(2.1, lambda at: user.stop.hear("song", "La la.", at))
+    assert user.time == said
+    assert user.stage.time(user.stop, "start") is None
+
+
+@given(st.sampled_from(["", PLAIN, FINISHED, OPEN]), st.floats(0.5, 0.999), st.floats(0.01, 10.0))
+def test_it_is_where_the_certainty_that_grows_with_the_silence_is_enough(words, certainty, pause) -> None:
+    prior = {FINISHED: 0.85, OPEN: 0.1}.get(words, 0.5)
+    waited = silence(words, certainty, pause)
+    reached = prior / (prior + (1 - prior) * exp(-waited / pause))
+    assert reached == pytest.approx(max(certainty, prior))
+    assert waited <= silence(words, 0.999, pause)
+
+
+@pytest.mark.parametrize("value", [None, -0.1, 1.1, float("nan"), float("inf")])
+def test_a_voice_that_is_no_probability_is_refused(user, value) -> None:
+    with pytest.raises(RealizerError, match="voice"):
+        user.stop.check("voice", value)
+
+
+@pytest.mark.parametrize(
+    "wrong", [{"certainty": 0.4}, {"certainty": 1.0}, {"certainty": float("nan")}, {"pause": 0.0}, {"pause": 11.0}]
+)
+def test_a_parameter_out_of_its_range_is_refused(wrong) -> None:
+    with pytest.raises(RealizerError, match=next(iter(wrong))):
+        SpeechStop("user", PegBoard(Graph()), **wrong)

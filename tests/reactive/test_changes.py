@@ -1,0 +1,99 @@
+"""`changes()` gives the last value to whoever comes for it, and ends when there will be no more."""
+
+import asyncio
+
+import pytest
+
+NOTHING_MORE = object()
+
+
+def coming(iterator):
+    return asyncio.ensure_future(anext(iterator, NOTHING_MORE))
+
+
+@pytest.fixture
+def top(trace):
+    return trace.source("top", 1)
+
+
+async def test_it_gives_each_value_to_one_who_waits(trace, top) -> None:
+    changes = top.changes()
+    for value in (2, 3):
+        waiting = coming(changes)
+        await asyncio.sleep(0)
+        assert not waiting.done()
+        trace.write(top, value)
+        assert await waiting == value
+
+
+async def test_one_who_comes_late_gets_the_last_value_only(trace, top) -> None:
+    changes = top.changes()
+    for value in (2, 3, 4):
+        trace.write(top, value)
+    assert await anext(changes) == 4
+    waiting = coming(changes)
+    await asyncio.sleep(0)
+    assert not waiting.done()
+    waiting.cancel()
+
+
+async def test_the_value_at_the_time_of_asking_is_no_change(trace, top) -> None:
+    trace.write(top, 2)
+    changes = top.changes()
+    trace.write(top, 3)
+    trace.write(top, 2)
+    waiting = coming(changes)
+    await asyncio.sleep(0)
+    assert not waiting.done()
+    waiting.cancel()
+
+
+async def test_it_ends_when_the_cell_is_disposed_of(trace, top) -> None:
+    waiting = coming(top.changes())
+    await asyncio.sleep(0)
+    top.dispose()
+    assert await waiting is NOTHING_MORE
+
+
+async def test_the_last_value_before_that_is_given_still(trace, top) -> None:
+    changes = top.changes()
+    trace.write(top, 2)
+    top.dispose()
+    assert [value async for value in changes] == [2]
+
+
+async def test_each_of_two_gets_all_of_it(trace, top) -> None:
+    waiting = [coming(top.changes()), coming(top.changes())]
+    await asyncio.sleep(0)
+    trace.write(top, 2)
+    assert await asyncio.gather(*waiting) == [2, 2]
+
+
+async def test_a_failure_is_given_like_a_value_and_nan_once(trace, top) -> None:
+    changes = trace.derived("quotient", top, formula=lambda value: 1 // value).changes()
+    trace.write(top, 0)
+    assert (await anext(changes)).cell == "quotient"
+    numbers = trace.source("numbers", 0.0)
+    changes = numbers.changes()
+    trace.write(numbers, float("nan"))
+    await anext(changes)
+    waiting = coming(changes)
+    await asyncio.sleep(0)
+    assert not waiting.done()
+    waiting.cancel()
+
+
+async def test_one_who_goes_away_leaves_no_observer_and_no_task(trace, top) -> None:
+    changes = top.changes()
+    waiting = coming(changes)
+    await asyncio.sleep(0)
+    waiting.cancel()
+    with pytest.raises(asyncio.CancelledError):
+        await waiting
+    assert top.observers == {}
+    leaving = top.changes()
+    trace.write(top, 2)
+    async for _ in leaving:
+        break
+    assert top.observers == {}
+    assert asyncio.all_tasks() == {asyncio.current_task()}

@@ -1,0 +1,90 @@
+"""A cell that is disposed of keeps its value, and nothing holds it or is held by it."""
+
+import gc
+
+import pytest
+
+from reactive_realizer.reactive.cell import Derived
+from reactive_realizer.reactive.errors import DisposedCellError
+
+
+def test_it_keeps_its_value_and_follows_nothing_any_more(trace) -> None:
+    top = trace.source("top", 1)
+    cell = trace.derived("cell", top)
+    cell.dispose()
+    trace.write(top, 2)
+    assert cell.value == 1
+    assert top.dependents == {}
+    assert cell.disposed
+
+
+def test_what_hangs_on_it_goes_on_with_that_value(trace) -> None:
+    one, two = trace.source("one", 1), trace.source("two", 10)
+    both = trace.derived("both", one, two)
+    one.dispose()
+    trace.write(two, 20)
+    assert both.value == 21
+
+
+def test_its_observers_are_told_no_more_and_that_it_has_ended(trace) -> None:
+    top = trace.source("top")
+    cell = trace.derived("cell", top)
+    told = []
+    subscription = cell.observe(told.append, lambda: told.append("ended"))
+    cell.dispose()
+    trace.write(top, 1)
+    subscription.dispose()
+    cell.dispose()
+    assert told == ["ended"]
+
+
+def test_in_the_middle_of_a_transaction_it_keeps_what_was_written_so_far(trace) -> None:
+    top = trace.source("top", 1)
+    cell = trace.derived("cell", top)
+    below = trace.derived("below", cell)
+    with trace.graph.transaction("test"):
+        top.set(2)
+        cell.dispose()
+        top.set(3)
+    assert (cell.value, below.value) == (2, 2)
+    assert trace.changed() == ["top", "cell", "below"]
+
+
+def test_an_observer_may_dispose_of_cells_that_are_still_to_be_told(trace) -> None:
+    top = trace.source("top")
+    cells = [trace.derived(f"c{i}", top) for i in range(3)]
+    told = []
+    cells[0].observe(lambda value: cells[1].dispose())
+    for cell in cells:
+        cell.observe(lambda value, name=cell.name: told.append(name))
+    trace.write(top, 1)
+    assert told == ["c0", "c2"]
+    trace.write(top, 2)
+    assert [cell.value for cell in cells] == [2, 1, 2]
+
+
+@pytest.mark.parametrize("write", ["set", "pin", "rebind"])
+def test_it_is_not_written_any_more(trace, write) -> None:
+    top = trace.source("top", 1)
+    cell = trace.derived("cell", top)
+    top.dispose()
+    cell.dispose()
+    act = {"set": lambda: top.set(5), "pin": lambda: cell.pin(5), "rebind": lambda: cell.rebind((top,), cell.formula)}
+    with trace.graph.transaction("test"), pytest.raises(DisposedCellError):
+        act[write]()
+    assert (top.value, cell.value, top.dependents) == (1, 1, {})
+
+
+def test_nothing_is_left_of_it(trace) -> None:
+    top = trace.source("top")
+    for _ in range(1000):
+        trace.write(top, top.value + 1)
+        with trace.graph.transaction("made"):
+            cell = Derived(trace.graph, "cell", (top,), lambda value: value)
+        cell.observe(lambda value: None)
+        trace.write(top, top.value + 1)
+        cell.dispose()
+    trace.commits.clear()
+    del cell
+    gc.collect()
+    assert not [thing for thing in gc.get_objects() if isinstance(thing, Derived) and thing.graph is trace.graph]

@@ -1,0 +1,189 @@
+"""Whatever the graph and whatever is done to it, it is as if everything were computed anew."""
+
+from dataclasses import dataclass
+
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from reactive_realizer.reactive.cell import Cell, Derived, Source
+from reactive_realizer.reactive.errors import DisposedCellError, PropagationCycleError
+from reactive_realizer.reactive.failure import Failure
+from reactive_realizer.reactive.graph import Graph
+
+FORMULAS = {
+    "half": lambda *values: sum(values) // 2,  # loses information, so that the cut-off is met
+    "most": lambda *values: max(values, default=0),
+    "quotient": lambda *values: 6 // sum(values),  # raises at times
+}
+
+
+@dataclass
+class Node:
+    """A cell of the oracle: a constant, or a formula over others."""
+
+    constant: int | str | None
+    formula: str | None = None
+    dependencies: tuple[int, ...] = ()
+    disposed: bool = False
+
+
+class Oracle:
+    """Computes everything anew for every question; a failure is the name of the cell whose formula raised."""
+
+    def __init__(self) -> None:
+        self.nodes: list[Node] = []
+
+    def value(self, index):
+        return self.values()[index]
+
+    def values(self):
+        known = {}
+        for index in range(len(self.nodes)):
+            self._compute(index, known)
+        return [known[index] for index in range(len(self.nodes))]
+
+    def depends(self, index, on):
+        return index == on or any(self.depends(each, on) for each in self.nodes[index].dependencies)
+
+    def _compute(self, index, known):
+        if index not in known:
+            node = self.nodes[index]
+            values = [self._compute(each, known) for each in node.dependencies]
+            failed = [value for value in values if isinstance(value, str)]
+            known[index] = failed[0] if failed else self._apply(index, node, values)
+        return known[index]
+
+    @staticmethod
+    def _apply(index, node, values):
+        if node.formula is None:
+            return node.constant
+        try:
+            return FORMULAS[node.formula](*values)
+        except ZeroDivisionError:
+            return f"c{index}"
+
+
+class Subject:
+    """The same with cells."""
+
+    def __init__(self, oracle: Oracle) -> None:
+        self.oracle = oracle
+        self.graph = Graph()
+        self.cells: list[Cell] = []
+        self.computed: list[int] = []
+        self.told: list[tuple[int, object]] = []
+        self.commits: list = []
+        self.graph.listen(self.commits.append)
+
+    def make(self, node: Node) -> None:
+        index = len(self.cells)
+        self.oracle.nodes.append(node)
+        if node.formula is None:
+            self.cells.append(Source(self.graph, f"c{index}", node.constant))
+        else:
+            dependencies = tuple(self.cells[each] for each in node.dependencies)
+            self.cells.append(Derived(self.graph, f"c{index}", dependencies, self.formula(index, node.formula)))
+        self.cells[index].observe(lambda value: self.told.append((index, plain(value))))
+
+    def formula(self, index, name):
+        def noted(*values):
+            self.computed.append(index)
+            return FORMULAS[name](*values)
+
+        return noted
+
+    def do(self, action, index, name, value, others):
+        """One action on both sides; what is refused changes nothing."""
+        cell, node = self.cells[index], self.oracle.nodes[index]
+        try:
+            getattr(self, action)(cell, node, index, name, value, others)
+        except DisposedCellError:
+            assert node.disposed
+
+    def write(self, cell, node, index, name, value, others):
+        if isinstance(cell, Source):
+            cell.set(value)
+            node.constant = value
+
+    def pin(self, cell, node, index, name, value, others):
+        if isinstance(cell, Derived):
+            cell.pin(value)
+            self.oracle.nodes[index] = Node(value)
+
+    def rebind(self, cell, node, index, name, value, others):
+        if not isinstance(cell, Derived):
+            return
+        cycle = any(self.oracle.depends(other, index) for other in others)
+        try:
+            cell.rebind(tuple(self.cells[other] for other in others), self.formula(index, name))
+        except PropagationCycleError:
+            assert cycle
+        else:
+            assert not cycle
+            self.oracle.nodes[index] = Node(None, name, tuple(others))
+
+    def replace(self, cell, node, index, name, value, others):
+        new = others[0]
+        hanging = [i for i, each in enumerate(self.oracle.nodes) if index in each.dependencies]
+        cycle = any(self.oracle.depends(new, each) for each in hanging)
+        try:
+            cell.replace_by(self.cells[new])
+        except PropagationCycleError:
+            assert cycle
+        else:
+            assert not cycle
+            for each in (self.oracle.nodes[i] for i in hanging):
+                each.dependencies = tuple(new if i == index else i for i in each.dependencies)
+
+    def dispose(self, cell, node, index, name, value, others):
+        kept = self.oracle.value(index)
+        cell.dispose()
+        self.oracle.nodes[index] = Node(kept, disposed=True)
+
+    def read(self, cell, node, index, name, value, others):
+        assert plain(cell.result) == self.oracle.value(index)
+
+
+def plain(value):
+    return value.cell if isinstance(value, Failure) else value
+
+
+@st.composite
+def sessions(draw):
+    """Sources; cells that each depend on some before them; transactions of things done to any of them."""
+    sources = draw(st.integers(1, 4))
+    names = st.sampled_from(sorted(FORMULAS))
+    cells = [(Node(draw(st.integers(-2, 2)))) for _ in range(sources)]
+    for index in range(sources, sources + draw(st.integers(1, 14))):
+        dependencies = draw(st.lists(st.integers(0, index - 1), min_size=1, max_size=3))
+        cells.append(Node(None, draw(names), tuple(dependencies)))
+    indices = st.integers(0, len(cells) - 1)
+    actions = st.sampled_from(["write"] * 8 + ["read", "rebind", "rebind", "replace", "pin", "dispose"])
+    step = st.tuples(actions, indices, names, st.integers(-3, 3), st.lists(indices, min_size=1, max_size=3))
+    return cells, draw(st.lists(st.lists(step, max_size=5), min_size=1, max_size=6))
+
+
+@settings(max_examples=300)
+@given(sessions())
+def test_it_is_as_if_everything_were_computed_anew(session) -> None:
+    nodes, transactions = session
+    oracle = Oracle()
+    subject = Subject(oracle)
+    for node in nodes:
+        subject.make(node)
+    for steps in transactions:
+        before = oracle.values()
+        for notes in (subject.computed, subject.told, subject.commits):
+            notes.clear()
+        with subject.graph.transaction("steps"):
+            for step in steps:
+                subject.do(*step)
+        after = oracle.values()
+        assert [plain(cell.result) for cell in subject.cells] == after
+        changed = {i: new for i, (old, new) in enumerate(zip(before, after, strict=True)) if old != new}
+        recorded = {subject.cells.index(c.cell): plain(c.new) for commit in subject.commits for c in commit.changes}
+        assert recorded == changed
+        assert len(subject.told) == len(dict(subject.told)), "somebody was told twice"
+        assert dict(subject.told) == {i: new for i, new in changed.items() if not subject.cells[i].disposed}
+        if not {"read", "dispose"} & {step[0] for step in steps}:
+            assert len(subject.computed) == len(set(subject.computed)), "a cell was computed twice"

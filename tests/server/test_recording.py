@@ -1,0 +1,157 @@
+"""What a recorded session says, line by line."""
+
+import io
+import json
+from dataclasses import fields
+from pathlib import Path
+from typing import get_args
+
+import pytest
+from jsonschema import Draft202012Validator
+
+from reactive_realizer.assembly.scene import DEFAULT_HUMAN, SceneOptions, open_scene
+from reactive_realizer.clock.ticker import Tick
+from reactive_realizer.errors import Fault, RealizerError
+from reactive_realizer.realizer.entered import Delivery, Entered
+from reactive_realizer.realizer.inputs import BmlText, Event, Input, Prediction, TargetMoved
+from reactive_realizer.server import recording as room
+from reactive_realizer.server.recorder import Recorder
+from reactive_realizer.server.recording import Recording, read_recording
+
+INPUTS: list[Input] = [
+    BmlText('<bml id="ü"/>'),
+    BmlText("a half of a pair: \ud800"),
+    BmlText('<bml id="ü"/>'.encode()),
+    BmlText('<?xml version="1.0" encoding="UTF-16"?><bml id="ü"/>'.encode("utf-16")),
+    Prediction("partner", "hit", 0.1 + 0.2),
+    Prediction("partner", "hit", None),
+    Event("metronome", "start"),
+    Event("metronome", "tempo", 92.5, "faster"),
+    TargetMoved("bluebox", (0.1, 1.0, -2.5)),
+    TargetMoved("bluebox", None),
+]
+SESSION = [
+    Entered(0, tuple(INPUTS)),
+    Entered(1),
+    Entered(7, (), (Delivery(2), Delivery(1, Fault("voice-failed", {"reason": "killed"}, 3, 4)))),
+    Entered(9, (Event("metronome", "start"),)),
+]
+
+
+def recorded(session: list[Entered], options: SceneOptions | None = None) -> str:
+    stream = io.StringIO()
+    recorder = Recorder(stream, options or SceneOptions(), 1234.5)
+    for entered in session:
+        recorder(entered)
+    return stream.getvalue()
+
+
+@pytest.fixture
+def read(tmp_path: Path):
+    def read(text: str | bytes) -> Recording:
+        file = tmp_path / "session.jsonl"
+        file.write_bytes(text if isinstance(text, bytes) else text.encode())
+        return read_recording(file)
+
+    return read
+
+
+def test_a_session_is_read_as_it_was_recorded(read) -> None:
+    recording = read(recorded(SESSION))
+    assert list(recording.ticks) == SESSION
+    assert recording.started == 1234.5
+
+
+def test_every_kind_of_input_is_tried_with_all_that_it_can_hold() -> None:
+    assert {type(entry) for entry in INPUTS} == set(get_args(Input))
+    for kind in get_args(Input):
+        own = [entry for entry in INPUTS if isinstance(entry, kind)]
+        assert any(all(getattr(entry, field.name) is not None for field in fields(kind)) for entry in own)
+
+
+def test_every_option_of_a_scene_is_read_as_it_was(read, tmp_path: Path) -> None:
+    options = SceneOptions(DEFAULT_HUMAN, "text", (tmp_path,), 7)
+    again = read(recorded([], options)).options(tmp_path)
+    assert again.human.read_text("utf-8") == DEFAULT_HUMAN.read_text("utf-8")
+    others = [field.name for field in fields(SceneOptions) if field.name != "human"]
+    assert [getattr(again, name) for name in others] == [getattr(options, name) for name in others]
+
+
+def test_an_input_stands_before_its_tick_with_its_number_and_time() -> None:
+    *_, line, tick = map(json.loads, recorded(SESSION).splitlines())
+    event = {"type": "event", "anticipator": "metronome", "event": "start"}
+    assert line == {"seq": len(INPUTS) + 1, "tick": 9, "time": 0.09, "input": event}
+    assert tick == {"tick": 9}
+
+
+def test_every_line_keeps_to_the_schema() -> None:
+    schema = json.loads(Path(room.__file__).with_name("recording.json").read_text("utf-8"))
+    for number, line in enumerate(map(json.loads, recorded(SESSION).splitlines())):
+        kind = "Header" if number == 0 else "Input" if "input" in line else "Tick"
+        Draft202012Validator({"$ref": f"#/$defs/{kind}", "$defs": schema["$defs"]}).validate(line)
+
+
+def test_wherever_a_file_is_cut_off_all_ticks_that_are_whole_are_read(read) -> None:
+    text = recorded(SESSION[:1] + SESSION[2:]).encode()
+    header = text.index(b"\n") + 1
+    for size in range(header, len(text)):
+        ticks = list(read(text[:size]).ticks)
+        assert ticks == (SESSION[:1] + SESSION[2:])[: len(ticks)]
+    assert len(read(text).ticks) == 3
+
+
+GOOD = recorded(SESSION).splitlines()
+EVENT = '{"seq": 12, "tick": 10, "time": 0.1, "input": {"type": "event", "anticipator": "a", "event": "e"}}'
+
+
+@pytest.mark.parametrize(
+    ("lines", "row", "part"),
+    [
+        ([], 1, "not JSON"),
+        (["<bml/>"], 1, "not JSON"),
+        (["{}"], 1, "required"),
+        ([GOOD[0].replace('"recording": 1', '"recording": 2')], 1, "recording: 2"),
+        ([GOOD[0].replace('"seed"', '"sead"')], 1, "scene"),
+        ([GOOD[0], "[]"], 2, "Tick: []"),
+        ([GOOD[0], '{"tick": -1}'], 2, "minimum 0"),
+        ([GOOD[0], '{"tick": 3}', '{"tick": 3}'], 3, "tick 3 stands after tick 3"),
+        ([GOOD[0], EVENT.replace("12", "2")], 2, "input 2 stands where input 1"),
+        ([*GOOD, EVENT.replace("10", "9")], len(GOOD) + 1, "tick 9 stands after tick 9"),
+        ([*GOOD, EVENT, '{"tick": 11}'], len(GOOD) + 2, "tick 11 stands after tick 10"),
+        ([*GOOD, EVENT.replace("event", "ping")], len(GOOD) + 1, "ping"),
+        ([*GOOD, EVENT.replace('"event": "e"', '"event": 4')], len(GOOD) + 1, "event: 4"),
+        ([*GOOD, '{"tick": 11, "work": [{"request": 0}]}'], len(GOOD) + 1, "work.0.request"),
+        ([*GOOD, '{"tick": 11, "work": [{"request": 1, "failure": {"code": "x"}}]}'], len(GOOD) + 1, "failure"),
+        ([*GOOD, GOOD[-3].replace("reason", "x").replace(": 7", ": 11")], len(GOOD) + 1, "table"),
+        ([*GOOD, GOOD[-3].replace("voice-failed", "x").replace(": 7", ": 11")], len(GOOD) + 1, "table"),
+    ],
+)
+def test_a_file_that_is_no_session_is_refused_with_the_line_and_the_reason(read, lines, row, part) -> None:
+    with pytest.raises(RealizerError) as refused:
+        read("".join(line + "\n" for line in lines))
+    assert refused.value.fault.details["row"] == row
+    assert part in str(refused.value)
+
+
+def test_bytes_that_are_no_text_are_refused_with_the_line(read) -> None:
+    with pytest.raises(RealizerError, match="line 2: not JSON"):
+        read(GOOD[0].encode() + b"\n\xff\xff\n")
+
+
+class FullDisk(io.StringIO):
+    def flush(self) -> None:
+        if self.tell() > 2_000:
+            raise OSError("no space left")
+
+
+async def test_a_full_disk_ends_the_recording_and_not_the_session(caplog: pytest.LogCaptureFixture) -> None:
+    options = SceneOptions(voice="text")
+    async with open_scene(options) as scene:
+        stream = FullDisk()
+        scene.realizer.record(Recorder(stream, options, 0.0))
+        tick = None
+        for number in range(200):
+            tick = Tick.following(tick, number)
+            await scene.realizer.step(tick)
+        assert scene.realizer.time == 1.99
+    assert [record.message for record in caplog.records] == ["the session is not recorded any further: no space left"]
