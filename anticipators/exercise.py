@@ -46,7 +46,7 @@ class Exercise(Anticipator):
         names: tuple[str, ...] = (),
         rise: float = 3.0,
         phase: float = 0.5,
-        period: float = 0.2,
+        period: float = 0.4,
         ahead: float = 4,
     ) -> None:
         super().__init__(id, board)

@@ -13,7 +13,7 @@ from reactive_realizer.bml.behaviors import Mark
 from reactive_realizer.bml.block import BehaviorBlock
 from reactive_realizer.bml.document import parse
 from reactive_realizer.bml.elements import ELEMENTS, Element
-from reactive_realizer.bml.names import BML, BML_EXT
+from reactive_realizer.bml.names import BML, BML_EXT, BMLA
 from reactive_realizer.bml.posture import Pose, Stance
 from reactive_realizer.errors import ERRORS
 from reactive_realizer.limits import Limits
@@ -26,6 +26,7 @@ _CHILDREN = {
     "faceShift": '<faceLexeme lexeme="CLOSE_EYES"/>',
     "posture": '<stance type="STANDING"/>',
     "postureShift": '<stance type="STANDING"/>',
+    "parametervaluechange": '<trajectory type="linear" targetValue="1"/>',
 }
 """What an element needs inside to be read."""
 
@@ -36,6 +37,8 @@ _INSIDE: tuple[tuple[str, type, bool], ...] = (
     ("description of any behavior", Description, False),
 )
 """Elements inside of behaviors: their title, what is read from them, and whether that is realized."""
+
+_PREFIXES = {BML_EXT: "ext:", BMLA: "bmla:"}
 
 _NOTES = {
     "gesture mode": "without it: the right hand",
@@ -119,10 +122,11 @@ def _engine(element: Element, scene: Scene) -> str | None:
 
 def _example(element: Element) -> Behavior:
     """The behavior of the least that can be written of an element."""
-    name = f"ext:{element.name}" if element.namespace == BML_EXT else element.name
+    name = f"{_PREFIXES.get(element.namespace, '')}{element.name}"
     needed = " ".join(f'{each.name}="{_sample(each)}"' for each in element.attributes if each.required)
     written = f"<{name} {needed}>{_CHILDREN.get(element.name, '')}</{name}>"
-    (parsed,) = parse(f'<bml xmlns="{BML}" xmlns:ext="{BML_EXT}" id="b">{written}</bml>', Limits())
+    namespaces = f'xmlns="{BML}" xmlns:ext="{BML_EXT}" xmlns:bmla="{BMLA}"'
+    (parsed,) = parse(f'<bml {namespaces} id="b">{written}</bml>', Limits())
     if parsed.block is None or not parsed.block.behaviors:
         raise ValueError(f"{written} is no example of {element.name}: {parsed.problems}")
     return parsed.block.behaviors[0]
@@ -151,7 +155,7 @@ def _attributes(title: str, attributes: Iterable[Attribute], realized: bool) -> 
 
 
 def _attribute_table(element: str, attributes: Iterable[Attribute], realized: bool) -> str:
-    rows = (_attribute_row(element, each, realized) for each in attributes)
+    rows = (_attribute_row(element, each, realized) for each in attributes if not each.continuous)
     return _table(("attribute", "value", "default", "realized", ""), rows)
 
 

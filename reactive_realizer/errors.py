@@ -57,7 +57,7 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
         "too-many-roots": ErrorKind("more than {limit} blocks in a document; the rest is not read", _PARSING, 413),
         "too-many-behaviors": ErrorKind("{size} behaviors in a block, the limit is {limit}", _PARSING, 413),
         "unclosed-element": ErrorKind("not well-formed XML: the document ends inside <{element}>", _PARSING, 400),
-        "not-bml": ErrorKind("<{element}> is not a bml block", _PARSING, 400),
+        "not-bml": ErrorKind("<{element}> is no bml block, defineproc or useproc", _PARSING, 400),
         "no-block": ErrorKind("no bml block in the document", _PARSING, 400),
         "no-block-id": ErrorKind("the bml block has no id; it is refused", _PARSING, 400),
         "missing-attribute": ErrorKind("<{element}> needs the attribute '{attribute}'", _PARSING),
@@ -98,6 +98,9 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
             "'{block}' for {reference} is no behavior here, and no block, or one that has ended; there are {known}",
             _SCHEDULE,
         ),
+        "unknown-procedure": ErrorKind(
+            "no procedure '{procedure}' has been defined; there are {known}", WarningType.NO_SUCH_TARGET
+        ),
         "contradictory-tie": ErrorKind("{tie} contradicts other constraints by {gap:g} s; it is dropped", _SCHEDULE),
         "outer-tie": ErrorKind("{tie} ties two times that both come from elsewhere; it is dropped", _SCHEDULE),
         "rigid": ErrorKind("{point} cannot be where it is tied to, {gap:g} s away; that tie is dropped", _SCHEDULE),
@@ -107,6 +110,8 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
         "cyclic-composition": ErrorKind(
             "'{block}' is to come before '{other}' and waits for it too; it is refused", _SCHEDULE
         ),
+        "unknown-procedure": ErrorKind("no procedure '{procedure}'; there are {known}", WarningType.NO_SUCH_TARGET),
+        "too-many-procedures": ErrorKind("{limit} procedures are defined; this one is refused", _PARSING, 429),
         "no-such-block": ErrorKind("there never was a block '{block}'", WarningType.NO_SUCH_TARGET),
         "block-ended": ErrorKind("the block '{block}' has ended", _SCHEDULE),
         "not-preplanned": ErrorKind("the block '{block}' is not preplanned: it starts without", _SCHEDULE),
@@ -180,6 +185,9 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
             "at {time:g} s the recording goes on with work {request}, which is not there in this replay: files or "
             "versions are others than they were"
         ),
+        # --- trying a realizer
+        "not-reached": ErrorKind("no realizer at {url}: {reason}"),
+        "other-protocol": ErrorKind("{url} does not speak protocol {protocol}: its first message is {message}"),
         # --- the server
         "bad-json": ErrorKind("not JSON: {reason}", None, 400),
         "binary-message": ErrorKind("messages are JSON text; binary data are not read", None, 400),

@@ -16,6 +16,8 @@ class Limits:
     behaviors_per_block: int = 1_000
     blocks_alive: int = 1_000
     """Blocks accepted and not yet ended, all characters together."""
+    procedures: int = 1_000
+    """Procedures defined; one that is defined anew counts once."""
     utterance_characters: int = 5_000
     """Length of the text of one speech."""
     clients: int = 100

@@ -15,7 +15,7 @@ from reactive_realizer.limits import Limits
 
 T = TypeVar("T")
 
-DEFAULT_ENGINES: Final = ("speech", "animation", "face", "wait", "activate", "interrupt", "parameter-value-change")
+DEFAULT_ENGINES: Final = ("speech", "animation", "face", "wait", "activate", "interrupt", "parameter_value_change")
 DEFAULT_BINDINGS: Final[Mapping[str, str]] = {"gesture": "gesturebinding.xml"}
 
 _ID: Final = re.compile(r"[^\s:+\x00-\x1f\x7f]{1,200}")

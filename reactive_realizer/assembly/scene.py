@@ -9,7 +9,7 @@ from pathlib import Path
 
 from reactive_realizer.assembly.assets import PACKAGE_ASSETS, Assets
 from reactive_realizer.assembly.human_file import AnticipatorSpec, CharacterSpec, HumanFile, read_human_file
-from reactive_realizer.assembly.registry import load
+from reactive_realizer.assembly.registry import load, names
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.avatar import Avatar
 from reactive_realizer.embodiment.humanoid import Humanoid
@@ -92,7 +92,18 @@ def _character(id_: str, spec: CharacterSpec, world: World, assets: Assets, tts:
     humanoid = Humanoid(Avatar.read(assets(spec.avatar)), spec.position, math.radians(spec.heading))
     world.add_character(id_, humanoid.locate)
     mouth = _Mouth()
-    context = EngineContext(id_, humanoid, world, assets, seed, tts, spec.voice or None, dict(spec.bindings), mouth)
+    context = EngineContext(
+        id_,
+        humanoid,
+        world,
+        assets,
+        seed,
+        tts,
+        spec.voice or None,
+        dict(spec.bindings),
+        mouth,
+        trajectories={name: load("trajectories", name) for name in names("trajectories")},
+    )
     engines: list[Engine] = [load("engines", name)(context) for name in spec.engines]
     mouth.voices = [engine for engine in engines if isinstance(engine, LipSyncProvider)]
     return Character(id_, humanoid, tuple(engines))

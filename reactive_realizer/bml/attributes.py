@@ -47,6 +47,13 @@ class Text:
 
 
 @dataclass(frozen=True, slots=True)
+class Target(Text):
+    """The name of something in the world."""
+
+    description: ClassVar[str] = "name of a target"
+
+
+@dataclass(frozen=True, slots=True)
 class Name:
     """An id that a reference can name."""
 

@@ -6,7 +6,7 @@ OpenBMLParser's.
 
 from dataclasses import dataclass, field
 
-from reactive_realizer.bml.attributes import Duration, Integer, Name, Number, Text, Word, attribute
+from reactive_realizer.bml.attributes import Duration, Integer, Name, Number, Target, Text, Word, attribute
 from reactive_realizer.bml.behavior import Behavior, SyncPoints
 from reactive_realizer.bml.words import Influence, Mode, OffsetDirection
 
@@ -62,7 +62,7 @@ class Pointing(Behavior):
 
     SYNC_POINTS = _STROKE_POINTS
 
-    target: str = field(metadata=attribute(Text()))
+    target: str = field(metadata=attribute(Target()))
     mode: Mode | None = field(default=None, metadata=attribute(Word(Mode)))
 
 
@@ -97,7 +97,7 @@ class HeadDirectionShift(Behavior):
 
     SYNC_POINTS = _SHIFT_POINTS
 
-    target: str = field(metadata=attribute(Text()))
+    target: str = field(metadata=attribute(Target()))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -113,7 +113,7 @@ class Gaze(Behavior):
 
     SYNC_POINTS = _HOLD_POINTS
 
-    target: str = field(metadata=attribute(Text()))
+    target: str = field(metadata=attribute(Target()))
     influence: Influence | None = field(default=None, metadata=attribute(_INFLUENCE))
     offset_angle: float = field(default=0.0, metadata=attribute(Number(-360, 360)))
     offset_direction: OffsetDirection = field(default=OffsetDirection.RIGHT, metadata=attribute(Word(OffsetDirection)))
@@ -132,7 +132,7 @@ class Locomotion(Behavior):
 
     SYNC_POINTS = _SHIFT_POINTS
 
-    target: str = field(metadata=attribute(Text()))
+    target: str = field(metadata=attribute(Target()))
     manner: str = field(default="WALK", metadata=attribute(Text()))
 
 

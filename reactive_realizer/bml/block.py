@@ -8,13 +8,14 @@ from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.composition import CompositionText
 from reactive_realizer.bml.constraint import Constraint
 from reactive_realizer.bml.names import Location
+from reactive_realizer.bml.procedure import DefineProc
 from reactive_realizer.bml.words import Composition
 from reactive_realizer.errors import Fault
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BehaviorBlock:
-    """A ``<bml>`` element.
+    """A ``<bml>`` element, or a ``<useproc>``.
 
     Attributes:
         id: unique among the blocks alive.
@@ -28,6 +29,7 @@ class BehaviorBlock:
         on_start: planned blocks that start when it starts.
         preplan: whether it waits to be activated.
         external_refs: whether its references may name behaviors of other blocks; only drafts have to say so.
+        procedure: id of the procedure whose behaviors and constraints it has; then there are none here.
         behaviors: in document order, also those inside ``<required>``.
         constraints: in document order.
         extensions: attributes of other namespaces, (namespace, local name) to value.
@@ -45,6 +47,7 @@ class BehaviorBlock:
     on_start: tuple[str, ...] = field(default=(), metadata=attribute(Names(), continuous=True))
     preplan: bool = field(default=False, metadata=attribute(Boolean(), continuous=True))
     external_refs: bool = field(default=False, metadata=attribute(Boolean(), "allowexternalrefs", continuous=True))
+    procedure: str | None = None
     behaviors: tuple[Behavior, ...] = ()
     constraints: tuple[Constraint, ...] = ()
     extensions: Mapping[tuple[str, str], str] = field(default_factory=dict)
@@ -66,14 +69,21 @@ class Problem:
 
 @dataclass(frozen=True, slots=True)
 class Parsed:
-    """What came of one block of a document.
+    """What came of one top-level element of a document: a block, a procedure, or nothing where it is refused.
 
     Attributes:
-        block: without what was dropped; None where the whole of it is refused.
+        block: without what was dropped.
         problems: in document order; each is one warning.
         failed: whether something dropped was required, so that the block fails whole.
+        procedure: without what was dropped.
     """
 
     block: BehaviorBlock | None
     problems: tuple[Problem, ...] = ()
     failed: bool = False
+    procedure: DefineProc | None = None
+
+    @property
+    def refusal(self) -> Fault | None:
+        """Why the whole of it is refused."""
+        return None if self.block or self.procedure else self.problems[0].fault

@@ -13,7 +13,7 @@ _AFTER = re.compile(r"\s*(APPEND|CHUNK)[-_]?AFTER\s*\((.*)\)\s*", re.IGNORECASE 
 
 
 @dataclass(frozen=True, slots=True)
-class Joining:
+class Composed:
     """What a composition says: a word, and the blocks after which it has the block start."""
 
     composition: Composition = Composition.MERGE
@@ -27,13 +27,13 @@ class CompositionText:
 
     description: ClassVar[str] = f"{Word(Composition).description}, APPEND-AFTER(ids), CHUNK-AFTER(ids)"
 
-    def read(self, text: str, limits: Limits) -> Joining:
+    def read(self, text: str, limits: Limits) -> Composed:
         """What is written, in any case, with ``_``, ``-`` or nothing between the parts of a word."""
         after = _AFTER.fullmatch(text)
         if after is not None:
             blocks = Names().read(after[2], limits)
-            return Joining(append_after=blocks) if after[1].upper() == "APPEND" else Joining(chunk_after=blocks)
+            return Composed(append_after=blocks) if after[1].upper() == "APPEND" else Composed(chunk_after=blocks)
         try:
-            return Joining(Composition(str(Word(Composition).read(text, limits))))
+            return Composed(Composition(str(Word(Composition).read(text, limits))))
         except RealizerError:
             raise error("unknown-word", known=self.description) from None

@@ -6,13 +6,14 @@ from reactive_realizer.bml.behavior import Behavior, ForeignBehavior
 from reactive_realizer.bml.block import BehaviorBlock, Problem
 from reactive_realizer.bml.constraint import Constraint, Order
 from reactive_realizer.bml.names import Location
+from reactive_realizer.bml.procedure import DefineProc
 from reactive_realizer.bml.sync_ref import SyncRef
 from reactive_realizer.bml.trees import listed
 from reactive_realizer.errors import Fault
 
 
-def check_references(block: BehaviorBlock) -> tuple[Problem, ...]:
-    """A problem for each reference to a behavior or sync point that this block should have and has not.
+def check_references(block: BehaviorBlock | DefineProc) -> tuple[Problem, ...]:
+    """A problem for each reference to a behavior or sync point that this block or procedure should have and has not.
 
     Other blocks, anticipators, and sync points that only the realizer of a foreign behavior knows are not judged.
     """
@@ -24,7 +25,7 @@ def check_references(block: BehaviorBlock) -> tuple[Problem, ...]:
     )
 
 
-def references_of(block: BehaviorBlock) -> Iterator[tuple[str, Location, SyncRef]]:
+def references_of(block: BehaviorBlock | DefineProc) -> Iterator[tuple[str, Location, SyncRef]]:
     """Every reference with the id (``block:behavior``, or the block's) and the place of what holds it."""
     for behavior in block.behaviors:
         for ref in behavior.syncs.values():
@@ -35,7 +36,7 @@ def references_of(block: BehaviorBlock) -> Iterator[tuple[str, Location, SyncRef
             yield place, constraint.location, ref
 
 
-def unknown_block(ref: SyncRef, block: BehaviorBlock) -> Fault:
+def unknown_block(ref: SyncRef, block: BehaviorBlock | DefineProc) -> Fault:
     """Why a reference of a block names nothing when there is no block of the name that it names."""
     details = {"block": ref.block, "reference": str(ref)}
     if ref.behavior is not None:

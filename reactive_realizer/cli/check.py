@@ -7,9 +7,12 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from reactive_realizer.assembly.scene import DEFAULT_HUMAN, SceneOptions, open_scene
+from reactive_realizer.bml.attributes import Target, attributes_of
+from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.block import BehaviorBlock
 from reactive_realizer.bml.document import parse
 from reactive_realizer.bml.names import ANTICIPATORS
+from reactive_realizer.bml.procedure import DefineProc
 from reactive_realizer.bml.references import check_references, references_of, unknown_block
 from reactive_realizer.embodiment.world import World
 from reactive_realizer.errors import Fault
@@ -50,6 +53,7 @@ class _Checker:
     def __init__(self, realizer: Realizer) -> None:
         self._realizer = realizer
         self._earlier: set[str] = set()
+        self._procedures: dict[str, None] = {}
 
     def problems(self, path: Path) -> list[str]:
         """What is wrong with a file, line by line."""
@@ -60,26 +64,44 @@ class _Checker:
         admission = self._realizer.scheduler.admission()
         for parsed in parse(text, self._realizer.limits):
             yield from (problem.fault for problem in parsed.problems)
+            if parsed.procedure is not None:
+                yield from self._inside(parsed.procedure)
+                self._procedures[parsed.procedure.id] = None
             if parsed.block is not None:
                 yield from filter(None, [admission.take(parsed.block, parsed.failed)])
-                yield from (problem.fault for problem in check_references(parsed.block))
-                yield from self._unknown_blocks(parsed.block)
-                yield from _unknown_targets(parsed.block, self._realizer.world)
+                yield from self._unknown_procedure(parsed.block)
+                yield from self._inside(parsed.block)
                 self._earlier.add(parsed.block.id)
 
-    def _unknown_blocks(self, block: BehaviorBlock) -> Iterator[Fault]:
+    def _inside(self, block: BehaviorBlock | DefineProc) -> Iterator[Fault]:
+        yield from (problem.fault for problem in check_references(block))
+        yield from self._unknown_blocks(block)
+        yield from _unknown_targets(block, self._realizer.world)
+
+    def _unknown_procedure(self, block: BehaviorBlock) -> Iterator[Fault]:
+        if block.procedure not in {None, *self._procedures}:
+            details = {"procedure": block.procedure, "known": ", ".join(self._procedures) or "none"}
+            yield Fault("unknown-procedure", details, block.location.line, block.location.column)
+
+    def _unknown_blocks(self, block: BehaviorBlock | DefineProc) -> Iterator[Fault]:
         known = {None, ANTICIPATORS, block.id, *self._earlier}
         for _, location, ref in references_of(block):
             if ref.block not in known:
                 yield unknown_block(ref, block).located(location.line, location.column)
 
 
-def _unknown_targets(block: BehaviorBlock, world: World) -> Iterator[Fault]:
+def _unknown_targets(block: BehaviorBlock | DefineProc, world: World) -> Iterator[Fault]:
     for behavior in block.behaviors:
-        target = getattr(behavior, "target", None)
-        if target is not None and world.position(target) is None:
-            details = {"target": target, "known": ", ".join(world.targets)}
-            yield Fault("no-target", details, behavior.location.line, behavior.location.column)
+        for target in _targets(behavior):
+            if world.position(target) is None:
+                details = {"target": target, "known": ", ".join(world.targets)}
+                yield Fault("no-target", details, behavior.location.line, behavior.location.column)
+
+
+def _targets(behavior: Behavior) -> Iterator[str]:
+    """Those in the world: others are blocks and behaviors."""
+    attributes = (each for each in attributes_of(type(behavior)) if isinstance(each.type, Target))
+    return (getattr(behavior, each.field) for each in attributes)
 
 
 def _place(fault: Fault) -> tuple[int, int]:

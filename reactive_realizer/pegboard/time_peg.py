@@ -4,11 +4,14 @@ A peg is one cell; its value is a global time in seconds, None while unknown. A 
 block is an `OffsetPeg` on the `BMLBlockPeg`: moved with the block, read back as a block time by subtraction.
 """
 
+import weakref
 from abc import abstractmethod
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import ClassVar, NamedTuple
 
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.reactive.cell import Cell, Derived, Source
+from reactive_realizer.reactive.commit import Stamp
 from reactive_realizer.reactive.graph import Graph
 
 Time = GlobalTime | None
@@ -16,16 +19,66 @@ TimeCell = Cell[Time]
 Bound = tuple[TimeCell, float]
 """A peg and a distance (s) from it."""
 
+_MOST_NAMES = 5
+
+
+class Link(NamedTuple):
+    """What a peg hangs on, as data; a pinned peg keeps those that it was cut from, as they were then.
+
+    Attributes:
+        name: of the other peg.
+        kind: of the other peg.
+        time: s, global; None while unknown.
+        stamp: of the commit that gave it this time.
+        peg: the other peg, as long as anybody else has it.
+    """
+
+    name: str
+    kind: str
+    time: Time
+    stamp: Stamp | None
+    peg: weakref.ref[TimeCell]
+
 
 class TimePeg(Derived[Time]):
-    """A point in time that hangs on others until it is pinned."""
+    """A point in time that hangs on others until it is pinned.
 
-    __slots__ = ()
+    Attributes:
+        kind: a word for what it is.
+        why: text of the BML constraint that made it; None if none did.
+    """
+
+    __slots__ = ("_cut_from", "why")
+
+    kind: ClassVar[str]
+
+    def __init__(
+        self, graph: Graph, name: str, dependencies: tuple[TimeCell, ...], formula: Callable[..., Time]
+    ) -> None:
+        super().__init__(graph, name, dependencies, formula)
+        self.why: str | None = None
+        self._cut_from: tuple[Link, ...] = ()
 
     @property
     def pinned(self) -> bool:
         """Whether it has got its last value: its point was reached, cut, or never hung on anything."""
         return not self.dependencies
+
+    @property
+    def links(self) -> tuple[Link, ...]:
+        """What it hangs on; once pinned, what it hung on."""
+        return tuple(_link(cell) for cell in self.dependencies) or self._cut_from
+
+    @property
+    def deciding(self) -> tuple[Link, ...]:
+        """Those of its links that set its time, or on which it waits."""
+        return self.links
+
+    def pin(self, value: Time) -> None:
+        """Within a transaction, cut it from what it hangs on and give it its last time; what it hung on is noted."""
+        links = self.links
+        super().pin(value)
+        self._cut_from = links
 
     def apart(self, name: str, time: GlobalTime) -> "TimePeg":
         """Within a transaction: a new peg, pinned at a time, for one of the points that shared this one."""
@@ -33,9 +86,14 @@ class TimePeg(Derived[Time]):
         peg.pin(time)
         return peg
 
+    @property
+    @abstractmethod
+    def parameters(self) -> Mapping[str, object]:
+        """The numbers of its formula, by name."""
+
     @abstractmethod
     def describe(self) -> str:
-        """What it hangs on and how, for people."""
+        """What it hangs on and how, for people; once pinned, what it hung on."""
 
 
 class OffsetPeg(TimePeg):
@@ -43,13 +101,20 @@ class OffsetPeg(TimePeg):
 
     __slots__ = ("offset",)
 
+    kind = "offset"
+
     def __init__(self, graph: Graph, name: str, link: TimeCell, offset: float) -> None:
         self.offset = offset
         super().__init__(graph, name, (link,), _shifted_by(offset))
 
+    @property
+    def parameters(self) -> Mapping[str, object]:
+        """``offset``, s."""
+        return {"offset": self.offset}
+
     def describe(self) -> str:
         """``link + offset``."""
-        return f"{self.dependencies[0].name} {self.offset:+g} s" if self.dependencies else "pinned"
+        return f"{self.links[0].name} {self.offset:+g} s"
 
 
 class RatioPeg(TimePeg):
@@ -57,15 +122,20 @@ class RatioPeg(TimePeg):
 
     __slots__ = ("ratio",)
 
+    kind = "ratio"
+
     def __init__(self, graph: Graph, name: str, before: TimeCell, after: TimeCell, ratio: float) -> None:
         self.ratio = ratio
         super().__init__(graph, name, (before, after), _between(ratio))
 
+    @property
+    def parameters(self) -> Mapping[str, object]:
+        """``ratio``, 0 at the first and 1 at the second."""
+        return {"ratio": self.ratio}
+
     def describe(self) -> str:
         """``ratio of the way before .. after``."""
-        if not self.dependencies:
-            return "pinned"
-        before, after = self.dependencies
+        before, after = self.links
         return f"{self.ratio:.3g} of the way {before.name} .. {after.name}"
 
 
@@ -77,9 +147,21 @@ class AfterPeg(TimePeg):
 
     __slots__ = ("bounds",)
 
+    kind = "after"
+
     def __init__(self, graph: Graph, name: str, natural: TimeCell, bounds: Sequence[Bound]) -> None:
         self.bounds = tuple(distance for _, distance in bounds)
         super().__init__(graph, name, (natural, *(cell for cell, _ in bounds)), _not_before(self.bounds))
+
+    @property
+    def parameters(self) -> Mapping[str, object]:
+        """``bounds``, the distance (s) from each peg after the first."""
+        return {"bounds": list(self.bounds)}
+
+    @property
+    def deciding(self) -> tuple[Link, ...]:
+        """The natural peg, or the bound that holds it later."""
+        return _reached(self, (0.0, *self.bounds))
 
     def describe(self) -> str:
         """``natural, not before ...``."""
@@ -94,9 +176,21 @@ class BeforePeg(TimePeg):
 
     __slots__ = ("bounds",)
 
+    kind = "before"
+
     def __init__(self, graph: Graph, name: str, natural: TimeCell, bounds: Sequence[Bound]) -> None:
         self.bounds = tuple(distance for _, distance in bounds)
         super().__init__(graph, name, (natural, *(cell for cell, _ in bounds)), _not_after(self.bounds))
+
+    @property
+    def parameters(self) -> Mapping[str, object]:
+        """``bounds``, the distance (s) from each peg after the first."""
+        return {"bounds": list(self.bounds)}
+
+    @property
+    def deciding(self) -> tuple[Link, ...]:
+        """The natural peg, or the bound that holds it earlier."""
+        return _reached(self, (0.0, *self.bounds))
 
     def describe(self) -> str:
         """``natural, not after ...``."""
@@ -108,6 +202,8 @@ class LatestPeg(TimePeg):
 
     __slots__ = ("floor",)
 
+    kind = "latest"
+
     def __init__(self, graph: Graph, name: str, floor: GlobalTime, links: Sequence[TimeCell]) -> None:
         self.floor = floor
         super().__init__(graph, name, tuple(links), _latest(floor))
@@ -117,9 +213,21 @@ class LatestPeg(TimePeg):
         self.floor = floor
         self.rebind(tuple(links), _latest(floor))
 
+    @property
+    def parameters(self) -> Mapping[str, object]:
+        """``floor``, s, global."""
+        return {"floor": self.floor}
+
+    @property
+    def deciding(self) -> tuple[Link, ...]:
+        """The latest; none where that is the floor."""
+        return _reached(self, (0.0,) * len(self.links))
+
     def describe(self) -> str:
-        """``latest of ...``."""
-        return "latest of " + ", ".join([f"{self.floor:g} s", *(link.name for link in self.dependencies)])
+        """``latest of ...``, the first few by name."""
+        names = [link.name for link in self.links]
+        more = [f"{len(names) - _MOST_NAMES} more"] if len(names) > _MOST_NAMES else []
+        return "latest of " + ", ".join([f"{self.floor:g} s", *names[:_MOST_NAMES], *more])
 
 
 class BMLBlockPeg(LatestPeg):
@@ -127,11 +235,25 @@ class BMLBlockPeg(LatestPeg):
 
     __slots__ = ()
 
+    kind = "block"
+
 
 class AnticipatorPeg(Source[Time]):
     """A predicted point: absolute, written by its anticipator alone."""
 
     __slots__ = ()
+
+
+def kind_of(peg: TimeCell) -> str:
+    """A word for what a peg is: offset, ratio, after, before, latest, block, predicted."""
+    return peg.kind if isinstance(peg, TimePeg) else "predicted"
+
+
+def state_of(peg: TimeCell) -> str:
+    """``pinned``, ``moving``, or ``unknown``."""
+    if peg.value is None:
+        return "unknown"
+    return "pinned" if isinstance(peg, TimePeg) and peg.pinned else "moving"
 
 
 def followers_of(peg: TimeCell) -> set[TimeCell]:
@@ -172,6 +294,18 @@ def unknown_sources(pegs: Iterable[TimeCell]) -> list[str]:
     return [cell.name for cell in seen if cell.value is None and not getattr(cell, "dependencies", ())]
 
 
+def _link(peg: TimeCell) -> Link:
+    return Link(peg.name, kind_of(peg), peg.value, peg.stamp, weakref.ref(peg))
+
+
+def _reached(peg: TimePeg, distances: Sequence[float]) -> tuple[Link, ...]:
+    """The first link that gives a peg its time at a distance (s) from it; of an unknown time those that are unknown."""
+    if peg.value is None:
+        return tuple(link for link in peg.links if link.time is None)
+    pairs = zip(peg.links, distances, strict=True)
+    return tuple(link for link, distance in pairs if link.time is not None and link.time + distance == peg.value)[:1]
+
+
 def _shifted_by(offset: float) -> Callable[[Time], Time]:
     def shifted(link: Time) -> Time:
         return None if link is None else GlobalTime(link + offset)
@@ -206,10 +340,8 @@ def _not_after(distances: tuple[float, ...]) -> Callable[..., Time]:
 
 
 def _bounded(peg: AfterPeg | BeforePeg, side: str) -> str:
-    if not peg.dependencies:
-        return "pinned"
-    natural, *cells = peg.dependencies
-    bounds = ", ".join(f"{cell.name} {distance:+g} s" for cell, distance in zip(cells, peg.bounds, strict=True))
+    natural, *others = peg.links
+    bounds = ", ".join(f"{link.name} {distance:+g} s" for link, distance in zip(others, peg.bounds, strict=True))
     return f"{natural.name}, not {side} {bounds}"
 
 

@@ -32,7 +32,9 @@ class Cell(Generic[T]):
         disposed: whether it keeps its value for ever.
     """
 
-    __slots__ = ("_value", "dependents", "disposed", "graph", "name", "observers", "rank", "sequence", "stamp")
+    __slots__ = (
+        "__weakref__", "_value", "dependents", "disposed", "graph", "name", "observers", "rank", "sequence", "stamp",
+    )  # fmt: skip
 
     dependencies: "tuple[Cell[Any], ...]" = ()
 

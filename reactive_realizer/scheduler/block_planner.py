@@ -71,27 +71,28 @@ class BlockPlanner:
         self._preparations: dict[BMLBlock, Preparation] = {}
         self._solving: dict[BMLBlock, _Solving] = {}
 
-    def prepare(self, block: BMLBlock) -> list[Loss]:
-        """Have the engines begin with their slow work; the behaviors that no engine plays are lost."""
-        engines: dict[str, tuple[Behavior, Engine]] = {}
-        losses: list[Loss] = []
-        for behavior in block.description.behaviors:
-            engine = self._cast.engine_for(block.key.character, behavior)
-            known = engine.extensions if engine else frozenset()
+    def prepare(self, block: BMLBlock, prepared: Preparation | None) -> list[Loss]:
+        """Have the engines begin with their slow work; the behaviors that no engine plays are lost.
+
+        Args:
+            block: as it came in.
+            prepared: what a procedure has ready for it.
+        """
+        behaviors = block.description.behaviors
+        engines = self._cast.engines_for(block.key.character, behaviors)
+        losses = [_unsupported(behavior) for behavior in behaviors if behavior.id not in engines]
+        for behavior in behaviors:
+            known = engines[behavior.id][1].extensions if behavior.id in engines else frozenset()
             self._reporter.meaningless(block, [name for name in behavior.extensions if name not in known], behavior)
-            if engine is None:
-                losses.append(_unsupported(behavior))
-            else:
-                engines[behavior.id] = (behavior, engine)
         if not any(loss.required for loss in losses):
-            self._preparations[block] = Preparation(engines, self._workshop)
-            self._preparations[block].begin()
+            self._preparations[block] = prepared or self._begin(engines)
         return losses
 
     def cancel(self, block: BMLBlock) -> None:
-        """Give up what is prepared for a block, if anything is."""
-        if block in self._preparations:
-            self._preparations.pop(block).cancel()
+        """Give up what is prepared for a block, if anything is; a procedure keeps what it has."""
+        preparation = self._preparations.pop(block, None)
+        if preparation is not None and block.description.procedure is None:
+            preparation.cancel()
         if block in self._solving:
             self._solving.pop(block).cancel()
 
@@ -125,6 +126,11 @@ class BlockPlanner:
         plan = self._planning.solve(task)
         if not plan.losses and len(plan.units) == len(before):
             self._planning.recommit(block, plan)
+
+    def _begin(self, engines: Mapping[str, tuple[Behavior, Engine]]) -> Preparation:
+        preparation = Preparation(engines, self._workshop)
+        preparation.begin()
+        return preparation
 
     def _solve(self, block: BMLBlock, solving: _Solving) -> None:
         """Solve at once, or off the loop if that would hold it up."""

@@ -4,10 +4,11 @@ import logging
 from collections.abc import Iterable, Sequence
 
 from reactive_realizer.bml.block import BehaviorBlock, Parsed
+from reactive_realizer.bml.procedure import DefineProc
 from reactive_realizer.bml.words import Composition
 from reactive_realizer.clock.units import GlobalTime, is_due
 from reactive_realizer.engine.effects import Play
-from reactive_realizer.errors import Fault
+from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.feedback.feedback_manager import FeedbackManager
 from reactive_realizer.limits import Limits
 from reactive_realizer.pegboard.peg_key import BlockKey
@@ -24,6 +25,7 @@ from reactive_realizer.scheduler.joining import Joining
 from reactive_realizer.scheduler.planning import Planning
 from reactive_realizer.scheduler.predictions import Predictions
 from reactive_realizer.scheduler.problem import Loss
+from reactive_realizer.scheduler.procedures import Procedures
 from reactive_realizer.scheduler.reporter import Reporter
 from reactive_realizer.scheduler.requests import Requests
 from reactive_realizer.scheduler.strategy import SchedulingStrategy
@@ -56,6 +58,7 @@ class BMLScheduler:
         self._reporter = Reporter(feedback, self.blocks)
         planning = Planning(board, self.blocks, strategy)
         self._planner = BlockPlanner(cast, self.blocks, planning, workshop, self._reporter)
+        self._procedures = Procedures(cast, workshop, limits.procedures)
         self._predictions = Predictions(feedback)
         self._endings = Endings(board, cast, self.blocks, self._reporter, self._predictions)
         self._requests = Requests(board, self.blocks, self._planner, self._endings, self._reporter)
@@ -75,23 +78,16 @@ class BMLScheduler:
         character = self._character(parsed.block)
         for problem in parsed.problems:
             self._reporter.warn(character, problem.id, problem.fault)
-        if parsed.block is None or (fault := self.admission().take(parsed.block)) is not None:
+        try:
+            if parsed.procedure is not None:
+                self._procedures.define(parsed.procedure)
+            elif parsed.block is not None:
+                self._admit(self._procedures.expand(parsed.block), parsed.failed, character, now)
+            else:
+                self.refused += 1
+        except RealizerError as refused:
             self.refused += 1
-            if parsed.block is not None and fault is not None:
-                self._reporter.warn(character, parsed.block.id, fault)
-            return
-        self._make_room(parsed.block, character, now)
-        joining = Joining(self.blocks, character, parsed.block)
-        if (fault := joining.refusal()) is not None:
-            self.refused += 1
-            place = parsed.block.location
-            self._reporter.warn(character, parsed.block.id, fault.located(place.line, place.column))
-            return
-        block = self._new_block(parsed.block, character, joining, now)
-        if parsed.failed:
-            self._endings.end(block, BlockState.FAILED, now)
-            return
-        self._prepare(block, now)
+            self._refuse(refused.fault, parsed.block or parsed.procedure, character)
 
     def admission(self) -> Admission:
         """Judges blocks that would enter now; nothing changes here."""
@@ -170,6 +166,30 @@ class BMLScheduler:
 
     # --- accepting
 
+    def _admit(self, description: BehaviorBlock, failed: bool, character: str, now: GlobalTime) -> None:
+        """Make a block of it.
+
+        Raises:
+            RealizerError: why it is refused.
+        """
+        fault = self.admission().take(description)
+        if fault is not None:
+            raise RealizerError(fault)
+        self._make_room(description, character, now)
+        joining = Joining(self.blocks, character, description)
+        if (fault := joining.refusal()) is not None:
+            raise RealizerError(fault)
+        block = self._new_block(description, character, joining, now)
+        if failed:
+            self._endings.end(block, BlockState.FAILED, now)
+        else:
+            self._prepare(block, now)
+
+    def _refuse(self, fault: Fault, written: BehaviorBlock | DefineProc | None, character: str) -> None:
+        if written is not None:
+            place = written.location
+            self._reporter.warn(character, written.id, fault.located(place.line, place.column))
+
     def _character(self, block: BehaviorBlock | None) -> str:
         return (block and block.character) or self._cast.characters[0]
 
@@ -197,7 +217,8 @@ class BMLScheduler:
     # --- planning
 
     def _prepare(self, block: BMLBlock, now: GlobalTime) -> None:
-        if not self._lost(block, self._planner.prepare(block), now):
+        prepared = self._procedures.preparation(block.key.character, block.description)
+        if not self._lost(block, self._planner.prepare(block, prepared), now):
             self._owe_prediction(block)
 
     def _plan_prepared(self, now: GlobalTime) -> None:

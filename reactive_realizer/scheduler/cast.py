@@ -1,6 +1,6 @@
 """Who plays: the characters and their engines."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.engine.engine import Engine
@@ -31,6 +31,11 @@ class Cast:
     def engine_for(self, character: str, behavior: Behavior) -> Engine | None:
         """The first engine of a character that plays such behaviors."""
         return next((engine for engine in self._engines[character] if engine.supports(behavior)), None)
+
+    def engines_for(self, character: str, behaviors: Iterable[Behavior]) -> dict[str, tuple[Behavior, Engine]]:
+        """Behaviors by id with the engine that plays each; those that nobody plays are not among them."""
+        found = ((behavior, self.engine_for(character, behavior)) for behavior in behaviors)
+        return {behavior.id: (behavior, engine) for behavior, engine in found if engine is not None}
 
     def give(self, unit: PlanUnit, engine: Engine) -> None:
         """Have an engine play a unit that has its pegs."""

@@ -1,7 +1,7 @@
 """What a planner may ask of a scene."""
 
 import asyncio
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from reactive_realizer.assembly.scene import Scene
@@ -9,6 +9,7 @@ from reactive_realizer.binding.face_lexemes import read_face_lexemes
 from reactive_realizer.binding.gesture_binding import GestureBinding
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.elements import ELEMENTS, Element
+from reactive_realizer.planunit.parameter import Range
 
 
 async def capabilities_of(scene: Scene) -> dict[str, Any]:
@@ -16,8 +17,9 @@ async def capabilities_of(scene: Scene) -> dict[str, Any]:
     lexemes, parameters = await asyncio.to_thread(_bound, scene)
     engines = [engine for character in scene.realizer.characters.values() for engine in character.engines]
     realized = frozenset[type[Behavior]]().union(*(engine.behaviors for engine in engines))
+    changeable = {behavior: ranges for engine in engines for behavior, ranges in engine.parameters.items()}
     return {
-        "elements": {name: _element(element, realized) for name, element in ELEMENTS.items()},
+        "elements": {name: _element(element, realized, changeable) for name, element in ELEMENTS.items()},
         "lexemes": lexemes,
         "parameters": parameters,
         "voices": await scene.tts.voices(),
@@ -25,12 +27,17 @@ async def capabilities_of(scene: Scene) -> dict[str, Any]:
     }
 
 
-def _element(element: Element, realized: frozenset[type[Behavior]]) -> dict[str, Any]:
+def _element(
+    element: Element, realized: frozenset[type[Behavior]], changeable: Mapping[type[Behavior], Mapping[str, Range]]
+) -> dict[str, Any]:
+    """As ``parameters``: what of it parametervaluechange may change, and from where to where."""
+    parameters = changeable.get(element.behavior, {})
     return {
         "namespace": element.namespace,
         "realized": element.behavior in realized,
         "attributes": [attribute.name for attribute in element.attributes],
         "syncPoints": element.sync_points,
+        "parameters": {name: range_._asdict() for name, range_ in parameters.items()},
     }
 
 

@@ -121,7 +121,7 @@ class Intake:
         admission = self._realizer.scheduler.admission()
         ids, faults = [], []
         for parsed in read:
-            fault = parsed.problems[0].fault if parsed.block is None else admission.take(parsed.block, parsed.failed)
+            fault = admission.take(parsed.block, parsed.failed) if parsed.block else parsed.refusal
             if fault is not None:
                 faults.append(fault)
             elif parsed.block is not None:

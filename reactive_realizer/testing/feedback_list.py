@@ -24,8 +24,8 @@ class Line:
 
     @property
     def id(self) -> str:
-        """Its id; of a prediction the block's."""
-        return str(self.element.get("id") or self.element[0].get("id"))
+        """Its id; of a prediction the block's; empty where it has none."""
+        return str(self.element.get("id") or next((child.get("id", "") for child in self.element), ""))
 
     @property
     def at(self) -> float:

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from math import exp
 from random import Random
 
 import pytest
@@ -47,3 +48,11 @@ def rhythm_of(interval: Callable[[int], float], beats: int, seed: int, noise: fl
     for beat in range(1, beats):
         times.append(times[-1] + interval(beat))
     return [time + random.gauss(0.0, noise) for time in times]
+
+
+def acceleration(moments: list[float], seconds: float, seed: int) -> list[tuple[float, float]]:
+    """Times and magnitudes (m/s²) of an accelerometer, 50 a second: gravity, noise, and a swing at each key moment."""
+    random = Random(seed)
+    times = [n / 50 for n in range(round(seconds * 50))]
+    swings = [sum(8.0 * exp(-(((time - moment) / 0.08) ** 2)) for moment in moments) for time in times]
+    return [(time, abs(9.81 + swing + random.gauss(0.0, 0.4))) for time, swing in zip(times, swings, strict=True)]

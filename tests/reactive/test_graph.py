@@ -30,6 +30,17 @@ def test_a_jagged_diamond_waits_for_its_longest_side(trace) -> None:
     assert bottom.value == 2
 
 
+def test_among_equals_the_order_is_that_of_creation_whatever_was_written_first(trace) -> None:
+    one, two = trace.source("one"), trace.source("two")
+    for name in ("a", "b", "c"):
+        trace.derived(name, one if name == "b" else two)
+    trace.computed.clear()
+    with trace.graph.transaction("test"):
+        two.set(1)
+        one.set(1)
+    assert trace.computed == ["a", "b", "c"]
+
+
 def test_many_writes_in_a_transaction_are_one_commit(trace) -> None:
     top = trace.source("top")
     trace.derived("below", top)
@@ -108,6 +119,17 @@ def test_a_read_inside_a_transaction_is_never_stale(trace) -> None:
         assert made.value == 10
         top.set(6)
         assert (below.value, made.value) == (6, 12)
+
+
+def test_a_cell_made_while_others_wait_to_be_computed_is_made_of_what_they_will_be(trace) -> None:
+    top = trace.source("top")
+    below = trace.derived("below", trace.derived("between", top))
+    with trace.graph.transaction("test"):
+        top.set(5)
+        trace.computed.clear()
+        made = trace.derived("made", below)
+    assert trace.computed == ["between", "below", "made"]
+    assert made.value == 5
 
 
 def test_a_transaction_within_a_transaction_joins_it(trace) -> None:

@@ -68,13 +68,14 @@ export interface Predict2 {
   ref?: Ref;
 }
 /**
- * Something that an anticipator makes predictions from happened, or was set to a value.
+ * Something that an anticipator makes predictions from happened, was set to a value, or was said: then text has the words, and value means nothing.
  */
 export interface Event {
   type: "event";
   anticipator: Name;
   event: Name;
   value?: number;
+  text?: string;
   ref?: Ref;
 }
 export interface Ping {
@@ -191,10 +192,17 @@ export interface AudioMove {
   id: string;
   start: Seconds;
 }
+/**
+ * A sound has another gain from time on; at most one such message a tick and sound.
+ */
 export interface AudioGain {
   type: "audio_gain";
   id: string;
+  /**
+   * 1 is as recorded.
+   */
   gain: number;
+  time: Seconds;
 }
 /**
  * A sound falls silent from time on, within fade seconds.

@@ -54,7 +54,7 @@ export class SpeechPlayer {
         this.schedule(utterance);
         break;
       case "audio_gain":
-        utterance.setGain(message.gain);
+        utterance.changeGain(message.time, message.gain);
         break;
       case "audio_stop":
         utterance.stop(message.time, message.fade);

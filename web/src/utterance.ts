@@ -3,10 +3,19 @@ import type { AudioStart } from "./protocol";
 /** How quickly a changed gain settles, s: short, but without a click. */
 const GAIN_SETTLES = 0.02;
 
+/** Within this part of a fade the sound falls to 1/e: at its end less than a hundredth is left. */
+const FADE_FALLS = 0.2;
+
 /** When a sound begins on the audio clock, and how far into it. */
 export interface Entry {
   at: number;
   offset: number;
+}
+
+/** A gain, 1 as recorded, from a realizer time on. */
+interface GainChange {
+  time: number;
+  gain: number;
 }
 
 /** Where to enter a sound that should begin at audio time `begin`; one whose beginning has passed is joined late. */
@@ -22,7 +31,8 @@ export class Utterance {
   begin: number | null = null;
   /** Realizer time at which it falls silent early, s. */
   private stopped: { time: number; fade: number } | null = null;
-  private volume: number;
+  /** Gains, each from a realizer time on, in order: a sound that is scheduled anew goes through them again. */
+  private readonly gains: GainChange[] = [];
   private buffer: AudioBuffer | null = null;
   private source: AudioBufferSourceNode | null = null;
   private gain: GainNode | null = null;
@@ -32,7 +42,6 @@ export class Utterance {
     private readonly context: AudioContext,
   ) {
     this.start = announced.start;
-    this.volume = announced.gain;
   }
 
   /** Realizer time after which nothing of it sounds, s. */
@@ -61,17 +70,20 @@ export class Utterance {
     if (this.buffer === null) return;
     const { at, offset } = entry(begin, this.context.currentTime);
     this.begin = begin;
-    this.gain = new GainNode(this.context, { gain: this.volume });
+    const joined = this.start + offset;
+    this.gain = new GainNode(this.context, { gain: this.gainAt(joined) });
     this.gain.connect(this.context.destination);
     this.source = new AudioBufferSourceNode(this.context, { buffer: this.buffer });
     this.source.connect(this.gain);
     this.source.start(at, offset);
+    for (const change of this.gains) if (change.time > joined) this.follow(change);
     this.applyStop();
   }
 
-  setGain(volume: number): void {
-    this.volume = volume;
-    this.gain?.gain.setTargetAtTime(volume, this.context.currentTime, GAIN_SETTLES);
+  /** Has another gain from realizer time `time` on. */
+  changeGain(time: number, gain: number): void {
+    this.gains.push({ time, gain });
+    this.follow({ time, gain });
   }
 
   /** Falls silent from realizer time `time` on, within `fade` s. */
@@ -88,13 +100,24 @@ export class Utterance {
     this.source = this.gain = this.begin = null;
   }
 
+  private gainAt(time: number): number {
+    return this.gains.filter((change) => change.time <= time).at(-1)?.gain ?? this.announced.gain;
+  }
+
+  private follow({ time, gain }: GainChange): void {
+    if (this.gain === null || this.begin === null) return;
+    const at = Math.max(this.context.currentTime, this.begin + time - this.start);
+    // Until the first sample nothing can click.
+    if (at <= this.begin) this.gain.gain.setValueAtTime(gain, at);
+    else this.gain.gain.setTargetAtTime(gain, at, GAIN_SETTLES);
+  }
+
   private applyStop(): void {
     if (this.stopped === null || this.source === null || this.gain === null || this.begin === null) return;
-    const now = this.context.currentTime;
-    const from = Math.max(now, this.begin + this.stopped.time - this.start);
-    this.gain.gain.cancelScheduledValues(now);
-    this.gain.gain.setValueAtTime(this.volume, from);
-    this.gain.gain.linearRampToValueAtTime(0, from + this.stopped.fade);
-    this.source.stop(from + this.stopped.fade);
+    const { time, fade } = this.stopped;
+    const from = Math.max(this.context.currentTime, this.begin + time - this.start);
+    this.gain.gain.cancelScheduledValues(from);
+    this.gain.gain.setTargetAtTime(0, from, fade * FADE_FALLS);
+    this.source.stop(from + fade);
   }
 }

@@ -9,6 +9,7 @@ import { BmlPanel } from "./panels/bml";
 import { FeedbackPanel } from "./panels/feedback";
 import { PegsPanel } from "./panels/pegs";
 import { bindPrediction } from "./panels/prediction";
+import { bindSpaceBar } from "./panels/space_bar";
 import type { StatusPanel } from "./panels/status";
 import { TempoPanel } from "./panels/tempo";
 import type { Board, Feedback, Hello } from "./protocol";
@@ -49,6 +50,7 @@ export class Viewer implements ConnectionListener {
     new BmlPanel(this.connection);
     new TempoPanel(this.connection, status.say);
     bindPrediction(this.connection, status.say);
+    bindSpaceBar(this.connection, status.say);
     this.bindButtons();
   }
 

@@ -47,18 +47,20 @@ class FakeSource {
   }
 }
 
+/** Notes the gains it was told: until when one holds does not matter. */
 class FakeGain {
-  target: number | null = null;
+  readonly initial: number;
+  readonly told: { gain: number; at: number; sudden: boolean }[] = [];
   readonly connect = vi.fn();
   readonly disconnect = vi.fn();
   readonly gain = {
-    setTargetAtTime: (target: number) => (this.target = target),
+    setTargetAtTime: (gain: number, at: number) => this.told.push({ gain, at, sudden: false }),
+    setValueAtTime: (gain: number, at: number) => this.told.push({ gain, at, sudden: true }),
     cancelScheduledValues: vi.fn(),
-    setValueAtTime: vi.fn(),
-    linearRampToValueAtTime: vi.fn(),
   };
 
-  constructor() {
+  constructor(_context: unknown, options: { gain: number }) {
+    this.initial = options.gain;
     played.gains.push(this);
   }
 }

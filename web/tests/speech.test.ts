@@ -111,12 +111,42 @@ describe("speech", () => {
     expect(played.sources).toEqual([]);
   });
 
-  it("changes its gain while it sounds", async () => {
+  it("glides to another gain when the realizer time of that is heard", async () => {
     const { player } = playerAt(10, 3);
     player.handle(announced(10.5));
     await played.settled();
-    player.handle({ type: "audio_gain", id: "s1", gain: 0.2 });
-    expect(played.gains.at(-1)?.target).toBe(0.2);
+    player.handle({ type: "audio_gain", id: "s1", gain: 0.2, time: 11 });
+    expect(played.gains.at(-1)?.initial).toBe(0.8);
+    expect(played.gains.at(-1)?.told).toMatchObject([{ gain: 0.2, sudden: false }]);
+    expect(played.gains.at(-1)?.told[0]?.at).toBeCloseTo(4 - LATENCY, 9);
+  });
+
+  it("glides at once to a gain whose time was heard already", async () => {
+    const { player, audio } = playerAt(10, 3);
+    player.handle(announced(10.5));
+    await played.settled();
+    audio.currentTime = 4.5;
+    player.handle({ type: "audio_gain", id: "s1", gain: 0.2, time: 11 });
+    expect(played.gains.at(-1)?.told).toEqual([{ gain: 0.2, at: 4.5, sudden: false }]);
+  });
+
+  it("has the gain of its start from its first sample on", async () => {
+    const { player } = playerAt(10, 3);
+    player.handle(announced(10.5));
+    await played.settled();
+    player.handle({ type: "audio_gain", id: "s1", gain: 0, time: 10.5 });
+    expect(played.gains.at(-1)?.told).toMatchObject([{ gain: 0, sudden: true }]);
+    expect(played.gains.at(-1)?.told[0]?.at).toBeCloseTo(3.5 - LATENCY, 9);
+  });
+
+  it("goes through the gains that were told before its sound had come", async () => {
+    const { player } = playerAt(11, 3);
+    player.handle(announced(10.5));
+    player.handle({ type: "audio_gain", id: "s1", gain: 0.4, time: 10.9 });
+    player.handle({ type: "audio_gain", id: "s1", gain: 0.2, time: 11.5 });
+    await played.settled();
+    expect(played.gains.at(-1)?.initial).toBe(0.4);
+    expect(played.gains.at(-1)?.told.map(({ gain }) => gain)).toEqual([0.2]);
   });
 
   it("that cannot be fetched is said by name", async () => {

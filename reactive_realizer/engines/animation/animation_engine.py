@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from random import Random
+from types import MappingProxyType
 
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.behaviors import Gaze, Gesture, Head
@@ -12,8 +13,9 @@ from reactive_realizer.embodiment.humanoid import Eyes
 from reactive_realizer.embodiment.pose import Layer, LayerKind
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, slerp
 from reactive_realizer.engine.context import EngineContext
+from reactive_realizer.engine.effects import Play
 from reactive_realizer.engine.engine import DefaultEngine
-from reactive_realizer.engines.animation.animation_unit import AnimationUnit
+from reactive_realizer.engines.animation.animation_unit import AMOUNT, AnimationUnit, Stage
 from reactive_realizer.engines.animation.gaze_motion_unit import GazeMotionUnit
 from reactive_realizer.engines.animation.idle import Idle
 from reactive_realizer.engines.animation.motion_library import MotionLibrary
@@ -28,6 +30,7 @@ class AnimationEngine(DefaultEngine):
     """Turns the joints of one figure."""
 
     behaviors = frozenset({Gesture, Head, Gaze})
+    parameters = MappingProxyType({Gesture: {"amount": AMOUNT}, Head: {"amount": AMOUNT}})
 
     def __init__(self, context: EngineContext) -> None:
         super().__init__(f"{context.character}/animation")
@@ -35,6 +38,8 @@ class AnimationEngine(DefaultEngine):
         self._library = MotionLibrary(context)
         self._idle = Idle(Random(context.seed))
         self._releases: list[Release] = []
+        self._stage = Stage(lambda: self._humanoid.body, self._hands, self._release, context.graph)
+        self._now = GlobalTime(0.0)
         self.extensions = self._library.extensions
 
     def plan(self, block: BlockKey, behavior: Behavior, prepared: object) -> AnimationUnit:
@@ -45,7 +50,12 @@ class AnimationEngine(DefaultEngine):
         """
         motion = self._library.motion(behavior)
         kind, resources = _place(behavior, motion.joints)
-        return AnimationUnit(block, behavior, motion, kind, resources, lambda: self._humanoid.body, self._release)
+        return AnimationUnit(block, behavior, motion, kind, resources, self._stage)
+
+    def play(self, tick: Tick) -> Play:
+        """As every engine."""
+        self._now = tick.time
+        return super().play(tick)
 
     def layers(self, tick: Tick) -> tuple[Layer, ...]:
         """Rest pose and idle life, what is on its way back, what plays."""
@@ -66,6 +76,13 @@ class AnimationEngine(DefaultEngine):
         units = (unit for unit in self.player.playing if isinstance(unit, AnimationUnit))
         gazing = [(unit, unit.motion) for unit in units if isinstance(unit.motion, GazeMotionUnit)]
         return _eyes_of(*gazing[-1]) if gazing else None
+
+    def _hands(self) -> Body | None:
+        rest, back = self._library.rest, dict[str, Quat]()
+        for unit in self.player.playing:
+            if isinstance(unit, AnimationUnit) and unit.kind is LayerKind.GESTURE and unit.subsiding(self._now):
+                back |= unit.way_back(self._now, rest)
+        return rest.posed(back) if back else None
 
     def _release(self, unit: AnimationUnit, time: GlobalTime) -> None:
         if unit.shown.rotations:

@@ -32,6 +32,7 @@ class GazeMotionUnit:
     """
 
     parameters: dict[str, float]
+    amount: None = None
 
     def __init__(
         self,

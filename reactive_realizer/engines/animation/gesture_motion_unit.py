@@ -14,6 +14,9 @@ from reactive_realizer.engines.animation.proc_animation import ProcAnimation
 HOLD = "postStrokeHoldDuration"
 """The parameter of a binding that says how long the hands stay after the stroke, s."""
 
+AMOUNT = "amount"
+"""The parameter of a gesture that says how far it leaves the rest pose, 0 to 1; 1 is as authored."""
+
 _INNER = GESTURE_POINTS[1:-1]
 
 
@@ -24,7 +27,12 @@ class GestureMotionUnit:
     come and go depends on where they are. Between two points its own phase runs evenly; where two of its points
     coincide, as ready and strokeStart mostly do, the hands wait. Preparation and retraction start and stop as people do
     (`minimum_jerk`), every joint along its shortest arc.
+
+    With less than its full amount it stays nearer to the rest pose, all of it: a hand raised as high as ever for a
+    smaller stroke would not look like a smaller gesture.
     """
+
+    amount = AMOUNT
 
     def __init__(self, animation: ProcAnimation, parameters: Mapping[str, float], rest: Pose, body: Body) -> None:
         """Plans a gesture.
@@ -39,7 +47,7 @@ class GestureMotionUnit:
         Raises:
             RealizerError: "no-motion": the animation has no pose at its ready or relax.
         """
-        self.parameters = animation.values(parameters)
+        self.parameters = {AMOUNT: 1.0, **animation.values(parameters)}
         self._animation = animation
         self._rest = rest
         self._begin = {joint: body.rotation(joint) for joint in animation.joints}
@@ -97,7 +105,7 @@ class GestureMotionUnit:
     def pose(self, phase: float, body: Body) -> dict[str, Quat]:
         """Rotations of arms and fingers at a phase."""
         keys = self._key_positions
-        stroke = self._animation.sample(self._animation_phase(phase), self.parameters, body)
+        stroke = self._stroke(phase, body)
         if phase < keys["ready"]:
             done = minimum_jerk(share(phase, 0.0, keys["ready"]))
             return {joint: slerp(self._begin[joint], goal, done) for joint, goal in stroke.items()}
@@ -105,6 +113,18 @@ class GestureMotionUnit:
             done = minimum_jerk(share(phase, keys["relax"], 1.0))
             return {joint: slerp(last, self._rest.get(joint, IDENTITY), done) for joint, last in stroke.items()}
         return stroke
+
+    def preparation(self, body: Body) -> float:
+        """How long the hands would like to take to the stroke from where a body has them, s."""
+        return self._way(body, body.posed(self._animation.sample(self._inner[0], self.parameters, body)))
+
+    def _stroke(self, phase: float, body: Body) -> dict[str, Quat]:
+        """The animation's pose at a phase, as much of it as is to be shown."""
+        pose = self._animation.sample(self._animation_phase(phase), self.parameters, body)
+        amount = self.parameters[AMOUNT]
+        if amount == 1.0:
+            return pose
+        return {joint: slerp(self._rest.get(joint, IDENTITY), goal, amount) for joint, goal in pose.items()}
 
     def _animation_phase(self, phase: float) -> float:
         """The animation's own phase: its ready until the hands are there, its relax from when they leave."""

@@ -31,6 +31,8 @@ class MotionLibrary:
 
     Attributes:
         extensions: namespaced attributes that it understands.
+        rest: the figure at rest. Preferred durations follow from it, whatever is shown: a plan does not depend on who
+            is looking.
     """
 
     extensions = frozenset({DYNAMIC})
@@ -38,8 +40,7 @@ class MotionLibrary:
     def __init__(self, context: EngineContext) -> None:
         self._context = context
         self._binding = GestureBinding.read(context.asset(context.bindings["gesture"]))
-        # Preferred durations follow from the rest pose, whatever is shown: a plan does not depend on who is looking.
-        self._body = Body(context.humanoid.avatar.skeleton, dict(REST_POSE))
+        self.rest = Body(context.humanoid.avatar.skeleton, dict(REST_POSE))
         self._read: Callable[[str], ProcAnimation] = lru_cache(lambda file: read_proc_animation(context.asset(file)))
 
     def motion(self, behavior: Behavior) -> MotionUnit:
@@ -66,8 +67,8 @@ class MotionLibrary:
             animation = animation.mirrored()
         parameters = numbers(said)
         if spec.unit == "Gesture":
-            return GestureMotionUnit(animation, parameters, REST_POSE, self._body)
-        return ProcMotionUnit(animation, parameters)
+            return GestureMotionUnit(animation, parameters, REST_POSE, self.rest)
+        return ProcMotionUnit(animation, parameters, spec.parameter_map.get("amount"))
 
     def _gaze(self, behavior: Gaze) -> GazeMotionUnit:
         if self._context.world.position(behavior.target) is None:

@@ -20,6 +20,10 @@ class MotionUnit(Protocol):
     """Name -> value; a value may be changed while the motion plays."""
 
     @property
+    def amount(self) -> str | None:
+        """The one of its parameters that says how much of it is shown, 0 to 1; None if none does."""
+
+    @property
     def joints(self) -> frozenset[str]:
         """The joints that it turns, while it plays."""
 

@@ -17,17 +17,19 @@ class ProcMotionUnit:
     With r repeats the stroke comes r times, a period of 1/r of the whole apart: stroke:1 to stroke:r.
     """
 
-    def __init__(self, animation: ProcAnimation, parameters: Mapping[str, float]) -> None:
+    def __init__(self, animation: ProcAnimation, parameters: Mapping[str, float], amount: str | None = None) -> None:
         """Prepares a motion.
 
         Args:
             animation: what to play.
             parameters: values for some of its parameters; names it does not know are of no effect.
+            amount: the parameter that says how much of it is shown, if one does.
 
         Raises:
             RealizerError: "no-motion": durations or key positions make no sense with these values.
         """
         self.parameters = animation.values(parameters)
+        self.amount = amount if amount in self.parameters else None
         self._animation = animation
         # Where things happen is planned once: a parameter that changes while it plays changes the motion only.
         self._timing = animation.timing(self.parameters)

@@ -42,6 +42,11 @@ const WAIT = `
     stroke="anticipators:test:hit"/>
 `;
 
+const FOLLOW = `
+  <head id="nod" lexeme="NOD"
+    start="anticipators:spacebar:press"/>
+`;
+
 /** Example blocks for the page's user by title; each takes the id that its block is to have. */
 export const SAMPLES: Record<string, (id: string) => string> = {
   "Say hello": (id) => block(id, HELLO),
@@ -49,5 +54,6 @@ export const SAMPLES: Record<string, (id: string) => string> = {
   "Beat with one hand, then both": (id) => block(id, BEATS),
   "Look at the box, then at the sphere": (id) => block(id, LOOK),
   "Beat when it is predicted": (id) => block(id, WAIT),
+  "Nod at the space bar": (id) => block(id, FOLLOW),
   "Stop everything": (id) => block(id, "\n", ' composition="REPLACE"'),
 };

@@ -1,0 +1,252 @@
+"""Behavior that hangs on what somebody else does: on a key, the end of a turn, an exercise, a music."""
+
+from math import exp
+from pathlib import Path
+from random import Random
+
+import pytest
+
+from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
+
+HUMAN = """
+[character.alice]
+[anticipator.spacebar]
+kind = "spacebar"
+[anticipator.user]
+kind = "speech_stop"
+[anticipator.trainer]
+kind = "exercise"
+names = ["down", "up"]
+[anticipator.orchestra]
+kind = "conducting"
+[anticipator.metronome]
+kind = "metronome"
+"""
+NOD = '<head id="h" lexeme="NOD" start="anticipators:{}"/>'
+REPLY = '<speech id="s" start="anticipators:user:stop+0.2"><text>I see what you mean.</text></speech>'
+
+
+@pytest.fixture
+async def pilot(tmp_path: Path):
+    human = tmp_path / "human.toml"
+    human.write_text(HUMAN)
+    async with open_pilot(SceneOptions(human, "text")) as pilot:
+        yield pilot
+
+
+async def until(pilot: RealizerPilot, time: float) -> None:
+    while pilot.now < time - 1e-9:
+        await pilot.tick()
+
+
+# --- the space bar
+
+
+async def test_a_nod_comes_with_the_key_and_the_next_block_waits_for_the_next_time(pilot) -> None:
+    pilot.block("one", NOD.format("spacebar:press"))
+    await until(pilot, 1.0)
+    pilot.event("spacebar", "press")
+    await until(pilot, 1.5)
+    pilot.block("two", NOD.format("spacebar:press"))
+    await until(pilot, 3.0)
+    assert pilot.feedback.time("one:h:start") == 1.0
+    assert not pilot.feedback.reached("two:h:start")
+    pilot.event("spacebar", "press")
+    await until(pilot, 6.0)
+    assert pilot.feedback.time("two:h:start") == 3.0
+    assert pilot.feedback.warnings == []
+
+
+async def test_what_waits_for_a_while_after_the_key_is_not_held_up_by_another_press(pilot) -> None:
+    pilot.block("b", NOD.format("spacebar:release+0.5"))
+    await until(pilot, 1.0)
+    for _ in range(30):
+        pilot.event("spacebar", "release")
+        await pilot.tick()
+    await until(pilot, 4.0)
+    assert pilot.feedback.time("b:h:start") == 1.5
+    assert pilot.feedback.status("b") == "DONE"
+
+
+async def test_what_was_to_come_before_the_key_comes_with_it(pilot) -> None:
+    pilot.block("b", '<gesture id="g" lexeme="BEAT" stroke="anticipators:spacebar:press"/>')
+    await until(pilot, 1.0)
+    pilot.event("spacebar", "press")
+    await until(pilot, 4.0)
+    assert pilot.feedback.time("b:g:start") == pilot.feedback.time("b:g:stroke") == 1.0
+    assert pilot.feedback.status("b") == "DONE"
+
+
+# --- the end of the user's turn
+
+
+async def test_the_turn_is_taken_when_the_user_has_finished_and_not_before(pilot) -> None:
+    pilot.block("b", REPLY)
+    pilot.event("user", "voice", 1.0)
+    await until(pilot, 1.0)
+    pilot.event("user", "voice", 0.0)
+    await until(pilot, 1.3)
+    thinking = pilot.feedback.predicted("b:s:start")
+    assert thinking == pytest.approx(1.0 + 0.88 + 0.2, abs=0.01)
+    pilot.event("user", "voice", 1.0)
+    await until(pilot, 3.0)
+    assert not pilot.feedback.reached("b:s:start")
+    pilot.event("user", "voice", 0.0)
+    await pilot.tick()
+    pilot.event("user", "words", text="and so I came here.")
+    await until(pilot, 8.0)
+    assert pilot.feedback.time("b:s:start") == pytest.approx(3.0 + 0.18 + 0.2, abs=0.01)
+    assert pilot.feedback.status("b") == "DONE"
+    assert pilot.feedback.warnings == []
+
+
+async def test_who_goes_on_after_all_is_heard_out_unless_the_answer_has_begun(pilot) -> None:
+    pilot.block("b", REPLY)
+    pilot.block("c", NOD.format("user:stop"))
+    pilot.event("user", "words", text="I see.")
+    await until(pilot, 0.3)
+    assert pilot.feedback.reached("c:h:start")
+    pilot.event("user", "words", text="I see. But tell me,")
+    await until(pilot, 1.9)
+    assert not pilot.feedback.reached("b:s:start")
+    await until(pilot, 2.4)
+    assert pilot.feedback.reached("b:s:start")
+    pilot.event("user", "words", text="I see. But tell me, when")
+    await until(pilot, 6.0)
+    assert [pilot.feedback.status(block) for block in "bc"] == ["DONE", "DONE"]
+    assert pilot.feedback.warnings == []
+
+
+async def test_an_answer_that_is_planned_long_after_the_turn_waits_for_the_next_one(pilot) -> None:
+    pilot.block("early", NOD.format("user:stop"))
+    pilot.event("user", "voice", 1.0)
+    await until(pilot, 1.0)
+    pilot.event("user", "voice", 0.0)
+    await until(pilot, 8.0)
+    pilot.block("b", REPLY)
+    await until(pilot, 10.0)
+    assert not pilot.feedback.reached("b:s:start")
+    pilot.event("user", "voice", 1.0)
+    await until(pilot, 11.0)
+    pilot.event("user", "voice", 0.0)
+    await until(pilot, 16.0)
+    assert pilot.feedback.time("b:s:start") == pytest.approx(12.08, abs=0.01)
+    assert pilot.feedback.warnings == []
+
+
+# --- an exercise
+
+
+def squat(time: float) -> float:
+    """Magnitude of acceleration (m/s²) of somebody who is down at every odd second, and up 0.8 s after it."""
+    moments = [second + part for second in range(1, 30, 2) for part in (0.0, 0.8)]
+    return 9.81 + sum(8.0 * exp(-(((time - moment) / 0.08) ** 2)) for moment in moments)
+
+
+async def test_a_trainer_moves_ahead_of_the_user(pilot) -> None:
+    random = Random(1)
+    for number in range(1, 8):
+        pilot.block(f"b{number}", '<gesture id="g" lexeme="BEAT" stroke="anticipators:trainer:down-0.3"/>')
+        while pilot.now < 6 + 2 * number:
+            pilot.event("trainer", "sample", abs(squat(pilot.now) + random.gauss(0.0, 0.4)))
+            await pilot.tick()
+    strokes = [line.at for line in pilot.feedback.of("syncPointProgress") if line.id.endswith(":g:stroke")]
+    assert len(strokes) == 7
+    assert all(stroke % 2 == pytest.approx(0.7, abs=0.15) for stroke in strokes)
+    assert pilot.feedback.warnings == []
+
+
+async def test_a_peak_may_be_named_by_its_number(pilot) -> None:
+    pilot.block("b", NOD.format("trainer:7-0.5"))
+    while pilot.now < 9:
+        pilot.event("trainer", "sample", squat(pilot.now))
+        await pilot.tick()
+    assert pilot.feedback.time("b:h:start") == pytest.approx(6.5, abs=0.1)
+
+
+# --- a music
+
+
+async def test_a_conductor_follows_an_orchestra_that_speeds_up_loses_a_beat_and_doubles_one(pilot) -> None:
+    random = Random(4)
+    beats = [1.0]
+    for number in range(1, 24):
+        beats.append(beats[-1] + 0.9 * 0.985**number)
+    taps = [beat + random.gauss(0.0, 0.01) for number, beat in enumerate(beats, start=1) if number != 11]
+    taps = sorted([*taps, beats[16] + 0.08])
+    strokes = {number: f"b:g{number}:stroke" for number in range(6, 24, 3)}
+    gesture = '<gesture id="g{0}" lexeme="BEAT" mode="RIGHT_HAND" stroke="anticipators:orchestra:beat{0}"/>'
+    pilot.block("b", "".join(gesture.format(number) for number in strokes))
+    for tap in taps:
+        await until(pilot, tap)
+        pilot.event("orchestra", "beat")
+    await pilot.advance(5)
+    for number, stroke in strokes.items():
+        assert pilot.feedback.time(stroke) == pytest.approx(beats[number - 1], abs=0.07)
+    assert pilot.feedback.status("b") == "DONE"
+    assert pilot.feedback.warnings == []
+
+
+# --- what nobody should say
+
+
+SAID = [
+    ("user", "voice", float("nan")),
+    ("user", "voice", None),
+    ("user", "voice", -3.0),
+    ("trainer", "sample", float("inf")),
+    ("trainer", "sample", -1.0),
+    ("trainer", "sample", None),
+    ("orchestra", "beat", float("nan")),
+    ("spacebar", "kick", None),
+]
+
+
+@pytest.mark.parametrize(("anticipator", "name", "value"), SAID)
+async def test_an_event_that_cannot_be_changes_nothing(pilot, anticipator, name, value) -> None:
+    pilot.block("b", '<wait id="w" duration="1"/>')
+    pilot.event(anticipator, name, value)
+    pilot.event(anticipator, name, text="\ud800 no \x00 words \U0001f600")
+    await pilot.advance(2)
+    assert pilot.feedback.status("b") == "DONE"
+    assert pilot.feedback.warnings == []
+
+
+@pytest.mark.parametrize("anticipator", ["spacebar", "user", "trainer", "orchestra"])
+async def test_nobody_else_writes_the_points_of_an_anticipator(pilot, anticipator, caplog) -> None:
+    sync = {"spacebar": "press", "user": "stop", "trainer": "1", "orchestra": "beat1"}[anticipator]
+    pilot.block("b", NOD.format(f"{anticipator}:{sync}"))
+    pilot.predict(anticipator, sync, 0.5)
+    pilot.event("metronome", "press")
+    pilot.event("metronome", "beat")
+    await pilot.advance(1)
+    assert not pilot.feedback.reached("b:h:start")
+    assert f"'{anticipator}' is a" in caplog.text
+
+
+async def test_a_thousand_events_a_second_move_no_more_than_ten_do(pilot) -> None:
+    pilot.block("b", NOD.format("user:stop+1"))
+    pilot.block("c", NOD.format("orchestra:beat4"))
+    pilot.event("user", "voice", 1.0)
+    for _ in range(100):
+        for _ in range(10):
+            pilot.event("user", "voice", 0.0)
+            pilot.event("orchestra", "beat")
+            pilot.event("trainer", "sample", squat(pilot.now))
+        await pilot.tick()
+    assert len(pilot.feedback.predictions("b")) <= 3
+    assert len(pilot.feedback.predictions("c")) <= 5
+    await pilot.advance(5)
+    assert [pilot.feedback.status(block) for block in "bc"] == ["DONE", "DONE"]
+
+
+async def test_an_anticipator_that_fails_is_left_out_and_the_session_goes_on(pilot, monkeypatch, caplog) -> None:
+    def fail(now: float) -> None:
+        raise ZeroDivisionError
+
+    monkeypatch.setattr(pilot.realizer.anticipators["user"], "advance", fail)
+    pilot.block("b", NOD.format("metronome:tick1"))
+    await pilot.advance(3)
+    assert pilot.feedback.status("b") == "DONE"
+    assert "user is left out" in caplog.text

@@ -1,0 +1,129 @@
+"""A trainer who feels somebody move knows the next key moments of the exercise."""
+
+import itertools
+
+import pytest
+
+from anticipators.exercise import Exercise
+from anticipators.peaks import Peaks
+from reactive_realizer.errors import RealizerError
+from reactive_realizer.pegboard.pegboard import PegBoard
+from reactive_realizer.reactive.graph import Graph
+
+from .conftest import Stage, acceleration, rhythm_of
+
+
+def squats(repetitions: int, seed: int, drift: float = 0.0) -> list[float]:
+    """Key moments, down and up in turn: 1.2 s to get up and 0.8 s to go down, the more the later."""
+    return rhythm_of(lambda n: (1.2 if n % 2 else 0.8) + drift * n, 2 * repetitions, seed, 0.02)
+
+
+def move(stage: Stage, exercise: Exercise, samples: list[tuple[float, float]]) -> None:
+    for time, magnitude in samples:
+        stage.event(time, exercise, "sample", magnitude)
+
+
+def after(moments: list[float], seed: int) -> list[tuple[float, float]]:
+    """The samples until the last of some moments is known for one."""
+    return acceleration(moments, moments[-1] + 0.3, seed)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_peaks_are_found_where_they_are_whatever_the_noise(seed) -> None:
+    moments = squats(10, seed)
+    peaks = Peaks(3.0)
+    found = [peak for time, value in acceleration(moments, 25.0, seed) if (peak := peaks.take(value, time)) is not None]
+    assert found == pytest.approx(moments, abs=0.06)
+
+
+def test_somebody_who_stands_still_makes_no_peak() -> None:
+    peaks = Peaks(3.0)
+    assert not any(peaks.take(value, time) for time, value in acceleration([], 30.0, 1))
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_peaks_are_counted_and_the_next_ones_predicted(stage, seed) -> None:
+    moments = rhythm_of(lambda n: 1.0, 10, seed, 0.02)
+    exercise = Exercise("trainer", stage.board)
+    move(stage, exercise, after(moments[:6], seed))
+    assert [stage.time(exercise, str(n)) for n in range(7, 11)] == pytest.approx(moments[6:], abs=0.15)
+    assert stage.time(exercise, "11") is None
+    assert stage.time(exercise, "0") is None
+    assert stage.time(exercise, "down") is None
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("drift", [-0.01, 0.01])
+def test_named_peaks_keep_their_own_intervals_and_follow_who_gets_tired_or_hurries(seed, drift) -> None:
+    moments = squats(10, seed, drift)
+    for known in range(6, 18):
+        stage = Stage()
+        exercise = Exercise("trainer", stage.board, ("down", "up"))
+        move(stage, exercise, after(moments[:known], seed))
+        first, second = ("down", "up") if known % 2 == 0 else ("up", "down")
+        assert stage.time(exercise, first) == pytest.approx(moments[known], abs=0.15)
+        assert stage.time(exercise, second) == pytest.approx(moments[known + 1], abs=0.2)
+
+
+def test_a_name_is_always_a_moment_ahead_and_what_hangs_on_one_keeps_it(stage) -> None:
+    moments = squats(8, 1)
+    exercise = Exercise("trainer", stage.board, ("down", "up"))
+    held = []
+    for time, magnitude in acceleration(moments, moments[-1], 1):
+        stage.event(time, exercise, "sample", magnitude)
+        point = stage.board.predicted("trainer", "down")
+        assert point.value is None or point.value > time
+        if not held or held[-1] is not point:
+            held.append(point)
+    times = [point.value for point in held if point.value is not None]
+    assert times[:6] == pytest.approx(moments[4::2], abs=0.15)
+    assert times == sorted(times)
+
+
+def test_a_user_who_rests_is_not_expected_for_ever_and_is_when_moving_again(stage) -> None:
+    moments = rhythm_of(lambda n: 1.0 if n != 6 else 20.0, 9, 2, 0.02)
+    exercise = Exercise("trainer", stage.board, ("jump",), ahead=3)
+    samples = after(moments, 2)
+    resting = [(time, value) for time, value in samples if time < moments[5] + 4]
+    move(stage, exercise, resting)
+    assert stage.time(exercise, "jump") is None
+    move(stage, exercise, samples[len(resting) :])
+    assert stage.time(exercise, "jump") == pytest.approx(moments[-1] + 1.0, abs=0.15)
+
+
+def test_a_start_begins_a_new_exercise(stage) -> None:
+    moments = squats(4, 3)
+    exercise = Exercise("trainer", stage.board, ("down", "up"))
+    move(stage, exercise, after(moments[:5], 3))
+    assert stage.time(exercise, "down") is not None
+    stage.event(stage.now, exercise, "start")
+    assert [stage.time(exercise, sync) for sync in ("down", "up", "1", "7")] == [None] * 4
+
+
+@pytest.mark.parametrize("value", [None, -1.0, float("nan"), float("inf"), 1e7])
+def test_a_sample_that_is_no_magnitude_is_refused(value) -> None:
+    with pytest.raises(RealizerError, match="sample"):
+        Exercise("trainer", PegBoard(Graph())).check("sample", value)
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [{"rise": 0.0}, {"phase": 0.0}, {"period": float("nan")}, {"ahead": 0.0}],
+)
+def test_a_parameter_out_of_its_range_is_refused(wrong) -> None:
+    with pytest.raises(RealizerError, match=next(iter(wrong))):
+        Exercise("trainer", PegBoard(Graph()), **wrong)
+
+
+@pytest.mark.parametrize("names", [("3",), ("down", "down"), ("",), ("a b",), ("a:b",), ("a-1",), ("a" * 201,)])
+def test_names_that_cannot_be_told_from_each_other_or_from_numbers_are_refused(names) -> None:
+    with pytest.raises(RealizerError, match="peak"):
+        Exercise("trainer", PegBoard(Graph()), names)
+
+
+def test_a_thousand_samples_a_second_are_as_good_as_fifty(stage) -> None:
+    moments = rhythm_of(lambda n: 1.0, 6, 1, 0.0)
+    exercise = Exercise("trainer", stage.board)
+    for time, magnitude in after(moments, 1):
+        move(stage, exercise, list(itertools.repeat((time, magnitude), 20)))
+    assert stage.time(exercise, "7") == pytest.approx(7.0, abs=0.1)

@@ -1,0 +1,84 @@
+"""Who may begin: what another one has is taken over only on its way back to rest."""
+
+import pytest
+
+from reactive_realizer.bml.behaviors import Wait
+from reactive_realizer.bml.names import BML, Location
+from reactive_realizer.engine.effects import EndUnit
+from reactive_realizer.engine.player import Player
+from reactive_realizer.pegboard.peg_key import BlockKey
+from reactive_realizer.pegboard.time_peg import AnticipatorPeg, OffsetPeg
+from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
+from reactive_realizer.planunit.timing import timing_at
+from reactive_realizer.reactive.graph import Graph
+
+
+def arm(id_: str, tied: tuple[str, ...] = (), **times: float) -> PlanUnit:
+    """A unit that moves an arm, with its points at those times."""
+    behavior = Wait(id=id_, namespace=BML, name="wait", location=Location(1, 1), order=0)
+    unit = PlanUnit(BlockKey("alice", "b"), behavior, timing_at(times), frozenset({"arm"}))
+    graph = Graph()
+    pegs = {sync: OffsetPeg(graph, sync, AnticipatorPeg(graph, sync, time), 0.0) for sync, time in times.items()}
+    unit.points = [SyncPoint(sync, peg, sync in tied) for sync, peg in pegs.items()]
+    unit.release()
+    return unit
+
+
+@pytest.fixture
+def player() -> Player:
+    return Player()
+
+
+def play(player: Player, now: float) -> list[str]:
+    return [f"{each.unit.behavior.id}:{each.point.id}" for each in player.play(now)]
+
+
+def test_one_that_is_past_its_relax_ends_when_the_next_begins_which_waits_a_round_for_that(player) -> None:
+    first, second = arm("first", start=0.0, relax=1.0, end=2.0), arm("second", start=1.25, end=3.0)
+    player.add(first)
+    player.add(second)
+    play(player, 1.0)
+    assert play(player, 1.3) == []
+    assert player.take_ending() == (EndUnit(first, 1.25),)
+    assert player.take_ending() == ()
+    first.interrupt(1.25)
+    assert play(player, 1.3) == ["second:start"]
+    assert player.take_dropped() == ()
+
+
+def test_both_may_be_due_in_one_tick(player) -> None:
+    first, second = arm("first", start=0.0, relax=1.001, end=2.0), arm("second", start=1.004, end=3.0)
+    player.add(first)
+    player.add(second)
+    play(player, 0.0)
+    assert play(player, 1.01) == ["first:relax"]
+    assert player.take_ending() == (EndUnit(first, 1.004),)
+
+
+@pytest.mark.parametrize(
+    "first",
+    [
+        arm("first", start=0.0, relax=1.5, end=2.0),
+        arm("first", ("end",), start=0.0, relax=1.0, end=2.0),
+        arm("first", start=0.0, end=2.0),
+    ],
+    ids=["it is not that far", "BML says when it ends", "it has no way back"],
+)
+def test_in_any_other_case_the_one_that_plays_keeps_it(player, first) -> None:
+    second = arm("second", start=1.25, end=3.0)
+    player.add(first)
+    player.add(second)
+    play(player, 1.0)
+    play(player, 1.3)
+    assert [(each.unit, each.fault.code) for each in player.take_dropped()] == [(second, "resource-taken")]
+    assert player.take_ending() == ()
+    assert first.live
+
+
+def test_a_relax_that_comes_after_the_start_of_the_next_within_a_tick_is_too_late(player) -> None:
+    first, second = arm("first", start=0.0, relax=1.004, end=2.0), arm("second", start=1.001, end=3.0)
+    player.add(first)
+    player.add(second)
+    play(player, 0.0)
+    play(player, 1.01)
+    assert [each.unit for each in player.take_dropped()] == [second]
