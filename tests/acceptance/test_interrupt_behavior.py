@@ -1,0 +1,178 @@
+"""The behaviors `interrupt` and `activate` (thesis 6.6.1, 6.6.3, 6.6.4; BMLA)."""
+
+import pytest
+
+from reactive_realizer.clock.ticker import Tick, tick_time
+
+NAMESPACES = 'xmlns:bmla="http://www.asap-project.org/bmla" xmlns:bmlt="http://hmi.ewi.utwente.nl/bmlt"'
+TALK = '<speech id="s"><text>one two three <sync id="m"/>four five six</text></speech>'
+BEAT = '<gesture id="g" lexeme="BEAT" start="0.2"/>'
+OWN = "{urn:reactive-realizer:1}"
+
+
+def send(pilot, id_: str, inside: str = "", attributes: str = "") -> None:
+    head = f'xmlns="http://www.bml-initiative.org/bml/bml-1.0" {NAMESPACES}'
+    pilot.perform(f'<bml {head} id="{id_}" {attributes}>{inside}</bml>')
+
+
+def line(pilot, point: str):
+    return next(line for line in pilot.feedback.lines if line.id == point)
+
+
+@pytest.mark.parametrize("prefix", ["bmla", "bmlt"])
+async def test_a_block_is_cut_at_the_start_of_the_interrupt(pilot, prefix) -> None:
+    send(pilot, "talk", TALK + BEAT)
+    send(pilot, "stop", f'<{prefix}:interrupt id="i" target="talk" start="0.505"/>')
+    await pilot.advance(3)
+    assert pilot.feedback.time("talk:end") == pilot.feedback.time("talk:s:end") == pytest.approx(0.505)
+    assert pilot.feedback.time("talk:g:relax") == pilot.feedback.time("talk:g:end") == pytest.approx(0.505)
+    assert not pilot.feedback.reached("talk:s:m")
+    assert pilot.feedback.status("talk") == "INTERRUPTED"
+    assert pilot.feedback.status("stop") == "DONE"
+
+
+async def test_what_is_excluded_goes_on_and_its_block_ends_as_done(pilot) -> None:
+    send(pilot, "talk", TALK + BEAT)
+    send(pilot, "stop", '<bmla:interrupt id="i" target="talk" start="0.5" exclude="g"/>')
+    await pilot.advance(4)
+    assert pilot.feedback.time("talk:s:end") == 0.5
+    assert pilot.feedback.time("talk:g:end") > 1
+    assert pilot.feedback.time("talk:end") == pilot.feedback.time("talk:g:end")
+    assert pilot.feedback.status("talk") == "DONE"
+
+
+async def test_only_what_is_included_is_cut(pilot) -> None:
+    send(pilot, "talk", TALK + BEAT)
+    send(pilot, "stop", '<bmla:interrupt id="i" target="talk" start="0.5" include="g"/>')
+    await pilot.advance(4)
+    assert pilot.feedback.time("talk:g:end") == 0.5
+    assert pilot.feedback.reached("talk:s:m")
+
+
+async def test_a_speech_is_cut_at_its_own_mark_which_is_still_told(pilot) -> None:
+    send(pilot, "talk", TALK)
+    send(pilot, "stop", '<bmla:interrupt id="i" target="talk" start="talk:s:m"/>')
+    await pilot.advance(3)
+    assert pilot.feedback.time("talk:s:end") == pilot.feedback.time("talk:s:m") == pilot.feedback.time("stop:i:start")
+    assert line(pilot, "talk:s:end").element.get(f"{OWN}text") == "three"
+
+
+async def test_a_speech_may_end_its_word_first(pilot) -> None:
+    send(pilot, "talk", TALK)
+    send(pilot, "stop", '<bmla:interrupt id="i" target="talk" start="0.5" speech="word"/>')
+    await pilot.advance(3)
+    end = pilot.feedback.time("talk:s:end")
+    assert 0.5 < end < pilot.feedback.time("talk:s:start") + 1.5
+    told = line(pilot, "talk:s:end").element
+    assert int(told.get(f"{OWN}heard")) == len("one two three four"[: int(told.get(f"{OWN}heard"))])
+    assert pilot.feedback.status("talk") == "INTERRUPTED"
+    assert pilot.feedback.predicted("talk:s:end") == pytest.approx(end)
+
+
+async def test_a_speech_that_may_end_its_word_lets_other_behaviors_go_at_once(pilot) -> None:
+    send(pilot, "talk", TALK + BEAT)
+    send(pilot, "stop", '<bmla:interrupt id="i" target="talk" start="0.5" speech="word"/>')
+    await pilot.advance(3)
+    assert (
+        pilot.feedback.time("talk:g:end") == 0.5 < pilot.feedback.time("talk:s:end") == pilot.feedback.time("talk:end")
+    )
+
+
+async def test_what_was_tied_to_a_cut_point_keeps_its_time_and_is_told(pilot) -> None:
+    send(pilot, "talk", TALK + '<head id="n" lexeme="NOD" start="s:m"/>')
+    await pilot.tick()
+    expected = pilot.feedback.predicted("talk:n:start")
+    send(pilot, "stop", '<bmla:interrupt id="i" target="talk" include="s"/>')
+    await pilot.advance(3)
+    assert pilot.feedback.time("talk:n:start") == pytest.approx(expected)
+    assert pilot.feedback.warnings == [("talk:n", "IMPOSSIBLE_TO_SCHEDULE")]
+
+
+async def test_a_block_that_waits_is_revoked_as_a_whole_or_in_part(pilot) -> None:
+    send(pilot, "first", '<wait id="w" duration="1"/>')
+    send(pilot, "part", TALK + BEAT, 'composition="APPEND"')
+    send(pilot, "whole", TALK, 'bmla:preplan="true"')
+    send(
+        pilot,
+        "stop",
+        '<bmla:interrupt id="i" target="part" include="s"/><bmla:interrupt id="j" target="whole"/>',
+    )
+    await pilot.advance(5)
+    assert pilot.feedback.status("whole") == "REVOKED"
+    assert pilot.feedback.status("part") == "DONE"
+    assert pilot.feedback.reached("part:g:start")
+    assert not pilot.feedback.reached("part:s:start")
+
+
+async def test_an_interrupt_spares_itself_in_its_own_block(pilot) -> None:
+    send(pilot, "own", TALK + '<bmla:interrupt id="i" target="own" start="0.5"/>')
+    await pilot.advance(3)
+    assert pilot.feedback.time("own:s:end") == pilot.feedback.time("own:i:end") == 0.5
+    assert pilot.feedback.warnings == []
+
+
+async def test_interrupting_what_ended_changes_nothing_and_what_never_was_is_told(pilot) -> None:
+    send(pilot, "old", '<wait id="w" duration="0.1"/>')
+    await pilot.advance(0.5)
+    send(pilot, "stop", '<bmla:interrupt id="i" target="old"/><bmla:interrupt id="j" target="nobody"/>')
+    await pilot.advance(0.5)
+    assert pilot.feedback.warnings == [("stop:j", "NO_SUCH_TARGET")]
+    assert pilot.feedback.status("stop") == "DONE"
+
+
+async def test_names_that_the_target_has_not_are_told(pilot) -> None:
+    send(pilot, "talk", TALK)
+    send(pilot, "stop", '<bmla:interrupt id="i" target="talk" exclude="s,x"/>')
+    await pilot.advance(3)
+    assert pilot.feedback.warnings == [("stop:i", "NO_SUCH_TARGET")]
+    assert pilot.feedback.status("talk") == "DONE"
+
+
+@pytest.mark.parametrize("prefix", ["bmla", "bmlt"])
+async def test_an_activated_block_starts_at_the_very_time_of_the_activate(pilot, prefix) -> None:
+    send(pilot, "ready", TALK, 'bmla:preplan="true"')
+    await pilot.tick()
+    send(pilot, "go", f'<head id="n" lexeme="NOD"/><{prefix}:activate id="a" target="ready" start="n:stroke"/>')
+    await pilot.advance(4)
+    assert pilot.feedback.time("ready:start") == pilot.feedback.time("go:n:stroke")
+    assert pilot.feedback.lines[-1].id == "ready:end"
+
+
+async def test_activating_in_the_wrong_way_is_told(pilot) -> None:
+    send(pilot, "plain", '<wait id="w" duration="0.1"/>')
+    send(pilot, "ready", TALK, 'bmla:preplan="true"')
+    inside = "".join(
+        f'<bmla:activate id="a{i}" target="{target}"/>' for i, target in enumerate(("plain", "ready", "ready", "x"))
+    )
+    send(pilot, "go", inside)
+    await pilot.advance(0.5)
+    assert sorted(pilot.feedback.warnings) == [
+        ("go:a0", "IMPOSSIBLE_TO_SCHEDULE"),
+        ("go:a2", "IMPOSSIBLE_TO_SCHEDULE"),
+        ("go:a3", "NO_SUCH_TARGET"),
+    ]
+    assert pilot.feedback.reached("ready:start")
+
+
+async def test_a_speech_is_interrupted_with_a_prepared_continuation_in_the_same_tick(pilot) -> None:
+    """Thesis example 16."""
+    send(pilot, "talk", TALK + BEAT)
+    send(pilot, "trail", '<speech id="s"><text>anyway</text></speech>', 'bmla:preplan="true"')
+    send(
+        pilot,
+        "stop",
+        '<bmla:interrupt id="i" target="talk" start="talk:s:m" exclude="g"/>'
+        '<bmla:activate id="a" target="trail" start="talk:s:m"/>',
+    )
+    await pilot.advance(4)
+    assert pilot.feedback.time("trail:s:start") == pilot.feedback.time("talk:s:end") == pilot.feedback.time("talk:s:m")
+    assert pilot.feedback.status("talk") == "DONE"
+    assert pilot.feedback.warnings == []
+
+
+async def test_a_late_tick_cuts_at_the_time_that_was_meant(pilot) -> None:
+    send(pilot, "talk", TALK)
+    send(pilot, "stop", '<bmla:interrupt id="i" target="talk" start="0.5"/>')
+    await pilot.realizer.step(Tick(200, tick_time(-1), frame=False))
+    assert pilot.feedback.time("talk:s:end") == 0.5
+    assert not pilot.feedback.reached("talk:s:m")

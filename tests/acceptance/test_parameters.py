@@ -1,0 +1,244 @@
+"""Parameters of behaviors that play are changed along trajectories, and what is heard and seen follows at once."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.embodiment.audio import AudioGain, AudioStart
+from reactive_realizer.testing.pilot import open_pilot
+
+SPEECH = '<speech id="s"><text>Let me <sync id="m"/>tell you all about it, for it is a long story.</text></speech>'
+HEAD = '<head id="h" lexeme="NOD" repetition="4" start="0" end="4" amount="{}"/>'
+RAISED = '<gesture id="g" lexeme="OFFER" mode="RIGHT_HAND" start="0" ready="0.8" relax="6" end="7"/>'
+
+
+def change(id_, syncs, *, target="b:s", parameter="volume", space="bmla", **trajectory):
+    """A parametervaluechange: linear, to 100, unless said otherwise."""
+    said = {"type": "linear", "targetValue": 100} | trajectory
+    way = " ".join(f'{name}="{value}"' for name, value in said.items())
+    return (
+        f'<{space}:parametervaluechange id="{id_}" target="{target}" paramId="{parameter}" {syncs}>'
+        f"<{space}:trajectory {way}/></{space}:parametervaluechange>"
+    )
+
+
+def points(pilot, behavior):
+    lines = (line for line in pilot.feedback.of("syncPointProgress") if line.id.startswith(f"{behavior}:"))
+    return [(line.id.removeprefix(f"{behavior}:"), line.at) for line in lines]
+
+
+def warned(pilot):
+    """Id, type and sentence of its only warning."""
+    (line,) = pilot.feedback.of("warningFeedback")
+    return line.id, line.element.get("type"), line.element.text
+
+
+# --- what is heard
+
+
+@pytest.fixture
+async def voiced():
+    async with open_pilot(SceneOptions(voice="espeak")) as pilot:
+        yield pilot
+
+
+def gains(pilot):
+    """Times and gains, the first as announced."""
+    (start,) = (change for change in pilot.sounds if isinstance(change, AudioStart))
+    return [
+        (0.0, start.gain),
+        *((change.time, change.gain) for change in pilot.sounds if isinstance(change, AudioGain)),
+    ]
+
+
+@pytest.mark.speech
+async def test_a_volume_sounds_in_the_tick_in_which_it_is_reached(voiced) -> None:
+    voiced.block("b", SPEECH + change("p", 'start="s:start+0.5"', type="instant"))
+    await voiced.advance(1)
+    started = voiced.feedback.time("b:s:start")
+    assert gains(voiced) == [(0.0, 1.0), (pytest.approx(started + 0.5), 2.0)]
+    assert voiced.feedback.time("b:p:start") == voiced.feedback.time("b:p:end") == started + 0.5
+
+
+@pytest.mark.speech
+async def test_a_linear_change_is_told_once_a_tick_and_ends_exactly_at_its_target(voiced) -> None:
+    voiced.block("b", SPEECH + change("p", 'start="0" end="1"'))
+    await voiced.advance(2)
+    told = gains(voiced)
+    begin = voiced.feedback.time("b:p:start")
+    assert all(gain == pytest.approx(1 + (time - begin)) for time, gain in told[1:])
+    assert len(told) == 101
+    assert told[-1] == (pytest.approx(begin + 1), 2.0)
+
+
+@pytest.mark.speech
+async def test_without_a_change_nothing_is_told(voiced) -> None:
+    voiced.block("b", SPEECH + change("p", 'start="0" end="1"', targetValue=50))
+    await voiced.advance(2)
+    assert len(gains(voiced)) == 1
+
+
+@pytest.mark.speech
+async def test_a_change_before_the_speech_begins_is_told_before_it(voiced) -> None:
+    later = SPEECH.replace("<speech", '<speech start="2"')
+    voiced.block("b", later + change("p", 'start="0"', type="instant", targetValue=0))
+    await voiced.advance(1)
+    assert gains(voiced)[-1][1] == 0.0
+
+
+@pytest.mark.speech
+async def test_easing_is_slow_at_both_ends(voiced) -> None:
+    voiced.block("b", SPEECH + change("p", 'start="0" end="1"', type="ease-in-ease-out", initialValue=0))
+    await voiced.advance(2)
+    steps = np.diff([gain for _, gain in gains(voiced)[1:]])
+    assert steps.min() > 0
+    assert max(steps[0], steps[-1]) < 0.1 * steps[len(steps) // 2]
+
+
+@pytest.mark.speech
+async def test_of_two_changes_the_later_start_wins_and_sets_out_from_what_is_there(voiced) -> None:
+    both = change("p", 'start="0" end="2"') + change("q", 'start="1" end="1.5"', targetValue=0)
+    voiced.block("b", SPEECH + both)
+    await voiced.advance(3)
+    told = gains(voiced)
+    assert max(gain for _, gain in told) == pytest.approx(1.5, abs=0.02)
+    assert told[-1][1] == 0.0
+    assert max(abs(a - b) for (_, a), (_, b) in pairwise(told)) < 0.05
+    assert voiced.feedback.time("b:p:end") == voiced.feedback.time("b:p:start") + 2
+    assert voiced.feedback.warnings == []
+
+
+# --- when it starts and ends
+
+
+async def test_in_the_older_form_stroke_is_another_name_of_the_end(pilot) -> None:
+    pilot.block("b", SPEECH + change("p", 'start="s:m" stroke="s:m+1"', space="bmlt"))
+    await pilot.advance(4)
+    mark = pilot.feedback.time("b:s:m")
+    assert points(pilot, "b:p") == [("start", mark), ("stroke", mark + 1), ("end", mark + 1)]
+
+
+async def test_in_the_newer_form_there_are_start_and_end(pilot) -> None:
+    pilot.block("b", SPEECH + change("p", 'start="s:start" end="s:end"', initialValue=0))
+    await pilot.advance(6)
+    assert points(pilot, "b:p") == [("start", 0.0), ("end", pilot.feedback.time("b:s:end"))]
+    assert pilot.feedback.warnings == []
+
+
+async def test_a_change_of_which_nobody_says_how_long_it_takes_takes_half_a_second(pilot) -> None:
+    pilot.block("b", SPEECH + change("p", 'start="0.25"'))
+    await pilot.advance(2)
+    assert points(pilot, "b:p") == [("start", 0.25), ("end", 0.75)]
+
+
+async def test_it_moves_nothing(pilot) -> None:
+    pilot.block("b", HEAD.format(0.5) + SPEECH + change("p", 'start="h:stroke:2" end="s:m"', target="s"))
+    await pilot.advance(6)
+    assert pilot.feedback.time("b:h:end") == 4.0
+    assert pilot.feedback.time("b:s:start") == 0.0
+
+
+async def test_a_target_that_ends_first_ends_it_without_a_warning(pilot) -> None:
+    pilot.block("b", SPEECH + change("p", 'start="1" end="60"'))
+    await pilot.advance(6)
+    assert points(pilot, "b:p") == [("start", 1.0), ("end", pilot.feedback.time("b:s:end"))]
+    assert pilot.feedback.time("b:end") == pilot.feedback.time("b:s:end")
+    assert pilot.feedback.status("b") == "DONE"
+    assert pilot.feedback.warnings == []
+
+
+async def test_a_target_that_is_interrupted_ends_it_then(pilot) -> None:
+    pilot.block("b", SPEECH)
+    pilot.block("c", change("p", 'start="0" end="60"'))
+    await pilot.advance(1)
+    pilot.block("i", '<bmla:interrupt id="i" target="b"/>')
+    await pilot.advance(1)
+    assert points(pilot, "c:p")[-1] == ("end", 1.0)
+    assert pilot.feedback.status("c") == "DONE"
+    assert pilot.feedback.warnings == []
+
+
+async def test_a_change_may_wait_for_a_prediction(pilot) -> None:
+    pilot.block("b", SPEECH + change("p", 'start="anticipators:user:starts" end="s:end"'))
+    await pilot.advance(1)
+    pilot.predict("user", "starts", 1.5)
+    await pilot.advance(4)
+    assert pilot.feedback.time("b:p:start") == 1.5
+
+
+# --- what is seen
+
+
+def nods(pilot):
+    """How far the head is turned from where it was at first, rad, in each frame."""
+    return _turns(pilot, "skullbase")
+
+
+def _turns(pilot, joint):
+    joints = pilot.realizer.characters["alice"].humanoid.avatar.skeleton.joints
+    path = np.array([frame.rotations for frame in pilot.frames["alice"]])[:, joints.index(joint)]
+    return 2 * np.arccos(np.clip(np.abs(path @ path[0]), 0, 1))
+
+
+async def test_the_amount_of_a_nod_is_its_attribute_until_it_is_changed(pilot) -> None:
+    pilot.watch()
+    pilot.block(
+        "b",
+        HEAD.format(1) + change("p", 'start="2"', target="b:h", parameter="amount", type="instant", targetValue=0.25),
+    )
+    await pilot.advance(4)
+    seen = nods(pilot)
+    before, after = seen[:95].max(), seen[110:190].max()
+    assert before == pytest.approx(0.26, abs=0.03)
+    assert after == pytest.approx(0.25 * 0.26, abs=0.03)
+    assert pilot.feedback.warnings == []
+
+
+async def test_a_gesture_of_a_smaller_amount_stays_nearer_to_the_rest_pose_and_never_jumps(pilot) -> None:
+    pilot.watch()
+    pilot.block("b", RAISED + change("p", 'start="2" end="3"', target="g", parameter="amount", targetValue=0.5))
+    await pilot.advance(5)
+    seen = _turns(pilot, "r_elbow")
+    assert seen[200] == pytest.approx(0.5 * seen[90], abs=0.06)
+    assert np.abs(np.diff(seen)).max() < 0.1
+
+
+# --- what cannot be
+
+
+@pytest.mark.parametrize(
+    ("behavior", "kind", "words"),
+    [
+        (change("p", 'start="1"', parameter="pitch"), "NO_SUCH_TARGET", ["pitch", "volume"]),
+        (change("p", 'start="1"', target="b:nobody"), "NO_SUCH_TARGET", ["nobody"]),
+        (change("p", 'start="1"', target="nothing:s"), "NO_SUCH_TARGET", ["nothing"]),
+        (change("p", 'start="1"', targetValue=100.5), "EXECUTION_FAILURE", ["100.5", "0 to 100"]),
+        (change("p", 'start="1"', targetValue=-1), "EXECUTION_FAILURE", ["-1"]),
+        (change("p", 'start="1"', initialValue=101), "EXECUTION_FAILURE", ["101"]),
+        (
+            change("p", 'start="1"', type="wavy"),
+            "CANNOT_CREATE_BEHAVIOR",
+            ["wavy", "ease-in-ease-out, instant, linear"],
+        ),
+        (change("p", 'start="1"', targetValue="NaN"), "PARSING_FAILURE", ["NaN"]),
+        (change("p", 'start="1"', targetValue="1e999"), "PARSING_FAILURE", ["1e999"]),
+        (change("p", 'start="30"'), "IMPOSSIBLE_TO_SCHEDULE", ["ended"]),
+    ],
+)
+async def test_a_change_that_cannot_be_is_dropped_with_one_warning_that_says_why(pilot, behavior, kind, words) -> None:
+    pilot.block("b", f'{SPEECH}<wait id="w" duration="31"/>{behavior}')
+    await pilot.advance(32)
+    id_, type_, sentence = warned(pilot)
+    assert (id_, type_) == ("b:p", kind)
+    assert all(word in sentence for word in words), sentence
+    assert points(pilot, "b:p") == []
+    assert pilot.feedback.status("b") == "DONE"
+
+
+async def test_a_word_for_a_trajectory_is_read_in_any_case(pilot) -> None:
+    pilot.block("b", SPEECH + change("p", 'start="0"', type="Ease_in_Ease_out"))
+    await pilot.advance(1)
+    assert pilot.feedback.warnings == []
+    assert pilot.feedback.reached("b:p:end")
