@@ -173,6 +173,7 @@ async def test_a_speech_is_interrupted_with_a_prepared_continuation_in_the_same_
 async def test_a_late_tick_cuts_at_the_time_that_was_meant(pilot) -> None:
     send(pilot, "talk", TALK)
     send(pilot, "stop", '<bmla:interrupt id="i" target="talk" start="0.5"/>')
-    await pilot.realizer.step(Tick(200, tick_time(-1), frame=False))
+    await pilot.tick()
+    await pilot.realizer.step(Tick(200, tick_time(0), frame=False))
     assert pilot.feedback.time("talk:s:end") == 0.5
     assert not pilot.feedback.reached("talk:s:m")
