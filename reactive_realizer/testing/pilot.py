@@ -4,11 +4,15 @@ from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from textwrap import dedent
 
+import numpy as np
+import numpy.typing as npt
+
 from reactive_realizer.assembly.scene import Scene, SceneOptions, open_scene
 from reactive_realizer.bml.names import BML, BMLA, BMLT
 from reactive_realizer.clock.ticker import FRAME_EVERY, RATE, Tick, tick_time
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.audio import AudioChange
+from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.frame import Frame
 from reactive_realizer.realizer.character import Character
 from reactive_realizer.realizer.inputs import BmlText, Event, Prediction, TargetMoved
@@ -67,6 +71,13 @@ class RealizerPilot:
     def watch(self) -> None:
         """Look at the frames from now on."""
         self.realizer.watch(self._keep)
+
+    def path(self, joint: str, character: str | None = None) -> npt.NDArray[np.float64]:
+        """Where a joint was in each frame since `watch`, (F, 3), m, from the root of its character."""
+        name = character or next(iter(self.realizer.characters))
+        skeleton = self.realizer.characters[name].humanoid.avatar.skeleton
+        poses = (dict(zip(skeleton.joints, map(tuple, f.rotations), strict=True)) for f in self.frames[name])
+        return np.array([Body(skeleton, pose).place(joint).position for pose in poses])
 
     async def advance(self, seconds: float) -> None:
         """Play the ticks of so many seconds."""

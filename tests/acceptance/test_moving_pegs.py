@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from reactive_realizer.embodiment.body import Body
 from reactive_realizer.testing.pilot import open_pilot
 
 HIT = '<gesture id="g" lexeme="BEAT" mode="RIGHT_HAND" stroke="anticipators:test:hit"/>'
@@ -14,13 +13,6 @@ async def pilot():
     async with open_pilot() as pilot:
         pilot.watch()
         yield pilot
-
-
-def wrist(pilot, character="alice", joint="r_wrist"):
-    """Where a wrist was in each frame, (F, 3), m."""
-    skeleton = pilot.realizer.characters[character].humanoid.avatar.skeleton
-    poses = [dict(zip(skeleton.joints, map(tuple, f.rotations), strict=True)) for f in pilot.frames[character]]
-    return np.array([Body(skeleton, pose).place(joint).position for pose in poses])
 
 
 def steps(path):
@@ -53,7 +45,7 @@ async def test_the_stroke_follows_a_prediction_that_moves_while_the_arm_is_on_it
     assert told.time("b:g:stroke") == pytest.approx(1.6)
     assert told.time("b:end") == told.time("next:start") == pytest.approx(1.6 + length)
     assert told.warnings == []
-    path = wrist(pilot)
+    path = pilot.path("r_wrist")
     assert np.ptp(path, axis=0).max() > 0.15, "the arm did not move"
     assert steps(path).max() < 0.05
 

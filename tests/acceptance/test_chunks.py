@@ -1,0 +1,70 @@
+"""Chunks of speech and gesture that follow each other without a rest between (thesis 12.1)."""
+
+import numpy as np
+import pytest
+
+BMLA = {"xmlns:bmla": "http://www.asap-project.org/bmla"}
+CHUNK = (
+    '<speech id="s"><text>this <sync id="m"/>word</text></speech>'
+    '<gesture id="g" lexeme="BEAT" mode="{mode}" stroke="s:m"/>'
+)
+
+
+def chunk(pilot, id_: str, mode: str = "RIGHT_HAND", **attributes: str) -> None:
+    inside = CHUNK.format(mode=mode)
+    named = {"bmla:" + name: value for name, value in attributes.items()}
+    pairs = " ".join(f'{name}="{value}"' for name, value in (BMLA | named).items())
+    pilot.perform(f'<bml xmlns="http://www.bml-initiative.org/bml/bml-1.0" id="{id_}" {pairs}>{inside}</bml>')
+
+
+async def test_the_next_chunk_begins_its_preparation_where_the_hand_is(pilot) -> None:
+    chunk(pilot, "one")
+    chunk(pilot, "two", chunkAfter="one")
+    await pilot.tick()
+    planned = pilot.feedback.predicted("two:g:stroke") - pilot.feedback.predicted("two:g:start")
+    await pilot.advance(6)
+    told = pilot.feedback
+    assert told.time("two:start") == told.time("one:g:relax")
+    assert told.time("two:g:stroke") - told.time("two:g:start") < planned - 0.1
+
+
+async def test_stroke_and_word_move_together_when_a_chunk_is_planned_anew(pilot) -> None:
+    chunk(pilot, "one")
+    chunk(pilot, "two", chunkAfter="one")
+    await pilot.advance(6)
+    assert pilot.feedback.time("two:g:stroke") == pilot.feedback.time("two:s:m")
+    assert pilot.feedback.warnings == []
+
+
+async def test_the_first_gesture_ends_where_the_next_one_takes_its_arm_and_both_points_are_told(pilot) -> None:
+    chunk(pilot, "one")
+    chunk(pilot, "two", chunkAfter="one")
+    await pilot.advance(6)
+    told = pilot.feedback
+    assert told.time("one:g:end") == told.time("one:g:relax") == pytest.approx(told.time("two:g:start"))
+    assert told.status("one") == "DONE"
+
+
+async def test_an_arm_that_is_not_needed_retracts_in_full(pilot) -> None:
+    chunk(pilot, "one", mode="LEFT_HAND")
+    chunk(pilot, "two", mode="RIGHT_HAND", chunkAfter="one")
+    await pilot.advance(6)
+    assert pilot.feedback.time("one:g:end") > pilot.feedback.time("one:g:relax") + 0.1
+
+
+async def test_the_hand_does_not_jump_from_chunk_to_chunk(pilot) -> None:
+    pilot.watch()
+    chunk(pilot, "one")
+    chunk(pilot, "two", chunkAfter="one")
+    await pilot.advance(6)
+    steps = np.linalg.norm(np.diff(pilot.path("r_wrist"), axis=0), axis=1)
+    assert len(steps) > 100
+    assert 0.01 < steps.max() < 0.05
+
+
+async def test_what_hangs_on_a_chunk_follows_when_it_is_planned_anew(pilot) -> None:
+    chunk(pilot, "one")
+    chunk(pilot, "two", chunkAfter="one")
+    pilot.block("other", '<head id="n" lexeme="NOD" stroke="two:s:m"/>')
+    await pilot.advance(6)
+    assert pilot.feedback.time("other:n:stroke") == pilot.feedback.time("two:s:m")
