@@ -74,6 +74,7 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
         "only-block-start": ErrorKind(
             "of its own block a reference may name the start, of another one start, relax and end"
         ),
+        "external-reference": ErrorKind("a behavior of another block; a draft has to say bmlt:allowexternalrefs='true'"),
         "absurd-time": ErrorKind("more than {limit:g} s"),
         "unknown-element": ErrorKind("unknown {element} in <{parent}>; known are {known}", _PARSING),
         "missing-element": ErrorKind("<{element}> needs {children} in it", _PARSING),
@@ -112,8 +113,8 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
         ),
         "unknown-procedure": ErrorKind("no procedure '{procedure}'; there are {known}", WarningType.NO_SUCH_TARGET),
         "too-many-procedures": ErrorKind("{limit} procedures are defined; this one is refused", _PARSING, 429),
-        "no-such-block": ErrorKind("there never was a block '{block}'", WarningType.NO_SUCH_TARGET),
-        "block-ended": ErrorKind("the block '{block}' has ended", _SCHEDULE),
+        "no-such-block": ErrorKind("there never was a block '{block}'", WarningType.NO_SUCH_TARGET, 404),
+        "block-ended": ErrorKind("the block '{block}' has ended", _SCHEDULE, 410),
         "not-preplanned": ErrorKind("the block '{block}' is not preplanned: it starts without", _SCHEDULE),
         "activated-already": ErrorKind("the block '{block}' is activated already", _SCHEDULE),
         "no-such-behavior": ErrorKind("the block '{block}' has no behavior '{behavior}'", WarningType.NO_SUCH_TARGET),
@@ -126,6 +127,10 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
         "out-of-order": ErrorKind("{sync} would come {gap:g} s after {later}", _SCHEDULE),
         "too-short": ErrorKind("no time is left between its start and its end", _SCHEDULE),
         "no-order": ErrorKind("the strategy '{strategy}' keeps no before/after; '{text}' is dropped", _SCHEDULE),
+        "clash": ErrorKind(
+            "{what} is dropped: it cannot be kept together with {others}, {gap:g} s are missing", _SCHEDULE
+        ),
+        "names-dropped": ErrorKind("{constraint} names '{behavior}', which is dropped", _SCHEDULE),
         "cut-tie": ErrorKind("{point} was interrupted; this behavior keeps the time predicted last", _SCHEDULE),
         "never-comes": ErrorKind("it hangs on {point}, which never comes; it is dropped", _SCHEDULE),
         "all-past": ErrorKind("it would have ended {late:g} s before its block starts", _SCHEDULE),
@@ -160,7 +165,10 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
         "no-asset": ErrorKind("no file '{name}' among the assets", _CREATE, 404),
         "bad-tempo": ErrorKind("a tempo of {tempo:g} is not within {low:g} and {high:g} beats a minute", None, 400),
         "bad-number": ErrorKind("{name}={value} is not within {low:g} and {high:g}", None, 400),
-        "bad-peak-name": ErrorKind("'{name}' cannot name a peak: wanted is a letter, then letters, digits, '_', each name once"),
+        "bad-peak-name": ErrorKind(
+            "'{name}' cannot name a peak: wanted is a letter, then letters, digits, '_', each name once"
+        ),
+        "no-solver": ErrorKind("the strategy embr needs HiGHS: pip install 'reactive-realizer[embr]'"),
         # --- making a behavior
         "no-motion-for": ErrorKind("nothing in the binding plays <{element}> with lexeme '{lexeme}'", _CREATE),
         "no-unit": ErrorKind("there is no motion unit '{unit}'", _CREATE),
@@ -171,6 +179,13 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
         "bad-asset": ErrorKind("{file}, line {row}, <{element}>: {reason}", _CREATE),
         "bad-expression": ErrorKind("{reason} at character {at} of '{expression}'", _CREATE),
         "no-motion": ErrorKind("{animation} gives no pose at phase {phase:g}: {reason}", _PLAYING),
+        # --- the peg board
+        "no-point": ErrorKind("there is no point {point}", None, 404),
+        "point-pinned": ErrorKind("{point} stays at {time}: it has been reached, or hangs on nothing", None, 409),
+        "no-single-source": ErrorKind("{point} is moved by several points together: {rule}", None, 409),
+        "out-of-reach": ErrorKind(
+            "{point} does not come to {time:g} s by {source}: it would be at {reached}", None, 409
+        ),
         # --- changing parameters
         "no-trajectory": ErrorKind("no trajectory '{trajectory}'; known are {known}", _CREATE),
         "parameter-range": ErrorKind(

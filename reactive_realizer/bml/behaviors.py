@@ -109,6 +109,7 @@ class Gaze(Behavior):
         influence: how much of the body takes part; None leaves it to the realizer.
         offset_angle: by how many degrees the gaze misses the target.
         offset_direction: to which side.
+        persistent: whether it goes on until another gaze takes its place; only in drafts.
     """
 
     SYNC_POINTS = _HOLD_POINTS
@@ -117,6 +118,7 @@ class Gaze(Behavior):
     influence: Influence | None = field(default=None, metadata=attribute(_INFLUENCE))
     offset_angle: float = field(default=0.0, metadata=attribute(Number(-360, 360)))
     offset_direction: OffsetDirection = field(default=OffsetDirection.RIGHT, metadata=attribute(Word(OffsetDirection)))
+    persistent: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -7,6 +7,7 @@ from reactive_realizer.bml.attributes import Attribute, attributes_of
 from reactive_realizer.bml.block import BehaviorBlock, Parsed, Problem
 from reactive_realizer.bml.composition import Composed
 from reactive_realizer.bml.content_reader import ContentReader
+from reactive_realizer.bml.drafts.block import modernize_block
 from reactive_realizer.bml.names import BLOCK
 from reactive_realizer.bml.procedure import DefineProc, UseProc
 from reactive_realizer.bml.root_builder import Root
@@ -38,6 +39,8 @@ class BlockReader:
 
     def _read(self) -> Parsed:
         name = name_of(self._tree)
+        if self._source.draft:
+            modernize_block(self._tree)
         if is_core(self._tree) and name == "bml":
             return self._read_block()
         if is_continuous(self._tree) and name == "useproc":
@@ -52,6 +55,7 @@ class BlockReader:
         self._id = self._value(_ID)
         content = ContentReader(self._source, self._id)
         attributes = self._attributes(content, [_ID])
+        self._source.external_refs = attributes.get("external_refs", False) or not self._source.draft
         content.read()
         block = BehaviorBlock(**attributes, behaviors=content.behaviors, constraints=content.constraints)
         return Parsed(block, content.problems, content.failed)

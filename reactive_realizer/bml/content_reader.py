@@ -8,8 +8,10 @@ from reactive_realizer.bml.behavior_reader import read_behavior
 from reactive_realizer.bml.block import Problem
 from reactive_realizer.bml.constraint import Constraint
 from reactive_realizer.bml.constraint_reader import CONSTRAINTS, read_constraint
+from reactive_realizer.bml.drafts.persistence import persisting
+from reactive_realizer.bml.drafts.rewriting import modernize
 from reactive_realizer.bml.source import Source
-from reactive_realizer.bml.trees import Tree, children_of, is_continuous, is_core, name_of, shown
+from reactive_realizer.bml.trees import Tree, children_of, is_continuous, is_core, name_of, namespace_of, shown
 from reactive_realizer.errors import Fault, RealizerError
 
 _REQUIRED: Final = "required"
@@ -28,6 +30,7 @@ class ContentReader:
         self._source = source
         self._id = id_
         self._behaviors: dict[str, Behavior] = {}
+        self._drafts: list[str] = []
         self._constraints: list[Constraint] = []
         self._problems: list[Problem] = []
 
@@ -68,6 +71,8 @@ class ContentReader:
         for tree, required in children:
             if _is(tree, _CONSTRAINT):
                 self._read_constraints(tree, required)
+        for behavior in persisting([self._behaviors[id_] for id_ in self._drafts], self._constraints):
+            self._behaviors[behavior.id] = behavior
 
     def report(self, faults: list[Fault], part: str | None = None) -> None:
         """Take problems of the block, or of a behavior or constraint in it."""
@@ -93,6 +98,8 @@ class ContentReader:
     def _read_behavior(self, tree: Tree, order: int, required: bool) -> None:
         notes: list[Fault] = []
         try:
+            if _is_draft(tree):
+                modernize(tree, self._source)
             behavior = read_behavior(tree, self._source, order, required, notes)
             if behavior.id in self._behaviors:
                 raise RealizerError(self._source.fault(tree, "duplicate-id", id=behavior.id))
@@ -100,6 +107,8 @@ class ContentReader:
             self._drop(refused.fault, required, tree.get("id"))
         else:
             self._behaviors[behavior.id] = behavior
+            if _is_draft(tree):
+                self._drafts.append(behavior.id)
             self.report(notes, behavior.id)
 
     def _read_constraints(self, tree: Tree, required: bool) -> None:
@@ -108,6 +117,8 @@ class ContentReader:
         for child in children_of(tree, *CONSTRAINTS):
             notes: list[Fault] = []
             try:
+                if _is_draft(child):
+                    modernize(child, self._source)
                 self._constraints.append(read_constraint(child, constraint_id, self._source, required, notes))
             except RealizerError as refused:
                 self._drop(refused.fault, required, constraint_id)
@@ -121,6 +132,10 @@ class ContentReader:
 
 def _is(tree: Tree, name: str) -> bool:
     return is_core(tree) and name_of(tree) == name
+
+
+def _is_draft(tree: Tree) -> bool:
+    return namespace_of(tree) == ""
 
 
 def _position(problem: Problem) -> tuple[int, int]:

@@ -2,6 +2,7 @@
 
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
 from functools import partial
 from itertools import count
 from types import MappingProxyType
@@ -11,7 +12,8 @@ from xml.sax.saxutils import escape
 from lxml import etree
 
 from reactive_realizer.bml.attributes import Attribute
-from reactive_realizer.bml.names import Location
+from reactive_realizer.bml.drafts.spelling import SYNC_POINTS
+from reactive_realizer.bml.names import ANTICIPATORS, BML, BML_EXT, Location
 from reactive_realizer.bml.root_builder import Root
 from reactive_realizer.bml.sync_ref import SyncRef
 from reactive_realizer.bml.trees import (
@@ -21,10 +23,11 @@ from reactive_realizer.bml.trees import (
     is_part,
     listed,
     name_of,
+    namespace_of,
     shown,
     stray_text_of,
 )
-from reactive_realizer.errors import Fault, RealizerError
+from reactive_realizer.errors import Fault, RealizerError, error
 from reactive_realizer.limits import Limits
 
 _MOST_COPIES: Final = 10
@@ -37,21 +40,29 @@ class Source:
     Attributes:
         tree: the block's element.
         limits: what may be read.
+        draft: whether it is of before BML 1.0, where sync points are spelled otherwise.
+        external_refs: whether references may name behaviors of other blocks.
     """
 
     def __init__(self, root: Root, limits: Limits) -> None:
         self.tree = root.tree
         self.limits = limits
+        self.draft = namespace_of(root.tree) not in {BML, BML_EXT}
+        self.external_refs = True
         self._written = 0
-        self._locations = root.locations
+        self._locations = dict(root.locations)
         self._block = root.tree.get("id", "").strip()
         self._behaviors = {id_.strip() for each in _behaviors_in(root.tree) if (id_ := each.get("id"))}
         self._numbers: defaultdict[str, Iterator[int]] = defaultdict(partial(count, 1))
-        self._marks = frozenset(id_ for mark in root.tree.iter("{*}sync") if (id_ := mark.get("id")))
+        self._marks = frozenset(id_ for mark in root.tree.iter("{*}sync", "{*}tm") if (id_ := mark.get("id")))
 
     def location(self, tree: Tree) -> Location:
         """Where an element starts."""
         return self._locations[tree]
+
+    def place(self, tree: Tree, like: Tree) -> None:
+        """Have a new element start where another one does."""
+        self._locations[tree] = self._locations[like]
 
     def xml(self, tree: Tree) -> str:
         """The element as XML that stands by itself.
@@ -113,7 +124,7 @@ class Source:
         try:
             return attribute.type.read(text, self.limits)
         except RealizerError as refused:
-            raise self._bad(tree, attribute.name, text, refused) from None
+            raise self.bad(tree, attribute.name, text, refused) from None
 
     def syncs(self, tree: Tree, names: Iterable[str]) -> Mapping[str, SyncRef]:
         """What the sync points of these names are tied to, in order of writing.
@@ -134,11 +145,21 @@ class Source:
         if text is None:
             raise RealizerError(self.fault(tree, "missing-attribute", attribute=name))
         try:
-            return SyncRef.parse(text, self.limits, self._marks).read_in(self._block, self._behaviors)
+            return self._meant(SyncRef.parse(text, self.limits, self._marks))
         except RealizerError as refused:
-            raise self._bad(tree, name, text, refused) from None
+            raise self.bad(tree, name, text, refused) from None
 
-    def _bad(self, tree: Tree, name: str, text: str, refused: RealizerError) -> RealizerError:
+    def _meant(self, ref: SyncRef) -> SyncRef:
+        ref = ref.read_in(self._block, self._behaviors)
+        if self.draft and ref.sync not in self._marks:
+            ref = replace(ref, sync=SYNC_POINTS.get(ref.sync or "", ref.sync))
+        outside = ref.block not in {None, self._block, ANTICIPATORS}
+        if outside and ref.behavior is not None and not self.external_refs:
+            raise error("external-reference")
+        return ref
+
+    def bad(self, tree: Tree, name: str, text: str, refused: RealizerError) -> RealizerError:
+        """An attribute whose value is refused."""
         reason = refused.fault.sentence
         return RealizerError(self.fault(tree, "bad-attribute", attribute=name, value=shown(text), reason=reason))
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from reactive_realizer.embodiment.frame import Frame
 from reactive_realizer.feedback.feedback_manager import Report
+from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.realizer.character import Character
 from reactive_realizer.realizer.realizer import Realizer
 
@@ -28,6 +29,24 @@ class FeedbackWriter:
         except BrokenPipeError:
             # Whoever read has gone, as `head` does: the session goes on, nobody is told.
             os.dup2(os.open(os.devnull, os.O_WRONLY), self._stream.fileno())
+
+
+class Explainer:
+    """Keeps why every point of every block was when it was."""
+
+    def __init__(self, realizer: Realizer) -> None:
+        self._scheduler = realizer.scheduler
+        self._blocks: list[dict[str, object]] = []
+        self._scheduler.listen(self._keep)
+
+    def write(self, path: Path) -> None:
+        """One JSON array: the blocks that ended, in order of ending, then those alive."""
+        for block in self._scheduler.blocks.alive:
+            self._keep(block.key)
+        path.write_text(json.dumps(self._blocks, ensure_ascii=False, indent=1) + "\n", encoding="utf-8")
+
+    def _keep(self, block: BlockKey) -> None:
+        self._blocks.append(self._scheduler.explain(block.character, block.block))
 
 
 class FrameRecorder:

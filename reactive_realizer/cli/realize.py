@@ -13,7 +13,7 @@ from typing import IO
 from reactive_realizer import __version__
 from reactive_realizer.assembly.scene import DEFAULT_HUMAN, SceneOptions, open_scene
 from reactive_realizer.cli.items import Item, item, seconds
-from reactive_realizer.cli.output import FeedbackWriter, FrameRecorder
+from reactive_realizer.cli.output import Explainer, FeedbackWriter, FrameRecorder
 from reactive_realizer.clock.clock import ManualClock, SystemClock
 from reactive_realizer.realizer.inputs import BmlText
 from reactive_realizer.realizer.realizer import Realizer
@@ -22,7 +22,7 @@ from reactive_realizer.realizer.session import run_until_done
 from reactive_realizer.server.recording import read_recording
 
 _UNTIL = 600.0
-_WITH_REPLAY = ("replay", "feedback", "frames", "verbose", "run")
+_WITH_REPLAY = ("replay", "feedback", "frames", "explain", "verbose", "run")
 """What can be said beside ``--replay``: all else is as it was recorded."""
 
 
@@ -39,6 +39,7 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
     parser.add_argument("--voice", choices=("espeak", "text"), default="espeak")
     parser.add_argument("--feedback", metavar="FILE|-", help="JSON lines")
     parser.add_argument("--frames", type=Path, metavar="FILE.npz")
+    parser.add_argument("--explain", type=Path, metavar="FILE", help="why each sync point was when it was, as JSON")
     parser.add_argument("--until", type=seconds, default=_UNTIL, metavar="SECONDS")
     parser.add_argument("--assets", type=Path, action="append", default=[], metavar="DIR")
     parser.add_argument("--seed", type=int, default=0, metavar="N")
@@ -51,7 +52,7 @@ def run(parser: argparse.ArgumentParser, options: argparse.Namespace) -> int:
     _check_combination(parser, options)
     inputs = [options.replay] if options.replay else [*(entry.path for entry in options.items), options.human]
     missing = [str(path) for path in inputs if not path.is_file()]
-    outputs = [Path(name) for name in (options.feedback, options.frames) if name]
+    outputs = [Path(name) for name in (options.feedback, options.frames, options.explain) if name]
     missing += [str(output.parent) for output in outputs if not output.parent.is_dir()]
     if missing:
         print(f"no such file: {', '.join(missing)}", file=sys.stderr)
@@ -101,6 +102,7 @@ def _status(realizer: Realizer) -> int:
 def _written(options: argparse.Namespace, realizer: Realizer) -> Iterator[None]:
     """What comes out while it lasts goes where the options say."""
     recorder = FrameRecorder()
+    explainer = Explainer(realizer) if options.explain else None
     if options.frames:
         realizer.watch(recorder)
     with _feedback(options.feedback) as stream:
@@ -109,6 +111,8 @@ def _written(options: argparse.Namespace, realizer: Realizer) -> Iterator[None]:
         yield
     if options.frames:
         recorder.write(options.frames, realizer)
+    if explainer is not None:
+        explainer.write(options.explain)
 
 
 def _put(realizer: Realizer, entry: Item) -> bool:

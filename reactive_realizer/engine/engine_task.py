@@ -26,7 +26,9 @@ class EngineTask:
         """Play ticks until cancelled."""
         while True:
             tick, answer = await self._mailbox.get()
-            answer.set_result(self._play(tick))
+            play = self._play(tick)
+            if not answer.cancelled():  # whoever asked may have been told to end
+                answer.set_result(play)
 
     def post(self, tick: Tick) -> "asyncio.Future[Play]":
         """Have a tick played."""

@@ -63,6 +63,10 @@ class Anticipator:
             if not is_due(peg.value, now):
                 self.predict(sync, self.forecast(sync), now)
 
+    def renew(self, sync: str) -> None:
+        """Have a point that has come mean the next time; what hangs on it already keeps its moment."""
+        self._board.renew(self.id, sync)
+
     def withdraw(self, now: GlobalTime) -> None:
         """Take back what was said of all points."""
         for sync in self._board.predictions(self.id):

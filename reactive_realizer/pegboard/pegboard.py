@@ -1,31 +1,18 @@
 """The board: every point in time of every character, by name."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from itertools import islice
 
+from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.errors import error
+from reactive_realizer.pegboard.explanation import Explanation, explain
+from reactive_realizer.pegboard.moving import MovableSource, move
 from reactive_realizer.pegboard.peg_key import ANTICIPATORS, BlockKey, PegKey, anticipator_key
-from reactive_realizer.pegboard.time_peg import AnticipatorPeg, Time, TimeCell, TimePeg
+from reactive_realizer.pegboard.peg_view import PegView, view_of
+from reactive_realizer.pegboard.time_peg import AnticipatorPeg, Time, TimeCell, TimePeg, time_of
 from reactive_realizer.reactive.graph import Graph
 
 _PREDICTED = BlockKey("", ANTICIPATORS)
-
-
-@dataclass(frozen=True, slots=True)
-class PegView:
-    """A peg as seen from outside.
-
-    Attributes:
-        key: name of the point.
-        time: global time, s; None while unknown.
-        state: ``pinned``, ``moving`` or ``unknown``.
-        source: what it hangs on.
-    """
-
-    key: PegKey
-    time: Time
-    state: str
-    source: str
 
 
 class PegBoard:
@@ -41,6 +28,15 @@ class PegBoard:
         self._blocks: dict[BlockKey, list[PegKey]] = {}
         self._owners: dict[TimeCell, BlockKey] = {}
         self._forecasts: dict[str, Callable[[str], Time]] = {}
+
+    @property
+    def time(self) -> GlobalTime:
+        """Realizer time, s, which is noted in commits; its owner sets it with every tick."""
+        return GlobalTime(self.graph.time)
+
+    @time.setter
+    def time(self, time: GlobalTime) -> None:
+        self.graph.time = time
 
     def add(self, key: PegKey, peg: TimeCell) -> None:
         """Name a peg; one peg may bear several names."""
@@ -66,21 +62,45 @@ class PegBoard:
         """The peg of that name."""
         return self._pegs.get(key)
 
+    def move(self, key: PegKey, time: GlobalTime) -> MovableSource:
+        """Within a transaction, bring a point to a time (s) by writing the one source that it hangs on; which that is.
+
+        Raises:
+            RealizerError: there is no such point, or no source that would bring it there; nothing changes.
+        """
+        return move(self._point(key), time)
+
+    def explain(self, key: PegKey) -> Explanation:
+        """The chain of pegs, constraints and commits that set the time of a point.
+
+        Raises:
+            RealizerError: there is no such point.
+        """
+        return explain(self._point(key))
+
+    def explain_block(self, block: BlockKey) -> dict[str, object]:
+        """The explanation of every point of a block by its name, as objects that `json.dumps` takes."""
+        return {str(key): self.explain(key).as_json() for key in self._blocks.get(block, ())}
+
     def pin_block(self, block: BlockKey) -> list[TimePeg]:
         """Within a transaction, cut all pegs of a block from what they hang on; those that still hung, each once."""
         named = dict.fromkeys(self._pegs[key] for key in self._blocks.get(block, ()))
         cut = [peg for peg in named if isinstance(peg, TimePeg) and not peg.pinned]
         for peg in cut:
-            peg.pin(peg.value)
+            peg.pin(time_of(peg))
         return cut
 
     def remove_block(self, block: BlockKey) -> None:
         """Forget the names of a block, and predicted points that nothing hangs on and that are known without a peg.
 
-        Pegs that others hang on live on with them.
+        Pegs that others hang on live on with them, and stay where they are.
         """
         for key in dict.fromkeys(self._blocks.pop(block, ())):
-            self._owners.pop(self._pegs.pop(key), None)
+            peg = self._pegs.pop(key)
+            if self._owners.get(peg) == block:
+                del self._owners[peg]
+                if isinstance(peg, TimePeg) and not peg.pinned:
+                    peg.dispose()
         predicted = self._blocks.get(_PREDICTED, [])
         self._blocks[_PREDICTED] = [key for key in predicted if not self._forgettable(key)]
         for key in set(predicted).difference(self._blocks[_PREDICTED]):
@@ -114,9 +134,15 @@ class PegBoard:
         return {sync: peg for sync, peg in pegs if isinstance(peg, AnticipatorPeg)}
 
     def snapshot(self, newest: int | None = None) -> tuple[PegView, ...]:
-        """The pegs in order of naming; all, or only so many of the newest."""
+        """All that is named, in order of naming; or only so many of the newest."""
         first = 0 if newest is None else max(0, len(self._pegs) - newest)
-        return tuple(_view(key, peg) for key, peg in islice(self._pegs.items(), first, None))
+        pegs = islice(self._pegs.items(), first, None)
+        return tuple(view_of(key, peg, self._owners.get(peg)) for key, peg in pegs)
+
+    def _point(self, key: PegKey) -> TimeCell:
+        if key not in self._pegs:
+            raise error("no-point", point=key)
+        return self._pegs[key]
 
     def _forecast(self, key: PegKey) -> Time:
         forecast = self._forecasts.get(key.behavior or "")
@@ -125,13 +151,3 @@ class PegBoard:
     def _forgettable(self, key: PegKey) -> bool:
         peg = self._pegs[key]
         return not peg.dependents and peg.value == self._forecast(key)
-
-
-def _view(key: PegKey, peg: TimeCell) -> PegView:
-    if peg.value is None:
-        state = "unknown"
-    elif isinstance(peg, TimePeg) and peg.pinned:
-        state = "pinned"
-    else:
-        state = "moving"
-    return PegView(key, peg.value, state, peg.describe() if isinstance(peg, TimePeg) else "predicted")

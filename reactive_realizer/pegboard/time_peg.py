@@ -12,6 +12,7 @@ from typing import ClassVar, NamedTuple
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.reactive.cell import Cell, Derived, Source
 from reactive_realizer.reactive.commit import Stamp
+from reactive_realizer.reactive.failure import Failure
 from reactive_realizer.reactive.graph import Graph
 
 Time = GlobalTime | None
@@ -249,9 +250,15 @@ def kind_of(peg: TimeCell) -> str:
     return peg.kind if isinstance(peg, TimePeg) else "predicted"
 
 
+def time_of(peg: TimeCell) -> Time:
+    """The time of a peg, s, global; None while it is unknown or cannot be computed."""
+    time = peg.result
+    return None if isinstance(time, Failure) else time
+
+
 def state_of(peg: TimeCell) -> str:
     """``pinned``, ``moving``, or ``unknown``."""
-    if peg.value is None:
+    if time_of(peg) is None:
         return "unknown"
     return "pinned" if isinstance(peg, TimePeg) and peg.pinned else "moving"
 
@@ -295,15 +302,16 @@ def unknown_sources(pegs: Iterable[TimeCell]) -> list[str]:
 
 
 def _link(peg: TimeCell) -> Link:
-    return Link(peg.name, kind_of(peg), peg.value, peg.stamp, weakref.ref(peg))
+    return Link(peg.name, kind_of(peg), time_of(peg), peg.stamp, weakref.ref(peg))
 
 
 def _reached(peg: TimePeg, distances: Sequence[float]) -> tuple[Link, ...]:
     """The first link that gives a peg its time at a distance (s) from it; of an unknown time those that are unknown."""
-    if peg.value is None:
+    time = time_of(peg)
+    if time is None:
         return tuple(link for link in peg.links if link.time is None)
     pairs = zip(peg.links, distances, strict=True)
-    return tuple(link for link, distance in pairs if link.time is not None and link.time + distance == peg.value)[:1]
+    return tuple(link for link, distance in pairs if link.time is not None and link.time + distance == time)[:1]
 
 
 def _shifted_by(offset: float) -> Callable[[Time], Time]:

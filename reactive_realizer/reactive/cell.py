@@ -153,7 +153,7 @@ class Derived(Cell[T]):
     next value that can be computed.
     """
 
-    __slots__ = ("dependencies", "formula")
+    __slots__ = ("dependencies", "formula", "waiting")
 
     def __init__(
         self, graph: "Graph", name: str, dependencies: tuple[Cell[Any], ...], formula: Callable[..., T]
@@ -161,6 +161,7 @@ class Derived(Cell[T]):
         super().__init__(graph, name)
         graph.settle()
         self.formula = formula
+        self.waiting = False
         self._link(dependencies)
         self._value = self.compute()
 

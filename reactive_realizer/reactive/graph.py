@@ -37,7 +37,7 @@ class Graph:
         self._commits = 0
         self._depth = 0
         self._notifying = False
-        self._buckets: dict[int, dict[Derived[Any], None]] = {}
+        self._buckets: dict[int, list[Derived[Any]]] = {}
         self._ranks: list[int] = []
         self._before: dict[Cell[Any], Any] = {}
         self._made: list[Cell[Any]] = []
@@ -88,27 +88,30 @@ class Graph:
     def touch(self, cell: Derived[Any]) -> None:
         """Have a derived cell recomputed before its value is next read."""
         self._check_writable(cell)
-        self._wake(cell)
+        if not cell.waiting:
+            self._wake(cell)
 
     def leave_alone(self, cell: Derived[Any]) -> None:
         """Do not recompute a cell that was touched."""
-        self._buckets.get(cell.rank, {}).pop(cell, None)
+        cell.waiting = False
 
-    def rerank(self, cell: Cell[Any], rank: int) -> None:
+    def rerank(self, cell: Derived[Any], rank: int) -> None:
         """Move a cell to a higher rank, also where it waits to be recomputed."""
-        waiting = cell in self._buckets.get(cell.rank, ())
-        if waiting:
-            self.leave_alone(cell)  # type: ignore[arg-type]
         cell.rank = rank
-        if waiting:
-            self._wake(cell)  # type: ignore[arg-type]
+        if cell.waiting:
+            cell.waiting = False
+            self._wake(cell)
 
     def settle(self) -> None:
         """Recompute what was touched, lowest rank first."""
         while self._ranks:
             rank = heappop(self._ranks)
-            for cell in sorted(self._buckets.pop(rank), key=_SEQUENCE):
-                self._give(cell, cell.compute())
+            bucket = self._buckets.pop(rank)
+            for cell in sorted(bucket, key=_SEQUENCE) if len(bucket) > 1 else bucket:
+                # One that was let alone or got another rank since is not, or not here, to be computed.
+                if cell.waiting and cell.rank == rank:
+                    cell.waiting = False
+                    self._give(cell, cell.compute())
 
     def _give(self, cell: Cell[Any], value: Any) -> None:
         old = cell._value
@@ -116,7 +119,8 @@ class Graph:
             self._before.setdefault(cell, old)
             cell._value = value
             for dependent in cell.dependents:
-                self._wake(dependent)
+                if not dependent.waiting:
+                    self._wake(dependent)
 
     def _check_writable(self, cell: Cell[Any]) -> None:
         if self._depth == 0:
@@ -125,11 +129,13 @@ class Graph:
             raise DisposedCellError(f"'{cell.name}' is written after it was disposed of")
 
     def _wake(self, cell: Derived[Any]) -> None:
+        cell.waiting = True
         bucket = self._buckets.get(cell.rank)
         if bucket is None:
-            bucket = self._buckets[cell.rank] = {}
+            self._buckets[cell.rank] = [cell]
             heappush(self._ranks, cell.rank)
-        bucket[cell] = None
+        else:
+            bucket.append(cell)
 
     def _commit(self, cause: str) -> None:
         changes = tuple([Change(cell, old, cell._value) for cell, old in self._before.items() if cell._value != old])

@@ -139,7 +139,7 @@ class Realizer:
             tick: after all that were before.
             work: what is handed over of the slow work; None: whatever is there.
         """
-        self.time = tick.time
+        self.time = self.board.time = tick.time
         watched = Tick(tick.number, tick.previous, tick.frame and bool(self._frame_listeners))
         self._commits.clear()
         self._take_inputs(tick, self._workshop.ready() if work is None else tuple(work))

@@ -1,14 +1,14 @@
 """The life of blocks: accepted, prepared, planned, started, ended, interrupted (thesis 7.3.4)."""
 
 import logging
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 
 from reactive_realizer.bml.block import BehaviorBlock, Parsed
 from reactive_realizer.bml.procedure import DefineProc
 from reactive_realizer.bml.words import Composition
 from reactive_realizer.clock.units import GlobalTime, is_due
 from reactive_realizer.engine.effects import Play
-from reactive_realizer.errors import Fault, RealizerError
+from reactive_realizer.errors import Fault, RealizerError, error
 from reactive_realizer.feedback.feedback_manager import FeedbackManager
 from reactive_realizer.limits import Limits
 from reactive_realizer.pegboard.peg_key import BlockKey
@@ -70,6 +70,21 @@ class BMLScheduler:
     def failed(self) -> int:
         """How many blocks ended FAILED."""
         return self._endings.failed
+
+    def listen(self, listener: Callable[[BlockKey], None]) -> None:
+        """Call ``listener(block)`` when a block has ended, while its points are still on the board."""
+        self._endings.listen(listener)
+
+    def explain(self, character: str, name: str) -> dict[str, object]:
+        """Why each point of a block alive is when it is, as objects that `json.dumps` takes.
+
+        Raises:
+            RealizerError: "block-ended", "no-such-block".
+        """
+        block = self.blocks.find(character, name)
+        if block is None:
+            raise error("block-ended" if self.blocks.has_ended(character, name) else "no-such-block", block=name)
+        return {**block.key._asdict(), "points": self._board.explain_block(block.key)}
 
     # --- what comes in
 

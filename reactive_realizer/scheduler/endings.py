@@ -1,7 +1,7 @@
 """How behaviors and blocks end: by themselves, cut short, dropped, revoked, failed."""
 
 import logging
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 
 from reactive_realizer.clock.units import GlobalTime, is_due
 from reactive_realizer.engine.effects import Dropped, Reached
@@ -36,6 +36,11 @@ class Endings:
         self._reporter = reporter
         self._predictions = predictions
         self._cuts: dict[PlanUnit, GlobalTime] = {}
+        self._listeners: list[Callable[[BlockKey], None]] = []
+
+    def listen(self, listener: Callable[[BlockKey], None]) -> None:
+        """Call ``listener(block)`` when a block has ended, while its points are still on the board."""
+        self._listeners.append(listener)
 
     def end(self, block: BMLBlock, state: BlockState, time: GlobalTime) -> None:
         """A block ends in a state; what others had tied to it is let go."""
@@ -47,6 +52,8 @@ class Endings:
                 block.relax.pin(time)
             cut = self._board.pin_block(block.key)
         self._reporter.ended(block, time)
+        for listener in self._listeners:
+            listener(block.key)
         self._board.remove_block(block.key)
         self._blocks.end(block, time)
         for unit in block.units:

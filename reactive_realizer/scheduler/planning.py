@@ -1,6 +1,6 @@
 """From a prepared block to a plan on the board: solved aside, committed in one transaction or not at all."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from reactive_realizer.bml.names import ANTICIPATORS
@@ -120,11 +120,24 @@ class Planning:
     def _hang(self, block: BMLBlock, plan: Plan) -> dict[PegKey, TimePeg]:
         keys = {unit.key(sync): spec for unit in plan.units for sync, spec in plan.pegs[unit.behavior.id].items()}
         pegs = _PegBuilder(self._board.graph, block, keys).build()
+        for key, text in _reasons(block, plan.kept):
+            pegs[key].why = text
         tied = {node for each in plan.kept for node in each.nodes if isinstance(node, Point)}
         for unit in plan.units:
             id_ = unit.behavior.id
             unit.points = [SyncPoint(sync, pegs[unit.key(sync)], Point(id_, sync) in tied) for sync in plan.pegs[id_]]
         return pegs
+
+
+def _reasons(block: BMLBlock, kept: Sequence[Tie | Order]) -> Iterator[tuple[PegKey, str]]:
+    """The points that constraints name, with the text of these."""
+    texts: dict[Point, list[str]] = {}
+    for each in kept:
+        for node in each.nodes:
+            if isinstance(node, Point):
+                texts.setdefault(node, []).append(each.text)
+    for point, reasons in texts.items():
+        yield PegKey(*block.key, *point), "; ".join(reasons)
 
 
 def predicted_start(block: BMLBlock, now: GlobalTime) -> GlobalTime:

@@ -42,6 +42,14 @@ async def world(request: web.Request) -> web.Response:
     return web.json_response({"targets": {name: {"position": place} for name, place in places.items()}})
 
 
+@routes.get("/explain/{block}")
+async def explain(request: web.Request) -> web.Response:
+    """The pegs, constraints and commits that set the time of each sync point of a block alive."""
+    realizer = request.app[LIVE].realizer
+    character = request.query.get("character", next(iter(realizer.characters)))
+    return web.json_response(realizer.scheduler.explain(character, request.match_info["block"]))
+
+
 @routes.get("/capabilities")
 async def capabilities(request: web.Request) -> web.Response:
     """What may be asked for."""

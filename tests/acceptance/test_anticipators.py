@@ -204,13 +204,14 @@ SAID = [
 
 
 @pytest.mark.parametrize(("anticipator", "name", "value"), SAID)
-async def test_an_event_that_cannot_be_changes_nothing(pilot, anticipator, name, value) -> None:
+async def test_an_event_that_cannot_be_changes_nothing(pilot, anticipator, name, value, caplog) -> None:
     pilot.block("b", '<wait id="w" duration="1"/>')
     pilot.event(anticipator, name, value)
     pilot.event(anticipator, name, text="\ud800 no \x00 words \U0001f600")
     await pilot.advance(2)
     assert pilot.feedback.status("b") == "DONE"
     assert pilot.feedback.warnings == []
+    assert ("is left out" in caplog.text) is (name in ("voice", "sample"))
 
 
 @pytest.mark.parametrize("anticipator", ["spacebar", "user", "trainer", "orchestra"])

@@ -5,9 +5,20 @@ between the start and the end of their block.
 """
 
 from dataclasses import dataclass, field
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
+
+from reactive_realizer.testing.assertions import (
+    assert_block_around,
+    assert_ended,
+    assert_linked,
+    assert_order,
+    assert_time,
+    assert_told_once,
+    assert_warnings,
+)
 
 OWN_SCRIPTS = Path(__file__).parent.parent / "data" / "bml"
 
@@ -111,23 +122,19 @@ def name(script: Script) -> str:
 
 async def assert_comes_out(pilot, script: Script) -> None:
     await pilot.advance(40)
-    told = pilot.feedback
-    assert told.warnings == [(f"{script.block}:{id_}", kind) for id_, kind in script.warnings]
-    assert_in_order(told, script.block)
-    for point, time in script.times.items():
-        assert told.time(f"{script.block}:{point}") == pytest.approx(time), point
-    for one, other in script.links:
-        assert told.time(f"{script.block}:{one}") == pytest.approx(told.time(f"{script.block}:{other}"))
-    times = [told.time(f"{script.block}:{point}") for point in script.order]
-    assert times == sorted(times)
-
-
-def assert_in_order(told, block: str) -> None:
-    assert len(set(told.progress)) == len(told.progress)
-    assert (told.progress[0], told.progress[-1]) == (f"{block}:start", f"{block}:end")
+    told, block = pilot.feedback, script.block
+    assert_warnings(told, *((f"{block}:{id_}", kind) for id_, kind in script.warnings))
+    assert_told_once(told)
+    assert_block_around(told, block)
+    assert_ended(told, block)
     times = [line.at for line in told.of("syncPointProgress")]
     assert times == sorted(times)
-    assert told.status(block) == "DONE"
+    for point, time in script.times.items():
+        assert_time(told, f"{block}:{point}", time)
+    for one, other in script.links:
+        assert_linked(told, f"{block}:{one}", f"{block}:{other}")
+    for earlier, later in pairwise(script.order):
+        assert_order(told, f"{block}:{earlier}", f"{block}:{later}")
 
 
 @pytest.mark.parametrize("script", [theirs for theirs, _ in PAIRS], ids=name)

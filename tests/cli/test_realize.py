@@ -299,3 +299,13 @@ def test_targets_are_those_of_the_human_file(bml, capsys, tests_data) -> None:
 def test_check_answers_2_where_a_file_is_not_there(capsys) -> None:
     assert main(["check", "no-such-file.xml"]) == 2
     assert "no-such-file.xml" in capsys.readouterr().err
+
+
+def test_explain_writes_why_each_point_of_each_block_was_when_it_was(bml, realize, tmp_path) -> None:
+    script = bml(block("one", '<wait id="w" duration="0.5"/>') + block("two", composition="APPEND"))
+    out = tmp_path / "why.json"
+    status, _, _ = realize(script, "--explain", str(out))
+    one, two = json.loads(out.read_text())
+    assert (status, one["block"], two["block"]) == (0, "one", "two")
+    assert one["points"]["one:w:end"]["time"] == 0.5
+    assert one["points"]["one:w:end"]["commit"]["cause"] == "plan one"

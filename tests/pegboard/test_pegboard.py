@@ -1,5 +1,7 @@
 """The board names pegs; anticipators say what nobody else knows."""
 
+import gc
+import json
 import math
 
 import pytest
@@ -8,7 +10,7 @@ from reactive_realizer.errors import RealizerError
 from reactive_realizer.pegboard.anticipator import Anticipator
 from reactive_realizer.pegboard.peg_key import BlockKey, PegKey
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.pegboard.time_peg import OffsetPeg
+from reactive_realizer.pegboard.time_peg import AfterPeg, BMLBlockPeg, LatestPeg, OffsetPeg, RatioPeg, TimePeg
 from reactive_realizer.reactive.graph import Graph
 
 BLOCK = BlockKey("alice", "b")
@@ -76,6 +78,44 @@ def test_a_snapshot_tells_name_time_state_and_source(board) -> None:
     assert board.snapshot()[1].state == "pinned"
 
 
+def test_a_snapshot_is_complete_and_is_written_as_json(board) -> None:
+    board.time = 1.25
+    with board.graph.transaction("plan b"):
+        start = BMLBlockPeg(board.graph, "b:start", 0.5, ())
+        end = OffsetPeg(board.graph, "b:h:end", start, 2.0)
+        end.why = "h:end = 2"
+        between = RatioPeg(board.graph, "b:h:stroke", start, end, 0.25)
+        after = AfterPeg(board.graph, "b:i:start", between, [(end, -1.0)])
+        for key, peg in (((None, "start"), start), (("h", "end"), end), (("h", "stroke"), between)):
+            board.add(PegKey(*BLOCK, *key), peg)
+        board.add(PegKey(*BLOCK, "i", "start"), after)
+    pegs = json.loads(json.dumps([view.as_json() for view in board.snapshot()]))
+    assert pegs[1] == {
+        "name": "b:h:end",
+        "key": {"character": "alice", "block": "b", "behavior": "h", "sync": "end"},
+        "kind": "offset",
+        "time": 2.5,
+        "state": "moving",
+        "source": "b:start +2 s",
+        "ties": ["b:start"],
+        "parameters": {"offset": 2.0},
+        "why": "h:end = 2",
+        "owner": {"character": "alice", "block": "b"},
+        "commit": {"sequence": 1, "cause": "plan b", "time": 1.25},
+    }
+    assert [(peg["kind"], peg["ties"], peg["parameters"]) for peg in (pegs[0], *pegs[2:])] == [
+        ("block", [], {"floor": 0.5}),
+        ("ratio", ["b:start", "b:h:end"], {"ratio": 0.25}),
+        ("after", ["b:h:stroke", "b:h:end"], {"bounds": [-1.0]}),
+    ]
+
+
+def test_a_snapshot_may_be_of_the_newest_only(board) -> None:
+    for number in range(5):
+        board.predicted("a", str(number))
+    assert [view.key.sync for view in board.snapshot(newest=2)] == ["3", "4"]
+
+
 def test_a_block_that_is_cut_hangs_on_nothing_and_says_what_did(board) -> None:
     hit = board.predicted("a", "hit")
     start, end = hang(board, "start", hit), hang(board, "end", hit)
@@ -103,6 +143,41 @@ def test_a_predicted_point_that_others_hang_on_stays(board) -> None:
     hang(board, "start", board.predicted("a", "hit"))
     board.remove_block(BlockKey("alice", "another"))
     assert len(board.snapshot()) == 2
+
+
+def test_a_peg_that_is_named_in_two_blocks_belongs_to_the_first(board) -> None:
+    other = BlockKey("alice", "c")
+    peg = hang(board, "start", board.predicted("a", "hit"))
+    board.add(PegKey(*other, "h", "start"), peg)
+    board.remove_block(other)
+    assert board.owner(peg) == BLOCK
+    board.remove_block(BLOCK)
+    assert board.owner(peg) is None
+
+
+def test_a_thousand_blocks_leave_nothing_behind(board) -> None:
+    told = Anticipator("told", board)
+    predict(told, "hit", 1.0)
+    hit, previous = board.predicted("told", "hit"), board.predicted("told", "hit")
+    for number in range(1000):
+        key = BlockKey("alice", f"b{number}")
+        with board.graph.transaction(f"plan {key.block}"):
+            start = BMLBlockPeg(board.graph, "start", 0.0, (previous,))
+            pegs = [OffsetPeg(board.graph, f"{i}", start if i % 2 else hit, float(i)) for i in range(8)]
+            previous = LatestPeg(board.graph, "end", 0.0, pegs)
+            for i, peg in enumerate((start, *pegs, previous)):
+                board.add(PegKey(*key, "h", str(i)), peg)
+        predict(told, "hit", 1.0 + number)
+        if number % 2:
+            with board.graph.transaction("end"):
+                board.pin_block(key)
+        board.remove_block(key)
+    del start, pegs, peg, previous
+    gc.collect()
+    assert not [thing for thing in gc.get_objects() if isinstance(thing, TimePeg) and thing.graph is board.graph]
+    assert hit.dependents == {}
+    assert [str(view.key) for view in board.snapshot()] == ["anticipators:told:hit"]
+    assert (len(board._blocks), list(board._owners)) == (1, [hit])
 
 
 def test_a_prediction_moves_a_point_until_it_has_passed(board) -> None:

@@ -3,7 +3,9 @@
 import pytest
 
 from reactive_realizer.pegboard.time_peg import (
+    AfterPeg,
     AnticipatorPeg,
+    BeforePeg,
     BMLBlockPeg,
     LatestPeg,
     OffsetPeg,
@@ -83,7 +85,103 @@ def test_a_pinned_peg_is_cut_from_its_source_and_the_rest_goes_on(graph) -> None
     assert (start.value, between.value, end.value) == (1.0, 3.0, 5.0)
     assert start.pinned
     assert not between.pinned
-    assert start.describe() == "pinned"
+    assert start.describe() == "hit -1 s", "it still tells what it hung on"
+
+
+def blocks(graph):
+    """Two blocks and a peg in each, half a second after its start."""
+    starts = [AnticipatorPeg(graph, name, time) for name, time in (("one", 1.0), ("two", 8.0))]
+    pegs = [OffsetPeg(graph, f"{start.name}:h:start", start, 0.5) for start in starts]
+    return (*starts, *pegs)
+
+
+def test_an_after_peg_stays_behind_its_bound_in_another_block(graph) -> None:
+    one, two, natural, bound = blocks(graph)
+    peg = AfterPeg(graph, "after", natural, [(bound, 3.0)])
+    assert peg.value == 11.5
+    write(two, 9.0)
+    assert peg.value == 12.5
+    write(one, 20.0)
+    assert peg.value == 20.5
+    assert peg.describe() == "one:h:start, not before two:h:start +3 s"
+
+
+def test_a_before_peg_stays_in_front_of_its_bound_in_another_block(graph) -> None:
+    one, two, natural, bound = blocks(graph)
+    peg = BeforePeg(graph, "before", bound, [(natural, 2.0)])
+    assert peg.value == 3.5
+    write(one, 2.0)
+    assert peg.value == 4.5
+    write(two, 1.0)
+    assert peg.value == 1.5
+    assert peg.describe() == "two:h:start, not after one:h:start +2 s"
+
+
+def test_of_several_bounds_the_tightest_holds(graph) -> None:
+    natural, low, high = (AnticipatorPeg(graph, name, time) for name, time in (("n", 1.0), ("low", 2.0), ("high", 5.0)))
+    after = AfterPeg(graph, "after", natural, [(low, 0.0), (high, 1.0)])
+    before = BeforePeg(graph, "before", high, [(low, 0.0), (natural, 3.0)])
+    assert (after.value, before.value) == (6.0, 2.0)
+    write(low, 7.0)
+    assert (after.value, before.value) == (7.0, 4.0)
+
+
+def test_a_bound_that_moves_within_its_distance_wakes_nobody(graph) -> None:
+    natural, bound = AnticipatorPeg(graph, "natural", 5.0), AnticipatorPeg(graph, "bound", 1.0)
+    told = []
+    AfterPeg(graph, "after", natural, [(bound, 0.0)]).observe(told.append)
+    write(bound, 4.0)
+    assert told == []
+    write(bound, 6.0)
+    assert told == [6.0]
+
+
+def test_after_an_unknown_time_is_waited_for_and_before_one_binds_nothing(graph) -> None:
+    natural, bound = AnticipatorPeg(graph, "natural", 5.0), AnticipatorPeg(graph, "bound", None)
+    after = AfterPeg(graph, "after", natural, [(bound, 0.0)])
+    before = BeforePeg(graph, "before", natural, [(bound, 0.0)])
+    assert (after.value, before.value) == (None, 5.0)
+    assert unknown_sources([after]) == ["bound"]
+    write(bound, 3.0)
+    assert (after.value, before.value) == (5.0, 3.0)
+    write(natural, None)
+    assert (after.value, before.value) == (None, None)
+
+
+@pytest.mark.parametrize("kind", [AfterPeg, BeforePeg])
+def test_a_clamped_peg_that_is_pinned_is_cut_from_what_clamps_it_too(graph, kind) -> None:
+    natural, bound = AnticipatorPeg(graph, "natural", 5.0), AnticipatorPeg(graph, "bound", 5.0)
+    peg = kind(graph, "peg", natural, [(bound, 0.0)])
+    pin(peg, 5.0)
+    write(natural, 1.0)
+    write(bound, 9.0)
+    assert peg.value == 5.0
+    assert natural.dependents == bound.dependents == {}
+    assert [link.name for link in peg.links] == ["natural", "bound"]
+
+
+def test_a_pinned_bound_holds_still(graph) -> None:
+    _, two, natural, bound = blocks(graph)
+    peg = AfterPeg(graph, "after", natural, [(bound, 0.0)])
+    pin(bound, 8.5)
+    write(two, 20.0)
+    assert peg.value == 8.5
+
+
+def test_an_offset_peg_across_blocks_is_computed_once_when_both_blocks_move(graph) -> None:
+    one, two, natural, bound = blocks(graph)
+    between = RatioPeg(graph, "between", natural, bound, 0.5)
+    told = []
+    between.observe(told.append)
+    with graph.transaction("test"):
+        one.set(2.0)
+        two.set(4.0)
+    assert told == [3.5]
+
+
+def test_what_the_latest_waits_for_is_told_by_a_few_names(graph) -> None:
+    pegs = [AnticipatorPeg(graph, f"p{i}", float(i)) for i in range(9)]
+    assert LatestPeg(graph, "end", 0.0, pegs).describe() == "latest of 0 s, p0, p1, p2, p3, p4, 4 more"
 
 
 def test_a_peg_of_its_own_leaves_the_shared_one_where_it_was(graph) -> None:

@@ -37,6 +37,11 @@ BAD = {
     "a target that is half a letter": (r'{"type":"world","set":{"\ud800":[0,0,0]}}', "bad-message"),
     "a prediction of a tick": ('{"type":"predict","anticipator":"metronome","sync":"tick3","in":1}', "predicts-itself"),
     "an event of nobody": ('{"type":"event","anticipator":"nobody","event":"press"}', "unknown-anticipator"),
+    "words that are a number": ('{"type":"event","anticipator":"user","event":"words","text":7}', "bad-message"),
+    "words without an end": (
+        json.dumps({"type": "event", "anticipator": "user", "event": "words", "text": "a" * 5001}),
+        "bad-message",
+    ),
     "a tempo of zero": ('{"type":"event","anticipator":"metronome","event":"tempo","value":0}', "bad-tempo"),
     "a flat position": ('{"type":"camera","position":[1,2]}', "bad-message"),
     "a position beyond the moon": ('{"type":"camera","position":[1,2,4e8]}', "bad-message"),

@@ -277,6 +277,8 @@ async def test_the_capabilities_tell_what_may_be_asked_for(on_air: Open) -> None
             capabilities = await answer.json()
         assert "stroke" in capabilities["elements"]["gesture"]["syncPoints"]
         assert "repetition" in capabilities["elements"]["head"]["attributes"]
+        assert capabilities["elements"]["speech"]["parameters"] == {"volume": {"low": 0.0, "high": 100.0}}
+        assert capabilities["elements"]["wait"]["parameters"] == {}
         assert "BEAT" in capabilities["lexemes"]["gesture"]
         assert "RAISE_BROWS" in capabilities["lexemes"]["faceLexeme"]
         assert "alice" in capabilities["targets"]
@@ -350,3 +352,17 @@ async def test_a_page_that_was_not_built_is_said_to_be_so(
     async with on_air() as air, air.client.get("/") as answer:
         assert answer.status == 503
         assert "make page" in (await answer.json())["error"]["message"]
+
+
+async def test_a_block_alive_explains_the_times_of_its_points(on_air: Open) -> None:
+    async with on_air() as air:
+        await post(air, "/bml", wait("b1", 9) + wait("b2"))
+        await air.tick_until(0.3)
+        async with air.client.get("/explain/b1") as answer:
+            told = await answer.json()
+        assert (told["character"], told["block"]) == ("alice", "b1")
+        assert told["points"]["b1:w:end"]["sources"]
+        for block, status, code in (("nobody", 404, "no-such-block"), ("b2", 410, "block-ended")):
+            async with air.client.get(f"/explain/{block}") as answer:
+                assert answer.status == status
+                assert (await answer.json())["error"]["code"] == code

@@ -4,7 +4,7 @@ import aiohttp
 import pytest
 
 from reactive_realizer.clock.units import GlobalTime
-from reactive_realizer.embodiment.audio import AudioClip, AudioMove, AudioStart, AudioStop
+from reactive_realizer.embodiment.audio import AudioClip, AudioGain, AudioMove, AudioStart, AudioStop
 from reactive_realizer.errors import WarningType
 from reactive_realizer.feedback.feedback_manager import Report
 from reactive_realizer.feedback.messages import WarningFeedback
@@ -41,6 +41,8 @@ async def test_sounds_are_told_and_can_be_fetched(on_air: Open) -> None:
             assert await answer.read() == b"RIFFc1"
         air.live.sounds.take(AudioMove("c1", GlobalTime(0.75)))
         assert await socket.hear("audio_move") == {"type": "audio_move", "id": "c1", "start": 0.75}
+        air.live.sounds.take(AudioGain("c1", 1.5, GlobalTime(0.8)))
+        assert await socket.hear("audio_gain") == {"type": "audio_gain", "id": "c1", "gain": 1.5, "time": 0.8}
         air.live.sounds.take(AudioStop("c1", GlobalTime(1.0), 0.03))
         assert await socket.hear("audio_stop") == {"type": "audio_stop", "id": "c1", "time": 1.0, "fade": 0.03}
 
@@ -54,6 +56,7 @@ async def test_whoever_comes_late_is_told_of_the_sounds_that_have_not_ended_wher
             AudioStop("stopped", GlobalTime(0.6), 0.1),
             clip("moved", 1.0),
             AudioMove("moved", GlobalTime(2.5)),
+            AudioGain("moved", 0.5, GlobalTime(2.8)),
             clip("ending", 2.0),
             AudioStop("ending", GlobalTime(3.5), 0.1),
         ):
@@ -67,6 +70,7 @@ async def test_whoever_comes_late_is_told_of_the_sounds_that_have_not_ended_wher
             ("audio_stop", "ending"),
         ]
         assert told[0]["start"] == 2.5
+        assert [message["gain"] for message in told[:2]] == [0.5, 1.0]
 
 
 async def test_a_sound_is_kept_a_little_after_its_end_and_not_longer(on_air: Open) -> None:

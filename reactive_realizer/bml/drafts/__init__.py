@@ -1,6 +1,5 @@
 """BML before 1.0: documents without a namespace, rewritten as BML 1.0 before they are read.
 
 One tolerant reading serves the draft of the thesis (van Welbergen 2011, chapter 6) and the Vienna draft that SmartBody
-reads. Nothing is guessed: what is not known here stays as it is, and the reader of BML 1.0 names it. This part of the
-room knows trees and names, and nothing of blocks and behaviors as data but whether they persist.
+reads. Nothing is guessed: what is not known here stays as it is, and the reader of BML 1.0 names it.
 """

@@ -1,19 +1,17 @@
 """What the drafts wrote otherwise, element by element."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from types import MappingProxyType
 from typing import Final
 
 from lxml import etree
 
+from reactive_realizer.bml.drafts.spelling import SYNC_POINTS
 from reactive_realizer.bml.source import Source
 from reactive_realizer.bml.trees import Tree, children_of, name_of, stray_text_of
 from reactive_realizer.errors import error
 
 _Words = Mapping[str, str]
-
-SYNC_POINTS: Final[_Words] = MappingProxyType({"stroke_start": "strokeStart", "stroke_end": "strokeEnd"})
-"""Sync points that the drafts spell otherwise."""
 
 _AXES: Final = {"X": "NOD", "Y": "SHAKE", "Z": "TILT"}
 _HANDS: Final = {"LEFT": "LEFT_HAND", "RIGHT": "RIGHT_HAND", "BOTH": "BOTH_HANDS"}
@@ -59,8 +57,7 @@ def _gaze(tree: Tree, source: Source) -> None:
 def _face(tree: Tree, source: Source) -> None:
     if len(children_of(tree, *_FACES.values())):
         return
-    kind = tree.get("type", "FACS" if "au" in tree.attrib else "LEXICALIZED").upper()
-    _check(tree, "type", _FACES, source)
+    kind = _check(tree, "type", _FACES, source) or ("FACS" if "au" in tree.attrib else "LEXICALIZED")
     tree.tag = _FACES[kind]
 
 
@@ -119,8 +116,12 @@ def _take(tree: Tree, name: str, default: str = "") -> str:
     return str(tree.attrib.pop(name, default))
 
 
-def _check(tree: Tree, name: str, words: Iterable[str], source: Source) -> None:
-    """Take out an attribute with the only words that BML 1.0 has something for."""
+def _check(tree: Tree, name: str, words: Collection[str], source: Source) -> str:
+    """Take out an attribute whose other words BML 1.0 has nothing for; its word, or nothing where it is not written."""
+    value = _take(tree, name)
+    if value and value.upper() not in words:
+        raise source.bad(tree, name, value, error("unknown-word", known=", ".join(words)))
+    return value.upper()
 
 
 def _add(tree: Tree, name: str, attributes: dict[str, str], source: Source) -> Tree:

@@ -1,0 +1,189 @@
+"""Every point tells what set its time: pegs, constraints, commits."""
+
+import json
+
+import pytest
+
+from reactive_realizer.errors import RealizerError
+from reactive_realizer.pegboard.peg_key import BlockKey, PegKey
+from reactive_realizer.pegboard.pegboard import PegBoard
+from reactive_realizer.pegboard.time_peg import (
+    AfterPeg,
+    AnticipatorPeg,
+    BeforePeg,
+    BMLBlockPeg,
+    LatestPeg,
+    OffsetPeg,
+    RatioPeg,
+)
+from reactive_realizer.reactive.graph import Graph
+
+BLOCK = BlockKey("alice", "b")
+START, STROKE, END = (PegKey(*BLOCK, "clap", sync) for sync in ("start", "stroke", "end"))
+
+
+@pytest.fixture
+def board() -> PegBoard:
+    """A clap whose stroke hangs on a predicted point."""
+    board = PegBoard(Graph())
+    board.time = 0.1
+    with board.graph.transaction("plan b"):
+        stroke = OffsetPeg(board.graph, "b:clap:stroke", board.predicted("partner", "hit"), 0.0)
+        stroke.why = "clap:stroke = anticipators:partner:hit"
+        board.add(STROKE, stroke)
+        board.add(START, OffsetPeg(board.graph, "b:clap:start", stroke, -0.5))
+        board.add(END, OffsetPeg(board.graph, "b:clap:end", stroke, 0.5))
+    predict(board, 2.0, at=0.4)
+    return board
+
+
+def predict(board, time, at):
+    board.time = at
+    with board.graph.transaction("partner predicts hit"):
+        board.predicted("partner", "hit").set(time)
+
+
+def pin(board, key, at):
+    board.time = at
+    with board.graph.transaction("reached"):
+        board.get(key).pin(board.get(key).value)
+
+
+def chain(explanation):
+    """Names and times along the first sources."""
+    links = [(explanation.name, explanation.time)]
+    while explanation.sources:
+        explanation = explanation.sources[0]
+        links.append((explanation.name, explanation.time))
+    return links
+
+
+def test_a_point_tells_the_chain_of_pegs_that_set_its_time(board) -> None:
+    assert chain(board.explain(START)) == [
+        ("b:clap:start", 1.5),
+        ("b:clap:stroke", 2.0),
+        ("anticipators:partner:hit", 2.0),
+    ]
+
+
+def test_each_link_tells_its_rule_its_constraint_and_the_commit_that_gave_it_its_time(board) -> None:
+    start = board.explain(START)
+    stroke, hit = start.sources[0], start.sources[0].sources[0]
+    assert (start.kind, start.state, start.rule, start.tie) == ("offset", "moving", "b:clap:stroke -0.5 s", None)
+    assert stroke.tie == "clap:stroke = anticipators:partner:hit"
+    assert (hit.kind, hit.rule) == ("predicted", "predicted")
+    assert {(each.commit.cause, each.commit.time) for each in (start, stroke, hit)} == {("partner predicts hit", 0.4)}
+
+
+def test_a_point_that_was_never_moved_tells_the_commit_that_made_it(board) -> None:
+    with board.graph.transaction("plan c"):
+        board.add(PegKey("alice", "c", None, "start"), BMLBlockPeg(board.graph, "c:start", 3.0, ()))
+    explanation = board.explain(PegKey("alice", "c", None, "start"))
+    assert (explanation.kind, explanation.rule, explanation.commit.cause) == ("block", "latest of 3 s", "plan c")
+
+
+def test_a_write_that_changes_nothing_takes_no_credit(board) -> None:
+    predict(board, 2.0, at=0.9)
+    assert board.explain(START).commit.time == 0.4
+
+
+def test_an_unknown_point_tells_what_it_waits_for(board) -> None:
+    predict(board, None, at=0.5)
+    assert board.explain(START).state == "unknown"
+    assert chain(board.explain(START))[-1] == ("anticipators:partner:hit", None)
+    assert board.explain(START).commit.time == 0.5
+
+
+def test_a_point_that_has_fired_tells_what_it_hung_on_then(board) -> None:
+    pin(board, START, at=1.5)
+    assert chain(board.explain(START))[1:] == [("b:clap:stroke", 2.0), ("anticipators:partner:hit", 2.0)]
+    predict(board, 2.4, at=1.6)
+    start = board.explain(START)
+    assert chain(start) == [("b:clap:start", 1.5), ("b:clap:stroke", 2.0)]
+    assert (start.state, start.rule, start.sources[0].state) == ("pinned", "b:clap:stroke -0.5 s", "past")
+    assert start.sources[0].commit.time == 0.4, "the commit that set it then, not the last one"
+    assert chain(board.explain(END)) == [("b:clap:end", 2.9), ("b:clap:stroke", 2.4), ("anticipators:partner:hit", 2.4)]
+
+
+def test_what_a_fired_point_hung_on_is_not_kept_alive_by_it(board) -> None:
+    with board.graph.transaction("plan c"):
+        peg = OffsetPeg(board.graph, "c:x:start", OffsetPeg(board.graph, "b:clap:gone", board.get(STROKE), 0.0), 1.0)
+        board.add(PegKey("alice", "c", "x", "start"), peg)
+        peg.pin(3.0)
+        board.get(STROKE).dependents.clear()
+    assert peg.links[0].peg() is None
+    gone = board.explain(PegKey("alice", "c", "x", "start")).sources[0]
+    assert (gone.name, gone.time, gone.state) == ("b:clap:gone", 2.0, "past")
+
+
+def test_a_block_tells_all_its_points_when_it_has_ended_too(board) -> None:
+    predict(board, 3.0, at=1.0)
+    with board.graph.transaction("end b"):
+        board.pin_block(BLOCK)
+    told = json.loads(json.dumps(board.explain_block(BLOCK)))
+    board.remove_block(BLOCK)
+    assert list(told) == ["b:clap:stroke", "b:clap:start", "b:clap:end"]
+    assert told["b:clap:start"] == {
+        "name": "b:clap:start",
+        "kind": "offset",
+        "time": 2.5,
+        "state": "pinned",
+        "rule": "b:clap:stroke -0.5 s",
+        "tie": None,
+        "commit": {"sequence": 3, "cause": "partner predicts hit", "time": 1.0},
+        "sources": [told["b:clap:stroke"]],
+    }
+    assert told["b:clap:stroke"]["tie"] == "clap:stroke = anticipators:partner:hit"
+    assert told["b:clap:stroke"]["sources"][0]["name"] == "anticipators:partner:hit"
+    assert board.explain_block(BLOCK) == {}
+
+
+def explain(board, peg):
+    key = PegKey("alice", "c", "x", "start")
+    board.add(key, peg)
+    return board.explain(key)
+
+
+def sources(board, peg):
+    return [source.name for source in explain(board, peg).sources]
+
+
+def test_of_several_points_the_one_that_sets_the_time_is_followed(board) -> None:
+    low, high = (AnticipatorPeg(board.graph, name, time) for name, time in (("low", 1.0), ("high", 4.0)))
+    assert sources(board, LatestPeg(board.graph, "latest", 0.0, (low, high))) == ["high"]
+    assert sources(board, LatestPeg(board.graph, "latest", 9.0, (low, high))) == []
+    assert sources(board, AfterPeg(board.graph, "after", low, [(high, -1.0)])) == ["high"]
+    assert sources(board, AfterPeg(board.graph, "after", high, [(low, -1.0)])) == ["high"]
+    assert sources(board, BeforePeg(board.graph, "before", high, [(low, 1.0)])) == ["low"]
+    assert sources(board, RatioPeg(board.graph, "ratio", low, high, 0.5)) == ["low", "high"]
+
+
+def test_of_an_unknown_time_what_is_unknown_is_followed(board) -> None:
+    known, unknown = AnticipatorPeg(board.graph, "known", 1.0), AnticipatorPeg(board.graph, "unknown", None)
+    assert sources(board, LatestPeg(board.graph, "latest", 0.0, (known, unknown))) == ["unknown"]
+    assert sources(board, AfterPeg(board.graph, "after", known, [(unknown, 0.0)])) == ["unknown"]
+
+
+def test_a_peg_that_comes_twice_is_followed_once(board) -> None:
+    peg = board.get(STROKE)
+    for level in range(40):
+        left, right = (OffsetPeg(board.graph, f"{side}{level}", peg, 0.0) for side in ("left", "right"))
+        peg = RatioPeg(board.graph, f"middle{level}", left, right, 0.5)
+    right = explain(board, peg).sources[1]
+    assert right.sources[0].name == "middle38"
+    assert right.sources[0].sources == ()
+    assert right.sources[0].rule.endswith(" ...")
+
+
+def test_a_chain_of_any_length_is_told_as_far_as_a_document_may_be_nested(board) -> None:
+    peg = board.get(STROKE)
+    for number in range(2000):
+        peg = OffsetPeg(board.graph, f"p{number}", peg, 0.0)
+    explanation = explain(board, peg)
+    assert len(chain(explanation)) == 65
+    assert json.dumps(explanation.as_json())
+
+
+def test_a_point_that_is_not_there_is_named(board) -> None:
+    with pytest.raises(RealizerError, match=r"^there is no point b:clap:relax$"):
+        board.explain(PegKey(*BLOCK, "clap", "relax"))

@@ -1,0 +1,60 @@
+"""Events over the socket: what a client perceives moves what hangs on it, or is answered with what is wrong."""
+
+import pytest
+
+from .conftest import ALICE, BML, Open
+
+HUMAN = f"""{ALICE}
+[anticipator.spacebar]
+kind = "spacebar"
+[anticipator.user]
+kind = "speech_stop"
+[anticipator.trainee]
+kind = "exercise"
+[anticipator.orchestra]
+kind = "conducting"
+"""
+WAIT = f'<bml {BML} id="b"><wait id="w" start="anticipators:{{}}" duration="0.1"/></bml>'
+
+
+async def test_a_key_starts_what_hangs_on_it(on_air: Open) -> None:
+    async with on_air(HUMAN) as air:
+        socket = await air.connect()
+        await socket.ask(type="bml", xml=WAIT.format("spacebar:press"))
+        await air.tick_until(0.5)
+        assert (await socket.ask(type="event", anticipator="spacebar", event="press"))["type"] == "accepted"
+        await air.tick_until(1.0)
+        assert 'id="b:end"' in (await socket.hear_feedback("b:end"))["xml"]
+
+
+async def test_words_are_heard(on_air: Open) -> None:
+    async with on_air(HUMAN) as air:
+        socket = await air.connect()
+        await socket.ask(type="bml", xml=WAIT.format("user:stop"))
+        said = {"type": "event", "anticipator": "user", "event": "words"}
+        assert (await socket.ask(**said, text="Où est-ce que tu habites ?"))["type"] == "accepted"
+        await air.tick_until(1.0)
+        assert 'id="b:end"' in (await socket.hear_feedback("b:end"))["xml"]
+
+
+@pytest.mark.parametrize(
+    ("anticipator", "event", "value"),
+    [("user", "voice", 3), ("user", "voice", None), ("trainee", "sample", -1), ("trainee", "sample", 1e7)],
+)
+async def test_a_value_that_cannot_be_is_answered_with_its_range(on_air: Open, anticipator, event, value) -> None:
+    async with on_air(HUMAN) as air:
+        socket = await air.connect()
+        said = {} if value is None else {"value": value}
+        answer = await socket.ask(type="event", anticipator=anticipator, event=event, **said)
+        assert answer["code"] == "bad-number"
+        assert event in answer["message"]
+
+
+@pytest.mark.parametrize(
+    ("anticipator", "sync"), [("spacebar", "press"), ("user", "stop"), ("trainee", "1"), ("orchestra", "beat1")]
+)
+async def test_nobody_else_predicts_for_an_anticipator_of_the_scene(on_air: Open, anticipator, sync) -> None:
+    async with on_air(HUMAN) as air:
+        socket = await air.connect()
+        answer = await socket.ask(type="predict", anticipator=anticipator, sync=sync, **{"in": 1})
+        assert answer["code"] == "predicts-itself"
