@@ -18,7 +18,7 @@ PAGE := $(STATIC)/index.html
 PAGE_SOURCES := $(shell find web \( -name node_modules -o -name dist -o -name avatars -o -name tests \) -prune -o -type f -print 2>/dev/null)
 
 .DEFAULT_GOAL := help
-.PHONY: help install page demo test check format docs wheel avatars clean
+.PHONY: help install page demo test bench check format docs wheel avatars clean
 .DELETE_ON_ERROR:
 
 help: ## List what can be made
@@ -34,6 +34,10 @@ demo: $(INSTALLED) $(PAGE) ## Serve a virtual human that performs for the first 
 test: $(INSTALLED) $(PAGE) ## Run all tests (BROWSER=none leaves the browser tests out)
 	$(NPM) test
 	$(BIN)/pytest
+
+bench: $(INSTALLED) ## Measure how fast it is, beside the last results of benchmarks/history.jsonl
+	$(PIP) install --quiet --constraint constraints.txt --group bench
+	$(BIN)/python -m benchmarks
 
 check: $(INSTALLED) $(NODE_MODULES) ## Check format, style, types and who imports whom
 	$(BIN)/ruff format --check .
@@ -51,6 +55,7 @@ docs: $(INSTALLED) ## Write the pages of docs/ that are made from the code
 	$(BIN)/python docs/make_support.py
 	$(BIN)/python docs/make_errors.py
 	$(BIN)/python docs/make_limits.py
+	$(BIN)/python docs/make_drawings.py
 
 wheel: $(INSTALLED) $(PAGE) ## Build the wheel, page included, into dist/
 	SKIP_WEB_BUILD=1 $(PIP) wheel --no-deps --build-constraint constraints.txt --wheel-dir dist .

@@ -40,13 +40,7 @@ class Conducting(Anticipator):
         ahead: float = 16,
     ) -> None:
         super().__init__(id, board)
-        self._rhythm = Rhythm(
-            phase,
-            period,
-            ahead,
-            _SHORTEST,
-            _LONGEST,
-        )
+        self._rhythm = Rhythm(phase, period, ahead, _SHORTEST, _LONGEST)
 
     def forecast(self, sync: str) -> Time:
         """The time of a beat; other names are never known."""

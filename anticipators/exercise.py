@@ -55,14 +55,7 @@ class Exercise(Anticipator):
                 raise error("bad-peak-name", name=name)
         self._names = names
         self._peaks = Peaks(within("rise", rise, 1e-6, _STRONGEST))
-        self._rhythm = Rhythm(
-            phase,
-            period,
-            ahead,
-            _SHORTEST,
-            _LONGEST,
-            max(1, len(names)),
-        )
+        self._rhythm = Rhythm(phase, period, ahead, _SHORTEST, _LONGEST, max(1, len(names)))
 
     def forecast(self, sync: str) -> Time:
         """The time of a peak by its number, or of the next one of a name; others are never known."""
@@ -82,22 +75,17 @@ class Exercise(Anticipator):
 
     def advance(self, now: GlobalTime) -> None:
         """What has come is expected again, under its name."""
-        if self._rhythm.advance(now):
-            self._renew(now)
+        points = self._board.predictions(self.id) if self._rhythm.advance(now) else {}
+        for name in self._names:
+            if name in points and is_due(points[name].value, now):
+                self.renew(name)
 
     def event(self, name: str, value: float | None, now: GlobalTime) -> None:
         """``sample``: a magnitude of acceleration; ``start``: the next peak is the first, and of the first name."""
         if name == "sample" and value is not None:
             peak = self._peaks.take(value, now)
             if peak is not None and self._rhythm.hear(peak, now):
-                self._renew(now)
                 self.revise(now)
         elif name == "start":
             self._rhythm.restart()
             self.withdraw(now)
-
-    def _renew(self, now: GlobalTime) -> None:
-        points = self._board.predictions(self.id)
-        for name in self._names:
-            if name in points and is_due(points[name].value, now):
-                self._board.renew(self.id, name)

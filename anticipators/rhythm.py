@@ -23,7 +23,7 @@ class Rhythm:
     Args:
         phase: how much of an error the next beat makes good, more than 0 and at most 1.
         period: how much of it the interval follows, 0 to 1.
-        ahead: how many beats are expected after the last one heard, 1 to 1000.
+        ahead: how many beats are expected after the last one heard, 1 to 100.
         shortest: interval between two beats, s; what follows an onset sooner is its echo.
         longest: interval, s.
         cycle: after how many beats the intervals repeat, where they are not all equal.
@@ -37,7 +37,7 @@ class Rhythm:
     ) -> None:
         self._phase = within("phase", phase, 0.01, 1.0)
         self._period = within("period", period, 0.0, 1.0)
-        self._ahead = round(within("ahead", ahead, 1, 1000))
+        self._ahead = round(within("ahead", ahead, 1, 100))
         self._shortest = shortest
         self._longest = longest
         self._cycle = cycle
@@ -82,9 +82,7 @@ class Rhythm:
         if self._onset is not None and onset - self._onset < self._shortest:
             return False
         self._onset = onset
-        news = self._begin(onset) if self._next is None else self._compare(onset, self._next)
-        self.advance(now)
-        return news
+        return self._begin(onset) if self._next is None else self._compare(onset, self._next)
 
     def _compare(self, onset: GlobalTime, coming: GlobalTime) -> bool:
         last = self._passed[-1]

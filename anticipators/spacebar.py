@@ -22,4 +22,4 @@ class Spacebar(Anticipator):
         """``press`` and ``release``."""
         if name in _POINTS:
             self.predict(name, now, now)
-            self._board.renew(self.id, name)
+            self.renew(name)

@@ -64,7 +64,7 @@ class SpeechStop(Anticipator):
         if self._stop is not None and now > self._stop + _RESUMED:
             self._turn = replace(self._turn, since=None)
             self._stop = None
-            self._board.renew(self.id, "stop")
+            self.renew("stop")
 
     def event(self, name: str, value: float | None, now: GlobalTime) -> None:
         """``voice``: how probable it is that the voice sounds; from 0.5 on it does."""
@@ -89,6 +89,6 @@ class SpeechStop(Anticipator):
 
     def _take(self, turn: Turn, now: GlobalTime) -> None:
         end = self._model.end(turn)
-        self._turn = turn
-        self._stop = None if end is None else max(end, now)
-        self.predict("stop", self._stop, now)
+        stop = None if end is None else max(end, now)
+        self.predict("stop", stop, now)
+        self._turn, self._stop = turn, stop

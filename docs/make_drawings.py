@@ -12,9 +12,9 @@ from reactive_realizer.pegboard.peg_view import PegView
 from reactive_realizer.testing.pilot import open_pilot
 
 PICTURES = Path(__file__).with_name("pictures")
-STRATEGIES = ("smartbody", "convex")
+STRATEGIES = ("smartbody", "embr", "convex")
 
-WIDTH, LEFT, RIGHT, ROW, BAR = 760, 90, 70, 48, 12
+WIDTH, LEFT, RIGHT, ROW, BAR = 760, 80, 110, 48, 12
 """Of a picture, the room beside its times, and the height of a row and of the bar in it; pixels."""
 
 INK, GRID, LINK, SHADES = "#222", "#ddd", "#b3541e", ("#e1e9f4", "#bccfe6")
@@ -40,19 +40,20 @@ PLANNED = """
 
 @dataclass(frozen=True, slots=True)
 class Panel:
-    """The pegs of a board at one moment, under a title."""
+    """The pegs of a board at one moment, under a title; with lines or without."""
 
     title: str
     pegs: Sequence[PegView]
+    linked: bool = True
 
     @property
     def rows(self) -> Mapping[str, list[PegView]]:
-        """The known pegs in order of time, by what they belong to; those of the block itself are left out."""
+        """The known pegs in order of time, by what they belong to, predicted ones first; without those of the block."""
         rows: dict[str, list[PegView]] = {}
         for peg in sorted(self.pegs, key=_time_of):
             if peg.time is not None and peg.key.behavior:
                 rows.setdefault(peg.key.behavior, []).append(peg)
-        return dict(sorted(rows.items(), key=lambda row: _time_of(row[1][0])))
+        return dict(sorted(rows.items(), key=lambda row: (row[1][0].kind != "predicted", _time_of(row[1][0]))))
 
 
 def drawings() -> dict[str, str]:
@@ -84,7 +85,7 @@ async def _plan(strategy: str) -> Panel:
     async with open_pilot(SceneOptions(DEFAULT_HUMAN, "text", strategy=strategy)) as pilot:
         pilot.block("b", PLANNED)
         await pilot.tick()
-        return Panel(strategy, pilot.realizer.board.snapshot())
+        return Panel(strategy, pilot.realizer.board.snapshot(), linked=False)
 
 
 class _Picture:
@@ -122,8 +123,8 @@ class _Picture:
             self._parts += self._bars(pegs, y)
             self._parts += self._points(pegs, y)
             places |= {str(peg.key): (self._x(_time_of(peg)), y) for peg in pegs}
-        for peg in panel.pegs:
-            self._parts += _links(peg, places)
+        if panel.linked:
+            self._parts += dict.fromkeys(line for peg in panel.pegs for line in _links(peg, places))
 
     def _bars(self, pegs: Sequence[PegView], y: float) -> Iterator[str]:
         times = [time for time, _ in itertools.groupby(map(_time_of, pegs))]

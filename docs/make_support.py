@@ -7,14 +7,17 @@ from pathlib import Path
 from reactive_realizer.assembly.scene import Scene, SceneOptions, open_scene
 from reactive_realizer.binding.face_lexemes import read_face_lexemes
 from reactive_realizer.binding.gesture_binding import GestureBinding
-from reactive_realizer.bml.attributes import Attribute, Integer, attributes_of
+from reactive_realizer.bml.attribute_types import Integer
+from reactive_realizer.bml.attributes import Attribute, attributes_of
 from reactive_realizer.bml.behavior import Behavior, Description
 from reactive_realizer.bml.behaviors import Mark
 from reactive_realizer.bml.block import BehaviorBlock
+from reactive_realizer.bml.continuous import Trajectory
 from reactive_realizer.bml.document import parse
 from reactive_realizer.bml.elements import ELEMENTS, Element
 from reactive_realizer.bml.names import BML, BML_EXT, BMLA
 from reactive_realizer.bml.posture import Pose, Stance
+from reactive_realizer.bml.procedure import DefineProc, UseProc
 from reactive_realizer.errors import ERRORS
 from reactive_realizer.limits import Limits
 
@@ -35,12 +38,24 @@ _INSIDE: tuple[tuple[str, type, bool], ...] = (
     ("stance of a posture", Stance, False),
     ("pose of a posture", Pose, False),
     ("description of any behavior", Description, False),
+    ("trajectory of a parametervaluechange", Trajectory, True),
 )
 """Elements inside of behaviors: their title, what is read from them, and whether that is realized."""
 
 _PREFIXES = {BML_EXT: "ext:", BMLA: "bmla:"}
 
 _NOTES = {
+    "bml composition": "in any case, with `-`, `_` or nothing between; the last two are `appendAfter` and `chunkAfter`",
+    "bml appendAfter": "it starts when these have ended",
+    "bml chunkAfter": "it starts when these subside: all that goes on of them is in retraction",
+    "bml prependBefore": "these, which have not started, start when it has ended",
+    "bml chunkBefore": "these, which have not started, start when it subsides",
+    "bml interrupt": "these are interrupted when it comes in",
+    "bml onStart": "these, which were planned ahead, start when it starts",
+    "bml preplan": "it is planned, and waits to be activated",
+    "bml allowexternalrefs": "only a draft has to say it",
+    "useproc procid": "the procedure",
+    "useproc bmlid": "the block that it becomes",
     "gesture mode": "without it: the right hand",
     "gaze target": "a name of the world, a character, or its joint: `alice:l_wrist`",
     "gaze influence": "without it: HEAD; `NECK` is HEAD, `TORSO` is WAIST; WHOLE leaves the feet where they stand",
@@ -52,14 +67,17 @@ _HEAD = """\
 # What is supported
 
 This page is made by `make docs` from the code that reads BML and the engines that play it. Everything of the BML 1.0
-core, and `faceFacs` of the core extensions, is *read* and checked: ids, references, values. *Realized* means that it
-is seen or heard. What is read and not realized is left out with one warning, and the rest of the block plays.
+core, `faceFacs` of the core extensions, and what BMLA and BMLT add for continuous interaction is *read* and checked:
+ids, references, values. *Realized* means that it is seen or heard. What is read and not realized is left out with one
+warning, and the rest of the block plays.
 """
 
 _SYNC_POINTS = """\
 
 Every sync point is an attribute that may be tied to another point. `head` with a `repetition` n above 1 has `stroke:1`
-to `stroke:n` in the place of `stroke`; `speech` has its inline `<sync id="..."/>` between `start` and `end`.
+to `stroke:n` in the place of `stroke`; `speech` has its inline `<sync id="..."/>` between `start` and `end`. A block
+has sync points too: `b1:relax` is that of the block b1 where no behavior beside it is called b1, and `b1:bml:relax` in
+any case; so with `start` and `end`.
 
 An attribute without a namespace that is not in these tables is passed over with a warning (`PARSING_FAILURE`); one
 whose value cannot be read drops its behavior, with the same warning.
@@ -83,7 +101,7 @@ _AROUND = """\
 |---|---|---|
 | `required` | yes | what is inside must succeed, or the block ends FAILED and nothing of it plays |
 | `constraint`, `synchronize` | yes | the points of its `<sync ref="..."/>` are one; an absolute one pins them |
-| `constraint`, `before`, `after` | no | dropped, warning `IMPOSSIBLE_TO_SCHEDULE`; in `required` the block fails |
+| `constraint`, `before`, `after` | yes | also while it plays; the strategy `smartbody` keeps none and says so |
 | `description` | no | its attributes are checked, then the core behavior plays |
 
 ## Other namespaces
@@ -92,7 +110,37 @@ _AROUND = """\
 |---|---|---|
 | `dynamic="true"` on `gaze`, of `http://hmi.ewi.utwente.nl/bmlt` | yes | the gaze follows a target that moves |
 | other attributes | no | warning `CUSTOM_ATTRIBUTE_NOT_SUPPORTED`; what they stand on plays |
-| elements, those of BMLA and BMLT among them | no | warning `CUSTOM_BEHAVIOUR_NOT_SUPPORTED` |
+| elements, those of BMLA and BMLT among them that have no table above | no | warning `CUSTOM_BEHAVIOUR_NOT_SUPPORTED` |
+
+`activate`, `interrupt` and `parametervaluechange` are of `http://www.asap-project.org/bmla` or
+`http://hmi.ewi.utwente.nl/bmlt`, whichever; so are the attributes of a block above, `defineproc` and `useproc`.
+Elements of either may do without an id: they get the first free one, `activate1`.
+"""
+
+_DRAFTS = """
+## Documents without a namespace
+
+They are read as drafts of BML, that of van Welbergen's thesis or that of Vienna, in one tolerant way: all of the above,
+and what the drafts wrote otherwise. Nothing is guessed: what has no place in this table gets its warning.
+
+| what a draft writes | read as |
+|---|---|
+| `bml scheduling="append"` | `composition` |
+| `bml start="b1:end"`, `start="b1:relax"` | `appendAfter="b1"`, `chunkAfter="b1"` |
+| `head action="ROTATION" rotation="NOD"`, `head type="NOD"` | `lexeme`; a rotation X is NOD, Y is SHAKE, Z is TILT |
+| `head repeats` | `repetition` |
+| `gesture type="BEAT"`, `type="LEXICALIZED" lexeme="..."` | `lexeme` |
+| `gesture type="POINT" target="..."` | `pointing` |
+| `gesture hand="LEFT"` | `mode="LEFT_HAND"` |
+| `gaze type="AT"`, `gaze modality` | nothing more, `influence`; LEGS is WHOLE |
+| `face type="FACS" au="..."`, `type="LEXICALIZED" lexeme="..."` | `faceFacs`, `faceLexeme` |
+| `posture stance="standing" shape="open" part="lower"` | `stance` and `pose`, here LEGS and LEGS_OPEN |
+| text directly in `speech`, `<tm id="..."/>` | `text`, `sync` |
+| `synchronize ref="..."` | one more `sync` in it |
+| `stroke_start`, `stroke_end` | `strokeStart`, `strokeEnd` |
+
+A `gaze` or `posture` persists where nothing says when it relaxes or ends. A reference to a behavior of another block
+wants `allowexternalrefs="true"`.
 """
 
 
@@ -107,9 +155,22 @@ async def _page() -> str:
         lexemes = _lexemes(scene)
     attributes = [_own_table(each, engines[name] is not None) for name, each in ELEMENTS.items()]
     inside = [_attributes(title, attributes_of(data), realized) for title, data, realized in _INSIDE]
-    block = "\n## The block\n\n" + _attribute_table("bml", attributes_of(BehaviorBlock), True)
+    parts = [_block(), _elements(engines), _SYNC_POINTS, *attributes, *inside, _LEXEMES, lexemes, _AROUND, _DRAFTS]
+    return "".join([_HEAD, *parts])
+
+
+def _block() -> str:
+    attributes = attributes_of(BehaviorBlock)
     return "".join(
-        [_HEAD, block, _elements(engines), _SYNC_POINTS, *attributes, *inside, _LEXEMES, lexemes, _AROUND],
+        [
+            "\n## The block\n\n",
+            _attribute_table("bml", [each for each in attributes if not each.continuous], True),
+            _attributes("bml, of BMLA or BMLT", [each for each in attributes if each.continuous], True),
+            _attributes("defineproc", attributes_of(DefineProc), True),
+            "\nIt stands beside blocks and holds what a block holds; nothing of it plays until it is used.\n",
+            _attributes("useproc", attributes_of(UseProc), True),
+            "\nIt becomes a block and may have all other attributes of one; `scheduling` is its `composition` too.\n",
+        ]
     )
 
 
@@ -151,11 +212,11 @@ def _own_table(element: Element, realized: bool) -> str:
 
 
 def _attributes(title: str, attributes: Iterable[Attribute], realized: bool) -> str:
-    return f"\n### {title}\n\n" + _attribute_table(title, attributes, realized)
+    return f"\n### {title}\n\n" + _attribute_table(title.partition(",")[0], attributes, realized)
 
 
 def _attribute_table(element: str, attributes: Iterable[Attribute], realized: bool) -> str:
-    rows = (_attribute_row(element, each, realized) for each in attributes if not each.continuous)
+    rows = (_attribute_row(element, each, realized) for each in attributes)
     return _table(("attribute", "value", "default", "realized", ""), rows)
 
 
@@ -168,6 +229,10 @@ def _attribute_row(element: str, attribute: Attribute, realized: bool) -> tuple[
 def _default(value: object) -> str:
     if value is None:
         return ""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, tuple):
+        return ", ".join(value)
     return f"{value:g}" if isinstance(value, float) else str(value)
 
 

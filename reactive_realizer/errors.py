@@ -59,6 +59,7 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
         "unclosed-element": ErrorKind("not well-formed XML: the document ends inside <{element}>", _PARSING, 400),
         "not-bml": ErrorKind("<{element}> is no bml block, defineproc or useproc", _PARSING, 400),
         "no-block": ErrorKind("no bml block in the document", _PARSING, 400),
+        "procedure-in-block": ErrorKind("<{element}> stands beside blocks, not in one", _PARSING),
         "no-block-id": ErrorKind("the bml block has no id; it is refused", _PARSING, 400),
         "missing-attribute": ErrorKind("<{element}> needs the attribute '{attribute}'", _PARSING),
         "unknown-attribute": ErrorKind("unknown attribute {attributes} of <{element}>; known are {known}", _PARSING),
@@ -74,7 +75,9 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
         "only-block-start": ErrorKind(
             "of its own block a reference may name the start, of another one start, relax and end"
         ),
-        "external-reference": ErrorKind("a behavior of another block; a draft has to say bmlt:allowexternalrefs='true'"),
+        "external-reference": ErrorKind(
+            "a behavior of another block; a draft has to say bmlt:allowexternalrefs='true'"
+        ),
         "absurd-time": ErrorKind("more than {limit:g} s"),
         "unknown-element": ErrorKind("unknown {element} in <{parent}>; known are {known}", _PARSING),
         "missing-element": ErrorKind("<{element}> needs {children} in it", _PARSING),
@@ -98,9 +101,6 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
         "unknown-owner": ErrorKind(
             "'{block}' for {reference} is no behavior here, and no block, or one that has ended; there are {known}",
             _SCHEDULE,
-        ),
-        "unknown-procedure": ErrorKind(
-            "no procedure '{procedure}' has been defined; there are {known}", WarningType.NO_SUCH_TARGET
         ),
         "contradictory-tie": ErrorKind("{tie} contradicts other constraints by {gap:g} s; it is dropped", _SCHEDULE),
         "outer-tie": ErrorKind("{tie} ties two times that both come from elsewhere; it is dropped", _SCHEDULE),
@@ -150,6 +150,7 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
         # --- playing
         "unit-failed": ErrorKind("it failed while playing: {reason}", _PLAYING),
         "engine-failed": ErrorKind("the engine {engine} failed: {reason}", _PLAYING),
+        "constraint-broken": ErrorKind("'{text}' is missed by {amount:g} s ({points}; thesis {equation})", _SCHEDULE),
         "too-many-rounds": ErrorKind("it did not come to rest within {limit} rounds of a tick", _PLAYING),
         # --- voices
         "voice-not-installed": ErrorKind("speech needs espeak-ng: pip install 'reactive-realizer[espeak]'", _CREATE),
@@ -168,7 +169,6 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
         "bad-peak-name": ErrorKind(
             "'{name}' cannot name a peak: wanted is a letter, then letters, digits, '_', each name once"
         ),
-        "no-solver": ErrorKind("the strategy embr needs HiGHS: pip install 'reactive-realizer[embr]'"),
         # --- making a behavior
         "no-motion-for": ErrorKind("nothing in the binding plays <{element}> with lexeme '{lexeme}'", _CREATE),
         "no-unit": ErrorKind("there is no motion unit '{unit}'", _CREATE),

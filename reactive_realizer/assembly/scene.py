@@ -23,7 +23,7 @@ from reactive_realizer.pegboard.anticipator import Anticipator
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.realizer.character import Character
 from reactive_realizer.realizer.realizer import Realizer
-from reactive_realizer.scheduler.smartbody_strategy import SmartBodyStrategy
+from reactive_realizer.scheduler.strategy import SchedulingStrategy
 
 DEFAULT_HUMAN = PACKAGE_ASSETS / "humans" / "default.toml"
 
@@ -37,12 +37,16 @@ class SceneOptions:
         voice: id of the text-to-speech binding.
         assets: folders searched before the package's own.
         seed: of all randomness.
+        strategy: id of the scheduling strategy.
+        verify: whether plans are checked while they are played.
     """
 
     human: Path = DEFAULT_HUMAN
     voice: str = "espeak"
     assets: tuple[Path, ...] = ()
     seed: int = 0
+    strategy: str = "convex"
+    verify: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,7 +82,8 @@ async def open_scene(options: SceneOptions) -> AsyncIterator[Scene]:
         for rank, (id_, spec) in enumerate(specification.characters.items())
     ]
     anticipators = _anticipators(options.human.name, specification.anticipators)
-    realizer = Realizer(characters, world, anticipators, SmartBodyStrategy(), specification.limits)
+    strategy: SchedulingStrategy = load("strategies", options.strategy)()
+    realizer = Realizer(characters, world, anticipators, strategy, specification.limits, verify=options.verify)
     await tts.start()
     try:
         async with realizer:

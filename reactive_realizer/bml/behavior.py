@@ -4,7 +4,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import ClassVar
 
-from reactive_realizer.bml.attributes import Integer, Name, Text, attribute
+from reactive_realizer.bml.attribute_types import Integer, Name, Text
+from reactive_realizer.bml.attributes import attribute
 from reactive_realizer.bml.names import BML, Location
 from reactive_realizer.bml.sync_ref import SyncRef
 

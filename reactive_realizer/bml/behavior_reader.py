@@ -13,6 +13,7 @@ from reactive_realizer.bml.elements import ELEMENTS, Element
 from reactive_realizer.bml.face import Face, FaceShift
 from reactive_realizer.bml.parts import read_change, read_face, read_posture
 from reactive_realizer.bml.posture import Posture, PostureShift
+from reactive_realizer.bml.procedure import PROCEDURES
 from reactive_realizer.bml.source import Source
 from reactive_realizer.bml.speech_reader import read_speech
 from reactive_realizer.bml.trees import (
@@ -91,6 +92,8 @@ def _descriptions(tree: Tree, source: Source, notes: list[Fault]) -> tuple[Descr
 
 
 def _foreign(tree: Tree, source: Source, notes: list[Fault]) -> Behavior:
+    if is_continuous(tree) and name_of(tree) in PROCEDURES:
+        raise RealizerError(source.fault(tree, "procedure-in-block"))
     values = source.written(tree) | source.values(tree, _FOREIGN_ATTRIBUTES)
     syncs = source.syncs(tree, ForeignBehavior.SYNC_POINTS)
     read = {*syncs, *(each.name for each in _FOREIGN_ATTRIBUTES)}

@@ -6,7 +6,8 @@ OpenBMLParser's.
 
 from dataclasses import dataclass, field
 
-from reactive_realizer.bml.attributes import Duration, Integer, Name, Number, Target, Text, Word, attribute
+from reactive_realizer.bml.attribute_types import Duration, Integer, Name, Number, Target, Text, Word
+from reactive_realizer.bml.attributes import attribute
 from reactive_realizer.bml.behavior import Behavior, SyncPoints
 from reactive_realizer.bml.words import Influence, Mode, OffsetDirection
 

@@ -3,7 +3,8 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from reactive_realizer.bml.attributes import Boolean, Name, Names, Text, attribute
+from reactive_realizer.bml.attribute_types import Boolean, Name, Names, Text
+from reactive_realizer.bml.attributes import attribute
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.composition import CompositionText
 from reactive_realizer.bml.constraint import Constraint

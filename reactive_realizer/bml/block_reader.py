@@ -9,7 +9,7 @@ from reactive_realizer.bml.composition import Composed
 from reactive_realizer.bml.content_reader import ContentReader
 from reactive_realizer.bml.drafts.block import modernize_block
 from reactive_realizer.bml.names import BLOCK
-from reactive_realizer.bml.procedure import DefineProc, UseProc
+from reactive_realizer.bml.procedure import DEFINE, USE, DefineProc, UseProc
 from reactive_realizer.bml.root_builder import Root
 from reactive_realizer.bml.source import Source
 from reactive_realizer.bml.trees import extensions_of, is_continuous, is_core, name_of
@@ -39,13 +39,13 @@ class BlockReader:
 
     def _read(self) -> Parsed:
         name = name_of(self._tree)
-        if self._source.draft:
+        if self._source.names.draft:
             modernize_block(self._tree)
         if is_core(self._tree) and name == "bml":
             return self._read_block()
-        if is_continuous(self._tree) and name == "useproc":
+        if is_continuous(self._tree) and name == USE:
             return self._read_use()
-        if is_continuous(self._tree) and name == "defineproc":
+        if is_continuous(self._tree) and name == DEFINE:
             return self._read_definition()
         raise RealizerError(self._source.fault(self._tree, "not-bml"))
 
@@ -55,7 +55,7 @@ class BlockReader:
         self._id = self._value(_ID)
         content = ContentReader(self._source, self._id)
         attributes = self._attributes(content, [_ID])
-        self._source.external_refs = attributes.get("external_refs", False) or not self._source.draft
+        self._source.names.external = attributes.get("external_refs", False) or not self._source.names.draft
         content.read()
         block = BehaviorBlock(**attributes, behaviors=content.behaviors, constraints=content.constraints)
         return Parsed(block, content.problems, content.failed)

@@ -4,7 +4,7 @@ import re
 from dataclasses import dataclass
 from typing import ClassVar
 
-from reactive_realizer.bml.attributes import Names, Word
+from reactive_realizer.bml.attribute_types import Names, Word
 from reactive_realizer.bml.words import Composition
 from reactive_realizer.errors import RealizerError, error
 from reactive_realizer.limits import Limits

@@ -65,7 +65,7 @@ class ContentReader:
         self._check_number(len(behaviors))
         for tree, _ in behaviors:
             if is_continuous(tree) and not tree.get("id"):
-                self._source.name(tree)
+                self._source.names.give(tree)
         for order, (tree, required) in enumerate(behaviors):
             self._read_behavior(tree, order, required)
         for tree, required in children:

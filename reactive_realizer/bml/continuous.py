@@ -6,7 +6,8 @@ BMLA and BMLT write them alike.
 from dataclasses import dataclass, field
 from typing import ClassVar
 
-from reactive_realizer.bml.attributes import BehaviorName, Name, Names, Number, Text, Word, attribute
+from reactive_realizer.bml.attribute_types import BehaviorName, Name, Names, Number, Text, Word
+from reactive_realizer.bml.attributes import attribute
 from reactive_realizer.bml.behavior import Behavior, SyncPoints
 from reactive_realizer.bml.names import BMLA
 from reactive_realizer.bml.words import InterruptSpeech

@@ -2,7 +2,8 @@
 
 from dataclasses import dataclass, field
 
-from reactive_realizer.bml.attributes import Text, Word, attribute
+from reactive_realizer.bml.attribute_types import Text, Word
+from reactive_realizer.bml.attributes import attribute
 from reactive_realizer.bml.behavior import Behavior, SyncPoints
 from reactive_realizer.bml.words import PosePart, StanceType
 

@@ -1,11 +1,18 @@
 """Behaviors that are written once and played many times (thesis 6.6.2)."""
 
 from dataclasses import dataclass, field
+from typing import Final
 
-from reactive_realizer.bml.attributes import Name, attribute
+from reactive_realizer.bml.attribute_types import Name
+from reactive_realizer.bml.attributes import attribute
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.constraint import Constraint
 from reactive_realizer.bml.names import Location
+
+DEFINE: Final = "defineproc"
+USE: Final = "useproc"
+PROCEDURES: Final = frozenset({DEFINE, USE})
+"""Elements of continuous interaction that stand beside blocks."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -21,8 +21,8 @@ _ROOT: Final = b"<_>"
 _ROOT_END: Final = b"</_>"
 _PIECE: Final = 1 << 16
 """Bytes fed at once: expat copies what it is fed, and a bad document starts it many times."""
-_START_TAG: Final = re.compile(rb"<(?:[\w.-]+:)?bml[\s/>]")
-_END_TAG: Final = re.compile(rb"</(?:[\w.-]+:)?bml\s*>")
+_START_TAG: Final = re.compile(rb"<(?:[\w.-]+:)?(?:bml|defineproc|useproc)[\s/>]")
+_END_TAG: Final = re.compile(rb"</(?:[\w.-]+:)?(?:bml|defineproc|useproc)\s*>")
 _DOCTYPE: Final = re.compile(rb"<!DOCTYPE", re.IGNORECASE)
 _DECLARATION_END: Final = re.compile(rb"\?>")
 _MISPLACED_DECLARATION: Final = expat.errors.codes[expat.errors.XML_ERROR_MISPLACED_XML_PI]

@@ -1,10 +1,6 @@
 """The attributes of the elements of one block."""
 
-from collections import defaultdict
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import replace
-from functools import partial
-from itertools import count
+from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 from typing import Any, Final
 from xml.sax.saxutils import escape
@@ -12,8 +8,8 @@ from xml.sax.saxutils import escape
 from lxml import etree
 
 from reactive_realizer.bml.attributes import Attribute
-from reactive_realizer.bml.drafts.spelling import SYNC_POINTS
-from reactive_realizer.bml.names import ANTICIPATORS, BML, BML_EXT, Location
+from reactive_realizer.bml.block_names import BlockNames
+from reactive_realizer.bml.names import Location
 from reactive_realizer.bml.root_builder import Root
 from reactive_realizer.bml.sync_ref import SyncRef
 from reactive_realizer.bml.trees import (
@@ -23,11 +19,10 @@ from reactive_realizer.bml.trees import (
     is_part,
     listed,
     name_of,
-    namespace_of,
     shown,
     stray_text_of,
 )
-from reactive_realizer.errors import Fault, RealizerError, error
+from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.limits import Limits
 
 _MOST_COPIES: Final = 10
@@ -40,21 +35,15 @@ class Source:
     Attributes:
         tree: the block's element.
         limits: what may be read.
-        draft: whether it is of before BML 1.0, where sync points are spelled otherwise.
-        external_refs: whether references may name behaviors of other blocks.
+        names: what references in it can name.
     """
 
     def __init__(self, root: Root, limits: Limits) -> None:
         self.tree = root.tree
         self.limits = limits
-        self.draft = namespace_of(root.tree) not in {BML, BML_EXT}
-        self.external_refs = True
+        self.names = BlockNames(root.tree)
         self._written = 0
         self._locations = dict(root.locations)
-        self._block = root.tree.get("id", "").strip()
-        self._behaviors = {id_.strip() for each in _behaviors_in(root.tree) if (id_ := each.get("id"))}
-        self._numbers: defaultdict[str, Iterator[int]] = defaultdict(partial(count, 1))
-        self._marks = frozenset(id_ for mark in root.tree.iter("{*}sync", "{*}tm") if (id_ := mark.get("id")))
 
     def location(self, tree: Tree) -> Location:
         """Where an element starts."""
@@ -94,14 +83,6 @@ class Source:
             "extensions": extensions_of(tree),
             "source": self.xml(tree),
         }
-
-    def name(self, tree: Tree) -> None:
-        """Give a behavior the first free id of its element: activate1."""
-        element = name_of(tree)
-        ids = (f"{element}{number}" for number in self._numbers[element])
-        free = next(id_ for id_ in ids if id_ not in self._behaviors)
-        tree.set("id", free)
-        self._behaviors.add(free)
 
     def fault(self, tree: Tree, code: str, **details: object) -> Fault:
         """Something wrong with an element."""
@@ -145,18 +126,9 @@ class Source:
         if text is None:
             raise RealizerError(self.fault(tree, "missing-attribute", attribute=name))
         try:
-            return self._meant(SyncRef.parse(text, self.limits, self._marks))
+            return self.names.ref(text, self.limits)
         except RealizerError as refused:
             raise self.bad(tree, name, text, refused) from None
-
-    def _meant(self, ref: SyncRef) -> SyncRef:
-        ref = ref.read_in(self._block, self._behaviors)
-        if self.draft and ref.sync not in self._marks:
-            ref = replace(ref, sync=SYNC_POINTS.get(ref.sync or "", ref.sync))
-        outside = ref.block not in {None, self._block, ANTICIPATORS}
-        if outside and ref.behavior is not None and not self.external_refs:
-            raise error("external-reference")
-        return ref
 
     def bad(self, tree: Tree, name: str, text: str, refused: RealizerError) -> RealizerError:
         """An attribute whose value is refused."""
@@ -196,8 +168,3 @@ class Source:
 
 def _text_of(tree: Tree, attribute: Attribute) -> str | None:
     return next((str(tree.attrib[name]) for name in attribute.spellings if name in tree.attrib), None)
-
-
-def _behaviors_in(block: Tree) -> Iterator[Tree]:
-    holders = [block, *block.iter("{*}required")]
-    return (child for holder in holders for child in holder if name_of(child) not in {"constraint", "required"})

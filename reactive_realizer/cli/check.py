@@ -7,7 +7,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from reactive_realizer.assembly.scene import DEFAULT_HUMAN, SceneOptions, open_scene
-from reactive_realizer.bml.attributes import Target, attributes_of
+from reactive_realizer.bml.attribute_types import Names, Target
+from reactive_realizer.bml.attributes import attributes_of
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.block import BehaviorBlock
 from reactive_realizer.bml.document import parse
@@ -70,6 +71,7 @@ class _Checker:
             if parsed.block is not None:
                 yield from filter(None, [admission.take(parsed.block, parsed.failed)])
                 yield from self._unknown_procedure(parsed.block)
+                yield from self._unknown_others(parsed.block)
                 yield from self._inside(parsed.block)
                 self._earlier.add(parsed.block.id)
 
@@ -82,6 +84,15 @@ class _Checker:
         if block.procedure not in {None, *self._procedures}:
             details = {"procedure": block.procedure, "known": ", ".join(self._procedures) or "none"}
             yield Fault("unknown-procedure", details, block.location.line, block.location.column)
+
+    def _unknown_others(self, block: BehaviorBlock) -> Iterator[Fault]:
+        """Blocks that it joins, interrupts or starts."""
+        for attribute in attributes_of(BehaviorBlock):
+            names = getattr(block, attribute.field) if isinstance(attribute.type, Names) else ()
+            for name in names:
+                if name not in self._earlier:
+                    details = {"attribute": attribute.name, "block": name}
+                    yield Fault("unknown-target-block", details, block.location.line, block.location.column)
 
     def _unknown_blocks(self, block: BehaviorBlock | DefineProc) -> Iterator[Fault]:
         known = {None, ANTICIPATORS, block.id, *self._earlier}

@@ -11,6 +11,7 @@ from tempfile import TemporaryDirectory
 from typing import IO
 
 from reactive_realizer import __version__
+from reactive_realizer.assembly.registry import names
 from reactive_realizer.assembly.scene import DEFAULT_HUMAN, SceneOptions, open_scene
 from reactive_realizer.cli.items import Item, item, seconds
 from reactive_realizer.cli.output import Explainer, FeedbackWriter, FrameRecorder
@@ -43,6 +44,8 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
     parser.add_argument("--until", type=seconds, default=_UNTIL, metavar="SECONDS")
     parser.add_argument("--assets", type=Path, action="append", default=[], metavar="DIR")
     parser.add_argument("--seed", type=int, default=0, metavar="N")
+    parser.add_argument("--strategy", choices=names("strategies"), default="convex", help="how blocks are timed")
+    parser.add_argument("--verify", action="store_true", help="check plans while they are played")
     parser.add_argument("--replay", type=Path, metavar="FILE", help="what serve --record wrote, in the place of items")
     parser.set_defaults(run=partial(run, parser))
 
@@ -74,7 +77,9 @@ def _is_given(parser: argparse.ArgumentParser, options: argparse.Namespace, name
 
 
 async def _realize(options: argparse.Namespace) -> int:
-    scene_options = SceneOptions(options.human, options.voice, tuple(options.assets), options.seed)
+    scene_options = SceneOptions(
+        options.human, options.voice, tuple(options.assets), options.seed, options.strategy, options.verify
+    )
     async with open_scene(scene_options) as scene:
         unread = sum(not _put(scene.realizer, entry) for entry in sorted(options.items, key=lambda e: e.time))
         with _written(options, scene.realizer):

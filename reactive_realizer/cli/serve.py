@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 from reactive_realizer.assembly.assets import PACKAGE_ASSETS
+from reactive_realizer.assembly.registry import names
 from reactive_realizer.assembly.scene import DEFAULT_HUMAN, SceneOptions
 from reactive_realizer.server.serve import ServerOptions, serve
 
@@ -31,6 +32,8 @@ def _add(
     parser.add_argument("--token", metavar="T", help="that every client must show")
     parser.add_argument("--allow-origin", action="append", default=[], metavar="O", help="of another page to let in")
     parser.add_argument("--seed", type=int, default=0, metavar="N")
+    parser.add_argument("--strategy", choices=names("strategies"), default="convex", help="how blocks are timed")
+    parser.add_argument("--verify", action="store_true", help="check plans while they are played")
     parser.add_argument("--record", type=Path, metavar="FILE", help="what enters, for realize --replay")
     parser.set_defaults(run=run, performance=performance)
 
@@ -55,7 +58,9 @@ def _server_options(options: argparse.Namespace) -> ServerOptions:
         port=options.port,
         token=options.token,
         origins=tuple(options.allow_origin),
-        scene=SceneOptions(options.human, options.voice, tuple(options.assets), options.seed),
+        scene=SceneOptions(
+            options.human, options.voice, tuple(options.assets), options.seed, options.strategy, options.verify
+        ),
         performance=options.performance.read_text(encoding="utf-8") if options.performance else None,
         record=options.record,
     )

@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import ClassVar, NamedTuple
 
 from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.pegboard.formulas import between, latest, not_after, not_before, shifted_by
 from reactive_realizer.reactive.cell import Cell, Derived, Source
 from reactive_realizer.reactive.commit import Stamp
 from reactive_realizer.reactive.failure import Failure
@@ -106,7 +107,7 @@ class OffsetPeg(TimePeg):
 
     def __init__(self, graph: Graph, name: str, link: TimeCell, offset: float) -> None:
         self.offset = offset
-        super().__init__(graph, name, (link,), _shifted_by(offset))
+        super().__init__(graph, name, (link,), shifted_by(offset))
 
     @property
     def parameters(self) -> Mapping[str, object]:
@@ -127,7 +128,7 @@ class RatioPeg(TimePeg):
 
     def __init__(self, graph: Graph, name: str, before: TimeCell, after: TimeCell, ratio: float) -> None:
         self.ratio = ratio
-        super().__init__(graph, name, (before, after), _between(ratio))
+        super().__init__(graph, name, (before, after), between(ratio))
 
     @property
     def parameters(self) -> Mapping[str, object]:
@@ -152,7 +153,7 @@ class AfterPeg(TimePeg):
 
     def __init__(self, graph: Graph, name: str, natural: TimeCell, bounds: Sequence[Bound]) -> None:
         self.bounds = tuple(distance for _, distance in bounds)
-        super().__init__(graph, name, (natural, *(cell for cell, _ in bounds)), _not_before(self.bounds))
+        super().__init__(graph, name, (natural, *(cell for cell, _ in bounds)), not_before(self.bounds))
 
     @property
     def parameters(self) -> Mapping[str, object]:
@@ -181,7 +182,7 @@ class BeforePeg(TimePeg):
 
     def __init__(self, graph: Graph, name: str, natural: TimeCell, bounds: Sequence[Bound]) -> None:
         self.bounds = tuple(distance for _, distance in bounds)
-        super().__init__(graph, name, (natural, *(cell for cell, _ in bounds)), _not_after(self.bounds))
+        super().__init__(graph, name, (natural, *(cell for cell, _ in bounds)), not_after(self.bounds))
 
     @property
     def parameters(self) -> Mapping[str, object]:
@@ -207,12 +208,12 @@ class LatestPeg(TimePeg):
 
     def __init__(self, graph: Graph, name: str, floor: GlobalTime, links: Sequence[TimeCell]) -> None:
         self.floor = floor
-        super().__init__(graph, name, tuple(links), _latest(floor))
+        super().__init__(graph, name, tuple(links), latest(floor))
 
     def wait_for(self, floor: GlobalTime, links: Sequence[TimeCell]) -> None:
         """Within a transaction, hang on other pegs."""
         self.floor = floor
-        self.rebind(tuple(links), _latest(floor))
+        self.rebind(tuple(links), latest(floor))
 
     @property
     def parameters(self) -> Mapping[str, object]:
@@ -283,7 +284,7 @@ def hangs_on(peg: TimeCell, other: TimeCell) -> bool:
         cell = waiting.pop()
         if cell is other:
             return True
-        new = [each for each in getattr(cell, "dependencies", ()) if each not in seen and each.rank >= other.rank]
+        new = [each for each in cell.dependencies if each not in seen and each.rank >= other.rank]
         seen.update(new)
         waiting += new
     return False
@@ -294,11 +295,11 @@ def unknown_sources(pegs: Iterable[TimeCell]) -> list[str]:
     seen: dict[TimeCell, None] = dict.fromkeys(pegs)
     waiting = list(seen)
     while waiting:
-        for cell in getattr(waiting.pop(), "dependencies", ()):
+        for cell in waiting.pop().dependencies:
             if cell not in seen:
                 seen[cell] = None
                 waiting.append(cell)
-    return [cell.name for cell in seen if cell.value is None and not getattr(cell, "dependencies", ())]
+    return [cell.name for cell in seen if cell.value is None and not cell.dependencies]
 
 
 def _link(peg: TimeCell) -> Link:
@@ -314,48 +315,7 @@ def _reached(peg: TimePeg, distances: Sequence[float]) -> tuple[Link, ...]:
     return tuple(link for link, distance in pairs if link.time is not None and link.time + distance == time)[:1]
 
 
-def _shifted_by(offset: float) -> Callable[[Time], Time]:
-    def shifted(link: Time) -> Time:
-        return None if link is None else GlobalTime(link + offset)
-
-    return shifted
-
-
-def _between(ratio: float) -> Callable[[Time, Time], Time]:
-    def between(before: Time, after: Time) -> Time:
-        if before is None or after is None:
-            return None
-        return GlobalTime(before + ratio * (after - before))
-
-    return between
-
-
-def _not_before(distances: tuple[float, ...]) -> Callable[..., Time]:
-    def not_before(natural: Time, *bounds: Time) -> Time:
-        known = [b + d for b, d in zip(bounds, distances, strict=True) if b is not None]
-        return None if natural is None or len(known) < len(bounds) else GlobalTime(max(natural, *known))
-
-    return not_before
-
-
-def _not_after(distances: tuple[float, ...]) -> Callable[..., Time]:
-    def not_after(natural: Time, *bounds: Time) -> Time:
-        if natural is None:
-            return None
-        return GlobalTime(min([natural, *(b + d for b, d in zip(bounds, distances, strict=True) if b is not None)]))
-
-    return not_after
-
-
 def _bounded(peg: AfterPeg | BeforePeg, side: str) -> str:
     natural, *others = peg.links
     bounds = ", ".join(f"{link.name} {distance:+g} s" for link, distance in zip(others, peg.bounds, strict=True))
     return f"{natural.name}, not {side} {bounds}"
-
-
-def _latest(floor: GlobalTime) -> Callable[..., Time]:
-    def latest(*times: Time) -> Time:
-        known = [time for time in times if time is not None]
-        return max([floor, *known]) if len(known) == len(times) else None
-
-    return latest

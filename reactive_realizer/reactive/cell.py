@@ -72,7 +72,7 @@ class Cell(Generic[T]):
     def observe(self, tell: Callable[[T | Failure], None], ended: Callable[[], object] = lambda: None) -> Subscription:
         """Call ``tell(value)`` after each commit that changed this cell, and ``ended()`` when it is disposed of.
 
-        Neither may write. What one raises is logged, and the others are told.
+        Neither may write. What ``tell`` raises is logged, and the others are told.
         """
         return Subscription(self.observers, tell, ended)
 
@@ -151,6 +151,10 @@ class Derived(Cell[T]):
 
     A formula that raises leaves a `Failure` in the cell, and so does one of the cells it depends on; it heals with the
     next value that can be computed.
+
+    Attributes:
+        formula: gives the value; it only computes.
+        waiting: whether it is to be computed before it is read; for the graph.
     """
 
     __slots__ = ("dependencies", "formula", "waiting")
@@ -189,7 +193,7 @@ class Derived(Cell[T]):
             DisposedCellError: it has its last value.
         """
         self.graph.write(self, value)
-        self.graph.leave_alone(self)
+        self.waiting = False
         self._unlink()
 
     def dispose(self) -> None:

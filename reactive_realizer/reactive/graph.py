@@ -18,6 +18,7 @@ from reactive_realizer.reactive.errors import (
 logger = logging.getLogger(__name__)
 
 _SEQUENCE = attrgetter("sequence")
+_tuple = tuple.__new__
 
 
 class Graph:
@@ -44,7 +45,7 @@ class Graph:
         self._listeners: list[Callable[[Commit], None]] = []
 
     def listen(self, listener: Callable[[Commit], None]) -> None:
-        """Call ``listener(commit)`` after every commit that changed something, after the observers of the cells.
+        """Call ``listener(commit)`` after every commit that changed or made something, and after the cells' observers.
 
         It may not write; what it raises is logged.
         """
@@ -66,10 +67,10 @@ class Graph:
         try:
             yield
         finally:
-            if self._depth == 1:
+            self._depth -= 1
+            if self._depth == 0:
                 self.settle()
                 self._commit(cause)
-            self._depth -= 1
 
     # --- for the cells
 
@@ -91,10 +92,6 @@ class Graph:
         if not cell.waiting:
             self._wake(cell)
 
-    def leave_alone(self, cell: Derived[Any]) -> None:
-        """Do not recompute a cell that was touched."""
-        cell.waiting = False
-
     def rerank(self, cell: Derived[Any], rank: int) -> None:
         """Move a cell to a higher rank, also where it waits to be recomputed."""
         cell.rank = rank
@@ -108,7 +105,7 @@ class Graph:
             rank = heappop(self._ranks)
             bucket = self._buckets.pop(rank)
             for cell in sorted(bucket, key=_SEQUENCE) if len(bucket) > 1 else bucket:
-                # One that was let alone or got another rank since is not, or not here, to be computed.
+                # One that was pinned since is not to be computed, one that got another rank not here.
                 if cell.waiting and cell.rank == rank:
                     cell.waiting = False
                     self._give(cell, cell.compute())
@@ -138,7 +135,9 @@ class Graph:
             bucket.append(cell)
 
     def _commit(self, cause: str) -> None:
-        changes = tuple([Change(cell, old, cell._value) for cell, old in self._before.items() if cell._value != old])
+        before = self._before.items()
+        # As `Change(...)` does, in half the time: every cell that changes comes by here.
+        changes = tuple([_tuple(Change, (cell, old, cell._value)) for cell, old in before if cell._value != old])
         made = list(self._made)
         self._before.clear()
         self._made.clear()

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Any
 from reactive_realizer.reactive.errors import PropagationCycleError
 
 if TYPE_CHECKING:
-    from reactive_realizer.reactive.cell import Cell
+    from reactive_realizer.reactive.cell import Cell, Derived
 
 
-def raise_rank(cell: "Cell[Any]", rank: int) -> None:
+def raise_rank(cell: "Derived[Any]", rank: int) -> None:
     """Have a cell, and all that depends on it, come after what has a lower rank.
 
     Ranks only grow: a rank higher than needed costs nothing, lowering one would cost a walk.

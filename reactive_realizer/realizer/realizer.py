@@ -25,6 +25,7 @@ from reactive_realizer.reactive.graph import Graph
 from reactive_realizer.realizer.character import Character
 from reactive_realizer.realizer.entered import Delivery, Entered
 from reactive_realizer.realizer.inputs import BmlText, Event, Input, Prediction, TargetMoved
+from reactive_realizer.realizer.verifier import Verifier
 from reactive_realizer.realizer.workshop import TaskWorkshop
 from reactive_realizer.scheduler.bml_scheduler import BMLScheduler
 from reactive_realizer.scheduler.cast import Cast
@@ -61,6 +62,8 @@ class Realizer:
         anticipators: Callable[[PegBoard], Mapping[str, Anticipator]],
         strategy: SchedulingStrategy,
         limits: Limits,
+        *,
+        verify: bool = False,
     ) -> None:
         self.limits = limits
         self.characters = {character.id: character for character in characters}
@@ -70,6 +73,7 @@ class Realizer:
         self.anticipators = dict(anticipators(self.board))
         self.time = GlobalTime(0.0)
         self._strategy = strategy
+        self._verify = verify
         self._cast = Cast({character.id: character.engines for character in characters})
         self._leading = [EngineTask(engine) for engine in self._cast.engines if engine.leads]
         self._following = [EngineTask(engine) for engine in self._cast.engines if not engine.leads]
@@ -93,6 +97,7 @@ class Realizer:
         self.scheduler = BMLScheduler(
             self.board, self._cast, self.feedback, self._workshop, self._strategy, self.limits
         )
+        self._verifier = Verifier(self.board, self.scheduler.blocks, self.feedback) if self._verify else None
         return self
 
     async def __aexit__(
@@ -147,6 +152,8 @@ class Realizer:
         if watched.frame:
             self._publish_frames(tick.time, plays)
         self.scheduler.publish(tick.time)
+        if self._verifier is not None:
+            self._verifier.check(self._commits, tick.time)
         self.feedback.flush(tick.time)
 
     def _take_inputs(self, tick: Tick, work: tuple[Delivery, ...]) -> None:

@@ -24,9 +24,11 @@ class Cluster:
         return any(not isinstance(node, Point) or node not in plan.times for tie in self.ties for node in tie.nodes)
 
     def joins_late(self, plan: PlanView) -> bool:
-        """Whether it is tied to a time of the outside before the start of its block."""
-        outer = [plan.time(node) for tie in self.ties for node in tie.nodes if node in plan.outer]
-        return plan.start is not None and any(time is not None and time < plan.start for time in outer)
+        """Whether something of it is tied to the outside, at a time before the start of its block."""
+        tied = [
+            plan.time(node) for tie in self.ties if not plan.outer.keys().isdisjoint(tie.nodes) for node in tie.nodes
+        ]
+        return plan.start is not None and any(time is not None and time < plan.start for time in tied)
 
 
 def clusters_of(plan: PlanView, behaviors: Collection[str]) -> list[Cluster]:

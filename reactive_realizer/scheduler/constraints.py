@@ -1,11 +1,12 @@
 """From what a block says about time to ties between points (thesis 7.1.1)."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.block import BehaviorBlock
 from reactive_realizer.bml.constraint import Constraint, OrderKind, Synchronize
 from reactive_realizer.bml.constraint import Order as OrderConstraint
+from reactive_realizer.bml.continuous import ParameterValueChange
 from reactive_realizer.bml.sync_ref import SyncRef
 from reactive_realizer.errors import Fault, RealizerError, error
 from reactive_realizer.planunit.plan_unit import PlanUnit
@@ -19,11 +20,25 @@ Raises RealizerError: there is none.
 
 
 def blocks_named(block: BehaviorBlock) -> set[str]:
-    """Ids of the blocks that the references of a block name."""
+    """Ids of the blocks that the references of a block name, and those whose parameters it changes."""
     refs = [ref for behavior in block.behaviors for ref in behavior.syncs.values()]
     for constraint in block.constraints:
         refs += (constraint.ref, *constraint.refs) if isinstance(constraint, OrderConstraint) else constraint.refs
-    return {ref.block for ref in refs if ref.block is not None}
+    targets = (behavior.target_block for behavior in block.behaviors if isinstance(behavior, ParameterValueChange))
+    return {name for name in (*(ref.block for ref in refs), *targets) if name is not None}
+
+
+def hanging_on(named: Collection[str], kept: Iterable[Tie | Order]) -> set[str]:
+    """Ids of the other behaviors that name some behaviors, or share a constraint with them, in any number of steps.
+
+    Who is named hangs on nobody: a speech goes on whatever becomes of the nod that is tied to its words.
+    """
+    ties = [tie for tie in kept if isinstance(tie, Tie)]
+    ends = [(tie.owner, {node.behavior for node in tie.nodes if isinstance(node, Point)}) for tie in ties]
+    found = set(named)
+    while new := {each for owner, ids in ends if ids & found for each in ({owner} if owner else ids)} - found:
+        found |= new
+    return found.difference(named)
 
 
 def drop_unplaceable(units: dict[str, PlanUnit], locate: Locate) -> list[Loss]:

@@ -13,6 +13,7 @@ from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint, UnitState
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BlockState, BMLBlock
 from reactive_realizer.scheduler.cast import Cast
+from reactive_realizer.scheduler.constraints import hanging_on
 from reactive_realizer.scheduler.predictions import Predictions
 from reactive_realizer.scheduler.reporter import Reporter
 
@@ -171,7 +172,10 @@ class Endings:
         elif not block.live_units:
             self.end(block, BlockState.DONE, block.end.value if block.end.value is not None else time)
         else:
-            pegs = [peg for peg in dict.fromkeys(ahead) if not peg.pinned]
+            hanging = hanging_on([unit.behavior.id for unit in units], block.kept)
+            others = [unit for unit in block.live_units if unit.behavior.id not in hanging]
+            living = {point.peg for unit in others for point in unit.ahead()}
+            pegs = [p for p in dict.fromkeys(ahead) if not p.pinned and living.isdisjoint({p, *followers_of(p)})]
             with self._board.graph.transaction(f"cut a part of {block.key.block}"):
                 for peg in pegs:
                     peg.pin(peg.value)

@@ -3,39 +3,24 @@
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from reactive_realizer.bml.names import ANTICIPATORS
-from reactive_realizer.bml.sync_ref import SyncRef
 from reactive_realizer.clock.units import RESOLUTION, GlobalTime
-from reactive_realizer.errors import error
 from reactive_realizer.pegboard.peg_key import PegKey
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.pegboard.time_peg import (
-    AfterPeg,
-    BeforePeg,
-    Bound,
-    OffsetPeg,
-    RatioPeg,
     Time,
     TimeCell,
     TimePeg,
-    hangs_on,
 )
 from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
 from reactive_realizer.planunit.timing import Timing
-from reactive_realizer.reactive.cell import Cell
-from reactive_realizer.reactive.graph import Graph
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.scheduler.constraints import drop_unplaceable, orders_of, ties_of
+from reactive_realizer.scheduler.names import Names
+from reactive_realizer.scheduler.peg_builder import PegBuilder
 from reactive_realizer.scheduler.problem import (
-    AtBlock,
-    AtLeast,
-    AtMost,
-    AtOffset,
-    AtRatio,
     Item,
     Loss,
-    Node,
     Order,
     Origin,
     PegSpec,
@@ -83,7 +68,7 @@ class Planning:
             now: the time of the tick.
         """
         kept = {unit.behavior.id: unit for unit in timings}
-        names = _Names(block, kept, self._board, self._blocks)
+        names = Names(block, kept, self._board, self._blocks)
         losses = drop_unplaceable(kept, names.locate)
         ties, lost_ties = ties_of(block.description, kept, names.locate)
         orders, lost_orders = orders_of(block.description, names.locate)
@@ -119,7 +104,7 @@ class Planning:
 
     def _hang(self, block: BMLBlock, plan: Plan) -> dict[PegKey, TimePeg]:
         keys = {unit.key(sync): spec for unit in plan.units for sync, spec in plan.pegs[unit.behavior.id].items()}
-        pegs = _PegBuilder(self._board.graph, block, keys).build()
+        pegs = PegBuilder(self._board.graph, block, keys).build()
         for key, text in _reasons(block, plan.kept):
             pegs[key].why = text
         tied = {node for each in plan.kept for node in each.nodes if isinstance(node, Point)}
@@ -145,91 +130,6 @@ def predicted_start(block: BMLBlock, now: GlobalTime) -> GlobalTime:
     return max(now, block.start.value or now)
 
 
-class _Names:
-    """What the references of one block name."""
-
-    def __init__(self, block: BMLBlock, units: Mapping[str, PlanUnit], board: PegBoard, blocks: Blocks) -> None:
-        self._block = block
-        self._units = units
-        self._board = board
-        self._blocks = blocks
-
-    def locate(self, ref: SyncRef) -> Node:
-        """The point that a reference names, without its offset.
-
-        Raises:
-            RealizerError: there is none.
-        """
-        if ref.block == ANTICIPATORS and ref.behavior is not None and ref.sync is not None:
-            return self._board.predicted(ref.behavior, ref.sync)
-        if ref.block not in (None, self._block.key.block):
-            return self._outside(ref)
-        if ref.behavior is None or ref.sync is None:
-            return Origin.BLOCK_START
-        unit = self._units.get(ref.behavior)
-        if unit is None:
-            raise error("unknown-reference", behavior=ref.behavior, reference=str(ref), known=_list(self._units))
-        if ref.sync not in unit.timing.points:
-            raise _no_sync(ref, unit.timing.points)
-        return Point(ref.behavior, ref.sync)
-
-    def _outside(self, ref: SyncRef) -> TimeCell:
-        """A peg of another block."""
-        other = self._blocks.find(self._block.key.character, ref.block or "")
-        if other is None:
-            raise error("unknown-block", block=ref.block, reference=str(ref))
-        peg = self._board.get(PegKey(*other.key, ref.behavior, ref.sync or "start"))
-        if peg is not None and hangs_on(peg, self._block.start):
-            raise error("cyclic-reference", block=self._block.key.block, reference=str(ref))
-        if peg is None:
-            units = {unit.behavior.id: unit for unit in other.units}
-            if ref.behavior in units:
-                raise _no_sync(ref, units[ref.behavior].timing.points)
-            raise error("unknown-reference", behavior=ref.behavior, reference=str(ref), known=_list(units))
-        return peg
-
-
-class _PegBuilder:
-    """Makes the pegs of a plan; what shares a description shares a peg, which bears the name of the first."""
-
-    def __init__(self, graph: Graph, block: BMLBlock, specs: Mapping[PegKey, PegSpec]) -> None:
-        self._graph = graph
-        self._block = block
-        self._specs = specs
-        self._names: dict[PegSpec, str] = {}
-        for key, spec in specs.items():
-            self._names.setdefault(spec, str(key))
-        self._built: dict[PegSpec, TimePeg] = {}
-
-    def build(self) -> dict[PegKey, TimePeg]:
-        """The peg of each sync point."""
-        return {key: self._peg(spec) for key, spec in self._specs.items()}
-
-    def _peg(self, spec: PegSpec) -> TimePeg:
-        if spec not in self._built:
-            self._built[spec] = self._make(spec, self._names.get(spec, f"{self._block.key.block}:a dropped behavior"))
-        return self._built[spec]
-
-    def _make(self, spec: PegSpec, name: str) -> TimePeg:
-        match spec:
-            case AtBlock(anchor, offset):
-                return OffsetPeg(self._graph, name, self._block.start, anchor.time + offset)
-            case AtOffset(link, offset):
-                return OffsetPeg(self._graph, name, self._cell(link), offset)
-            case AtRatio(before, after, ratio):
-                return RatioPeg(self._graph, name, self._cell(before), self._cell(after), ratio)
-            case AtLeast(natural, bounds):
-                return AfterPeg(self._graph, name, self._cell(natural), self._bounds(bounds))
-            case AtMost(natural, bounds):
-                return BeforePeg(self._graph, name, self._cell(natural), self._bounds(bounds))
-
-    def _cell(self, link: PegSpec | TimeCell) -> TimeCell:
-        return link if isinstance(link, Cell) else self._peg(link)
-
-    def _bounds(self, bounds: Sequence[tuple[PegSpec | TimeCell, float]]) -> list[Bound]:
-        return [(self._cell(link), distance) for link, distance in bounds]
-
-
 def _outer_times(constraints: Sequence[Tie | Order], start: GlobalTime) -> dict[TimeCell, float | None]:
     nodes = [node for each in constraints for node in each.nodes]
     cells = (node for node in nodes if not isinstance(node, Point | Origin))
@@ -251,11 +151,3 @@ def _kept(problem: Problem, solution: Solution) -> tuple[Tie | Order, ...]:
         if id(each) not in lost
         and all(not isinstance(node, Point) or node.behavior in solution.pegs for node in each.nodes)
     )
-
-
-def _no_sync(ref: SyncRef, known: Sequence[str]) -> Exception:
-    return error("unknown-sync", behavior=ref.behavior, sync=ref.sync, reference=str(ref), known=", ".join(known))
-
-
-def _list(units: Mapping[str, PlanUnit]) -> str:
-    return ", ".join(units) or "none"

@@ -36,13 +36,16 @@ class Requests:
         self._reporter = reporter
 
     def do(self, requests: Iterable[Request], now: GlobalTime) -> bool:
-        """Do what is asked for in order of time; whether more than parameters changed."""
-        timed = [each for each in requests if not isinstance(each, SetParameter)]
-        for request in sorted(timed, key=lambda each: _time(each, now)):
-            self._do(request, now)
+        """Do what is asked for, in order of time; whether more than parameters changed.
+
+        Values come first: a change that ends as another one begins has reached its target by then.
+        """
         for each in requests:
             if isinstance(each, SetParameter) and each.parameter.owner is each.unit:
                 each.parameter.set(each.value)
+        timed = [each for each in requests if not isinstance(each, SetParameter)]
+        for request in sorted(timed, key=lambda each: _time(each, now)):
+            self._do(request, now)
         return bool(timed)
 
     def activate(self, character: str, name: str, time: GlobalTime) -> Fault | None:

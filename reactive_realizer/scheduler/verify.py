@@ -34,9 +34,6 @@ class Violation:
     amount: float
     text: str
 
-    def __str__(self) -> str:
-        return f"{self.text} is missed by {self.amount:g} s (thesis {self.equation}, {', '.join(self.points)})"
-
 
 def verify(plan: PlanView) -> list[Violation]:
     """The equations that a plan breaks.

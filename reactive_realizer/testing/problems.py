@@ -96,7 +96,8 @@ def feasible_problems(draw: st.DrawFn, most: int = 6) -> Problem:
     """What can be met as a whole: constraints are read off a plan that was drawn before them."""
     items = _draw_items(draw, [kind for kind, timing in TIMINGS.items() if not timing.free], most)
     outside = [outer("known", draw(st.sampled_from([0.0, 1.0, 2.5]))), outer("unknown", None)]
-    times = _draw_times(draw, items) | {Origin.BLOCK_START: 0.0} | {cell: cell.value or 2.0 for cell in outside}
+    times = _draw_times(draw, items) | {Origin.BLOCK_START: 0.0}
+    times |= {cell: 2.0 if cell.value is None else cell.value for cell in outside}
     classes = _rigid_classes(items, [Origin.BLOCK_START, *outside])
     nodes = st.sampled_from([*times])
     constraints: list[Tie | Order] = []

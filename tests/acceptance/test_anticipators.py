@@ -242,6 +242,20 @@ async def test_a_thousand_events_a_second_move_no_more_than_ten_do(pilot) -> Non
     assert [pilot.feedback.status(block) for block in "bc"] == ["DONE", "DONE"]
 
 
+async def test_of_a_thousand_contradictory_predictions_a_second_the_last_of_each_tick_counts(pilot) -> None:
+    random = Random(2)
+    pilot.block("b", NOD.format("partner:hit"))
+    for _ in range(100):
+        for _ in range(9):
+            pilot.predict("partner", "hit", random.choice([None, -1e9, 0.0, 5.0, 7.0, float("nan"), float("inf")]))
+        pilot.predict("partner", "hit", 3.0)
+        await pilot.tick()
+    assert len(pilot.feedback.predictions("b")) == 1
+    await pilot.advance(4)
+    assert pilot.feedback.time("b:h:start") == 3.0
+    assert pilot.feedback.status("b") == "DONE"
+
+
 async def test_an_anticipator_that_fails_is_left_out_and_the_session_goes_on(pilot, monkeypatch, caplog) -> None:
     def fail(now: float) -> None:
         raise ZeroDivisionError

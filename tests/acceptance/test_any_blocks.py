@@ -21,13 +21,28 @@ KINDS = {
     '<face id="{id}"{syncs}><faceLexeme lexeme="RAISE_BROWS" amount="1"/></face>': ("start", "end"),
     '<locomotion id="{id}" target="bluebox"{syncs}/>': ("start",),
     '<bmlt:magic id="{id}"{syncs}/>': ("start",),
+    '<bmla:activate id="{id}" target="a"{syncs}/>': ("start",),
+    '<bmlt:activate id="{id}" target="nobody"{syncs}/>': ("start", "end"),
+    '<bmla:interrupt id="{id}" target="a"{syncs}/>': ("start",),
+    '<bmlt:interrupt id="{id}" target="b" include="p"{syncs}/>': ("start",),
+    '<bmla:interrupt id="{id}" target="c" exclude="q,r" speech="word"{syncs}/>': ("start",),
+    '<bmla:parametervaluechange id="{id}" target="a:p" paramId="volume"{syncs}>'
+    '<bmla:trajectory type="linear" targetValue="90"/></bmla:parametervaluechange>': ("start", "end"),
+    '<bmlt:parametervaluechange id="{id}" target="b:q" paramId="amount"{syncs}>'
+    '<bmlt:trajectory type="instant" initialValue="0" targetValue="7"/></bmlt:parametervaluechange>': (
+        "start",
+        "stroke",
+    ),
 }
 IDS = ("p", "q", "r")
+JOINS = ["appendAfter", "chunkAfter", "prependBefore", "chunkBefore", "interrupt", "onStart"]
+JOINS = [f"{prefix}:{name}" for prefix in ("bmla", "bmlt") for name in JOINS]
 REFS = [
     "0", "0.4", "1", "-1", "nan", "",
     *(f"{id_}:{sync}" for id_ in IDS for sync in ("start", "stroke", "m", "end", "end+0.2", "start-0.4")),
     "a:p:start", "b:q:end", "c:0.5", "nobody:p:end",
-    "anticipators:t:hit", "anticipators:t:hit-0.3", "anticipators:metronome:tick1",
+    "anticipators:t:hit", "anticipators:t:hit-0.3", "anticipators:metronome:tick1", "anticipators:spacebar:press",
+    "a:relax", "b:end+0.1",
 ]  # fmt: skip
 
 
@@ -47,8 +62,14 @@ def blocks(draw):
         inside.append(f"<constraint><synchronize>{tie}</synchronize></constraint>")
     if draw(st.integers(0, 4)) == 0:
         inside = [f"<required>{part}</required>" for part in inside]
+    if draw(st.integers(0, 3)) == 0:
+        kind, ref, sync = draw(st.sampled_from(["after", "before"])), *draw(st.tuples(*[st.sampled_from(REFS[6:])] * 2))
+        inside.append(f'<constraint><{kind} ref="{ref}"><sync ref="{sync}"/></{kind}></constraint>')
+    joins = draw(st.dictionaries(st.sampled_from(JOINS), st.sampled_from(["a", "b", "a,c", "d", "nobody"]), max_size=2))
+    if draw(st.integers(0, 3)) == 0:
+        joins["bmla:preplan"] = "true"
     composition = draw(st.sampled_from(["MERGE", "MERGE", "APPEND", "APPEND", "REPLACE", "SIDEWAYS"]))
-    return block(draw(st.sampled_from("aabbccd")), "".join(inside), composition=composition)
+    return block(draw(st.sampled_from("aabbccd")), "".join(inside), composition=composition, **joins)
 
 
 STEPS = st.one_of(
@@ -56,6 +77,7 @@ STEPS = st.one_of(
     blocks(),
     blocks(),
     st.sampled_from([-1.0, 0.0, 0.3, 1.0, None]).map(lambda time: ("predict", time)),
+    st.sampled_from(["press", "release", "nonsense"]).map(lambda event: ("key", event)),
     st.sampled_from([30, 120, 1]).map(lambda tempo: ("tempo", tempo)),
     st.sampled_from([0.01, 0.1, 0.37, 1.0]).map(lambda time: ("advance", time)),
 )
@@ -68,6 +90,8 @@ async def play(script):
             match step:
                 case ("predict", time):
                     pilot.predict("t", "hit", time if time is None else pilot.now + time)
+                case ("key", event):
+                    pilot.event("spacebar", event)
                 case ("tempo", tempo):
                     pilot.event("metronome", "tempo", tempo)
                 case ("advance", time):

@@ -84,7 +84,7 @@ async def test_an_id_that_is_taken_is_refused_and_nothing_else_happens(pilot) ->
 
 
 async def test_a_block_whose_behaviors_were_all_dropped_still_starts_and_ends(pilot) -> None:
-    pilot.block("b", '<gesture id="g" lexeme="NO-SUCH"/><head id="h" lexeme="NOD" start="3" end="2"/>')
+    pilot.block("b", '<gesture id="g" lexeme="NO-SUCH"/><head id="h" lexeme="NOD" start="3" end="3"/>')
     await pilot.tick()
     assert pilot.feedback.progress == ["b:start", "b:end"]
     assert pilot.feedback.warnings == [("b:g", "CANNOT_CREATE_BEHAVIOR"), ("b:h", "IMPOSSIBLE_TO_SCHEDULE")]
@@ -209,7 +209,23 @@ def plans_of(pilot):
     return [engine.player.units for engine in engines]
 
 
-async def test_a_required_tie_that_contradicts_others_fails_the_block(pilot) -> None:
+async def test_required_ties_that_contradict_each_other_fail_the_block(pilot) -> None:
+    pilot.block(
+        "b",
+        """
+        <head id="h" lexeme="NOD"/>
+        <required>
+          <constraint><synchronize><sync ref="h:start"/><sync ref="1"/></synchronize></constraint>
+          <constraint><synchronize><sync ref="h:start"/><sync ref="2"/></synchronize></constraint>
+        </required>
+        """,
+    )
+    await pilot.tick()
+    assert pilot.feedback.status("b") == "FAILED"
+    assert pilot.feedback.warnings == [("b", "IMPOSSIBLE_TO_SCHEDULE")]
+
+
+async def test_a_required_tie_is_kept_and_what_contradicts_it_is_dropped(pilot) -> None:
     pilot.block(
         "b",
         """
@@ -219,9 +235,10 @@ async def test_a_required_tie_that_contradicts_others_fails_the_block(pilot) -> 
         </required>
         """,
     )
-    await pilot.tick()
-    assert pilot.feedback.status("b") == "FAILED"
-    assert pilot.feedback.warnings == [("b", "IMPOSSIBLE_TO_SCHEDULE")]
+    await pilot.advance(4)
+    assert pilot.feedback.warnings == [("b:h", "IMPOSSIBLE_TO_SCHEDULE")]
+    assert pilot.feedback.time("b:h:start") == 2.0
+    assert pilot.feedback.status("b") == "DONE"
 
 
 async def test_a_block_appended_to_one_that_fails_still_waits_for_what_that_one_waited_for(pilot) -> None:

@@ -177,3 +177,22 @@ async def test_a_late_tick_cuts_at_the_time_that_was_meant(pilot) -> None:
     await pilot.realizer.step(Tick(200, tick_time(0), frame=False))
     assert pilot.feedback.time("talk:s:end") == 0.5
     assert not pilot.feedback.reached("talk:s:m")
+
+
+async def test_a_speech_goes_on_whatever_becomes_of_what_is_tied_to_its_words(pilot) -> None:
+    nods = '<head id="n" lexeme="NOD" start="s:m" end="s:m+1"/><head id="o" lexeme="NOD" start="n:end" end="n:end+1"/>'
+    send(pilot, "talk", TALK + nods)
+    send(pilot, "stop", '<bmla:interrupt id="i" target="talk" exclude="s"/>')
+    send(pilot, "then", '<bmla:interrupt id="i" target="talk" start="talk:s:m"/>')
+    await pilot.advance(4)
+    assert pilot.feedback.warnings == []
+    assert pilot.feedback.time("then:i:start") == pilot.feedback.time("talk:s:end") == pilot.feedback.time("talk:s:m")
+
+
+async def test_who_hangs_on_one_that_is_cut_is_told_however_long_the_way(pilot) -> None:
+    nods = '<head id="n" lexeme="NOD" start="s:m" end="s:m+1"/><head id="o" lexeme="NOD" start="n:end" end="n:end+1"/>'
+    send(pilot, "talk", TALK + nods)
+    send(pilot, "stop", '<bmla:interrupt id="i" target="talk" include="n"/>')
+    await pilot.advance(4)
+    assert pilot.feedback.warnings == [("talk:o", "IMPOSSIBLE_TO_SCHEDULE")]
+    assert pilot.feedback.reached("talk:s:m")

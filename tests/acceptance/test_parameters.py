@@ -110,6 +110,15 @@ async def test_of_two_changes_the_later_start_wins_and_sets_out_from_what_is_the
     assert voiced.feedback.warnings == []
 
 
+@pytest.mark.speech
+async def test_a_change_that_begins_where_another_one_ends_sets_out_from_the_target_of_that(voiced) -> None:
+    voiced.block("b", SPEECH + change("p", 'start="0" end="1"') + change("q", 'start="p:end" end="2"', targetValue=0))
+    await voiced.advance(3)
+    told = gains(voiced)
+    assert max(gain for _, gain in told) == 2.0
+    assert told[-1][1] == 0.0
+
+
 # --- when it starts and ends
 
 
@@ -160,6 +169,15 @@ async def test_a_target_that_is_interrupted_ends_it_then(pilot) -> None:
     assert pilot.feedback.warnings == []
 
 
+@pytest.mark.speech
+async def test_a_change_of_what_is_still_being_prepared_waits_for_that(voiced) -> None:
+    voiced.block("b", SPEECH)
+    voiced.block("c", change("p", 'start="0"', type="instant"))
+    await voiced.advance(1)
+    assert voiced.feedback.warnings == []
+    assert gains(voiced)[-1][1] == 2.0
+
+
 async def test_a_change_may_wait_for_a_prediction(pilot) -> None:
     pilot.block("b", SPEECH + change("p", 'start="anticipators:user:starts" end="s:end"'))
     await pilot.advance(1)
@@ -196,13 +214,20 @@ async def test_the_amount_of_a_nod_is_its_attribute_until_it_is_changed(pilot) -
     assert pilot.feedback.warnings == []
 
 
-async def test_a_gesture_of_a_smaller_amount_stays_nearer_to_the_rest_pose_and_never_jumps(pilot) -> None:
-    pilot.watch()
-    pilot.block("b", RAISED + change("p", 'start="2" end="3"', target="g", parameter="amount", targetValue=0.5))
-    await pilot.advance(5)
-    seen = _turns(pilot, "r_elbow")
-    assert seen[200] == pytest.approx(0.5 * seen[90], abs=0.06)
-    assert np.abs(np.diff(seen)).max() < 0.1
+async def test_a_gesture_of_a_smaller_amount_stays_nearer_to_the_rest_pose_and_never_jumps() -> None:
+    less = change("p", 'start="2" end="3"', target="g", parameter="amount", targetValue=0.5)
+    seen = []
+    for more in ("", less):
+        async with open_pilot() as pilot:
+            pilot.watch()
+            await pilot.advance(0.1)
+            pilot.block("b", RAISED + more)
+            await pilot.advance(5)
+            seen.append(_turns(pilot, "r_elbow"))
+    whole, part = seen
+    assert part[:100] == pytest.approx(whole[:100])
+    assert part[160:] == pytest.approx(0.5 * whole[160:], abs=0.02)
+    assert np.abs(np.diff(part)).max() < 0.1
 
 
 # --- what cannot be

@@ -2,12 +2,21 @@
 
 import pytest
 
+from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.testing.pilot import open_pilot
+
 SPEECH = '<speech id="speech1"><text>Yes, <sync id="sync1"/>that was great.</text></speech>'
 NOD_ON_SPEECH = '<head id="nod1" lexeme="NOD" start="speech1:start" end="speech1:sync1"/>'
 NOD_3_TO_5 = '<head id="nod1" lexeme="NOD" start="3" end="5"/>'
 BEAT_ON_NOD = '<gesture id="beat1" lexeme="BEAT" stroke="nod1:stroke"/>'
 BEATS = '<gesture id="g1" lexeme="BEAT"/><gesture id="g2" lexeme="BEAT" start="g1:end"/>'
 NOD_AROUND = '<head id="nod1" lexeme="NOD" repetition="5" start="g1:start-2" end="g2:end+3"/>'
+
+
+@pytest.fixture
+async def pilot():
+    async with open_pilot(SceneOptions(voice="text", strategy="smartbody")) as pilot:
+        yield pilot
 
 
 @pytest.mark.parametrize("order", [(SPEECH, NOD_ON_SPEECH), (NOD_ON_SPEECH, SPEECH)], ids=["27a", "27b"])

@@ -36,6 +36,21 @@ def test_peaks_are_found_where_they_are_whatever_the_noise(seed) -> None:
     assert found == pytest.approx(moments, abs=0.06)
 
 
+def peaks_of(*values: float) -> list[float]:
+    """Where peaks are found in samples 0.1 s apart."""
+    peaks = Peaks(3.0)
+    found = [peaks.take(value, number / 10) for number, value in enumerate(values)]
+    return [peak for peak in found if peak is not None]
+
+
+def test_a_peak_that_trembles_on_its_way_down_is_one() -> None:
+    assert peaks_of(10, 10, 14, 15, 12.5, 14, 12.5, 14, 10, 10) == [0.3]
+
+
+def test_a_slow_swing_has_its_peak_where_it_is_highest() -> None:
+    assert peaks_of(*range(10, 20), 20, *range(19, 9, -1)) == [1.0]
+
+
 def test_somebody_who_stands_still_makes_no_peak() -> None:
     peaks = Peaks(3.0)
     assert not any(peaks.take(value, time) for time, value in acceleration([], 30.0, 1))

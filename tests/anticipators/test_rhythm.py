@@ -94,6 +94,11 @@ def test_a_beat_that_is_doubled_counts_once(echo) -> None:
     assert heard.time(31) == 18.0
 
 
+def test_a_slow_beat_may_be_doubled_later() -> None:
+    heard = hear(rhythm(), 0.0, 2.0, 4.0, 4.3, 6.0, 6.5)
+    assert next_times(heard, 2) == [8.0, 10.0]
+
+
 def test_notes_between_beats_are_none() -> None:
     heard = hear(rhythm(), 0.0, 1.0, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5)
     assert next_times(heard, 2) == pytest.approx([5.0, 6.0])
@@ -103,6 +108,25 @@ def test_two_onsets_in_a_row_where_no_beat_is_are_a_new_tempo() -> None:
     heard = hear(rhythm(), 0.0, 1.0, 2.0, 3.0, 3.65, 4.35)
     assert next_times(heard, 3) == pytest.approx([5.05, 5.75, 6.45])
     assert [heard.time(n) for n in (4, 5, 6)] == [3.0, 4.0, 4.35]
+    hear(heard, 4.75)
+    assert next_times(heard, 1) == pytest.approx([5.05])
+
+
+def test_the_new_tempo_is_that_of_the_two_even_within_one_old_beat() -> None:
+    heard = hear(rhythm(), 0.0, 1.0, 2.0, 3.0, 3.35, 3.65)
+    assert next_times(heard, 2) == pytest.approx([3.95, 4.25])
+
+
+def test_two_of_them_far_apart_are_none() -> None:
+    heard = hear(rhythm(), 0.0, 1.0, 2.0, 3.5, 8.5)
+    assert next_times(heard, 2) == [9.0, 10.0]
+
+
+def test_what_is_too_long_for_an_interval_is_none() -> None:
+    heard = hear(rhythm(), 0.0, 9.0)
+    assert (heard.time(2), heard.time(3)) == (9.0, None)
+    hear(heard, 9.5)
+    assert heard.time(4) == 10.0
 
 
 def test_after_a_rest_the_next_beat_takes_up_the_count_in_the_last_tempo() -> None:

@@ -12,6 +12,8 @@ from reactive_realizer.errors import RealizerError
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.reactive.graph import Graph
 
+from .conftest import Stage
+
 PLAIN, FINISHED, OPEN = "I live in a house", "I live in a house.", "I live in a house and"
 
 
@@ -83,6 +85,16 @@ def test_an_end_that_should_have_been_is_now(user) -> None:
     user.voice(1.0, 1.0)
     user.voice(3.0, 0.0)
     assert user.words(3.5, FINISHED) == 3.5
+
+
+def test_an_end_that_is_said_to_be_long_ago_can_be_taken_back_as_long_as_any() -> None:
+    user = User(Stage())
+    user.words(1.0, OPEN)
+    user.voice(1.0, 1.0)
+    user.voice(3.0, 0.0)
+    assert user.words(4.5, FINISHED) == 4.5
+    assert user.voice(5.4, 0.0) == 4.5
+    assert user.voice(5.45, 1.0) is None
 
 
 def test_words_alone_are_enough_and_every_new_one_puts_it_off(user) -> None:

@@ -49,6 +49,8 @@ def test_what_a_character_does_not_say_has_its_default(human) -> None:
         (ALICE + "[target.box]\nposition = [1, 2]", ["target.box.position"]),
         (ALICE + "[target.box]\nposition = [1, 2, nan]", ["target.box.position"]),
         (ALICE + "[anticipator.m]\ntempo = 60", ["anticipator.m", "kind"]),
+        (ALICE + '[anticipator.m]\nkind = "metronome"\ntempo = "60"', ["anticipator.m.tempo", "'60'"]),
+        (ALICE + '[anticipator.e]\nkind = "exercise"\nnames = ["up", 3]', ["anticipator.e.names", "3"]),
         (ALICE + "[limits]\nclients = 1.5", ["limits.clients"]),
         (ALICE + "[limits]\nclients = true", ["limits.clients"]),
         ("[character.alice]\nheading = 'left'", ["character.alice.heading", "left"]),
@@ -97,6 +99,12 @@ def test_every_kind_of_binding_has_a_file_in_the_package() -> None:
         (ALICE + '[anticipator.m]\nkind = "oracle"', ["oracle", "metronome"]),
         (ALICE + '[anticipator.m]\nkind = "metronome"\nspeed = 3', ["human.toml: anticipator.m.speed", "tempo"]),
         (ALICE + '[anticipator.m]\nkind = "metronome"\ntempo = 3', ["human.toml: anticipator.m: a tempo of 3 "]),
+        (ALICE + '[anticipator.m]\nkind = "metronome"\ntempo = ["a"]', ["anticipator.m.tempo", "a number"]),
+        (ALICE + '[anticipator.e]\nkind = "exercise"\nnames = 3', ["anticipator.e.names", "a list of names"]),
+        (ALICE + '[anticipator.e]\nkind = "exercise"\nnames = ["up", "up"]', ["anticipator.e", "'up'", "once"]),
+        (ALICE + '[anticipator.e]\nkind = "exercise"\nrise = 0', ["anticipator.e", "rise=0"]),
+        (ALICE + '[anticipator.u]\nkind = "speech_stop"\ncertainty = 1', ["anticipator.u", "certainty=1"]),
+        (ALICE + '[anticipator.u]\nkind = "speech_stop"\nmodel = 1', ["u.model", "known are kind, certainty, pause"]),
         (ALICE + 'avatar = "../secret.glb"', ["../secret.glb"]),
         (ALICE + 'avatar = "nobody.glb"', ["nobody.glb"]),
     ],
@@ -110,8 +118,9 @@ async def test_what_a_scene_cannot_be_made_of_is_named(human, text, mentions) ->
 
 def test_the_built_in_plug_ins_stand_where_everybodys_do() -> None:
     assert set(names("engines")) >= {"animation", "face", "speech", "wait"}
-    assert load("anticipators", "metronome").kind == "metronome"
-    with pytest.raises(RealizerError, match="no 'nothing' among the engines; there are animation"):
+    for kind in ("metronome", "remote", "spacebar", "speech_stop", "exercise", "conducting"):
+        assert load("anticipators", kind).kind == kind
+    with pytest.raises(RealizerError, match="no 'nothing' among the engines; there are activate, animation"):
         load("engines", "nothing")
 
 

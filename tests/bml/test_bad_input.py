@@ -87,6 +87,15 @@ DROPPED = {
         "b:x",
         "<parametervaluechange> needs <trajectory> in it",
     ),
+    '<bmla:parametervaluechange id="x" target="a:b:c" paramId="volume"><trajectory/></bmla:parametervaluechange>': (
+        "b:x",
+        "target='a:b:c' of <parametervaluechange>: an id has 1 to 200 characters, no white space, control character, "
+        "':' or '+', and is not 'bml'",
+    ),
+    CHANGE.format('type="linear" targetValue="1"/><trajectory'): (
+        "b:x",
+        "a second <trajectory> in <parametervaluechange>",
+    ),
     CHANGE.format(""): ("b:x", "<trajectory> needs the attribute 'type'"),
     CHANGE.format('type="linear"'): ("b:x", "<trajectory> needs the attribute 'targetValue'"),
     CHANGE.format('type="linear" targetValue="loud"'): (

@@ -7,10 +7,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from reactive_realizer.bml.block import Parsed
+from reactive_realizer.bml.attributes import attributes_of
+from reactive_realizer.bml.block import BehaviorBlock, Parsed
 from reactive_realizer.bml.document import parse
 from reactive_realizer.bml.elements import ELEMENTS
-from reactive_realizer.bml.names import Location
+from reactive_realizer.bml.names import BML, BMLA, Location
 from reactive_realizer.bml.references import check_references
 from reactive_realizer.limits import Limits
 
@@ -169,13 +170,35 @@ MARKUP = """<bml id='a'>|<bml|</bml>|<bml id='b'/>|<!--|-->|<![CDATA[|]]>|<?xml 
 tokens = st.sampled_from([token for line in MARKUP.split("\n") for token in line.split("|")])
 documents = st.text() | st.binary() | st.lists(tokens, max_size=30).map("".join)
 
-NAMES = [*ELEMENTS, "text", "sync", "description", "stance", "pose", "required", "constraint", "synchronize", "after"]
-VALUES = ["", "x", "y", "1", "2.5", "-1", "nan", "x:start", "y:stroke:2-1", "x:t-1", "BEAT", "LEFT_HAND", "ARMS", "é&"]
-ATTRIBUTES = [each.name for element in ELEMENTS.values() for each in element.attributes] + [
-    "start",
-    "end",
-    "ref",
-    "type",
+ROOTS = ["bml", "p:defineproc", "p:useproc"]
+INNER = ["text", "tm", "sync", "description", "stance", "pose", "trajectory", "p:trajectory", "p:useproc"]
+AROUND = ["required", "constraint", "synchronize", "after"]
+NAMES = [*ELEMENTS, *(f"p:{name}" for name, each in ELEMENTS.items() if each.continuous), *INNER, *AROUND]
+VALUES = [
+    "",
+    "x",
+    "y",
+    "1",
+    "2.5",
+    "-1",
+    "nan",
+    "x:start",
+    "y:stroke:2-1",
+    "x:t-1",
+    "BEAT",
+    "LEFT_HAND",
+    "ARMS",
+    "é&",
+    "x,y",
+    "true",
+    "FACS",
+    "AT",
+]
+DRAFTED = ["type", "hand", "rotation", "action", "modality", "shape", "part", "stroke_start", "scheduling"]
+ATTRIBUTES = [
+    *(each.name for element in ELEMENTS.values() for each in element.attributes),
+    *(f"p:{each.name}" for each in attributes_of(BehaviorBlock) if each.continuous),
+    *["start", "end", "ref", "composition", "procid", "bmlid", *DRAFTED],
 ]
 tags = st.tuples(st.sampled_from(NAMES), st.dictionaries(st.sampled_from(ATTRIBUTES), st.sampled_from(VALUES)))
 
@@ -189,17 +212,25 @@ def written(tag: tuple[str, dict[str, str]], inside: list[str]) -> str:
 elements = st.recursive(
     st.builds(written, tags, st.just([])), lambda inside: st.builds(written, tags, st.lists(inside, max_size=4))
 )
-blocks = st.lists(elements, max_size=6).map(lambda inside: f"<bml id='b'>{''.join(inside)}</bml>")
+roots = st.tuples(st.sampled_from(ROOTS), st.dictionaries(st.sampled_from(ATTRIBUTES), st.sampled_from(VALUES)))
+
+
+@st.composite
+def blocks(draw: st.DrawFn) -> str:
+    name, attributes = draw(roots)
+    tag = name, {"id": "b", "xmlns:p": BMLA} | attributes | draw(st.sampled_from([{}, {"xmlns": BML}]))
+    return written(tag, draw(st.lists(elements, max_size=6)))
 
 
 @settings(derandomize=True, max_examples=400)
-@given(documents | blocks)
+@given(documents | blocks())
 def test_whatever_comes_there_is_an_answer(document: str | bytes) -> None:
     answer = read(document)
     assert answer
     for parsed in answer:
         problems = list(parsed.problems)
-        if parsed.block:
-            problems += check_references(parsed.block)
-        assert parsed.block or problems
+        held = parsed.block or parsed.procedure
+        if held:
+            problems += check_references(held)
+        assert held or parsed.refusal in [problem.fault for problem in problems]
         assert all(str(problem.fault) and problem.id and problem.fault.kind.warning for problem in problems)

@@ -89,6 +89,13 @@ def test_what_a_draft_writes_is_a_behavior_of_bml_1_0(xml: str) -> None:
     assert {name: getattr(behavior, name) for name in values} == values
 
 
+def test_a_description_stays_as_it_is_written() -> None:
+    (speech,) = block(
+        '<speech id="s"><text>Hi</text><description priority="1" type="t"><tm id="a"/></description></speech>'
+    ).behaviors
+    assert speech.descriptions[0].content == f'<tm xmlns:bmlt="{BMLT}" id="a"/>'
+
+
 def test_a_draft_has_the_elements_of_bml_1_0_too() -> None:
     assert len(block('<gesture id="g" lexeme="BEAT" mode="LEFT_HAND"/><wait id="w" duration="1"/>').behaviors) == 2
 
@@ -141,10 +148,9 @@ def test_a_gaze_or_posture_of_which_nothing_says_the_end_persists(element: str, 
 
 
 def test_a_tie_to_its_end_is_an_end_and_what_begins_there_is_none() -> None:
-    tie = '<constraint><synchronize ref="4"><sync ref="one:end"/></synchronize></constraint>'
-    read = block(
-        f'<gaze id="one" target="box"/><gaze id="two" target="box"/><head id="h" type="NOD" start="two:end"/>{tie}'
-    )
+    tie = '<constraint><synchronize ref="b1:two:end"><sync ref="one:end"/></synchronize></constraint>'
+    gazes = '<gaze id="one" target="box"/><gaze id="two" target="box"/>'
+    read = block(f'{gazes}<head id="h" type="NOD" start="two:end"/>{tie}', 'bmlt:allowexternalrefs="true"')
     assert [each.persistent for each in read.behaviors if isinstance(each, Gaze)] == [False, True]
 
 
@@ -222,6 +228,14 @@ def test_what_is_not_known_is_passed_over_with_one_problem(odd: str) -> None:
     assert len(parsed.block.behaviors) == 1
     (problem,) = parsed.problems
     assert problem.fault.sentence.startswith(KEPT[odd])
+
+
+def test_a_composition_comes_before_a_scheduling() -> None:
+    parsed = read("", 'scheduling="append" composition="replace"')
+    (problem,) = parsed.problems
+    assert problem.fault.sentence.startswith("unknown attribute scheduling of <bml>")
+    assert parsed.block is not None
+    assert parsed.block.composition is Composition.REPLACE
 
 
 def test_a_start_of_a_block_elsewhere_is_not_understood() -> None:

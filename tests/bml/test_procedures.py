@@ -84,7 +84,7 @@ def test_a_use_holds_nothing_itself() -> None:
     parsed = read(f'<p:useproc procid="greet" bmlid="b" id="x">so{GREETING}</p:useproc>')
     assert parsed.block is not None
     assert not parsed.block.behaviors
-    assert [problem.fault.code for problem in parsed.problems] == ["unknown-attribute", "unknown-element", "stray-text"]
+    assert [problem.fault.code for problem in parsed.problems] == ["unknown-attribute", "stray-text", "unknown-element"]
 
 
 def test_a_reference_to_nothing_in_a_procedure_is_found() -> None:
@@ -95,7 +95,22 @@ def test_a_reference_to_nothing_in_a_procedure_is_found() -> None:
 
 
 @pytest.mark.parametrize("name", ["defineproc", "useproc"])
-def test_inside_a_block_it_is_left_to_whoever_knows_it(name: str) -> None:
+def test_inside_a_block_it_is_dropped_and_told_where_it_belongs(name: str) -> None:
     (parsed,) = parse(f'<bml id="b" xmlns:p="{BMLT}"><p:{name} id="greet"/></bml>', Limits())
     assert parsed.block is not None
-    assert [type(each).__name__ for each in parsed.block.behaviors] == ["ForeignBehavior"]
+    assert not parsed.block.behaviors
+    (problem,) = parsed.problems
+    assert problem.fault.sentence == f"<{name}> stands beside blocks, not in one"
+
+
+def test_after_what_is_no_xml_reading_goes_on_with_the_next_procedure() -> None:
+    text = f'& <p:defineproc xmlns:p="{BMLT}" id="greet"/> <p:useproc xmlns:p="{BMLT}" procid="greet" bmlid="b"/>'
+    first, second, third = parse(text, Limits())
+    assert first.refusal is not None
+    assert second.procedure is not None
+    assert third.block is not None
+
+
+def test_after_a_malformed_procedure_reading_goes_on_with_the_next_block() -> None:
+    text = f'<p:defineproc xmlns:p="{BMLT}" id="greet"><gaze></p:defineproc><bml id="b"/>'
+    assert [parsed.block and parsed.block.id for parsed in parse(text, Limits())] == [None, "b"]

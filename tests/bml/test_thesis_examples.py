@@ -12,11 +12,17 @@ from pathlib import Path
 
 import pytest
 
+from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.bml.behavior import Behavior, ForeignBehavior
+from reactive_realizer.bml.behaviors import Locomotion, Pointing
 from reactive_realizer.bml.block import Parsed
 from reactive_realizer.bml.document import parse
+from reactive_realizer.bml.face import FaceFacs
 from reactive_realizer.bml.names import BMLT
+from reactive_realizer.bml.posture import Posture
 from reactive_realizer.bml.references import check_references
 from reactive_realizer.limits import Limits
+from reactive_realizer.testing.pilot import open_pilot
 
 OWN = Path(__file__).parents[1] / "data" / "bml" / "drafts"
 THESIS = next((Path(__file__).parents[3] / "shared" / "seeds").glob("000_*.txt"), None)
@@ -81,7 +87,7 @@ class Part:
     def read(self) -> str:
         """As it is printed."""
         assert THESIS is not None
-        lines = THESIS.read_text(encoding="utf-8").splitlines()[self.first - 1 : self.last]
+        lines = THESIS.read_text(encoding="utf-8").split("\n")[self.first - 1 : self.last]
         # Where a page of the thesis begins there is a mark.
         return "\n".join(re.sub(r"<\|.*?\|>", "", line) for line in lines)
 
@@ -270,6 +276,15 @@ PARTS = [
     for at, part in enumerate(parts)
 ]
 
+LATER: dict[type[Behavior], str] = {
+    ForeignBehavior: "CUSTOM_BEHAVIOUR_NOT_SUPPORTED",
+    FaceFacs: "BEHAVIOR_TYPE_NOT_SUPPORTED",
+    Locomotion: "BEHAVIOR_TYPE_NOT_SUPPORTED",
+    Pointing: "BEHAVIOR_TYPE_NOT_SUPPORTED",
+    Posture: "BEHAVIOR_TYPE_NOT_SUPPORTED",
+}
+"""What is read and not yet realized, and its warning."""
+
 at_hand = pytest.mark.skipif(THESIS is None, reason="the thesis is not at hand")
 
 
@@ -316,6 +331,18 @@ def test_our_own_example_means_what_the_thesis_means(number: int) -> None:
     means = ", ".join(part.means for part in parts)
     assert ", ".join(meaning(text)).replace("greet", "proc1") == means
     assert codes(text) == " ".join(filter(None, (part.still for part in parts)))
+
+
+@pytest.mark.parametrize("text", [pytest.param(path.read_text(), id=path.stem) for path in sorted(OWN.glob("*.xml"))])
+async def test_what_is_not_realized_yet_gets_one_warning(text: str) -> None:
+    blocks = [parsed.block for parsed in parse(text, Limits()) if parsed.block]
+    expected = [
+        (f"{held.id}:{each.id}", LATER[type(each)]) for held in blocks for each in held.behaviors if type(each) in LATER
+    ]
+    async with open_pilot(SceneOptions(voice="text")) as pilot:
+        pilot.perform(text)
+        await pilot.tick()
+        assert [warning for warning in pilot.feedback.warnings if warning[1] in LATER.values()] == expected
 
 
 @at_hand

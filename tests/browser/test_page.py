@@ -102,6 +102,20 @@ async def test_the_tempo_of_the_metronome_is_dragged_in_the_page(theater: Open) 
             await page.wait_for_function("last => viewer.lastFrameTime > last", arg=stage.live.now)
 
 
+async def test_the_space_bar_is_followed_while_nothing_has_the_focus(theater: Open) -> None:
+    async with theater(ALICE + '[anticipator.spacebar]\nkind = "spacebar"\n') as stage:
+        page = await stage.open()
+        await send(page, f'<bml {BML} id="b"><wait id="w" start="anticipators:spacebar:press" duration="0.1"/></bml>')
+        typed = page.locator("#bml-text")
+        before = await typed.input_value()
+        await typed.press("Space")
+        assert len(await typed.input_value()) == len(before) + 1
+        await page.evaluate("document.activeElement.blur()")
+        await page.keyboard.down("Space")
+        await expect(page.locator("#feedback")).to_contain_text("b:w:start")
+        await page.keyboard.up("Space")
+
+
 async def test_the_board_lists_pegs_and_what_moved_them(theater: Open) -> None:
     async with theater(ALICE) as stage:
         page = await stage.open()

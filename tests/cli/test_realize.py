@@ -250,6 +250,31 @@ def test_a_reference_to_a_block_that_comes_later_is_a_problem_also_in_a_constrai
     assert "no block 'later'" in line
 
 
+BMLT = 'xmlns:x="http://hmi.ewi.utwente.nl/bmlt"'
+
+
+def test_blocks_that_are_activated_and_interrupted_are_no_targets_of_the_world(bml, capsys) -> None:
+    inside = f'<x:activate {BMLT} id="a" target="later"/><x:interrupt {BMLT} id="i" target="later"/>'
+    assert check(capsys, bml(block("b", inside))) == (0, [])
+
+
+def test_a_block_that_joins_one_that_never_was_is_a_problem(bml, capsys) -> None:
+    after = f'<bml {BMLT} id="b" x:appendAfter="one,two" scheduling="chunk-after(one)"/>'
+    status, (line,) = check(capsys, bml(block("one") + after))
+    assert status == 1
+    assert "appendAfter: there never was a block 'two'" in line
+
+
+def test_a_procedure_is_defined_before_it_is_used_and_judged_where_it_is_defined(bml, capsys) -> None:
+    definition = f'<x:defineproc {BMLT} id="p"><gaze id="look" target="{{}}"/></x:defineproc>'
+    use = f'<x:useproc {BMLT} procid="p" bmlid="b"/>'
+    assert check(capsys, bml(definition.format("bluebox") + use)) == (0, [])
+    status, (early, target) = check(capsys, bml(use + definition.format("nowhere")))
+    assert status == 1
+    assert "no procedure 'p'; there are none" in early
+    assert "no target 'nowhere'" in target
+
+
 def test_two_blocks_of_one_file_have_two_ids_unless_a_replace_ends_the_first(bml, capsys) -> None:
     twice = bml(f"{block('b')}\n{block('b')}", "twice.xml")
     status, lines = check(capsys, twice)

@@ -114,6 +114,8 @@ def test_a_live_session_with_late_ticks_is_the_same_again_to_the_last_byte(
     assert stamped == told
     assert len(told) > 30
     assert replayed(file, tmp_path, "two") == (feedback, frames)
+    main(["realize", "--replay", str(file), "--feedback", str(tmp_path / "unseen.jsonl")])
+    assert (tmp_path / "unseen.jsonl").read_bytes() == (tmp_path / "one.jsonl").read_bytes(), "whoever looks on"
 
 
 def test_without_a_recording_and_without_items_there_is_nothing_to_realize(capsys) -> None:

@@ -1,9 +1,13 @@
 """Realizers to try: ours, quick, and one that does everything wrong."""
 
 import asyncio
-from collections.abc import AsyncIterator
+import re
+from collections.abc import AsyncIterator, Awaitable, Callable
+from contextlib import asynccontextmanager
+from itertools import count
 
 import pytest
+from aiohttp import web
 from aiohttp.test_utils import TestServer
 
 from reactive_realizer.assembly.scene import SceneOptions, open_scene
@@ -13,11 +17,11 @@ from reactive_realizer.server.app import create_app
 from reactive_realizer.server.live import Live
 from reactive_realizer.server.security import Security
 
-_SPEED = 8
+_SPEED = 5
 
 
 class QuickClock(SystemClock):
-    """Eight seconds a second."""
+    """Five seconds a second."""
 
     def now(self) -> GlobalTime:
         return GlobalTime(_SPEED * super().now())
@@ -35,3 +39,33 @@ async def realizer() -> AsyncIterator[str]:
         async with TestServer(create_app(live, Security())) as server:
             yield str(server.make_url(""))
         ticking.cancel()
+
+
+class WrongRealizer:
+    """A fake that speaks the protocol and does all wrong: tells ends first, starts twice, and nothing else."""
+
+    def __init__(self, hello: dict[str, object] | None = None) -> None:
+        self._hello = hello or {"type": "hello", "protocol": 1}
+        self._seq = count(1)
+
+    async def serve(self, request: web.Request) -> web.WebSocketResponse:
+        socket = web.WebSocketResponse()
+        await socket.prepare(request)
+        await socket.send_json(self._hello)
+        async for message in socket:
+            said = message.json()
+            await socket.send_json({"type": "accepted", "ref": said["ref"]})
+            for block in re.findall(r'<bml[^>]* id="([^"]*)"', said["xml"]):
+                for sync in ("end", "start", "start"):
+                    xml = f'<blockProgress id="{block}:{sync}" globalTime="{next(self._seq)}"/>'
+                    await socket.send_json({"type": "feedback", "seq": 1, "time": 0.0, "xml": xml})
+        return socket
+
+
+@asynccontextmanager
+async def address_of(handler: Callable[[web.Request], Awaitable[web.StreamResponse]]) -> AsyncIterator[str]:
+    """Where somebody serves a socket."""
+    app = web.Application()
+    app.router.add_get("/ws", handler)
+    async with TestServer(app) as server:
+        yield str(server.make_url(""))

@@ -1,16 +1,22 @@
-"""docs/anticipators.md: the plug-in of its example is found and predicts."""
+"""docs/anticipators.md: its examples do what it says, and its plug-ins are found and predict."""
 
+import json
+from collections.abc import AsyncIterator
 from pathlib import Path
 
 import pytest
 
-from reactive_realizer.assembly.scene import SceneOptions
-from reactive_realizer.testing.pilot import open_pilot
+from reactive_realizer.assembly.scene import DEFAULT_HUMAN, SceneOptions
+from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
-from .conftest import EXAMPLES, fences
+from .conftest import EXAMPLES, Fence, fences
 
 PLUGIN = EXAMPLES / "anticipator"
-ENTRY_POINTS = "[reactive_realizer.anticipators]\nturn_end = turn_end:TurnEnd\n"
+ENTRY_POINTS = """\
+[reactive_realizer.anticipators]
+turn_end = turn_end:TurnEnd
+patient_stop = patient_stop:PatientStop
+"""
 
 
 @pytest.fixture
@@ -43,11 +49,100 @@ async def test_the_answer_comes_when_the_turn_is_predicted_to_end_and_waits_when
         assert pilot.feedback.warnings == []
 
 
+@pytest.mark.usefixtures("installed")
+async def test_a_model_of_turns_of_ones_own_stands_in(tmp_path: Path) -> None:
+    human = tmp_path / "human.toml"
+    human.write_text('[character.alice]\n[anticipator.user]\nkind = "patient_stop"\n', encoding="utf-8")
+    async with open_pilot(SceneOptions(human, "text")) as pilot:
+        pilot.block("b", '<head id="nod" lexeme="NOD" start="anticipators:user:stop"/>')
+        pilot.event("user", "words", text="I have thought about it")
+        await pilot.advance(4)
+        assert pilot.feedback.predicted("b:nod:start") == pytest.approx(5.0)
+        pilot.event("user", "words", text="I have thought about it, over.")
+        await pilot.advance(3)
+        assert pilot.feedback.time("b:nod:start") == pytest.approx(4.3)
+
+
 def test_the_page_shows_the_files_of_the_example() -> None:
-    (program,) = fences("docs/anticipators.md", "python")
-    (block,) = fences("docs/anticipators.md", "xml")
-    entry_points, human = fences("docs/anticipators.md", "toml")
-    assert program.text == (PLUGIN / "turn_end.py").read_text(encoding="utf-8")
-    assert block.text == (PLUGIN / "reply.xml").read_text(encoding="utf-8")
+    simple, replaced = fences("docs/anticipators.md", "python")
+    block = plug_in("xml")
+    entry_points, human = plug_in("toml")
+    assert simple.text == (PLUGIN / "turn_end.py").read_text(encoding="utf-8")
+    assert replaced.text == (PLUGIN / "patient_stop.py").read_text(encoding="utf-8")
+    assert block[0].text == (PLUGIN / "reply.xml").read_text(encoding="utf-8")
     assert entry_points.text in (PLUGIN / "pyproject.toml").read_text(encoding="utf-8")
     assert human.text in (PLUGIN / "human.toml").read_text(encoding="utf-8")
+
+
+# --- those that are there
+
+
+def plug_in(language: str) -> list[Fence]:
+    return [fence for fence in fences("docs/anticipators.md", language) if fence.note == "plug-in"]
+
+
+def ready(language: str) -> list[Fence]:
+    return [fence for fence in fences("docs/anticipators.md", language) if not fence.note]
+
+
+@pytest.fixture
+async def pilot(tmp_path: Path) -> AsyncIterator[RealizerPilot]:
+    """A scene as the default one, with the anticipators of the page."""
+    human = tmp_path / "human.toml"
+    human.write_text(DEFAULT_HUMAN.read_text("utf-8") + "".join(fence.text for fence in ready("toml")), "utf-8")
+    async with open_pilot(SceneOptions(human, "text")) as pilot:
+        for block in ready("xml"):
+            pilot.perform(block.text)
+        yield pilot
+
+
+async def test_the_key_is_followed(pilot: RealizerPilot) -> None:
+    await pilot.advance(1)
+    pilot.event("spacebar", "press")
+    await pilot.advance(0.3)
+    pilot.event("spacebar", "release")
+    await pilot.advance(0.1)
+    pilot.event("spacebar", "release")
+    await pilot.advance(3)
+    assert pilot.feedback.time("agree:nod:start") == pytest.approx(1.0)
+    assert pilot.feedback.time("agree:yes:start") == pytest.approx(1.5)
+    assert pilot.feedback.status("agree") == "DONE"
+
+
+@pytest.mark.parametrize(
+    ("words", "silence"), [("", 0.88), ("I live in a house.", 0.19), ("I live in a", 1.76)], ids=str
+)
+async def test_the_answer_comes_after_a_silence_as_long_as_the_page_says(pilot, words: str, silence: float) -> None:
+    pilot.event("user", "voice", 1.0)
+    pilot.event("user", "words", text=words)
+    await pilot.advance(1)
+    pilot.event("user", "voice", 0.0)
+    await pilot.advance(4)
+    assert pilot.feedback.time("reply:words:start") == pytest.approx(1 + silence + 0.2, abs=0.01)
+
+
+async def test_the_trainer_is_ahead(pilot: RealizerPilot) -> None:
+    while pilot.now < 8:
+        phase = pilot.now % 2  # down at every odd second, up 0.6 s later
+        pilot.event("trainee", "sample", 18.0 if 1.0 <= phase < 1.1 or 1.6 <= phase < 1.7 else 9.81)
+        await pilot.tick()
+    assert pilot.feedback.time("ahead:push:stroke") == pytest.approx(4.7, abs=0.05)
+
+
+async def test_the_orchestra_is_followed(pilot: RealizerPilot) -> None:
+    for _ in range(10):
+        pilot.event("orchestra", "beat")
+        await pilot.advance(0.8)
+    await pilot.advance(3)
+    assert pilot.feedback.time("conduct:four:stroke") == pytest.approx(2.4)
+    assert pilot.feedback.time("conduct:eight:stroke") == pytest.approx(5.6)
+    assert pilot.feedback.status("conduct") == "DONE"
+
+
+async def test_every_event_of_the_page_means_something_to_its_anticipator(pilot: RealizerPilot) -> None:
+    known = {"tempo", "start", "press", "release", "voice", "words", "sample", "beat"}
+    for fence in ready("json"):
+        message = json.loads(fence.text)
+        if message["type"] == "event":
+            assert message["event"] in known
+            pilot.realizer.anticipators[message["anticipator"]].check(message["event"], message.get("value"))

@@ -66,7 +66,7 @@ def test_the_frames_of_the_page_are_read_as_it_says(capsys: pytest.CaptureFixtur
     assert re.fullmatch(r"\(\d+, 4\)\n", capsys.readouterr().out)
 
 
-@pytest.mark.parametrize("command", ["realize", "check", "serve", "demo"])
+@pytest.mark.parametrize("command", ["realize", "check", "serve", "demo", "conformance"])
 def test_the_page_names_every_option(command: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert run([command, "--help"]) == 0
     options = set(re.findall(r"--[a-z-]+", capsys.readouterr().out)) - {"--help"}

@@ -1,8 +1,13 @@
 """The planners of the pages, as programs of their own, against a server on the machine's clock."""
 
 import asyncio
+import os
+import re
+import shutil
+import subprocess
 import sys
 from collections.abc import AsyncIterator
+from pathlib import Path
 
 import pytest
 from aiohttp.test_utils import TestServer
@@ -13,7 +18,7 @@ from reactive_realizer.server.app import create_app
 from reactive_realizer.server.live import Live
 from reactive_realizer.server.security import Security
 
-from .conftest import EXAMPLES, REPOSITORY, fences
+from .conftest import EXAMPLES, REPOSITORY, fences, page
 
 ADDRESS = "http://127.0.0.1:8088"
 
@@ -28,14 +33,27 @@ async def server() -> AsyncIterator[TestServer]:
         ticking.cancel()
 
 
+PYTHON = (sys.executable, "-u", "-c")
+
+
+def node() -> tuple[str, ...]:
+    """What runs a module of JavaScript with a WebSocket; the test is left out where there is none."""
+    found = shutil.which("node", path=f"{Path(sys.executable).parent}:{os.environ['PATH']}")
+    if found is None:
+        pytest.skip("no node")
+    return found, "--experimental-websocket", "--input-type=module", "--eval"
+
+
 async def run(name: str, server: TestServer, last: str) -> list[str]:
     """What an example prints, up to a line that contains something."""
     text = (EXAMPLES / name).read_text(encoding="utf-8")
+    return await run_program(text, server, last, PYTHON)
+
+
+async def run_program(text: str, server: TestServer, last: str, command: tuple[str, ...]) -> list[str]:
     assert ADDRESS in text
     program = text.replace(ADDRESS, str(server.make_url("")).rstrip("/"))
-    process = await asyncio.create_subprocess_exec(
-        sys.executable, "-u", "-c", program, cwd=REPOSITORY, stdout=asyncio.subprocess.PIPE
-    )
+    process = await asyncio.create_subprocess_exec(*command, program, cwd=REPOSITORY, stdout=asyncio.subprocess.PIPE)
     assert process.stdout is not None
     printed: list[str] = []
     async for line in process.stdout:
@@ -66,3 +84,53 @@ async def test_the_moving_peg_is_reached_where_it_was_moved_to(server: TestServe
 def test_the_readme_shows_the_planner_as_it_is() -> None:
     (program,) = fences("README.md", "python")
     assert program.text == (EXAMPLES / "planner.py").read_text(encoding="utf-8")
+
+
+# --- docs/planners.md
+
+
+PLANNERS = "docs/planners.md"
+
+
+async def test_whoever_barges_in_is_given_way_to_and_the_planner_knows_what_was_heard(server: TestServer) -> None:
+    (printed,) = await run("barge_in.py", server, "heard")
+    assert printed.strip() in page(PLANNERS)
+
+
+async def test_the_same_in_javascript(server: TestServer) -> None:
+    program = (EXAMPLES / "barge_in.mjs").read_text(encoding="utf-8")
+    (printed,) = await run_program(program, server, "heard", node())
+    assert printed.strip() in page(PLANNERS)
+
+
+async def test_a_planner_needs_nothing_but_http(server: TestServer) -> None:
+    predicted, accepted, *told = await run("over_http.py", server, "wave:end")
+    assert predicted.startswith("{'time': ")
+    assert accepted == "{'blocks': ['wave']}\n"
+    assert "wave:hello:stroke" in "".join(told)
+    assert 'bmla:status="DONE"' in told[-1]
+
+
+async def test_a_block_is_posted_from_javascript(server: TestServer) -> None:
+    _, program = fences(PLANNERS, "javascript")
+    (printed,) = await run_program(program.text, server, "202", node())
+    assert f"`{printed.strip()}`" in page(PLANNERS)
+
+
+def test_a_planner_is_tested_without_a_server() -> None:
+    program = fences(PLANNERS, "python")[-1]
+    printed = subprocess.run([*PYTHON, program.text], capture_output=True, text=True, check=True).stdout
+    assert f"It prints `{printed.strip()}`." in page(PLANNERS)
+
+
+def test_the_page_shows_the_programs_as_they_are() -> None:
+    barge_in, over_http, _ = fences(PLANNERS, "python")
+    in_javascript, _ = fences(PLANNERS, "javascript")
+    for shown, name in ((barge_in, "barge_in.py"), (over_http, "over_http.py"), (in_javascript, "barge_in.mjs")):
+        assert shown.text == (EXAMPLES / name).read_text(encoding="utf-8")
+
+
+def test_the_page_names_programs_that_are_there() -> None:
+    named = re.findall(r"^\| `(\w+\.py)` \|", page(PLANNERS), re.MULTILINE)
+    assert len(named) > 5
+    assert [name for name in named if not (EXAMPLES / name).exists()] == []

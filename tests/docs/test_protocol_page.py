@@ -23,7 +23,8 @@ from reactive_realizer.server.security import Security
 from .conftest import Fence, fences, page
 
 SCHEMA = json.loads(DOCUMENT)
-EXAMPLES = fences("docs/protocol.md", "json") + fences("docs/anticipators.md", "json")
+PAGES = ("docs/protocol.md", "docs/anticipators.md", "docs/planners.md")
+EXAMPLES = [example for name in PAGES for example in fences(name, "json")]
 MESSAGES = [example for example in EXAMPLES if not example.note]
 ANSWERS = [example for example in EXAMPLES if example.note]
 

@@ -89,3 +89,15 @@ async def test_an_engine_that_raises_drops_its_units_and_the_others_play(play) -
     assert dropped(first) == [("a", "engine-failed"), ("b", "engine-failed")]
     assert broken.player.units == ()
     assert reached(second) == [("c", "start", 0.0)]
+
+
+async def test_a_round_that_was_given_up_leaves_the_engines_playing() -> None:
+    tasks = [EngineTask(engine("one")), EngineTask(engine("two"))]
+    running = [asyncio.ensure_future(task.run()) for task in tasks]
+    given_up = asyncio.ensure_future(play_all(tasks, Tick(0, 0.0)))
+    await asyncio.sleep(0)
+    given_up.cancel()
+    await asyncio.gather(given_up, return_exceptions=True)
+    assert len(await play_all(tasks, Tick(1, 0.0))) == 2
+    for task in running:
+        task.cancel()

@@ -105,6 +105,13 @@ def test_a_point_that_has_fired_tells_what_it_hung_on_then(board) -> None:
     assert chain(board.explain(END)) == [("b:clap:end", 2.9), ("b:clap:stroke", 2.4), ("anticipators:partner:hit", 2.4)]
 
 
+def test_a_source_that_came_back_to_its_old_time_is_told_with_the_commit_that_counted(board) -> None:
+    pin(board, START, at=1.5)
+    for time in (2.4, 2.0):
+        predict(board, time, at=1.6)
+    assert board.explain(START).sources[0].commit.time == 0.4
+
+
 def test_what_a_fired_point_hung_on_is_not_kept_alive_by_it(board) -> None:
     with board.graph.transaction("plan c"):
         peg = OffsetPeg(board.graph, "c:x:start", OffsetPeg(board.graph, "b:clap:gone", board.get(STROKE), 0.0), 1.0)
@@ -149,8 +156,9 @@ def sources(board, peg):
 
 
 def test_of_several_points_the_one_that_sets_the_time_is_followed(board) -> None:
-    low, high = (AnticipatorPeg(board.graph, name, time) for name, time in (("low", 1.0), ("high", 4.0)))
-    assert sources(board, LatestPeg(board.graph, "latest", 0.0, (low, high))) == ["high"]
+    times = (("low", 1.0), ("high", 4.0), ("as high", 4.0))
+    low, high, as_high = (AnticipatorPeg(board.graph, name, time) for name, time in times)
+    assert sources(board, LatestPeg(board.graph, "latest", 0.0, (low, high, as_high))) == ["high"]
     assert sources(board, LatestPeg(board.graph, "latest", 9.0, (low, high))) == []
     assert sources(board, AfterPeg(board.graph, "after", low, [(high, -1.0)])) == ["high"]
     assert sources(board, AfterPeg(board.graph, "after", high, [(low, -1.0)])) == ["high"]

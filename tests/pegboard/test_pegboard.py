@@ -110,6 +110,18 @@ def test_a_snapshot_is_complete_and_is_written_as_json(board) -> None:
     ]
 
 
+def test_a_peg_that_cannot_be_computed_is_unknown_in_a_snapshot_and_may_be_cut(board) -> None:
+    hit = board.predicted("a", "hit")
+    peg = hang(board, "start", hit)
+    with board.graph.transaction("a plug-in of somebody"):
+        hit.set("soon")
+    assert (board.snapshot()[1].time, board.snapshot()[1].state) == (None, "unknown")
+    assert board.explain(PegKey(*BLOCK, "h", "start")).time is None
+    with board.graph.transaction("test"):
+        board.pin_block(BLOCK)
+    assert peg.value is None
+
+
 def test_a_snapshot_may_be_of_the_newest_only(board) -> None:
     for number in range(5):
         board.predicted("a", str(number))

@@ -171,6 +171,14 @@ def test_an_observer_may_not_write(trace, caplog) -> None:
     assert other.value == 0
 
 
+def test_an_observer_may_not_write_without_a_transaction_either(trace, caplog) -> None:
+    top, other = trace.source("top"), trace.source("other")
+    top.observe(other.set)
+    trace.write(top, 1)
+    assert "WriteOutsideTransactionError: 'other' is written outside a transaction" in caplog.text
+    assert other.value == 0
+
+
 def test_a_listener_may_not_write_either(trace, caplog) -> None:
     top, other = trace.source("top"), trace.source("other")
     trace.graph.listen(lambda commit: trace.write(other, 1))
@@ -193,6 +201,14 @@ def test_one_that_raises_does_not_keep_the_others_from_being_told(trace, caplog)
     assert len(trace.commits) == 1
     assert "IndexError" in caplog.text
     assert "KeyError: 'test'" in caplog.text
+
+
+def test_a_formula_that_writes_fails(trace, caplog) -> None:
+    top, other = trace.source("top"), trace.source("other")
+    cell = trace.derived("cell", top, formula=lambda value: other.set(value) if value else 0)
+    trace.write(top, 1)
+    assert "WriteOutsideTransactionError" in cell.result.reason
+    assert other.value == 0
 
 
 def test_a_write_wants_a_transaction(trace) -> None:

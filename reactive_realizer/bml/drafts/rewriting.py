@@ -55,7 +55,7 @@ def _gaze(tree: Tree, source: Source) -> None:
 
 
 def _face(tree: Tree, source: Source) -> None:
-    if len(children_of(tree, *_FACES.values())):
+    if children_of(tree, *_FACES.values()):
         return
     kind = _check(tree, "type", _FACES, source) or ("FACS" if "au" in tree.attrib else "LEXICALIZED")
     tree.tag = _FACES[kind]
@@ -74,8 +74,9 @@ def _posture(tree: Tree, source: Source) -> None:
 def _speech(tree: Tree, source: Source) -> None:
     if tree.get("type", "").lower() == "text/plain":
         del tree.attrib["type"]
-    for mark in tree.iter("tm"):
-        mark.tag = "sync"
+    for holder in (tree, *children_of(tree, "text")):
+        for mark in children_of(holder, "tm"):
+            mark.tag = "sync"
     if not children_of(tree, "text") and (stray_text_of(tree) or children_of(tree, "sync")):
         _wrap_text(tree, source)
 

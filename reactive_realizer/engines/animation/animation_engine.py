@@ -15,7 +15,7 @@ from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, slerp
 from reactive_realizer.engine.context import EngineContext
 from reactive_realizer.engine.effects import Play
 from reactive_realizer.engine.engine import DefaultEngine
-from reactive_realizer.engines.animation.animation_unit import AMOUNT, AnimationUnit, Stage
+from reactive_realizer.engines.animation.animation_unit import AMOUNT_RANGE, AnimationUnit, Stage
 from reactive_realizer.engines.animation.gaze_motion_unit import GazeMotionUnit
 from reactive_realizer.engines.animation.idle import Idle
 from reactive_realizer.engines.animation.motion_library import MotionLibrary
@@ -30,7 +30,7 @@ class AnimationEngine(DefaultEngine):
     """Turns the joints of one figure."""
 
     behaviors = frozenset({Gesture, Head, Gaze})
-    parameters = MappingProxyType({Gesture: {"amount": AMOUNT}, Head: {"amount": AMOUNT}})
+    parameters = MappingProxyType({Gesture: {"amount": AMOUNT_RANGE}, Head: {"amount": AMOUNT_RANGE}})
 
     def __init__(self, context: EngineContext) -> None:
         super().__init__(f"{context.character}/animation")

@@ -22,8 +22,7 @@ from reactive_realizer.reactive.graph import Graph
 
 _HOLDS = frozenset({("ready", "strokeStart"), ("strokeEnd", "relax")})
 
-
-AMOUNT = Range(0.0, 1.0)
+AMOUNT_RANGE = Range(0.0, 1.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,7 +69,7 @@ class AnimationUnit(PlanUnit):
         self._stage = stage
         if motion.amount is not None:
             amount = Source(stage.graph, str(self.key("amount")), motion.parameters[motion.amount])
-            self.parameters["amount"] = Parameter(self, amount, AMOUNT)
+            self.parameters["amount"] = Parameter(self, amount, AMOUNT_RANGE)
 
     @property
     def phase(self) -> float:

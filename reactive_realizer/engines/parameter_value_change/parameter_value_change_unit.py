@@ -81,10 +81,9 @@ class ParameterValueChangeUnit(ParameterUser):
         self._give((1.0 - way) * self._initial + way * self.change.trajectory.target_value)
 
     def _give(self, value: float) -> None:
-        parameter = self._parameter
-        if parameter is not None and parameter.owner is self:
-            low, high = parameter.range
-            self._ask(SetParameter(self, parameter, min(high, max(low, value))))
+        if self._parameter is not None:
+            low, high = self._parameter.range
+            self._ask(SetParameter(self, self._parameter, min(high, max(low, value))))
 
     def _end_of(self, parameter: Parameter, now: GlobalTime) -> GlobalTime:
         """When the target ended; not before this one started."""

@@ -12,7 +12,7 @@ from reactive_realizer.engine.context import EngineContext
 from reactive_realizer.engine.engine import DefaultEngine
 from reactive_realizer.engine.tts import Utterance
 from reactive_realizer.engines.speech.announcer import Announcer
-from reactive_realizer.engines.speech.speech_unit import VOLUME, SpeechUnit
+from reactive_realizer.engines.speech.speech_unit import VOLUME_RANGE, SpeechUnit
 from reactive_realizer.engines.speech.viseme_track import VisemeTrack
 from reactive_realizer.errors import error
 from reactive_realizer.pegboard.peg_key import BlockKey
@@ -22,7 +22,7 @@ class SpeechEngine(DefaultEngine):
     """Speaks with the voice of its character; offers what the mouth does (`LipSyncProvider`)."""
 
     behaviors = frozenset({Speech})
-    parameters = MappingProxyType({Speech: {"volume": VOLUME}})
+    parameters = MappingProxyType({Speech: {"volume": VOLUME_RANGE}})
 
     def __init__(self, context: EngineContext) -> None:
         super().__init__(f"{context.character}/speech")

@@ -13,7 +13,7 @@ from reactive_realizer.reactive.cell import Source
 from reactive_realizer.reactive.graph import Graph
 
 VOICE = "voice"
-VOLUME = Range(0.0, 100.0)
+VOLUME_RANGE = Range(0.0, 100.0)
 
 _AS_RECORDED = 50.0
 """The volume at which a speech sounds as its voice made it."""
@@ -35,7 +35,7 @@ class SpeechUnit(PlanUnit):
         self.utterance = utterance
         self.started: GlobalTime | None = None
         self.cut: GlobalTime | None = None
-        self._volume = Parameter(self, Source(graph, str(self.key("volume")), _AS_RECORDED), VOLUME)
+        self._volume = Parameter(self, Source(graph, str(self.key("volume")), _AS_RECORDED), VOLUME_RANGE)
         self.parameters["volume"] = self._volume
 
     @property

@@ -21,8 +21,12 @@ class WaitEngine(DefaultEngine):
         """A unit that only has time."""
         if not isinstance(behavior, Wait):
             raise TypeError(behavior)
-        if behavior.duration is not None:
-            phase = Phase(behavior.duration, PhaseKind.RIGID)
-        else:
-            phase = Phase(behavior.max_wait or 0.0)
-        return PlanUnit(block, behavior, Timing(("start", "end"), (phase,)))
+        return PlanUnit(block, behavior, Timing(("start", "end"), (_phase(behavior),)))
+
+
+def _phase(wait: Wait) -> Phase:
+    if wait.duration is not None:
+        return Phase(wait.duration, PhaseKind.RIGID)
+    if {"start", "end"} <= wait.syncs.keys():
+        return Phase(0.0, PhaseKind.FREE)
+    return Phase(wait.max_wait or 0.0)

@@ -90,3 +90,39 @@ async def test_a_stroke_that_is_moved_late_sets_the_hand_off_without_a_jerk(hit,
         steps = np.linalg.norm(np.diff(path, axis=0), axis=1)
         assert steps.max() > 0.03, "it hurries"
         assert np.diff(steps).max() < 0.0151
+
+
+CHUNK = '<gesture id="g" lexeme="OFFER" mode="RIGHT_HAND"/><speech id="s"><text>An offer.</text></speech>'
+
+
+async def test_a_gesture_is_planned_from_where_the_hand_is_whether_anybody_looks_or_not() -> None:
+    told = []
+    for looks in (True, False):
+        async with open_pilot(SceneOptions(voice="text")) as pilot:
+            if looks:
+                pilot.watch()
+            pilot.block("first", CHUNK)
+            pilot.block("second", CHUNK, **{"bmla:chunkAfter": "first"})
+            await pilot.advance(8)
+            told.append(pilot.feedback)
+    preparations = [told[0].time(f"{id_}:g:ready") - told[0].time(f"{id_}:g:start") for id_ in ("first", "second")]
+    assert preparations[1] < preparations[0] - 0.05
+    assert told[0].raw == told[1].raw
+    assert told[0].warnings == []
+
+
+async def test_a_hand_that_is_taken_over_on_its_way_back_does_not_jump_and_the_other_one_goes_to_rest() -> None:
+    both = '<gesture id="g" lexeme="OFFER" mode="BOTH_HANDS"/>'
+    async with open_pilot(SceneOptions(voice="text")) as pilot:
+        pilot.watch()
+        await pilot.advance(0.1)
+        pilot.block("first", both)
+        pilot.block("second", '<gesture id="g" lexeme="BEAT" mode="RIGHT_HAND"/>', **{"bmla:chunkAfter": "first"})
+        await pilot.advance(8)
+        assert pilot.feedback.time("first:g:end") == pilot.feedback.time("first:g:relax")
+        assert pilot.feedback.status("first") == "DONE"
+        assert pilot.feedback.warnings == []
+        for joint in ("l_elbow", "r_elbow", "l_shoulder", "r_shoulder"):
+            path = rotations(pilot, joint)
+            assert turns(path).max() < 0.3
+            assert turns(path[[0, -1]]) < 0.01

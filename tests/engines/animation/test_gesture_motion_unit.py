@@ -8,7 +8,7 @@ from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.quaternion import IDENTITY, angle, conjugate, from_euler, multiply
 from reactive_realizer.embodiment.vector import distance, subtract
 from reactive_realizer.engines.animation.easing import minimum_jerk
-from reactive_realizer.engines.animation.gesture_motion_unit import HOLD, GestureMotionUnit
+from reactive_realizer.engines.animation.gesture_motion_unit import AMOUNT, HOLD, GestureMotionUnit
 from reactive_realizer.engines.animation.motion_unit import GESTURE_POINTS
 from reactive_realizer.engines.animation.proc_animation_reader import read_proc_animation
 from reactive_realizer.engines.animation.rest_pose import REST_POSE
@@ -155,3 +155,27 @@ def test_a_reach_of_minimum_jerk_starts_and_stops_softly_and_is_symmetric():
         assert minimum_jerk(i / 10) + minimum_jerk(1 - i / 10) == pytest.approx(1.0)
     speeds = [(minimum_jerk(i / 100 + step) - minimum_jerk(i / 100)) / step for i in range(100)]
     assert max(speeds) == pytest.approx(1.875, abs=0.001)
+
+
+@pytest.mark.parametrize("name", GESTURES)
+def test_of_a_smaller_amount_each_joint_leaves_the_rest_pose_by_that_part_and_still_begins_where_it_is(gesture, name):
+    unit, body = gesture(name, RAISED)
+    keys = unit.key_positions
+    whole = unit.pose(keys["stroke"], body)
+    unit.parameters[AMOUNT] = 0.4
+    for joint, part in unit.pose(keys["stroke"], body).items():
+        rest = conjugate(REST_POSE.get(joint, IDENTITY))
+        assert angle(multiply(rest, part)) == pytest.approx(0.4 * angle(multiply(rest, whole[joint])), abs=1e-6)
+    assert distance(wrist(body.posed(unit.pose(0.0, body))), wrist(body)) < 1e-9
+    unit.parameters[AMOUNT] = 0.0
+    for joint, rotation in unit.pose(keys["stroke"], body).items():
+        assert angle(multiply(conjugate(REST_POSE.get(joint, IDENTITY)), rotation)) < 1e-6
+
+
+@pytest.mark.parametrize("name", GESTURES)
+def test_its_preparation_takes_as_long_as_the_way_from_where_the_hands_are(gesture, name):
+    unit, body = gesture(name)
+    planned = unit.key_positions["ready"] * unit.preferred_duration
+    assert unit.preparation(body) == pytest.approx(planned)
+    there = body.posed(unit.pose(unit.key_positions["ready"], body))
+    assert unit.preparation(there) < 0.3 < planned

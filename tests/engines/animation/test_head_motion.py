@@ -83,3 +83,10 @@ def test_missing_points_coincide_with_their_neighbors_and_all_are_in_order(autho
     assert authored.items() <= keys.items()
     assert keys["ready"] == authored.get("ready", 0.0)
     assert keys["strokeEnd"] == authored.get("strokeEnd", keys["relax"])
+
+
+def test_its_amount_is_the_parameter_that_the_binding_names_if_it_has_that(animations):
+    nod = read_proc_animation(animations / "nod.xml")
+    assert ProcMotionUnit(nod, {"a": 0.7}, "a").amount == "a"
+    assert ProcMotionUnit(nod, {"a": 0.7}, "size").amount is None
+    assert ProcMotionUnit(nod, {"a": 0.7}).amount is None

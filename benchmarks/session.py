@@ -1,0 +1,73 @@
+"""Whether a long session grows slower or bigger: 1 000 small blocks, one after the other."""
+
+import asyncio
+import gc
+import tracemalloc
+from time import perf_counter
+
+from reactive_realizer.assembly.scene import SceneOptions, open_scene
+from reactive_realizer.clock.ticker import Tick, tick_time
+from reactive_realizer.realizer.inputs import BmlText
+from reactive_realizer.realizer.realizer import Realizer
+from reactive_realizer.testing.pilot import block
+
+AIMS: dict[str, float] = {}
+
+_BLOCKS = 1000
+_HUNDRED = 100
+_INSIDE = '<speech id="s"><text>hm</text></speech><head id="h" lexeme="NOD" start="s:start" end="s:end"/>'
+
+
+def measure() -> dict[str, object]:
+    """Time for the first and the last hundred blocks, and what a block leaves behind."""
+    return asyncio.run(_durations()) | {"retained_bytes_per_block": asyncio.run(_retained())}
+
+
+async def _durations() -> dict[str, object]:
+    async with open_scene(SceneOptions(voice="text")) as scene:
+        session = _Session(scene.realizer)
+        times = [await session.hundred() for _ in range(_BLOCKS // _HUNDRED)]
+    return {"first_100_ms": round(times[0], 1), "last_100_ms": round(times[-1], 1)}
+
+
+async def _retained() -> float:
+    """Bytes a block, the name that is remembered of it among them."""
+    async with open_scene(SceneOptions(voice="text")) as scene:
+        session = _Session(scene.realizer)
+        await session.hundred()
+        tracemalloc.start()
+        before = _traced()
+        for _ in range(_BLOCKS // _HUNDRED - 1):
+            await session.hundred()
+        after = _traced()
+        tracemalloc.stop()
+    return round((after - before) / (_BLOCKS - _HUNDRED), 1)
+
+
+def _traced() -> int:
+    gc.collect()
+    return tracemalloc.get_traced_memory()[0]
+
+
+class _Session:
+    """Blocks, each played to its end before the next comes."""
+
+    def __init__(self, realizer: Realizer) -> None:
+        self._realizer = realizer
+        self._tick = 0
+        self._block = 0
+
+    async def hundred(self) -> float:
+        """How long a hundred blocks take, ms."""
+        begin = perf_counter()
+        for _ in range(_HUNDRED):
+            self._block += 1
+            self._realizer.put(BmlText(block(f"b{self._block}", _INSIDE)))
+            await self._step()
+            while self._realizer.scheduler.blocks.alive:
+                await self._step()
+        return 1000 * (perf_counter() - begin)
+
+    async def _step(self) -> None:
+        await self._realizer.step(Tick(self._tick, tick_time(self._tick - 1), frame=False))
+        self._tick += 1

@@ -1,0 +1,45 @@
+"""Talks until somebody barges in, ends the word, and says what was heard."""
+
+import asyncio
+from xml.etree import ElementTree
+
+import aiohttp
+
+ADDRESS = "http://127.0.0.1:8088/ws?streams=feedback"
+OWN = "{urn:reactive-realizer:1}"
+BML = """
+<bml xmlns="http://www.bml-initiative.org/bml/bml-1.0" id="talk">
+  <speech id="words"><text>It is a long story, and nobody has ever heard the end of it.</text></speech>
+</bml>
+<bml xmlns="http://www.bml-initiative.org/bml/bml-1.0" xmlns:bmla="http://www.asap-project.org/bmla" id="yield">
+  <bmla:interrupt id="stop" target="talk" speech="word" start="anticipators:user:barges_in"/>
+  <head id="nod" lexeme="NOD" start="stop:start"/>
+</bml>
+"""
+
+
+async def barge_in(socket: aiohttp.ClientWebSocketResponse) -> None:
+    """What a voice detector would do, once."""
+    await asyncio.sleep(1.0)
+    await socket.send_json({"type": "predict", "anticipator": "user", "sync": "barges_in", "in": 0})
+
+
+async def main() -> None:
+    async with aiohttp.ClientSession() as http, http.ws_connect(ADDRESS) as socket, asyncio.TaskGroup() as tasks:
+        await socket.send_json({"type": "bml", "xml": BML, "ref": "story"})
+        async for message in socket:
+            told = message.json()
+            if told["type"] == "error":
+                raise SystemExit(told["message"])
+            if told["type"] != "feedback":
+                continue
+            feedback = ElementTree.fromstring(told["xml"])
+            if feedback.get("id") == "talk:words:start":
+                tasks.create_task(barge_in(socket))
+            if feedback.get("id") == "talk:words:end":
+                print(f"heard {feedback.get(OWN + 'heard')} characters, up to the word {feedback.get(OWN + 'text')!r}")
+            if feedback.get("id") == "yield:end":
+                return
+
+
+asyncio.run(main())

@@ -1,0 +1,68 @@
+"""``conformance``: whether a realizer does what BML says, tried over its socket."""
+
+import argparse
+import asyncio
+import json
+from collections import Counter
+from collections.abc import AsyncIterator, Mapping
+
+from reactive_realizer.conformance.case import read_suite
+from reactive_realizer.conformance.suite import Outcome, Verdict, run_suite
+
+
+def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    """The options of ``conformance``."""
+    names = [case.name for case in read_suite()]
+    parser = commands.add_parser(
+        "conformance",
+        help="try a realizer over the protocol",
+        description="Plays a suite of BML against a server and says what does not come out as it should. "
+        "Whatever plays there is stopped.",
+        epilog="example: reactive-realizer conformance http://127.0.0.1:8088 --case append --case replace",
+    )
+    parser.add_argument("url", metavar="URL", help="of the server, http://127.0.0.1:8088")
+    parser.add_argument("--json", action="store_true", help="print a JSON object in the place of a table")
+    parser.add_argument("--case", action="append", choices=names, metavar="NAME", help=f"only this: {', '.join(names)}")
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    """The exit status: 1 if a case failed; that no realizer is reached is an error."""
+    return asyncio.run(_run(options))
+
+
+async def _run(options: argparse.Namespace) -> int:
+    cases = [case for case in read_suite() if not options.case or case.name in options.case]
+    outcomes = run_suite(options.url, cases)
+    verdicts = await (_print_json(options.url, outcomes) if options.json else _print_table(outcomes))
+    return 1 if verdicts[Verdict.FAILED] else 0
+
+
+async def _print_table(outcomes: AsyncIterator[Outcome]) -> Counter[Verdict]:
+    """A row a case, as it comes, with what is wrong under it."""
+    verdicts: Counter[Verdict] = Counter()
+    async for outcome in outcomes:
+        verdicts[outcome.verdict] += 1
+        print(f"{outcome.verdict:<12}{outcome.case.name:<22}{outcome.case.title}", flush=True)
+        for problem in outcome.problems:
+            print(f"{'':<12}  {problem}")
+    print(", ".join(f"{verdicts[verdict]} {verdict}" for verdict in Verdict))
+    return verdicts
+
+
+async def _print_json(url: str, outcomes: AsyncIterator[Outcome]) -> Counter[Verdict]:
+    all_ = [outcome async for outcome in outcomes]
+    verdicts = Counter(outcome.verdict for outcome in all_)
+    numbers = {str(verdict): verdicts[verdict] for verdict in Verdict}
+    print(json.dumps({"url": url, **numbers, "cases": list(map(_as_json, all_))}, indent=1))
+    return verdicts
+
+
+def _as_json(outcome: Outcome) -> Mapping[str, object]:
+    return {
+        "name": outcome.case.name,
+        "title": outcome.case.title,
+        "verdict": outcome.verdict,
+        "checks": outcome.checks,
+        "problems": outcome.problems,
+    }

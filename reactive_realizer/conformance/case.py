@@ -1,0 +1,100 @@
+"""Cases: BML to send, and what is to come of it beyond what it says itself."""
+
+from dataclasses import dataclass
+from importlib.resources import files
+from typing import Final
+
+from lxml import etree
+
+from reactive_realizer.bml.block import BehaviorBlock
+from reactive_realizer.bml.document import parse
+from reactive_realizer.limits import Limits
+
+SUITE: Final = files(__package__) / "cases"
+
+
+@dataclass(frozen=True, slots=True)
+class Send:
+    """A document to send.
+
+    Attributes:
+        xml: as it is sent.
+        after: progress that has to be told first, ``block:start`` or ``block:behavior:sync``; None for at once.
+        refused: whether no block of it is to be played.
+    """
+
+    xml: str
+    after: str | None
+    refused: bool
+
+    @property
+    def blocks(self) -> tuple[BehaviorBlock, ...]:
+        """The blocks of it that can be read, unless it is to be refused."""
+        read = [] if self.refused else parse(self.xml, Limits())
+        return tuple(parsed.block for parsed in read if parsed.block is not None)
+
+
+@dataclass(frozen=True, slots=True)
+class Warned:
+    """A warning that has to come.
+
+    Attributes:
+        plays: whether what it is about is played nevertheless.
+    """
+
+    id: str
+    type: str
+    plays: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """One case of the suite.
+
+    Attributes:
+        name: of its file.
+        title: what is to be true, a sentence.
+        sends: in order.
+        warnings: all that are to come.
+        ends: the state in which a block ends, of those that do not end DONE.
+    """
+
+    name: str
+    title: str
+    sends: tuple[Send, ...]
+    warnings: tuple[Warned, ...]
+    ends: dict[str, str]
+
+    @property
+    def blocks(self) -> tuple[BehaviorBlock, ...]:
+        """All blocks that are to be accepted, in order."""
+        return tuple(block for send in self.sends for block in send.blocks)
+
+
+def read_suite() -> list[Case]:
+    """The cases of the suite, in order of their names."""
+    found = (read_case(file.name.removesuffix(".xml"), file.read_bytes()) for file in SUITE.iterdir())
+    return sorted(found, key=lambda case: case.name)
+
+
+def read_case(name: str, text: bytes) -> Case:
+    """A case from its file."""
+    root = etree.fromstring(text)
+    sends = tuple(map(_send, root.iterchildren("send")))
+    warnings = tuple(map(_warned, root.iterchildren("warning")))
+    ends = {_said(element, "block"): _said(element, "status") for element in root.iterchildren("end")}
+    return Case(name, _said(root, "title"), sends, warnings, ends)
+
+
+def _said(element: etree._Element, name: str) -> str:
+    return str(element.attrib[name])
+
+
+def _warned(element: etree._Element) -> Warned:
+    return Warned(_said(element, "id"), _said(element, "type"), element.get("plays") == "true")
+
+
+def _send(element: etree._Element) -> Send:
+    """What stands inside: elements, or the text of a document that is none."""
+    inside = "".join(etree.tostring(child, encoding="unicode") for child in element)
+    return Send(inside or element.text or "", element.get("after"), element.get("refused") == "true")

@@ -1,0 +1,118 @@
+"""A planner's side of the protocol."""
+
+import asyncio
+import json
+from collections.abc import Callable
+from contextlib import AsyncExitStack
+from itertools import count
+from typing import Any, Self
+
+import aiohttp
+from lxml import etree
+from yarl import URL
+
+from reactive_realizer.errors import RealizerError, error
+from reactive_realizer.testing.feedback_list import FeedbackList
+
+_PROTOCOL = 1
+
+
+class RealizerClient:
+    """A connection to a realizer; used as an async context manager.
+
+    Args:
+        url: of its server or its socket; a token stands in its query.
+        patience: how long (s) to wait for anything.
+
+    Attributes:
+        told: the feedback since it was last emptied by `forget`.
+        mistakes: what was wrong with the messages themselves since then.
+
+    Raises:
+        RealizerError: "not-reached" or "other-protocol", also of `send` and `until` where the connection is lost.
+    """
+
+    def __init__(self, url: str, patience: float) -> None:
+        self.told = FeedbackList()
+        self.mistakes: list[str] = []
+        self._url = url
+        self._patience = patience
+        self._refs = count(1)
+        self._answered: set[object] = set()
+
+    async def __aenter__(self) -> Self:
+        async with AsyncExitStack() as stack:
+            await self._connect(stack)
+            self._stack = stack.pop_all()
+        return self
+
+    async def __aexit__(self, *_: object) -> None:
+        await self._stack.aclose()
+
+    def forget(self) -> None:
+        """Begin anew: what was told until now is of no interest any more."""
+        self.told = FeedbackList()
+        self.mistakes = []
+
+    async def send(self, xml: str) -> bool:
+        """Send a document; whether it was answered."""
+        ref = next(self._refs)
+        await self._socket.send_json({"type": "bml", "xml": xml, "ref": ref})
+        return await self.until(lambda: ref in self._answered)
+
+    async def until(self, condition: Callable[[], bool]) -> bool:
+        """Listen until something is so; whether it became so in time."""
+        try:
+            async with asyncio.timeout(self._patience):
+                while not condition():
+                    self._take(await self._hear())
+        except TimeoutError:
+            return False
+        return True
+
+    async def _connect(self, stack: AsyncExitStack) -> None:
+        try:
+            async with asyncio.timeout(self._patience):
+                session = await stack.enter_async_context(aiohttp.ClientSession())
+                connecting = session.ws_connect(_socket_url(self._url), max_msg_size=0)
+                self._socket = await stack.enter_async_context(connecting)
+                hello = await self._hear()
+        except (OSError, ValueError, aiohttp.ClientError) as problem:
+            raise self._not_reached(str(problem) or type(problem).__name__) from problem
+        if (hello.get("type"), hello.get("protocol")) != ("hello", _PROTOCOL):
+            raise error("other-protocol", url=self._url, protocol=_PROTOCOL, message=json.dumps(hello)[:200])
+
+    async def _hear(self) -> dict[str, Any]:
+        message = await self._socket.receive()
+        if message.type is aiohttp.WSMsgType.BINARY:
+            return {"type": "binary"}
+        if message.type is not aiohttp.WSMsgType.TEXT:
+            raise self._not_reached(f"the connection was lost ({self._socket.close_code})")
+        try:
+            said = json.loads(message.data)
+        except ValueError:
+            said = None
+        return said if isinstance(said, dict) else {"type": None, "text": message.data}
+
+    def _take(self, message: dict[str, Any]) -> None:
+        try:
+            match message:
+                case {"type": "feedback", "time": float(time) | int(time), "xml": str(xml)}:
+                    self.told.add(time, xml)
+                case {"type": "accepted" | "error", "ref": ref}:
+                    self._answered.add(ref)
+                case {"type": "error"}:
+                    pass
+                case _:
+                    self.mistakes.append(f"unexpected message {json.dumps(message)[:200]}")
+        except etree.XMLSyntaxError as problem:
+            self.mistakes.append(f"feedback that is no XML: {problem}")
+
+    def _not_reached(self, reason: str) -> RealizerError:
+        return error("not-reached", url=self._url, reason=reason)
+
+
+def _socket_url(url: str) -> URL:
+    address = URL(url)
+    socket = address.with_path("/ws").with_query(address.query) if address.path in ("", "/") else address
+    return socket.update_query(streams="feedback")

@@ -1,0 +1,122 @@
+"""From a script to what has to be true of the feedback (thesis 9.6: assertions made from the script)."""
+
+from collections.abc import Iterator
+from functools import partial
+from typing import Final
+
+from reactive_realizer.bml.behavior import Behavior
+from reactive_realizer.bml.behaviors import Wait
+from reactive_realizer.bml.block import BehaviorBlock
+from reactive_realizer.bml.constraint import OrderKind, Synchronize
+from reactive_realizer.bml.names import ANTICIPATORS, BML, BML_EXT
+from reactive_realizer.bml.sync_ref import SyncRef
+from reactive_realizer.conformance.case import Case
+from reactive_realizer.conformance.check import Check
+from reactive_realizer.conformance.relations import relations
+from reactive_realizer.testing.assertions import (
+    DONE,
+    assert_block_around,
+    assert_ended,
+    assert_linked,
+    assert_not_played,
+    assert_order,
+    assert_predicted,
+    assert_syncs_in_order,
+    assert_told_once,
+    assert_warnings,
+)
+
+TOLERANCE: Final = 0.01
+"""s: a tick of 100 Hz, the coarsest that a realizer may look at its clock."""
+
+_UNPLAYED: Final = ("REVOKED", "FAILED")
+
+
+def checks_of(case: Case) -> Iterator[Check]:
+    """All that a case asserts."""
+    warnings = [(warning.id, warning.type) for warning in case.warnings]
+    yield Check("progress", assert_told_once)
+    yield Check("warnings", lambda told: assert_warnings(told, *warnings))
+    for block in case.blocks:
+        yield from _block(case, block)
+    yield from relations(case)
+
+
+def _block(case: Case, block: BehaviorBlock) -> Iterator[Check]:
+    status = case.ends.get(block.id, DONE)
+    yield Check(f"{block.id} ends {status}", partial(assert_ended, block=block.id, status=status))
+    if status in _UNPLAYED:
+        yield Check(f"{block.id} is never played", partial(assert_not_played, behavior=block.id))
+        return
+    yield Check(f"all of {block.id} is between its start and its end", partial(assert_block_around, block=block.id))
+    if status == DONE:
+        yield Check("the last prediction", partial(assert_predicted, point=f"{block.id}:end", tolerance=TOLERANCE))
+        yield from _whole(case, block)
+
+
+def _whole(case: Case, block: BehaviorBlock) -> Iterator[Check]:
+    """What holds in a block that nothing cuts short."""
+    silent = {warning.id for warning in case.warnings if not warning.plays}
+    for behavior in block.behaviors:
+        name = f"{block.id}:{behavior.id}"
+        if name in silent:
+            yield Check(f"{name} is left out", partial(assert_not_played, behavior=name))
+        else:
+            yield _in_order(name, behavior)
+            yield from _ties(block, name, behavior)
+    if block.id not in silent:
+        yield from _constraints(block)
+
+
+def _in_order(name: str, behavior: Behavior) -> Check:
+    """All points of a core behavior; of others, whose points are their own, the first and the last."""
+    if behavior.namespace in (BML, BML_EXT):
+        return Check(
+            f"points of {behavior.name}", lambda told: assert_syncs_in_order(told, name, *behavior.sync_points)
+        )
+    return Check(f"points of {behavior.name}", partial(assert_order, earlier=f"{name}:start", later=f"{name}:end"))
+
+
+def _ties(block: BehaviorBlock, name: str, behavior: Behavior) -> Iterator[Check]:
+    for sync, ref in behavior.syncs.items():
+        yield from _linked(f"{name}:{sync}", 0.0, block, ref, f'{sync}="{ref}"')
+    if isinstance(behavior, Wait) and behavior.duration is not None and not {"start", "end"} <= behavior.syncs.keys():
+        text = f'duration="{behavior.duration:g}"'
+        yield _distance(f"{name}:end", f"{name}:start", behavior.duration, text)
+
+
+def _constraints(block: BehaviorBlock) -> Iterator[Check]:
+    for constraint in block.constraints:
+        if isinstance(constraint, Synchronize):
+            first, *others = sorted(constraint.refs, key=lambda ref: ref.behavior is None)
+            for ref in others:
+                yield from _linked(_point(block, first), first.offset, block, ref, f"synchronize {first}, {ref}")
+            continue
+        for ref in constraint.refs:
+            early, late = (constraint.ref, ref) if constraint.kind is OrderKind.AFTER else (ref, constraint.ref)
+            if ANTICIPATORS not in (early.block, late.block):
+                distance = early.offset - late.offset
+                assertion = partial(
+                    assert_order,
+                    earlier=_point(block, early),
+                    later=_point(block, late),
+                    distance=distance,
+                    tolerance=TOLERANCE,
+                )
+                yield Check(f"{ref} {constraint.kind} {constraint.ref}", assertion)
+
+
+def _linked(point: str, offset: float, block: BehaviorBlock, ref: SyncRef, text: str) -> Iterator[Check]:
+    """Whether ``point + offset`` is where a reference says; when an anticipator's point came is not told."""
+    if ref.block != ANTICIPATORS:
+        yield _distance(point, _point(block, ref), ref.offset - offset, text)
+
+
+def _distance(point: str, other: str, offset: float, text: str) -> Check:
+    return Check(text, partial(assert_linked, point=point, other=other, offset=offset, tolerance=TOLERANCE))
+
+
+def _point(block: BehaviorBlock, ref: SyncRef) -> str:
+    """The point that a reference names, its offset aside, as feedback names it."""
+    parts = (ref.block or block.id, ref.behavior, ref.sync or "start")
+    return ":".join(part for part in parts if part is not None)

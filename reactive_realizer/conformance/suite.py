@@ -1,0 +1,101 @@
+"""Runs cases against a realizer, one after the other."""
+
+from collections.abc import AsyncIterator, Iterable
+from dataclasses import dataclass
+from enum import StrEnum
+from itertools import count
+from typing import Final
+
+from reactive_realizer.bml.names import BML
+from reactive_realizer.conformance.case import Case
+from reactive_realizer.conformance.client import RealizerClient
+from reactive_realizer.conformance.derive import checks_of
+
+PATIENCE: Final = 20.0
+"""s to wait for anything; no case takes half of that."""
+
+_UNSUPPORTED: Final = (
+    "BEHAVIOR_TYPE_NOT_SUPPORTED",
+    "CUSTOM_BEHAVIOUR_NOT_SUPPORTED",
+    "CUSTOM_ATTRIBUTE_NOT_SUPPORTED",
+)
+
+
+class Verdict(StrEnum):
+    """What came of a case; UNSUPPORTED where the realizer warned that it does not know something of it."""
+
+    PASSED = "passed"
+    FAILED = "failed"
+    UNSUPPORTED = "unsupported"
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """What came of a case.
+
+    Attributes:
+        checks: how many things were asserted.
+        problems: those that do not hold, or what the realizer does not support.
+    """
+
+    case: Case
+    verdict: Verdict
+    checks: int
+    problems: tuple[str, ...]
+
+
+async def run_suite(url: str, cases: Iterable[Case], patience: float = PATIENCE) -> AsyncIterator[Outcome]:
+    """Play cases, ending after each whatever plays.
+
+    Raises:
+        RealizerError: the realizer is not reached, or the connection is lost.
+    """
+    async with RealizerClient(url, patience) as client:
+        runner = _Runner(client)
+        await runner.stop()
+        for case in cases:
+            yield await runner.run(case)
+
+
+class _Runner:
+    def __init__(self, client: RealizerClient) -> None:
+        self._client = client
+        self._stops = count(1)
+
+    async def run(self, case: Case) -> Outcome:
+        self._client.forget()
+        waited = [*await self._play(case), *await self.stop()]
+        told, checks = self._client.told, list(checks_of(case))
+        expected = {(warning.id, warning.type) for warning in case.warnings}
+        unknown = [f"{id_}: {type_}" for id_, type_ in told.warnings if type_ in _UNSUPPORTED]
+        if unknown and not expected.intersection(told.warnings):
+            return Outcome(case, Verdict.UNSUPPORTED, 0, tuple(unknown))
+        failed = [problem for check in checks if (problem := check.problem(told)) is not None]
+        problems = (*self._client.mistakes, *waited, *failed)
+        return Outcome(case, Verdict.FAILED if problems else Verdict.PASSED, len(checks), problems)
+
+    async def stop(self) -> list[str]:
+        """End whatever plays; what went wrong with that."""
+        id_ = f"conformance-stop-{next(self._stops)}"
+        await self._client.send(f'<bml xmlns="{BML}" id="{id_}" composition="REPLACE"/>')
+        return await self._wait([f"{id_}:end"])
+
+    async def _play(self, case: Case) -> list[str]:
+        """Send what a case sends and wait for its end; what did not come in time."""
+        for send in case.sends:
+            missed = await self._wait([send.after] if send.after else [])
+            if missed:
+                return missed
+            if not await self._client.send(send.xml):
+                return ["a message with a ref was not answered"]
+        return await self._wait([f"{block.id}:end" for block in case.blocks], len(case.warnings))
+
+    async def _wait(self, points: list[str], warnings: int = 0) -> list[str]:
+        client = self._client
+
+        def missing() -> list[str]:
+            return [point for point in points if not client.told.reached(point)]
+
+        if await client.until(lambda: not missing() and len(client.told.warnings) >= warnings):
+            return []
+        return [f"{point} was not told in time" for point in missing()]

@@ -1,0 +1,176 @@
+"""What hangs on what, so that a plan stays one when times from outside move: nothing is solved again."""
+
+from collections import defaultdict, deque
+from collections.abc import Collection, Sequence
+from graphlib import CycleError
+from itertools import pairwise
+
+from reactive_realizer.scheduler.convex.longest_path import TOLERANCE
+from reactive_realizer.scheduler.convex.model import START
+from reactive_realizer.scheduler.convex.network import Network, Precedence
+from reactive_realizer.scheduler.convex.recipes import (
+    Between,
+    First,
+    Given,
+    Hung,
+    Natural,
+    Recipe,
+    Spot,
+    Step,
+    steps,
+)
+
+
+class Hanging:
+    """The recipe of every root.
+
+    Between two given ones a root keeps its fraction of the way, behind or before one its distance. A cluster that
+    hangs on nothing given begins with one of its roots, as early as what it comes after allows (thesis 7.24), also
+    after changes. An order between roots that move differently is kept by bounds on one or both of them
+    (docs/semantics.md, pegs).
+
+    Attributes:
+        recipes: by root.
+        steps: in which their pegs can be made.
+    """
+
+    def __init__(self, network: Network) -> None:
+        self._network = network
+        self._orders = network.precedences()
+        self._firsts = self._first_roots()
+        given = {*network.roots[: network.fixed], *self._firsts.values()}
+        self.recipes = {root: Recipe(natural) for root, natural in self._naturals(given).items()}
+        for order in self._orders:
+            self._begin_after(order)
+        bounded = self._keep_orders() - given
+        if bounded:
+            self._hang_on(given | bounded)
+        self.steps = self._order_steps()
+
+    # --- clusters
+
+    def _first_roots(self) -> dict[int, int]:
+        """The first root of every cluster that hangs on nothing given."""
+        firsts: dict[int, int] = {}
+        for root in self._network.roots[self._network.fixed :]:
+            cluster = self._network.cluster(root)
+            if not self._network.hangs(cluster):
+                old = firsts.get(cluster, root)
+                firsts[cluster] = min(old, root, key=self._network.first_time)
+        return firsts
+
+    def _begin_after(self, order: Precedence) -> None:
+        """What a point of such a cluster comes after, its first root comes after, by as much earlier as it is."""
+        cluster = self._network.cluster(order.later)
+        first = self._firsts.get(cluster)
+        if first is None or order.later < self._network.fixed or cluster == self._network.cluster(order.earlier):
+            return
+        recipe = self.recipes[first]
+        ahead = self._network.first_time(first) - self._network.time(order.later)
+        if order.earlier == START and isinstance(recipe.natural, First):
+            recipe.natural = First(max(recipe.natural.offset, order.distance + ahead))
+        else:
+            recipe.after.append(Spot(order.earlier, order.distance + ahead))
+
+    # --- where roots are by nature
+
+    def _naturals(self, given: Collection[int]) -> dict[int, Natural]:
+        network = self._network
+        before, after = network.latest_before(given), network.earliest_after(given)
+        naturals: dict[int, Natural] = {}
+        for root in network.roots:
+            if root in given:
+                naturals[root] = Given() if root < network.fixed else First(0.0)
+            elif root in before and root in after and before[root].root != after[root].root:
+                naturals[root] = self._between(root, before[root], after[root])
+        self._hang_rest(naturals)
+        return naturals
+
+    def _between(self, root: int, before: Spot, after: Spot) -> Natural:
+        time, start, end = self._network.time(root), self._network.at(before), self._network.at(after)
+        lead = self._network.leads[root]
+        if end - start <= TOLERANCE:
+            return Hung(before.moved(lead + time - start))
+        return Between(before.moved(lead), after.moved(lead), (time - start) / (end - start))
+
+    def _hang_rest(self, naturals: dict[int, Natural]) -> None:
+        """At a distance from what they are connected with, step by step."""
+        neighbors: defaultdict[int, list[int]] = defaultdict(list)
+        for way in self._network.ways:
+            neighbors[way.start].append(way.end)
+            neighbors[way.end].append(way.start)
+        waiting = deque(sorted(naturals))
+        while waiting:
+            root = waiting.popleft()
+            for neighbor in neighbors[root]:
+                if neighbor not in naturals:
+                    naturals[neighbor] = self._hung(neighbor, root, naturals[root])
+                    waiting.append(neighbor)
+
+    def _hung(self, root: int, neighbor: int, natural: Natural) -> Hung:
+        base = natural.spot.root if isinstance(natural, Hung) else neighbor
+        return Hung(Spot(base, self._network.first_time(root) - self._network.time(base)))
+
+    def _hang_on(self, given: Collection[int]) -> None:
+        """What is held by a bound, others hang on in their turn."""
+        for root, natural in self._naturals(given).items():
+            if root not in given:
+                self.recipes[root].natural = natural
+
+    # --- orders alive
+
+    def _keep_orders(self) -> set[int]:
+        """Bounds for the orders whose two sides may come to move against each other; the roots that got some."""
+        moved = self._moved_from_outside()
+        bounded = set()
+        for order in self._orders:
+            if not moved & {order.later, order.earlier} or self._begins_after(order):
+                continue
+            leads = self._network.leads
+            if order.earlier != START and self._gives_way(order, moved):
+                self.recipes[order.earlier].before.append(Spot(order.later, leads[order.earlier] - order.distance))
+                bounded.add(order.earlier)
+            if order.later != START:
+                self.recipes[order.later].after.append(Spot(order.earlier, leads[order.later] + order.distance))
+                bounded.add(order.later)
+        return bounded
+
+    def _begins_after(self, order: Precedence) -> bool:
+        """Whether an order is kept by the beginning of the cluster."""
+        cluster = self._network.cluster(order.later)
+        return self._firsts.get(cluster) == order.later and cluster != self._network.cluster(order.earlier)
+
+    def _gives_way(self, order: Precedence, moved: Collection[int]) -> bool:
+        """Whether the earlier one goes with the later one: that comes from outside, or is absolute and cannot go."""
+        return order.later == START or (order.later in moved and order.earlier not in moved)
+
+    def _moved_from_outside(self) -> set[int]:
+        """The roots that move when times from outside do."""
+        users: defaultdict[int, list[int]] = defaultdict(list)
+        for root, recipe in self.recipes.items():
+            for spot in (*recipe.spots, *recipe.after):
+                users[spot.root].append(root)
+        moved = set(range(START + 1, self._network.fixed))
+        waiting = sorted(moved)
+        while waiting:
+            new = set(users[waiting.pop()]) - moved
+            moved |= new
+            waiting += sorted(new)
+        return moved
+
+    def _order_steps(self) -> list[Step]:
+        """A bound that would make a peg hang on itself is left out; a cluster then begins when it was planned to."""
+        while True:
+            try:
+                return steps(self.recipes)
+            except CycleError as problem:
+                self._open(problem.args[1])
+
+    def _open(self, circle: Sequence[Step]) -> None:
+        bounds = [(step, needed) for needed, step in pairwise(circle) if step.bounded and needed != (step.root, False)]
+        step, needed = min(bounds, key=lambda pair: (self._network.first_time(pair[0].root), pair))
+        recipe = self.recipes[step.root]
+        held = recipe.after if needed.bounded else recipe.before
+        held[:] = [spot for spot in held if spot.root != needed.root]
+        if isinstance(recipe.natural, First):
+            recipe.natural = First(self._network.first_time(step.root))

@@ -1,0 +1,72 @@
+"""Two questions about graphs of points in time: the earliest times, and what hangs together."""
+
+from collections.abc import Iterable, Sequence
+from itertools import count
+from typing import Generic, NamedTuple, TypeVar
+
+TOLERANCE = 1e-9
+"""Inequalities that miss by less (s) are met."""
+
+L = TypeVar("L")
+
+
+class Arc(NamedTuple, Generic[L]):
+    """``time[head] >= time[tail] + length``, and who wants that."""
+
+    tail: int
+    head: int
+    length: float
+    label: L
+
+
+def longest_path(size: int, arcs: Sequence[Arc[L]]) -> tuple[list[float], list[Arc[L]]]:
+    """The least times >= 0 that meet all arcs; or else, second, arcs in a circle that cannot be met together.
+
+    Bellman and Ford's method. The predecessors are looked at after 4, 8, 16 ... passes, so that a circle is found soon.
+    """
+    times, into = [0.0] * size, dict[int, Arc[L]]()
+    for passes in count(1):
+        moved = False
+        for arc in arcs:
+            time = times[arc.tail] + arc.length
+            if time > times[arc.head] + TOLERANCE:
+                times[arc.head], into[arc.head], moved = time, arc, True
+        if not moved:
+            return times, []
+        if passes >= 4 and passes & (passes - 1) == 0 and (circle := _circle(size, into)):
+            return times, circle
+    raise AssertionError("passes do not end")
+
+
+def components(size: int, pairs: Iterable[tuple[int, int]]) -> list[int]:
+    """For each of ``size`` nodes the least node that it is connected with."""
+    parents = list(range(size))
+
+    def top(node: int) -> int:
+        while parents[node] != node:
+            parents[node] = node = parents[parents[node]]
+        return node
+
+    for one, other in pairs:
+        low, high = sorted((top(one), top(other)))
+        parents[high] = low
+    return [top(node) for node in range(size)]
+
+
+def _circle(size: int, into: dict[int, Arc[L]]) -> list[Arc[L]]:
+    seen = [0] * size
+    for number, start in enumerate(into, 1):
+        node = start
+        while node in into and not seen[node]:
+            seen[node] = number
+            node = into[node].tail
+        if node in into and seen[node] == number:
+            return _around(node, into)
+    return []
+
+
+def _around(start: int, into: dict[int, Arc[L]]) -> list[Arc[L]]:
+    arcs = [into[start]]
+    while arcs[-1].tail != start:
+        arcs.append(into[arcs[-1].tail])
+    return arcs[::-1]

@@ -1,0 +1,173 @@
+"""A stage as nodes, roots, spans and rows; and all of these in variables."""
+
+from collections import defaultdict
+from collections.abc import Iterable, Iterator
+from collections.abc import Set as AbstractSet
+from math import inf
+
+from reactive_realizer.scheduler.convex.behavior_spans import BehaviorSpans
+from reactive_realizer.scheduler.convex.case import Stage
+from reactive_realizer.scheduler.convex.causes import GIVEN, Cause, Clash, Rank
+from reactive_realizer.scheduler.convex.longest_path import TOLERANCE
+from reactive_realizer.scheduler.convex.roots import Roots
+from reactive_realizer.scheduler.convex.span import SHORTEST, Bound, Row, Span
+from reactive_realizer.scheduler.problem import Node, Order, Point, Tie
+
+START = 0
+"""The node of the block's start, and its variable, which all known times share."""
+
+
+class Model:
+    """What is to be found for the behaviors of a stage.
+
+    A variable ``x`` is the time of a root, s after the block's start; every node is at a distance from a variable.
+
+    Args:
+        lifted: lengths and limits that were given up.
+
+    Attributes:
+        nodes: number of each point that a constraint names, or that begins a behavior; the fixed ones come first.
+        knots: those of each behavior, by index of the point, in order.
+        parts: spans of each behavior.
+        spans: all of them.
+        bounds: all inequalities, in variables.
+        clashes: what was found to be impossible while building.
+        size: number of variables.
+    """
+
+    def __init__(self, stage: Stage, lifted: AbstractSet[Cause]) -> None:
+        self.stage = stage
+        self.nodes: dict[Node, int] = {node: number for number, node in enumerate(stage.fixed)}
+        self.roots = Roots(len(stage.fixed))
+        self.knots: dict[int, dict[int, int]] = {}
+        self.parts: dict[int, BehaviorSpans] = {}
+        self.clashes: list[Clash] = []
+        self._add_behaviors(lifted)
+        self._link()
+        self.spans = [span for part in self.parts.values() for span in part.spans]
+        self._places = self._variables()
+        self.size = 1 + max(variable for variable, _ in self._places)
+        for span in self.spans:
+            self._settle(span)
+        for span in self.spans:
+            _follow_if_settled(span)
+        self.bounds = list(self._bounds(self._rows()))
+
+    def place(self, node: int) -> tuple[int, float]:
+        """The variable that a node hangs on, and how much later (s) it is."""
+        return self._places[node]
+
+    @property
+    def unknown(self) -> list[int]:
+        """The variables of unknown times from outside."""
+        times = (each.time for each in self.stage.fixed.values())
+        return [self.place(node)[0] for node, time in enumerate(times) if time is None]
+
+    def joins_late(self, behavior: int) -> bool:
+        """Whether it hangs on the outside, at a time that has passed (docs/semantics.md: 7.13 does not bind it)."""
+        places = (self.roots.find(node) for node in self.knots[behavior].values())
+        return any(self._passed(root, distance) for root, distance in places)
+
+    def _passed(self, root: int, distance: float) -> bool:
+        """Whether a place has passed by the time of another block or an anticipator, or of a behavior that joins late."""
+        if not START < root < len(self.stage.fixed):
+            return False
+        node, (time, _) = list(self.stage.fixed.items())[root]
+        return time is not None and time + (0.0 if isinstance(node, Point) else distance) < 0
+
+    # --- nodes
+
+    def _add_behaviors(self, lifted: AbstractSet[Cause]) -> None:
+        named = self._named([*self.stage.ties.values(), *self.stage.orders.values()])
+        tied = self._named(self.stage.ties.values())
+        for index, item in self.stage.items.items():
+            points = item.timing.points
+            id_ = item.behavior.id
+            knots = {k: self.roots.add() for k, sync in enumerate(points) if k == 0 or sync in named[id_]}
+            self.nodes.update({Point(id_, points[k]): node for k, node in knots.items()})
+            at = {k for k in knots if points[k] in tied[id_]}
+            mentioned = {k for k in knots if points[k] in named[id_]}
+            self.knots[index] = knots
+            self.parts[index] = BehaviorSpans(index, item.timing, knots, mentioned, at, lifted, self.roots.add)
+
+    def _named(self, constraints: Iterable[Tie | Order]) -> defaultdict[str, set[str]]:
+        named: defaultdict[str, set[str]] = defaultdict(set)
+        for node in (node for each in constraints for node in each.nodes):
+            if isinstance(node, Point) and node not in self.nodes:
+                named[node.behavior].add(node.sync)
+        return named
+
+    def _link(self) -> None:
+        """Make one what is tied; a rigid behavior goes before what ties it, since rigid wins."""
+        for index, part in self.parts.items():
+            for earlier, later, distance in part.rigid:
+                self.roots.link(later, earlier, distance, Cause(Rank.BEHAVIOR, index))
+        for cause, tie in self.stage.ties.items():
+            left, right = (self.nodes[node] for node in tie.nodes)
+            clash = self.roots.link(left, right, tie.offset, cause)
+            if clash is not None:
+                self.clashes.append(clash)
+
+    # --- variables
+
+    def _variables(self) -> list[tuple[int, float]]:
+        times = [each.time for each in self.stage.fixed.values()]
+        variables: dict[int, tuple[int, float]] = {}
+        number = START
+        for root in range(len(self.roots)):
+            if self.roots.find(root)[0] == root:
+                known = times[root] if root < len(times) else None
+                if known is None:
+                    number += 1
+                variables[root] = (number, 0.0) if known is None else (START, known)
+        found = map(self.roots.find, range(len(self.roots)))
+        return [(variables[root][0], variables[root][1] + distance) for root, distance in found]
+
+    def _settle(self, span: Span) -> None:
+        """Write a span in variables; one whose duration follows from ties has it now."""
+        (span.tail, start), (span.head, end) = self.place(span.start), self.place(span.end)
+        span.shift = end - start - span.rigid
+        if not span.closed:
+            return
+        span.duration = span.shift
+        if span.elastic and span.duration < SHORTEST:
+            causes = self.roots.way(span.start, span.end) | {span.cause}
+            causes |= {span.length_cause} if span.duration > -TOLERANCE else set()
+            self.clashes.append(Clash(causes, SHORTEST - span.duration))
+
+    # --- inequalities
+
+    def _rows(self) -> Iterator[Row]:
+        for cause, order in self.stage.orders.items():
+            yield Row(self.nodes[order.later], self.nodes[order.earlier], order.offset, cause)
+        for index, knots in self.knots.items():
+            if not self.joins_late(index):
+                yield Row(knots[0], START, 0.0, GIVEN)  # thesis 7.13
+        for span in self.spans:
+            yield from _limits(span)
+
+    def _bounds(self, rows: Iterable[Row]) -> Iterator[Bound]:
+        for row in rows:
+            (later, late), (earlier, early) = self.place(row.later), self.place(row.earlier)
+            distance = row.distance + early - late
+            if later != earlier:
+                yield Bound(later, earlier, distance, row)
+            elif distance > TOLERANCE:
+                self.clashes.append(Clash(self.roots.way(row.later, row.earlier) | {row.cause}, distance))
+
+
+def _follow_if_settled(span: Span) -> None:
+    """A stretch that is known already only changes what the span would like."""
+    if span.guide is not None and span.guide.closed:
+        span.goal = span.preferred * span.guide.ratio
+        span.guide = None
+
+
+def _limits(span: Span) -> Iterator[Row]:
+    limit = Cause(Rank.LIMIT, span.behavior, span.phases[0])
+    if span.minimum > 0:
+        yield Row(span.end, span.start, span.rigid + span.minimum, limit)
+    elif not span.elastic:
+        yield Row(span.end, span.start, span.rigid, span.cause)
+    if span.maximum < inf:
+        yield Row(span.start, span.end, -span.rigid - span.maximum, limit)

@@ -1,0 +1,119 @@
+"""The roots of a timetable and the phases between them."""
+
+from collections.abc import Iterable, Sequence
+from typing import NamedTuple
+
+from reactive_realizer.scheduler.convex.longest_path import TOLERANCE
+from reactive_realizer.scheduler.convex.recipes import Spot
+from reactive_realizer.scheduler.convex.span import Span
+from reactive_realizer.scheduler.convex.timetable import Timetable
+
+
+class Way(NamedTuple):
+    """A span from root to root; if it lasted no time at all, ``end = start + distance``, s."""
+
+    start: int
+    end: int
+    distance: float
+
+
+class Precedence(NamedTuple):
+    """``later >= earlier + distance``, of roots."""
+
+    later: int
+    earlier: int
+    distance: float
+
+
+class Network:
+    """Roots, their times, and ways between them.
+
+    Attributes:
+        roots: in order; the fixed ones come first.
+        fixed: number of fixed roots.
+        leads: how much later (s) than the root its first point is; 0 for fixed ones.
+        ways: in order of time.
+    """
+
+    def __init__(self, table: Timetable) -> None:
+        self._table = table
+        self._model = table.model
+        find = self._model.roots.find
+        self.fixed = len(self._model.stage.fixed)
+        self._hanging = table.grounded | {self.cluster(root) for root in range(self.fixed)}
+        self.leads: dict[int, float] = dict.fromkeys(range(self.fixed), 0.0)
+        for node in (node for knots in self._model.knots.values() for node in knots.values()):
+            root, distance = find(node)
+            if root >= self.fixed:
+                self.leads[root] = min(distance, self.leads.get(root, distance))
+        spans = [span for span in self._model.spans if span.costs]
+        for root in (find(node)[0] for span in spans for node in (span.start, span.end)):
+            self.leads.setdefault(root, 0.0)
+        self.roots = sorted(self.leads)
+        ways = [self._way(span) for span in spans]
+        self.ways = sorted((w for w in ways if w.start != w.end), key=lambda way: (self.time(way.start), way))
+
+    def time(self, root: int) -> float:
+        """Of a root, s after the block's start."""
+        return self._table.time(root)
+
+    def cluster(self, root: int) -> int:
+        """The cluster of a root."""
+        return self._table.clusters[self._model.place(root)[0]]
+
+    def first_time(self, root: int) -> float:
+        """Of the first point of a root, s after the block's start."""
+        return self.time(root) + self.leads[root]
+
+    def spot(self, node: int) -> Spot:
+        """Where a node is."""
+        return Spot(*self._model.roots.find(node))
+
+    def at(self, spot: Spot) -> float:
+        """When, s after the block's start."""
+        return self.time(spot.root) + spot.distance
+
+    def hangs(self, cluster: int) -> bool:
+        """Whether something of it, or next to it, has its time from outside."""
+        return cluster in self._hanging
+
+    def precedences(self) -> list[Precedence]:
+        """The orders between different roots."""
+        found = []
+        for order in self._model.stage.orders.values():
+            late, early = (self.spot(self._model.nodes[node]) for node in order.nodes)
+            if late.root != early.root:
+                found.append(Precedence(late.root, early.root, order.offset + early.distance - late.distance))
+        return found
+
+    def latest_before(self, given: Iterable[int]) -> dict[int, Spot]:
+        """For each root that phases lead to from a given one: where it would be if these took no time.
+
+        Of several the latest; the way goes no further than from one given root to the next.
+        """
+        return self._nearest(given, self.ways, 1.0)
+
+    def earliest_after(self, given: Iterable[int]) -> dict[int, Spot]:
+        """The same, backwards."""
+        back = [Way(way.end, way.start, -way.distance) for way in reversed(self.ways)]
+        return self._nearest(given, back, -1.0)
+
+    def _nearest(self, given: Iterable[int], ways: Sequence[Way], sign: float) -> dict[int, Spot]:
+        ends = set(given)
+        found = {root: Spot(root, 0.0) for root in ends}
+        moved = True
+        while moved:
+            moved = False
+            for way in ways:
+                if way.start not in found or way.end in ends:
+                    continue
+                root, distance = found[way.start]
+                spot = Spot(root, distance + way.distance)
+                old = found.get(way.end)
+                if old is None or sign * (self.at(spot) - self.at(old)) > TOLERANCE:
+                    found[way.end], moved = spot, True
+        return {root: spot for root, spot in found.items() if root not in ends}
+
+    def _way(self, span: Span) -> Way:
+        (start, one), (end, two) = self.spot(span.start), self.spot(span.end)
+        return Way(start, end, one + span.rigid - two)

@@ -1,0 +1,102 @@
+"""From a timetable to descriptions of pegs."""
+
+from collections.abc import Sequence
+
+from reactive_realizer.pegboard.time_peg import TimeCell
+from reactive_realizer.planunit.timing import Phase, PhaseKind
+from reactive_realizer.reactive.cell import Cell
+from reactive_realizer.scheduler.convex.hanging import Hanging
+from reactive_realizer.scheduler.convex.model import START
+from reactive_realizer.scheduler.convex.network import Network
+from reactive_realizer.scheduler.convex.recipes import Between, First, Given, Hung, Spot, Step
+from reactive_realizer.scheduler.convex.timetable import Timetable
+from reactive_realizer.scheduler.problem import AtBlock, AtLeast, AtMost, AtOffset, AtRatio, PegSpec
+
+
+def pegs_of(table: Timetable) -> dict[str, dict[str, PegSpec]]:
+    """The pegs of all behaviors of a timetable, point by point."""
+    roots = _Roots(table)
+    return {item.behavior.id: _points(table, roots, index) for index, item in table.model.stage.items.items()}
+
+
+def _points(table: Timetable, roots: "_Roots", behavior: int) -> dict[str, PegSpec]:
+    """Between knots at a fraction, behind the last at a distance; rigid phases keep theirs."""
+    timing, times = table.model.stage.items[behavior].timing, table.points[behavior]
+    knots = {k: roots.peg(node) for k, node in table.model.knots[behavior].items()}
+    pegs: dict[int, PegSpec] = {}
+    for k in range(len(times)):
+        before = max(knot for knot in knots if knot <= k)
+        after = min((knot for knot in knots if knot >= k), default=None)
+        if k in knots:
+            pegs[k] = knots[k]
+        elif times[k] == times[k - 1] or (after is not None and times[after] <= times[before]):
+            pegs[k] = pegs[k - 1]
+        elif after is None or _rigid(timing.phases[before:k]):
+            pegs[k] = AtOffset(knots[before], times[k] - times[before])
+        elif _rigid(timing.phases[k:after]):
+            pegs[k] = AtOffset(knots[after], times[k] - times[after])
+        else:
+            pegs[k] = AtRatio(knots[before], knots[after], (times[k] - times[before]) / (times[after] - times[before]))
+    return {timing.points[k]: peg for k, peg in pegs.items()}
+
+
+def _rigid(phases: tuple[Phase, ...]) -> bool:
+    return all(phase.kind is PhaseKind.RIGID for phase in phases)
+
+
+class _Roots:
+    """The pegs of roots; what is at the same distance from the same root shares one."""
+
+    def __init__(self, table: Timetable) -> None:
+        self._network = Network(table)
+        self._links = [fixed.link for fixed in table.model.stage.fixed.values()]
+        hanging = Hanging(self._network)
+        self._recipes = hanging.recipes
+        self._made: dict[Step, PegSpec | TimeCell] = {}
+        self._shared: dict[tuple[int, float], PegSpec] = {}
+        for step in hanging.steps:
+            self._made[step] = self._bounded(step.root) if step.bounded else self._natural(step.root)
+
+    def peg(self, node: int) -> PegSpec:
+        """The peg of a node."""
+        return self._at(self._network.spot(node))
+
+    def _at(self, spot: Spot) -> PegSpec:
+        key = (spot.root, round(spot.distance, 9))
+        if key not in self._shared:
+            link, distance = self._made[Step(spot.root, bounded=True)], self._from_lead(spot)
+            self._shared[key] = _moved(link, distance) if distance or isinstance(link, Cell) else link
+        return self._shared[key]
+
+    def _natural(self, root: int) -> PegSpec | TimeCell:
+        match self._recipes[root].natural:
+            case Given():
+                return self._links[root]
+            case First(offset):
+                return _moved(self._links[START], offset)
+            case Hung(spot):
+                return _moved(self._made[Step(spot.root, bounded=True)], self._from_lead(spot))
+            case Between(before, after, ratio):
+                return AtRatio(self._at(before), self._at(after), ratio)
+
+    def _bounded(self, root: int) -> PegSpec | TimeCell:
+        recipe, peg = self._recipes[root], self._made[Step(root, bounded=False)]
+        if recipe.before:
+            peg = AtMost(peg, self._bounds(recipe.before, bounded=False))
+        if recipe.after:
+            peg = AtLeast(peg, self._bounds(recipe.after, bounded=True))
+        return peg
+
+    def _bounds(self, spots: Sequence[Spot], *, bounded: bool) -> tuple[tuple[PegSpec | TimeCell, float], ...]:
+        return tuple((self._made[Step(spot.root, bounded)], self._from_lead(spot)) for spot in spots)
+
+    def _from_lead(self, spot: Spot) -> float:
+        """How much later (s) a spot is than the first point of its root."""
+        return spot.distance - self._network.leads[spot.root]
+
+
+def _moved(link: PegSpec | TimeCell, distance: float) -> PegSpec:
+    """A peg of its own at a distance (s)."""
+    if isinstance(link, AtBlock):
+        return AtBlock(link.anchor, link.offset + distance)
+    return AtOffset(link, distance)

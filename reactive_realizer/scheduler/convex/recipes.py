@@ -1,0 +1,97 @@
+"""What the pegs of a plan are made of, root by root, before they are made."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from graphlib import TopologicalSorter
+from typing import NamedTuple
+
+
+class Spot(NamedTuple):
+    """A time at a distance (s) from a root."""
+
+    root: int
+    distance: float
+
+    def moved(self, distance: float) -> "Spot":
+        """So much (s) later."""
+        return Spot(self.root, self.distance + distance)
+
+
+@dataclass(frozen=True, slots=True)
+class Given:
+    """The root's own time comes from outside."""
+
+
+@dataclass(frozen=True, slots=True)
+class First:
+    """A cluster begins with this root, so long (s) after the block: as early as may be (thesis 7.24)."""
+
+    offset: float
+
+
+@dataclass(frozen=True, slots=True)
+class Hung:
+    """At a distance from another root."""
+
+    spot: Spot
+
+
+@dataclass(frozen=True, slots=True)
+class Between:
+    """At a fraction of the way between two spots: retimed, everything there stretches alike."""
+
+    before: Spot
+    after: Spot
+    ratio: float
+
+
+Natural = Given | First | Hung | Between
+
+
+@dataclass(slots=True)
+class Recipe:
+    """How the peg of a root is made.
+
+    Attributes:
+        natural: where it is, but for the bounds.
+        before: spots that it may not come after; they count as they naturally are.
+        after: spots that it may not come before.
+    """
+
+    natural: Natural
+    before: list[Spot] = field(default_factory=list)
+    after: list[Spot] = field(default_factory=list)
+
+    @property
+    def spots(self) -> list[Spot]:
+        """What its natural place hangs on."""
+        match self.natural:
+            case Hung(spot):
+                return [spot]
+            case Between(before, after, _):
+                return [before, after]
+            case _:
+                return []
+
+
+class Step(NamedTuple):
+    """A peg to be made: of a root, with its bounds or as it naturally is."""
+
+    root: int
+    bounded: bool
+
+
+def steps(recipes: Mapping[int, Recipe]) -> list[Step]:
+    """All pegs, each after those that it hangs on.
+
+    Raises:
+        graphlib.CycleError: one hangs on itself; its second argument is a circle of steps, each needed for the next.
+    """
+    needs: dict[Step, list[Step]] = {}
+    for root, recipe in recipes.items():
+        needs[Step(root, bounded=False)] = [Step(spot.root, bounded=True) for spot in recipe.spots]
+        bounds = [Step(root, bounded=False)]
+        bounds += [Step(spot.root, bounded=False) for spot in recipe.before]
+        bounds += [Step(spot.root, bounded=True) for spot in recipe.after]
+        needs[Step(root, bounded=True)] = bounds
+    return list(TopologicalSorter(needs).static_order())

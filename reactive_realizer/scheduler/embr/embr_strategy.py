@@ -1,0 +1,89 @@
+"""EMBR's scheduling: a linear program of least deviations (thesis 7.2.3; Kipp, Heloir, Schröder and Gebhard 2010)."""
+
+from collections.abc import Container, Iterable, Mapping, Sequence
+
+from reactive_realizer.errors import Fault
+from reactive_realizer.scheduler.embr.case import Case, Given
+from reactive_realizer.scheduler.embr.grounding import ground
+from reactive_realizer.scheduler.embr.keeping import keep
+from reactive_realizer.scheduler.embr.pegs import Pegs
+from reactive_realizer.scheduler.embr.placing import place
+from reactive_realizer.scheduler.problem import (
+    Anchor,
+    AtBlock,
+    Item,
+    Loss,
+    Node,
+    Order,
+    Origin,
+    Point,
+    Problem,
+    Solution,
+    Tie,
+)
+from reactive_realizer.scheduler.spec_times import SpecTimes
+
+_SHORTEST = 1e-5
+"""s; a behavior shorter than a thousandth of a tick cannot be played, nor one that ended before its block."""
+
+
+class EmbrStrategy:
+    """Stretches as little as can be, in seconds over all phases, and keeps before/after constraints.
+
+    As the thesis describes it, but for three things. Any number of speeches is taken: rigid phases are not variables.
+    Clusters need not be grounded: those that are not start with the block, or as early as they may. And of equally good
+    plans, of which a linear program mostly has many, a second stage takes the one that spreads the deviation evenly and
+    rather stretches than shrinks.
+
+    Constraints that cannot be met with those before them are dropped: in the order required, `at`, before/after, and by
+    name. Limits of phases mean nothing here, and a hold is as stiff as a stroke.
+    """
+
+    name = "embr"
+
+    def solve(self, problem: Problem) -> Solution:
+        """See `SchedulingStrategy`; free behaviors come last, when all others stand."""
+        given: dict[Node, Given] = {node: Given(node, time) for node, time in problem.times.items()}
+        given[Origin.BLOCK_START] = Given(AtBlock(Anchor(), 0.0), 0.0)
+        free = {item.behavior.id for item in problem.items if item.timing.free}
+        constraints: list[Tie | Order] = [*problem.ties, *problem.orders]
+        last = [each for each in constraints if any(_is_of(node, free) for node in each.nodes)]
+        others = [item for item in problem.items if not item.timing.free]
+        solved = _solve(others, [each for each in constraints if each not in last], given)
+        time_of = SpecTimes(problem.times)
+        for id_, pegs in solved.pegs.items():
+            given |= {Point(id_, sync): Given(spec, time_of(spec)) for sync, spec in pegs.items()}
+        following = _solve([item for item in problem.items if item.timing.free], last, given)
+        return Solution({**solved.pegs, **following.pegs}, (*solved.losses, *following.losses))
+
+
+def _solve(items: Sequence[Item], constraints: Iterable[Tie | Order], given: Mapping[Node, Given]) -> Solution:
+    """Time some behaviors; constraints on those that are dropped go with them."""
+    short = [item for item in items if _never_takes_time(item)]
+    ids = {item.behavior.id for item in items if item not in short}
+    left = [each for each in constraints if all(node in given or _is_of(node, ids) for node in each.nodes)]
+    case = Case([item for item in items if item not in short], left, given)
+    kept = keep(case)
+    times = place(case, kept)
+    pegs = Pegs(case, kept, times)
+    ground(case, kept, times, pegs)
+    past = {id_: times[pegs.knots(id_)[-1]] for id_ in sorted(kept.late) if times[pegs.knots(id_)[-1]] < -_SHORTEST}
+    losses = [_dropped(item, Fault("too-short")) for item in short]
+    losses += [_dropped(case.items[id_], Fault("all-past", {"late": -end})) for id_, end in past.items()]
+    specs = {id_: points for id_, points in pegs.all().items() if id_ not in past}
+    return Solution(specs, (*losses, *kept.losses))
+
+
+def _is_of(node: Node, behaviors: Container[str]) -> bool:
+    return isinstance(node, Point) and node.behavior in behaviors
+
+
+def _never_takes_time(item: Item) -> bool:
+    return item.timing.rigid and not item.timing.instant and item.timing.offsets[-1] < _SHORTEST
+
+
+def _dropped(item: Item, fault: Fault) -> Loss:
+    place = item.behavior.location
+    return Loss(
+        item.behavior.id, fault.located(place.line, place.column), dropped=True, required=item.behavior.required
+    )

@@ -1,0 +1,146 @@
+"""When all knots are: as near to what behaviors prefer as can be, and then as early as can be."""
+
+import itertools
+from collections import defaultdict
+from collections.abc import Iterable, Mapping, Sequence
+from math import inf
+
+from reactive_realizer.scheduler.embr.case import Case
+from reactive_realizer.scheduler.embr.differences import TOLERANCE, Differences, Row
+from reactive_realizer.scheduler.embr.keeping import Kept
+from reactive_realizer.scheduler.embr.linear_program import Wish, least_deviations
+from reactive_realizer.scheduler.embr.spans import Span
+from reactive_realizer.scheduler.equalities import Equalities
+from reactive_realizer.scheduler.problem import Node, Origin, Point, Tie
+
+_STIFFEST = 0.1
+"""s; what prefers less time than this is no stiffer."""
+
+
+def place(case: Case, kept: Kept) -> dict[Node, float]:
+    """The time (s after the block's start) of every knot; unknown given times are taken to be where that suits best."""
+    times: dict[Node, float] = {}
+    for group in _groups(case, kept):
+        times |= group.place()
+    return times
+
+
+class _Group:
+    """Behaviors that depend on each other by constraints, and on no others.
+
+    Attributes:
+        spans: of its behaviors.
+        ties: its `at` constraints.
+        rows: all else that its times have to meet.
+    """
+
+    def __init__(self, case: Case, kept: Kept) -> None:
+        self._case = case
+        self._kept = kept
+        self.spans: list[Span] = []
+        self.ties: list[Tie] = []
+        self.rows: list[Row[Node]] = []
+
+    def place(self) -> dict[Node, float]:
+        """The time of every node: with preferred durations if that can be, else with those that deviate least."""
+        preferred = self._earliest([span.preferred for span in self.spans])
+        if preferred is not None:
+            return preferred
+        times = self._least_deviating()
+        # Rounding of the solver may keep bodies from being moved: then they stay where it put them.
+        return self._earliest([times[span.end] - times[span.start] for span in self.spans]) or times
+
+    def _earliest(self, durations: Sequence[float]) -> dict[Node, float] | None:
+        """The earliest times with these durations, if they can be kept: then only bodies as a whole are moved."""
+        bodies = self._bodies(durations)
+        if bodies is None:
+            return None
+        ground, later = bodies.find(Origin.BLOCK_START)
+        floors = {ground: -inf} | self._floors(bodies)
+        if floors[ground] > TOLERANCE - later:
+            return None
+        least = Differences[Node](floors | {ground: -later}, [ground])
+        if any(least.add(_between_roots(bodies, row)) is not None for row in self.rows):
+            return None
+        return {node: least[root] + later for node in self._nodes() for root, later in [bodies.find(node)]}
+
+    def _bodies(self, durations: Sequence[float]) -> Equalities[Node] | None:
+        """Nodes at known distances from each other, the known times at theirs from the start of the block."""
+        distances: list[tuple[Node, Node, float]] = [
+            (node, Origin.BLOCK_START, time) for node in self._nodes() if (time := self._case.known(node)) is not None
+        ]
+        distances += [(span.end, span.start, duration) for span, duration in zip(self.spans, durations, strict=True)]
+        distances += [(tie.left, tie.right, tie.offset) for tie in self.ties]
+        bodies = Equalities[Node](frozenset())
+        return bodies if all(bodies.tie(*distance) is None for distance in distances) else None
+
+    def _least_deviating(self) -> dict[Node, float]:
+        """Times by the linear program; its variables are the classes of points tied to each other."""
+        classes = self._kept.classes
+        bounds = {root: (floor, inf) for root, floor in self._floors(classes).items()}
+        bounds |= {root: (time, time) for root in bounds if (time := self._case.known(root)) is not None}
+        numbers = {root: number for number, root in enumerate(bounds)}
+        rows = (_numbered(classes, row, numbers) for row in self.rows)
+        bounding = [row for row in rows if row is not None]
+        times = least_deviations(list(bounds.values()), bounding, self._wishes(numbers))
+        if times is None:
+            return {node: self._kept.least[node] for node in self._nodes()}
+        return {node: times[numbers[root]] + later for node in self._nodes() for root, later in [classes.find(node)]}
+
+    def _wishes(self, numbers: Mapping[Node, int]) -> list[Wish]:
+        wishes = []
+        for span in self.spans:
+            row = _numbered(self._kept.classes, Row[Node](span.end, span.start, span.preferred), numbers)
+            if row is not None:
+                wishes.append(Wish(row, max(span.preferred, _STIFFEST)))
+        return wishes
+
+    def _nodes(self) -> list[Node]:
+        """Knots, and what is given that they are tied to."""
+        pairs: list[tuple[Node, Node]] = [(span.start, span.end) for span in self.spans]
+        pairs += [(row.later, row.earlier) for row in self.rows]
+        return list(dict.fromkeys(itertools.chain(*pairs, *(tie.nodes for tie in self.ties))))
+
+    def _floors(self, classes: Equalities[Node]) -> dict[Node, float]:
+        """The time before which the root of each class may not be; minus infinity where it may be any."""
+        floors: dict[Node, float] = {}
+        for node in self._nodes():
+            root, later = classes.find(node)
+            late = isinstance(node, Point) and node.behavior in self._kept.late
+            bound = not late and self._case.known(node) is None
+            floors[root] = max(floors.get(root, -inf), -later if bound else -inf)
+        return floors
+
+
+def _groups(case: Case, kept: Kept) -> Iterable[_Group]:
+    linked = Equalities[Node | str](frozenset())
+    for constraint in kept.constraints:
+        moved = [each for node in constraint.nodes if (each := case.movable(node)) is not None]
+        if len(moved) > 1:
+            linked.tie(moved[0], moved[1], 0.0)
+    groups: dict[Node | str, _Group] = defaultdict(lambda: _Group(case, kept))
+
+    def group_of(*nodes: Node) -> _Group:
+        moved = next(each for node in nodes if (each := case.movable(node)) is not None)
+        return groups[linked.find(moved)[0]]
+
+    for span in case.spans:
+        group_of(span.start).spans.append(span)
+    for row in kept.rows:
+        group_of(row.later, row.earlier).rows.append(row)
+    for constraint in kept.constraints:
+        if isinstance(constraint, Tie):
+            group_of(*constraint.nodes).ties.append(constraint)
+    return groups.values()
+
+
+def _between_roots(classes: Equalities[Node], row: Row[Node]) -> Row[Node]:
+    """The same, said of the roots of classes."""
+    (root, later), (other, earlier) = classes.find(row.later), classes.find(row.earlier)
+    return Row(root, other, row.distance + earlier - later)
+
+
+def _numbered(classes: Equalities[Node], row: Row[Node], numbers: Mapping[Node, int]) -> Row[int] | None:
+    """The same, said of variables; None if both sides are one."""
+    later, earlier, distance = _between_roots(classes, row)
+    return None if later == earlier else Row(numbers[later], numbers[earlier], distance)

@@ -1,0 +1,66 @@
+"""What the references of a block name."""
+
+from collections.abc import Mapping, Sequence
+
+from reactive_realizer.bml.names import ANTICIPATORS
+from reactive_realizer.bml.sync_ref import SyncRef
+from reactive_realizer.errors import error
+from reactive_realizer.pegboard.peg_key import PegKey
+from reactive_realizer.pegboard.pegboard import PegBoard
+from reactive_realizer.pegboard.time_peg import TimeCell, hangs_on
+from reactive_realizer.planunit.plan_unit import PlanUnit
+from reactive_realizer.scheduler.blocks import Blocks
+from reactive_realizer.scheduler.bml_block import BMLBlock
+from reactive_realizer.scheduler.problem import Node, Origin, Point
+
+
+class Names:
+    """What the references of one block name."""
+
+    def __init__(self, block: BMLBlock, units: Mapping[str, PlanUnit], board: PegBoard, blocks: Blocks) -> None:
+        self._block = block
+        self._units = units
+        self._board = board
+        self._blocks = blocks
+
+    def locate(self, ref: SyncRef) -> Node:
+        """The point that a reference names, without its offset.
+
+        Raises:
+            RealizerError: there is none.
+        """
+        if ref.block == ANTICIPATORS and ref.behavior is not None and ref.sync is not None:
+            return self._board.predicted(ref.behavior, ref.sync)
+        if ref.block not in (None, self._block.key.block):
+            return self._outside(ref)
+        if ref.behavior is None or ref.sync is None:
+            return Origin.BLOCK_START
+        unit = self._units.get(ref.behavior)
+        if unit is None:
+            raise error("unknown-reference", behavior=ref.behavior, reference=str(ref), known=_list(self._units))
+        if ref.sync not in unit.timing.points:
+            raise _no_sync(ref, unit.timing.points)
+        return Point(ref.behavior, ref.sync)
+
+    def _outside(self, ref: SyncRef) -> TimeCell:
+        """A peg of another block."""
+        other = self._blocks.find(self._block.key.character, ref.block or "")
+        if other is None:
+            raise error("unknown-block", block=ref.block, reference=str(ref))
+        peg = self._board.get(PegKey(*other.key, ref.behavior, ref.sync or "start"))
+        if peg is not None and hangs_on(peg, self._block.start):
+            raise error("cyclic-reference", block=self._block.key.block, reference=str(ref))
+        if peg is None:
+            units = {unit.behavior.id: unit for unit in other.units}
+            if ref.behavior in units:
+                raise _no_sync(ref, units[ref.behavior].timing.points)
+            raise error("unknown-reference", behavior=ref.behavior, reference=str(ref), known=_list(units))
+        return peg
+
+
+def _no_sync(ref: SyncRef, known: Sequence[str]) -> Exception:
+    return error("unknown-sync", behavior=ref.behavior, sync=ref.sync, reference=str(ref), known=", ".join(known))
+
+
+def _list(units: Mapping[str, PlanUnit]) -> str:
+    return ", ".join(units) or "none"

@@ -1,0 +1,85 @@
+"""From descriptions of pegs to pegs."""
+
+from collections.abc import Iterator, Mapping, Sequence
+
+from reactive_realizer.pegboard.peg_key import PegKey
+from reactive_realizer.pegboard.time_peg import AfterPeg, BeforePeg, Bound, OffsetPeg, RatioPeg, TimeCell, TimePeg
+from reactive_realizer.reactive.cell import Cell
+from reactive_realizer.reactive.graph import Graph
+from reactive_realizer.scheduler.bml_block import BMLBlock
+from reactive_realizer.scheduler.problem import AtBlock, AtLeast, AtMost, AtOffset, AtRatio, PegSpec
+
+
+class PegBuilder:
+    """Makes the pegs of a plan; what shares a description shares a peg, which bears the name of the first."""
+
+    def __init__(self, graph: Graph, block: BMLBlock, specs: Mapping[PegKey, PegSpec]) -> None:
+        self._graph = graph
+        self._block = block
+        self._specs = specs
+        self._names: dict[PegSpec, str] = {}
+        for key, spec in specs.items():
+            self._names.setdefault(spec, str(key))
+        for key, spec in specs.items():
+            for natural in _naturals(spec):
+                self._names.setdefault(natural, f"{key} as planned")
+        self._built: dict[PegSpec, TimePeg] = {}
+
+    def build(self) -> dict[PegKey, TimePeg]:
+        """The peg of each sync point."""
+        return {key: self._peg(spec) for key, spec in self._specs.items()}
+
+    def _peg(self, spec: PegSpec) -> TimePeg:
+        """A peg, after those that it hangs on; these may be a long chain, too deep for recursion."""
+        waiting = [spec]
+        while waiting:
+            missing = [link for link in _links(waiting[-1]) if not isinstance(link, Cell) and link not in self._built]
+            if missing:
+                waiting += missing
+            else:
+                made = waiting.pop()
+                if made not in self._built:
+                    self._built[made] = self._make(made, self._name(made))
+        return self._built[spec]
+
+    def _name(self, spec: PegSpec) -> str:
+        return self._names.get(spec, f"{self._block.key.block}:a planned time")
+
+    def _make(self, spec: PegSpec, name: str) -> TimePeg:
+        match spec:
+            case AtBlock(anchor, offset):
+                return OffsetPeg(self._graph, name, self._block.start, anchor.time + offset)
+            case AtOffset(link, offset):
+                return OffsetPeg(self._graph, name, self._cell(link), offset)
+            case AtRatio(before, after, ratio):
+                return RatioPeg(self._graph, name, self._cell(before), self._cell(after), ratio)
+            case AtLeast(natural, bounds):
+                return AfterPeg(self._graph, name, self._cell(natural), self._bounds(bounds))
+            case AtMost(natural, bounds):
+                return BeforePeg(self._graph, name, self._cell(natural), self._bounds(bounds))
+
+    def _cell(self, link: PegSpec | TimeCell) -> TimeCell:
+        return link if isinstance(link, Cell) else self._built[link]
+
+    def _bounds(self, bounds: Sequence[tuple[PegSpec | TimeCell, float]]) -> list[Bound]:
+        return [(self._cell(link), distance) for link, distance in bounds]
+
+
+def _links(spec: PegSpec) -> list[PegSpec | TimeCell]:
+    """What a peg hangs on."""
+    match spec:
+        case AtBlock():
+            return []
+        case AtOffset(link, _):
+            return [link]
+        case AtRatio(before, after, _):
+            return [before, after]
+        case AtLeast(natural, bounds) | AtMost(natural, bounds):
+            return [natural, *(link for link, _ in bounds)]
+
+
+def _naturals(spec: PegSpec) -> Iterator[PegSpec]:
+    """Where a bounded peg would be without its bounds, one kind after the other."""
+    while isinstance(spec, AtLeast | AtMost) and not isinstance(spec.natural, Cell):
+        spec = spec.natural
+        yield spec

@@ -1,0 +1,74 @@
+"""The thesis's examples of scheduling (7.1.3, 7.2.2), as BML, with the strategy that is the default: in any order."""
+
+import pytest
+
+from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.testing.pilot import open_pilot
+
+SPEECH = '<speech id="speech1"><text>Yes, <sync id="sync1"/>that was great.</text></speech>'
+NOD_ON_SPEECH = '<head id="nod1" lexeme="NOD" start="speech1:start" end="speech1:sync1"/>'
+NOD_3_TO_5 = '<head id="nod1" lexeme="NOD" start="3" end="5"/>'
+BEAT_ON_NOD = '<gesture id="beat1" lexeme="BEAT" stroke="nod1:stroke"/>'
+BEATS = '<gesture id="g1" lexeme="BEAT"/><gesture id="g2" lexeme="BEAT" start="g1:end"/>'
+NOD_AROUND = '<head id="nod1" lexeme="NOD" repetition="5" start="g1:start-2" end="g2:end+3"/>'
+PAINTING = '<speech id="speech1"><text>As you can see <sync id="s1"/>on this painting.</text></speech>'
+POINT = '<gesture id="point1" lexeme="BEAT" stroke="speech1:s1"/>'
+WALK = '<wait id="walk1" duration="{}"/>'
+AFTER = """
+<constraint><after ref="walk1:end"><sync ref="point1:start"/></after></constraint>
+<constraint><after ref="2"><sync ref="speech1:start"/></after></constraint>
+"""
+
+
+@pytest.fixture
+async def pilot():
+    async with open_pilot(SceneOptions(voice="text", strategy="convex")) as pilot:
+        yield pilot
+
+
+@pytest.mark.parametrize("order", [1, -1], ids=["a", "b"])
+@pytest.mark.parametrize(("walk", "first"), [(1.0, "speech1"), (6.0, "point1")])
+async def test_26_speech_and_pointing_come_as_soon_as_both_of_their_afters_allow(pilot, order, walk, first) -> None:
+    pilot.block("bml1", "".join([PAINTING, POINT, WALK.format(walk), AFTER][::order]))
+    await pilot.advance(12)
+    told = pilot.feedback
+    assert told.warnings == []
+    assert told.time("bml1:point1:stroke") == told.time("bml1:speech1:s1")
+    assert told.time("bml1:walk1:start") == 0.0
+    reached = {"speech1": 2.0, "point1": walk}
+    for id_, earliest in reached.items():
+        start = told.time(f"bml1:{id_}:start")
+        assert start == pytest.approx(earliest) if id_ == first else start >= earliest - 1e-9
+
+
+@pytest.mark.parametrize("order", [1, -1], ids=["a", "b"])
+async def test_27_a_nod_on_words_is_timed_by_them(pilot, order) -> None:
+    pilot.block("bml1", "".join([SPEECH, NOD_ON_SPEECH][::order]))
+    await pilot.advance(5)
+    told = pilot.feedback
+    assert told.warnings == []
+    assert told.time("bml1:nod1:start") == told.time("bml1:speech1:start") == 0.0
+    assert told.time("bml1:nod1:end") == told.time("bml1:speech1:sync1") > 0.2
+
+
+@pytest.mark.parametrize("order", [1, -1], ids=["a", "b"])
+async def test_28_a_beat_on_the_stroke_of_a_nod_follows_it(pilot, order) -> None:
+    pilot.block("bml1", "".join([NOD_3_TO_5, BEAT_ON_NOD][::order]))
+    await pilot.advance(8)
+    told = pilot.feedback
+    assert told.warnings == []
+    assert (told.time("bml1:nod1:start"), told.time("bml1:nod1:end")) == (3.0, 5.0)
+    assert told.time("bml1:beat1:stroke") == told.time("bml1:nod1:stroke")
+
+
+@pytest.mark.parametrize("order", [1, -1], ids=["a", "b"])
+async def test_29_a_nod_around_two_gestures_is_met_and_nothing_collapses(pilot, order) -> None:
+    pilot.block("bml1", "".join([BEATS, NOD_AROUND][::order]))
+    await pilot.advance(14)
+    told = pilot.feedback
+    assert told.warnings == []
+    assert told.time("bml1:nod1:start") == 0.0
+    assert told.time("bml1:g1:start") == pytest.approx(2.0)
+    assert told.time("bml1:g2:start") == told.time("bml1:g1:end")
+    assert told.time("bml1:nod1:end") == pytest.approx(told.time("bml1:g2:end") + 3.0)
+    assert told.time("bml1:g1:end") - told.time("bml1:g1:start") > 0.5

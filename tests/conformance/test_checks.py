@@ -1,0 +1,130 @@
+"""What is derived from a script is true of a realizer that does it, and of no other."""
+
+import re
+from collections.abc import Iterator
+
+import pytest
+
+from reactive_realizer.bml.document import parse
+from reactive_realizer.conformance.case import Case, read_case, read_suite
+from reactive_realizer.conformance.derive import checks_of
+from reactive_realizer.limits import Limits
+from reactive_realizer.testing.feedback_list import FeedbackList
+from reactive_realizer.testing.pilot import block, open_pilot
+
+Told = list[tuple[float, str]]
+
+SCRIPT = block(
+    "b",
+    """
+    <speech id="s" start="0.3"><text>One <sync id="m"/>two three.</text></speech>
+    <gesture id="g" lexeme="BEAT" stroke="s:m+0.1"/>
+    <wait id="w" duration="0.5" start="0.2"/>
+    <head id="h" lexeme="NOD"/>
+    <constraint><synchronize><sync ref="h:start"/><sync ref="s:end"/></synchronize></constraint>
+    """,
+)
+
+
+def case_of(script: str, rest: str = "") -> Case:
+    return read_case("own", f'<case title="It is so"><send>{script}</send>{rest}</case>'.encode())
+
+
+def problems(case: Case, told: Told) -> list[str]:
+    feedback = FeedbackList()
+    for time, xml in told:
+        feedback.add(time, xml)
+    return [problem for check in checks_of(case) if (problem := check.problem(feedback))]
+
+
+async def played(script: str) -> Told:
+    async with open_pilot() as pilot:
+        pilot.perform(script)
+        await pilot.advance(6)
+        return [(line.time, xml) for line, xml in zip(pilot.feedback.lines, pilot.feedback.raw, strict=True)]
+
+
+def progress(told: Told) -> Iterator[int]:
+    return (number for number, (_, xml) in enumerate(told) if "Progress " in xml and ':relax"' not in xml[:200])
+
+
+async def test_a_realizer_that_does_what_the_script_says_has_no_problem() -> None:
+    assert problems(case_of(SCRIPT), await played(SCRIPT)) == []
+
+
+async def test_whatever_is_not_told_is_missed() -> None:
+    told = await played(SCRIPT)
+    for number in progress(told):
+        assert problems(case_of(SCRIPT), told[:number] + told[number + 1 :]), told[number]
+
+
+async def test_whatever_is_told_twice_is_one_time_too_many() -> None:
+    told = await played(SCRIPT)
+    for number in progress(told):
+        assert problems(case_of(SCRIPT), [*told[: number + 1], *told[number:]]), told[number]
+
+
+@pytest.mark.parametrize(
+    ("point", "source"),
+    [
+        ("b:s:start", 'start="0.3"'),
+        ("b:s:m", 'stroke="s:m+0.1"'),
+        ("b:g:stroke", 'stroke="s:m+0.1"'),
+        ("b:w:end", 'duration="0.5"'),
+        ("b:h:start", "synchronize h:start, s:end"),
+        ("b:end", "the last prediction"),
+    ],
+)
+async def test_a_point_that_comes_at_another_time_breaks_what_the_script_says_of_it(point: str, source: str) -> None:
+    def late(xml: str) -> str:
+        if f'id="{point}"' not in xml:
+            return xml
+        return re.sub(r'globalTime="([^"]*)"', lambda found: f'globalTime="{float(found[1]) + 0.02}"', xml)
+
+    found = problems(case_of(SCRIPT), [(time, late(xml)) for time, xml in await played(SCRIPT)])
+    assert any(source in problem for problem in found), found
+
+
+@pytest.mark.parametrize(
+    ("constraint", "holds"),
+    [
+        ('<after ref="w:end"><sync ref="h:start"/></after>', True),
+        ('<after ref="w:end+0.05"><sync ref="h:start"/></after>', False),
+        ('<after ref="w:end"><sync ref="h:start-0.05"/></after>', False),
+        ('<before ref="w:end"><sync ref="h:start"/></before>', True),
+        ('<before ref="w:end-0.05"><sync ref="h:start"/></before>', False),
+        ('<before ref="h:end"><sync ref="w:start"/><sync ref="h:stroke"/></before>', True),
+        ('<synchronize><sync ref="h:start+0.1"/><sync ref="w:end+0.1"/></synchronize>', True),
+        ('<synchronize><sync ref="h:start"/><sync ref="0.4"/></synchronize>', True),
+        ('<synchronize><sync ref="0.45"/><sync ref="h:start"/></synchronize>', False),
+    ],
+)
+async def test_a_constraint_is_held_against_the_times_that_were_told(constraint: str, holds: bool) -> None:
+    own = '<wait id="w" duration="0.4"/><head id="h" lexeme="NOD" start="w:end"/>'
+    told = await played(block("b", own))
+    found = problems(case_of(block("b", f"{own}<constraint>{constraint}</constraint>")), told)
+    assert (found == []) == holds, found
+
+
+async def test_a_warning_that_was_not_to_come_is_a_problem_and_one_that_did_not_come_too() -> None:
+    script = block("b", '<gaze id="g" target="nobody"/>')
+    warned = '<warning id="b:g" type="NO_SUCH_TARGET"/>'
+    told = await played(script)
+    assert problems(case_of(script, warned), told) == []
+    assert any("a warning of b:g NO_SUCH_TARGET" in problem for problem in problems(case_of(script), told))
+    without = [line for line in told if "warningFeedback" not in line[1]]
+    assert problems(case_of(script, warned), without) == ["no warning of b:g NO_SUCH_TARGET (warnings)"]
+
+
+@pytest.mark.parametrize("case", read_suite(), ids=lambda case: case.name)
+def test_every_case_of_the_suite_has_a_title_and_blocks_of_its_own(case: Case) -> None:
+    assert case.title[0].isupper()
+    ids = [parsed.block.id for send in case.sends for parsed in parse(send.xml, Limits()) if parsed.block]
+    assert ids or case.warnings
+    assert set(case.ends) <= set(ids)
+    assert len(list(checks_of(case))) > 1
+
+
+def test_no_two_cases_use_one_id() -> None:
+    ids = [block.id for case in read_suite() for block in case.blocks]
+    assert len(set(ids)) == len(ids)

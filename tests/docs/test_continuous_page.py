@@ -1,0 +1,114 @@
+"""docs/continuous.md: its examples are played as it says, and what it says can go wrong is told in that way."""
+
+import re
+
+import pytest
+
+from reactive_realizer.bml.document import parse
+from reactive_realizer.bml.names import BML, BMLA, BMLT
+from reactive_realizer.errors import ERRORS
+from reactive_realizer.limits import Limits
+from reactive_realizer.scheduler.bml_block import BlockState
+from reactive_realizer.testing.pilot import open_pilot
+
+from .conftest import Fence, fences, page
+
+PAGE = "docs/continuous.md"
+EXAMPLES = fences(PAGE, "xml")
+ROWS = re.findall(r"^\| .* \| `([a-z-]+)` \| ([A-Z_]+) \|$", page(PAGE), re.MULTILINE)
+
+WORDS = '<speech id="words"><text>one two three</text></speech>'
+CHANGE = (
+    '<bmla:parametervaluechange id="x" target="{}" paramId="{}" start="{}">'
+    '<bmla:trajectory type="{}" targetValue="{}"/></bmla:parametervaluechange>'
+)
+CUT = '<bmla:interrupt id="x" target="talk" {}/>'
+
+WRONG = {
+    "unknown-target-block": [("b", "", 'bmla:appendAfter="nobody"')],
+    "started-already": [("talk", WORDS, ""), ("b", "", 'bmla:prependBefore="talk"')],
+    "cyclic-composition": [
+        ("talk", WORDS, ""),
+        ("next", WORDS, 'composition="APPEND"'),
+        ("b", "", 'bmla:appendAfter="next" bmla:prependBefore="next"'),
+    ],
+    "cyclic-reference": [
+        ("talk", WORDS, ""),
+        ("next", WORDS, 'composition="APPEND"'),
+        ("b", '<head id="x" lexeme="NOD" start="next:words:start"/>', 'bmla:prependBefore="next"'),
+    ],
+    "no-such-block": [("b", '<bmla:interrupt id="x" target="nobody"/>', "")],
+    "block-ended": [("old", "", ""), ("b", '<bmla:activate id="x" target="old"/>', "")],
+    "not-preplanned": [("talk", WORDS, ""), ("b", '<bmla:activate id="x" target="talk"/>', "")],
+    "activated-already": [
+        ("talk", WORDS, 'bmla:preplan="true"'),
+        ("a", "", 'bmla:onStart="talk"'),
+        ("b", '<bmla:activate id="x" target="talk"/>', ""),
+    ],
+    "no-such-behavior": [("talk", WORDS, ""), ("b", CUT.format('include="nobody"'), "")],
+    "behavior-ended": [
+        ("talk", WORDS + '<wait id="w" duration="9"/>', ""),
+        ("b", CHANGE.format("talk:words", "volume", 5, "linear", 1), ""),
+    ],
+    "no-such-parameter": [("talk", WORDS, ""), ("b", CHANGE.format("talk:words", "pitch", 0, "linear", 1), "")],
+    "no-trajectory": [("talk", WORDS, ""), ("b", CHANGE.format("talk:words", "volume", 0, "wavy", 1), "")],
+    "parameter-range": [("talk", WORDS, ""), ("b", CHANGE.format("talk:words", "volume", 0, "linear", 101), "")],
+    "cut-tie": [
+        ("talk", WORDS + '<head id="x" lexeme="NOD" start="words:end"/>', ""),
+        ("b", CUT.format('include="words"'), ""),
+    ],
+    "resource-taken": [("talk", WORDS, ""), ("b", WORDS, "")],
+    "unknown-procedure": [],
+}
+"""For each row of the table the blocks that lead to it."""
+
+
+def block(id_: str, inside: str, attributes: str) -> str:
+    return f'<bml xmlns="{BML}" xmlns:bmla="{BMLA}" id="{id_}" {attributes}>{inside}</bml>'
+
+
+def ends(example: Fence) -> dict[str, str]:
+    """How the blocks of an example end."""
+    said = dict(each.split() for each in example.note.removeprefix("ends: ").split(", ") if each)
+    blocks = [parsed.block.id for parsed in parse(example.text, Limits()) if parsed.block]
+    return dict.fromkeys(blocks, "DONE") | said
+
+
+@pytest.mark.parametrize("example", EXAMPLES, ids=str)
+async def test_every_block_of_an_example_ends_as_the_page_says_and_without_a_warning(example: Fence) -> None:
+    async with open_pilot() as pilot:
+        pilot.perform(example.text)
+        await pilot.advance(12)
+        assert {id_: pilot.feedback.status(id_) for id_ in ends(example)} == ends(example)
+        assert pilot.feedback.warnings == []
+
+
+async def test_the_end_of_a_speech_that_was_broken_off_is_told_as_the_page_shows_it() -> None:
+    example = next(each for each in EXAMPLES if 'speech="word"' in each.text)
+    shown = dict(re.findall(r'(\w+)="(.*?)"', re.search(r"^ {4}<syncPointProgress.*$", page(PAGE), re.MULTILINE)[0]))
+    async with open_pilot() as pilot:
+        pilot.perform(example.text)
+        await pilot.advance(5)
+        (told,) = [line.element for line in pilot.feedback.lines if line.id == shown["id"]]
+    assert {name.rpartition("}")[2]: value for name, value in told.items()}.items() >= shown.items()
+
+
+@pytest.mark.parametrize(("code", "warning"), ROWS)
+async def test_what_can_go_wrong_is_told_in_the_words_of_its_code(code: str, warning: str) -> None:
+    assert ERRORS[code].warning == warning
+    sentence = re.sub(r"\\\{.*?\\\}", ".*", re.escape(ERRORS[code].sentence))
+    async with open_pilot() as pilot:
+        for each in WRONG[code]:
+            pilot.perform(block(*each))
+            await pilot.tick()
+        if code == "unknown-procedure":
+            pilot.perform(f'<bmlt:useproc xmlns:bmlt="{BMLT}" procid="x" bmlid="b"/>')
+        await pilot.advance(6)
+        told = [line.element for line in pilot.feedback.of("warningFeedback")]
+        assert [each.get("type") for each in told] == [warning]
+        assert re.search(sentence, told[0].text)
+
+
+def test_the_page_lists_every_status() -> None:
+    listed = re.findall(r"^\| ([A-Z_]+) \| ", page(PAGE), re.MULTILINE)
+    assert set(listed) == {state.value for state in BlockState}

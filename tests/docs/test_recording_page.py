@@ -1,0 +1,26 @@
+"""docs/cli.md, a session again: the file that is shown is one, and is replayed."""
+
+import json
+import re
+import shlex
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from reactive_realizer.__main__ import main
+
+from .conftest import fences, page
+
+
+def test_the_session_that_is_shown_is_replayed_as_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    (session,) = fences("docs/cli.md", "jsonl")
+    Path("session.jsonl").write_text(session.text, "utf-8")
+    (command,) = re.findall(r"^    reactive-realizer (realize --replay .*)$", page("docs/cli.md"), re.MULTILINE)
+    assert main(shlex.split(command)) == 0
+    told = [json.loads(line) for line in Path("again.jsonl").read_text("utf-8").splitlines()]
+    assert {line["time"] for line in told} == {0.03, 0.13}
+    assert 'id="b:end"' in told[-1]["xml"]
+    # Ticks 3, 13 and 14: each has a frame, the one after a gap too.
+    assert np.load("again.npz")["time"] == pytest.approx([0.0, 0.03, 0.13, 0.14])

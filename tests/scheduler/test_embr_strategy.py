@@ -1,0 +1,197 @@
+"""EMBR's scheduling: the least sum of deviations in seconds, before/after kept (thesis 7.2.3)."""
+
+from itertools import pairwise
+
+import pytest
+
+from reactive_realizer.planunit.timing import Phase, PhaseKind, Timing, timing_at
+from reactive_realizer.scheduler.embr.differences import Differences, Row
+from reactive_realizer.scheduler.embr.embr_strategy import EmbrStrategy
+from reactive_realizer.scheduler.plan_view import PlanView
+from reactive_realizer.scheduler.problem import Origin, Point
+from reactive_realizer.testing.problems import TIMINGS, after, at, item, outer, problem
+from reactive_realizer.testing.strategy_contract import violations
+
+START = Origin.BLOCK_START
+NOD, BEAT, SPEECH, CHANGE = TIMINGS["nod"], TIMINGS["beat"], TIMINGS["speech"], TIMINGS["change"]
+
+
+class Plan:
+    """What came out, as times; nothing of it breaks an equation."""
+
+    def __init__(self, items, *constraints) -> None:
+        asked = problem([item(id_, timing) for id_, timing in items.items()], *constraints)
+        self.solution = EmbrStrategy().solve(asked)
+        self.view = PlanView.of_solution(asked, self.solution)
+        self.timings = items
+        assert violations(asked, self.solution) == []
+
+    def __getitem__(self, point):
+        return self.view.times[Point(*point.split(":"))]
+
+    def times(self, behavior):
+        return [self.view.times[Point(behavior, sync)] for sync in self.timings[behavior].points]
+
+    @property
+    def losses(self):
+        return [(loss.behavior, loss.fault.code) for loss in self.solution.losses]
+
+    @property
+    def deviation(self):
+        """EMBR's measure, s."""
+        total = 0.0
+        for id_, timing in self.timings.items():
+            times = self.times(id_)
+            durations = [b - a for a, b in pairwise(times)]
+            total += sum(abs(d - phase.duration) for d, phase in zip(durations, timing.phases, strict=True))
+        return total
+
+
+# --- the program
+
+
+def test_what_can_take_the_time_it_wants_takes_it() -> None:
+    plan = Plan({"g": BEAT, "n": NOD}, at("g:stroke", "n:stroke"), at("n:start", START, 2.0))
+    assert plan.deviation == pytest.approx(0.0, abs=1e-9)
+
+
+def test_a_second_is_a_second_whoever_gives_it() -> None:
+    # Either the short one gives 1 s or both do: the sum is what it must be and no more.
+    ties = at("b:start", "a:end"), at("a:start", START), at("b:end", START, 3.0)
+    assert Plan({"a": NOD, "b": NOD}, *ties).deviation == pytest.approx(1.0)
+
+
+def test_of_equally_good_plans_it_is_the_one_that_spreads_the_deviation() -> None:
+    long = timing_at({"start": 0.0, "end": 3.0})
+    plan = Plan({"a": NOD, "b": long}, at("b:start", "a:end"), at("a:start", START), at("b:end", START, 6.0))
+    assert plan["a:end"] == pytest.approx(1.5)
+    assert plan["a:stroke"] == pytest.approx(0.6)
+
+
+def test_of_equally_good_plans_it_rather_stretches_than_lets_something_vanish() -> None:
+    ties = at("g2:start", "g1:end"), at("n:start", "g1:start", -2.0), at("n:end", "g2:end", 3.0)
+    plan = Plan({"g1": BEAT, "g2": BEAT, "n": NOD}, *ties)
+    assert plan.deviation == pytest.approx(5.0 + 2 * 1.1 - 1.0)
+    assert plan["g1:end"] - plan["g1:start"] > 0.9
+
+
+def test_time_that_must_go_somewhere_goes_where_it_costs_once() -> None:
+    # Stretching the nod that both share costs its seconds once, stretching the two beside it twice.
+    ties = at("b:start", "a:start"), at("c:start", "a:start"), at("b:end", "c:end"), at("a:end", "b:end")
+    assert Plan({"a": timing_at({"start": 0.0, "end": 2.0}), "b": NOD, "c": NOD}, *ties).deviation == pytest.approx(1.0)
+
+
+def test_holds_are_as_stiff_as_strokes_and_limits_mean_nothing() -> None:
+    limited = Timing(("start", "end"), (Phase(1.0, PhaseKind.ELASTIC, 0.9, 1.1),))
+    plan = Plan({"a": limited}, at("a:start", START), at("a:end", START, 2.0))
+    assert plan.losses == []
+    plan = Plan({"g": TIMINGS["gaze"]}, at("g:start", START), at("g:end", START, 4.0))
+    assert plan.times("g") == pytest.approx([0.0, 0.5, 3.5, 4.0])
+
+
+# --- clusters
+
+
+def test_clusters_that_nothing_grounds_start_with_the_block() -> None:
+    plan = Plan({"a": NOD, "b": BEAT, "c": NOD}, at("c:start", "b:start", -0.5))
+    assert (plan["a:start"], plan["c:start"], plan["b:start"]) == pytest.approx((0.0, 0.0, 0.5))
+
+
+def test_or_as_early_as_their_after_constraints_let_them() -> None:
+    plan = Plan({"a": NOD, "b": BEAT}, after("b:stroke", "a:end", 0.5), after("a:start", START, 1.0))
+    assert plan["a:start"] == pytest.approx(1.0)
+    assert plan["b:stroke"] == pytest.approx(2.5)
+    assert plan.deviation == pytest.approx(0.0, abs=1e-9)
+
+
+def test_a_before_is_an_after_the_other_way_round() -> None:
+    plan = Plan({"a": NOD, "b": NOD}, after("b:start", "a:end"), after(START, "b:end", -1.5))
+    assert plan.losses == []
+    assert plan["b:end"] == pytest.approx(1.5)
+    assert plan.deviation == pytest.approx(0.5)
+
+
+def test_a_cluster_after_a_time_that_moves_follows_it() -> None:
+    hit = outer("hit", 3.0)
+    asked = problem([item("n", NOD)], after("n:stroke", hit))
+    specs = EmbrStrategy().solve(asked)
+    times = {time: PlanView.of_solution(problem_at(asked, hit, time), specs).times for time in (0.0, 3.0, 5.0, None)}
+    strokes = {time: plan[Point("n", "stroke")] for time, plan in times.items()}
+    assert strokes == {0.0: pytest.approx(0.4), 3.0: 3.0, 5.0: 5.0, None: None}
+
+
+def problem_at(asked, cell, time):
+    return type(asked)(asked.items, asked.ties, {cell: time}, asked.orders)
+
+
+def test_clusters_that_wait_for_each_other_in_a_circle_are_planned() -> None:
+    plan = Plan({"a": NOD, "b": NOD}, after("a:end", "b:stroke"), after("b:end", "a:stroke", 0.5))
+    assert plan.losses == []
+
+
+# --- what cannot be
+
+
+def test_before_and_after_go_before_at_does() -> None:
+    plan = Plan({"a": NOD, "b": NOD}, after("a:start", "b:end"), at("b:start", "a:end"))
+    assert plan.losses == [(None, "contradictory-tie")]
+    assert plan.solution.losses[0].constraint.text == "a:start after b:end + 0"
+    assert plan["b:start"] == plan["a:end"]
+
+
+def test_what_is_required_goes_last_and_by_name_the_last_one_first() -> None:
+    ties = at("a:start", START, 1.0), at("a:start", START, 2.0, required=True)
+    assert Plan({"a": NOD}, *ties)["a:start"] == 2.0
+    plan = Plan({"a": NOD, "b": NOD, "c": NOD}, at("a:end", "c:end"), at("b:end", "a:start"), at("c:end", "b:start"))
+    assert plan.losses == [("c", "contradictory-tie")]
+
+
+def test_a_clash_says_how_many_seconds_are_missing() -> None:
+    plan = Plan({"s": SPEECH}, at("s:start", START, 1.0), at("s:end", START, 4.0))
+    assert plan.losses == [("s", "contradictory-tie")]
+    assert plan.times("s") == [2.0, 2.5, 3.25, 4.0]
+    assert plan.solution.losses[0].fault.details["gap"] == pytest.approx(1.0)
+
+
+def test_two_times_of_the_outside_are_never_made_one() -> None:
+    plan = Plan({"s": SPEECH}, at("s:start", outer("one", 1.0)), at("s:end", outer("two", 3.0)))
+    assert plan.losses == [("s", "outer-tie")]
+
+
+def test_what_hangs_on_a_time_that_has_passed_joins_late_unless_it_is_over() -> None:
+    assert Plan({"n": NOD}, at("n:start", outer("hit", -0.5))).times("n") == pytest.approx([-0.5, -0.1, 0.5])
+    assert Plan({"n": NOD}, at("n:start", outer("hit", -1.5))).losses == [("n", "all-past")]
+
+
+def test_what_takes_no_time_is_dropped_unless_it_is_an_event() -> None:
+    nothing = Timing(("start", "end"), (Phase(0.0, PhaseKind.RIGID),))
+    plan = Plan({"w": nothing, "e": TIMINGS["event"], "n": NOD}, at("n:start", "w:end"), at("n:end", "e:start"))
+    assert plan.losses == [("w", "too-short")]
+    assert plan["e:start"] == plan["e:end"] == plan["n:end"] == 1.0
+
+
+# --- free behaviors
+
+
+def test_a_free_behavior_fills_what_others_leave_and_moves_nothing() -> None:
+    items = {"a": NOD, "b": NOD, "c": CHANGE}
+    plan = Plan(
+        items, at("a:start", START, 1.0), at("b:start", START, 5.0), at("c:start", "a:end"), at("c:end", "b:start")
+    )
+    assert plan.times("c") == pytest.approx([2.0, 5.0])
+    plan = Plan({"a": NOD, "b": NOD, "c": CHANGE}, at("c:start", "a:end"), at("c:end", "b:start"))
+    assert plan["b:start"] == 0.0
+    assert plan.losses == [("c", "contradictory-tie")]
+
+
+# --- the system of rows
+
+
+def test_rows_that_cannot_be_met_together_leave_everything_as_it_was() -> None:
+    system = Differences({"start": 0.0, "a": 0.0, "b": 0.0}, ["start"])
+    assert system.add(Row("a", "start", 1.0), Row("b", "a", 2.0)) is None
+    assert (system["a"], system["b"]) == (1.0, 3.0)
+    assert system.add(Row("b", "a", 4.0), Row("a", "b", -3.0)) == pytest.approx(1.0)
+    assert (system["a"], system["b"]) == (1.0, 3.0)
+    assert system.add(Row("start", "b", -2.5)) == pytest.approx(0.5)
+    assert system.add(Row("a", "b", -3.0)) is None

@@ -1,0 +1,216 @@
+"""The thesis's equations as corrected: a plan that breaks one is told which, for which points, by how much."""
+
+from types import SimpleNamespace
+
+import pytest
+
+from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.planunit.timing import PhaseKind, timing_at
+from reactive_realizer.scheduler.plan_view import PlanView
+from reactive_realizer.scheduler.problem import (
+    Anchor,
+    AtBlock,
+    AtLeast,
+    AtMost,
+    AtOffset,
+    AtRatio,
+    Origin,
+    Point,
+    Solution,
+)
+from reactive_realizer.scheduler.spec_times import SpecTimes
+from reactive_realizer.scheduler.verify import verify
+from reactive_realizer.testing.pilot import open_pilot
+from reactive_realizer.testing.problems import TIMINGS, after, at, item, outer, problem
+
+START = Origin.BLOCK_START
+NOD = TIMINGS["nod"]
+
+
+def view(times, *kept, start=0.0, now=0.0, past=(), end=None, end_floor=0.0, timings=None):
+    """A plan of nods, ``{"a": (start, stroke, end)}``, unless other timings are given."""
+    timings = timings or dict.fromkeys(times, NOD)
+    points = {
+        Point(id_, sync): time
+        for id_, row in times.items()
+        for sync, time in zip(timings[id_].points, row, strict=True)
+    }
+    cells = {node: node.value for each in kept for node in each.nodes if not isinstance(node, Point | Origin)}
+    gone = frozenset(Point(*point.split(":")) for point in past)
+    return PlanView(timings, points, gone, kept, cells, start, max(start, now), end, end_floor)
+
+
+def broken(plan):
+    return [(each.equation, each.points, pytest.approx(each.amount)) for each in verify(plan)]
+
+
+FINE = {"a": (0.0, 0.4, 1.0)}
+TWO = {**FINE, "b": (0.0, 0.4, 1.0)}
+
+
+def test_a_plan_that_keeps_everything_breaks_nothing() -> None:
+    later = {"a": (0.0, 0.4, 1.0), "b": (1.5, 1.9, 2.5)}
+    assert broken(view(later, at("b:start", "a:end", 0.5), after("b:end", "a:end"), end=2.5)) == []
+
+
+# --- what was asked for
+
+
+@pytest.mark.parametrize(
+    ("constraint", "equation", "points", "amount"),
+    [
+        (at("b:start", START, 0.5), "7.8", ("b:start", "block start"), 0.5),
+        (at("b:start", "a:end", 0.5), "7.11", ("b:start", "a:end"), 1.5),
+        (at("b:end", outer("hit", 3.0), -0.5), "7.32", ("b:end", "hit"), 1.5),
+        (after("b:start", START, 0.25), "7.9", ("b:start", "block start"), 0.25),
+        (after(START, "b:end"), "7.10", ("block start", "b:end"), 1.0),
+        (after("b:start", "a:stroke", 0.1), "7.12", ("b:start", "a:stroke"), 0.5),
+        (after("b:start", outer("hit", 3.0)), "7.33", ("b:start", "hit"), 3.0),
+        (after(outer("hit", 0.5), "b:end"), "7.34", ("hit", "b:end"), 0.5),
+    ],
+    ids=lambda value: value if isinstance(value, str) else "",
+)
+def test_a_constraint_that_is_missed_is_named_with_its_equation(constraint, equation, points, amount) -> None:
+    assert (equation, points, pytest.approx(amount)) in broken(view(TWO, constraint))
+
+
+def test_before_and_after_may_be_kept_with_room_to_spare_but_at_may_not() -> None:
+    apart = {"a": (0.0, 0.4, 1.0), "b": (0.0, 1.9, 2.5)}
+    assert broken(view(apart, after("b:end", "a:end"))) == []
+    assert broken(view(apart, at("b:end", "a:end"))) == [("7.11", ("b:end", "a:end"), 1.5)]
+
+
+# --- what is always so
+
+
+def test_nothing_is_before_its_block() -> None:
+    assert broken(view({"a": (-0.5, 0.4, 1.0)})) == [("7.13", ("a:start",), 0.5)]
+
+
+def test_but_for_what_joins_a_time_of_the_outside_that_passed_before_it() -> None:
+    joined = {"a": (-0.5, -0.1, 0.5), "b": (-0.1, 0.3, 0.9)}
+    hit = outer("hit", -0.5)
+    assert broken(view(joined, at("a:start", hit), at("b:start", "a:stroke"))) == []
+    assert broken(view({"a": (-0.5, 0.5, 1.0)}, at("a:stroke", outer("hit", 0.5)))) == [("7.13", ("a:start",), 0.5)]
+
+
+def test_a_behavior_takes_time_unless_it_is_an_event() -> None:
+    assert [each[0] for each in broken(view({"a": (0.0, 0.0, 0.0)}))] == ["7.14"]
+    event = {"e": TIMINGS["event"]}
+    assert broken(view({"e": (0.0, 0.0)}, timings=event)) == []
+
+
+def test_the_points_of_a_behavior_come_in_order() -> None:
+    assert broken(view({"a": (0.0, 1.25, 1.0)})) == [("7.15", ("a:stroke", "a:end"), 0.25)]
+
+
+def test_what_is_rigid_takes_the_time_it_wants() -> None:
+    speech = {"s": timing_at({"start": 0.0, "sync": 0.5, "end": 2.0}, PhaseKind.RIGID)}
+    assert broken(view({"s": (0.0, 0.75, 2.25)}, timings=speech)) == [("7.1.4", ("s:start", "s:sync"), 0.25)]
+    assert broken(view({"s": (0.0, 0.25, 1.75)}, timings=speech)) == [("7.1.4", ("s:start", "s:sync"), 0.25)]
+
+
+# --- clusters
+
+
+def test_a_cluster_that_nothing_holds_starts_with_its_block() -> None:
+    late = {"a": (1.0, 1.4, 2.0), "b": (1.4, 1.8, 2.4)}
+    assert broken(view(late, at("b:start", "a:stroke"))) == [("7.24", ("a:start", "b:start"), 1.0)]
+    assert broken(view({"a": (1.0, 1.4, 2.0)}, at("a:start", START, 1.0))) == []
+    assert broken(view({"a": (1.0, 1.4, 2.0)}, at("a:start", outer("hit", 1.0)))) == []
+
+
+def test_or_right_after_what_it_waits_for() -> None:
+    waiting = {"a": (0.0, 0.4, 1.0), "b": (1.5, 1.9, 2.5)}
+    assert broken(view(waiting, after("b:start", "a:end", 0.5))) == []
+    assert broken(view(waiting, after("b:start", "a:end"))) == [("7.24", ("b:start",), 0.5)]
+    assert broken(view(waiting, after("b:start", START, 1.5))) == []
+
+
+def test_or_now_if_its_block_began_earlier() -> None:
+    assert broken(view({"a": (1.0, 1.4, 2.0)}, now=1.0)) == []
+    assert broken(view({"a": (1.0, 1.4, 2.0)}, now=0.25)) == [("7.24", ("a:start",), 0.75)]
+
+
+def test_what_is_free_holds_no_cluster_together_and_may_be_anywhere() -> None:
+    timings = {"a": NOD, "c": TIMINGS["change"]}
+    times = {"a": (0.0, 0.4, 1.0), "c": (3.0, 4.0)}
+    assert broken(view(times, timings=timings)) == []
+
+
+# --- the end of a block
+
+
+def test_a_block_ends_with_its_last_behavior() -> None:
+    assert broken(view(TWO, end=1.0)) == []
+    assert broken(view(TWO, end=0.75)) == [("7.27", ("a:end",), 0.25), ("7.27", ("b:end",), 0.25)]
+    assert broken(view(TWO, end=1.5)) == [("7.27", ("a:end", "b:end"), 0.5)]
+    assert broken(view(TWO, end=1.5, end_floor=1.5)) == []
+
+
+# --- what nobody can judge
+
+
+def test_what_is_unknown_is_not_judged() -> None:
+    assert broken(view({"a": (None, None, None), "b": (0.0, 0.4, 1.0)}, at("a:start", "b:end"), end=None)) == []
+    assert broken(view(FINE, after("a:start", outer("hit", None)))) == []
+
+
+def test_what_has_passed_cannot_be_helped_but_what_is_ahead_can() -> None:
+    passed = ["a:start", "a:stroke", "a:end"]
+    assert broken(view(TWO, at("b:start", "a:end", 0.5), past=passed)) == []
+    assert broken(view(TWO, after("a:start", "b:end"), past=passed)) == []
+    assert ("7.12", ("b:start", "a:end"), 1.0) in broken(view(TWO, after("b:start", "a:end"), past=passed))
+
+
+def test_a_constraint_of_a_point_that_was_cut_is_not_judged() -> None:
+    assert broken(view({"b": (2.0, 2.4, 3.0)}, at("b:start", "a:end"))) == []
+
+
+# --- views
+
+
+def test_a_view_of_a_solution_has_what_was_kept_and_the_times_of_its_pegs() -> None:
+    kept, lost = at("a:start", START, 1.0), at("a:end", START, 9.0)
+    asked = problem([item("a", NOD)], kept, lost)
+    start = AtBlock(Anchor(1.0), 0.0)
+    pegs = {"a": {"start": start, "stroke": AtOffset(start, 0.4), "end": AtOffset(start, 1.0)}}
+    plan = PlanView.of_solution(asked, Solution(pegs, (SimpleNamespace(constraint=lost),)))
+    assert plan.kept == (kept,)
+    assert plan.times == {Point("a", "start"): 1.0, Point("a", "stroke"): 1.4, Point("a", "end"): 2.0}
+    assert verify(plan) == []
+
+
+def test_the_time_of_a_peg_is_worked_out_from_what_it_hangs_on() -> None:
+    hit, unknown = outer("hit", 3.0), outer("later", None)
+    time_of = SpecTimes({hit: 3.0, unknown: None})
+    start = AtBlock(Anchor(1.0), 0.5)
+    assert time_of(AtRatio(start, hit, 0.5)) == 2.25
+    assert time_of(AtLeast(start, ((hit, -1.0),))) == 2.0
+    assert time_of(AtMost(start, ((hit, -2.0), (unknown, 0.0)))) == 1.0
+    assert time_of(AtLeast(start, ((unknown, 0.0),))) is time_of(AtOffset(unknown, 1.0)) is None
+
+
+def test_a_long_chain_of_pegs_is_no_trouble_and_a_circle_is_an_error() -> None:
+    spec = AtBlock(Anchor(), 0.0)
+    for _ in range(5_000):
+        spec = AtOffset(spec, 0.5)
+    assert SpecTimes({})(spec) == 2_500.0
+    circle = AtOffset(spec, 1.0)
+    object.__setattr__(circle, "link", AtOffset(circle, 1.0))
+    with pytest.raises(ValueError, match="hangs on itself"):
+        SpecTimes({})(circle)
+
+
+async def test_a_view_of_a_block_has_its_times_as_it_plays() -> None:
+    async with open_pilot() as pilot:
+        pilot.predict("partner", "hit", 2.0)
+        pilot.block("b", '<gesture id="g" lexeme="BEAT" stroke="anticipators:partner:hit"/>')
+        await pilot.advance(1.5)
+        (block,) = pilot.realizer.scheduler.blocks.alive
+        plan = PlanView.of_block(block, GlobalTime(1.5))
+        assert plan.times[Point("g", "stroke")] == 2.0
+        assert Point("g", "start") in plan.past
+        assert plan.end == plan.times[Point("g", "end")]
+        assert [tie.text for tie in plan.kept] == ["g:stroke = anticipators:partner:hit"]
+        assert verify(plan) == []
