@@ -154,6 +154,12 @@ class BMLBlock:
         return [wait for wait in self.waits if not wait.over]
 
     @property
+    def may_start(self) -> bool:
+        """Whether it is planned and waits for nothing but its time."""
+        # The last one is most likely to be still there: of a long queue each block looks at one.
+        return self.state is BlockState.LURKING and all(wait.over for wait in reversed(self.waits))
+
+    @property
     def live_units(self) -> list[PlanUnit]:
         """The behaviors of which something is ahead."""
         return [unit for unit in self.units if unit.live]

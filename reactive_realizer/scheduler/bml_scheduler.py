@@ -13,7 +13,6 @@ from reactive_realizer.feedback.feedback_manager import FeedbackManager
 from reactive_realizer.limits import Limits
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.pegboard.time_peg import unknown_sources
 from reactive_realizer.reactive.commit import Commit
 from reactive_realizer.scheduler.admission import Admission
 from reactive_realizer.scheduler.block_planner import BlockPlanner
@@ -28,6 +27,7 @@ from reactive_realizer.scheduler.problem import Loss
 from reactive_realizer.scheduler.procedures import Procedures
 from reactive_realizer.scheduler.reporter import Reporter
 from reactive_realizer.scheduler.requests import Requests
+from reactive_realizer.scheduler.standstill import awaited_by, can_move
 from reactive_realizer.scheduler.strategy import SchedulingStrategy
 from reactive_realizer.scheduler.workshop import Workshop
 
@@ -123,7 +123,7 @@ class BMLScheduler:
         ending = [block for block in self.blocks.alive if block.state.plays and not block.live_units]
         for block in ending:
             self._endings.end(block, BlockState.DONE, now if block.end.value is None else block.end.value)
-        starting = [block for block in self.blocks.alive if _may_start(block) and is_due(block.start.value, now)]
+        starting = [block for block in self.blocks.alive if block.may_start and is_due(block.start.value, now)]
         for block in sorted(starting, key=lambda b: (b.start.value, b.arrival)):
             self._start(block, now)
         return bool(cut or ending or starting)
@@ -169,15 +169,13 @@ class BMLScheduler:
 
     def stuck(self, now: GlobalTime) -> bool:
         """Whether, after the tick at ``now``, no block alive can move unless something new comes in."""
-        return all(block.state is not BlockState.IN_PREP and not _can_move(block, now) for block in self.blocks.alive)
+        return not any(can_move(block, now) for block in self.blocks.alive)
 
     def warn_stuck(self) -> None:
         """Say of every block alive what it waits for."""
         for block in self.blocks.alive:
-            pegs = [point.peg for unit in block.live_units for point in unit.ahead()]
-            unknown = unknown_sources([block.start, *pegs])
-            waits = ", ".join(dict.fromkeys([*(wait.peg.name for wait in block.waits_for), *unknown]))
-            self._reporter.warn(block.key.character, block.key.block, Fault("never-moves", {"waits": waits}))
+            fault = Fault("never-moves", {"waits": ", ".join(awaited_by(block))})
+            self._reporter.warn(block.key.character, block.key.block, fault)
 
     # --- accepting
 
@@ -275,16 +273,3 @@ class BMLScheduler:
 
     def _note(self, commit: Commit) -> None:
         self._moved.update(self._board.owner(change.cell) for change in commit.changes)
-
-
-def _may_start(block: BMLBlock) -> bool:
-    # The last one is most likely to be still there: of a long queue each block looks at one.
-    return block.state is BlockState.LURKING and all(wait.over for wait in reversed(block.waits))
-
-
-def _can_move(block: BMLBlock, now: GlobalTime) -> bool:
-    """Whether a time that is known lies ahead of a block."""
-    if not block.state.plays:
-        return _may_start(block)
-    times = (point.peg.value for unit in block.live_units for point in unit.ahead())
-    return any(time is not None and not is_due(time, now) for time in times)

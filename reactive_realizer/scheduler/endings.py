@@ -1,7 +1,7 @@
-"""How behaviors and blocks end: by themselves, cut short, dropped, revoked, failed."""
+"""How blocks end: by themselves, cut short, revoked, failed."""
 
 import logging
-from collections.abc import Callable, Collection, Iterable, Sequence
+from collections.abc import Callable, Collection, Sequence
 
 from reactive_realizer.clock.units import GlobalTime, is_due
 from reactive_realizer.engine.effects import Dropped, Reached
@@ -9,13 +9,14 @@ from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.pegboard.time_peg import TimePeg, followers_of
-from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint, UnitState
+from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BlockState, BMLBlock
 from reactive_realizer.scheduler.cast import Cast
 from reactive_realizer.scheduler.constraints import hanging_on
 from reactive_realizer.scheduler.predictions import Predictions
 from reactive_realizer.scheduler.reporter import Reporter
+from reactive_realizer.scheduler.unit_endings import UnitEndings
 
 logger = logging.getLogger(__name__)
 
@@ -36,6 +37,7 @@ class Endings:
         self._blocks = blocks
         self._reporter = reporter
         self._predictions = predictions
+        self._units = UnitEndings(board, cast, blocks, reporter)
         self._cuts: dict[PlanUnit, GlobalTime] = {}
         self._listeners: list[Callable[[BlockKey], None]] = []
 
@@ -66,7 +68,7 @@ class Endings:
 
     def fail(self, block: BMLBlock, now: GlobalTime) -> None:
         """A block fails now, and its behaviors vanish."""
-        self._leave(block.live_units, now)
+        self._units.leave(block.live_units, now)
         self.end(block, BlockState.FAILED, now)
 
     def interrupt(self, block: BMLBlock, time: GlobalTime, spared: Collection[str] = (), gently: bool = False) -> None:
@@ -98,55 +100,23 @@ class Endings:
         return bool(due)
 
     def finish(self, unit: PlanUnit, time: GlobalTime) -> None:
-        """A playing behavior ends of its own accord, before what was planned: its end moves to a time."""
-        block = self._blocks.get(unit.block)
-        if block is None or unit.state is not UnitState.IN_EXEC:
-            return
-        try:
-            reached = [Reached(unit, point, time) for point in unit.interrupt(time)]
-        except Exception as failure:
-            logger.exception("%s/%s:%s failed when it ended", *unit.block, unit.behavior.id)
-            self.drop_unit(unit, Fault("unit-failed", {"reason": failure}), time)
-            return
-        others = {point.peg for other in block.units if other is not unit for point in other.points}
-        for each in reached:
-            if each.point.peg in others:
-                self._split(unit, each.point, time)
-        self._cast.take(unit)
-        self.reach(reached)
-        with self._board.graph.transaction(f"end {unit.behavior.id}"):
-            block.end_again(block.end.floor)
-
-    def reach(self, reached: Sequence[Reached]) -> None:
-        """Sync points were reached: they keep their times, and are told; a block may subside by it."""
-        self._tell(reached)
-        for block in {each.unit.block: None for each in reached}:
-            self._subside(block)
-
-    def _tell(self, reached: Sequence[Reached]) -> None:
-        with self._board.graph.transaction("sync points reached"):
-            for each in reached:
-                each.point.peg.pin(each.time)
-        for each in reached:
-            self._reporter.reached(each)
+        """A playing behavior ends of its own accord, before what was planned."""
+        self._units.finish(unit, time)
+        self._subside(unit.block)
 
     def drop_unit(self, unit: PlanUnit, fault: Fault, now: GlobalTime) -> None:
         """A behavior cannot be played on."""
-        unit.drop(now)
-        self.drop(Dropped(unit, fault), now)
+        self._units.drop_unit(unit, fault, now)
 
     def drop(self, dropped: Dropped, now: GlobalTime) -> None:
         """Warn of a unit that left the plan; one that had begun ends now."""
-        unit = dropped.unit
-        block = self._blocks.get(unit.block)
-        self._reporter.warn_of(unit, dropped.fault)
-        if block is not None and unit in block.units:
-            block.units.remove(unit)
-            with self._board.graph.transaction(f"drop {unit.behavior.id}"):
-                block.end_again(now)
-        self._cast.take(unit)
-        if unit.begun and unit.points[-1].fired is None:
-            self._reporter.reached(Reached(unit, self._split(unit, unit.points[-1], now), now))
+        self._units.drop(dropped, now)
+
+    def reach(self, reached: Sequence[Reached]) -> None:
+        """Sync points were reached: they keep their times, and are told; a block may subside by it."""
+        self._units.tell(reached)
+        for block in {each.unit.block: None for each in reached}:
+            self._subside(block)
 
     def _revoke(self, block: BMLBlock, time: GlobalTime, spared: Collection[str]) -> None:
         """Behaviors of a block that has not started vanish, and the block with the last of them."""
@@ -154,7 +124,7 @@ class Endings:
         gone = names.difference(spared)
         block.cancelled |= gone
         units = [unit for unit in block.units if unit.behavior.id in gone]
-        self._leave(units, time)
+        self._units.leave(units, time)
         if gone == names:
             self.end(block, BlockState.REVOKED, time)
             return
@@ -166,7 +136,7 @@ class Endings:
     def _cut(self, block: BMLBlock, units: Sequence[PlanUnit], time: GlobalTime) -> None:
         """Some behaviors of a playing block end now; the block too if nothing is left of it."""
         ahead = [point.peg for unit in units for point in unit.ahead() if not is_due(point.peg.value, time)]
-        cut = [self._interrupt_unit(unit, time) for unit in units]
+        cut = [self._units.cut(unit, time, at_end=unit in self._cuts) for unit in units]
         if not block.live_units and any(cut):
             self.end(block, BlockState.INTERRUPTED, time)
         elif not block.live_units:
@@ -190,50 +160,9 @@ class Endings:
         self._cuts[unit] = time
         block = self._blocks.get(unit.block)
         with self._board.graph.transaction(f"cut {unit.key('end')}"):
-            end = unit.points[-1]
-            end.peg = end.peg.apart(str(unit.key("end")), time)
+            self._units.split(unit, unit.points[-1], time)
             if block is not None:
                 block.end_again(block.end.floor)
-
-    def _interrupt_unit(self, unit: PlanUnit, now: GlobalTime) -> bool:
-        """End a behavior now, what is due first; whether anything of it was cut."""
-        if unit.due(now):
-            unit.begin()
-        if unit.state is not UnitState.IN_EXEC:
-            self._leave_unit(unit, now)
-            return True
-        try:
-            return self._cut_short(unit, now)
-        except Exception as failure:
-            logger.exception("%s/%s:%s failed when it was interrupted", *unit.block, unit.behavior.id)
-            self.drop_unit(unit, Fault("unit-failed", {"reason": failure}), now)
-            return True
-
-    def _cut_short(self, unit: PlanUnit, now: GlobalTime) -> bool:
-        details = unit.end_details(now)
-        fired = unit.fire(now, end=unit not in self._cuts)
-        reached = [Reached(unit, point, point.fired or now) for point in fired]
-        cut = unit.live
-        if cut:
-            kept = [self._split(unit, point, now) for point in unit.interrupt(now)]
-            reached += [Reached(unit, p, now, details if p.id == "end" else {}) for p in kept]
-        self._cast.take(unit)
-        self._tell(reached)
-        return cut
-
-    def _split(self, unit: PlanUnit, point: SyncPoint, now: GlobalTime) -> SyncPoint:
-        """Give a cut point a peg of its own: others that share the old one keep what was predicted last."""
-        with self._board.graph.transaction(f"cut {unit.key(point.id)}"):
-            point.peg = point.peg.apart(str(unit.key(point.id)), now)
-        return point
-
-    def _leave(self, units: Iterable[PlanUnit], now: GlobalTime) -> None:
-        for unit in list(units):
-            self._leave_unit(unit, now)
-
-    def _leave_unit(self, unit: PlanUnit, now: GlobalTime) -> None:
-        unit.drop(now)
-        self._cast.take(unit)
 
     def _hand_over_targets(self, ended: BMLBlock) -> None:
         """Who waited for all, and for this block as the last one, waits for what that one waited for."""
@@ -255,7 +184,7 @@ class Endings:
                 continue
             details = {"point": followers[tied[0]].name}
             if any(peg.value is None for peg in tied) or (state is BlockState.REVOKED and not unit.begun):
-                self.drop_unit(unit, Fault("never-comes", details), now)
+                self._units.drop_unit(unit, Fault("never-comes", details), now)
             else:
                 self._reporter.warn_of(unit, Fault("cut-tie", details))
 
