@@ -106,7 +106,7 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
         "outer-tie": ErrorKind("{tie} ties two times that both come from elsewhere; it is dropped", _SCHEDULE),
         "rigid": ErrorKind("{point} cannot be where it is tied to, {gap:g} s away; that tie is dropped", _SCHEDULE),
         "cyclic-reference": ErrorKind("{reference} hangs on the block '{block}' itself", _SCHEDULE),
-        "unknown-target-block": ErrorKind("{attribute}: there never was a block '{block}'; not waited for", _SCHEDULE),
+        "unknown-target-block": ErrorKind("{attribute}: there never was a block '{block}'", _SCHEDULE),
         "started-already": ErrorKind("'{block}' has started; nothing can be put before it. Refused", _SCHEDULE),
         "cyclic-composition": ErrorKind(
             "'{block}' is to come before '{other}' and waits for it too; it is refused", _SCHEDULE

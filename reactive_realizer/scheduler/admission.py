@@ -11,7 +11,8 @@ from reactive_realizer.pegboard.peg_key import BlockKey
 class Admission:
     """Judges blocks that enter at one tick, in order, each beside those that came before it.
 
-    None of them has ended by itself when the next comes, but a REPLACE ends all blocks of its character.
+    None of them has ended by itself when the next comes, but a REPLACE ends all blocks of its character, and a block
+    may interrupt one of its own name.
 
     Args:
         characters: the first one is meant by a block that names none.
@@ -44,7 +45,7 @@ class Admission:
     def _refusal(self, key: BlockKey, block: BehaviorBlock) -> Fault | None:
         if key.character not in self._characters:
             return Fault("unknown-character", {"character": key.character, "known": ", ".join(self._characters)})
-        if key in self._alive:
+        if key in self._alive and key.block not in block.interrupts:
             return Fault("duplicate-block", {"block": key.block})
         if block.composition is not Composition.REPLACE and len(self._alive) >= self._most:
             return Fault("too-many-blocks", {"limit": self._most})

@@ -5,7 +5,6 @@ from collections.abc import Callable, Iterable, Sequence
 
 from reactive_realizer.bml.block import BehaviorBlock, Parsed
 from reactive_realizer.bml.procedure import DefineProc
-from reactive_realizer.bml.words import Composition
 from reactive_realizer.clock.units import GlobalTime, is_due
 from reactive_realizer.engine.effects import Play
 from reactive_realizer.errors import Fault, RealizerError, error
@@ -188,10 +187,12 @@ class BMLScheduler:
         fault = self.admission().take(description)
         if fault is not None:
             raise RealizerError(fault)
-        self._make_room(description, character, now)
         joining = Joining(self.blocks, character, description)
         if (fault := joining.refusal()) is not None:
             raise RealizerError(fault)
+        # Before anything of the new block is known to others.
+        for other in joining.ended_by_it():
+            self._requests.interrupt(other, now)
         block = self._new_block(description, character, joining, now)
         if failed:
             self._endings.end(block, BlockState.FAILED, now)
@@ -205,15 +206,6 @@ class BMLScheduler:
 
     def _character(self, block: BehaviorBlock | None) -> str:
         return (block and block.character) or self._cast.characters[0]
-
-    def _make_room(self, description: BehaviorBlock, character: str, now: GlobalTime) -> None:
-        """End what the new block is to end, before anything of it is known to others."""
-        if description.composition is Composition.REPLACE:
-            self.interrupt_all(character, now)
-        for name in description.interrupts:
-            block = self.blocks.find(character, name)
-            if block is not None:
-                self._requests.interrupt(block, now)
 
     def _new_block(self, description: BehaviorBlock, character: str, joining: Joining, now: GlobalTime) -> BMLBlock:
         self._arrivals += 1

@@ -22,18 +22,24 @@ class Joining:
         self._blocks = blocks
         self._character = character
         self._description = description
+        self._replaces = description.composition is Composition.REPLACE
         self.unknown: list[Fault] = []
-        self.interrupted = self._known("interrupt", description.interrupts)
+        self._interrupted = self._known("interrupt", description.interrupts)
         self._after = self._known("appendAfter", description.append_after)
         self._after_chunks = self._known("chunkAfter", description.chunk_after)
         self._before = self._known("prependBefore", description.prepend_before)
         self._before_chunks = self._known("chunkBefore", description.chunk_before)
 
+    def ended_by_it(self) -> list[BMLBlock]:
+        """The blocks that it takes the place of, the later ones first, because they may hang on the earlier ones."""
+        replaced = self._blocks.of(self._character) if self._replaces else []
+        return sorted({*replaced, *self._interrupted}, key=lambda block: -block.arrival)
+
     def waits(self) -> list[Wait]:
-        """What the new block waits for."""
-        append = self._description.composition is Composition.APPEND
+        """What the new block waits for, once those are ended that it takes the place of."""
+        last = self._blocks.last_of(self._character) if self._description.composition is Composition.APPEND else []
         return [
-            *(Wait(block, implied=True) for block in (self._blocks.last_of(self._character) if append else ())),
+            *(Wait(block, implied=True) for block in last),
             *(Wait(block) for block in self._after),
             *(Wait(block, chunk=True) for block in self._after_chunks),
         ]
@@ -44,7 +50,8 @@ class Joining:
         The other one has started, or the new one would wait for it in turn.
         """
         waiting = [wait.target for wait in self.waits()]
-        for block in (*self._before, *self._before_chunks):
+        ended = self.ended_by_it()
+        for block in (each for each in (*self._before, *self._before_chunks) if each not in ended):
             if block.state.plays:
                 return Fault("started-already", {"block": block.key.block})
             if any(block is other for other in _all_awaited(waiting)):

@@ -214,3 +214,23 @@ async def test_a_block_of_more_than_fifty_behaviors_is_solved_aside_and_plays(pi
     await pilot.advance(2)
     assert pilot.feedback.time("big:w59:end") - pilot.feedback.time("big:start") == pytest.approx(0.6)
     assert pilot.feedback.time("small:start") < pilot.feedback.time("big:start")
+
+
+async def test_a_block_may_interrupt_the_one_of_its_own_name(pilot) -> None:
+    send(pilot, "again", wait(5))
+    await pilot.advance(0.5)
+    send(pilot, "again", wait(0.1), 'bmla:interrupt="again"')
+    await pilot.advance(1)
+    assert [point for point in pilot.feedback.progress if point in ("again:start", "again:end")] == [
+        "again:start",
+        "again:end",
+    ] * 2
+
+
+async def test_a_block_that_is_refused_ends_nothing(pilot) -> None:
+    send(pilot, "plays", wait(1))
+    send(pilot, "other", wait(1))
+    await pilot.tick()
+    send(pilot, "late", wait(1), 'bmla:prependBefore="plays" bmla:interrupt="other"')
+    await pilot.advance(2)
+    assert pilot.feedback.status("other") == "DONE"
