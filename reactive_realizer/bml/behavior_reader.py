@@ -57,8 +57,8 @@ def read_behavior(tree: Tree, source: Source, order: int, required: bool, notes:
     if element is None and is_core(tree):
         known = [name for name, each in ELEMENTS.items() if not each.continuous]
         raise RealizerError(source.fault(tree, "unknown-behavior", known=listed(known)))
-    behavior = _known(tree, element, source, notes) if element else _foreign(tree, source, notes)
-    return replace(behavior, order=order, required=required)
+    place = {"order": order, "required": required}
+    return _known(tree, element, source, place, notes) if element else _foreign(tree, source, place)
 
 
 def _element_of(tree: Tree) -> Element | None:
@@ -66,12 +66,12 @@ def _element_of(tree: Tree) -> Element | None:
     return element if element and (is_continuous(tree) if element.continuous else is_core(tree)) else None
 
 
-def _known(tree: Tree, element: Element, source: Source, notes: list[Fault]) -> Behavior:
-    values = source.written(tree) | source.values(tree, element.attributes)
+def _known(tree: Tree, element: Element, source: Source, place: dict[str, Any], notes: list[Fault]) -> Behavior:
+    values = place | source.written(tree) | source.values(tree, element.attributes)
     if element.behavior in _READ_PARTS:
         values |= _READ_PARTS[element.behavior](tree, source, notes)
     namespace = namespace_of(tree) if element.continuous else element.namespace
-    behavior = element.behavior(**values, namespace=namespace, order=0)
+    behavior = element.behavior(**values, namespace=namespace)
     # A head that strokes several times has no single stroke to be tied.
     points = [name for name in element.sync_points if name in behavior.sync_points]
     names = [*(each.name for each in element.attributes), *points]
@@ -91,17 +91,16 @@ def _descriptions(tree: Tree, source: Source, notes: list[Fault]) -> tuple[Descr
     return tuple(descriptions)
 
 
-def _foreign(tree: Tree, source: Source, notes: list[Fault]) -> Behavior:
+def _foreign(tree: Tree, source: Source, place: dict[str, Any]) -> Behavior:
     if is_continuous(tree) and name_of(tree) in PROCEDURES:
         raise RealizerError(source.fault(tree, "procedure-in-block"))
-    values = source.written(tree) | source.values(tree, _FOREIGN_ATTRIBUTES)
+    values = place | source.written(tree) | source.values(tree, _FOREIGN_ATTRIBUTES)
     syncs = source.syncs(tree, ForeignBehavior.SYNC_POINTS)
     read = {*syncs, *(each.name for each in _FOREIGN_ATTRIBUTES)}
     others = {name: value for name, value in attributes_in(tree).items() if name not in read}
     return ForeignBehavior(
         **values,
         namespace=namespace_of(tree),
-        order=0,
         syncs=syncs,
         attributes=MappingProxyType(others),
         children=source.content(tree),

@@ -1,7 +1,6 @@
 """The interface of a modality (thesis 8.6), and what all implementations share."""
 
 from collections.abc import Awaitable, Mapping
-from dataclasses import replace
 from types import MappingProxyType
 from typing import Protocol
 
@@ -99,15 +98,15 @@ class DefaultEngine:
 
     def play(self, tick: Tick) -> Play:
         """Sync points that are due, and, where a frame is, what is seen and heard."""
-        play = Play(
+        return Play(
             self.player.play(tick.time),
             layers=self.layers(tick) if tick.frame else (),
             face=self.face(tick) if tick.frame else {},
             eyes=self.eyes(tick) if tick.frame else None,
             audio=self.audio(tick),
             requests=(*self.player.take_ending(), *self.requests(tick)),
+            dropped=self.player.take_dropped(),  # by all of the above
         )
-        return replace(play, dropped=self.player.take_dropped())
 
     def fail(self, time: GlobalTime, fault: Fault) -> Play:
         """Drop every unit."""

@@ -11,7 +11,7 @@ from reactive_realizer.clock.units import RESOLUTION, GlobalTime, is_due
 from reactive_realizer.pegboard.peg_key import BlockKey, PegKey
 from reactive_realizer.pegboard.time_peg import Time, TimePeg
 from reactive_realizer.planunit.parameter import Parameter
-from reactive_realizer.planunit.timing import Timing
+from reactive_realizer.planunit.timing import SHORTEST, Timing
 
 logger = logging.getLogger(__name__)
 
@@ -43,6 +43,11 @@ class SyncPoint:
     peg: TimePeg
     tied: bool = False
     fired: Time = None
+
+    @property
+    def time(self) -> Time:
+        """When it was, or is predicted to be."""
+        return self.peg.value if self.fired is None else self.fired
 
 
 class PlanUnit:
@@ -112,8 +117,7 @@ class PlanUnit:
 
     def time(self, sync: str) -> Time:
         """When one of its points was, or is predicted to be."""
-        point = self.point(sync)
-        return point.peg.value if point.fired is None else point.fired
+        return self.point(sync).time
 
     def point(self, sync: str) -> SyncPoint:
         """One of its points.
@@ -141,8 +145,18 @@ class PlanUnit:
 
     def in_order(self) -> bool:
         """Whether its known times keep the order of its points (thesis 7.15)."""
-        times = [time for point in self.points if (time := self.time(point.id)) is not None]
+        times = [time for point in self.points if (time := point.time) is not None]
         return all(a <= b + RESOLUTION for a, b in itertools.pairwise(times))
+
+    def takes_time(self) -> bool:
+        """Whether time is left between its start and its end, as far as they are known (thesis 7.14)."""
+        start, end = self.points[0].peg.value, self.points[-1].peg.value
+        return self.timing.instant or start is None or end is None or end - start >= SHORTEST
+
+    def over_before(self, time: GlobalTime) -> bool:
+        """Whether even its end has passed when its block starts."""
+        end = self.points[-1].peg.value
+        return end is not None and end < time - RESOLUTION
 
     def release(self) -> None:
         """Its block has started."""

@@ -6,6 +6,9 @@ from dataclasses import dataclass
 from enum import Enum
 from math import inf
 
+SHORTEST = 1e-5
+"""A behavior shorter than a thousandth of a tick (s) cannot be played."""
+
 
 class PhaseKind(Enum):
     """How a phase may be stretched."""

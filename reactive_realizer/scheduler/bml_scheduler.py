@@ -132,7 +132,8 @@ class BMLScheduler:
         for play in plays:
             for dropped in play.dropped:
                 self._endings.drop(dropped, now)
-            self._endings.reach(play.reached)
+            if play.reached:
+                self._endings.reach(play.reached)
         asked = self._requests.do([request for play in plays for request in play.requests], now)
         return asked or any(play.dropped or play.reached for play in plays)
 
@@ -149,9 +150,11 @@ class BMLScheduler:
                 time = point.peg.value
                 if point.peg in moved and time is not None and time < previous:
                     point.peg.pin(now)
-        for unit in units:
-            if not unit.begun and not unit.in_order():
+        for unit in [unit for unit in units if not unit.begun]:
+            if not unit.in_order():
                 self._endings.drop_unit(unit, Fault("overtaken"), now)
+            elif not unit.takes_time():
+                self._endings.drop_unit(unit, Fault("too-short"), now)
 
     def fail_restless(self, rounds: int, now: GlobalTime) -> None:
         """Fail the blocks that keep a tick from coming to rest: those that started in it and still play."""
@@ -250,8 +253,10 @@ class BMLScheduler:
                 self._planner.renew(block, now)
         block.state = BlockState.IN_EXEC
         block.noticed = now
-        for unit in block.units:
+        for unit in list(block.units):
             unit.release()
+            if unit.over_before(time):
+                self._endings.drop_unit(unit, Fault("all-past", {"late": time - (unit.time("end") or 0.0)}), now)
         self._owe_prediction(block)
         self._reporter.started(block, time)
         for name in block.description.on_start:

@@ -49,7 +49,7 @@ class Predictions:
 def _times(block: BMLBlock) -> _Times:
     times: dict[tuple[str, str], Time] = {("", "start"): block.start.value, ("", "end"): block.end.value}
     for unit in block.units:
-        times |= {(unit.behavior.id, point.id): unit.time(point.id) for point in unit.points}
+        times |= {(unit.behavior.id, point.id): point.time for point in unit.points}
     return times
 
 
@@ -65,12 +65,11 @@ def _differ(old: Time, new: Time) -> bool:
 
 def _prediction(block: BMLBlock, now: GlobalTime) -> PredictionFeedback:
     start = now if block.start.value is None else block.start.value
-    ends = [time for unit in block.units for p in unit.points if (time := unit.time(p.id)) is not None]
+    ends = [time for unit in block.units for point in unit.points if (time := point.time) is not None]
     end = block.end.value if block.end.value is not None else max([start, *ends])
     behaviors = tuple(BehaviorPrediction(unit.behavior, _local(unit, start)) for unit in block.units)
     return PredictionFeedback(block.key.character, block.key.block, start, end, block.state.value, behaviors)
 
 
 def _local(unit: PlanUnit, start: GlobalTime) -> dict[str, BlockTime]:
-    times = {point.id: unit.time(point.id) for point in unit.points}
-    return {sync: BlockTime(time - start) for sync, time in times.items() if time is not None}
+    return {p.id: BlockTime(time - start) for p in unit.points if (time := p.time) is not None}

@@ -7,6 +7,7 @@ from math import isfinite
 from typing import NamedTuple
 
 from reactive_realizer.errors import Fault, RealizerError, error
+from reactive_realizer.planunit.timing import SHORTEST
 from reactive_realizer.scheduler.equalities import Equalities
 from reactive_realizer.scheduler.problem import (
     Anchor,
@@ -29,9 +30,6 @@ from reactive_realizer.scheduler.stretch import average_stretch, ratio_between
 
 _SAME = 1e-3
 """Times closer than this (s) are no contradiction for a rigid behavior."""
-
-_SHORTEST = 1e-5
-"""A behavior shorter than a thousandth of a tick (s) cannot be played."""
 
 
 class Placed(NamedTuple):
@@ -177,7 +175,7 @@ class _Run:
         first = min(known)
         given = known[first]
         start = _fill(item, known)[0].time
-        if start is None or given.time is None or start >= -_SHORTEST:
+        if start is None or given.time is None or start >= -SHORTEST:
             return known
         if given.anchor.free if given.anchor else given.time < 0:
             return known
@@ -273,7 +271,7 @@ def _fill(item: Item, known: Mapping[int, Placed]) -> list[Placed]:
 def _is_past(placed: Placed) -> bool:
     """Whether a point lies before its block; those of free clusters have been moved."""
     free = placed.anchor is not None and placed.anchor.free
-    return not free and placed.time is not None and placed.time < -_SHORTEST
+    return not free and placed.time is not None and placed.time < -SHORTEST
 
 
 def _moved(placed: Placed, distance: float) -> Placed:
@@ -297,7 +295,7 @@ def _check_given(item: Item, known: Mapping[int, Placed]) -> None:
     """
     given = [(item.timing.points[i], time) for i, p in sorted(known.items()) if (time := p.time) is not None]
     for (sync, time), (later, then) in itertools.combinations(given, 2):
-        if then < time - _SHORTEST:
+        if then < time - SHORTEST:
             raise error("out-of-order", sync=sync, later=later, gap=time - then)
 
 
@@ -309,7 +307,7 @@ def _check(item: Item, placed: list[Placed]) -> None:
     """
     known = [(sync, p.time) for sync, p in zip(item.timing.points, placed, strict=True) if p.time is not None]
     for (sync, time), (later, then) in itertools.pairwise(known):
-        if then < time - _SHORTEST:
+        if then < time - SHORTEST:
             raise error("out-of-order", sync=sync, later=later, gap=time - then)
-    if not item.timing.instant and len(known) == len(placed) and known[-1][1] - known[0][1] < _SHORTEST:
+    if not item.timing.instant and len(known) == len(placed) and known[-1][1] - known[0][1] < SHORTEST:
         raise error("too-short")

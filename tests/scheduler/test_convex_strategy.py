@@ -1,8 +1,10 @@
 """The strategy `convex`: least cost, earliest starts, pegs that live, and what is given up (docs/semantics.md)."""
 
 import random
+from dataclasses import replace
 from itertools import pairwise
 
+import daqp
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -49,7 +51,8 @@ class Plan:
 
     @property
     def _view(self):
-        return PlanView.of_solution(self.asked, self.solution)
+        times = {cell: cell.value for cell in self.asked.times}
+        return PlanView.of_solution(replace(self.asked, times=times), self.solution)
 
 
 def move(cell, time):
@@ -109,10 +112,17 @@ def test_no_elastic_phase_is_pressed_under_a_tenth_while_its_neighbors_could_giv
         points = [Point(each.behavior.id, sync) for sync in each.timing.points]
         for k, phase in enumerate(each.timing.phases):
             inside = {points[k], points[k + 1]}.isdisjoint(named)
-            if phase.kind is PhaseKind.ELASTIC and inside and 0 < k < len(points) - 2 and None not in view.times.values():
+            if (
+                phase.kind is PhaseKind.ELASTIC
+                and inside
+                and 0 < k < len(points) - 2
+                and None not in view.times.values()
+            ):
                 ratio = (view.times[points[k + 1]] - view.times[points[k]]) / phase.duration
                 neighbors = [(k + step, each.timing.phases[k + step]) for step in (-1, 1)]
-                rest = [view.times[points[n + 1]] - view.times[points[n]] for n, p in neighbors if p.kind is PhaseKind.HOLD]
+                rest = [
+                    view.times[points[n + 1]] - view.times[points[n]] for n, p in neighbors if p.kind is PhaseKind.HOLD
+                ]
                 assert ratio > 0.1 or all(length < 0.1 for length in rest), each
 
 
@@ -231,6 +241,15 @@ def test_an_order_between_two_that_hang_on_different_outer_times_is_kept() -> No
     assert plan["b:start"] == plan["a:end"] == pytest.approx(5.5)
 
 
+def test_a_predicted_time_is_never_pushed_by_what_is_to_come_before_it() -> None:
+    hit = outer("hit", 4.0)
+    plan = Plan({"g": HELD}, after("g:end", hit, -2.0), after(hit, "g:ready", 1.0))
+    move(hit, 8.0)
+    assert plan["g:end"] == 6.0
+    move(hit, 1.2)
+    assert plan["g:ready"] == pytest.approx(0.2)
+
+
 def test_orders_in_a_circle_of_clusters_are_kept_and_make_no_circle_of_pegs() -> None:
     plan = Plan({"a": NOD, "b": NOD}, after("a:start", "b:start", -0.2), after("b:start", "a:start", 0.1))
     assert plan.losses == []
@@ -299,10 +318,9 @@ def test_limits_go_first_and_silently_then_orders_then_ties() -> None:
 def test_of_several_ties_the_last_one_goes_and_it_is_said_what_it_clashes_with() -> None:
     ties = at("b:start", "a:end", 1.0), at("a:start", START), at("b:start", START, 0.5)
     plan = Plan({"a": NOD, "b": NOD}, *ties)
-    assert plan.lost == ["b:start = Origin.BLOCK_START + 0.5"] or plan.losses == [("b", "clash", False)]
-    sentence = plan.solution.losses[0].fault.sentence
-    assert "a:start" in sentence
-    assert " a" in sentence
+    assert plan.lost == [ties[2].text]
+    assert all(tie.text in plan.solution.losses[0].fault.sentence for tie in ties)
+    assert plan["b:start"] == pytest.approx(2.0)
 
 
 def test_an_order_is_given_up_before_a_tie_whatever_was_written_first() -> None:
@@ -365,6 +383,15 @@ def test_contradictions_that_have_nothing_to_do_with_each_other_are_all_told() -
 @given(problems(most=12))
 def test_all_that_is_kept_holds_after_whatever_was_dropped(asked: Problem) -> None:
     assert violations(asked, ConvexStrategy().solve(asked)) == []
+
+
+@given(feasible_problems())
+def test_a_plan_is_found_also_where_the_solver_finds_none(asked: Problem) -> None:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(daqp, "solve", lambda *_, **__: (None, 0.0, -1, {}))
+        solution = ConvexStrategy().solve(asked)
+    assert solution.losses == ()
+    assert violations(asked, solution) == []
 
 
 def test_a_long_chain_of_afters_is_planned() -> None:

@@ -26,7 +26,7 @@ class Plan:
         self.timings = items
         assert violations(asked, self.solution) == []
 
-    def __getitem__(self, point):
+    def __getitem__(self, point) -> float | None:
         return self.view.times[Point(*point.split(":"))]
 
     def times(self, behavior):
@@ -140,8 +140,8 @@ def test_before_and_after_go_before_at_does() -> None:
 
 
 def test_what_is_required_goes_last_and_by_name_the_last_one_first() -> None:
-    ties = at("a:start", START, 1.0), at("a:start", START, 2.0, required=True)
-    assert Plan({"a": NOD}, *ties)["a:start"] == 2.0
+    ties = at("a:start", "b:end"), at("a:start", START, 0.5, required=True), at("b:start", START, 1.0)
+    assert Plan({"a": NOD, "b": NOD}, *ties).losses == [("b", "contradictory-tie")]
     plan = Plan({"a": NOD, "b": NOD, "c": NOD}, at("a:end", "c:end"), at("b:end", "a:start"), at("c:end", "b:start"))
     assert plan.losses == [("c", "contradictory-tie")]
 
@@ -151,6 +151,12 @@ def test_a_clash_says_how_many_seconds_are_missing() -> None:
     assert plan.losses == [("s", "contradictory-tie")]
     assert plan.times("s") == [2.0, 2.5, 3.25, 4.0]
     assert plan.solution.losses[0].fault.details["gap"] == pytest.approx(1.0)
+
+
+def test_a_behavior_that_contradicts_itself_is_dropped_and_the_others_play() -> None:
+    plan = Plan({"a": NOD, "b": NOD}, at("a:start", START, 3.0), at("a:end", START, 3.0), at("b:start", "a:end"))
+    assert plan.losses == [("a", "contradictory-tie")]
+    assert plan.times("b") == pytest.approx([0.0, 0.4, 1.0])
 
 
 def test_two_times_of_the_outside_are_never_made_one() -> None:

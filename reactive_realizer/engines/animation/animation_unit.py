@@ -20,7 +20,8 @@ from reactive_realizer.planunit.timing import Phase, PhaseKind, Timing
 from reactive_realizer.reactive.cell import Source
 from reactive_realizer.reactive.graph import Graph
 
-_HOLDS = frozenset({("ready", "strokeStart"), ("strokeEnd", "relax")})
+_HOLDS = frozenset({("ready", "strokeStart"), ("strokeEnd", "relax"), ("ready", "relax")})
+"""Before and after a stroke the hands wait; between coming and going a gaze looks."""
 
 AMOUNT_RANGE = Range(0.0, 1.0)
 

@@ -1,7 +1,9 @@
 """A gesture: a stroke from a file, with the way there and the way back."""
 
 from collections.abc import Mapping
+from copy import copy
 from itertools import pairwise
+from typing import Self
 
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, slerp
@@ -97,6 +99,12 @@ class GestureMotionUnit:
     def preferred_duration(self) -> float:
         """From start to end, s."""
         return self._duration
+
+    def another(self) -> Self:
+        """The same gesture once more, not begun: how long it would like to take need not be found out again."""
+        gesture = copy(self)
+        gesture.parameters = dict(self.parameters)
+        return gesture
 
     def start(self, body: Body) -> None:
         """The hands set out from where they are now."""

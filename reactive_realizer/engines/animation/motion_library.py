@@ -42,6 +42,12 @@ class MotionLibrary:
         self._binding = GestureBinding.read(context.asset(context.bindings["gesture"]))
         self.rest = Body(context.humanoid.avatar.skeleton, dict(REST_POSE))
         self._read: Callable[[str], ProcAnimation] = lru_cache(lambda file: read_proc_animation(context.asset(file)))
+        # Half of the time that planning a gesture takes is its hands' way to the stroke: found once for all alike.
+        self._gesture: Callable[[str, bool, tuple[tuple[str, float], ...]], GestureMotionUnit] = lru_cache(
+            lambda file, mirror, parameters: GestureMotionUnit(
+                self._animation(file, mirror), dict(parameters), REST_POSE, self.rest
+            )
+        )
 
     def motion(self, behavior: Behavior) -> MotionUnit:
         """A motion for a behavior.
@@ -62,13 +68,14 @@ class MotionLibrary:
         if spec.file is None:
             raise error("no-unit", unit=spec.implementation)
         said = spec.parameters(attributes)
-        animation = self._read(spec.file)
-        if said.get("mirror") == "true":
-            animation = animation.mirrored()
-        parameters = numbers(said)
+        mirror, parameters = said.get("mirror") == "true", numbers(said)
         if spec.unit == "Gesture":
-            return GestureMotionUnit(animation, parameters, REST_POSE, self.rest)
-        return ProcMotionUnit(animation, parameters, spec.parameter_map.get("amount"))
+            return self._gesture(spec.file, mirror, tuple(parameters.items())).another()
+        return ProcMotionUnit(self._animation(spec.file, mirror), parameters, spec.parameter_map.get("amount"))
+
+    def _animation(self, file: str, mirror: bool) -> ProcAnimation:
+        animation = self._read(file)
+        return animation.mirrored() if mirror else animation
 
     def _gaze(self, behavior: Gaze) -> GazeMotionUnit:
         if self._context.world.position(behavior.target) is None:

@@ -5,7 +5,7 @@ from collections.abc import Set as AbstractSet
 from itertools import pairwise
 from math import inf
 
-from reactive_realizer.planunit.timing import Phase, PhaseKind, Timing
+from reactive_realizer.planunit.timing import PhaseKind, Timing
 from reactive_realizer.scheduler.convex.causes import Cause, Rank
 from reactive_realizer.scheduler.convex.span import Span
 
@@ -90,7 +90,7 @@ class BehaviorSpans:
         return self._phases[phase].kind is PhaseKind.RIGID
 
     def _span(self, group: list[int], start: int, end: int, rigid: float) -> Span:
-        phase: Phase = self._phases[group[0]]
+        phase = self._phases[group[0]]
         preferred = sum(self._phases[k].duration for k in group)
         kind = PhaseKind.HOLD if self._may_vanish(group[0], preferred) else phase.kind
         low, high = (phase.minimum, phase.maximum) if self.limited(group[0]) else (0.0, inf)

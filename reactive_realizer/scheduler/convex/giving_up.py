@@ -15,7 +15,7 @@ class GivingUp:
 
     Attributes:
         things: all that was given up.
-        losses: what is told of it; nothing of limits, which are wishes.
+        losses: what is told of it; nothing of lengths and limits, which are wishes.
     """
 
     def __init__(self, case: Case) -> None:

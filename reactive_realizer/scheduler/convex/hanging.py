@@ -44,7 +44,8 @@ class Hanging:
             self._begin_after(order)
         bounded = self._keep_orders() - given
         if bounded:
-            self._hang_on(given | bounded)
+            # What these hang on themselves stays as it is, so that nothing comes to hang on itself by nature.
+            self._hang_on(given | bounded | {spot.root for root in bounded for spot in self.recipes[root].spots})
         self.steps = self._order_steps()
 
     # --- clusters
@@ -127,10 +128,11 @@ class Hanging:
             if not moved & {order.later, order.earlier} or self._begins_after(order):
                 continue
             leads = self._network.leads
-            if order.earlier != START and self._gives_way(order, moved):
+            # The earlier one goes with a later one that comes from outside, or that cannot go.
+            if order.earlier != START and not (order.own and order.earlier in moved):
                 self.recipes[order.earlier].before.append(Spot(order.later, leads[order.earlier] - order.distance))
                 bounded.add(order.earlier)
-            if order.later != START:
+            if order.own:
                 self.recipes[order.later].after.append(Spot(order.earlier, leads[order.later] + order.distance))
                 bounded.add(order.later)
         return bounded
@@ -139,10 +141,6 @@ class Hanging:
         """Whether an order is kept by the beginning of the cluster."""
         cluster = self._network.cluster(order.later)
         return self._firsts.get(cluster) == order.later and cluster != self._network.cluster(order.earlier)
-
-    def _gives_way(self, order: Precedence, moved: Collection[int]) -> bool:
-        """Whether the earlier one goes with the later one: that comes from outside, or is absolute and cannot go."""
-        return order.later == START or (order.later in moved and order.earlier not in moved)
 
     def _moved_from_outside(self) -> set[int]:
         """The roots that move when times from outside do."""

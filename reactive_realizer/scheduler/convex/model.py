@@ -8,6 +8,7 @@ from math import inf
 from reactive_realizer.scheduler.convex.behavior_spans import BehaviorSpans
 from reactive_realizer.scheduler.convex.case import Stage
 from reactive_realizer.scheduler.convex.causes import GIVEN, Cause, Clash, Rank
+from reactive_realizer.scheduler.convex.lateness import late_behaviors
 from reactive_realizer.scheduler.convex.longest_path import TOLERANCE
 from reactive_realizer.scheduler.convex.roots import Roots
 from reactive_realizer.scheduler.convex.span import SHORTEST, Bound, Row, Span
@@ -30,6 +31,7 @@ class Model:
         knots: those of each behavior, by index of the point, in order.
         parts: spans of each behavior.
         spans: all of them.
+        late: the behaviors that join late; thesis 7.13 does not bind them (docs/semantics.md).
         bounds: all inequalities, in variables.
         clashes: what was found to be impossible while building.
         size: number of variables.
@@ -44,6 +46,7 @@ class Model:
         self.clashes: list[Clash] = []
         self._add_behaviors(lifted)
         self._link()
+        self.late = late_behaviors(stage, self.nodes, self.roots)
         self.spans = [span for part in self.parts.values() for span in part.spans]
         self._places = self._variables()
         self.size = 1 + max(variable for variable, _ in self._places)
@@ -62,18 +65,6 @@ class Model:
         """The variables of unknown times from outside."""
         times = (each.time for each in self.stage.fixed.values())
         return [self.place(node)[0] for node, time in enumerate(times) if time is None]
-
-    def joins_late(self, behavior: int) -> bool:
-        """Whether it hangs on the outside, at a time that has passed (docs/semantics.md: 7.13 does not bind it)."""
-        places = (self.roots.find(node) for node in self.knots[behavior].values())
-        return any(self._passed(root, distance) for root, distance in places)
-
-    def _passed(self, root: int, distance: float) -> bool:
-        """Whether a place has passed by the time of another block or an anticipator, or of a behavior that joins late."""
-        if not START < root < len(self.stage.fixed):
-            return False
-        node, (time, _) = list(self.stage.fixed.items())[root]
-        return time is not None and time + (0.0 if isinstance(node, Point) else distance) < 0
 
     # --- nodes
 
@@ -141,7 +132,7 @@ class Model:
         for cause, order in self.stage.orders.items():
             yield Row(self.nodes[order.later], self.nodes[order.earlier], order.offset, cause)
         for index, knots in self.knots.items():
-            if not self.joins_late(index):
+            if index not in self.late:
                 yield Row(knots[0], START, 0.0, GIVEN)  # thesis 7.13
         for span in self.spans:
             yield from _limits(span)

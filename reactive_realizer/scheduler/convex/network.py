@@ -4,9 +4,11 @@ from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 from reactive_realizer.scheduler.convex.longest_path import TOLERANCE
+from reactive_realizer.scheduler.convex.model import START
 from reactive_realizer.scheduler.convex.recipes import Spot
 from reactive_realizer.scheduler.convex.span import Span
 from reactive_realizer.scheduler.convex.timetable import Timetable
+from reactive_realizer.scheduler.problem import Point
 
 
 class Way(NamedTuple):
@@ -18,11 +20,16 @@ class Way(NamedTuple):
 
 
 class Precedence(NamedTuple):
-    """``later >= earlier + distance``, of roots."""
+    """``later >= earlier + distance``, of roots.
+
+    Attributes:
+        own: whether the later one can be pushed: a point that does not stand at a time of the block.
+    """
 
     later: int
     earlier: int
     distance: float
+    own: bool
 
 
 class Network:
@@ -83,7 +90,9 @@ class Network:
         for order in self._model.stage.orders.values():
             late, early = (self.spot(self._model.nodes[node]) for node in order.nodes)
             if late.root != early.root:
-                found.append(Precedence(late.root, early.root, order.offset + early.distance - late.distance))
+                distance = order.offset + early.distance - late.distance
+                own = isinstance(order.later, Point) and late.root != START
+                found.append(Precedence(late.root, early.root, distance, own))
         return found
 
     def latest_before(self, given: Iterable[int]) -> dict[int, Spot]:

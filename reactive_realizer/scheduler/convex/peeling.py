@@ -98,7 +98,7 @@ def _as_preferred(spans: Sequence[Span], bounds: Sequence[Bound]) -> dict[int, f
         at[span.tail].append(span)
         at[span.head].append(span)
     times: dict[int, float] = {}
-    for variable in sorted({*at, *(v for bound in bounds for v in (bound.later, bound.earlier))}):
+    for variable in _variables(spans, bounds):
         if variable not in times and not _spread(variable, at, times):
             return None
     met = all(times[b.later] - times[b.earlier] >= b.distance - TOLERANCE for b in bounds)

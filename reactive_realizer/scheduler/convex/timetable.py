@@ -128,5 +128,5 @@ def _unplayable(model: Model, behavior: int, points: Sequence[float]) -> Iterato
     causes = frozenset({Cause(Rank.BEHAVIOR, behavior)})
     if points[-1] - points[0] < _NOTHING and not model.stage.items[behavior].timing.instant:
         yield Clash(causes, 0.0)
-    elif model.joins_late(behavior) and points[-1] < -_NOTHING:
+    elif behavior in model.late and points[-1] < -_NOTHING:
         yield Clash(causes, -points[-1], late=True)

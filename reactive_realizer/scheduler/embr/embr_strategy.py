@@ -3,6 +3,7 @@
 from collections.abc import Container, Iterable, Mapping, Sequence
 
 from reactive_realizer.errors import Fault
+from reactive_realizer.planunit.timing import SHORTEST
 from reactive_realizer.scheduler.embr.case import Case, Given
 from reactive_realizer.scheduler.embr.grounding import ground
 from reactive_realizer.scheduler.embr.keeping import keep
@@ -22,9 +23,6 @@ from reactive_realizer.scheduler.problem import (
     Tie,
 )
 from reactive_realizer.scheduler.spec_times import SpecTimes
-
-_SHORTEST = 1e-5
-"""s; a behavior shorter than a thousandth of a tick cannot be played, nor one that ended before its block."""
 
 
 class EmbrStrategy:
@@ -57,19 +55,20 @@ class EmbrStrategy:
         return Solution({**solved.pegs, **following.pegs}, (*solved.losses, *following.losses))
 
 
-def _solve(items: Sequence[Item], constraints: Iterable[Tie | Order], given: Mapping[Node, Given]) -> Solution:
+def _solve(items: Sequence[Item], constraints: Sequence[Tie | Order], given: Mapping[Node, Given]) -> Solution:
     """Time some behaviors; constraints on those that are dropped go with them."""
-    short = [item for item in items if _never_takes_time(item)]
-    ids = {item.behavior.id for item in items if item not in short}
+    faults = {item.behavior.id: fault for item in items if (fault := _alone(item, constraints, given)) is not None}
+    playable = [item for item in items if item.behavior.id not in faults]
+    ids = {item.behavior.id for item in playable}
     left = [each for each in constraints if all(node in given or _is_of(node, ids) for node in each.nodes)]
-    case = Case([item for item in items if item not in short], left, given)
+    case = Case(playable, left, given)
     kept = keep(case)
     times = place(case, kept)
     pegs = Pegs(case, kept, times)
     ground(case, kept, times, pegs)
-    past = {id_: times[pegs.knots(id_)[-1]] for id_ in sorted(kept.late) if times[pegs.knots(id_)[-1]] < -_SHORTEST}
-    losses = [_dropped(item, Fault("too-short")) for item in short]
-    losses += [_dropped(case.items[id_], Fault("all-past", {"late": -end})) for id_, end in past.items()]
+    past = {id_: times[pegs.knots(id_)[-1]] for id_ in sorted(kept.late) if times[pegs.knots(id_)[-1]] < -SHORTEST}
+    losses = [_dropped(item, constraints, faults[item.behavior.id]) for item in items if item not in playable]
+    losses += [_dropped(case.items[id_], constraints, Fault("all-past", {"late": -end})) for id_, end in past.items()]
     specs = {id_: points for id_, points in pegs.all().items() if id_ not in past}
     return Solution(specs, (*losses, *kept.losses))
 
@@ -78,12 +77,21 @@ def _is_of(node: Node, behaviors: Container[str]) -> bool:
     return isinstance(node, Point) and node.behavior in behaviors
 
 
-def _never_takes_time(item: Item) -> bool:
-    return item.timing.rigid and not item.timing.instant and item.timing.offsets[-1] < _SHORTEST
+def _alone(item: Item, constraints: Iterable[Tie | Order], given: Mapping[Node, Given]) -> Fault | None:
+    """Why what a behavior says of itself cannot be, whatever others do; a rigid one rather loses a constraint."""
+    if item.timing.rigid:
+        never = not item.timing.instant and item.timing.offsets[-1] < SHORTEST
+        return Fault("too-short") if never else None
+    id_ = item.behavior.id
+    ties = [each for each in constraints if isinstance(each, Tie) and each.owner == id_]
+    own = [tie for tie in ties if all(node in given or _is_of(node, {id_}) for node in tie.nodes)]
+    faults = (loss.fault for loss in keep(Case([item], own, given)).losses) if own else iter(())
+    return next((fault for fault in faults if fault.code == "contradictory-tie"), None)
 
 
-def _dropped(item: Item, fault: Fault) -> Loss:
-    place = item.behavior.location
-    return Loss(
-        item.behavior.id, fault.located(place.line, place.column), dropped=True, required=item.behavior.required
-    )
+def _dropped(item: Item, constraints: Iterable[Tie | Order], fault: Fault) -> Loss:
+    """A behavior goes, and with it the constraints on it; the block fails if one of these was required."""
+    id_, place = item.behavior.id, item.behavior.location
+    needed = any(each.required and any(_is_of(node, {id_}) for node in each.nodes) for each in constraints)
+    located = fault.located(place.line, place.column)
+    return Loss(id_, located, dropped=True, required=item.behavior.required or needed)

@@ -1,0 +1,36 @@
+"""Scheduling strategies by name."""
+
+import pytest
+
+from reactive_realizer.assembly.registry import names
+from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.errors import RealizerError
+from reactive_realizer.testing.pilot import open_pilot
+
+AFTER = """
+    <wait id="a" duration="0.5"/><wait id="b" duration="0.5"/>
+    <constraint><after ref="a:end"><sync ref="b:start"/></after></constraint>
+"""
+
+
+def test_the_built_in_ones_are_found_by_their_names() -> None:
+    assert {"convex", "embr", "smartbody"} <= set(names("strategies"))
+
+
+@pytest.mark.parametrize(("strategy", "warnings", "start"), [("convex", 0, 0.5), ("smartbody", 1, 0.0)])
+async def test_a_scene_is_timed_by_the_one_that_was_chosen(strategy, warnings, start) -> None:
+    async with open_pilot(SceneOptions(voice="text", strategy=strategy)) as pilot:
+        pilot.block("x", AFTER)
+        await pilot.advance(2)
+        assert len(pilot.feedback.warnings) == warnings
+        assert pilot.feedback.time("x:b:start") == start
+
+
+def test_convex_is_the_default() -> None:
+    assert SceneOptions().strategy == "convex"
+
+
+async def test_one_that_does_not_exist_is_refused_with_those_that_do() -> None:
+    with pytest.raises(RealizerError, match="no 'best' among the strategies; there are convex, embr, smartbody"):
+        async with open_pilot(SceneOptions(voice="text", strategy="best")):
+            pass
