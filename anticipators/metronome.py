@@ -70,6 +70,8 @@ class Metronome(Anticipator):
 
     def _change_tempo(self, period: float, now: GlobalTime) -> None:
         change = self._changes[-1]
+        if change.period == period:
+            return
         if change.time > now:
             following = self._changes.pop().beat
         else:

@@ -28,11 +28,15 @@ _RUNS = {10: 2000, 1000: 200, 100_000: 9}
 Write = Callable[[int], object]
 
 
-def measure() -> dict[str, object]:
-    """The medians, with those of reactivex where it is installed."""
+def measure(largest: int = 100_000) -> dict[str, object]:
+    """The medians, with those of reactivex where it is installed.
+
+    Args:
+        largest: number of cells; there is no result for more of them.
+    """
     return {
-        "cell_ns": {"fanout": _each(_fanout), "chain": _each(_chain)},
-        "reactivex_ns": {"fanout": _each(_reactivex_fanout), "chain": _each(_reactivex_chain)},
+        "cell_ns": {"fanout": _each(_fanout, largest), "chain": _each(_chain, largest)},
+        "reactivex_ns": {"fanout": _each(_reactivex_fanout, largest), "chain": _each(_reactivex_chain, largest)},
         "block_move_1000_ms": round(_ns(_block(1000), 300) / 1e6, 3),
         "offset_chain_us": {str(length): round(_ns(_offset_chain(length), 3000) / 1e3, 2) for length in (1, 10)},
     }
@@ -53,9 +57,9 @@ def _ns(write: Write, runs: int) -> float:
     return median(times)
 
 
-def _each(build: Callable[[int], Write | None]) -> dict[str, float | None]:
+def _each(build: Callable[[int], Write | None], largest: int) -> dict[str, float | None]:
     """Time (ns) for each cell that follows a write, by the number of cells."""
-    return {str(size): _per_cell(build, size, runs) for size, runs in _RUNS.items()}
+    return {str(size): _per_cell(build, size, runs) if size <= largest else None for size, runs in _RUNS.items()}
 
 
 def _per_cell(build: Callable[[int], Write | None], size: int, runs: int) -> float | None:

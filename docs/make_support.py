@@ -139,8 +139,8 @@ and what the drafts wrote otherwise. Nothing is guessed: what has no place in th
 | `synchronize ref="..."` | one more `sync` in it |
 | `stroke_start`, `stroke_end` | `strokeStart`, `strokeEnd` |
 
-A `gaze` or `posture` persists where nothing says when it relaxes or ends. A reference to a behavior of another block
-wants `allowexternalrefs="true"`.
+A `gaze` or `posture` of which nothing says when it relaxes or ends is read as one that persists, and played like any
+other. A reference to a behavior of another block wants `allowexternalrefs="true"`.
 """
 
 

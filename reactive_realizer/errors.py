@@ -107,7 +107,9 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
         "rigid": ErrorKind("{point} cannot be where it is tied to, {gap:g} s away; that tie is dropped", _SCHEDULE),
         "cyclic-reference": ErrorKind("{reference} hangs on the block '{block}' itself", _SCHEDULE),
         "unknown-target-block": ErrorKind("{attribute}: there never was a block '{block}'", _SCHEDULE),
-        "started-already": ErrorKind("'{block}' has started; nothing can be put before it. Refused", _SCHEDULE),
+        "started-already": ErrorKind(
+            "'{block}' has started, and nothing comes before it; this one is refused", _SCHEDULE
+        ),
         "cyclic-composition": ErrorKind(
             "'{block}' is to come before '{other}' and waits for it too; it is refused", _SCHEDULE
         ),
@@ -130,6 +132,8 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
         "clash": ErrorKind(
             "{what} is dropped: it cannot be kept together with {others}, {gap:g} s are missing", _SCHEDULE
         ),
+        "never-holds": ErrorKind("{what} can never hold, {gap:g} s are missing; it is dropped", _SCHEDULE),
+        "constraint-lost": ErrorKind("{constraint} cannot be kept any more: {gap:g} s are missing", _SCHEDULE),
         "names-dropped": ErrorKind("{constraint} names '{behavior}', which is dropped", _SCHEDULE),
         "cut-tie": ErrorKind("{point} was interrupted; this behavior keeps the time predicted last", _SCHEDULE),
         "never-comes": ErrorKind("it hangs on {point}, which never comes; it is dropped", _SCHEDULE),

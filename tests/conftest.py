@@ -7,6 +7,9 @@ from pathlib import Path
 import pytest
 from hypothesis import settings
 
+# So that an assertion of a contract says what it compared.
+pytest.register_assert_rewrite("reactive_realizer.testing")
+
 # The same examples on every run and machine, however slow it is.
 settings.register_profile("same", derandomize=True, deadline=None, database=None)
 settings.load_profile("same")

@@ -4,6 +4,7 @@ import logging
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 
 from reactive_realizer.binding.xml_file import Element, attribute, bad, read_xml
@@ -39,7 +40,7 @@ class UnitSpec:
 
     def fits(self, behavior: str, namespace: str, attributes: Mapping[str, str]) -> bool:
         """Whether a behavior meets every constraint; words compare in any case, `_` like `-`."""
-        return (behavior, namespace) == (self.behavior, self.namespace) and all(
+        return behavior == self.behavior and namespace == self.namespace and all(
             name in attributes and _word(attributes[name]) == _word(value) for name, value in self.constraints.items()
         )
 
@@ -126,5 +127,6 @@ def _qualified(pair: Element, name: str) -> str:
     return f"{{{namespace}}}{name}" if namespace else name
 
 
+@lru_cache
 def _word(text: str) -> str:
     return text.strip().casefold().replace("_", "-")

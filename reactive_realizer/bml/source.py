@@ -101,12 +101,6 @@ class Source:
             raise RealizerError(self.fault(tree, "missing-attribute", attribute=missing[0]))
         return {each.field: self._read(tree, each, text) for each, text in texts if text is not None}
 
-    def _read(self, tree: Tree, attribute: Attribute, text: str) -> object:
-        try:
-            return attribute.type.read(text, self.limits)
-        except RealizerError as refused:
-            raise self.bad(tree, attribute.name, text, refused) from None
-
     def syncs(self, tree: Tree, names: Iterable[str]) -> Mapping[str, SyncRef]:
         """What the sync points of these names are tied to, in order of writing.
 
@@ -164,6 +158,12 @@ class Source:
         """One fault for all text directly inside an element where none is meant."""
         stray = stray_text_of(tree)
         return [self.fault(tree, "stray-text", text=shown(stray))] if stray else []
+
+    def _read(self, tree: Tree, attribute: Attribute, text: str) -> object:
+        try:
+            return attribute.type.read(text, self.limits)
+        except RealizerError as refused:
+            raise self.bad(tree, attribute.name, text, refused) from None
 
 
 def _text_of(tree: Tree, attribute: Attribute) -> str | None:

@@ -12,6 +12,8 @@ from reactive_realizer.limits import Limits
 
 SUITE: Final = files(__package__) / "cases"
 
+_UNPLAYED: Final = ("REVOKED", "FAILED")
+
 
 @dataclass(frozen=True, slots=True)
 class Send:
@@ -69,6 +71,10 @@ class Case:
     def blocks(self) -> tuple[BehaviorBlock, ...]:
         """All blocks that are to be accepted, in order."""
         return tuple(block for send in self.sends for block in send.blocks)
+
+    def starts(self, block: BehaviorBlock) -> bool:
+        """Whether a block is to be played at all."""
+        return self.ends.get(block.id) not in _UNPLAYED
 
 
 def read_suite() -> list[Case]:

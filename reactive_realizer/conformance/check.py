@@ -2,8 +2,12 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Final
 
 from reactive_realizer.testing.feedback_list import FeedbackList
+
+TOLERANCE: Final = 0.01
+"""s: a tick of 100 Hz, the coarsest that a realizer may look at its clock."""
 
 
 @dataclass(frozen=True, slots=True)

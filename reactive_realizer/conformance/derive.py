@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator
 from functools import partial
-from typing import Final
 
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.behaviors import Wait
@@ -11,7 +10,7 @@ from reactive_realizer.bml.constraint import OrderKind, Synchronize
 from reactive_realizer.bml.names import ANTICIPATORS, BML, BML_EXT
 from reactive_realizer.bml.sync_ref import SyncRef
 from reactive_realizer.conformance.case import Case
-from reactive_realizer.conformance.check import Check
+from reactive_realizer.conformance.check import TOLERANCE, Check
 from reactive_realizer.conformance.relations import relations
 from reactive_realizer.testing.assertions import (
     DONE,
@@ -25,11 +24,6 @@ from reactive_realizer.testing.assertions import (
     assert_told_once,
     assert_warnings,
 )
-
-TOLERANCE: Final = 0.01
-"""s: a tick of 100 Hz, the coarsest that a realizer may look at its clock."""
-
-_UNPLAYED: Final = ("REVOKED", "FAILED")
 
 
 def checks_of(case: Case) -> Iterator[Check]:
@@ -45,7 +39,7 @@ def checks_of(case: Case) -> Iterator[Check]:
 def _block(case: Case, block: BehaviorBlock) -> Iterator[Check]:
     status = case.ends.get(block.id, DONE)
     yield Check(f"{block.id} ends {status}", partial(assert_ended, block=block.id, status=status))
-    if status in _UNPLAYED:
+    if not case.starts(block):
         yield Check(f"{block.id} is never played", partial(assert_not_played, behavior=block.id))
         return
     yield Check(f"all of {block.id} is between its start and its end", partial(assert_block_around, block=block.id))

@@ -2,23 +2,20 @@
 
 from collections.abc import Iterable, Iterator
 from functools import partial
-from typing import Final
 
 from reactive_realizer.bml.block import BehaviorBlock
 from reactive_realizer.bml.continuous import Activate, Interrupt
 from reactive_realizer.bml.words import Composition
 from reactive_realizer.conformance.case import Case
-from reactive_realizer.conformance.check import Check
+from reactive_realizer.conformance.check import TOLERANCE, Check
 from reactive_realizer.testing.assertions import assert_linked, assert_order
-
-_TICK: Final = 0.01
 
 
 def relations(case: Case) -> Iterator[Check]:
     """The order of the blocks of a case, as far as they start."""
     earlier: list[BehaviorBlock] = []
     for block in case.blocks:
-        if case.ends.get(block.id) not in ("REVOKED", "FAILED"):
+        if case.starts(block):
             yield from _waits(case, block, earlier)
             yield from _acts(block)
         earlier.append(block)
@@ -68,8 +65,8 @@ def _subsiding(block: BehaviorBlock) -> Iterator[str]:
 
 
 def _order(earlier: str, later: str, text: str) -> Check:
-    return Check(text, partial(assert_order, earlier=earlier, later=later, tolerance=_TICK))
+    return Check(text, partial(assert_order, earlier=earlier, later=later, tolerance=TOLERANCE))
 
 
 def _together(point: str, other: str, text: str) -> Check:
-    return Check(text, partial(assert_linked, point=point, other=other, tolerance=_TICK))
+    return Check(text, partial(assert_linked, point=point, other=other, tolerance=TOLERANCE))

@@ -50,6 +50,8 @@ class Player:
 
     def play(self, now: GlobalTime) -> tuple[Reached, ...]:
         """Begin what is due, fire what is due, let go of what has ended."""
+        if not self._units:
+            return ()
         reached: list[Reached] = []
         for unit in self._in_turn(now):
             if not self._held(unit, now):
@@ -75,6 +77,8 @@ class Player:
 
     def take_dropped(self) -> tuple[Dropped, ...]:
         """The units that left since the last call."""
+        if not self._dropped:
+            return ()
         dropped, self._dropped = tuple(self._dropped), []
         self._units = [unit for unit in self._units if unit.live]
         return dropped
@@ -87,10 +91,13 @@ class Player:
         return [*self.playing, *starting]
 
     def _held(self, unit: PlanUnit, now: GlobalTime) -> bool:
-        """Whether others have what a unit needs to begin: it leaves, or begins without them next round."""
+        """Whether a unit that is due cannot begin: it leaves, or begins next round, without those in its way."""
         start = unit.points[0].peg.value
         if start is None or not unit.due(now):
             return False
+        if (fault := unit.refusal()) is not None:
+            self._drop(unit, fault, now)
+            return True
         owners = [other for other in self.playing if other.resources & unit.resources]
         staying = [owner for owner in owners if not owner.subsiding(start)]
         if staying:

@@ -40,9 +40,10 @@ class PegBoard:
 
     def add(self, key: PegKey, peg: TimeCell) -> None:
         """Name a peg; one peg may bear several names."""
+        block = key.block_key
         self._pegs[key] = peg
-        self._blocks.setdefault(key.block_key, []).append(key)
-        self._owners.setdefault(peg, key.block_key)
+        self._blocks.setdefault(block, []).append(key)
+        self._owners.setdefault(peg, block)
 
     def replace(self, key: PegKey, peg: TimePeg) -> None:
         """Within a transaction, give a name to another peg; what hung on the old one hangs on the new one."""

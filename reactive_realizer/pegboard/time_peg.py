@@ -6,7 +6,7 @@ block is an `OffsetPeg` on the `BMLBlockPeg`: moved with the block, read back as
 
 import weakref
 from abc import abstractmethod
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import ClassVar, NamedTuple
 
 from reactive_realizer.clock.units import GlobalTime
@@ -141,62 +141,72 @@ class RatioPeg(TimePeg):
         return f"{self.ratio:.3g} of the way {before.name} .. {after.name}"
 
 
-class AfterPeg(TimePeg):
-    """Where another peg is, but not before any of its bounds, each a peg and a distance (s): a live `after`.
+class BoundedPeg(TimePeg):
+    """Where another peg is by nature, as far as its bounds let it, each of which is a peg and a distance (s)."""
+
+    __slots__ = ("bounds",)
+
+    def __init__(
+        self,
+        graph: Graph,
+        name: str,
+        natural: TimeCell,
+        bounds: Sequence[Bound],
+        formula: Callable[[tuple[float, ...]], Callable[..., Time]],
+    ) -> None:
+        self.bounds = tuple(distance for _, distance in bounds)
+        super().__init__(graph, name, (natural, *(cell for cell, _ in bounds)), formula(self.bounds))
+
+    @property
+    def parameters(self) -> Mapping[str, object]:
+        """``bounds``, the distance (s) from each peg after the first."""
+        return {"bounds": list(self.bounds)}
+
+    @property
+    def deciding(self) -> tuple[Link, ...]:
+        """The natural peg, or the bound that holds it elsewhere."""
+        return _reached(self, (0.0, *self.bounds))
+
+    def _bounded(self, side: str) -> str:
+        natural, *others = self.links
+        bounds = ", ".join(f"{link.name} {distance:+g} s" for link, distance in zip(others, self.bounds, strict=True))
+        return f"{natural.name}, not {side} {bounds}"
+
+
+class AfterPeg(BoundedPeg):
+    """Where another peg is, but not before any of its bounds: a live `after`.
 
     A bound that is unknown is waited for. Whoever moves a bound pushes this peg (thesis 7.4.1).
     """
 
-    __slots__ = ("bounds",)
+    __slots__ = ()
 
     kind = "after"
 
     def __init__(self, graph: Graph, name: str, natural: TimeCell, bounds: Sequence[Bound]) -> None:
-        self.bounds = tuple(distance for _, distance in bounds)
-        super().__init__(graph, name, (natural, *(cell for cell, _ in bounds)), not_before(self.bounds))
-
-    @property
-    def parameters(self) -> Mapping[str, object]:
-        """``bounds``, the distance (s) from each peg after the first."""
-        return {"bounds": list(self.bounds)}
-
-    @property
-    def deciding(self) -> tuple[Link, ...]:
-        """The natural peg, or the bound that holds it later."""
-        return _reached(self, (0.0, *self.bounds))
+        super().__init__(graph, name, natural, bounds, not_before)
 
     def describe(self) -> str:
         """``natural, not before ...``."""
-        return _bounded(self, "before")
+        return self._bounded("before")
 
 
-class BeforePeg(TimePeg):
-    """Where another peg is, but not after any of its bounds, each a peg and a distance (s): a live `before`.
+class BeforePeg(BoundedPeg):
+    """Where another peg is, but not after any of its bounds: a live `before`.
 
     A bound that is unknown binds nothing.
     """
 
-    __slots__ = ("bounds",)
+    __slots__ = ()
 
     kind = "before"
 
     def __init__(self, graph: Graph, name: str, natural: TimeCell, bounds: Sequence[Bound]) -> None:
-        self.bounds = tuple(distance for _, distance in bounds)
-        super().__init__(graph, name, (natural, *(cell for cell, _ in bounds)), not_after(self.bounds))
-
-    @property
-    def parameters(self) -> Mapping[str, object]:
-        """``bounds``, the distance (s) from each peg after the first."""
-        return {"bounds": list(self.bounds)}
-
-    @property
-    def deciding(self) -> tuple[Link, ...]:
-        """The natural peg, or the bound that holds it earlier."""
-        return _reached(self, (0.0, *self.bounds))
+        super().__init__(graph, name, natural, bounds, not_after)
 
     def describe(self) -> str:
         """``natural, not after ...``."""
-        return _bounded(self, "after")
+        return self._bounded("after")
 
 
 class LatestPeg(TimePeg):
@@ -264,44 +274,6 @@ def state_of(peg: TimeCell) -> str:
     return "pinned" if isinstance(peg, TimePeg) and peg.pinned else "moving"
 
 
-def followers_of(peg: TimeCell) -> set[TimeCell]:
-    """The pegs that move with a peg; starts and ends of blocks, and what hangs on those alone, are not among them."""
-    followers: set[TimeCell] = set()
-    waiting = [peg]
-    while waiting:
-        for cell in waiting.pop().dependents:
-            if cell not in followers and not isinstance(cell, LatestPeg):
-                followers.add(cell)
-                waiting.append(cell)
-    return followers
-
-
-def hangs_on(peg: TimeCell, other: TimeCell) -> bool:
-    """Whether a peg moves with another one."""
-    seen = {peg}
-    waiting = [peg]
-    while waiting:
-        cell = waiting.pop()
-        if cell is other:
-            return True
-        new = [each for each in cell.dependencies if each not in seen and each.rank >= other.rank]
-        seen.update(new)
-        waiting += new
-    return False
-
-
-def unknown_sources(pegs: Iterable[TimeCell]) -> list[str]:
-    """Names of the unknown points, outside of any formula, that some pegs hang on."""
-    seen: dict[TimeCell, None] = dict.fromkeys(pegs)
-    waiting = list(seen)
-    while waiting:
-        for cell in waiting.pop().dependencies:
-            if cell not in seen:
-                seen[cell] = None
-                waiting.append(cell)
-    return [cell.name for cell in seen if cell.value is None and not cell.dependencies]
-
-
 def _link(peg: TimeCell) -> Link:
     return Link(peg.name, kind_of(peg), time_of(peg), peg.stamp, weakref.ref(peg))
 
@@ -313,9 +285,3 @@ def _reached(peg: TimePeg, distances: Sequence[float]) -> tuple[Link, ...]:
         return tuple(link for link in peg.links if link.time is None)
     pairs = zip(peg.links, distances, strict=True)
     return tuple(link for link, distance in pairs if link.time is not None and link.time + distance == time)[:1]
-
-
-def _bounded(peg: AfterPeg | BeforePeg, side: str) -> str:
-    natural, *others = peg.links
-    bounds = ", ".join(f"{link.name} {distance:+g} s" for link, distance in zip(others, peg.bounds, strict=True))
-    return f"{natural.name}, not {side} {bounds}"

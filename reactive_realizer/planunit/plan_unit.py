@@ -8,6 +8,7 @@ from enum import Enum
 
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.clock.units import RESOLUTION, GlobalTime, is_due
+from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.peg_key import BlockKey, PegKey
 from reactive_realizer.pegboard.time_peg import Time, TimePeg
 from reactive_realizer.planunit.parameter import Parameter
@@ -37,12 +38,14 @@ class SyncPoint:
         peg: when; shared with the sync points it is tied to.
         tied: whether BML says when; else it is where its behavior would like it.
         fired: the time it was reported with, None before.
+        cut: whether it was reported because its behavior was cut short.
     """
 
     id: str
     peg: TimePeg
     tied: bool = False
     fired: Time = None
+    cut: bool = False
 
     @property
     def time(self) -> Time:
@@ -116,8 +119,24 @@ class PlanUnit:
         return self.state not in (UnitState.DONE, UnitState.DROPPED)
 
     def time(self, sync: str) -> Time:
-        """When one of its points was, or is predicted to be."""
-        return self.point(sync).time
+        """When one of its points was, or is predicted to be.
+
+        Raises:
+            KeyError: it has no such point.
+        """
+        return self.times()[sync]
+
+    def times(self) -> dict[str, Time]:
+        """When each of its points was, or is predicted to be; once it plays, none comes after its successor."""
+        times: dict[str, Time] = {}
+        following: Time = None
+        for point in reversed(self.points):
+            time = point.time
+            if self.begun and point.fired is None and time is not None and following is not None:
+                time = min(time, following)
+            times[point.id] = time
+            following = following if time is None else time
+        return dict(reversed(times.items()))
 
     def point(self, sync: str) -> SyncPoint:
         """One of its points.
@@ -129,6 +148,11 @@ class PlanUnit:
             if point.id == sync:
                 return point
         raise KeyError(sync)
+
+    def was_cut(self, sync: str) -> bool:
+        """Whether one of the points that it once had was never reached, or not as planned: it was cut short before."""
+        point = next((point for point in self.points if point.id == sync), None)
+        return point is None or point.cut
 
     def ahead(self) -> list[SyncPoint]:
         """The points not yet fired."""
@@ -148,10 +172,17 @@ class PlanUnit:
         times = [time for point in self.points if (time := point.time) is not None]
         return all(a <= b + RESOLUTION for a, b in itertools.pairwise(times))
 
-    def takes_time(self) -> bool:
-        """Whether time is left between its start and its end, as far as they are known (thesis 7.14)."""
+    def refusal(self) -> Fault | None:
+        """Why it cannot begin with the times that its points have now (thesis 7.14, 7.15), if it cannot.
+
+        Times from outside may lose their order for a while; that is judged when it is to begin.
+        """
         start, end = self.points[0].peg.value, self.points[-1].peg.value
-        return self.timing.instant or start is None or end is None or end - start >= SHORTEST
+        if not self.in_order():
+            return Fault("overtaken")
+        if start is None or end is None or self.timing.instant or end - start >= SHORTEST:
+            return None
+        return Fault("too-short")
 
     def over_before(self, time: GlobalTime) -> bool:
         """Whether even its end has passed when its block starts."""
@@ -182,7 +213,7 @@ class PlanUnit:
         self.points = [p for p in self.points if p.fired is not None or p.id in ("relax", "end")]
         kept = self.ahead()
         for point in kept:
-            point.fired = time
+            point.fired, point.cut = time, True
         self._finish(time)
         return kept
 

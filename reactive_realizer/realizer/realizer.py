@@ -29,6 +29,8 @@ from reactive_realizer.realizer.verifier import Verifier
 from reactive_realizer.realizer.workshop import TaskWorkshop
 from reactive_realizer.scheduler.bml_scheduler import BMLScheduler
 from reactive_realizer.scheduler.cast import Cast
+from reactive_realizer.scheduler.constraint_watch import ConstraintWatch
+from reactive_realizer.scheduler.reporter import Reporter
 from reactive_realizer.scheduler.strategy import SchedulingStrategy
 
 logger = logging.getLogger(__name__)
@@ -97,6 +99,7 @@ class Realizer:
         self.scheduler = BMLScheduler(
             self.board, self._cast, self.feedback, self._workshop, self._strategy, self.limits
         )
+        self._watch = ConstraintWatch(self.board, self.scheduler.blocks, Reporter(self.feedback, self.scheduler.blocks))
         self._verifier = Verifier(self.board, self.scheduler.blocks, self.feedback) if self._verify else None
         return self
 
@@ -152,6 +155,7 @@ class Realizer:
         if watched.frame:
             self._publish_frames(tick.time, plays)
         self.scheduler.publish(tick.time)
+        self._watch.check(self._commits, tick.time)
         if self._verifier is not None:
             self._verifier.check(self._commits, tick.time)
         self.feedback.flush(tick.time)

@@ -15,6 +15,7 @@ from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.scheduler.cast import Cast
 from reactive_realizer.scheduler.constraints import blocks_named
+from reactive_realizer.scheduler.losses import lost_behavior
 from reactive_realizer.scheduler.planning import Plan, Planning, Task
 from reactive_realizer.scheduler.preparation import Preparation
 from reactive_realizer.scheduler.problem import Loss
@@ -26,6 +27,9 @@ logger = logging.getLogger(__name__)
 
 _MOST_AT_ONCE = 50
 """Behaviors of a block that are still solved on the loop."""
+
+_MOST_OFTEN = 3
+"""Solutions of one block. Where times move all the while it is committed nevertheless: its pegs follow them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,6 +53,7 @@ class _Solving:
 
     Attributes:
         plan: None as long as it is.
+        times: how often it has been solved.
     """
 
     engines: Mapping[PlanUnit, Engine]
@@ -56,6 +61,7 @@ class _Solving:
     task: Task
     plan: Plan | None = None
     failure: Exception | None = None
+    times: int = 0
     cancel: Callable[[], None] = lambda: None
 
 
@@ -134,6 +140,7 @@ class BlockPlanner:
 
     def _solve(self, block: BMLBlock, solving: _Solving) -> None:
         """Solve at once, or off the loop if that would hold it up."""
+        solving.times += 1
         if len(solving.task.units) <= _MOST_AT_ONCE:
             solving.plan = self._planning.solve(solving.task)
             return
@@ -154,7 +161,8 @@ class BlockPlanner:
             raise solving.failure
         if solving.plan is None:
             return None
-        if self._planning.is_stale(block, solving.task, now):
+        stale = solving.times < _MOST_OFTEN and self._planning.is_stale(solving.task)
+        if stale or self._planning.is_cyclic(block, solving.task):
             timings = {unit: unit.timing for unit in solving.engines}
             solving.task = self._planning.pose(block, timings, now)
             self._solve(block, solving)
@@ -179,19 +187,14 @@ def _units(block: BMLBlock, preparation: Preparation) -> tuple[dict[PlanUnit, En
         try:
             units[engine.plan(block.key, behavior, preparation.result(behavior.id))] = engine
         except RealizerError as problem:
-            losses.append(_loss(behavior, problem.fault))
+            losses.append(lost_behavior(behavior, problem.fault))
         except Exception as failure:
             logger.exception("%s/%s:%s could not be made", *block.key, behavior.id)
-            losses.append(_loss(behavior, Fault("work-failed", {"reason": failure})))
+            losses.append(lost_behavior(behavior, Fault("work-failed", {"reason": failure})))
     return units, losses
 
 
 def _unsupported(behavior: Behavior) -> Loss:
     core = behavior.namespace in (BML, BML_EXT)
     details = {"element": behavior.name, "namespace": behavior.namespace}
-    return _loss(behavior, Fault("not-supported" if core else "foreign-not-supported", details))
-
-
-def _loss(behavior: Behavior, fault: Fault) -> Loss:
-    located = fault.located(behavior.location.line, behavior.location.column)
-    return Loss(behavior.id, located, dropped=True, required=behavior.required)
+    return lost_behavior(behavior, Fault("not-supported" if core else "foreign-not-supported", details))

@@ -1,6 +1,6 @@
 """A block of the stream, from its arrival to its end (thesis 7.3.4)."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
 
@@ -78,9 +78,11 @@ class BMLBlock:
         relax: when it subsides: the latest relax of its behaviors, or end of those that have none.
         end: the latest end of its behaviors.
         waits: for other blocks.
+        holds: pegs that its constraints say it does not start before.
         units: its behaviors that are planned and not dropped, in document order.
         cancelled: ids of behaviors that were interrupted before the block started.
         kept: the constraints of its plan.
+        settled: those of them that nothing is expected of any more: said to be missed, or met and past.
     """
 
     def __init__(
@@ -96,11 +98,13 @@ class BMLBlock:
         self.description = description
         self.arrival = arrival
         self.waits = tuple(waits)
+        self.holds: tuple[TimeCell, ...] = ()
         self.noticed: Time = None
         self.state = BlockState.IN_PREP
         self.units: list[PlanUnit] = []
         self.cancelled: set[str] = set()
         self.kept: tuple[Tie | Order, ...] = ()
+        self.settled: set[Tie | Order] = set()
         name = key.block
         self.activation = AnticipatorPeg(board.graph, f"{name}:activation", None) if description.preplan else None
         self.start = BMLBlockPeg(board.graph, f"{name}:start", arrived, self._awaited())
@@ -109,8 +113,11 @@ class BMLBlock:
         for sync, peg in (("start", self.start), ("relax", self.relax), ("end", self.end)):
             board.add(PegKey(*key, None, sync), peg)
 
-    def planned(self, now: GlobalTime, units: Sequence[PlanUnit], kept: Sequence[Tie | Order]) -> None:
+    def planned(
+        self, now: GlobalTime, units: Sequence[PlanUnit], kept: Sequence[Tie | Order], holds: Sequence[TimeCell]
+    ) -> None:
         """Within a transaction: the block is ready to start, now or when what it waits for is over."""
+        self.holds = tuple(holds)
         self.replanned(now, units, kept)
         self.start.wait_for(now, self._awaited())
         self.state = BlockState.PENDING if self.asleep else BlockState.LURKING
@@ -119,6 +126,11 @@ class BMLBlock:
         """Within a transaction: it has other behaviors or other pegs; it ends not before ``floor``."""
         self.units, self.kept = list(units), tuple(kept)
         self.end_again(floor)
+
+    def follow(self, replaced: Mapping[TimeCell, TimeCell]) -> None:
+        """Others have new pegs for points that its constraints name."""
+        self.kept = tuple(each.renamed(replaced) for each in self.kept)
+        self.settled = {each.renamed(replaced) for each in self.settled}
 
     @property
     def asleep(self) -> bool:
@@ -179,7 +191,8 @@ class BMLBlock:
         return Place(time, time if start is None else min(start, time), self.arrival, behavior, sync)
 
     def _awaited(self) -> tuple[TimeCell, ...]:
-        return (*([self.activation] if self.activation is not None else ()), *(wait.peg for wait in self.waits))
+        activation = [self.activation] if self.activation is not None else []
+        return (*activation, *(wait.peg for wait in self.waits), *self.holds)
 
 
 def _subsiding(unit: PlanUnit) -> SyncPoint:

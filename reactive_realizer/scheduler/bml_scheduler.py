@@ -1,11 +1,10 @@
 """The life of blocks: accepted, prepared, planned, started, ended, interrupted (thesis 7.3.4)."""
 
-import logging
 from collections.abc import Callable, Iterable, Sequence
 
 from reactive_realizer.bml.block import BehaviorBlock, Parsed
 from reactive_realizer.bml.procedure import DefineProc
-from reactive_realizer.clock.units import GlobalTime, is_due
+from reactive_realizer.clock.units import RESOLUTION, GlobalTime, is_due
 from reactive_realizer.engine.effects import Play
 from reactive_realizer.errors import Fault, RealizerError, error
 from reactive_realizer.feedback.feedback_manager import FeedbackManager
@@ -29,8 +28,6 @@ from reactive_realizer.scheduler.requests import Requests
 from reactive_realizer.scheduler.standstill import awaited_by, can_move
 from reactive_realizer.scheduler.strategy import SchedulingStrategy
 from reactive_realizer.scheduler.workshop import Workshop
-
-logger = logging.getLogger(__name__)
 
 
 class BMLScheduler:
@@ -108,11 +105,6 @@ class BMLScheduler:
         alive = (block.key for block in self.blocks.alive)
         return Admission(self._cast.characters, self._limits.blocks_alive, alive)
 
-    def interrupt_all(self, character: str, now: GlobalTime) -> None:
-        """End every block of a character now; the later ones first, because they may hang on the earlier ones."""
-        for block in reversed(self.blocks.of(character)):
-            self._requests.interrupt(block, now)
-
     # --- what time brings
 
     def advance(self, now: GlobalTime) -> bool:
@@ -138,23 +130,18 @@ class BMLScheduler:
         return asked or any(play.dropped or play.reached for play in plays)
 
     def clamp(self, previous: GlobalTime, now: GlobalTime, commits: Iterable[Commit]) -> None:
-        """Points ahead that were written into the past happen now; behaviors that lost their order are dropped."""
+        """Points ahead, of blocks that play, that were written into the past happen now."""
         moved = {change.cell for commit in commits for change in commit.changes}
         if not moved:
             return
         owners = {self._board.owner(cell) for cell in moved}
-        blocks = [block for block in self.blocks.alive if block.key in owners]
+        blocks = [block for block in self.blocks.alive if block.state.plays and block.key in owners]
         units = [u for block in blocks for u in block.live_units if any(p.peg in moved for p in u.points)]
         with self._board.graph.transaction("no later than now"):
             for point in (point for unit in units for point in unit.ahead()):
                 time = point.peg.value
                 if point.peg in moved and time is not None and time < previous:
                     point.peg.pin(now)
-        for unit in [unit for unit in units if not unit.begun]:
-            if not unit.in_order():
-                self._endings.drop_unit(unit, Fault("overtaken"), now)
-            elif not unit.takes_time():
-                self._endings.drop_unit(unit, Fault("too-short"), now)
 
     def fail_restless(self, rounds: int, now: GlobalTime) -> None:
         """Fail the blocks that keep a tick from coming to rest: those that started in it and still play."""
@@ -249,7 +236,7 @@ class BMLScheduler:
         time = block.start.value or GlobalTime(0.0)
         with self._board.graph.transaction(f"start {block.key.block}"):
             block.start.pin(time)
-            if any(wait.chunk for wait in block.waits):
+            if _wants_renewal(block, time):
                 self._planner.renew(block, now)
         block.state = BlockState.IN_EXEC
         block.noticed = now
@@ -270,3 +257,14 @@ class BMLScheduler:
 
     def _note(self, commit: Commit) -> None:
         self._moved.update(self._board.owner(change.cell) for change in commit.changes)
+
+
+def _wants_renewal(block: BMLBlock, start: GlobalTime) -> bool:
+    """Whether a block had better be planned anew when it starts.
+
+    It is a chunk, whose preparations depend on where the hands are; or something of it has come to lie before its
+    start, because times from outside are no more what they were when it was planned.
+    """
+    times = (point.peg.value for unit in block.units for point in unit.points)
+    early = any(time is not None and time < start - RESOLUTION for time in times)
+    return early or any(wait.chunk for wait in block.waits)

@@ -24,11 +24,15 @@ class Cluster:
         return any(not isinstance(node, Point) or node not in plan.times for tie in self.ties for node in tie.nodes)
 
     def joins_late(self, plan: PlanView) -> bool:
-        """Whether something of it is tied to the outside, at a time before the start of its block."""
-        tied = [
-            plan.time(node) for tie in self.ties if not plan.outer.keys().isdisjoint(tie.nodes) for node in tie.nodes
-        ]
-        return plan.start is not None and any(time is not None and time < plan.start for time in tied)
+        """Whether the outside brings it before the start of its block: as long as nothing of it has begun, or for good.
+
+        What has lost whom it was tied to stays where it was too.
+        """
+        tied = [tie for tie in self.ties if not plan.outer.keys().isdisjoint(tie.nodes)]
+        times = [time for tie in tied for node in tie.nodes if (time := plan.time(node)) is not None]
+        lost = any(isinstance(node, Point) and node not in plan.times for tie in self.ties for node in tie.nodes)
+        passed = plan.start is not None and any(time < plan.start for time in times)
+        return lost or passed or (bool(tied) and self.behaviors <= plan.lurking)
 
 
 def clusters_of(plan: PlanView, behaviors: Collection[str]) -> list[Cluster]:

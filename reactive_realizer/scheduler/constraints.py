@@ -1,16 +1,22 @@
 """From what a block says about time to ties between points (thesis 7.1.1)."""
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from typing import TypeVar
 
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.block import BehaviorBlock
-from reactive_realizer.bml.constraint import Constraint, OrderKind, Synchronize
 from reactive_realizer.bml.constraint import Order as OrderConstraint
+from reactive_realizer.bml.constraint import OrderKind, Synchronize
 from reactive_realizer.bml.continuous import ParameterValueChange
 from reactive_realizer.bml.sync_ref import SyncRef
-from reactive_realizer.errors import Fault, RealizerError, error
+from reactive_realizer.errors import RealizerError, error
+from reactive_realizer.pegboard.time_peg import Bound
 from reactive_realizer.planunit.plan_unit import PlanUnit
-from reactive_realizer.scheduler.problem import Loss, Node, Order, Point, Tie
+from reactive_realizer.scheduler.losses import lost_behavior
+from reactive_realizer.scheduler.problem import Loss, Node, Order, Origin, Point, Tie
+
+C = TypeVar("C", Synchronize, OrderConstraint)
+T = TypeVar("T", Tie, Order)
 
 Locate = Callable[[SyncRef], Node]
 """The point that a reference names, without its offset.
@@ -53,29 +59,28 @@ def drop_unplaceable(units: dict[str, PlanUnit], locate: Locate) -> list[Loss]:
 def ties_of(block: BehaviorBlock, units: Mapping[str, PlanUnit], locate: Locate) -> tuple[list[Tie], list[Loss]]:
     """All `at` constraints between what is left of a block, and those constraints that name what is not there."""
     ties = [tie for unit in units.values() for tie in _own_ties(unit.behavior, locate)]
-    losses: list[Loss] = []
-    for constraint in block.constraints:
-        if isinstance(constraint, Synchronize):
-            try:
-                ties += _synchronized(constraint, locate)
-            except RealizerError as problem:
-                fault = _located(problem.fault, constraint)
-                losses.append(Loss(None, fault, dropped=False, required=constraint.required))
-    return ties, losses
+    written = [each for each in block.constraints if isinstance(each, Synchronize)]
+    others, losses = _read(written, _synchronized, locate)
+    return ties + others, losses
 
 
 def orders_of(block: BehaviorBlock, locate: Locate) -> tuple[list[Order], list[Loss]]:
     """All before/after constraints between what is left of a block, and those that name what is not there."""
-    orders: list[Order] = []
-    losses: list[Loss] = []
-    for constraint in block.constraints:
-        if isinstance(constraint, OrderConstraint):
-            try:
-                orders += _ordered(constraint, locate)
-            except RealizerError as problem:
-                fault = _located(problem.fault, constraint)
-                losses.append(Loss(None, fault, dropped=False, required=constraint.required))
-    return orders, losses
+    return _read([each for each in block.constraints if isinstance(each, OrderConstraint)], _ordered, locate)
+
+
+def holding(constraint: Tie | Order) -> Bound | None:
+    """What the start of the block is not before by a constraint, if it has to wait for it (thesis, example 34)."""
+    match constraint:
+        case Order(later=Origin.BLOCK_START, earlier=node, offset=distance):
+            pass
+        case Tie(left=Origin.BLOCK_START, right=node, offset=distance):
+            pass
+        case Tie(left=node, right=Origin.BLOCK_START, offset=offset):
+            distance = -offset
+        case _:
+            return None
+    return None if isinstance(node, Point | Origin) else (node, distance)
 
 
 def _unplaceable(units: Mapping[str, PlanUnit], locate: Locate) -> Iterator[Loss]:
@@ -86,8 +91,7 @@ def _unplaceable(units: Mapping[str, PlanUnit], locate: Locate) -> Iterator[Loss
                 locate(ref)
                 _own_point(unit, sync, ref)
             except RealizerError as problem:
-                fault = _located(problem.fault, behavior)
-                yield Loss(behavior.id, fault, dropped=True, required=behavior.required)
+                yield lost_behavior(behavior, problem.fault)
 
 
 def _own_point(unit: PlanUnit, sync: str, ref: SyncRef) -> None:
@@ -104,6 +108,18 @@ def _own_ties(behavior: Behavior, locate: Locate) -> list[Tie]:
         )
         for sync, ref in behavior.syncs.items()
     ]  # fmt: skip
+
+
+def _read(constraints: Iterable[C], read: Callable[[C, Locate], list[T]], locate: Locate) -> tuple[list[T], list[Loss]]:
+    found: list[T] = []
+    losses: list[Loss] = []
+    for constraint in constraints:
+        try:
+            found += read(constraint, locate)
+        except RealizerError as problem:
+            fault = problem.fault.located(constraint.location.line, constraint.location.column)
+            losses.append(Loss(None, fault, dropped=False, required=constraint.required))
+    return found, losses
 
 
 def _synchronized(constraint: Synchronize, locate: Locate) -> list[Tie]:
@@ -133,7 +149,3 @@ def _ordered(constraint: OrderConstraint, locate: Locate) -> list[Order]:
         order = Order(locate(late), locate(early), distance, name, constraint.location, text, constraint.required)
         orders.append(order)
     return orders
-
-
-def _located(fault: Fault, element: Behavior | Constraint) -> Fault:
-    return fault.located(element.location.line, element.location.column)

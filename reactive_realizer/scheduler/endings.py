@@ -6,10 +6,11 @@ from collections.abc import Callable, Collection, Sequence
 from reactive_realizer.clock.units import GlobalTime, is_due
 from reactive_realizer.engine.effects import Dropped, Reached
 from reactive_realizer.errors import Fault
+from reactive_realizer.pegboard.following import followers_of
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.pegboard.time_peg import TimePeg, followers_of
-from reactive_realizer.planunit.plan_unit import PlanUnit
+from reactive_realizer.pegboard.time_peg import TimePeg
+from reactive_realizer.planunit.plan_unit import PlanUnit, UnitState
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BlockState, BMLBlock
 from reactive_realizer.scheduler.cast import Cast
@@ -137,6 +138,7 @@ class Endings:
         """Some behaviors of a playing block end now; the block too if nothing is left of it."""
         ahead = [point.peg for unit in units for point in unit.ahead() if not is_due(point.peg.value, time)]
         cut = [self._units.cut(unit, time, at_end=unit in self._cuts) for unit in units]
+        block.units = [unit for unit in block.units if unit.state is not UnitState.DROPPED]
         if not block.live_units and any(cut):
             self.end(block, BlockState.INTERRUPTED, time)
         elif not block.live_units:

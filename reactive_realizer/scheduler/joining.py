@@ -1,10 +1,11 @@
 """How a block joins the others: after them, in front of them, or in their place (thesis 6.6.8; BMLA)."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
 from reactive_realizer.bml.block import BehaviorBlock
 from reactive_realizer.bml.words import Composition
 from reactive_realizer.errors import Fault
+from reactive_realizer.pegboard.following import hangs_on
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock, Wait
 
@@ -49,12 +50,12 @@ class Joining:
 
         The other one has started, or the new one would wait for it in turn.
         """
-        waiting = [wait.target for wait in self.waits()]
+        waits = self.waits()
         ended = self.ended_by_it()
         for block in (each for each in (*self._before, *self._before_chunks) if each not in ended):
             if block.state.plays:
                 return Fault("started-already", {"block": block.key.block})
-            if any(block is other for other in _all_awaited(waiting)):
+            if any(hangs_on(wait.peg, block.start) for wait in waits):
                 return Fault("cyclic-composition", {"block": self._description.id, "other": block.key.block})
         return None
 
@@ -73,15 +74,3 @@ class Joining:
                 fault = Fault("unknown-target-block", {"attribute": attribute, "block": name})
                 self.unknown.append(fault.located(place.line, place.column))
         return [block for block in found.values() if block is not None]
-
-
-def _all_awaited(blocks: Sequence[BMLBlock]) -> Iterator[BMLBlock]:
-    """Some blocks, and all that they wait for."""
-    seen = dict.fromkeys(blocks)
-    waiting = list(seen)
-    while waiting:
-        block = waiting.pop()
-        yield block
-        new = [wait.target for wait in block.waits if wait.target not in seen]
-        seen |= dict.fromkeys(new)
-        waiting += new

@@ -5,9 +5,10 @@ from collections.abc import Mapping, Sequence
 from reactive_realizer.bml.names import ANTICIPATORS
 from reactive_realizer.bml.sync_ref import SyncRef
 from reactive_realizer.errors import error
+from reactive_realizer.pegboard.following import hangs_on
 from reactive_realizer.pegboard.peg_key import PegKey
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.pegboard.time_peg import TimeCell, hangs_on
+from reactive_realizer.pegboard.time_peg import TimeCell
 from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock

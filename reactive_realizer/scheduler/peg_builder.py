@@ -7,7 +7,7 @@ from reactive_realizer.pegboard.time_peg import AfterPeg, BeforePeg, Bound, Offs
 from reactive_realizer.reactive.cell import Cell
 from reactive_realizer.reactive.graph import Graph
 from reactive_realizer.scheduler.bml_block import BMLBlock
-from reactive_realizer.scheduler.problem import AtBlock, AtLeast, AtMost, AtOffset, AtRatio, PegSpec
+from reactive_realizer.scheduler.problem import AtBlock, AtLeast, AtMost, AtOffset, AtRatio, PegSpec, links_of
 
 
 class PegBuilder:
@@ -31,9 +31,9 @@ class PegBuilder:
 
     def _peg(self, spec: PegSpec) -> TimePeg:
         """A peg, after those that it hangs on; these may be a long chain, too deep for recursion."""
-        waiting = [spec]
+        waiting = [] if spec in self._built else [spec]
         while waiting:
-            missing = [link for link in _links(waiting[-1]) if not isinstance(link, Cell) and link not in self._built]
+            missing = [link for link in links_of(waiting[-1]) if not isinstance(link, Cell) and link not in self._built]
             if missing:
                 waiting += missing
             else:
@@ -63,19 +63,6 @@ class PegBuilder:
 
     def _bounds(self, bounds: Sequence[tuple[PegSpec | TimeCell, float]]) -> list[Bound]:
         return [(self._cell(link), distance) for link, distance in bounds]
-
-
-def _links(spec: PegSpec) -> list[PegSpec | TimeCell]:
-    """What a peg hangs on."""
-    match spec:
-        case AtBlock():
-            return []
-        case AtOffset(link, _):
-            return [link]
-        case AtRatio(before, after, _):
-            return [before, after]
-        case AtLeast(natural, bounds) | AtMost(natural, bounds):
-            return [natural, *(link for link, _ in bounds)]
 
 
 def _naturals(spec: PegSpec) -> Iterator[PegSpec]:

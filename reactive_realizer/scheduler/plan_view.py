@@ -20,12 +20,15 @@ class PlanView:
         timings: what each behavior prefers, by id.
         times: of the points that are still to come or have come, None while unknown; cut ones are not among them.
         past: the points that keep their times whatever happens: fired, or pinned.
-        kept: the constraints that are to hold.
+        kept: the constraints of the plan.
         outer: times of the pegs that these name outside of the block.
         start: of the block, None while unknown.
         earliest: at which what has not begun could begin.
         end: of the block; None where that is not known.
         end_floor: before which the block does not end whatever its behaviors do.
+        settled: the constraints that nothing is expected of any more.
+        lurking: ids of behaviors on the board that have not begun; they are judged when they do, and until then times
+            from outside may bring them out of order, or before their block.
     """
 
     timings: Mapping[str, Timing]
@@ -37,6 +40,8 @@ class PlanView:
     earliest: float | None
     end: float | None = None
     end_floor: float = 0.0
+    settled: frozenset[Tie | Order] = frozenset()
+    lurking: frozenset[str] = frozenset()
 
     @classmethod
     def of_solution(cls, problem: Problem, solution: Solution) -> Self:
@@ -56,15 +61,22 @@ class PlanView:
         start = block.start.value
         return cls(
             timings={unit.behavior.id: unit.timing for unit in block.units},
-            times={key: p.peg.value if p.fired is None else p.fired for key, p in points.items()},
+            times={Point(u.behavior.id, sync): time for u in block.units for sync, time in u.times().items()},
             past=frozenset(key for key, p in points.items() if p.fired is not None or p.peg.pinned),
             kept=block.kept,
+            settled=frozenset(block.settled),
+            lurking=frozenset(unit.behavior.id for unit in block.units if not unit.begun),
             outer={n: n.value for each in block.kept for n in each.nodes if not isinstance(n, Point | Origin)},
             start=start,
             earliest=None if start is None else max(start, now),
             end=block.end.value,
             end_floor=block.end.floor,
         )
+
+    @property
+    def expected(self) -> list[Tie | Order]:
+        """The constraints that are to hold."""
+        return [each for each in self.kept if each not in self.settled]
 
     def time(self, node: Node) -> float | None:
         """When something is; None while it is unknown, or if it is not there (any more)."""

@@ -1,21 +1,18 @@
 """From a prepared block to a plan on the board: solved aside, committed in one transaction or not at all."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from reactive_realizer.clock.units import RESOLUTION, GlobalTime
+from reactive_realizer.pegboard.following import hangs_on
 from reactive_realizer.pegboard.peg_key import PegKey
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.pegboard.time_peg import (
-    Time,
-    TimeCell,
-    TimePeg,
-)
+from reactive_realizer.pegboard.time_peg import Bound, OffsetPeg, Time, TimeCell, TimePeg
 from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
 from reactive_realizer.planunit.timing import Timing
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock
-from reactive_realizer.scheduler.constraints import drop_unplaceable, orders_of, ties_of
+from reactive_realizer.scheduler.constraints import drop_unplaceable, holding, orders_of, ties_of
 from reactive_realizer.scheduler.names import Names
 from reactive_realizer.scheduler.peg_builder import PegBuilder
 from reactive_realizer.scheduler.problem import (
@@ -34,11 +31,18 @@ from reactive_realizer.scheduler.strategy import SchedulingStrategy
 
 @dataclass(frozen=True, slots=True)
 class Task:
-    """A block as a problem to be solved, and what was lost before that."""
+    """A block as a problem to be solved, and what was lost before that.
+
+    Attributes:
+        start: when the block was expected to start.
+        holds: constraints that the block keeps by starting later, with what it comes after by them.
+    """
 
     units: tuple[PlanUnit, ...]
     problem: Problem
     losses: tuple[Loss, ...]
+    start: GlobalTime
+    holds: Mapping[Tie | Order, Bound]
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,6 +53,7 @@ class Plan:
     pegs: Mapping[str, Mapping[str, PegSpec]]
     losses: tuple[Loss, ...]
     kept: tuple[Tie | Order, ...]
+    holds: tuple[Bound, ...]
 
 
 class Planning:
@@ -73,33 +78,49 @@ class Planning:
         ties, lost_ties = ties_of(block.description, kept, names.locate)
         orders, lost_orders = orders_of(block.description, names.locate)
         items = tuple(Item(unit.behavior, timings[unit]) for unit in kept.values())
-        times = _outer_times([*ties, *orders], predicted_start(block, now))
+        holds = _holds([*ties, *orders], predicted_start(block, now))
+        ties, orders = [tie for tie in ties if tie not in holds], [order for order in orders if order not in holds]
+        start = _held_start(block, holds.values(), now)
+        times = _outer_times([*ties, *orders], start)
         problem = Problem(items, tuple(ties), times, tuple(orders))
-        return Task(tuple(kept.values()), problem, (*losses, *lost_ties, *lost_orders))
+        return Task(tuple(kept.values()), problem, (*losses, *lost_ties, *lost_orders), start, holds)
 
     def solve(self, task: Task) -> Plan:
         """A plan by the strategy; it may be called in another thread, for it reads and writes nothing but the task."""
         solution = self._strategy.solve(task.problem)
         planned = tuple(unit for unit in task.units if unit.behavior.id in solution.pegs)
-        kept = _kept(task.problem, solution)
-        return Plan(planned, solution.pegs, (*task.losses, *solution.losses), kept)
+        kept = (*_kept(task.problem, solution), *task.holds)
+        return Plan(planned, solution.pegs, (*task.losses, *solution.losses), kept, tuple(task.holds.values()))
 
-    def is_stale(self, block: BMLBlock, task: Task, now: GlobalTime) -> bool:
-        """Whether times from outside are not what they were when the problem was posed."""
-        start = predicted_start(block, now)
-        return any(_moved(cell.value, time, start) for cell, time in task.problem.times.items())
+    def is_stale(self, task: Task) -> bool:
+        """Whether times from outside are not what they were when the problem was posed.
+
+        That the block starts later is nothing new: its plan is in times after its start, and lives.
+        """
+        return any(_moved(cell.value, time, task.start) for cell, time in task.problem.times.items())
+
+    def is_cyclic(self, block: BMLBlock, task: Task) -> bool:
+        """Whether by now something from outside hangs on the block itself."""
+        cells = (*task.problem.times, *(cell for cell, _ in task.holds.values()))
+        return any(hangs_on(cell, block.start) for cell in cells)
 
     def commit(self, block: BMLBlock, plan: Plan, now: GlobalTime) -> None:
         """Put a plan on the board: all of it, in one transaction."""
         with self._board.graph.transaction(f"plan {block.key.block}"):
             for key, peg in self._hang(block, plan).items():
                 self._board.add(key, peg)
-            block.planned(now, plan.units, plan.kept)
+            holds = [OffsetPeg(self._board.graph, block.start.name, cell, distance) for cell, distance in plan.holds]
+            block.planned(now, plan.units, plan.kept, holds)
 
     def recommit(self, block: BMLBlock, plan: Plan) -> None:
         """Within a transaction, put another plan in the place of that on the board; who hung on that hangs on this."""
+        replaced: dict[TimeCell, TimeCell] = {}
         for key, peg in self._hang(block, plan).items():
+            if (old := self._board.get(key)) is not None:
+                replaced[old] = peg
             self._board.replace(key, peg)
+        for other in self._blocks.alive:
+            other.follow(replaced)
         block.replanned(block.end.floor, plan.units, plan.kept)
 
     def _hang(self, block: BMLBlock, plan: Plan) -> dict[PegKey, TimePeg]:
@@ -128,6 +149,22 @@ def _reasons(block: BMLBlock, kept: Sequence[Tie | Order]) -> Iterator[tuple[Peg
 def predicted_start(block: BMLBlock, now: GlobalTime) -> GlobalTime:
     """When a block that was not started yet is expected to start."""
     return max(now, block.start.value or now)
+
+
+def _holds(constraints: Iterable[Tie | Order], start: GlobalTime) -> dict[Tie | Order, Bound]:
+    """The constraints that a block keeps by starting later; it cannot start earlier for an `at`."""
+    bounds = ((each, bound) for each in constraints if (bound := holding(each)) is not None)
+    return {each: bound for each, bound in bounds if isinstance(each, Order) or not _before(bound, start)}
+
+
+def _before(bound: Bound, time: GlobalTime) -> bool:
+    cell, distance = bound
+    return cell.value is not None and cell.value + distance < time - RESOLUTION
+
+
+def _held_start(block: BMLBlock, holds: Iterable[Bound], now: GlobalTime) -> GlobalTime:
+    known = [GlobalTime(cell.value + distance) for cell, distance in holds if cell.value is not None]
+    return max([predicted_start(block, now), *known])
 
 
 def _outer_times(constraints: Sequence[Tie | Order], start: GlobalTime) -> dict[TimeCell, float | None]:

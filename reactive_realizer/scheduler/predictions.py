@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from reactive_realizer.clock.units import BlockTime, GlobalTime
 from reactive_realizer.feedback.feedback_manager import FeedbackManager
 from reactive_realizer.feedback.messages import BehaviorPrediction, PredictionFeedback
+from reactive_realizer.pegboard.supposing import Supposed
 from reactive_realizer.pegboard.time_peg import Time
 from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.scheduler.bml_block import BMLBlock
@@ -49,7 +50,7 @@ class Predictions:
 def _times(block: BMLBlock) -> _Times:
     times: dict[tuple[str, str], Time] = {("", "start"): block.start.value, ("", "end"): block.end.value}
     for unit in block.units:
-        times |= {(unit.behavior.id, point.id): point.time for point in unit.points}
+        times |= {(unit.behavior.id, sync): time for sync, time in unit.times().items()}
     return times
 
 
@@ -64,12 +65,23 @@ def _differ(old: Time, new: Time) -> bool:
 
 
 def _prediction(block: BMLBlock, now: GlobalTime) -> PredictionFeedback:
+    """All that is known of a block; where its start is not, as if it came now."""
     start = now if block.start.value is None else block.start.value
-    ends = [time for unit in block.units for point in unit.points if (time := point.time) is not None]
-    end = block.end.value if block.end.value is not None else max([start, *ends])
-    behaviors = tuple(BehaviorPrediction(unit.behavior, _local(unit, start)) for unit in block.units)
-    return PredictionFeedback(block.key.character, block.key.block, start, end, block.state.value, behaviors)
+    supposed = Supposed({block.start: start})
+    times = {unit: _ahead(unit, supposed) for unit in block.units}
+    ends = [time for known in times.values() for time in known.values()]
+    end = supposed(block.end)
+    behaviors = tuple(BehaviorPrediction(unit.behavior, _local(known, start)) for unit, known in times.items())
+    status = block.state.value
+    return PredictionFeedback(
+        block.key.character, block.key.block, start, max([start, *ends]) if end is None else end, status, behaviors
+    )
 
 
-def _local(unit: PlanUnit, start: GlobalTime) -> dict[str, BlockTime]:
-    return {p.id: BlockTime(time - start) for p in unit.points if (time := p.time) is not None}
+def _ahead(unit: PlanUnit, supposed: Supposed) -> dict[str, GlobalTime]:
+    times = unit.times() if unit.begun else {point.id: supposed(point.peg) for point in unit.points}
+    return {sync: time for sync, time in times.items() if time is not None}
+
+
+def _local(times: Mapping[str, GlobalTime], start: GlobalTime) -> dict[str, BlockTime]:
+    return {sync: BlockTime(time - start) for sync, time in times.items()}

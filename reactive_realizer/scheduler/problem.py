@@ -1,7 +1,7 @@
 """What a strategy gets and gives: a block as points, ties and preferences; a plan as descriptions of pegs."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 from typing import NamedTuple
 
@@ -61,6 +61,10 @@ class Tie:
         """What it ties."""
         return self.left, self.right
 
+    def renamed(self, names: Mapping[TimeCell, TimeCell]) -> "Tie":
+        """The same tie with other pegs of the outside."""
+        return replace(self, left=_renamed(self.left, names), right=_renamed(self.right, names))
+
 
 @dataclass(frozen=True, slots=True)
 class Order:
@@ -85,6 +89,14 @@ class Order:
     def nodes(self) -> tuple[Node, Node]:
         """What it orders."""
         return self.later, self.earlier
+
+    def renamed(self, names: Mapping[TimeCell, TimeCell]) -> "Order":
+        """The same order with other pegs of the outside."""
+        return replace(self, later=_renamed(self.later, names), earlier=_renamed(self.earlier, names))
+
+
+def _renamed(node: Node, names: Mapping[TimeCell, TimeCell]) -> Node:
+    return node if isinstance(node, Point | Origin) else names.get(node, node)
 
 
 @dataclass(frozen=True, slots=True)
@@ -155,6 +167,19 @@ class AtMost:
 
 PegSpec = AtBlock | AtOffset | AtRatio | AtLeast | AtMost
 """A peg to be made when the plan is committed; points that share a spec share a peg."""
+
+
+def links_of(spec: PegSpec) -> "list[PegSpec | TimeCell]":
+    """What a peg is to hang on; the start of the block, on which an `AtBlock` does, is not told."""
+    match spec:
+        case AtBlock():
+            return []
+        case AtOffset(link, _):
+            return [link]
+        case AtRatio(before, after, _):
+            return [before, after]
+        case AtLeast(natural, bounds) | AtMost(natural, bounds):
+            return [natural, *(link for link, _ in bounds)]
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,13 +2,13 @@
 
 import itertools
 from collections.abc import Iterable, Mapping
-from dataclasses import replace
 from math import isfinite
 from typing import NamedTuple
 
 from reactive_realizer.errors import Fault, RealizerError, error
 from reactive_realizer.planunit.timing import SHORTEST
 from reactive_realizer.scheduler.equalities import Equalities
+from reactive_realizer.scheduler.losses import lost_behavior, lost_constraint
 from reactive_realizer.scheduler.problem import (
     Anchor,
     AtBlock,
@@ -79,7 +79,7 @@ class _Run:
             try:
                 self._place(item)
             except RealizerError as problem:
-                self._lose(item, problem.fault)
+                self._losses.append(lost_behavior(item.behavior, problem.fault))
         self._normalize()
         return Solution({item.behavior.id: self._pegs(item) for item in self._kept()}, tuple(self._losses))
 
@@ -87,9 +87,7 @@ class _Run:
         gap = self._ties.tie(tie.left, tie.right, tie.offset)
         if gap is not None:
             code = "contradictory-tie" if isfinite(gap) else "outer-tie"
-            place = tie.location
-            fault = Fault(code, {"tie": tie.text, "gap": abs(gap)}, place.line, place.column)
-            self._losses.append(Loss(tie.owner, fault, dropped=False, required=tie.required, constraint=tie))
+            self._losses.append(lost_constraint(tie, Fault(code, {"tie": tie.text, "gap": abs(gap)})))
 
     def _place(self, item: Item) -> None:
         """Find the peg of every point; those of earlier behaviors stand."""
@@ -221,17 +219,12 @@ class _Run:
 
     def _remove(self, item: Item, fault: Fault) -> None:
         del self._placed[item.behavior.id]
-        self._lose(item, fault)
-
-    def _lose(self, item: Item, fault: Fault) -> None:
-        place = item.behavior.location
-        located = replace(fault, line=place.line, column=place.column)
-        self._losses.append(Loss(item.behavior.id, located, dropped=True, required=item.behavior.required))
+        self._losses.append(lost_behavior(item.behavior, fault))
 
     def _lose_ties(self, item: Item, index: int, fault: Fault) -> None:
         """A point of a rigid behavior is not where its ties want it."""
         point, place = Point(item.behavior.id, item.timing.points[index]), item.behavior.location
-        located = replace(fault, line=place.line, column=place.column)
+        located = fault.located(place.line, place.column)
         for tie in self._problem.ties:
             if point in tie.nodes:
                 loss = Loss(item.behavior.id, located, dropped=False, required=tie.required, constraint=tie)
@@ -246,9 +239,7 @@ class _Run:
 
 
 def _unkept(order: Order) -> Loss:
-    place = order.location
-    fault = Fault("no-order", {"strategy": SmartBodyStrategy.name, "text": order.text}, place.line, place.column)
-    return Loss(None, fault, dropped=False, required=order.required, constraint=order)
+    return lost_constraint(order, Fault("no-order", {"strategy": SmartBodyStrategy.name, "text": order.text}))
 
 
 def _fill(item: Item, known: Mapping[int, Placed]) -> list[Placed]:
@@ -282,8 +273,9 @@ def _moved(placed: Placed, distance: float) -> Placed:
 
 
 def _between(before: Placed, after: Placed, ratio: float) -> Placed:
-    known = before.time is not None and after.time is not None
-    time = before.time + ratio * (after.time - before.time) if known else None  # type: ignore[operator]
+    time = None
+    if before.time is not None and after.time is not None:
+        time = before.time + ratio * (after.time - before.time)
     return Placed(AtRatio(before.spec, after.spec, ratio), time, before.anchor)
 
 

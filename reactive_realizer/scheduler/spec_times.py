@@ -1,10 +1,10 @@
 """Descriptions of pegs as times, without a board."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 
 from reactive_realizer.pegboard.time_peg import TimeCell
 from reactive_realizer.reactive.cell import Cell
-from reactive_realizer.scheduler.problem import AtBlock, AtLeast, AtMost, AtOffset, AtRatio, PegSpec
+from reactive_realizer.scheduler.problem import AtBlock, AtLeast, AtMost, AtOffset, AtRatio, PegSpec, links_of
 
 
 class SpecTimes:
@@ -29,7 +29,8 @@ class SpecTimes:
         path = {spec: None}
         while path:
             last = next(reversed(path))
-            missing = next((link for link in _links(last) if link not in self._known), None)
+            links = (link for link in links_of(last) if not isinstance(link, Cell))
+            missing = next((link for link in links if link not in self._known), None)
             if missing is None:
                 self._known[last] = self._work_out(last)
                 del path[last]
@@ -59,21 +60,6 @@ class SpecTimes:
 
     def _time(self, link: PegSpec | TimeCell) -> float | None:
         return self._outer[link] if isinstance(link, Cell) else self._known[link]
-
-
-def _links(spec: PegSpec) -> Iterator[PegSpec]:
-    """The descriptions that a peg hangs on."""
-    links: tuple[PegSpec | TimeCell, ...] = ()
-    match spec:
-        case AtOffset(link, _):
-            links = (link,)
-        case AtRatio(before, after, _):
-            links = (before, after)
-        case AtLeast(natural, bounds) | AtMost(natural, bounds):
-            links = (natural, *(link for link, _ in bounds))
-        case AtBlock():
-            pass
-    return (link for link in links if not isinstance(link, Cell))
 
 
 def _shifted(time: float | None, offset: float) -> float | None:

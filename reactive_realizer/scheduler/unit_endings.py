@@ -96,6 +96,12 @@ class UnitEndings:
             unit.drop(now)
             self._cast.take(unit)
 
+    def split(self, unit: PlanUnit, point: SyncPoint, now: GlobalTime) -> SyncPoint:
+        """Give a cut point a peg of its own: others that share the old one keep what was predicted last."""
+        with self._board.graph.transaction(f"cut {unit.key(point.id)}"):
+            point.peg = point.peg.apart(str(unit.key(point.id)), now)
+        return point
+
     def _cut_short(self, unit: PlanUnit, now: GlobalTime, at_end: bool) -> bool:
         details = unit.end_details(now)
         fired = unit.fire(now, end=not at_end)
@@ -107,9 +113,3 @@ class UnitEndings:
         self._cast.take(unit)
         self.tell(reached)
         return cut
-
-    def split(self, unit: PlanUnit, point: SyncPoint, now: GlobalTime) -> SyncPoint:
-        """Give a cut point a peg of its own: others that share the old one keep what was predicted last."""
-        with self._board.graph.transaction(f"cut {unit.key(point.id)}"):
-            point.peg = point.peg.apart(str(unit.key(point.id)), now)
-        return point

@@ -6,16 +6,13 @@ from dataclasses import dataclass
 from math import inf
 
 from reactive_realizer.pegboard.time_peg import AnticipatorPeg
-from reactive_realizer.planunit.timing import PhaseKind
+from reactive_realizer.planunit.timing import SHORTEST, PhaseKind
 from reactive_realizer.scheduler.clusters import Cluster, clusters_of
 from reactive_realizer.scheduler.plan_view import PlanView
 from reactive_realizer.scheduler.problem import Node, Order, Origin, Point, Tie
 
 TOLERANCE = 1e-6
 """s by which an equation may be missed: times are sums of fractions."""
-
-_SHORTEST = 1e-5
-"""s; what takes less than a thousandth of a tick takes no time."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,7 +44,7 @@ def verify(plan: PlanView) -> list[Violation]:
 
 def _ties(plan: PlanView) -> Iterator[Violation]:
     """7.8, 7.11, 7.32: ``f(left) = f(right) + offset``."""
-    for tie in plan.kept:
+    for tie in plan.expected:
         if isinstance(tie, Tie) and plan.movable(tie.left) and plan.movable(tie.right):
             amount = max(_gap(plan, tie.left, tie.right, tie.offset), _gap(plan, tie.right, tie.left, -tie.offset))
             yield Violation(_equation(tie.nodes, "7.8", "7.11", "7.32"), _names(*tie.nodes), amount, tie.text)
@@ -55,7 +52,7 @@ def _ties(plan: PlanView) -> Iterator[Violation]:
 
 def _orders(plan: PlanView) -> Iterator[Violation]:
     """7.9, 7.10, 7.12, 7.33, 7.34: ``f(later) >= f(earlier) + offset``."""
-    for order in plan.kept:
+    for order in plan.expected:
         if isinstance(order, Order) and plan.movable(order.later):
             amount = _gap(plan, order.later, order.earlier, order.offset)
             before = not isinstance(order.later, Point)
@@ -77,8 +74,8 @@ def _durations(plan: PlanView) -> Iterator[Violation]:
     """7.14: a behavior takes time, unless it is an event."""
     for id_, timing in plan.timings.items():
         start, end = Point(id_, timing.points[0]), Point(id_, timing.points[-1])
-        if not timing.instant and plan.movable(end):
-            yield Violation("7.14", _names(start, end), _gap(plan, end, start, _SHORTEST), f"{id_} takes time")
+        if not timing.instant and plan.movable(end) and id_ not in plan.lurking:
+            yield Violation("7.14", _names(start, end), _gap(plan, end, start, SHORTEST), f"{id_} takes time")
 
 
 def _sequences(plan: PlanView) -> Iterator[Violation]:
@@ -86,7 +83,7 @@ def _sequences(plan: PlanView) -> Iterator[Violation]:
     for id_, timing in plan.timings.items():
         known = [point for sync in timing.points if plan.times.get(point := Point(id_, sync)) is not None]
         for point, after in itertools.pairwise(known):
-            if plan.movable(point) or plan.movable(after):
+            if id_ not in plan.lurking and (plan.movable(point) or plan.movable(after)):
                 text = f"{id_}:{point.sync} not after its {after.sync}"
                 yield Violation("7.15", _names(point, after), _gap(plan, after, point), text)
 

@@ -14,14 +14,18 @@ from reactive_realizer.planunit.parameter import Range
 
 async def capabilities_of(scene: Scene) -> dict[str, Any]:
     """Elements with their attributes and sync points, and what stands in the scene's bindings, voice and world."""
-    lexemes, parameters = await asyncio.to_thread(_bound, scene)
+    lexemes = await asyncio.to_thread(_lexemes, scene)
     engines = [engine for character in scene.realizer.characters.values() for engine in character.engines]
     realized = frozenset[type[Behavior]]().union(*(engine.behaviors for engine in engines))
     changeable = {behavior: ranges for engine in engines for behavior, ranges in engine.parameters.items()}
     return {
         "elements": {name: _element(element, realized, changeable) for name, element in ELEMENTS.items()},
         "lexemes": lexemes,
-        "parameters": parameters,
+        "parameters": {
+            name: sorted(changeable[element.behavior])
+            for name, element in ELEMENTS.items()
+            if changeable.get(element.behavior)
+        },
         "voices": await scene.tts.voices(),
         "targets": list(scene.realizer.world.targets),
     }
@@ -41,14 +45,13 @@ def _element(
     }
 
 
-def _bound(scene: Scene) -> tuple[dict[str, list[str]], dict[str, list[str]]]:
-    """Lexemes, and attributes that become parameters of a motion, by element; it reads files."""
+def _lexemes(scene: Scene) -> dict[str, list[str]]:
+    """By element; it reads files."""
     files = {character.bindings["gesture"] for character in scene.specification.characters.values()}
     specs = [spec for file in sorted(files) for spec in GestureBinding.read(scene.assets(file)).specs]
     faces = read_face_lexemes(scene.assets("face/lexemes.json"))
     lexemes = _by_element((spec.behavior, spec.constraints.get("lexeme")) for spec in specs)
-    parameters = _by_element((spec.behavior, name) for spec in specs for name in spec.parameter_map)
-    return lexemes | {"faceLexeme": sorted(faces)}, parameters
+    return lexemes | {"faceLexeme": sorted(faces)}
 
 
 def _by_element(pairs: Iterable[tuple[str, str | None]]) -> dict[str, list[str]]:

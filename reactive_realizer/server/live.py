@@ -1,5 +1,6 @@
 """A scene on the air: what its realizer tells, for whoever connects."""
 
+import gc
 import uuid
 from collections.abc import Mapping
 
@@ -66,6 +67,8 @@ class Live:
 
     async def run(self) -> None:
         """Tick for ever."""
+        gc.collect()
+        gc.freeze()  # it stays as long as the scene does, and to look through it for garbage takes most of a tick
         async for tick in self.ticker.ticks():
             await self.step(tick)
 

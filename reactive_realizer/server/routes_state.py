@@ -7,6 +7,7 @@ from statistics import quantiles
 from aiohttp import web
 
 from reactive_realizer import __version__
+from reactive_realizer.errors import error
 from reactive_realizer.server.capabilities import capabilities_of
 from reactive_realizer.server.keys import LIVE
 from reactive_realizer.server.live import Live
@@ -47,6 +48,8 @@ async def explain(request: web.Request) -> web.Response:
     """The pegs, constraints and commits that set the time of each sync point of a block alive."""
     realizer = request.app[LIVE].realizer
     character = request.query.get("character", next(iter(realizer.characters)))
+    if character not in realizer.characters:
+        raise error("unknown-character", character=character, known=", ".join(realizer.characters))
     return web.json_response(realizer.scheduler.explain(character, request.match_info["block"]))
 
 

@@ -4,15 +4,14 @@ from math import isfinite
 from typing import ClassVar
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given
 
 from reactive_realizer.scheduler.plan_view import PlanView
 from reactive_realizer.scheduler.problem import Point, Problem, Solution
 from reactive_realizer.scheduler.strategy import SchedulingStrategy
 from reactive_realizer.scheduler.verify import Violation, verify
+from reactive_realizer.testing.inherited import inherited
 from reactive_realizer.testing.problems import TIMINGS, after, at, feasible_problems, item, outer, problem, problems
-
-_inherited = settings(suppress_health_check=[HealthCheck.differing_executors])
 
 _MANY = 1_000
 
@@ -31,12 +30,12 @@ class StrategyContract:
 
     strategy: ClassVar[SchedulingStrategy]
 
-    @_inherited
+    @inherited
     @given(feasible_problems())
     def test_what_it_says_it_kept_of_what_can_be_kept_holds(self, asked: Problem) -> None:
         assert violations(asked, self.strategy.solve(asked)) == []
 
-    @_inherited
+    @inherited
     @given(problems())
     def test_every_behavior_is_kept_with_all_its_points_or_lost(self, asked: Problem) -> None:
         solution = self.strategy.solve(asked)
@@ -46,7 +45,7 @@ class StrategyContract:
             if each.behavior.id in solution.pegs:
                 assert tuple(solution.pegs[each.behavior.id]) == each.timing.points
 
-    @_inherited
+    @inherited
     @given(problems())
     def test_losing_what_is_required_is_marked(self, asked: Problem) -> None:
         solution = self.strategy.solve(asked)
@@ -55,20 +54,20 @@ class StrategyContract:
             needed = loss.behavior in required if loss.constraint is None else loss.constraint.required
             assert loss.required or not needed, loss
 
-    @_inherited
+    @inherited
     @given(problems())
     def test_every_loss_says_why_and_where(self, asked: Problem) -> None:
         for loss in self.strategy.solve(asked).losses:
             assert loss.fault.sentence
             assert loss.fault.line == 1
 
-    @_inherited
+    @inherited
     @given(problems())
     def test_every_time_is_a_number_or_unknown(self, asked: Problem) -> None:
         view = PlanView.of_solution(asked, self.strategy.solve(asked))
         assert all(time is None or isfinite(time) for time in view.times.values())
 
-    @_inherited
+    @inherited
     @given(problems())
     def test_the_same_problem_has_the_same_plan(self, asked: Problem) -> None:
         one, two = self.strategy.solve(asked), self.strategy.solve(asked)
@@ -102,17 +101,17 @@ class StrategyContract:
 class CompleteStrategyContract(StrategyContract):
     """For a strategy that keeps whatever can be kept, before/after too, in whatever order a block is written."""
 
-    @_inherited
+    @inherited
     @given(feasible_problems())
     def test_what_can_be_met_is_met(self, asked: Problem) -> None:
         assert self.strategy.solve(asked).losses == ()
 
-    @_inherited
+    @inherited
     @given(problems())
     def test_what_it_says_it_kept_holds_whatever_was_asked(self, asked: Problem) -> None:
         assert violations(asked, self.strategy.solve(asked)) == []
 
-    @_inherited
+    @inherited
     @given(problems())
     def test_the_order_of_behaviors_and_constraints_changes_nothing(self, asked: Problem) -> None:
         turned = Problem(asked.items[::-1], asked.ties[::-1], asked.times, asked.orders[::-1])

@@ -234,3 +234,40 @@ async def test_a_block_that_is_refused_ends_nothing(pilot) -> None:
     send(pilot, "late", wait(1), 'bmla:prependBefore="plays" bmla:interrupt="other"')
     await pilot.advance(2)
     assert pilot.feedback.status("other") == "DONE"
+
+
+async def test_of_a_block_that_is_prepared_everything_is_predicted_as_if_it_were_activated_now(pilot) -> None:
+    send(pilot, "ready", '<speech id="s"><text>one two three</text></speech>', 'bmla:preplan="true"')
+    await pilot.advance(0.5)
+    send(pilot, "plain", '<speech id="s"><text>one two three</text></speech>')
+    await pilot.tick()
+    ready, plain = (pilot.feedback.predictions(block)[-1].element for block in ("ready", "plain"))
+    spoken = float(plain[0].get("globalEnd")) - float(plain[0].get("globalStart"))
+    assert spoken > 0.5
+    assert float(ready[0].get("globalEnd")) - float(ready[0].get("globalStart")) == pytest.approx(spoken)
+    assert ready[1].get("end") == plain[1].get("end")
+
+
+async def test_a_block_that_waits_and_whose_prediction_was_early_for_a_moment_follows_the_later_one(pilot) -> None:
+    pilot.predict("t", "hit", 3.0)
+    send(pilot, "first", wait(2))
+    send(pilot, "next", '<head id="n" lexeme="NOD" end="anticipators:t:hit"/>', 'composition="APPEND"')
+    await pilot.advance(0.5)
+    pilot.predict("t", "hit", 0.6)
+    await pilot.advance(0.1)
+    pilot.predict("t", "hit", 5.0)
+    await pilot.advance(5)
+    assert pilot.feedback.time("next:n:end") == 5.0
+    assert pilot.feedback.time("next:n:start") > 4
+
+
+async def test_what_came_to_lie_before_its_block_is_squeezed_when_the_block_starts(pilot) -> None:
+    pilot.predict("t", "hit", 9.0)
+    send(pilot, "first", wait(2))
+    send(pilot, "next", '<head id="n" lexeme="NOD" end="anticipators:t:hit"/>', 'composition="APPEND"')
+    await pilot.tick()
+    pilot.predict("t", "hit", 2.3)
+    await pilot.advance(4)
+    assert pilot.feedback.time("next:n:start") == pilot.feedback.time("next:start") == 2.0
+    assert pilot.feedback.time("next:n:end") == 2.3
+    assert pilot.feedback.warnings == []

@@ -64,7 +64,7 @@ async def test_a_speech_may_end_its_word_first(pilot) -> None:
     end = pilot.feedback.time("talk:s:end")
     assert 0.5 < end < pilot.feedback.time("talk:s:start") + 1.5
     told = line(pilot, "talk:s:end").element
-    assert int(told.get(f"{OWN}heard")) == len("one two three four"[: int(told.get(f"{OWN}heard"))])
+    assert (told.get(f"{OWN}text"), told.get(f"{OWN}heard")) == ("three", str(len("one two three")))
     assert pilot.feedback.status("talk") == "INTERRUPTED"
     assert pilot.feedback.predicted("talk:s:end") == pytest.approx(end)
 
@@ -196,3 +196,19 @@ async def test_who_hangs_on_one_that_is_cut_is_told_however_long_the_way(pilot) 
     await pilot.advance(4)
     assert pilot.feedback.warnings == [("talk:o", "IMPOSSIBLE_TO_SCHEDULE")]
     assert pilot.feedback.reached("talk:s:m")
+
+
+async def test_what_never_began_and_is_cut_is_no_longer_waited_for(pilot) -> None:
+    send(pilot, "talk", TALK + '<gesture id="g" lexeme="BEAT"/><head id="late" lexeme="NOD" start="3"/>')
+    send(pilot, "stop", '<bmla:interrupt id="i" target="talk" start="0.5" include="s,late"/>')
+    send(pilot, "next", '<wait id="w" duration="0.1"/>', 'bmla:appendAfter="talk"')
+    await pilot.advance(3)
+    assert pilot.feedback.time("talk:end") == pilot.feedback.time("talk:g:end") == pilot.feedback.time("next:start")
+    assert pilot.feedback.status("talk") == "DONE"
+
+
+async def test_a_block_whose_last_behavior_ends_its_word_ends_with_it_though_others_were_to_come(pilot) -> None:
+    send(pilot, "talk", TALK + '<head id="late" lexeme="NOD" start="3"/>')
+    send(pilot, "stop", '<bmla:interrupt id="i" target="talk" start="0.5" speech="word"/>')
+    await pilot.advance(4)
+    assert pilot.feedback.time("talk:end") == pilot.feedback.time("talk:s:end") < 1

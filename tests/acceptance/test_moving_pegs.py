@@ -105,3 +105,27 @@ async def test_strokes_follow_the_tempo_of_the_metronome(pilot) -> None:
     await pilot.advance(2)
     assert pilot.feedback.time("b:one:stroke") == 2.0
     assert pilot.feedback.time("b:nod:stroke") == pytest.approx(3.0)
+
+
+async def test_times_that_lose_their_order_for_a_while_cost_nothing(pilot) -> None:
+    pilot.predict("test", "hit", 1.0)
+    pilot.predict("test", "end", 2.0)
+    pilot.block("b", '<head id="n" lexeme="NOD" start="anticipators:test:hit" end="anticipators:test:end"/>')
+    await pilot.advance(0.2)
+    pilot.predict("test", "end", 0.8)
+    await pilot.advance(0.1)
+    pilot.predict("test", "end", 1.7)
+    await pilot.advance(2)
+    assert (pilot.feedback.time("b:n:start"), pilot.feedback.time("b:n:end")) == (1.0, 1.7)
+    assert pilot.feedback.warnings == []
+
+
+async def test_a_behavior_that_is_to_begin_after_its_end_is_dropped_and_said(pilot) -> None:
+    pilot.predict("test", "hit", 1.0)
+    pilot.predict("test", "end", 2.0)
+    pilot.block("b", '<head id="n" lexeme="NOD" start="anticipators:test:hit" end="anticipators:test:end"/>')
+    await pilot.advance(0.2)
+    pilot.predict("test", "end", 0.8)
+    await pilot.advance(2)
+    assert pilot.feedback.warnings == [("b:n", "IMPOSSIBLE_TO_SCHEDULE")]
+    assert pilot.feedback.status("b") == "DONE"

@@ -55,7 +55,7 @@ async def test_a_block_that_waits_for_the_unknown_is_predicted_as_if_it_came_now
     await pilot.advance(0.5)
     pilot.block("next", '<wait id="w" duration="1"/>', composition="APPEND")
     await pilot.tick()
-    assert (pilot.feedback.predicted("next:start"), pilot.feedback.predicted("next:end")) == (0.5, 0.5)
+    assert (pilot.feedback.predicted("next:start"), pilot.feedback.predicted("next:end")) == (0.5, 1.5)
     assert status(pilot.feedback.predictions("next")[0]) == "LURKING"
 
 

@@ -5,12 +5,7 @@ import pytest
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.testing.pilot import open_pilot
 
-SPEECH = '<speech id="speech1"><text>Yes, <sync id="sync1"/>that was great.</text></speech>'
-NOD_ON_SPEECH = '<head id="nod1" lexeme="NOD" start="speech1:start" end="speech1:sync1"/>'
-NOD_3_TO_5 = '<head id="nod1" lexeme="NOD" start="3" end="5"/>'
-BEAT_ON_NOD = '<gesture id="beat1" lexeme="BEAT" stroke="nod1:stroke"/>'
-BEATS = '<gesture id="g1" lexeme="BEAT"/><gesture id="g2" lexeme="BEAT" start="g1:end"/>'
-NOD_AROUND = '<head id="nod1" lexeme="NOD" repetition="5" start="g1:start-2" end="g2:end+3"/>'
+from .scheduling_examples import BEAT_ON_NOD, BEATS, NOD_3_TO_5, NOD_AROUND, NOD_ON_SPEECH, SPEECH
 
 
 @pytest.fixture

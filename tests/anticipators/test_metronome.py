@@ -75,12 +75,6 @@ def test_a_tempo_that_nobody_beats_is_refused_and_changes_nothing(tempo) -> None
         metronome(tempo)
 
 
-def test_unknown_events_mean_nothing() -> None:
-    m = metronome(60)
-    event(m, "kick", 1.0, 1.5)
-    assert beat(m, 2) == 2.0
-
-
 @given(st.lists(st.tuples(st.floats(0.01, 3.0), st.integers(10, 400)), max_size=8), st.booleans())
 def test_beats_never_go_back_and_those_that_passed_keep_their_times(changes, named_before) -> None:
     m = metronome(60)

@@ -32,18 +32,3 @@ def test_what_is_to_come_some_time_after_it_keeps_its_time(stage) -> None:
     stage.event(2.0, key, "press")
     stage.event(2.2, key, "press")
     assert after.value == 2.5
-
-
-def test_unknown_events_mean_nothing(stage) -> None:
-    key = Spacebar("spacebar", stage.board)
-    press = stage.board.predicted("spacebar", "press")
-    stage.event(2.0, key, "stop", 1.0)
-    assert press.value is None
-    assert len(stage.board.snapshot()) == 1
-
-
-def test_ten_thousand_presses_leave_nothing_behind(stage) -> None:
-    key = Spacebar("spacebar", stage.board)
-    for number in range(10_000):
-        stage.event(number / 1000, key, "press")
-    assert [str(view.key) for view in stage.board.snapshot()] == ["anticipators:spacebar:press"]

@@ -11,8 +11,7 @@ from anticipators.turn_model import PauseModel, Turn
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.reactive.graph import Graph
-
-from .conftest import Stage
+from reactive_realizer.testing.anticipator_stand import AnticipatorStand
 
 PLAIN, FINISHED, OPEN = "I live in a house", "I live in a house.", "I live in a house and"
 
@@ -34,8 +33,7 @@ class User:
         return self.time
 
     def words(self, now: float, text: str) -> float | None:
-        self.stage.at(now, self.stop.advance)
-        self.stage.at(now, lambda at: self.stop.hear("words", text, at))
+        self.stage.event(now, self.stop, "words", text=text)
         return self.time
 
     @property
@@ -88,7 +86,7 @@ def test_an_end_that_should_have_been_is_now(user) -> None:
 
 
 def test_an_end_that_is_said_to_be_long_ago_can_be_taken_back_as_long_as_any() -> None:
-    user = User(Stage())
+    user = User(AnticipatorStand())
     user.words(1.0, OPEN)
     user.voice(1.0, 1.0)
     user.voice(3.0, 0.0)
@@ -140,15 +138,6 @@ def test_another_model_of_turns_may_stand_in(stage) -> None:
     assert user.voice(1.0, 1.0) == 60.0
 
 
-def test_other_points_and_events_mean_nothing(user) -> None:
-    user.voice(1.0, 1.0)
-    said = user.voice(2.0, 0.0)
-    user.stage.event(2.1, user.stop, "laughter", 1.0)
-    user.stage.at(2.1, lambda at: user.stop.hear("song", "La la.", at))
-    assert user.time == said
-    assert user.stage.time(user.stop, "start") is None
-
-
 @given(st.sampled_from(["", PLAIN, FINISHED, OPEN]), st.floats(0.5, 0.999), st.floats(0.01, 10.0))
 def test_it_is_where_the_certainty_that_grows_with_the_silence_is_enough(words, certainty, pause) -> None:
     prior = {FINISHED: 0.85, OPEN: 0.1}.get(words, 0.5)
@@ -156,12 +145,6 @@ def test_it_is_where_the_certainty_that_grows_with_the_silence_is_enough(words, 
     reached = prior / (prior + (1 - prior) * exp(-waited / pause))
     assert reached == pytest.approx(max(certainty, prior))
     assert waited <= silence(words, 0.999, pause)
-
-
-@pytest.mark.parametrize("value", [None, -0.1, 1.1, float("nan"), float("inf")])
-def test_a_voice_that_is_no_probability_is_refused(user, value) -> None:
-    with pytest.raises(RealizerError, match="voice"):
-        user.stop.check("voice", value)
 
 
 @pytest.mark.parametrize(

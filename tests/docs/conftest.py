@@ -1,9 +1,22 @@
-"""The pages, and what stands in them as code."""
+"""The pages, what stands in them as code, and a server for what wants one."""
 
+import asyncio
 import re
-from collections.abc import Iterator
+from collections.abc import AsyncIterator, Iterator
 from dataclasses import dataclass
 from pathlib import Path
+
+import pytest
+from aiohttp.test_utils import TestServer
+
+from reactive_realizer.assembly.scene import SceneOptions, open_scene
+from reactive_realizer.clock.clock import SystemClock
+from reactive_realizer.server.app import create_app
+from reactive_realizer.server.live import Live
+from reactive_realizer.server.security import Security
+
+ADDRESS = "http://127.0.0.1:8088"
+"""Where the server of a page is."""
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 DOCS = REPOSITORY / "docs"
@@ -31,6 +44,17 @@ class Fence:
 
     def __str__(self) -> str:
         return f"{self.page}:{self.line}"
+
+
+@pytest.fixture
+async def server() -> AsyncIterator[str]:
+    """The address of a scene that is served, on the machine's clock."""
+    async with open_scene(SceneOptions(voice="text")) as scene, asyncio.TaskGroup() as group:
+        live = Live(scene, SystemClock())
+        ticking = group.create_task(live.run())
+        async with TestServer(create_app(live, Security())) as server:
+            yield str(server.make_url("")).rstrip("/")
+        ticking.cancel()
 
 
 def page(name: str) -> str:

@@ -4,33 +4,15 @@ import asyncio
 import json
 import re
 import shlex
-from collections.abc import AsyncIterator
 
 import pytest
-from aiohttp.test_utils import TestServer
 
 from reactive_realizer.__main__ import main
-from reactive_realizer.assembly.scene import SceneOptions, open_scene
-from reactive_realizer.clock.clock import SystemClock
 from reactive_realizer.conformance.case import SUITE, read_case, read_suite
-from reactive_realizer.server.app import create_app
-from reactive_realizer.server.live import Live
-from reactive_realizer.server.security import Security
 
-from .conftest import fences, page
+from .conftest import ADDRESS, fences, page
 
 PAGE = "docs/conformance.md"
-ADDRESS = "http://127.0.0.1:8088"
-
-
-@pytest.fixture
-async def server() -> AsyncIterator[str]:
-    async with open_scene(SceneOptions(voice="text")) as scene, asyncio.TaskGroup() as group:
-        live = Live(scene, SystemClock())
-        ticking = group.create_task(live.run())
-        async with TestServer(create_app(live, Security())) as server:
-            yield str(server.make_url("")).rstrip("/")
-        ticking.cancel()
 
 
 async def test_the_session_goes_as_it_is_shown(server: str, capsys: pytest.CaptureFixture[str]) -> None:

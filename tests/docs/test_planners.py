@@ -6,32 +6,11 @@ import re
 import shutil
 import subprocess
 import sys
-from collections.abc import AsyncIterator
 from pathlib import Path
 
 import pytest
-from aiohttp.test_utils import TestServer
 
-from reactive_realizer.assembly.scene import SceneOptions, open_scene
-from reactive_realizer.clock.clock import SystemClock
-from reactive_realizer.server.app import create_app
-from reactive_realizer.server.live import Live
-from reactive_realizer.server.security import Security
-
-from .conftest import EXAMPLES, REPOSITORY, fences, page
-
-ADDRESS = "http://127.0.0.1:8088"
-
-
-@pytest.fixture
-async def server() -> AsyncIterator[TestServer]:
-    async with open_scene(SceneOptions(voice="text")) as scene, asyncio.TaskGroup() as group:
-        live = Live(scene, SystemClock())
-        ticking = group.create_task(live.run())
-        async with TestServer(create_app(live, Security())) as server:
-            yield server
-        ticking.cancel()
-
+from .conftest import ADDRESS, EXAMPLES, REPOSITORY, fences, page
 
 PYTHON = (sys.executable, "-u", "-c")
 
@@ -44,15 +23,15 @@ def node() -> tuple[str, ...]:
     return found, "--experimental-websocket", "--input-type=module", "--eval"
 
 
-async def run(name: str, server: TestServer, last: str) -> list[str]:
+async def run(name: str, server: str, last: str) -> list[str]:
     """What an example prints, up to a line that contains something."""
     text = (EXAMPLES / name).read_text(encoding="utf-8")
     return await run_program(text, server, last, PYTHON)
 
 
-async def run_program(text: str, server: TestServer, last: str, command: tuple[str, ...]) -> list[str]:
+async def run_program(text: str, server: str, last: str, command: tuple[str, ...]) -> list[str]:
     assert ADDRESS in text
-    program = text.replace(ADDRESS, str(server.make_url("")).rstrip("/"))
+    program = text.replace(ADDRESS, server)
     process = await asyncio.create_subprocess_exec(*command, program, cwd=REPOSITORY, stdout=asyncio.subprocess.PIPE)
     assert process.stdout is not None
     printed: list[str] = []
@@ -66,14 +45,14 @@ async def run_program(text: str, server: TestServer, last: str, command: tuple[s
     return printed
 
 
-async def test_the_planner_of_the_readme_has_its_block_played_and_is_told(server: TestServer) -> None:
+async def test_the_planner_of_the_readme_has_its_block_played_and_is_told(server: str) -> None:
     printed = await run("planner.py", server, 'id="hello:end"')
     assert printed[0] == "connected\n"
     assert 'bmla:status="DONE"' in printed[-1]
     assert [line for line in printed if "warningFeedback" in line] == []
 
 
-async def test_the_moving_peg_is_reached_where_it_was_moved_to(server: TestServer) -> None:
+async def test_the_moving_peg_is_reached_where_it_was_moved_to(server: str) -> None:
     printed = await run("moving_peg.py", server, "together:end")
     times = {id_: float(time) for id_, time in (line.split() for line in printed)}
     # The stroke was to be two seconds after the block was sent, then two seconds after the hands had set out.
@@ -92,18 +71,18 @@ def test_the_readme_shows_the_planner_as_it_is() -> None:
 PLANNERS = "docs/planners.md"
 
 
-async def test_whoever_barges_in_is_given_way_to_and_the_planner_knows_what_was_heard(server: TestServer) -> None:
+async def test_whoever_barges_in_is_given_way_to_and_the_planner_knows_what_was_heard(server: str) -> None:
     (printed,) = await run("barge_in.py", server, "heard")
     assert printed.strip() in page(PLANNERS)
 
 
-async def test_the_same_in_javascript(server: TestServer) -> None:
+async def test_the_same_in_javascript(server: str) -> None:
     program = (EXAMPLES / "barge_in.mjs").read_text(encoding="utf-8")
     (printed,) = await run_program(program, server, "heard", node())
     assert printed.strip() in page(PLANNERS)
 
 
-async def test_a_planner_needs_nothing_but_http(server: TestServer) -> None:
+async def test_a_planner_needs_nothing_but_http(server: str) -> None:
     predicted, accepted, *told = await run("over_http.py", server, "wave:end")
     assert predicted.startswith("{'time': ")
     assert accepted == "{'blocks': ['wave']}\n"
@@ -111,7 +90,7 @@ async def test_a_planner_needs_nothing_but_http(server: TestServer) -> None:
     assert 'bmla:status="DONE"' in told[-1]
 
 
-async def test_a_block_is_posted_from_javascript(server: TestServer) -> None:
+async def test_a_block_is_posted_from_javascript(server: str) -> None:
     _, program = fences(PLANNERS, "javascript")
     (printed,) = await run_program(program.text, server, "202", node())
     assert f"`{printed.strip()}`" in page(PLANNERS)

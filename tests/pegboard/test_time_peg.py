@@ -2,6 +2,7 @@
 
 import pytest
 
+from reactive_realizer.pegboard.following import followers_of, unknown_sources
 from reactive_realizer.pegboard.time_peg import (
     AfterPeg,
     AnticipatorPeg,
@@ -10,8 +11,6 @@ from reactive_realizer.pegboard.time_peg import (
     LatestPeg,
     OffsetPeg,
     RatioPeg,
-    followers_of,
-    unknown_sources,
 )
 from reactive_realizer.reactive.graph import Graph
 

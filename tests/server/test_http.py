@@ -279,6 +279,7 @@ async def test_the_capabilities_tell_what_may_be_asked_for(on_air: Open) -> None
         assert "repetition" in capabilities["elements"]["head"]["attributes"]
         assert capabilities["elements"]["speech"]["parameters"] == {"volume": {"low": 0.0, "high": 100.0}}
         assert capabilities["elements"]["wait"]["parameters"] == {}
+        assert capabilities["parameters"] == {"gesture": ["amount"], "head": ["amount"], "speech": ["volume"]}
         assert "BEAT" in capabilities["lexemes"]["gesture"]
         assert "RAISE_BROWS" in capabilities["lexemes"]["faceLexeme"]
         assert "alice" in capabilities["targets"]
@@ -362,7 +363,12 @@ async def test_a_block_alive_explains_the_times_of_its_points(on_air: Open) -> N
             told = await answer.json()
         assert (told["character"], told["block"]) == ("alice", "b1")
         assert told["points"]["b1:w:end"]["sources"]
-        for block, status, code in (("nobody", 404, "no-such-block"), ("b2", 410, "block-ended")):
+        refused = [
+            ("nobody", 404, "no-such-block"),
+            ("b2", 410, "block-ended"),
+            ("b1?character=zoe", 404, "unknown-character"),
+        ]
+        for block, status, code in refused:
             async with air.client.get(f"/explain/{block}") as answer:
                 assert answer.status == status
                 assert (await answer.json())["error"]["code"] == code

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from functools import lru_cache
+from pathlib import Path
 
 from lxml import etree
 
@@ -41,8 +42,8 @@ class MotionLibrary:
         self._context = context
         self._binding = GestureBinding.read(context.asset(context.bindings["gesture"]))
         self.rest = Body(context.humanoid.avatar.skeleton, dict(REST_POSE))
-        self._read: Callable[[str], ProcAnimation] = lru_cache(lambda file: read_proc_animation(context.asset(file)))
-        # Half of the time that planning a gesture takes is its hands' way to the stroke: found once for all alike.
+        self._animation: Callable[[str, bool], ProcAnimation] = lru_cache(self._read)
+        # Of the time that planning a gesture takes, most is its hands' way to the stroke: found once for all alike.
         self._gesture: Callable[[str, bool, tuple[tuple[str, float], ...]], GestureMotionUnit] = lru_cache(
             lambda file, mirror, parameters: GestureMotionUnit(
                 self._animation(file, mirror), dict(parameters), REST_POSE, self.rest
@@ -73,8 +74,9 @@ class MotionLibrary:
             return self._gesture(spec.file, mirror, tuple(parameters.items())).another()
         return ProcMotionUnit(self._animation(spec.file, mirror), parameters, spec.parameter_map.get("amount"))
 
-    def _animation(self, file: str, mirror: bool) -> ProcAnimation:
-        animation = self._read(file)
+    def _read(self, file: str, mirror: bool) -> ProcAnimation:
+        path = self._context.asset(file)
+        animation = _animation_in(path, path.stat().st_mtime_ns)
         return animation.mirrored() if mirror else animation
 
     def _gaze(self, behavior: Gaze) -> GazeMotionUnit:
@@ -100,6 +102,12 @@ class MotionLibrary:
             return humanoid.to_own_frame(seen[0]) if seen else ZERO
 
         return locate
+
+
+@lru_cache
+def _animation_in(path: Path, changed: int) -> ProcAnimation:
+    """Read once for all characters, unless it has changed: it takes some milliseconds, which a tick hardly has."""
+    return read_proc_animation(path)
 
 
 def _attributes(behavior: Behavior) -> dict[str, str]:

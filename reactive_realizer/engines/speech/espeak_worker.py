@@ -16,7 +16,7 @@ from reactive_realizer.engines.speech.espeak_library import EspeakLibrary
 from reactive_realizer.engines.speech.messages import Message, MessageDecoder, failure
 
 _TIME_LIMIT = 5
-"""s for one child, less than anyone's patience with the worker; the longest text we accept takes less than one."""
+"""s for one child, less than anyone's patience with the worker; the longest text that is taken takes less than one."""
 
 
 def main() -> None:

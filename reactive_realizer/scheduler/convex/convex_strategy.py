@@ -50,28 +50,29 @@ class _Run:
     def solve(self) -> Solution:
         """Behaviors with preferences, then those without: for these the others are given."""
         free = {index for index, item in enumerate(self._case.items) if item.timing.free}
-        self._solve([index for index in range(len(self._case.items)) if index not in free])
+        table = self._solve([index for index in range(len(self._case.items)) if index not in free])
         if free:
+            self._fix(table)
             self._solve(sorted(free))
         self._giving_up.report_orphans()
         kept = (item.behavior.id for item in self._problem.items if item.behavior.id in self._pegs)
         return Solution({id_: self._pegs[id_] for id_ in kept}, tuple(self._giving_up.losses))
 
-    def _solve(self, behaviors: Sequence[int]) -> None:
+    def _solve(self, behaviors: Sequence[int]) -> Timetable:
         while True:
             stage = self._case.stage(behaviors, self._fixed, self._giving_up.things | self._done)
             found = find_times(Model(stage, self._giving_up.things))
             if isinstance(found, Timetable):
-                self._accept(found)
-                return
+                self._done |= stage.constraints
+                self._pegs |= pegs_of(found)
+                return found
             self._giving_up.resolve(stage, found)
 
-    def _accept(self, table: Timetable) -> None:
-        self._done |= table.model.stage.constraints
-        pegs = pegs_of(table)
-        self._pegs |= pegs
+    def _fix(self, table: Timetable) -> None:
+        """Have the times that were found be given from now on."""
         for index, item in table.model.stage.items.items():
             id_ = item.behavior.id
             known = not any(table.waits(node) for node in table.model.knots[index].values())
             times = zip(item.timing.points, table.points[index], strict=True)
-            self._fixed |= {Point(id_, sync): Fixed(time if known else None, pegs[id_][sync]) for sync, time in times}
+            pegs = self._pegs[id_]
+            self._fixed |= {Point(id_, sync): Fixed(time if known else None, pegs[sync]) for sync, time in times}

@@ -5,6 +5,7 @@ from collections.abc import Iterable
 from reactive_realizer.errors import Fault
 from reactive_realizer.scheduler.convex.case import Case, Stage
 from reactive_realizer.scheduler.convex.causes import GIVEN, Cause, Clash, Rank
+from reactive_realizer.scheduler.losses import lost_behavior, lost_constraint
 from reactive_realizer.scheduler.problem import Loss, Order, Point, Tie
 
 
@@ -47,9 +48,8 @@ class GivingUp:
         for each in constraints:
             named = {node.behavior for node in each.nodes if isinstance(node, Point)} & lost
             if each.required and named and each not in told:
-                self.losses.append(
-                    _of_constraint(each, Fault("names-dropped", {"constraint": each.text, "behavior": min(named)}))
-                )
+                fault = Fault("names-dropped", {"constraint": each.text, "behavior": min(named)})
+                self.losses.append(lost_constraint(each, fault))
 
     def _kept(self, stage: Stage, clash: Clash) -> set[Cause]:
         """What is required, and the behaviors that required constraints name."""
@@ -73,9 +73,8 @@ class GivingUp:
         constraint = self._constraint(dropped)
         if constraint is None:
             behavior = self._case.items[dropped.number].behavior
-            fault = self._behavior_fault(dropped, clash).located(behavior.location.line, behavior.location.column)
-            return Loss(behavior.id, fault, dropped=True, required=behavior.required)
-        return _of_constraint(constraint, self._constraint_fault(dropped, constraint, clash))
+            return lost_behavior(behavior, self._behavior_fault(dropped, clash))
+        return lost_constraint(constraint, self._constraint_fault(dropped, constraint, clash))
 
     def _behavior_fault(self, dropped: Cause, clash: Clash) -> Fault:
         if clash.late:
@@ -100,6 +99,8 @@ class GivingUp:
 
     def _clash_fault(self, dropped: Cause, clash: Clash) -> Fault:
         others = ", ".join(self._name(cause) for cause in sorted(clash.causes - {dropped}) if cause.rank > Rank.LENGTH)
+        if not others:
+            return Fault("never-holds", {"what": self._name(dropped), "gap": clash.gap})
         return Fault("clash", {"what": self._name(dropped), "others": others, "gap": clash.gap})
 
     def _name(self, cause: Cause) -> str:
@@ -113,9 +114,3 @@ class GivingUp:
             points = item.timing.points
             return f"the limits of {item.behavior.id} from {points[cause.phase]} to {points[cause.phase + 1]}"
         return item.behavior.id
-
-
-def _of_constraint(constraint: Tie | Order, fault: Fault) -> Loss:
-    owner = constraint.owner if isinstance(constraint, Tie) else None
-    located = fault.located(constraint.location.line, constraint.location.column)
-    return Loss(owner, located, dropped=False, required=constraint.required, constraint=constraint)

@@ -38,7 +38,7 @@ class Hanging:
         self._network = network
         self._orders = network.precedences()
         self._firsts = self._first_roots()
-        given = {*network.roots[: network.fixed], *self._firsts.values()}
+        given = {*network.roots[: network.fixed], *network.branches, *self._firsts.values()}
         self.recipes = {root: Recipe(natural) for root, natural in self._naturals(given).items()}
         for order in self._orders:
             self._begin_after(order)
@@ -80,7 +80,9 @@ class Hanging:
         before, after = network.latest_before(given), network.earliest_after(given)
         naturals: dict[int, Natural] = {}
         for root in network.roots:
-            if root in given:
+            if root in network.branches:
+                naturals[root] = Hung(network.branches[root].moved(network.leads[root]))
+            elif root in given:
                 naturals[root] = Given() if root < network.fixed else First(0.0)
             elif root in before and root in after and before[root].root != after[root].root:
                 naturals[root] = self._between(root, before[root], after[root])
@@ -123,13 +125,14 @@ class Hanging:
     def _keep_orders(self) -> set[int]:
         """Bounds for the orders whose two sides may come to move against each other; the roots that got some."""
         moved = self._moved_from_outside()
+        movable = {root for root in self.recipes if root >= self._network.fixed} - self._network.branches.keys()
         bounded = set()
         for order in self._orders:
             if not moved & {order.later, order.earlier} or self._begins_after(order):
                 continue
             leads = self._network.leads
             # The earlier one goes with a later one that comes from outside, or that cannot go.
-            if order.earlier != START and not (order.own and order.earlier in moved):
+            if order.earlier in movable and not (order.own and order.earlier in moved):
                 self.recipes[order.earlier].before.append(Spot(order.later, leads[order.earlier] - order.distance))
                 bounded.add(order.earlier)
             if order.own:

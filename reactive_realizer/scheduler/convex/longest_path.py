@@ -1,6 +1,6 @@
 """Two questions about graphs of points in time: the earliest times, and what hangs together."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Generic, NamedTuple, TypeVar
 
 TOLERANCE = 1e-9
@@ -21,10 +21,11 @@ class Arc(NamedTuple, Generic[L]):
 def longest_path(size: int, arcs: Sequence[Arc[L]]) -> tuple[list[float], list[Arc[L]]]:
     """The least times >= 0 that meet all arcs; or else, second, arcs in a circle that cannot be met together.
 
-    Bellman and Ford's method. The predecessors are looked at after 4, 8, 16 ... passes, so that a circle is found soon.
+    Bellman and Ford's method; where no arc leads back, one pass finds them and one more sees it. The predecessors are
+    looked at after 4, 8, 16 ... passes, so that a circle is found soon.
     """
     times, into = [0.0] * size, dict[int, Arc[L]]()
-    passes = 0
+    arcs, passes = _in_turn(size, arcs), 0
     while True:
         passes, moved = passes + 1, False
         for arc in arcs:
@@ -50,6 +51,34 @@ def components(size: int, pairs: Iterable[tuple[int, int]]) -> list[int]:
         low, high = sorted((top(one), top(other)))
         parents[high] = low
     return [top(node) for node in range(size)]
+
+
+def _in_turn(size: int, arcs: Sequence[Arc[L]]) -> list[Arc[L]]:
+    """Those into a node before those out of it, unless they only keep something from being late."""
+    heads: list[list[int]] = [[] for _ in range(size)]
+    for arc in arcs:
+        if arc.length >= 0:
+            heads[arc.tail].append(arc.head)
+    order, seen = list[int](), [False] * size
+    for start in range(size):
+        order += _reached(start, heads, seen)
+    places = {node: -place for place, node in enumerate(order)}
+    return sorted(arcs, key=lambda arc: places[arc.tail])
+
+
+def _reached(start: int, heads: Sequence[Sequence[int]], seen: list[bool]) -> Iterator[int]:
+    """What a node leads to and was not seen, itself included, each after all that it leads to."""
+    if seen[start]:
+        return
+    seen[start], path = True, [(start, iter(heads[start]))]
+    while path:
+        following = path[-1][1]
+        head = next((head for head in following if not seen[head]), None)
+        if head is None:
+            yield path.pop()[0]
+        else:
+            seen[head] = True
+            path.append((head, iter(heads[head])))
 
 
 def _circle(size: int, into: dict[int, Arc[L]]) -> list[Arc[L]]:

@@ -11,7 +11,7 @@ from reactive_realizer.scheduler.convex.causes import GIVEN, Cause, Clash, Rank
 from reactive_realizer.scheduler.convex.lateness import late_behaviors
 from reactive_realizer.scheduler.convex.longest_path import TOLERANCE
 from reactive_realizer.scheduler.convex.roots import Roots
-from reactive_realizer.scheduler.convex.span import SHORTEST, Bound, Row, Span
+from reactive_realizer.scheduler.convex.span import LEAST, Bound, Row, Span
 from reactive_realizer.scheduler.problem import Node, Order, Point, Tie
 
 START = 0
@@ -121,10 +121,10 @@ class Model:
         if not span.closed:
             return
         span.duration = span.shift
-        if span.elastic and span.duration < SHORTEST:
+        if span.elastic and span.duration < LEAST:
             causes = self.roots.way(span.start, span.end) | {span.cause}
             causes |= {span.length_cause} if span.duration > -TOLERANCE else set()
-            self.clashes.append(Clash(causes, SHORTEST - span.duration))
+            self.clashes.append(Clash(causes, LEAST - span.duration))
 
     # --- inequalities
 

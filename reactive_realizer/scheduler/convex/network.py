@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
-from reactive_realizer.scheduler.convex.longest_path import TOLERANCE
+from reactive_realizer.scheduler.convex.longest_path import TOLERANCE, components
 from reactive_realizer.scheduler.convex.model import START
 from reactive_realizer.scheduler.convex.recipes import Spot
 from reactive_realizer.scheduler.convex.span import Span
@@ -35,9 +35,13 @@ class Precedence(NamedTuple):
 class Network:
     """Roots, their times, and ways between them.
 
+    What hangs on a time from outside falls apart into branches, each with a root of its own: what is tied together by
+    other ties than those to that time. So a branch stays in one piece when its first point has passed.
+
     Attributes:
         roots: in order; the fixed ones come first.
         fixed: number of fixed roots.
+        branches: where the roots of branches hang.
         leads: how much later (s) than the root its first point is; 0 for fixed ones.
         ways: in order of time.
     """
@@ -45,20 +49,23 @@ class Network:
     def __init__(self, table: Timetable) -> None:
         self._table = table
         self._model = table.model
-        find = self._model.roots.find
         self.fixed = len(self._model.stage.fixed)
+        links = [pair for pair in self._model.roots.pairs if min(pair) >= self.fixed]
+        self._parts = components(len(self._model.roots), links)
+        self.branches: dict[int, Spot] = {}
         self._hanging = table.grounded | {self.cluster(root) for root in range(self.fixed)}
         self.leads: dict[int, float] = dict.fromkeys(range(self.fixed), 0.0)
         for node in (node for knots in self._model.knots.values() for node in knots.values()):
-            root, distance = find(node)
+            root, distance = self.spot(node)
             if root >= self.fixed:
                 self.leads[root] = min(distance, self.leads.get(root, distance))
+                self._note_branch(root)
         spans = [span for span in self._model.spans if span.costs]
-        for root in (find(node)[0] for span in spans for node in (span.start, span.end)):
+        for root in (self.spot(node).root for span in spans for node in (span.start, span.end)):
             self.leads.setdefault(root, 0.0)
         self.roots = sorted(self.leads)
         ways = [self._way(span) for span in spans]
-        self.ways = sorted((w for w in ways if w.start != w.end), key=lambda way: (self.time(way.start), way))
+        self.ways = sorted((w for w in ways if w.start != w.end), key=self._turn)
 
     def time(self, root: int) -> float:
         """Of a root, s after the block's start."""
@@ -74,7 +81,11 @@ class Network:
 
     def spot(self, node: int) -> Spot:
         """Where a node is."""
-        return Spot(*self._model.roots.find(node))
+        fixed, distance = self._model.roots.find(node)
+        root = self._parts[node]
+        if fixed == START or node < self.fixed:
+            return Spot(fixed, distance)
+        return Spot(root, distance - self._model.roots.find(root)[1])
 
     def at(self, spot: Spot) -> float:
         """When, s after the block's start."""
@@ -122,6 +133,15 @@ class Network:
                 if old is None or sign * (self.at(spot) - self.at(old)) > TOLERANCE:
                     found[way.end], moved = spot, True
         return {root: spot for root, spot in found.items() if root not in ends}
+
+    def _turn(self, way: Way) -> tuple[float, float, Way]:
+        """By start; of those that start together, but for rounding, one that takes no time goes first."""
+        return round(self.time(way.start), 9), round(self.time(way.end), 9), way
+
+    def _note_branch(self, root: int) -> None:
+        fixed, distance = self._model.roots.find(root)
+        if fixed < self.fixed:
+            self.branches[root] = Spot(fixed, distance)
 
     def _way(self, span: Span) -> Way:
         (start, one), (end, two) = self.spot(span.start), self.spot(span.end)

@@ -1,5 +1,6 @@
 """From a timetable to descriptions of pegs."""
 
+from bisect import bisect_right
 from collections.abc import Sequence
 
 from reactive_realizer.pegboard.time_peg import TimeCell
@@ -24,9 +25,9 @@ def _points(table: Timetable, roots: "_Roots", behavior: int) -> dict[str, PegSp
     timing, times = table.model.stage.items[behavior].timing, table.points[behavior]
     knots = {k: roots.peg(node) for k, node in table.model.knots[behavior].items()}
     pegs: dict[int, PegSpec] = {}
+    places = tuple(knots)
     for k in range(len(times)):
-        before = max(knot for knot in knots if knot <= k)
-        after = min((knot for knot in knots if knot >= k), default=None)
+        before, after = _around(k, places)
         if k in knots:
             pegs[k] = knots[k]
         elif times[k] == times[k - 1] or (after is not None and times[after] <= times[before]):
@@ -38,6 +39,12 @@ def _points(table: Timetable, roots: "_Roots", behavior: int) -> dict[str, PegSp
         else:
             pegs[k] = AtRatio(knots[before], knots[after], (times[k] - times[before]) / (times[after] - times[before]))
     return {timing.points[k]: peg for k, peg in pegs.items()}
+
+
+def _around(k: int, knots: Sequence[int]) -> tuple[int, int | None]:
+    """The last knot up to a point, and the next one, if there is one."""
+    place = bisect_right(knots, k)
+    return knots[place - 1], knots[place] if place < len(knots) else None
 
 
 def _rigid(phases: tuple[Phase, ...]) -> bool:

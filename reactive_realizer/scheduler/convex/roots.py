@@ -57,6 +57,11 @@ class Roots:
         self._parents[child], self._distances[child] = root, step
         return None
 
+    @property
+    def pairs(self) -> list[tuple[int, int]]:
+        """The nodes that were linked to each other; no more than are needed to hold each class together."""
+        return [(node, other) for node, others in self._links.items() for other, _ in others if node < other]
+
     def way(self, one: int, other: int) -> frozenset[Cause]:
         """What ties two nodes to each other, or, where nothing does, each to its root."""
         root, another = self.find(one)[0], self.find(other)[0]

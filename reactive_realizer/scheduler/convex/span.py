@@ -7,8 +7,8 @@ from typing import NamedTuple
 from reactive_realizer.planunit.timing import PhaseKind
 from reactive_realizer.scheduler.convex.causes import Cause, Rank
 
-SHORTEST = 1.6e-5
-"""What an elastic phase has at least: a thousandth of a tick, s."""
+LEAST = 1.6e-5
+"""What an elastic phase has at least, s: enough for a behavior to be played (`SHORTEST`), whatever rounding takes."""
 
 
 @dataclass(slots=True, eq=False)
@@ -62,7 +62,7 @@ class Span:
     @property
     def least(self) -> float:
         """The shortest it may be without its authored limits, s."""
-        return SHORTEST if self.elastic else 0.0
+        return LEAST if self.elastic else 0.0
 
     @property
     def cause(self) -> Cause:

@@ -4,16 +4,13 @@ from collections.abc import Iterator, Mapping, Sequence
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
 
-from reactive_realizer.planunit.timing import PhaseKind
+from reactive_realizer.planunit.timing import SHORTEST, PhaseKind
 from reactive_realizer.scheduler.convex.causes import Cause, Clash, Rank
 from reactive_realizer.scheduler.convex.durations import Durations
 from reactive_realizer.scheduler.convex.feasibility import clashes
 from reactive_realizer.scheduler.convex.longest_path import TOLERANCE, Arc, components, longest_path
 from reactive_realizer.scheduler.convex.model import START, Model
 from reactive_realizer.scheduler.convex.span import Bound
-
-_NOTHING = 1e-5
-"""s; a behavior that takes less, less than a thousandth of a tick, takes no time."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,7 +123,7 @@ def _lengths(model: Model, behavior: int) -> list[float]:
 def _unplayable(model: Model, behavior: int, points: Sequence[float]) -> Iterator[Clash]:
     """A behavior that has no time at all (thesis 7.14), or none after the start of its block."""
     causes = frozenset({Cause(Rank.BEHAVIOR, behavior)})
-    if points[-1] - points[0] < _NOTHING and not model.stage.items[behavior].timing.instant:
+    if points[-1] - points[0] < SHORTEST and not model.stage.items[behavior].timing.instant:
         yield Clash(causes, 0.0)
-    elif behavior in model.late and points[-1] < -_NOTHING:
+    elif behavior in model.late and points[-1] < -SHORTEST:
         yield Clash(causes, -points[-1], late=True)

@@ -9,6 +9,7 @@ from reactive_realizer.scheduler.embr.grounding import ground
 from reactive_realizer.scheduler.embr.keeping import keep
 from reactive_realizer.scheduler.embr.pegs import Pegs
 from reactive_realizer.scheduler.embr.placing import place
+from reactive_realizer.scheduler.losses import lost_behavior
 from reactive_realizer.scheduler.problem import (
     Anchor,
     AtBlock,
@@ -91,7 +92,6 @@ def _alone(item: Item, constraints: Iterable[Tie | Order], given: Mapping[Node, 
 
 def _dropped(item: Item, constraints: Iterable[Tie | Order], fault: Fault) -> Loss:
     """A behavior goes, and with it the constraints on it; the block fails if one of these was required."""
-    id_, place = item.behavior.id, item.behavior.location
-    needed = any(each.required and any(_is_of(node, {id_}) for node in each.nodes) for each in constraints)
-    located = fault.located(place.line, place.column)
-    return Loss(id_, located, dropped=True, required=item.behavior.required or needed)
+    own = {item.behavior.id}
+    needed = any(each.required and any(_is_of(node, own) for node in each.nodes) for each in constraints)
+    return lost_behavior(item.behavior, fault, needed=needed)

@@ -7,10 +7,11 @@ from reactive_realizer.errors import Fault
 from reactive_realizer.scheduler.embr.case import Case
 from reactive_realizer.scheduler.embr.differences import Differences, Row
 from reactive_realizer.scheduler.equalities import Equalities
+from reactive_realizer.scheduler.losses import lost_constraint
 from reactive_realizer.scheduler.problem import Loss, Node, Order, Origin, Point, Tie
 
-_SHORTEST = 2e-5
-"""s; a behavior takes at least this, which is more than a thousandth of a tick."""
+_LEAST = 2e-5
+"""What a behavior has at least, s: enough to be played (`SHORTEST`), whatever the solver's rounding takes."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +68,7 @@ class _Keeping:
         for id_, item in self._case.items.items():
             if not item.timing.instant:
                 first, last = (Point(id_, item.timing.points[i]) for i in (0, -1))
-                self._require(Row(last, first, _SHORTEST))
+                self._require(Row(last, first, _LEAST))
         constraints = tuple(each for each in self._case.constraints if self._admit(each))
         losses = tuple(self._losses)
         return Kept(constraints, losses, self._classes, tuple(self._rows), self._late, self._differences)
@@ -83,14 +84,15 @@ class _Keeping:
             if gap is None:
                 self._rows.append(row)
         elif self._outer(constraint):
-            self._losses.append(_loss(constraint, "outer-tie"))
+            self._losses.append(lost_constraint(constraint, Fault("outer-tie", {"tie": constraint.text})))
             return False
         else:
             gap = self._differences.add(*_equal(constraint.left, constraint.right, constraint.offset))
             if gap is None:
                 self._classes.tie(constraint.left, constraint.right, constraint.offset)
         if gap is not None:
-            self._losses.append(_loss(constraint, "contradictory-tie", gap))
+            fault = Fault("contradictory-tie", {"tie": constraint.text, "gap": gap})
+            self._losses.append(lost_constraint(constraint, fault))
         return gap is None
 
     def _outer(self, tie: Tie) -> bool:
@@ -130,10 +132,3 @@ def _hanging(case: Case, tie: Tie, late: set[str]) -> Iterator[str]:
 
 def _equal(left: Node, right: Node, offset: float) -> tuple[Row[Node], Row[Node]]:
     return Row(left, right, offset), Row(right, left, -offset)
-
-
-def _loss(constraint: Tie | Order, code: str, gap: float = 0.0) -> Loss:
-    place = constraint.location
-    fault = Fault(code, {"tie": constraint.text, "gap": gap}, place.line, place.column)
-    owner = constraint.owner if isinstance(constraint, Tie) else None
-    return Loss(owner, fault, dropped=False, required=constraint.required, constraint=constraint)

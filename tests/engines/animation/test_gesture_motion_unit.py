@@ -179,3 +179,14 @@ def test_its_preparation_takes_as_long_as_the_way_from_where_the_hands_are(gestu
     assert unit.preparation(body) == pytest.approx(planned)
     there = body.posed(unit.pose(unit.key_positions["ready"], body))
     assert unit.preparation(there) < 0.3 < planned
+
+
+def test_another_one_like_it_takes_as_long_and_goes_its_own_way(gesture):
+    unit, body = gesture("beat_right")
+    other = unit.another()
+    assert (other.preferred_duration, other.key_positions) == (unit.preferred_duration, unit.key_positions)
+    as_planned = unit.pose(0.1, body)
+    other.parameters[AMOUNT] = 0.5
+    other.start(body.posed(RAISED))
+    assert unit.pose(0.1, body) == as_planned
+    assert other.pose(0.1, body) != as_planned

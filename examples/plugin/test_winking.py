@@ -1,0 +1,29 @@
+"""The plug-ins do what all of their kind have to do."""
+
+from beep_voice import BeepVoice
+from quick_first import QuickFirst
+from wink_engine import WinkEngine
+
+from reactive_realizer.testing.engine_contract import EngineContract
+from reactive_realizer.testing.strategy_contract import StrategyContract
+from reactive_realizer.testing.tts_contract import TTSContract
+
+
+class TestWinkEngine(EngineContract):
+    elements = (
+        '<wink xmlns="urn:example:wink" id="w" eye="right"/>',
+        '<wink xmlns="urn:example:wink" id="w" start="1" end="2"/>',
+    )
+    refused = ('<wink xmlns="urn:example:wink" id="w" eye="third"/>',)
+
+    def engine(self, context):
+        return WinkEngine(context)
+
+
+class TestBeepVoice(TTSContract):
+    def tts(self):
+        return BeepVoice()
+
+
+class TestQuickFirst(StrategyContract):
+    strategy = QuickFirst()

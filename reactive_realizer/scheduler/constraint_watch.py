@@ -1,0 +1,93 @@
+"""Constraints that held and cannot be kept any more (thesis 7.3.6: drop a violated constraint, and say so)."""
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from reactive_realizer.clock.units import GlobalTime, is_due
+from reactive_realizer.errors import Fault
+from reactive_realizer.pegboard.pegboard import PegBoard
+from reactive_realizer.pegboard.time_peg import Time
+from reactive_realizer.planunit.plan_unit import PlanUnit
+from reactive_realizer.reactive.cell import Cell
+from reactive_realizer.reactive.commit import Commit
+from reactive_realizer.scheduler.blocks import Blocks
+from reactive_realizer.scheduler.bml_block import BMLBlock
+from reactive_realizer.scheduler.problem import Node, Order, Origin, Point, Tie
+from reactive_realizer.scheduler.reporter import Reporter
+from reactive_realizer.scheduler.verify import TOLERANCE
+
+Moved = Mapping[Cell[Any], Any]
+"""Cells that changed in a tick, and what they were before."""
+
+
+class ConstraintWatch:
+    """Says once of each constraint of a committed plan that it is missed from now on.
+
+    Pegs keep constraints for as long as they can. They cannot where one side has passed, or where two times from
+    outside come closer than what is between them can be.
+    """
+
+    def __init__(self, board: PegBoard, blocks: Blocks, reporter: Reporter) -> None:
+        self._board = board
+        self._blocks = blocks
+        self._reporter = reporter
+
+    def check(self, commits: Iterable[Commit], now: GlobalTime) -> None:
+        """Check what the commits of the tick at ``now`` moved."""
+        moved: dict[Cell[Any], Any] = {}
+        for change in (change for commit in commits for change in commit.changes):
+            moved.setdefault(change.cell, change.old)
+        owners = {self._board.owner(cell) for cell in moved}
+        for block in self._blocks.alive if moved else ():
+            if block.kept and (block.key in owners or any(n in moved for c in block.kept for n in c.nodes)):
+                self._check(block, moved, now)
+
+    def _check(self, block: BMLBlock, moved: Moved, now: GlobalTime) -> None:
+        units = {unit.behavior.id: unit for unit in block.units}
+        for each in block.kept:
+            if each in block.settled or _cut(each, units):
+                continue
+            late = _late(each, *(_time(node, block, units) for node in each.nodes))
+            missed = late > TOLERANCE
+            if missed and not _over(each, block, units, moved, now):
+                self._say(block, each, late)
+            if missed:
+                block.settled.add(each)
+
+    def _say(self, block: BMLBlock, constraint: Tie | Order, late: float) -> None:
+        owner = constraint.owner if isinstance(constraint, Tie) else None
+        fault = Fault("constraint-lost", {"constraint": constraint.text, "gap": late})
+        fault = fault.located(constraint.location.line, constraint.location.column)
+        id_ = block.key.block if owner is None else f"{block.key.block}:{owner}"
+        self._reporter.warn(block.key.character, id_, fault)
+
+
+def _late(constraint: Tie | Order, first: Time, second: Time) -> float:
+    """By how much (s) a constraint is missed; 0 while nobody knows."""
+    if first is None or second is None:
+        return 0.0
+    late = second + constraint.offset - first
+    return abs(late) if isinstance(constraint, Tie) else late
+
+
+def _time(node: Node, block: BMLBlock, units: Mapping[str, PlanUnit]) -> Time:
+    if isinstance(node, Point):
+        return units[node.behavior].time(node.sync)
+    return block.start.value if isinstance(node, Origin) else node.value
+
+
+def _cut(constraint: Tie | Order, units: Mapping[str, PlanUnit]) -> bool:
+    """Whether a point of it was dropped or interrupted: who does that tells what it means."""
+    points = [node for node in constraint.nodes if isinstance(node, Point)]
+    return any(point.behavior not in units or units[point.behavior].was_cut(point.sync) for point in points)
+
+
+def _over(
+    constraint: Tie | Order, block: BMLBlock, units: Mapping[str, PlanUnit], moved: Moved, now: GlobalTime
+) -> bool:
+    """Whether all that it names had come when a time from outside was given anew: that is another occurrence."""
+    outside = [node for node in constraint.nodes if not isinstance(node, Point | Origin)]
+    points = [node for node in constraint.nodes if isinstance(node, Point)]
+    came = all(units[point.behavior].point(point.sync).fired is not None for point in points)
+    started = block.state.plays or Origin.BLOCK_START not in constraint.nodes
+    return came and started and any(is_due(moved.get(node), now) for node in outside)

@@ -1,0 +1,6 @@
+"""Settings for property tests that stand in a class to inherit from; needs Hypothesis."""
+
+from hypothesis import HealthCheck, settings
+
+inherited = settings(suppress_health_check=[HealthCheck.differing_executors])
+"""One test, run by more than one class."""

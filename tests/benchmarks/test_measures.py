@@ -1,0 +1,62 @@
+"""Each benchmark gives all its numbers, or None for one that could not be taken, under the names that the pages use."""
+
+import importlib
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+
+SIZES = ("10", "1000", "100000")
+SMALLEST = {
+    "latency": {"runs": 2},
+    "propagation": {"largest": 1000},
+    "punctuality": {"seconds": 0.5},
+    "scheduling": {"most": 2},
+    "session": {"blocks": 4},
+}
+KEYS = {
+    "latency": {"tick_ms", *(f"{what}_ms.{part}" for what in ("predict", "activate") for part in ("p50", "p99"))},
+    "propagation": {
+        *(f"{whose}_ns.{shape}.{n}" for whose in ("cell", "reactivex") for shape in ("fanout", "chain") for n in SIZES),
+        "block_move_1000_ms",
+        "offset_chain_us.1",
+        "offset_chain_us.10",
+    },
+    "punctuality": {"tick_ms", *(f"{crowd}.{part}_ms" for crowd in ("1", "20") for part in ("p50", "p99"))},
+    "scheduling": {
+        *(
+            f"strategies.{name}.{n}.{part}_ms"
+            for name in ("smartbody", "embr", "convex")
+            for n in ("1", "5", "20", "100")
+            for part in ("median", "p99")
+        ),
+        *(f"chain.{n}" for n in ("10", "50", "100", "200")),
+    },
+    "session": {"first_100_ms", "last_100_ms", "retained_bytes_per_block"},
+}
+
+
+@pytest.mark.parametrize("name", SMALLEST)
+def test_a_benchmark_gives_all_its_numbers_and_has_aims_for_some(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.syspath_prepend(ROOT)
+    module = importlib.import_module(f"benchmarks.{name}")
+    numbers = dict(_numbers(module.measure(**SMALLEST[name])))
+    assert numbers.keys() == KEYS[name]
+    assert all(value is None or value >= 0.0 for key, value in numbers.items() if "retained" not in key)
+    assert set(module.AIMS) <= numbers.keys()
+
+
+def test_every_benchmark_is_among_them() -> None:
+    modules = {path.stem for path in (ROOT / "benchmarks").glob("*.py") if not path.stem.startswith("__")}
+    assert modules == set(SMALLEST)
+
+
+def _numbers(result: Mapping[str, object], prefix: str = "") -> Iterator[tuple[str, float | None]]:
+    for key, value in result.items():
+        if isinstance(value, Mapping):
+            yield from _numbers(value, f"{prefix}{key}.")
+        else:
+            assert value is None or isinstance(value, int | float)
+            yield prefix + key, value

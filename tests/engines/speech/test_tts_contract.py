@@ -1,0 +1,19 @@
+"""Both voices under the contract that plug-ins are tested by."""
+
+import pytest
+
+from reactive_realizer.engine.tts import TTSBinding
+from reactive_realizer.engines.speech.espeak_voice import EspeakVoice
+from reactive_realizer.engines.speech.text_voice import TextVoice
+from reactive_realizer.testing.tts_contract import TTSContract
+
+
+class TestTextVoice(TTSContract):
+    def tts(self) -> TTSBinding:
+        return TextVoice()
+
+
+@pytest.mark.speech
+class TestEspeakVoice(TTSContract):
+    def tts(self) -> TTSBinding:
+        return EspeakVoice()
