@@ -3,10 +3,9 @@
 import re
 
 from anticipators.rhythm import Rhythm
-from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.clock.units import GlobalTime, Time
 from reactive_realizer.pegboard.anticipator import Anticipator
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.pegboard.time_peg import Time
 
 _BEAT = re.compile(r"beat([0-9]{1,9})")
 _SHORTEST, _LONGEST = 0.2, 3.0

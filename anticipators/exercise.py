@@ -5,11 +5,10 @@ import re
 from anticipators.parameters import within
 from anticipators.peaks import Peaks
 from anticipators.rhythm import Rhythm
-from reactive_realizer.clock.units import GlobalTime, is_due
+from reactive_realizer.clock.units import GlobalTime, Time, is_due
 from reactive_realizer.errors import error
 from reactive_realizer.pegboard.anticipator import Anticipator
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.pegboard.time_peg import Time
 
 _NUMBER = re.compile(r"[0-9]{1,9}")
 _NAME = re.compile(r"[^\W\d]\w{0,199}")

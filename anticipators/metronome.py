@@ -3,11 +3,10 @@
 import re
 from typing import NamedTuple
 
-from reactive_realizer.clock.units import RESOLUTION, GlobalTime
+from reactive_realizer.clock.units import RESOLUTION, GlobalTime, Time
 from reactive_realizer.errors import error
 from reactive_realizer.pegboard.anticipator import Anticipator
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.pegboard.time_peg import Time
 
 _TICK = re.compile(r"tick([0-9]{1,9})")
 _SLOWEST, _FASTEST = 10.0, 400.0

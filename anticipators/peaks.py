@@ -3,8 +3,7 @@
 from math import exp
 from typing import NamedTuple
 
-from reactive_realizer.clock.units import GlobalTime
-from reactive_realizer.pegboard.time_peg import Time
+from reactive_realizer.clock.units import GlobalTime, Time
 
 _SLOW = 5.0
 """Time constant of the average, s: some movements long."""

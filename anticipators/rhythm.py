@@ -1,8 +1,7 @@
 """When the next beats come, from those that were heard: what everybody has in mind who follows a rhythm."""
 
 from anticipators.parameters import within
-from reactive_realizer.clock.units import GlobalTime, is_due
-from reactive_realizer.pegboard.time_peg import Time
+from reactive_realizer.clock.units import GlobalTime, Time, is_due
 
 _WINDOW = 0.3
 """So much of an interval a beat may be away from where it was expected."""

@@ -4,10 +4,9 @@ from dataclasses import replace
 
 from anticipators.parameters import within
 from anticipators.turn_model import PauseModel, Turn, TurnModel
-from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.clock.units import GlobalTime, Time
 from reactive_realizer.pegboard.anticipator import Anticipator
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.pegboard.time_peg import Time
 
 _RESUMED = 1.0
 """For so long (s) after its end the user may still go on with a turn."""

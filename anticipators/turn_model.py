@@ -6,8 +6,7 @@ from math import log
 from typing import Protocol
 
 from anticipators.parameters import within
-from reactive_realizer.clock.units import GlobalTime
-from reactive_realizer.pegboard.time_peg import Time
+from reactive_realizer.clock.units import GlobalTime, Time
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,9 +2,8 @@
 
 from anticipators.speech_stop import SpeechStop
 from anticipators.turn_model import Turn
-from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.clock.units import GlobalTime, Time
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.pegboard.time_peg import Time
 
 
 class Patience:

@@ -5,4 +5,4 @@ from math import pi, sin
 
 def overshoot(share: float) -> float:
     """The share of the way after a share of the time, both 0 to 1; 1 after all of it."""
-    return share + 0.3 * sin(pi * share)
+    return share + 0.6 * sin(pi * share)

@@ -40,8 +40,13 @@ class UnitSpec:
 
     def fits(self, behavior: str, namespace: str, attributes: Mapping[str, str]) -> bool:
         """Whether a behavior meets every constraint; words compare in any case, `_` like `-`."""
-        return behavior == self.behavior and namespace == self.namespace and all(
-            name in attributes and _word(attributes[name]) == _word(value) for name, value in self.constraints.items()
+        return (
+            behavior == self.behavior
+            and namespace == self.namespace
+            and all(
+                name in attributes and _word(attributes[name]) == _word(value)
+                for name, value in self.constraints.items()
+            )
         )
 
     def parameters(self, attributes: Mapping[str, str]) -> dict[str, str]:

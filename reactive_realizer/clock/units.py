@@ -5,6 +5,9 @@ from typing import NewType
 GlobalTime = NewType("GlobalTime", float)
 """Seconds on the realizer's clock; 0 is the first tick."""
 
+Time = GlobalTime | None
+"""When something is; None while that is unknown."""
+
 BlockTime = NewType("BlockTime", float)
 """Seconds since the start of a BML block."""
 

@@ -10,7 +10,7 @@ from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.audio import AudioChange
 from reactive_realizer.embodiment.humanoid import Eyes
 from reactive_realizer.embodiment.pose import Layer
-from reactive_realizer.engine.effects import Dropped, Play, Request
+from reactive_realizer.engine.effects import Dropped, Play, Reached, Request
 from reactive_realizer.engine.player import Player
 from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.peg_key import BlockKey
@@ -79,6 +79,7 @@ class DefaultEngine:
     def __init__(self, name: str) -> None:
         self.name = name
         self.player = Player()
+        self._reached: list[Reached] = []
 
     def supports(self, behavior: Behavior) -> bool:
         """Behaviors of its kinds, and no special cases of these."""
@@ -98,23 +99,24 @@ class DefaultEngine:
 
     def play(self, tick: Tick) -> Play:
         """Sync points that are due, and, where a frame is, what is seen and heard."""
+        self._reached += self.player.play(tick.time)
         return Play(
-            self.player.play(tick.time),
             layers=self.layers(tick) if tick.frame else (),
             face=self.face(tick) if tick.frame else {},
             eyes=self.eyes(tick) if tick.frame else None,
             audio=self.audio(tick),
             requests=(*self.player.take_ending(), *self.requests(tick)),
             dropped=self.player.take_dropped(),  # by all of the above
+            reached=self._take_reached(),  # nothing raised: else `fail` tells it
         )
 
     def fail(self, time: GlobalTime, fault: Fault) -> Play:
-        """Drop every unit."""
-        units = self.player.units
+        """Drop every unit; what was reached before the failure is told."""
+        dropped, units = self.player.take_dropped(), self.player.units
         for unit in units:
             unit.drop(time)
             self.player.remove(unit)
-        return Play(dropped=tuple(Dropped(unit, fault) for unit in units))
+        return Play(self._take_reached(), (*dropped, *(Dropped(unit, fault) for unit in units)))
 
     def requests(self, tick: Tick) -> tuple[Request, ...]:
         """What others are to do now."""
@@ -135,3 +137,7 @@ class DefaultEngine:
     def audio(self, tick: Tick) -> tuple[AudioChange, ...]:
         """What became audible, moved or fell silent since the last tick."""
         return ()
+
+    def _take_reached(self) -> tuple[Reached, ...]:
+        reached, self._reached = tuple(self._reached), []
+        return reached

@@ -3,10 +3,9 @@
 from math import isfinite
 from typing import ClassVar
 
-from reactive_realizer.clock.units import GlobalTime, is_due
+from reactive_realizer.clock.units import GlobalTime, Time, is_due
 from reactive_realizer.errors import error
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.pegboard.time_peg import Time
 
 
 class Anticipator:

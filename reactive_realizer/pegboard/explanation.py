@@ -2,7 +2,8 @@
 
 from dataclasses import asdict, dataclass
 
-from reactive_realizer.pegboard.time_peg import Link, Time, TimeCell, TimePeg, kind_of, state_of, time_of
+from reactive_realizer.clock.units import Time
+from reactive_realizer.pegboard.time_peg import Link, TimeCell, TimePeg, kind_of, state_of, time_of
 from reactive_realizer.reactive.commit import Stamp
 
 _DEEPEST = 64

@@ -2,9 +2,7 @@
 
 from collections.abc import Callable
 
-from reactive_realizer.clock.units import GlobalTime
-
-Time = GlobalTime | None
+from reactive_realizer.clock.units import GlobalTime, Time
 
 
 def shifted_by(offset: float) -> Callable[[Time], Time]:

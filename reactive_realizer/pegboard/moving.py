@@ -1,6 +1,6 @@
 """Moving a derived peg: by the one source that would bring it to where it is to be."""
 
-from reactive_realizer.clock.units import RESOLUTION, GlobalTime
+from reactive_realizer.clock.units import RESOLUTION, GlobalTime, Time
 from reactive_realizer.errors import error
 from reactive_realizer.pegboard.time_peg import (
     AfterPeg,
@@ -8,7 +8,6 @@ from reactive_realizer.pegboard.time_peg import (
     BeforePeg,
     BMLBlockPeg,
     OffsetPeg,
-    Time,
     TimeCell,
     TimePeg,
 )

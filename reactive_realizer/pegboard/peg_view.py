@@ -3,8 +3,9 @@
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 
+from reactive_realizer.clock.units import Time
 from reactive_realizer.pegboard.peg_key import BlockKey, PegKey
-from reactive_realizer.pegboard.time_peg import Time, TimeCell, TimePeg, kind_of, state_of, time_of
+from reactive_realizer.pegboard.time_peg import TimeCell, TimePeg, kind_of, state_of, time_of
 from reactive_realizer.reactive.commit import Stamp
 
 

@@ -3,13 +3,13 @@
 from collections.abc import Callable
 from itertools import islice
 
-from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.clock.units import GlobalTime, Time
 from reactive_realizer.errors import error
 from reactive_realizer.pegboard.explanation import Explanation, explain
 from reactive_realizer.pegboard.moving import MovableSource, move
 from reactive_realizer.pegboard.peg_key import ANTICIPATORS, BlockKey, PegKey, anticipator_key
 from reactive_realizer.pegboard.peg_view import PegView, view_of
-from reactive_realizer.pegboard.time_peg import AnticipatorPeg, Time, TimeCell, TimePeg, time_of
+from reactive_realizer.pegboard.time_peg import AnticipatorPeg, TimeCell, TimePeg, time_of
 from reactive_realizer.reactive.graph import Graph
 
 _PREDICTED = BlockKey("", ANTICIPATORS)

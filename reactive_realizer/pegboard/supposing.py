@@ -2,7 +2,8 @@
 
 from collections.abc import Mapping
 
-from reactive_realizer.pegboard.time_peg import Time, TimeCell, TimePeg
+from reactive_realizer.clock.units import Time
+from reactive_realizer.pegboard.time_peg import TimeCell, TimePeg
 
 
 class Supposed:

@@ -9,14 +9,13 @@ from abc import abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from typing import ClassVar, NamedTuple
 
-from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.clock.units import GlobalTime, Time
 from reactive_realizer.pegboard.formulas import between, latest, not_after, not_before, shifted_by
 from reactive_realizer.reactive.cell import Cell, Derived, Source
 from reactive_realizer.reactive.commit import Stamp
 from reactive_realizer.reactive.failure import Failure
 from reactive_realizer.reactive.graph import Graph
 
-Time = GlobalTime | None
 TimeCell = Cell[Time]
 Bound = tuple[TimeCell, float]
 """A peg and a distance (s) from it."""

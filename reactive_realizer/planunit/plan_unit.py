@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from enum import Enum
 
 from reactive_realizer.bml.behavior import Behavior
-from reactive_realizer.clock.units import RESOLUTION, GlobalTime, is_due
+from reactive_realizer.clock.units import RESOLUTION, GlobalTime, Time, is_due
 from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.peg_key import BlockKey, PegKey
-from reactive_realizer.pegboard.time_peg import Time, TimePeg
+from reactive_realizer.pegboard.time_peg import TimePeg
 from reactive_realizer.planunit.parameter import Parameter
 from reactive_realizer.planunit.timing import SHORTEST, Timing
 

@@ -82,6 +82,7 @@ class Realizer:
         self._inbox: list[tuple[GlobalTime, int, Input]] = []
         self._entered = 0
         self._commits: list[Commit] = []
+        self._clamped = 0
         self._frame_listeners: list[FrameListener] = []
         self._audio_listeners: list[AudioListener] = []
         self._entry_listeners: list[EntryListener] = []
@@ -150,6 +151,7 @@ class Realizer:
         self.time = self.board.time = tick.time
         watched = Tick(tick.number, tick.previous, tick.frame and bool(self._frame_listeners))
         self._commits.clear()
+        self._clamped = 0
         self._take_inputs(tick, self._workshop.ready() if work is None else tuple(work))
         plays = await self._play(watched)
         if watched.frame:
@@ -170,7 +172,7 @@ class Realizer:
                 self._try(anticipator.id, anticipator.advance, tick.time)
             for entry in due:
                 self._try(entry, self._apply, entry, tick.time)
-        self.scheduler.clamp(tick.previous, tick.time, tuple(self._commits))
+        self._clamp(tick)
         self._workshop.deliver(work, tick.time)
         for entry in due:
             if isinstance(entry, BmlText):
@@ -211,6 +213,7 @@ class Realizer:
         plays: list[Play] = []
         for _ in range(_MOST_ROUNDS):
             self.scheduler.advance(tick.time)
+            self._clamp(tick)
             if self.scheduler.apply(await play_all(self._leading, tick), tick.time):
                 continue
             plays = await play_all(self._following, tick)
@@ -221,6 +224,12 @@ class Realizer:
                 return plays
         self.scheduler.fail_restless(_MOST_ROUNDS, tick.time)
         return plays
+
+    def _clamp(self, tick: Tick) -> None:
+        """Nothing that changed since the last call has moved points into the past."""
+        commits = self._commits[self._clamped :]
+        self.scheduler.clamp(tick.previous, tick.time, commits)
+        self._clamped = len(self._commits)
 
     def _publish_audio(self, play: Play) -> None:
         for change in play.audio:

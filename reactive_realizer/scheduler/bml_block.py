@@ -5,11 +5,11 @@ from dataclasses import dataclass
 from enum import Enum
 
 from reactive_realizer.bml.block import BehaviorBlock
-from reactive_realizer.clock.units import GlobalTime, is_due
+from reactive_realizer.clock.units import GlobalTime, Time, is_due
 from reactive_realizer.feedback.feedback_manager import Place
 from reactive_realizer.pegboard.peg_key import BlockKey, PegKey
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.pegboard.time_peg import AnticipatorPeg, BMLBlockPeg, LatestPeg, Time, TimeCell
+from reactive_realizer.pegboard.time_peg import AnticipatorPeg, BMLBlockPeg, LatestPeg, TimeCell
 from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
 from reactive_realizer.scheduler.problem import Order, Tie
 

@@ -3,10 +3,9 @@
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from reactive_realizer.clock.units import GlobalTime, is_due
+from reactive_realizer.clock.units import GlobalTime, Time, is_due
 from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.pegboard.time_peg import Time
 from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.reactive.cell import Cell
 from reactive_realizer.reactive.commit import Commit

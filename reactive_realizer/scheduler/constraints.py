@@ -1,6 +1,6 @@
 """From what a block says about time to ties between points (thesis 7.1.1)."""
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Container, Iterable, Iterator, Mapping
 from typing import TypeVar
 
 from reactive_realizer.bml.behavior import Behavior
@@ -45,6 +45,17 @@ def hanging_on(named: Collection[str], kept: Iterable[Tie | Order]) -> set[str]:
     while new := {each for owner, ids in ends if ids & found for each in ({owner} if owner else ids)} - found:
         found |= new
     return found.difference(named)
+
+
+def naming(behavior: str, points: Container[Point], kept: Iterable[Tie | Order]) -> Point | None:
+    """The first of some points that a constraint ties a behavior to; None if none does."""
+    for each in kept:
+        nodes = [node for node in each.nodes if isinstance(node, Point)]
+        if any(node.behavior == behavior for node in nodes):
+            found = next((node for node in nodes if node in points), None)
+            if found is not None:
+                return found
+    return None
 
 
 def drop_unplaceable(units: dict[str, PlanUnit], locate: Locate) -> list[Loss]:

@@ -1,7 +1,7 @@
 """How blocks end: by themselves, cut short, revoked, failed."""
 
 import logging
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 
 from reactive_realizer.clock.units import GlobalTime, is_due
 from reactive_realizer.engine.effects import Dropped, Reached
@@ -14,8 +14,9 @@ from reactive_realizer.planunit.plan_unit import PlanUnit, UnitState
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BlockState, BMLBlock
 from reactive_realizer.scheduler.cast import Cast
-from reactive_realizer.scheduler.constraints import hanging_on
+from reactive_realizer.scheduler.constraints import hanging_on, naming
 from reactive_realizer.scheduler.predictions import Predictions
+from reactive_realizer.scheduler.problem import Point
 from reactive_realizer.scheduler.reporter import Reporter
 from reactive_realizer.scheduler.unit_endings import UnitEndings
 
@@ -136,7 +137,7 @@ class Endings:
 
     def _cut(self, block: BMLBlock, units: Sequence[PlanUnit], time: GlobalTime) -> None:
         """Some behaviors of a playing block end now; the block too if nothing is left of it."""
-        ahead = [point.peg for unit in units for point in unit.ahead() if not is_due(point.peg.value, time)]
+        missed = self._missed(units, time)
         cut = [self._units.cut(unit, time, at_end=unit in self._cuts) for unit in units]
         block.units = [unit for unit in block.units if unit.state is not UnitState.DROPPED]
         if not block.live_units and any(cut):
@@ -144,16 +145,36 @@ class Endings:
         elif not block.live_units:
             self.end(block, BlockState.DONE, block.end.value if block.end.value is not None else time)
         else:
-            hanging = hanging_on([unit.behavior.id for unit in units], block.kept)
-            others = [unit for unit in block.live_units if unit.behavior.id not in hanging]
-            living = {point.peg for unit in others for point in unit.ahead()}
-            pegs = [p for p in dict.fromkeys(ahead) if not p.pinned and living.isdisjoint({p, *followers_of(p)})]
-            with self._board.graph.transaction(f"cut a part of {block.key.block}"):
-                for peg in pegs:
-                    peg.pin(peg.value)
-                block.end_again(block.end.floor)
-            self._release_tied(pegs, BlockState.INTERRUPTED, time)
+            self._let_go(block, missed, time)
             self._subside(block.key)
+
+    def _missed(self, units: Sequence[PlanUnit], time: GlobalTime) -> dict[Point, TimePeg]:
+        """The points that some behaviors will not reach as planned if they are cut at a time, with their old pegs."""
+        missed = {}
+        for unit in units:
+            for point in unit.ahead():
+                moved = unit in self._cuts and point is unit.points[-1]
+                peg = self._board.get(unit.key(point.id))
+                if isinstance(peg, TimePeg) and (moved or not is_due(point.peg.value, time)):
+                    missed[Point(unit.behavior.id, point.id)] = peg
+        return missed
+
+    def _let_go(self, block: BMLBlock, missed: Mapping[Point, TimePeg], time: GlobalTime) -> None:
+        """What hung on points that a block's behaviors miss keeps the times predicted last, and is told."""
+        hanging = hanging_on({point.behavior for point in missed}, block.kept)
+        others = [unit for unit in block.live_units if unit.behavior.id not in hanging]
+        living = {point.peg for unit in others for point in unit.ahead()}
+        hung = [p for p in dict.fromkeys(missed.values()) if not p.pinned]
+        pegs = [peg for peg in hung if living.isdisjoint({peg, *followers_of(peg)})]
+        with self._board.graph.transaction(f"cut a part of {block.key.block}"):
+            for peg in pegs:
+                peg.pin(peg.value)
+            block.end_again(block.end.floor)
+        told = self._release_tied(pegs, BlockState.INTERRUPTED, time)
+        for unit in [unit for unit in block.live_units if unit.behavior.id in hanging and unit not in told]:
+            point = naming(unit.behavior.id, missed, block.kept)
+            if point is not None:
+                self._reporter.warn_of(unit, Fault("cut-tie", {"point": missed[point].name}))
 
     def _cut_later(self, unit: PlanUnit, time: GlobalTime) -> None:
         """It ends at a time ahead, which is known from now on; one that would end by then anyway goes on."""
@@ -169,26 +190,30 @@ class Endings:
     def _hand_over_targets(self, ended: BMLBlock) -> None:
         """Who waited for all, and for this block as the last one, waits for what that one waited for."""
         with self._board.graph.transaction(f"after {ended.key.block}"):
-            for block in self._blocks.alive:
-                if ended.waits_for and any(wait.implied and wait.target is ended for wait in block.waits):
+            for block in self._blocks.alive if ended.waits_for else ():
+                if any(wait.implied and wait.target is ended for wait in block.waits):
                     block.wait_instead(ended)
         ended.waits = ()
 
-    def _release_tied(self, cut: Sequence[TimePeg], state: BlockState, now: GlobalTime) -> None:
-        """Behaviors of other blocks that hang on points which never come keep the times predicted last, and say so.
+    def _release_tied(self, cut: Sequence[TimePeg], state: BlockState, now: GlobalTime) -> set[PlanUnit]:
+        """Behaviors that hang on points which never come keep the times predicted last, and are told; which these are.
 
         Without such a time they are lost; also when a block never began and they have not begun either.
         """
+        told = set()
         followers = {follower: peg for peg in cut for follower in followers_of(peg)}
-        for unit in [unit for block in self._blocks.alive for unit in block.live_units]:
+        alive = self._blocks.alive if followers else ()
+        for unit in [unit for block in alive for unit in block.live_units]:
             tied = [point.peg for point in unit.ahead() if point.peg in followers]
             if not tied:
                 continue
+            told.add(unit)
             details = {"point": followers[tied[0]].name}
             if any(peg.value is None for peg in tied) or (state is BlockState.REVOKED and not unit.begun):
                 self._units.drop_unit(unit, Fault("never-comes", details), now)
             else:
                 self._reporter.warn_of(unit, Fault("cut-tie", details))
+        return told
 
     def _subside(self, key: BlockKey) -> None:
         block = self._blocks.get(key)

@@ -3,11 +3,11 @@
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from reactive_realizer.clock.units import RESOLUTION, GlobalTime
+from reactive_realizer.clock.units import RESOLUTION, GlobalTime, Time
 from reactive_realizer.pegboard.following import hangs_on
 from reactive_realizer.pegboard.peg_key import PegKey
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.pegboard.time_peg import Bound, OffsetPeg, Time, TimeCell, TimePeg
+from reactive_realizer.pegboard.time_peg import Bound, OffsetPeg, TimeCell, TimePeg
 from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
 from reactive_realizer.planunit.timing import Timing
 from reactive_realizer.scheduler.blocks import Blocks

@@ -2,11 +2,10 @@
 
 from collections.abc import Mapping
 
-from reactive_realizer.clock.units import BlockTime, GlobalTime
+from reactive_realizer.clock.units import BlockTime, GlobalTime, Time
 from reactive_realizer.feedback.feedback_manager import FeedbackManager
 from reactive_realizer.feedback.messages import BehaviorPrediction, PredictionFeedback
 from reactive_realizer.pegboard.supposing import Supposed
-from reactive_realizer.pegboard.time_peg import Time
 from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.scheduler.bml_block import BMLBlock
 

@@ -1,19 +1,17 @@
 """SmartBody's scheduling with Elckerlyc's sorting (thesis 7.2.2, 7.3.5)."""
 
-import itertools
 from collections.abc import Iterable, Mapping
 from math import isfinite
-from typing import NamedTuple
 
 from reactive_realizer.errors import Fault, RealizerError, error
 from reactive_realizer.planunit.timing import SHORTEST
 from reactive_realizer.scheduler.equalities import Equalities
 from reactive_realizer.scheduler.losses import lost_behavior, lost_constraint
+from reactive_realizer.scheduler.placed import Placed, check_given, check_playable, filled, is_past, moved
 from reactive_realizer.scheduler.problem import (
     Anchor,
     AtBlock,
     AtOffset,
-    AtRatio,
     Item,
     Loss,
     Node,
@@ -26,21 +24,9 @@ from reactive_realizer.scheduler.problem import (
     Tie,
 )
 from reactive_realizer.scheduler.sorting import sort_items
-from reactive_realizer.scheduler.stretch import average_stretch, ratio_between
 
 _SAME = 1e-3
 """Times closer than this (s) are no contradiction for a rigid behavior."""
-
-
-class Placed(NamedTuple):
-    """A peg; its time (s) after the predicted block start, as far as it is known; the anchor it hangs on, if any.
-
-    What hangs on no anchor hangs on the outside: another block's point or an anticipator's.
-    """
-
-    spec: PegSpec
-    time: float | None
-    anchor: Anchor | None
 
 
 class SmartBodyStrategy:
@@ -96,9 +82,9 @@ class _Run:
             tied = self._met(item, tied)
         first = min(tied)
         known = self._not_before_the_block(item, {first: tied[first]} if item.timing.rigid else tied)
-        _check_given(item, known)
-        placed = _fill(item, known)
-        _check(item, placed)
+        check_given(item, known)
+        placed = filled(item, known)
+        check_playable(item, placed)
         self._join([point.anchor for point in (*tied.values(), *known.values())])
         self._accept(item, placed)
 
@@ -114,7 +100,7 @@ class _Run:
         if key not in self._shared:
             if root in self._classes:
                 placed, at = self._classes[root]
-                self._shared[key] = _moved(placed, distance - at)
+                self._shared[key] = moved(placed, distance - at)
             elif not isinstance(root, Point | Origin):
                 time = self._problem.times[root]
                 self._shared[key] = Placed(AtOffset(root, distance), None if time is None else time + distance, None)
@@ -135,8 +121,8 @@ class _Run:
             root, distance = self._ties.find(Point(item.behavior.id, sync))
             leader, at = leaders.setdefault(root, (i, distance))
             if i not in known and leader != i:
-                first = known.get(leader) or _fill(item, known)[leader]
-                known = {**known, leader: first, i: _moved(first, distance - at)}
+                first = known.get(leader) or filled(item, known)[leader]
+                known = {**known, leader: first, i: moved(first, distance - at)}
         return known
 
     def _met(self, item: Item, known: Mapping[int, Placed]) -> dict[int, Placed]:
@@ -172,7 +158,7 @@ class _Run:
         """
         first = min(known)
         given = known[first]
-        start = _fill(item, known)[0].time
+        start = filled(item, known)[0].time
         if start is None or given.time is None or start >= -SHORTEST:
             return known
         if given.anchor.free if given.anchor else given.time < 0:
@@ -212,9 +198,9 @@ class _Run:
         for item in self._kept():
             start, end = self._placed[item.behavior.id][0], self._placed[item.behavior.id][-1]
             # A later behavior may have tied a cluster to something fixed while it lay before the block.
-            if start.anchor is not None and _is_past(start):
+            if start.anchor is not None and is_past(start):
                 self._remove(item, Fault("before-block", {"early": -(start.time or 0.0)}))
-            elif _is_past(end):
+            elif is_past(end):
                 self._remove(item, Fault("all-past", {"late": -(end.time or 0.0)}))
 
     def _remove(self, item: Item, fault: Fault) -> None:
@@ -240,66 +226,3 @@ class _Run:
 
 def _unkept(order: Order) -> Loss:
     return lost_constraint(order, Fault("no-order", {"strategy": SmartBodyStrategy.name, "text": order.text}))
-
-
-def _fill(item: Item, known: Mapping[int, Placed]) -> list[Placed]:
-    """All points from the known ones: a ratio between two of them, else at a distance from the nearest."""
-    offsets = item.timing.offsets
-    stretch = average_stretch(offsets, {i: p.time for i, p in known.items() if p.time is not None})
-    placed = []
-    for i in range(len(offsets)):
-        before = max((k for k in known if k <= i), default=None)
-        after = min((k for k in known if k >= i), default=None)
-        if before is not None and after is not None:
-            ratio = ratio_between(offsets, before, i, after)
-            placed.append(known[i] if i in known else _between(known[before], known[after], ratio))
-        else:
-            nearest = before if before is not None else min(known)
-            placed.append(_moved(known[nearest], (offsets[i] - offsets[nearest]) * stretch))
-    return placed
-
-
-def _is_past(placed: Placed) -> bool:
-    """Whether a point lies before its block; those of free clusters have been moved."""
-    free = placed.anchor is not None and placed.anchor.free
-    return not free and placed.time is not None and placed.time < -SHORTEST
-
-
-def _moved(placed: Placed, distance: float) -> Placed:
-    if distance == 0:
-        return placed
-    time = None if placed.time is None else placed.time + distance
-    return Placed(AtOffset(placed.spec, distance), time, placed.anchor)
-
-
-def _between(before: Placed, after: Placed, ratio: float) -> Placed:
-    time = None
-    if before.time is not None and after.time is not None:
-        time = before.time + ratio * (after.time - before.time)
-    return Placed(AtRatio(before.spec, after.spec, ratio), time, before.anchor)
-
-
-def _check_given(item: Item, known: Mapping[int, Placed]) -> None:
-    """Refuse times that were asked for and are out of order, by the names they were asked for.
-
-    Raises:
-        RealizerError: "out-of-order".
-    """
-    given = [(item.timing.points[i], time) for i, p in sorted(known.items()) if (time := p.time) is not None]
-    for (sync, time), (later, then) in itertools.combinations(given, 2):
-        if then < time - SHORTEST:
-            raise error("out-of-order", sync=sync, later=later, gap=time - then)
-
-
-def _check(item: Item, placed: list[Placed]) -> None:
-    """Refuse what cannot be played (thesis 7.14, 7.15).
-
-    Raises:
-        RealizerError: points out of order, or no time at all between start and end.
-    """
-    known = [(sync, p.time) for sync, p in zip(item.timing.points, placed, strict=True) if p.time is not None]
-    for (sync, time), (later, then) in itertools.pairwise(known):
-        if then < time - SHORTEST:
-            raise error("out-of-order", sync=sync, later=later, gap=time - then)
-    if not item.timing.instant and len(known) == len(placed) and known[-1][1] - known[0][1] < SHORTEST:
-        raise error("too-short")

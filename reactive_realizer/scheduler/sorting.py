@@ -1,6 +1,7 @@
 """The order in which Elckerlyc schedules behaviors (thesis 7.3.5): what bends least goes first."""
 
-from collections.abc import Sequence
+from collections import defaultdict
+from collections.abc import Iterable, Sequence
 
 from reactive_realizer.scheduler.equalities import Equalities
 from reactive_realizer.scheduler.problem import Item, Node, Point, Problem, Tie
@@ -14,8 +15,9 @@ def sort_items(problem: Problem, equalities: Equalities[Node]) -> list[Item]:
     """
     grounded = [item for item in problem.items if item.timing.rigid and _is_grounded(item, equalities)]
     order = [item for item in problem.items if item not in grounded]
+    groups = _flexible_groups(problem)
     for item in [item for item in order if item.timing.rigid]:
-        partners = _cycle_partners(item, problem)
+        partners = _cycle_partners(item.behavior.id, groups, problem.ties)
         places = [i for i, other in enumerate(order) if other.behavior.id in partners]
         if places and places[0] < order.index(item):
             order.remove(item)
@@ -28,15 +30,26 @@ def _is_grounded(item: Item, equalities: Equalities[Node]) -> bool:
     return any(not isinstance(equalities.find(node)[0], Point) for node in nodes)
 
 
-def _cycle_partners(item: Item, problem: Problem) -> set[str]:
-    """Non-rigid behaviors, connected with each other, that hang on two or more different points of the item."""
-    rigid = {other.behavior.id for other in problem.items if other.timing.rigid}
+def _flexible_groups(problem: Problem) -> list[set[str]]:
+    """Behaviors that are not rigid and are connected with each other."""
+    rigid = {item.behavior.id for item in problem.items if item.timing.rigid}
     links = [pair for tie in problem.ties if (pair := _behaviors(tie)) is not None]
-    partners: set[str] = set()
-    for group in _connected(links, without=rigid):
-        if len(_touched_points(item.behavior.id, group, problem.ties)) > 1:
-            partners |= group
-    return partners
+    return _connected(links, without=rigid)
+
+
+def _cycle_partners(rigid: str, groups: Sequence[set[str]], ties: Sequence[Tie]) -> set[str]:
+    """The groups that hang on two or more different points of a behavior."""
+    touched: defaultdict[str, set[str]] = defaultdict(set)
+    for tie in ties:
+        for here, there in ((tie.left, tie.right), (tie.right, tie.left)):
+            if isinstance(here, Point) and isinstance(there, Point) and here.behavior == rigid:
+                touched[there.behavior].add(here.sync)
+    partners = [group for group in groups if len(_all_of(touched[id_] for id_ in group & touched.keys())) > 1]
+    return _all_of(partners)
+
+
+def _all_of(sets: Iterable[set[str]]) -> set[str]:
+    return set().union(*sets)
 
 
 def _behaviors(tie: Tie) -> tuple[str, str] | None:
@@ -54,12 +67,3 @@ def _connected(links: Sequence[tuple[str, str]], without: set[str]) -> list[set[
         if members:
             groups.append(members.union(*touching))
     return groups
-
-
-def _touched_points(rigid: str, group: set[str], ties: Sequence[Tie]) -> set[str]:
-    points = set()
-    for tie in ties:
-        for here, there in ((tie.left, tie.right), (tie.right, tie.left)):
-            if isinstance(here, Point) and isinstance(there, Point) and here.behavior == rigid:
-                points |= {here.sync} if there.behavior in group else set()
-    return points

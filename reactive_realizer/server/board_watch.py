@@ -4,9 +4,9 @@ from collections import deque
 from collections.abc import Callable
 from itertools import islice
 
-from reactive_realizer.clock.units import GlobalTime, is_due
+from reactive_realizer.clock.units import GlobalTime, Time, is_due
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.pegboard.time_peg import AnticipatorPeg, Time, TimePeg
+from reactive_realizer.pegboard.time_peg import AnticipatorPeg, TimePeg
 from reactive_realizer.reactive.commit import Change, Commit
 from reactive_realizer.server.audience import Audience
 from reactive_realizer.server.protocol import Message

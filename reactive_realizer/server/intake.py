@@ -14,6 +14,10 @@ from reactive_realizer.server.demo import Demo
 from reactive_realizer.server.live import Live
 from reactive_realizer.server.protocol import Message
 
+_SMALL = 2000
+"""Bytes or characters of a document that is read at once: a thread takes longer to begin; one of a megabyte takes
+longer than many ticks."""
+
 
 class BlocksRefused(RealizerError):
     """Some blocks of a document were refused; it says why the first one was.
@@ -116,8 +120,10 @@ class Intake:
 
     async def _judge(self, text: str | bytes) -> tuple[list[str], list[Fault]]:
         """The ids of the blocks that can be accepted, and why the others cannot."""
-        # Aside: a large document takes longer than a tick.
-        read = await asyncio.to_thread(parse, text, self._live.limits)
+        if len(text) < _SMALL:
+            read = parse(text, self._live.limits)
+        else:
+            read = await asyncio.to_thread(parse, text, self._live.limits)
         admission = self._realizer.scheduler.admission()
         ids, faults = [], []
         for parsed in read:

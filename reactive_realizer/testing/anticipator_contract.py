@@ -10,11 +10,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from reactive_realizer.clock.ticker import tick_time
-from reactive_realizer.clock.units import RESOLUTION
+from reactive_realizer.clock.units import RESOLUTION, Time
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.pegboard.anticipator import Anticipator
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.pegboard.time_peg import AnticipatorPeg, Time
+from reactive_realizer.pegboard.time_peg import AnticipatorPeg
 from reactive_realizer.reactive.commit import Change, Commit
 from reactive_realizer.testing.anticipator_stand import AnticipatorStand, Told
 from reactive_realizer.testing.inherited import inherited

@@ -4,10 +4,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.clock.units import GlobalTime, Time
 from reactive_realizer.pegboard.anticipator import Anticipator
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.pegboard.time_peg import Time
 from reactive_realizer.reactive.graph import Graph
 
 

@@ -16,7 +16,8 @@ from reactive_realizer.engine.effects import Play
 from reactive_realizer.engine.engine import Engine
 from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.planunit.plan_unit import PlanUnit
-from reactive_realizer.testing.engine_stand import BLOCK, EngineStand, behavior_of, lone_context, prepared
+from reactive_realizer.testing.engine_stand import BLOCK, EngineStand, behavior_of, offsets_of, prepared
+from reactive_realizer.testing.lone_context import lone_context
 
 _START = 0.123
 """s; between two ticks."""
@@ -305,7 +306,7 @@ def _renamed(element: str) -> Behavior:
 
 
 def _duration(unit: PlanUnit) -> float:
-    return unit.timing.offsets[-1]
+    return offsets_of(unit.timing)[-1]
 
 
 def _fail_at(unit: PlanUnit, wrong: str) -> None:

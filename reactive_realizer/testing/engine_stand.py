@@ -2,24 +2,16 @@
 
 import asyncio
 from collections.abc import Awaitable
-from functools import cache
 from math import inf
-from pathlib import Path
 
-from reactive_realizer.assembly.assets import Assets
-from reactive_realizer.assembly.human_file import CharacterSpec
-from reactive_realizer.assembly.registry import load, names
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.behaviors import Wait
 from reactive_realizer.bml.document import parse
 from reactive_realizer.bml.names import BML, Location
 from reactive_realizer.clock.ticker import FRAME_EVERY, RATE, Tick, tick_time
-from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.clock.units import GlobalTime, Time
 from reactive_realizer.embodiment.audio import AudioChange, AudioGain, AudioMove, AudioStart, AudioStop
-from reactive_realizer.embodiment.avatar import Avatar
 from reactive_realizer.embodiment.frame import Frame
-from reactive_realizer.embodiment.humanoid import Humanoid
-from reactive_realizer.embodiment.world import World
 from reactive_realizer.engine.context import EngineContext
 from reactive_realizer.engine.effects import (
     ActivateBlock,
@@ -32,39 +24,22 @@ from reactive_realizer.engine.effects import (
     SetParameter,
 )
 from reactive_realizer.engine.engine import Engine
-from reactive_realizer.engine.tts import TTSBinding
-from reactive_realizer.engines.speech.text_voice import TextVoice
 from reactive_realizer.limits import Limits
 from reactive_realizer.pegboard.peg_key import BlockKey
-from reactive_realizer.pegboard.time_peg import AnticipatorPeg, OffsetPeg, Time
+from reactive_realizer.pegboard.time_peg import AnticipatorPeg, OffsetPeg
 from reactive_realizer.planunit.parameter import Parameter, Range
 from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint, UnitState
-from reactive_realizer.planunit.timing import timing_at
+from reactive_realizer.planunit.timing import Timing, timing_at
 from reactive_realizer.reactive.cell import Source
 from reactive_realizer.reactive.commit import Commit
 from reactive_realizer.realizer.character import Character
+from reactive_realizer.testing.lone_context import CHARACTER
 from reactive_realizer.testing.pilot import block
 
-BLOCK = BlockKey("alice", "b")
+BLOCK = BlockKey(CHARACTER, "b")
 """The block that all behaviors are said to be of."""
 
 _MOST_ROUNDS = 100
-
-
-def lone_context(tts: TTSBinding | None = None, *assets: Path) -> EngineContext:
-    """What engines are made from: alice, alone before a target ``viewer``, with the text voice unless told otherwise.
-
-    Args:
-        tts: started already.
-        assets: folders searched before the package's own.
-    """
-    spec, found = CharacterSpec(), Assets(assets)
-    humanoid = Humanoid(_avatar(found(spec.avatar)))
-    world = World({"viewer": (0.0, 1.6, 2.5)})
-    world.add_character(BLOCK.character, humanoid.locate)
-    trajectories = {name: load("trajectories", name) for name in names("trajectories")}
-    voice, bindings = tts or TextVoice(), dict(spec.bindings)
-    return EngineContext(BLOCK.character, humanoid, world, found, 0, voice, None, bindings, trajectories=trajectories)
 
 
 def behavior_of(element: str) -> Behavior:
@@ -84,6 +59,13 @@ def prepared(engine: Engine, behavior: Behavior) -> object:
     """What the slow work for a behavior gives, None where there is none."""
     work = engine.prepare(behavior)
     return None if work is None else asyncio.run(_result(work))
+
+
+def offsets_of(timing: Timing) -> tuple[float, ...]:
+    """The time (s) of each point after the first, as wanted; what wants no time gets a second, as if from outside."""
+    if timing.instant or timing.offsets[-1] > 0:
+        return timing.offsets
+    return tuple(rank / len(timing.phases) for rank in range(len(timing.points)))
 
 
 class EngineStand:
@@ -136,7 +118,7 @@ class EngineStand:
 
     def place(self, unit: PlanUnit, start: float | None) -> None:
         """Hang the points of a unit on pegs, as it would like them, and have its block started."""
-        offsets = dict(zip(unit.timing.points, unit.timing.offsets, strict=True))
+        offsets = dict(zip(unit.timing.points, offsets_of(unit.timing), strict=True))
         times = {sync: None if start is None else GlobalTime(start + offset) for sync, offset in offsets.items()}
         pegs = {sync: AnticipatorPeg(self._graph, f"planned {sync}", time) for sync, time in times.items()}
         unit.points = [SyncPoint(sync, OffsetPeg(self._graph, sync, peg, 0.0)) for sync, peg in pegs.items()]
@@ -266,11 +248,6 @@ class EngineStand:
     def _note(self, commit: Commit) -> None:
         if self._playing:
             self.written.append(commit)
-
-
-@cache
-def _avatar(path: Path) -> Avatar:
-    return Avatar.read(path)
 
 
 def _forever() -> PlanUnit:

@@ -271,3 +271,14 @@ async def test_what_came_to_lie_before_its_block_is_squeezed_when_the_block_star
     assert pilot.feedback.time("next:n:start") == pilot.feedback.time("next:start") == 2.0
     assert pilot.feedback.time("next:n:end") == 2.3
     assert pilot.feedback.warnings == []
+
+
+async def test_what_would_have_had_to_begin_before_it_was_known_is_not_played_in_the_past(pilot) -> None:
+    send(pilot, "ready", wait(1), 'bmla:preplan="true"')
+    send(pilot, "early", '<head id="n" lexeme="NOD" stroke="ready:start"/>')
+    await pilot.advance(0.3)
+    send(pilot, "go", "", 'bmla:onStart="ready"')
+    await pilot.advance(3)
+    assert pilot.feedback.time("ready:start") == 0.3
+    assert pilot.feedback.time("early:n:start") == pilot.feedback.time("early:n:stroke") == 0.3
+    assert pilot.feedback.time("early:n:end") > 0.5

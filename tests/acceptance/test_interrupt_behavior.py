@@ -212,3 +212,16 @@ async def test_a_block_whose_last_behavior_ends_its_word_ends_with_it_though_oth
     send(pilot, "stop", '<bmla:interrupt id="i" target="talk" start="0.5" speech="word"/>')
     await pilot.advance(4)
     assert pilot.feedback.time("talk:end") == pilot.feedback.time("talk:s:end") < 1
+
+
+@pytest.mark.parametrize("speech", ["now", "word"])
+async def test_all_that_hangs_on_the_end_of_a_cut_speech_is_told_in_its_block_and_in_others(pilot, speech) -> None:
+    heads = '<head id="h" lexeme="NOD" start="s:end"/><head id="k" lexeme="NOD" start="s:end+1"/>'
+    send(pilot, "talk", TALK + heads + '<head id="free" lexeme="NOD" start="1"/>')
+    send(pilot, "other", '<gaze id="z" target="camera" start="talk:s:end"/>')
+    await pilot.tick()
+    expected = {point: pilot.feedback.predicted(point) for point in ("talk:h:start", "talk:k:start", "other:z:start")}
+    send(pilot, "stop", f'<bmla:interrupt id="i" target="talk" include="s" start="0.5" speech="{speech}"/>')
+    await pilot.advance(5)
+    assert {point: pilot.feedback.time(point) for point in expected} == pytest.approx(expected)
+    assert sorted(id_ for id_, _ in pilot.feedback.warnings) == ["other:z", "talk:h", "talk:k"]

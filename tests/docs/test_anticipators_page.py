@@ -10,24 +10,14 @@ from reactive_realizer.assembly.scene import DEFAULT_HUMAN, SceneOptions
 from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 from .conftest import EXAMPLES, Fence, fences
+from .installing import install
 
 PLUGIN = EXAMPLES / "anticipator"
-ENTRY_POINTS = """\
-[reactive_realizer.anticipators]
-turn_end = turn_end:TurnEnd
-patient_stop = patient_stop:PatientStop
-"""
 
 
 @pytest.fixture
 def installed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The plug-in as pip would leave it: on the path, with metadata that name its entry point."""
-    metadata = tmp_path / "turn_end-1.0.dist-info"
-    metadata.mkdir()
-    (metadata / "METADATA").write_text("Metadata-Version: 2.1\nName: turn-end\nVersion: 1.0\n", encoding="utf-8")
-    (metadata / "entry_points.txt").write_text(ENTRY_POINTS, encoding="utf-8")
-    monkeypatch.syspath_prepend(str(tmp_path))
-    monkeypatch.syspath_prepend(str(PLUGIN))
+    install(PLUGIN, tmp_path, monkeypatch)
 
 
 @pytest.mark.usefixtures("installed")

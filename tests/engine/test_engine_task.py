@@ -7,6 +7,7 @@ import pytest
 from reactive_realizer.bml.behaviors import Wait
 from reactive_realizer.bml.names import BML, Location
 from reactive_realizer.clock.ticker import Tick
+from reactive_realizer.engine.effects import Play
 from reactive_realizer.engine.engine import DefaultEngine
 from reactive_realizer.engine.engine_task import EngineTask, play_all
 from reactive_realizer.pegboard.peg_key import BlockKey
@@ -89,6 +90,20 @@ async def test_an_engine_that_raises_drops_its_units_and_the_others_play(play) -
     assert dropped(first) == [("a", "engine-failed"), ("b", "engine-failed")]
     assert broken.player.units == ()
     assert reached(second) == [("c", "start", 0.0)]
+
+
+async def test_an_engine_that_fails_to_show_what_it_plays_has_said_what_was_reached(play) -> None:
+    class Broken(DefaultEngine):
+        def audio(self, tick):
+            raise ZeroDivisionError
+
+    arms = Broken("alice/broken")
+    for each in (unit("a", 0.0, 2.0, "arm"), unit("b", 0.0, 2.0, "arm"), unit("c", 0.0, 0.5)):
+        arms.add(each)
+    (played,) = await play(100, arms)
+    assert reached(played) == [("a", "start", 0.0), ("c", "start", 0.0), ("c", "end", 0.5)]
+    assert dropped(played) == [("b", "resource-taken"), ("a", "engine-failed")]
+    assert arms.fail(1.0, played.dropped[0].fault) == Play()
 
 
 async def test_a_round_that_was_given_up_leaves_the_engines_playing() -> None:

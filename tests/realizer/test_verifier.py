@@ -3,64 +3,58 @@
 import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.pegboard.time_peg import OffsetPeg
 from reactive_realizer.testing.pilot import open_pilot
 
-GESTURE = '<gesture id="g" lexeme="BEAT"/>'
-AFTER_HIT = '<constraint id="c"><after ref="anticipators:partner:hit"><sync ref="g:start"/></after></constraint>'
+WAIT = '<wait id="w" duration="1" start="2"/>'
 
 
-def pilot_of(**options):
-    # EMBR's program starts a gesture as early as it may in the plan that it makes, but not when that plan moves.
-    return open_pilot(SceneOptions(voice="text", strategy="embr", **options))
-
-
-async def broken(pilot) -> None:
-    pilot.predict("partner", "hit", 4.5)
-    pilot.block("b", GESTURE + AFTER_HIT)
-    await pilot.advance(0.5)
-    assert pilot.feedback.warnings == []
-    pilot.predict("partner", "hit", 1.0)
+async def broken(pilot, lengths=(3.0,)) -> None:
+    """Somebody who knows nothing of constraints makes a wait longer than it wants to be, once a tick."""
+    pilot.block("b", WAIT)
     await pilot.advance(0.1)
+    assert pilot.feedback.warnings == []
+    left = list(lengths)
+    pilot.realizer.record(lambda _: left and lengthen(pilot.realizer, left.pop(0)))
+    for _ in lengths:
+        await pilot.tick()
 
 
-async def test_an_equation_that_a_prediction_breaks_is_a_warning_of_its_block(caplog) -> None:
-    async with pilot_of(verify=True) as pilot:
+def lengthen(realizer, length) -> None:
+    (block,) = realizer.scheduler.blocks.alive
+    start, end = block.units[0].points
+    with realizer.board.graph.transaction("meddling"):
+        end.peg = OffsetPeg(realizer.board.graph, "longer", start.peg, length)
+        realizer.board.replace(block.units[0].key("end"), end.peg)
+
+
+async def test_an_equation_that_does_not_hold_is_a_warning_of_its_block(caplog) -> None:
+    async with open_pilot(SceneOptions(voice="text", verify=True)) as pilot:
         await broken(pilot)
     assert pilot.feedback.warnings == [("b", "IMPOSSIBLE_TO_SCHEDULE")]
     (warning,) = pilot.feedback.of("warningFeedback")
-    assert "thesis 7.24" in warning.element.text
-    assert "g:start" in warning.element.text
+    assert "'1 s from w:start to its end' is missed by 2 s (w:start, w:end; thesis 7.1.4)" in warning.element.text
     assert [record.levelname for record in caplog.records if record.name.endswith("verifier")] == ["ERROR"]
 
 
 async def test_it_is_said_once_however_often_the_plan_moves() -> None:
-    async with pilot_of(verify=True) as pilot:
-        await broken(pilot)
-        for time in (1.1, 1.2):
-            pilot.predict("partner", "hit", time)
-            await pilot.advance(0.1)
+    async with open_pilot(SceneOptions(voice="text", verify=True)) as pilot:
+        await broken(pilot, lengths=(3.0, 4.0, 5.0))
         assert len(pilot.feedback.warnings) == 1
 
 
 async def test_a_block_of_the_same_name_is_judged_anew() -> None:
-    async with pilot_of(verify=True) as pilot:
+    async with open_pilot(SceneOptions(voice="text", verify=True)) as pilot:
         await broken(pilot)
         pilot.block("next", composition="REPLACE")
         await pilot.advance(0.1)
-        await broken_again(pilot)
-        assert len(pilot.feedback.warnings) == 2
-
-
-async def broken_again(pilot) -> None:
-    pilot.predict("partner", "hit", 5.4)
-    pilot.block("b", GESTURE + AFTER_HIT)
-    await pilot.advance(0.1)
-    pilot.predict("partner", "hit", 1.0)
-    await pilot.advance(0.1)
+        pilot.feedback.lines.clear()
+        await broken(pilot)
+        assert len(pilot.feedback.warnings) == 1
 
 
 async def test_nobody_looks_unless_asked_to() -> None:
-    async with pilot_of() as pilot:
+    async with open_pilot() as pilot:
         await broken(pilot)
         assert pilot.feedback.warnings == []
 

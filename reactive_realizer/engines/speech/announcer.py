@@ -3,11 +3,10 @@
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.clock.units import GlobalTime, Time
 from reactive_realizer.embodiment.audio import AudioChange, AudioClip, AudioGain, AudioMove, AudioStart, AudioStop
 from reactive_realizer.engines.speech.audio import wav_bytes
 from reactive_realizer.engines.speech.speech_unit import SpeechUnit
-from reactive_realizer.pegboard.time_peg import Time
 from reactive_realizer.planunit.plan_unit import UnitState
 
 _WORTH_MOVING = 1e-3

@@ -133,12 +133,20 @@ class Hanging:
             leads = self._network.leads
             # The earlier one goes with a later one that comes from outside, or that cannot go.
             if order.earlier in movable and not (order.own and order.earlier in moved):
-                self.recipes[order.earlier].before.append(Spot(order.later, leads[order.earlier] - order.distance))
+                self._pull(order.earlier, Spot(order.later, leads[order.earlier] - order.distance))
                 bounded.add(order.earlier)
             if order.own:
                 self.recipes[order.later].after.append(Spot(order.earlier, leads[order.later] + order.distance))
                 bounded.add(order.later)
         return bounded
+
+    def _pull(self, root: int, latest: Spot) -> None:
+        """A root comes no later than something, but is not pulled before the block (thesis 7.13)."""
+        recipe = self.recipes[root]
+        recipe.before.append(latest)
+        floor = Spot(START, 0.0)
+        if self._network.first_time(root) >= 0 and floor not in recipe.after:
+            recipe.after.append(floor)
 
     def _begins_after(self, order: Precedence) -> bool:
         """Whether an order is kept by the beginning of the cluster."""

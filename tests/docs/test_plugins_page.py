@@ -1,0 +1,97 @@
+"""docs/plugins.md: its plug-ins are found, play, and pass the contracts as a stranger would run them."""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from reactive_realizer.assembly.registry import load, names
+from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.embodiment.audio import AudioGain
+from reactive_realizer.testing.pilot import open_pilot
+
+from .conftest import EXAMPLES, REPOSITORY, fences
+from .installing import install
+
+PAGE = "docs/plugins.md"
+PLUGIN = EXAMPLES / "plugin"
+
+
+@pytest.fixture
+def installed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    install(PLUGIN, tmp_path, monkeypatch)
+
+
+@pytest.mark.usefixtures("installed")
+async def test_all_four_have_their_part_in_the_block_of_the_page() -> None:
+    options = SceneOptions(PLUGIN / "human.toml", "beep", strategy="quick_first")
+    async with open_pilot(options) as pilot:
+        pilot.watch()
+        pilot.perform((PLUGIN / "wink.xml").read_bytes())
+        await pilot.advance(3)
+        told = pilot.feedback
+        assert told.warnings == []
+        assert told.status("hint") == "DONE"
+        assert told.time("hint:eye:start") == told.time("hint:words:what") == pytest.approx(0.8)
+        assert told.time("hint:eye:end") == told.time("hint:words:end") == pytest.approx(2.0)
+        morphs = pilot.realizer.characters["alice"].humanoid.avatar.morphs
+        lid = np.array([frame.weights[morphs.index("eyeBlinkLeft")] for frame in pilot.frames["alice"]])
+        assert lid[40:100] == pytest.approx(1.0)
+        assert lid[38] == lid[101] == 0.0
+        gains = [change.gain for change in pilot.sounds if isinstance(change, AudioGain)]
+        assert max(gains) > gains[-1] == pytest.approx(70 / 50)
+
+
+@pytest.mark.usefixtures("installed")
+def test_each_is_found_under_the_name_of_the_page() -> None:
+    for group, name in [("engines", "wink"), ("tts", "beep"), ("strategies", "quick_first")]:
+        assert name in names(group)
+        assert load(group, name).__module__
+    assert load("trajectories", "overshoot")(1.0) == pytest.approx(1.0)
+
+
+@pytest.mark.usefixtures("installed")
+async def test_what_the_engine_cannot_play_is_told_in_a_warning() -> None:
+    async with open_pilot(SceneOptions(PLUGIN / "human.toml", "text")) as pilot:
+        pilot.block("b", '<wink xmlns="urn:example:wink" id="w" eye="third"/>')
+        await pilot.advance(0.1)
+        assert pilot.feedback.warnings == [("b:w", "CANNOT_CREATE_BEHAVIOR")]
+        assert "nobody has an eye 'third'" in pilot.feedback.of("warningFeedback")[0].element.text
+
+
+@pytest.mark.timeout(300)
+def test_the_contracts_are_passed_by_pytest_alone(tmp_path: Path) -> None:
+    for folder in ("plugin", "anticipator"):
+        shutil.copytree(EXAMPLES / folder, tmp_path / "examples" / folder)
+    plain = ["-p", "no:asyncio", "-p", "no:cacheprovider", "-q"]
+    (session,) = fences(PAGE, "console")
+    command = session.text.splitlines()[-1].removeprefix("$ python ").split()
+    environment = os.environ | {"PYTHONPATH": str(REPOSITORY), "PYTHONDONTWRITEBYTECODE": "1"}
+    done = subprocess.run(
+        [sys.executable, *command, *plain], cwd=tmp_path, env=environment, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stdout
+    assert "skipped" not in done.stdout
+
+
+def test_the_page_shows_the_files_of_the_examples() -> None:
+    shown = [fence for language in ("python", "toml", "xml") for fence in fences(PAGE, language) if fence.note]
+    assert {fence.note for fence in shown if not fence.note.startswith("examples/anticipator")} == {
+        f"examples/plugin/{path.name}" for path in PLUGIN.iterdir() if path.is_file() and path.name != "pyproject.toml"
+    }
+    for fence in shown:
+        assert fence.text == (REPOSITORY / fence.note).read_text(encoding="utf-8"), fence
+    entry_points, *_ = fences(PAGE, "toml")
+    assert entry_points.text in (PLUGIN / "pyproject.toml").read_text(encoding="utf-8")
+
+
+def test_the_page_names_every_kind_of_plug_in() -> None:
+    table = {
+        line.split("`")[1] for line in (REPOSITORY / PAGE).read_text("utf-8").splitlines() if line.startswith("| [")
+    }
+    project = (REPOSITORY / "pyproject.toml").read_text("utf-8")
+    assert table == {line.split('"')[1] for line in project.splitlines() if line.startswith("[project.entry-points.")}
