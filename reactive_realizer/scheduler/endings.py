@@ -64,7 +64,7 @@ class Endings:
         for unit in block.units:
             self._cast.take(unit)
         self._hand_over_targets(block)
-        self._release_tied(cut, state, time)
+        self._release_tied({peg: peg.name for peg in cut}, state, time)
         self.failed += state is BlockState.FAILED
         logger.info("%s/%s %s at %.2f s, %d behaviors", *block.key, state.value, time, len(block.units))
 
@@ -164,8 +164,8 @@ class Endings:
         hanging = hanging_on({point.behavior for point in missed}, block.kept)
         others = [unit for unit in block.live_units if unit.behavior.id not in hanging]
         living = {point.peg for unit in others for point in unit.ahead()}
-        hung = [p for p in dict.fromkeys(missed.values()) if not p.pinned]
-        pegs = [peg for peg in hung if living.isdisjoint({peg, *followers_of(peg)})]
+        names = {peg: f"{block.key.block}:{point.behavior}:{point.sync}" for point, peg in missed.items()}
+        pegs = {p: n for p, n in names.items() if not p.pinned and living.isdisjoint({p, *followers_of(p)})}
         with self._board.graph.transaction(f"cut a part of {block.key.block}"):
             for peg in pegs:
                 peg.pin(peg.value)
@@ -174,7 +174,7 @@ class Endings:
         for unit in [unit for unit in block.live_units if unit.behavior.id in hanging and unit not in told]:
             point = naming(unit.behavior.id, missed, block.kept)
             if point is not None:
-                self._reporter.warn_of(unit, Fault("cut-tie", {"point": missed[point].name}))
+                self._reporter.warn_of(unit, Fault("cut-tie", {"point": names[missed[point]]}))
 
     def _cut_later(self, unit: PlanUnit, time: GlobalTime) -> None:
         """It ends at a time ahead, which is known from now on; one that would end by then anyway goes on."""
@@ -195,20 +195,20 @@ class Endings:
                     block.wait_instead(ended)
         ended.waits = ()
 
-    def _release_tied(self, cut: Sequence[TimePeg], state: BlockState, now: GlobalTime) -> set[PlanUnit]:
+    def _release_tied(self, cut: Mapping[TimePeg, str], state: BlockState, now: GlobalTime) -> set[PlanUnit]:
         """Behaviors that hang on points which never come keep the times predicted last, and are told; which these are.
 
         Without such a time they are lost; also when a block never began and they have not begun either.
         """
         told = set()
-        followers = {follower: peg for peg in cut for follower in followers_of(peg)}
+        followers = {follower: name for peg, name in cut.items() for follower in (peg, *followers_of(peg))}
         alive = self._blocks.alive if followers else ()
         for unit in [unit for block in alive for unit in block.live_units]:
             tied = [point.peg for point in unit.ahead() if point.peg in followers]
             if not tied:
                 continue
             told.add(unit)
-            details = {"point": followers[tied[0]].name}
+            details = {"point": followers[tied[0]]}
             if any(peg.value is None for peg in tied) or (state is BlockState.REVOKED and not unit.begun):
                 self._units.drop_unit(unit, Fault("never-comes", details), now)
             else:

@@ -225,3 +225,15 @@ async def test_all_that_hangs_on_the_end_of_a_cut_speech_is_told_in_its_block_an
     await pilot.advance(5)
     assert {point: pilot.feedback.time(point) for point in expected} == pytest.approx(expected)
     assert sorted(id_ for id_, _ in pilot.feedback.warnings) == ["other:z", "talk:h", "talk:k"]
+
+
+@pytest.mark.parametrize(
+    "hung", ['<bmla:interrupt id="x" target="none" start="w:start"/>', '<head id="x" lexeme="NOD" start="w:start"/>']
+)
+async def test_what_hangs_on_a_cut_point_that_was_never_predicted_is_dropped_and_told(pilot, hung) -> None:
+    send(pilot, "talk", hung + '<wait id="w" start="anticipators:user:nods" duration="1"/>')
+    send(pilot, "stop", '<bmla:interrupt id="i" target="talk" include="w"/>')
+    await pilot.advance(0.5)
+    assert pilot.feedback.warnings == [("talk:x", "IMPOSSIBLE_TO_SCHEDULE")]
+    assert "talk:w:start" in next(line.element.text for line in pilot.feedback.lines if line.id == "talk:x")
+    assert pilot.feedback.status("talk") in ("DONE", "INTERRUPTED")
