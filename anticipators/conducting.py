@@ -29,6 +29,7 @@ class Conducting(Anticipator):
     """
 
     kind = "conducting"
+    events = ("beat", "start")
 
     def __init__(
         self,

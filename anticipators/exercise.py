@@ -37,6 +37,7 @@ class Exercise(Anticipator):
     """
 
     kind = "exercise"
+    events = ("sample", "start")
 
     def __init__(
         self,
@@ -67,8 +68,9 @@ class Exercise(Anticipator):
         """A sample is a magnitude.
 
         Raises:
-            RealizerError: it is not.
+            RealizerError: it is not, or "unknown-event".
         """
+        super().check(name, value)
         if name == "sample":
             within(name, value, 0.0, _STRONGEST)
 

@@ -3,8 +3,8 @@
 import re
 from typing import NamedTuple
 
+from anticipators.parameters import within
 from reactive_realizer.clock.units import RESOLUTION, GlobalTime, Time
-from reactive_realizer.errors import error
 from reactive_realizer.pegboard.anticipator import Anticipator
 from reactive_realizer.pegboard.pegboard import PegBoard
 
@@ -34,6 +34,7 @@ class Metronome(Anticipator):
     """
 
     kind = "metronome"
+    events = ("tempo", "start")
 
     def __init__(self, id: str, board: PegBoard, tempo: float = 60.0) -> None:  # noqa: A002
         super().__init__(id, board)
@@ -53,9 +54,10 @@ class Metronome(Anticipator):
         """A tempo is 10 to 400 beats a minute.
 
         Raises:
-            RealizerError: it is not.
+            RealizerError: it is not, or "unknown-event".
         """
-        if name == "tempo" and value is not None:
+        super().check(name, value)
+        if name == "tempo":
             _checked(value)
 
     def event(self, name: str, value: float | None, now: GlobalTime) -> None:
@@ -64,7 +66,7 @@ class Metronome(Anticipator):
             self._changes = [_Change(0, now, self._changes[-1].period)]
             for sync, peg in self._board.predictions(self.id).items():
                 peg.set(self.forecast(sync))
-        elif name == "tempo" and value is not None:
+        elif name == "tempo":
             self._change_tempo(60.0 / _checked(value), now)
 
     def _change_tempo(self, period: float, now: GlobalTime) -> None:
@@ -85,7 +87,5 @@ class Metronome(Anticipator):
         return GlobalTime(change.time + (beat - change.beat) * change.period)
 
 
-def _checked(tempo: float) -> float:
-    if not _SLOWEST <= tempo <= _FASTEST:
-        raise error("bad-tempo", tempo=tempo, low=_SLOWEST, high=_FASTEST)
-    return tempo
+def _checked(tempo: float | None) -> float:
+    return within("tempo", tempo, _SLOWEST, _FASTEST)

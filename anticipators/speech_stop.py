@@ -30,6 +30,8 @@ class SpeechStop(Anticipator):
     """
 
     kind = "speech_stop"
+    events = ("voice",)
+    heard = ("words",)
 
     def __init__(
         self,
@@ -53,8 +55,9 @@ class SpeechStop(Anticipator):
         """Voice activity is a probability.
 
         Raises:
-            RealizerError: it is not.
+            RealizerError: it is not, or "unknown-event".
         """
+        super().check(name, value)
         if name == "voice":
             within(name, value, 0.0, 1.0)
 

@@ -13,7 +13,11 @@ const BML = `
 const socket = new WebSocket(`${ADDRESS.replace('http', 'ws')}/ws?streams=feedback`);
 const send = (message) => socket.send(JSON.stringify(message));
 
-socket.addEventListener('open', () => send({ type: 'bml', xml: BML, ref: 'story' }));
+socket.addEventListener('open', () => {
+  // Nobody has barged in yet, whatever happened when this ran before.
+  send({ type: 'predict', anticipator: 'user', sync: 'barges_in', time: null });
+  send({ type: 'bml', xml: BML, ref: 'story' });
+});
 
 socket.addEventListener('message', ({ data }) => {
   const { type, xml, message } = JSON.parse(data);

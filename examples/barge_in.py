@@ -26,6 +26,8 @@ async def barge_in(socket: aiohttp.ClientWebSocketResponse) -> None:
 
 async def main() -> None:
     async with aiohttp.ClientSession() as http, http.ws_connect(ADDRESS) as socket, asyncio.TaskGroup() as tasks:
+        # Nobody has barged in yet, whatever happened when this ran before.
+        await socket.send_json({"type": "predict", "anticipator": "user", "sync": "barges_in", "time": None})
         await socket.send_json({"type": "bml", "xml": BML, "ref": "story"})
         async for message in socket:
             told = message.json()

@@ -126,7 +126,10 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
             "'{behavior}' has no parameter '{parameter}'; it has {known}", WarningType.NO_SUCH_TARGET
         ),
         "before-block": ErrorKind("it would have to start {early:g} s before its block", _SCHEDULE),
-        "out-of-order": ErrorKind("{sync} would come {gap:g} s after {later}", _SCHEDULE),
+        "self-contradictory": ErrorKind(
+            "this behavior is dropped: {tie} contradicts what else is said of it by {gap:g} s", _SCHEDULE
+        ),
+        "out-of-order": ErrorKind("this behavior is dropped: its {sync} would come {gap:g} s after {later}", _SCHEDULE),
         "too-short": ErrorKind("no time is left between its start and its end", _SCHEDULE),
         "no-order": ErrorKind("the strategy '{strategy}' keeps no before/after; '{text}' is dropped", _SCHEDULE),
         "clash": ErrorKind(
@@ -168,7 +171,6 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
         "no-folder": ErrorKind("no folder {folder}"),
         "forbidden-path": ErrorKind("'{name}' is no name of an asset: it may not leave the folders", _CREATE, 400),
         "no-asset": ErrorKind("no file '{name}' among the assets", _CREATE, 404),
-        "bad-tempo": ErrorKind("a tempo of {tempo:g} is not within {low:g} and {high:g} beats a minute", None, 400),
         "bad-number": ErrorKind("{name}={value} is not within {low:g} and {high:g}", None, 400),
         "bad-peak-name": ErrorKind(
             "'{name}' cannot name a peak: wanted is a letter, then letters, digits, '_', each name once"
@@ -214,6 +216,7 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
         "bad-message": ErrorKind("{place}: {value} does not keep to {rule}", None, 400),
         "bad-request": ErrorKind("not a request that is understood here: {reason}", None, 400),
         "bad-query": ErrorKind("{name}={value} is not read; wanted is {wanted}", None, 400),
+        "unknown-event": ErrorKind("'{anticipator}' knows no event {event}; known are {known}", None, 400),
         "unknown-anticipator": ErrorKind("no anticipator '{anticipator}'; there are {known}", None, 404),
         "predicts-itself": ErrorKind(
             "'{anticipator}' is a {kind}, which makes its own predictions and takes none", None, 409

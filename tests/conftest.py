@@ -8,7 +8,9 @@ import pytest
 from hypothesis import settings
 
 # So that an assertion of a contract says what it compared.
-pytest.register_assert_rewrite("reactive_realizer.testing")
+pytest.register_assert_rewrite(
+    *(f"reactive_realizer.testing.{kind}_contract" for kind in ("anticipator", "engine", "strategy", "tts"))
+)
 
 # The same examples on every run and machine, however slow it is.
 settings.register_profile("same", derandomize=True, deadline=None, database=None)
@@ -16,10 +18,6 @@ settings.load_profile("same")
 
 SHARED_CASES = Path(__file__).resolve().parents[2] / "shared" / "cases"
 WITHOUT_BROWSER = os.environ.get("BROWSER") == "none"
-
-# The same examples every time, and no limit that a busy machine could break.
-settings.register_profile("repeatable", derandomize=True, deadline=None)
-settings.load_profile("repeatable")
 
 
 def pytest_report_header() -> list[str]:

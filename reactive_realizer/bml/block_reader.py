@@ -92,7 +92,8 @@ class BlockReader:
                 values |= self._source.values(self._tree, [attribute])
             except RealizerError as refused:
                 content.report([refused.fault])
-        plain = [each.name for each in (*own, *_OTHERS) if not each.continuous]
+        continuous = is_continuous(self._tree)
+        plain = [each.name for each in (*own, *_OTHERS) if continuous or not each.continuous]
         content.report(self._source.unread_attributes(self._tree, plain))
         return _composed(values) | {
             "id": self._id,

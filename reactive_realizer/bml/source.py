@@ -16,6 +16,7 @@ from reactive_realizer.bml.trees import (
     Tree,
     attributes_in,
     extensions_of,
+    is_continuous,
     is_part,
     listed,
     name_of,
@@ -167,4 +168,6 @@ class Source:
 
 
 def _text_of(tree: Tree, attribute: Attribute) -> str | None:
-    return next((str(tree.attrib[name]) for name in attribute.spellings if name in tree.attrib), None)
+    # An element of continuous interaction has the attributes of its own namespace without a prefix too.
+    names = (*attribute.spellings, attribute.name) if is_continuous(tree) else attribute.spellings
+    return next((str(tree.attrib[name]) for name in names if name in tree.attrib), None)

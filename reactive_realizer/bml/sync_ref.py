@@ -102,12 +102,12 @@ class SyncRef:
         return replace(self, block=other, behavior=None, sync=_block_point(other, self.sync))
 
     def __str__(self) -> str:
-        owner = "" if self.block is None else f"{self.block}:"
-        if self.sync is None:
-            return f"{owner}{_number(self.offset)}"
-        point = f"{owner}{self.sync}" if self.behavior is None else f"{owner}{self.behavior}:{self.sync}"
+        if self.block is None and self.sync is None:
+            return _number(self.offset)
+        sync = self.sync or "start"
+        point = ":".join(name for name in (self.block, self.behavior, sync) if name is not None)
         # A bare "s-1" would be read as one second before "s".
-        ambiguous = _WITH_OFFSET.fullmatch(self.sync)
+        ambiguous = _WITH_OFFSET.fullmatch(sync)
         return f"{point}{_number(self.offset, sign='+')}" if self.offset or ambiguous else point
 
 

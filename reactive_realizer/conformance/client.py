@@ -35,6 +35,7 @@ class RealizerClient:
     def __init__(self, url: str, patience: float) -> None:
         self.told = FeedbackList()
         self.mistakes: list[str] = []
+        self._silent = True
         self._url = url
         self._patience = patience
         self._refs = count(1)
@@ -53,6 +54,16 @@ class RealizerClient:
         """Begin anew: what was told until now is of no interest any more."""
         self.told = FeedbackList()
         self.mistakes = []
+        self._silent = True
+
+    def check_alive(self) -> None:
+        """Whether anything at all was heard since it began anew.
+
+        Raises:
+            RealizerError: "not-reached".
+        """
+        if self._silent:
+            raise self._not_reached(f"it took what it was sent, and said nothing for {self._patience:g} s")
 
     async def send(self, xml: str) -> bool:
         """Send a document; whether it was answered."""
@@ -95,6 +106,7 @@ class RealizerClient:
         return said if isinstance(said, dict) else {"type": None, "text": message.data}
 
     def _take(self, message: dict[str, Any]) -> None:
+        self._silent = False
         try:
             match message:
                 case {"type": "feedback", "time": float(time) | int(time), "xml": str(xml)}:

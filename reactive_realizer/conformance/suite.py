@@ -20,6 +20,8 @@ _UNSUPPORTED: Final = (
     "CUSTOM_ATTRIBUTE_NOT_SUPPORTED",
 )
 
+_UNANSWERED: Final = "a message with a ref was not answered"
+
 
 class Verdict(StrEnum):
     """What came of a case; UNSUPPORTED where the realizer warned that it does not know something of it."""
@@ -48,7 +50,7 @@ async def run_suite(url: str, cases: Iterable[Case], patience: float = PATIENCE)
     """Play cases, ending after each whatever plays.
 
     Raises:
-        RealizerError: the realizer is not reached, or the connection is lost.
+        RealizerError: the realizer is not reached, says nothing more, or the connection is lost.
     """
     async with RealizerClient(url, patience) as client:
         runner = _Runner(client)
@@ -77,7 +79,9 @@ class _Runner:
     async def stop(self) -> list[str]:
         """End whatever plays; what went wrong with that."""
         id_ = f"conformance-stop-{next(self._stops)}"
-        await self._client.send(f'<bml xmlns="{BML}" id="{id_}" composition="REPLACE"/>')
+        if not await self._client.send(f'<bml xmlns="{BML}" id="{id_}" composition="REPLACE"/>'):
+            self._client.check_alive()
+            return [_UNANSWERED]
         return await self._wait([f"{id_}:end"])
 
     async def _play(self, case: Case) -> list[str]:
@@ -87,7 +91,7 @@ class _Runner:
             if missed:
                 return missed
             if not await self._client.send(send.xml):
-                return ["a message with a ref was not answered"]
+                return [_UNANSWERED]
         return await self._wait([f"{block.id}:end" for block in case.blocks], len(case.warnings))
 
     async def _wait(self, points: list[str], warnings: int = 0) -> list[str]:

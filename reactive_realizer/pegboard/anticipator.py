@@ -4,7 +4,7 @@ from math import isfinite
 from typing import ClassVar
 
 from reactive_realizer.clock.units import GlobalTime, Time, is_due
-from reactive_realizer.errors import error
+from reactive_realizer.errors import RealizerError, error
 from reactive_realizer.pegboard.pegboard import PegBoard
 
 
@@ -17,10 +17,15 @@ class Anticipator:
     on the board whenever it has come.
 
     Attributes:
+        kind: by which the human file names its class.
+        events: names of those that `event` knows.
+        heard: names of those that `hear` knows, and that come with a text.
         id: by which BML names it, ``anticipators:ID:SYNC``.
     """
 
     kind: ClassVar[str] = "remote"
+    events: ClassVar[tuple[str, ...]] = ()
+    heard: ClassVar[tuple[str, ...]] = ()
 
     def __init__(self, id: str, board: PegBoard) -> None:  # noqa: A002 - the standard's word
         self.id = id
@@ -35,8 +40,19 @@ class Anticipator:
         """Whether an event may be told; whoever brings it from outside asks first.
 
         Raises:
-            RealizerError: its value cannot be.
+            RealizerError: "unknown-event", or its value cannot be.
         """
+        if name not in self.events:
+            raise self._unknown(name)
+
+    def check_heard(self, name: str) -> None:
+        """Like `check`, of an event that comes with a text.
+
+        Raises:
+            RealizerError: "unknown-event".
+        """
+        if name not in self.heard:
+            raise self._unknown(f"{name} with a text")
 
     def check_prediction(self) -> None:
         """Whether others may say when its points are to be; whoever brings a prediction from outside asks first.
@@ -51,7 +67,7 @@ class Anticipator:
         """It is ``now``: asked at every tick, before whatever comes in."""
 
     def event(self, name: str, value: float | None, now: GlobalTime) -> None:
-        """Something happened that concerns it; unknown events mean nothing."""
+        """Something happened that concerns it."""
 
     def hear(self, name: str, text: str, now: GlobalTime) -> None:
         """Like `event`, of words that were said."""
@@ -88,3 +104,9 @@ class Anticipator:
             peg.set(time)
         elif not passed:
             peg.set(now)
+
+    def _unknown(self, event: str) -> RealizerError:
+        known = ", ".join([*self.events, *(f"{name} with a text" for name in self.heard)])
+        if not known:
+            known = "none; when its points are to be is said by predict" if self.kind == Anticipator.kind else "none"
+        return error("unknown-event", anticipator=self.id, event=event, known=known)

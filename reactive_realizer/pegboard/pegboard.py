@@ -1,6 +1,6 @@
 """The board: every point in time of every character, by name."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from itertools import islice
 
 from reactive_realizer.clock.units import GlobalTime, Time
@@ -27,6 +27,7 @@ class PegBoard:
         self._pegs: dict[PegKey, TimeCell] = {}
         self._blocks: dict[BlockKey, list[PegKey]] = {}
         self._owners: dict[TimeCell, BlockKey] = {}
+        self._unnamed: dict[BlockKey, list[TimePeg]] = {}
         self._forecasts: dict[str, Callable[[str], Time]] = {}
 
     @property
@@ -45,11 +46,15 @@ class PegBoard:
         self._blocks.setdefault(block, []).append(key)
         self._owners.setdefault(peg, block)
 
+    def add_unnamed(self, block: BlockKey, pegs: Iterable[TimePeg]) -> None:
+        """Take in pegs that only pegs of a block hang on, and that go with it."""
+        self._unnamed.setdefault(block, []).extend(pegs)
+
     def replace(self, key: PegKey, peg: TimePeg) -> None:
         """Within a transaction, give a name to another peg; what hung on the old one hangs on the new one."""
         old = self._pegs[key]
         if isinstance(old, TimePeg) and not old.pinned:
-            old.pin(old.value)
+            old.pin(time_of(old))
         old.replace_by(peg)
         self._owners.pop(old, None)
         self._pegs[key] = peg
@@ -102,6 +107,8 @@ class PegBoard:
                 del self._owners[peg]
                 if isinstance(peg, TimePeg) and not peg.pinned:
                     peg.dispose()
+        for peg in self._unnamed.pop(block, ()):
+            peg.dispose()
         predicted = self._blocks.get(_PREDICTED, [])
         self._blocks[_PREDICTED] = [key for key in predicted if not self._forgettable(key)]
         for key in set(predicted).difference(self._blocks[_PREDICTED]):

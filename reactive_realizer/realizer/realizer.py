@@ -249,4 +249,5 @@ def _tell(anticipator: Anticipator, event: Event, now: GlobalTime) -> None:
         anticipator.check(event.name, event.value)
         anticipator.event(event.name, event.value, now)
     else:
+        anticipator.check_heard(event.name)
         anticipator.hear(event.name, event.text, now)

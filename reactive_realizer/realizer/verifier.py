@@ -3,7 +3,6 @@
 import logging
 from collections.abc import Iterable
 from dataclasses import asdict
-from typing import Any
 
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.errors import Fault, WarningType
@@ -11,7 +10,6 @@ from reactive_realizer.feedback.feedback_manager import FeedbackManager
 from reactive_realizer.feedback.messages import WarningFeedback
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.reactive.cell import Cell
 from reactive_realizer.reactive.commit import Commit
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BlockState, BMLBlock
@@ -37,7 +35,7 @@ class Verifier:
         alive = self._blocks.alive
         self._said = {block.key: self._said.get(block.key, set()) for block in alive}
         for block in alive:
-            if block.state is not BlockState.IN_PREP and (block.key in owners or _names(block, moved)):
+            if block.state is not BlockState.IN_PREP and (block.key in owners or not block.outside.isdisjoint(moved)):
                 self._verify(block, now)
 
     def _verify(self, block: BMLBlock, now: GlobalTime) -> None:
@@ -52,8 +50,3 @@ class Verifier:
         text = str(Fault("constraint-broken", asdict(violation) | {"points": ", ".join(violation.points)}))
         logger.error("%s/%s: %s", *block, text)
         self._feedback.say(WarningFeedback(*block, WarningType.IMPOSSIBLE_TO_SCHEDULE, text))
-
-
-def _names(block: BMLBlock, moved: set[Cell[Any]]) -> bool:
-    """Whether a constraint of a block names a peg that moved, of whatever block it is."""
-    return any(node in moved for constraint in block.kept for node in constraint.nodes)

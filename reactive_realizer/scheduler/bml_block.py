@@ -11,7 +11,7 @@ from reactive_realizer.pegboard.peg_key import BlockKey, PegKey
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.pegboard.time_peg import AnticipatorPeg, BMLBlockPeg, LatestPeg, TimeCell
 from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
-from reactive_realizer.scheduler.problem import Order, Tie
+from reactive_realizer.scheduler.problem import Order, Origin, Point, Tie
 
 
 class BlockState(Enum):
@@ -82,6 +82,7 @@ class BMLBlock:
         units: its behaviors that are planned and not dropped, in document order.
         cancelled: ids of behaviors that were interrupted before the block started.
         kept: the constraints of its plan.
+        outside: the pegs of other blocks and of anticipators that these name.
         settled: those of them that nothing is expected of any more: said to be missed, or met and past.
     """
 
@@ -104,6 +105,7 @@ class BMLBlock:
         self.units: list[PlanUnit] = []
         self.cancelled: set[str] = set()
         self.kept: tuple[Tie | Order, ...] = ()
+        self.outside: frozenset[TimeCell] = frozenset()
         self.settled: set[Tie | Order] = set()
         name = key.block
         self.activation = AnticipatorPeg(board.graph, f"{name}:activation", None) if description.preplan else None
@@ -125,11 +127,13 @@ class BMLBlock:
     def replanned(self, floor: GlobalTime, units: Sequence[PlanUnit], kept: Sequence[Tie | Order]) -> None:
         """Within a transaction: it has other behaviors or other pegs; it ends not before ``floor``."""
         self.units, self.kept = list(units), tuple(kept)
+        self.outside = _outside(self.kept)
         self.end_again(floor)
 
     def follow(self, replaced: Mapping[TimeCell, TimeCell]) -> None:
         """Others have new pegs for points that its constraints name."""
         self.kept = tuple(each.renamed(replaced) for each in self.kept)
+        self.outside = _outside(self.kept)
         self.settled = {each.renamed(replaced) for each in self.settled}
 
     @property
@@ -198,3 +202,7 @@ class BMLBlock:
 def _subsiding(unit: PlanUnit) -> SyncPoint:
     """Its relax, or its end if it has none."""
     return next((point for point in unit.points if point.id == "relax"), unit.points[-1])
+
+
+def _outside(constraints: Iterable[Tie | Order]) -> frozenset[TimeCell]:
+    return frozenset(node for each in constraints for node in each.nodes if not isinstance(node, Point | Origin))

@@ -15,6 +15,9 @@ from reactive_realizer.scheduler.problem import Node, Order, Origin, Point, Tie
 from reactive_realizer.scheduler.reporter import Reporter
 from reactive_realizer.scheduler.verify import TOLERANCE
 
+_NOTICEABLE = 0.1
+"""A gesture that misses its moment by less (s) is seen as on time."""
+
 Moved = Mapping[Cell[Any], Any]
 """Cells that changed in a tick, and what they were before."""
 
@@ -38,7 +41,7 @@ class ConstraintWatch:
             moved.setdefault(change.cell, change.old)
         owners = {self._board.owner(cell) for cell in moved}
         for block in self._blocks.alive if moved else ():
-            if block.kept and (block.key in owners or any(n in moved for c in block.kept for n in c.nodes)):
+            if block.kept and (block.key in owners or not block.outside.isdisjoint(moved)):
                 self._check(block, moved, now)
 
     def _check(self, block: BMLBlock, moved: Moved, now: GlobalTime) -> None:
@@ -48,7 +51,7 @@ class ConstraintWatch:
                 continue
             late = _late(each, *(_time(node, block, units) for node in each.nodes))
             missed = late > TOLERANCE
-            if missed and not _over(each, block, units, moved, now):
+            if missed and not _over(each, late, block, units, moved, now):
                 self._say(block, each, late)
             if missed:
                 block.settled.add(each)
@@ -82,11 +85,22 @@ def _cut(constraint: Tie | Order, units: Mapping[str, PlanUnit]) -> bool:
 
 
 def _over(
-    constraint: Tie | Order, block: BMLBlock, units: Mapping[str, PlanUnit], moved: Moved, now: GlobalTime
+    constraint: Tie | Order,
+    late: float,
+    block: BMLBlock,
+    units: Mapping[str, PlanUnit],
+    moved: Moved,
+    now: GlobalTime,
 ) -> bool:
-    """Whether all that it names had come when a time from outside was given anew: that is another occurrence."""
+    """Whether all that it names had come when a time from outside was given anew.
+
+    Where that time had come before, what is given anew is another occurrence. Where it comes now, or is corrected by
+    less than anybody would see, whoever was tied to it has done its part: one is a little ahead of a beat, or behind.
+    """
     outside = [node for node in constraint.nodes if not isinstance(node, Point | Origin)]
     points = [node for node in constraint.nodes if isinstance(node, Point)]
     came = all(units[point.behavior].point(point.sync).fired is not None for point in points)
     started = block.state.plays or Origin.BLOCK_START not in constraint.nodes
-    return came and started and any(is_due(moved.get(node), now) for node in outside)
+    before = any(is_due(moved.get(node), now) for node in outside)
+    here = late <= _NOTICEABLE or all(is_due(node.value, now) for node in outside)
+    return came and started and (before or (isinstance(constraint, Tie) and here))

@@ -29,6 +29,12 @@ class PegBuilder:
         """The peg of each sync point."""
         return {key: self._peg(spec) for key, spec in self._specs.items()}
 
+    @property
+    def unnamed(self) -> list[TimePeg]:
+        """What was made beside them."""
+        named = set(self._specs.values())
+        return [peg for spec, peg in self._built.items() if spec not in named]
+
     def _peg(self, spec: PegSpec) -> TimePeg:
         """A peg, after those that it hangs on; these may be a long chain, too deep for recursion."""
         waiting = [] if spec in self._built else [spec]

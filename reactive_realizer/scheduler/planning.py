@@ -109,8 +109,7 @@ class Planning:
         with self._board.graph.transaction(f"plan {block.key.block}"):
             for key, peg in self._hang(block, plan).items():
                 self._board.add(key, peg)
-            holds = [OffsetPeg(self._board.graph, block.start.name, cell, distance) for cell, distance in plan.holds]
-            block.planned(now, plan.units, plan.kept, holds)
+            block.planned(now, plan.units, plan.kept, self._holds(block, plan))
 
     def recommit(self, block: BMLBlock, plan: Plan) -> None:
         """Within a transaction, put another plan in the place of that on the board; who hung on that hangs on this."""
@@ -123,9 +122,18 @@ class Planning:
             other.follow(replaced)
         block.replanned(block.end.floor, plan.units, plan.kept)
 
+    def _holds(self, block: BMLBlock, plan: Plan) -> list[TimePeg]:
+        """The pegs that the start of a block hangs on by constraints."""
+        name = f"{block.key.block}:start as constrained"
+        holds: list[TimePeg] = [OffsetPeg(self._board.graph, name, cell, offset) for cell, offset in plan.holds]
+        self._board.add_unnamed(block.key, holds)
+        return holds
+
     def _hang(self, block: BMLBlock, plan: Plan) -> dict[PegKey, TimePeg]:
         keys = {unit.key(sync): spec for unit in plan.units for sync, spec in plan.pegs[unit.behavior.id].items()}
-        pegs = PegBuilder(self._board.graph, block, keys).build()
+        builder = PegBuilder(self._board.graph, block, keys)
+        pegs = builder.build()
+        self._board.add_unnamed(block.key, builder.unnamed)
         for key, text in _reasons(block, plan.kept):
             pegs[key].why = text
         tied = {node for each in plan.kept for node in each.nodes if isinstance(node, Point)}

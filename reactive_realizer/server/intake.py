@@ -138,8 +138,11 @@ class Intake:
         known = self._realizer.anticipators
         if event.anticipator not in known:
             raise error("unknown-anticipator", anticipator=event.anticipator, known=", ".join(known) or "none")
+        anticipator = known[event.anticipator]
         if event.text is None:
-            known[event.anticipator].check(event.name, event.value)
+            anticipator.check(event.name, event.value)
+        else:
+            anticipator.check_heard(event.name)
         self._realizer.put(event)
 
     def _name_point(self, anticipator: str, sync: str) -> None:

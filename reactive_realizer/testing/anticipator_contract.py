@@ -98,17 +98,19 @@ class AnticipatorContract:
             watched.stand.event(now, watched.anticipator, *told)
         assert watched.stand.time(watched.anticipator, "unheardOf") is None
 
-    def test_unknown_events_mean_nothing(self) -> None:
+    def test_events_that_it_does_not_know_are_refused(self) -> None:
         watched = self._told_everything()
         for told in (Told("unheardOf"), Told("unheardOf", 1.0), Told("unheardOf", text="words")):
-            watched.stand.event(watched.stand.now, watched.anticipator, *told)
+            with pytest.raises(RealizerError) as refusal:
+                watched.stand.event(watched.stand.now, watched.anticipator, *told)
+            assert refusal.value.fault.code == "unknown-event"
         assert watched.changes == []
 
     def test_what_it_refuses_is_refused_with_a_reason_and_leaves_it_as_it_was(self) -> None:
         watched, other = self._told_everything(), self._told_everything()
         for told in self.refused:
             with pytest.raises(RealizerError) as refusal:
-                watched.anticipator.check(told.name, told.value)
+                watched.stand.check(watched.anticipator, told)
             assert refusal.value.fault.sentence
         assert watched.changes == []
         for now, told in self._each_event(watched.stand.now + 0.5):

@@ -45,11 +45,22 @@ class AnticipatorStand:
             RealizerError: the anticipator refuses it.
         """
         self.at(now, anticipator.advance)
+        self.check(anticipator, Told(name, value, text))
         if text is None:
-            anticipator.check(name, value)
             self.at(now, anticipator.event, name, value)
         else:
             self.at(now, anticipator.hear, name, text)
+
+    def check(self, anticipator: Anticipator, told: Told) -> None:
+        """Ask whether it may be told that, and tell it nothing.
+
+        Raises:
+            RealizerError: the anticipator refuses it.
+        """
+        if told.text is None:
+            anticipator.check(told.name, told.value)
+        else:
+            anticipator.check_heard(told.name)
 
     def time(self, anticipator: Anticipator, sync: str) -> Time:
         """When a point is, for whoever names it now."""

@@ -7,13 +7,15 @@ import pytest
 from hypothesis import given
 
 from reactive_realizer.scheduler.plan_view import PlanView
-from reactive_realizer.scheduler.problem import Point, Problem, Solution
+from reactive_realizer.scheduler.problem import Origin, Point, Problem, Solution
 from reactive_realizer.scheduler.strategy import SchedulingStrategy
 from reactive_realizer.scheduler.verify import Violation, verify
 from reactive_realizer.testing.inherited import inherited
 from reactive_realizer.testing.problems import TIMINGS, after, at, feasible_problems, item, outer, problem, problems
 
 _MANY = 1_000
+_OF_CONSTRAINTS = ("contradictory-tie", "outer-tie", "rigid", "no-order", "names-dropped")
+"""Codes that say that a constraint is dropped, and nothing of a behavior."""
 
 
 def violations(asked: Problem, solution: Solution) -> list[Violation]:
@@ -73,6 +75,20 @@ class StrategyContract:
         one, two = self.strategy.solve(asked), self.strategy.solve(asked)
         assert PlanView.of_solution(asked, one).times == PlanView.of_solution(asked, two).times
         assert one.losses == two.losses
+
+    @inherited
+    @given(problems())
+    def test_a_behavior_that_is_lost_is_not_told_as_a_constraint_that_is(self, asked: Problem) -> None:
+        for loss in self.strategy.solve(asked).losses:
+            assert not loss.dropped or (loss.constraint is None and loss.fault.code not in _OF_CONSTRAINTS), loss
+
+    def test_a_behavior_that_contradicts_itself_loses_one_constraint_or_is_lost(self) -> None:
+        start = Origin.BLOCK_START
+        asked = problem([item("n", TIMINGS["nod"])], at("n:start", start, 1.0), at("n:end", start, 0.2))
+        solution = self.strategy.solve(asked)
+        (loss,) = solution.losses
+        assert loss.behavior == "n"
+        assert loss.dropped is ("n" not in solution.pegs)
 
     def test_an_empty_block_is_planned(self) -> None:
         assert self.strategy.solve(problem([])) == Solution({}, ())

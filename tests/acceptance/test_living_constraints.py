@@ -381,6 +381,18 @@ async def test_what_waits_for_itself_by_way_of_others_is_refused(pilot) -> None:
     assert pilot.feedback.status("d") == "DONE"
 
 
+async def test_a_block_that_has_ended_leaves_nothing_on_what_it_was_constrained_by(pilot) -> None:
+    pilot.predict("t", "hit", 100.0)
+    pilot.block("keep", wait("w", 1, start=HIT))
+    await pilot.tick()
+    hanging = len(pilot.realizer.board.predicted("t", "hit").dependents)
+    for constraint in (before(HIT, "n:end"), after(f"{HIT}-100", "n:end"), after(f"{HIT}-100", "b:start")):
+        pilot.block("b", nod("n") + constraint)
+        await pilot.advance(1)
+    assert [line.id for line in pilot.feedback.of("blockProgress")].count("b:end") == 3
+    assert len(pilot.realizer.board.predicted("t", "hit").dependents) == hanging
+
+
 # --- required, limits of what can be
 
 

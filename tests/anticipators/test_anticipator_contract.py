@@ -17,7 +17,7 @@ from reactive_realizer.testing.anticipator_stand import Told
 class TestMetronome(AnticipatorContract):
     points = ("tick0", "tick1", "tick2", "tick3", "tick10", "tick100")
     events = (Told("tempo", 60), Told("tempo", 90.5), Told("tempo", 400), Told("tempo", 10), Told("start"))
-    refused = (Told("tempo", 9.9), Told("tempo", 401), Told("tempo", -60), Told("tempo", nan))
+    refused = (Told("tempo", 9.9), Told("tempo", 401), Told("tempo", -60), Told("tempo", nan), Told("tempo"))
 
     def anticipator(self, id: str, board: PegBoard) -> Anticipator:  # noqa: A002
         return Metronome(id, board)
@@ -26,6 +26,7 @@ class TestMetronome(AnticipatorContract):
 class TestSpacebar(AnticipatorContract):
     points = ("press", "release")
     events = (Told("press"), Told("release"))
+    refused = (Told("press", text="Enter"),)
 
     def anticipator(self, id: str, board: PegBoard) -> Anticipator:  # noqa: A002
         return Spacebar(id, board)
@@ -40,7 +41,16 @@ class TestSpeechStop(AnticipatorContract):
         Told("words", text="I live in a"),
         Told("words", text="I live in a house."),
     )
-    refused = (Told("voice", 1.1), Told("voice", -0.1), Told("voice", nan), Told("voice", inf), Told("voice"))
+    refused = (
+        Told("voice", 1.1),
+        Told("voice", -0.1),
+        Told("voice", nan),
+        Told("voice", inf),
+        Told("voice"),
+        Told("voice", text="I live"),
+        Told("words"),
+        Told("words", 1.0),
+    )
 
     def anticipator(self, id: str, board: PegBoard) -> Anticipator:  # noqa: A002
         return SpeechStop(id, board)
@@ -65,6 +75,8 @@ class TestConducting(AnticipatorContract):
 
 class ToldByEvents(Anticipator):
     """Takes what others predict as events, which are what the contract tells."""
+
+    events = ("hit",)
 
     def event(self, name: str, value: float | None, now: GlobalTime) -> None:
         if name == "hit":

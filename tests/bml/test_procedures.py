@@ -43,6 +43,21 @@ def test_a_use_is_a_block_with_the_behaviors_of_a_procedure() -> None:
     assert (block.chunk_after, block.extensions) == (("a",), {})
 
 
+def test_a_use_says_what_is_of_its_own_namespace_with_a_prefix_or_without() -> None:
+    parsed = read('<p:useproc procid="greet" bmlid="b" appendAfter="a" p:chunkBefore="c" preplan="true"/>')
+    block = parsed.block
+    assert block is not None
+    assert not parsed.problems
+    assert (block.append_after, block.chunk_before, block.preplan) == (("a",), ("c",), True)
+
+
+def test_a_block_of_the_core_says_what_is_of_another_namespace_with_its_prefix() -> None:
+    (parsed,) = parse('<bml id="b" preplan="true"/>', Limits())
+    assert parsed.block is not None
+    assert not parsed.block.preplan
+    assert [problem.fault.code for problem in parsed.problems] == ["unknown-attribute"]
+
+
 def test_a_block_of_its_own_has_no_procedure() -> None:
     (parsed,) = parse('<bml id="b"/>', Limits())
     assert parsed.block is not None

@@ -3,12 +3,14 @@
 import asyncio
 import json
 from collections import Counter
+from functools import partial
 
 import pytest
 from aiohttp import web
 from aiohttp.test_utils import unused_port
 
 from reactive_realizer.__main__ import main
+from reactive_realizer.cli import conformance as command
 from reactive_realizer.conformance import suite
 from reactive_realizer.conformance.case import read_suite
 from reactive_realizer.conformance.suite import Outcome, Verdict, run_suite
@@ -130,6 +132,23 @@ async def test_a_realizer_that_goes_away_is_2(capsys) -> None:
     async with address_of(leave) as url:
         assert await conformance(url) == 2
     assert "the connection was lost" in capsys.readouterr().err
+
+
+async def test_a_realizer_that_says_hello_and_then_nothing_is_2_without_trying_every_case(monkeypatch, capsys) -> None:
+    monkeypatch.setattr(command, "run_suite", partial(run_suite, patience=0.05))
+    listened: list[str] = []
+
+    async def listen(request: web.Request) -> web.WebSocketResponse:
+        socket = web.WebSocketResponse()
+        await socket.prepare(request)
+        await socket.send_json({"type": "hello", "protocol": 1})
+        listened.extend([message.data async for message in socket])
+        return socket
+
+    async with address_of(listen) as url:
+        assert await conformance(url) == 2
+    assert "said nothing for 0.05 s" in capsys.readouterr().err
+    assert len(listened) == 1
 
 
 def test_a_case_that_there_is_not_is_2(capsys) -> None:

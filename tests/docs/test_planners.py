@@ -13,6 +13,7 @@ import pytest
 from .conftest import ADDRESS, EXAMPLES, REPOSITORY, fences, page
 
 PYTHON = (sys.executable, "-u", "-c")
+TO_ITS_END = "what no program prints"
 
 
 def node() -> tuple[str, ...]:
@@ -72,14 +73,16 @@ PLANNERS = "docs/planners.md"
 
 
 async def test_whoever_barges_in_is_given_way_to_and_the_planner_knows_what_was_heard(server: str) -> None:
-    (printed,) = await run("barge_in.py", server, "heard")
-    assert printed.strip() in page(PLANNERS)
+    for _ in range(2):  # also where somebody barged in before
+        (printed,) = await run("barge_in.py", server, TO_ITS_END)
+        assert printed.strip() in page(PLANNERS)
 
 
 async def test_the_same_in_javascript(server: str) -> None:
     program = (EXAMPLES / "barge_in.mjs").read_text(encoding="utf-8")
-    (printed,) = await run_program(program, server, "heard", node())
-    assert printed.strip() in page(PLANNERS)
+    for _ in range(2):
+        (printed,) = await run_program(program, server, TO_ITS_END, node())
+        assert printed.strip() in page(PLANNERS)
 
 
 async def test_a_planner_needs_nothing_but_http(server: str) -> None:

@@ -234,6 +234,34 @@ def test_a_before_pulls_what_comes_before() -> None:
     assert plan.times("n") == pytest.approx([0.0, 0.2, 0.5])
 
 
+def test_a_before_pulls_no_further_than_the_start_of_the_block() -> None:
+    hit = outer("hit", 4.0)
+    plan = Plan({"n": NOD}, after(hit, "n:start", 0.5))
+    move(hit, -2.0)
+    assert plan["n:start"] == 0.0
+
+
+def test_a_before_does_not_pull_what_hangs_on_another_time_from_outside() -> None:
+    go, hit = outer("go", 1.0), outer("hit", 4.0)
+    plan = Plan({"s": SPEECH}, at("s:start", go), after(hit, "s:end"))
+    move(hit, 2.0)
+    assert plan.times("s") == pytest.approx([1.0, 1.5, 3.0])
+
+
+def test_who_is_tied_to_a_behavior_hangs_on_that_and_not_on_what_that_is_tied_to() -> None:
+    hit = outer("hit", 1.0)
+    pegs = Plan({"a": NOD, "b": NOD}, at("a:start", hit), at("b:start", "a:start", 1.0)).solution.pegs
+    assert pegs["b"]["start"].link is pegs["a"]["start"]
+
+
+def test_an_order_within_a_cluster_does_not_keep_it_from_beginning_earlier() -> None:
+    hit = outer("hit", 4.0)
+    ties = at("g:start", "s:end", -0.3), after("s:end", "g:stroke"), after("g:ready", hit)
+    plan = Plan({"s": SPEECH, "g": BEAT}, *ties)
+    move(hit, 3.0)
+    assert plan["g:ready"] == pytest.approx(3.0)
+
+
 def test_an_order_between_two_that_hang_on_different_outer_times_is_kept() -> None:
     one, two = outer("one", 1.0), outer("two", 5.0)
     plan = Plan({"a": NOD, "b": NOD}, at("a:start", one), at("b:start", two), after("b:start", "a:end"))

@@ -42,7 +42,7 @@ BAD = {
         json.dumps({"type": "event", "anticipator": "user", "event": "words", "text": "a" * 5001}),
         "bad-message",
     ),
-    "a tempo of zero": ('{"type":"event","anticipator":"metronome","event":"tempo","value":0}', "bad-tempo"),
+    "a tempo of zero": ('{"type":"event","anticipator":"metronome","event":"tempo","value":0}', "bad-number"),
     "a flat position": ('{"type":"camera","position":[1,2]}', "bad-message"),
     "a position beyond the moon": ('{"type":"camera","position":[1,2,4e8]}', "bad-message"),
     "a world that is a list": ('{"type":"world","set":[]}', "bad-message"),

@@ -7,6 +7,8 @@ from .conftest import ALICE, BML, Open
 HUMAN = f"""{ALICE}
 [anticipator.spacebar]
 kind = "spacebar"
+[anticipator.metronome]
+kind = "metronome"
 [anticipator.user]
 kind = "speech_stop"
 [anticipator.trainee]
@@ -39,7 +41,15 @@ async def test_words_are_heard(on_air: Open) -> None:
 
 @pytest.mark.parametrize(
     ("anticipator", "event", "value"),
-    [("user", "voice", 3), ("user", "voice", None), ("trainee", "sample", -1), ("trainee", "sample", 1e7)],
+    [
+        ("user", "voice", 3),
+        ("user", "voice", None),
+        ("trainee", "sample", -1),
+        ("trainee", "sample", 1e7),
+        ("trainee", "sample", None),
+        ("metronome", "tempo", 500),
+        ("metronome", "tempo", None),
+    ],
 )
 async def test_a_value_that_cannot_be_is_answered_with_its_range(on_air: Open, anticipator, event, value) -> None:
     async with on_air(HUMAN) as air:
@@ -48,6 +58,27 @@ async def test_a_value_that_cannot_be_is_answered_with_its_range(on_air: Open, a
         answer = await socket.ask(type="event", anticipator=anticipator, event=event, **said)
         assert answer["code"] == "bad-number"
         assert event in answer["message"]
+
+
+NOT_KNOWN = {
+    "kick": ({"anticipator": "spacebar", "event": "kick"}, "known are press, release"),
+    "press in words": ({"anticipator": "spacebar", "event": "press", "text": "on"}, "no event press with a text"),
+    "words without any": ({"anticipator": "user", "event": "words"}, "known are voice, words with a text"),
+    "a beat": ({"anticipator": "metronome", "event": "beat"}, "known are tempo, start"),
+    "an event of a partner": ({"anticipator": "partner", "event": "clap"}, "is said by predict"),
+}
+
+
+@pytest.mark.parametrize("name", NOT_KNOWN)
+async def test_an_event_that_its_anticipator_does_not_know_is_answered_with_those_that_it_knows(on_air, name) -> None:
+    said, known = NOT_KNOWN[name]
+    async with on_air(HUMAN) as air:
+        socket = await air.connect()
+        await socket.ask(type="predict", anticipator="partner", sync="hit", **{"in": 1})
+        await air.tick_until(0.1)
+        answer = await socket.ask(type="event", **said)
+        assert (answer["type"], answer["code"]) == ("error", "unknown-event")
+        assert known in answer["message"]
 
 
 @pytest.mark.parametrize(

@@ -181,5 +181,6 @@ class Hanging:
         recipe = self.recipes[step.root]
         held = recipe.after if needed.bounded else recipe.before
         held[:] = [spot for spot in held if spot.root != needed.root]
-        if isinstance(recipe.natural, First):
+        within = self._network.cluster(step.root) == self._network.cluster(needed.root)
+        if isinstance(recipe.natural, First) and not within:
             recipe.natural = First(self._network.first_time(step.root))

@@ -87,7 +87,8 @@ def _alone(item: Item, constraints: Iterable[Tie | Order], given: Mapping[Node, 
     ties = [each for each in constraints if isinstance(each, Tie) and each.owner == id_]
     own = [tie for tie in ties if all(node in given or _is_of(node, {id_}) for node in tie.nodes)]
     faults = (loss.fault for loss in keep(Case([item], own, given)).losses) if own else iter(())
-    return next((fault for fault in faults if fault.code == "contradictory-tie"), None)
+    clashes = (Fault("self-contradictory", fault.details) for fault in faults if fault.code == "contradictory-tie")
+    return next(clashes, None)
 
 
 def _dropped(item: Item, constraints: Iterable[Tie | Order], fault: Fault) -> Loss:

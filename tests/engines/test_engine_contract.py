@@ -1,0 +1,110 @@
+"""All engines under the contract that plug-ins are tested by."""
+
+from dataclasses import replace
+
+from reactive_realizer.engine.context import EngineContext
+from reactive_realizer.engine.engine import Engine
+from reactive_realizer.engine.tts import Utterance
+from reactive_realizer.engines.activate.activate_engine import ActivateEngine
+from reactive_realizer.engines.animation.animation_engine import AnimationEngine
+from reactive_realizer.engines.face.face_engine import FaceEngine
+from reactive_realizer.engines.interrupt.interrupt_engine import InterruptEngine
+from reactive_realizer.engines.parameter_value_change.parameter_value_change_engine import ParameterValueChangeEngine
+from reactive_realizer.engines.speech.speech_engine import SpeechEngine
+from reactive_realizer.engines.speech.text_voice import TextVoice
+from reactive_realizer.engines.wait.wait_engine import WaitEngine
+from reactive_realizer.testing.engine_contract import EngineContract
+from reactive_realizer.testing.lone_context import lone_context
+
+
+class SlowVoice(TextVoice):
+    """Takes its time and hums."""
+
+    async def synthesize(self, text, marks, voice=None) -> Utterance:
+        utterance = super().synthesize(text, marks, voice)
+        return replace(utterance, audio=bytes(2 * round(utterance.duration * 8000)), sample_rate=8000)
+
+
+class TestAnimation(EngineContract):
+    elements = (
+        '<gesture id="g" lexeme="BEAT" mode="RIGHT_HAND"/>',
+        '<gesture id="g" lexeme="OFFER" mode="BOTH_HANDS" stroke="2"/>',
+        '<head id="h" lexeme="NOD" repetition="3"/>',
+        '<head id="h" lexeme="SHAKE" amount="1"/>',
+        '<gaze id="z" target="viewer"/>',
+    )
+    refused = ('<gesture id="g" lexeme="NO_SUCH"/>', '<gaze id="z" target="nobody"/>')
+
+    def engine(self, context: EngineContext) -> Engine:
+        return AnimationEngine(context)
+
+
+class TestFace(EngineContract):
+    elements = (
+        '<faceLexeme id="f" lexeme="RAISE_MOUTH_CORNERS"/>',
+        '<faceLexeme id="f" lexeme="RAISE_BROWS" amount="1" overshoot="0.5"/>',
+    )
+    refused = ('<faceLexeme id="f" lexeme="SMIRK"/>',)
+
+    def engine(self, context: EngineContext) -> Engine:
+        return FaceEngine(context)
+
+
+class TestSpeech(EngineContract):
+    elements = (
+        '<speech id="s"><text>Hello there.</text></speech>',
+        '<speech id="s"><text>Put it <sync id="m"/>here, <sync id="n"/>please.<sync id="o"/></text></speech>',
+    )
+    refused = ('<speech id="s"><text>...</text></speech>',)
+
+    def engine(self, context: EngineContext) -> Engine:
+        return SpeechEngine(context)
+
+
+class TestSpeechThatSoundsAndHasToBePrepared(TestSpeech):
+    def context(self) -> EngineContext:
+        return lone_context(SlowVoice())
+
+
+class TestWait(EngineContract):
+    elements = (
+        '<wait id="w" duration="1.25"/>',
+        '<wait id="w" max-wait="2"/>',
+        '<wait id="w"/>',
+        '<wait id="w" start="0" end="1"/>',
+    )
+
+    def engine(self, context: EngineContext) -> Engine:
+        return WaitEngine(context)
+
+
+class TestActivate(EngineContract):
+    elements = ('<bmla:activate id="a" target="c"/>',)
+
+    def engine(self, context: EngineContext) -> Engine:
+        return ActivateEngine(context)
+
+
+class TestInterrupt(EngineContract):
+    elements = ('<bmla:interrupt id="i" target="c"/>', '<bmlt:interrupt id="i" target="c" include="g" speech="word"/>')
+
+    def engine(self, context: EngineContext) -> Engine:
+        return InterruptEngine(context)
+
+
+def change(prefix: str, trajectory: str, syncs: str = "") -> str:
+    said = f'<{prefix}:trajectory type="{trajectory}" targetValue="80" initialValue="0"/>'
+    name = f"{prefix}:parametervaluechange"
+    return f'<{name} id="p" target="s" paramId="volume" {syncs}>{said}</{name}>'
+
+
+class TestParameterValueChange(EngineContract):
+    elements = (
+        change("bmla", "linear", 'start="0" end="2"'),
+        change("bmla", "instant"),
+        change("bmlt", "ease-in-ease-out"),
+    )
+    refused = (change("bmla", "zigzag"),)
+
+    def engine(self, context: EngineContext) -> Engine:
+        return ParameterValueChangeEngine(context)
