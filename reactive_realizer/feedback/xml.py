@@ -15,6 +15,7 @@ from reactive_realizer.feedback.messages import (
     WarningFeedback,
 )
 
+_DECIMALS = 6
 _STATUS = f"{{{BMLA}}}status"
 _OWN_TIME = f"{{{OWN}}}time"
 _NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
@@ -26,9 +27,14 @@ def to_xml(message: Message) -> str:
     return etree.tostring(_element(message), encoding="unicode").replace("\n", " ")
 
 
+def as_told(time: float) -> float:
+    """A time as listeners get it."""
+    return round(time, _DECIMALS)
+
+
 def seconds(time: float) -> str:
     """A time with at most six decimals."""
-    text = f"{time:.6f}".rstrip("0").rstrip(".")
+    text = f"{time:.{_DECIMALS}f}".rstrip("0").rstrip(".")
     return "0" if text == "-0" else text
 
 

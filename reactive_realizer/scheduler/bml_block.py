@@ -7,6 +7,7 @@ from enum import Enum
 from reactive_realizer.bml.block import BehaviorBlock
 from reactive_realizer.clock.units import GlobalTime, Time, is_due
 from reactive_realizer.feedback.feedback_manager import Place
+from reactive_realizer.feedback.xml import as_told
 from reactive_realizer.pegboard.peg_key import BlockKey, PegKey
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.pegboard.time_peg import AnticipatorPeg, BMLBlockPeg, LatestPeg, TimeCell
@@ -189,10 +190,11 @@ class BMLBlock:
     def place(self, time: GlobalTime, behavior: float, sync: int = 0) -> Place:
         """Where its feedback of a time stands in a tick; behavior -1 is the block's start, infinity its end.
 
-        A block that is revoked before its predicted start counts as one that started when it ended.
+        A block that is revoked before its predicted start counts as one that started when it ended. Times that are told
+        as one are one here too: what differs by rounding must not come before its cause.
         """
-        start = self.start.value
-        return Place(time, time if start is None else min(start, time), self.arrival, behavior, sync)
+        start = time if self.start.value is None else min(self.start.value, time)
+        return Place(as_told(time), as_told(start), self.arrival, behavior, sync)
 
     def _awaited(self) -> tuple[TimeCell, ...]:
         activation = [self.activation] if self.activation is not None else []

@@ -276,7 +276,7 @@ def test_a_behavior_of_another_namespace_is_kept_for_who_knows_it(block: Block) 
     assert isinstance(noise, ForeignBehavior)
     assert (noise.namespace, noise.name, noise.id) == (BMLT, "noise", "n")
     assert noise.attributes == {"joint": "vl5"}
-    assert {name: str(ref) for name, ref in noise.syncs.items()} == {"start": "s1:0", "end": "4"}
+    assert {name: str(ref) for name, ref in noise.syncs.items()} == {"start": "s1:start", "end": "4"}
     assert noise.sync_points == ("start", "end")
     assert noise.extensions == {(BMLA, "x"): "1"}
     assert noise.children.startswith("<bmlt:parameter")

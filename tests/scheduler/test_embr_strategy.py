@@ -155,7 +155,7 @@ def test_a_clash_says_how_many_seconds_are_missing() -> None:
 
 def test_a_behavior_that_contradicts_itself_is_dropped_and_the_others_play() -> None:
     plan = Plan({"a": NOD, "b": NOD}, at("a:start", START, 3.0), at("a:end", START, 3.0), at("b:start", "a:end"))
-    assert plan.losses == [("a", "contradictory-tie")]
+    assert plan.losses == [("a", "self-contradictory")]
     assert plan.times("b") == pytest.approx([0.0, 0.4, 1.0])
 
 
@@ -187,7 +187,7 @@ def test_a_free_behavior_fills_what_others_leave_and_moves_nothing() -> None:
     assert plan.times("c") == pytest.approx([2.0, 5.0])
     plan = Plan({"a": NOD, "b": NOD, "c": CHANGE}, at("c:start", "a:end"), at("c:end", "b:start"))
     assert plan["b:start"] == 0.0
-    assert plan.losses == [("c", "contradictory-tie")]
+    assert plan.losses == [("c", "self-contradictory")]
 
 
 # --- the system of rows

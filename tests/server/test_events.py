@@ -7,8 +7,6 @@ from .conftest import ALICE, BML, Open
 HUMAN = f"""{ALICE}
 [anticipator.spacebar]
 kind = "spacebar"
-[anticipator.metronome]
-kind = "metronome"
 [anticipator.user]
 kind = "speech_stop"
 [anticipator.trainee]

@@ -5,6 +5,7 @@ import logging
 import sys
 from collections import deque
 from contextlib import suppress
+from dataclasses import dataclass
 from functools import partial
 from typing import Any, Self, cast
 
@@ -16,11 +17,20 @@ _START_PATIENCE = 30.0
 _log = logging.getLogger(__name__)
 
 
-class EspeakProcess(asyncio.SubprocessProtocol):
-    """One run of the worker: requests go in, replies come back in the same order.
+@dataclass(frozen=True, slots=True, eq=False)
+class _Request:
+    """What the worker is to be asked, and where its answer goes."""
 
-    A reply that nobody waits for any more is dropped when it comes. When the process ends, every request that is not
-    answered gets a failure. A worker that keeps its next answer back for longer than the patience hangs, and is killed.
+    header: dict[str, Any]
+    reply: asyncio.Future[Message]
+
+
+class EspeakProcess(asyncio.SubprocessProtocol):
+    """One run of the worker: requests go in one by one, each when the one before it is answered.
+
+    So a request that nobody waits for any more costs nothing if it is still to be sent; else its reply is dropped. When
+    the process ends, every request that is not answered gets a failure. A worker that keeps its answer back for longer
+    than the patience hangs, and is killed.
 
     Attributes:
         hello: the first message of the worker: its voices and their variants.
@@ -34,7 +44,8 @@ class EspeakProcess(asyncio.SubprocessProtocol):
         loop = asyncio.get_running_loop()
         self.hello: asyncio.Future[Message] = loop.create_future()
         self.ended: asyncio.Future[None] = loop.create_future()
-        self._unanswered = deque([self.hello])
+        self._awaited: asyncio.Future[Message] | None = self.hello
+        self._waiting: deque[_Request] = deque()
         self._decoder = MessageDecoder()
         self._patience = patience
         self._hung = False
@@ -58,15 +69,13 @@ class EspeakProcess(asyncio.SubprocessProtocol):
 
     def request(self, header: dict[str, Any]) -> asyncio.Future[Message]:
         """Sends a request; the future is its reply."""
-        reply: asyncio.Future[Message] = asyncio.get_running_loop().create_future()
-        self._unanswered.append(reply)
-        if len(self._unanswered) == 1:
-            self._expect_answer()
+        request = _Request(header, asyncio.get_running_loop().create_future())
+        self._waiting.append(request)
         if self.ended.done():
             self._fail_unanswered()
-        else:
-            cast("asyncio.WriteTransport", self._transport.get_pipe_transport(0)).write(Message(header).encode())
-        return reply
+        elif self._awaited is None:
+            self._send_next()
+        return request.reply
 
     async def close(self) -> None:
         """Ends the process, whatever it is doing."""
@@ -81,8 +90,9 @@ class EspeakProcess(asyncio.SubprocessProtocol):
     def pipe_data_received(self, fd: int, data: bytes) -> None:
         """A piece of a reply came."""
         for message in self._decoder.feed(data):
-            _answer(self._unanswered.popleft(), message)
-            self._expect_answer()
+            if self._awaited is not None:
+                _answer(self._awaited, message)
+            self._send_next()
 
     def process_exited(self) -> None:
         """The worker ended; a child of it may still hold its pipes."""
@@ -94,11 +104,18 @@ class EspeakProcess(asyncio.SubprocessProtocol):
         self.ended.set_result(None)
         self._fail_unanswered()
 
-    def _expect_answer(self) -> None:
-        """Waits anew: requests queue in the worker, so that only the first of them takes its time."""
+    def _send_next(self) -> None:
+        """What somebody still waits for, if there is such a request."""
         self._watch.cancel()
-        if self._unanswered:
-            self._watch = asyncio.get_running_loop().call_later(self._patience, self._give_up)
+        while self._waiting and self._waiting[0].reply.done():
+            self._waiting.popleft()
+        if not self._waiting:
+            self._awaited = None
+            return
+        request = self._waiting.popleft()
+        self._awaited = request.reply
+        cast("asyncio.WriteTransport", self._transport.get_pipe_transport(0)).write(Message(request.header).encode())
+        self._watch = asyncio.get_running_loop().call_later(self._patience, self._give_up)
 
     def _give_up(self) -> None:
         _log.warning("the speech worker %d does not answer and is killed", self.pid)
@@ -112,8 +129,10 @@ class EspeakProcess(asyncio.SubprocessProtocol):
     def _fail_unanswered(self) -> None:
         self._watch.cancel()
         failed = Message({"failed": "no answer"}) if self._hung else failure(self._transport.get_returncode() or 0)
-        while self._unanswered:
-            _answer(self._unanswered.popleft(), failed)
+        for reply in (self._awaited, *(request.reply for request in self._waiting)):
+            if reply is not None:
+                _answer(reply, failed)
+        self._waiting.clear()
 
 
 def _answer(reply: asyncio.Future[Message], message: Message) -> None:

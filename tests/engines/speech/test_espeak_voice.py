@@ -150,6 +150,18 @@ async def test_a_speech_that_is_called_off_leaves_the_others_alone(voice, caplog
     assert caplog.text == ""
 
 
+async def test_what_is_called_off_before_its_turn_is_never_spoken(voice, monkeypatch):
+    pipe = voice._process._transport.get_pipe_transport(0)
+    asked, write = [], pipe.write
+    monkeypatch.setattr(pipe, "write", lambda request: (asked.append(request), write(request)))
+    first, *others = [asyncio.ensure_future(spoken(voice, text)) for text in ("one", LONG, LONG, "two")]
+    await child_of(worker_of(voice))
+    for speech in others[:2]:
+        speech.cancel()
+    await asyncio.gather(first, others[-1])
+    assert len(asked) == 2
+
+
 async def test_a_voice_that_was_closed_has_no_process(voice):
     worker = worker_of(voice)
     await voice.close()
