@@ -155,7 +155,8 @@ async def test_what_is_called_off_before_its_turn_is_never_spoken(voice, monkeyp
     asked, write = [], pipe.write
     monkeypatch.setattr(pipe, "write", lambda request: (asked.append(request), write(request)))
     first, *others = [asyncio.ensure_future(spoken(voice, text)) for text in ("one", LONG, LONG, "two")]
-    await child_of(worker_of(voice))
+    while not asked:
+        await asyncio.sleep(0)
     for speech in others[:2]:
         speech.cancel()
     await asyncio.gather(first, others[-1])
