@@ -152,11 +152,10 @@ async def test_a_speech_that_is_called_off_leaves_the_others_alone(voice, caplog
 
 async def test_what_is_called_off_before_its_turn_is_never_spoken(voice, monkeypatch):
     pipe = voice._process._transport.get_pipe_transport(0)
-    asked, write = [], pipe.write
-    monkeypatch.setattr(pipe, "write", lambda request: (asked.append(request), write(request)))
+    asked, first_asked, write = [], asyncio.Event(), pipe.write
+    monkeypatch.setattr(pipe, "write", lambda request: (asked.append(request), first_asked.set(), write(request)))
     first, *others = [asyncio.ensure_future(spoken(voice, text)) for text in ("one", LONG, LONG, "two")]
-    while not asked:
-        await asyncio.sleep(0)
+    await first_asked.wait()
     for speech in others[:2]:
         speech.cancel()
     await asyncio.gather(first, others[-1])
