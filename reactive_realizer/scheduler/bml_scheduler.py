@@ -249,7 +249,8 @@ class BMLScheduler:
         for name in block.description.on_start:
             fault = self._requests.activate(block.key.character, name, time)
             if fault is not None:
-                self._reporter.warn(block.key.character, block.key.block, fault)
+                place = block.description.location
+                self._reporter.warn(block.key.character, block.key.block, fault.located(place.line, place.column))
 
     def _owe_prediction(self, block: BMLBlock) -> None:
         self._moved.add(block.key)
