@@ -60,7 +60,6 @@ class _Solving:
     refused: list[Loss]
     task: Task
     plan: Plan | None = None
-    failure: Exception | None = None
     times: int = 0
     cancel: Callable[[], None] = lambda: None
 
@@ -148,8 +147,6 @@ class BlockPlanner:
         def receive(result: Result, now: GlobalTime) -> None:
             if isinstance(result, Plan):
                 solving.plan = result
-            elif isinstance(result, Exception):
-                solving.failure = result
 
         work = asyncio.to_thread(self._planning.solve, solving.task)
         solving.plan = None
@@ -157,8 +154,6 @@ class BlockPlanner:
 
     def _draft(self, block: BMLBlock, solving: _Solving, now: GlobalTime) -> Draft | None:
         """What came out, if it did and times from outside are still what they were."""
-        if solving.failure is not None:
-            raise solving.failure
         if solving.plan is None:
             return None
         stale = solving.times < _MOST_OFTEN and self._planning.is_stale(solving.task)

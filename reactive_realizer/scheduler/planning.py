@@ -1,9 +1,11 @@
 """From a prepared block to a plan on the board: solved aside, committed in one transaction or not at all."""
 
+import logging
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from reactive_realizer.clock.units import RESOLUTION, GlobalTime, Time
+from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.following import hangs_on
 from reactive_realizer.pegboard.peg_key import PegKey
 from reactive_realizer.pegboard.pegboard import PegBoard
@@ -27,6 +29,8 @@ from reactive_realizer.scheduler.problem import (
     Tie,
 )
 from reactive_realizer.scheduler.strategy import SchedulingStrategy
+
+logger = logging.getLogger(__name__)
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,8 +90,16 @@ class Planning:
         return Task(tuple(kept.values()), problem, (*losses, *lost_ties, *lost_orders), start, holds)
 
     def solve(self, task: Task) -> Plan:
-        """A plan by the strategy; it may be called in another thread, for it reads and writes nothing but the task."""
-        solution = self._strategy.solve(task.problem)
+        """A plan by the strategy; it may be called in another thread, for it reads and writes nothing but the task.
+
+        A strategy that raises costs the block, and nothing else.
+        """
+        try:
+            solution = self._strategy.solve(task.problem)
+        except Exception as failure:
+            logger.exception("the strategy %s failed", self._strategy.name)
+            fault = Fault("work-failed", {"reason": failure})
+            return Plan((), {}, (*task.losses, Loss(None, fault, dropped=False, required=True)), (), ())
         planned = tuple(unit for unit in task.units if unit.behavior.id in solution.pegs)
         kept = (*_kept(task.problem, solution), *task.holds)
         return Plan(planned, solution.pegs, (*task.losses, *solution.losses), kept, tuple(task.holds.values()))

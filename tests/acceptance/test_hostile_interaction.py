@@ -123,3 +123,18 @@ async def test_what_rounding_puts_after_an_interruption_is_told_before_it(pilot)
     assert [id_ for id_ in pilot.feedback.progress if id_.startswith("b:")] == [
         *("b:start", "b:g:start", "b:g:relax", "b:g:end", "b:end")
     ]
+
+
+@pytest.mark.parametrize("strategy", ["convex", "embr", "smartbody"])
+async def test_a_constraint_between_moments_that_nobody_can_move_troubles_nobody(strategy) -> None:
+    constraints = [
+        '<synchronize><sync ref="0"/><sync ref="0"/></synchronize>',
+        '<before ref="1"><sync ref="1"/></before>',
+        '<before ref="0.4"><sync ref="0.05"/></before>',
+        '<after ref="anticipators:metronome:tick1"><sync ref="anticipators:metronome:tick2"/></after>',
+    ]
+    async with open_pilot(SceneOptions(voice="text", strategy=strategy)) as pilot:
+        pilot.block("b", NOD + "".join(f"<constraint>{each}</constraint>" for each in constraints))
+        await pilot.advance(1)
+        assert pilot.feedback.status("b") == "DONE"
+        assert reached(pilot, "b:n")[-1] == "end"

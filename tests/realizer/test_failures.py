@@ -220,3 +220,17 @@ async def test_nothing_is_composed_where_nobody_looks(pilot) -> None:
 
 def _tick(number):
     return Tick(number, tick_time(number - 1))
+
+
+@pytest.mark.parametrize("number", [1, 60])
+async def test_a_strategy_that_raises_costs_the_block_that_it_was_to_plan(pilot, monkeypatch, number) -> None:
+    def fail(problem):
+        raise StopIteration("a test")
+
+    pilot.block("one", '<wait id="w" duration="1"/>')
+    await pilot.tick()
+    monkeypatch.setattr(pilot.realizer._strategy, "solve", fail)
+    pilot.block("two", "".join(f'<wait id="w{i}" duration="0.1"/>' for i in range(number)))
+    await pilot.advance(2)
+    assert (pilot.feedback.status("one"), pilot.feedback.status("two")) == ("DONE", "FAILED")
+    assert pilot.feedback.warnings == [("two", "CANNOT_CREATE_BEHAVIOR")]

@@ -120,17 +120,20 @@ def _groups(case: Case, kept: Kept) -> Iterable[_Group]:
             linked.tie(moved[0], moved[1], 0.0)
     groups: dict[Node | str, _Group] = defaultdict(lambda: _Group(case, kept))
 
-    def group_of(*nodes: Node) -> _Group:
-        moved = next(each for node in nodes if (each := case.movable(node)) is not None)
-        return groups[linked.find(moved)[0]]
+    def concerned(*nodes: Node) -> Iterable[_Group]:
+        """The group of some nodes; none if all their times are given and known."""
+        moved = [each for node in nodes if (each := case.movable(node)) is not None]
+        return [groups[linked.find(each)[0]] for each in moved[:1]]
 
     for span in case.spans:
-        group_of(span.start).spans.append(span)
+        for group in concerned(span.start):
+            group.spans.append(span)
     for row in kept.rows:
-        group_of(row.later, row.earlier).rows.append(row)
-    for constraint in kept.constraints:
-        if isinstance(constraint, Tie):
-            group_of(*constraint.nodes).ties.append(constraint)
+        for group in concerned(row.later, row.earlier):
+            group.rows.append(row)
+    for tie in (each for each in kept.constraints if isinstance(each, Tie)):
+        for group in concerned(*tie.nodes):
+            group.ties.append(tie)
     return groups.values()
 
 
