@@ -13,6 +13,7 @@ from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.reactive.commit import Commit
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BlockState, BMLBlock
+from reactive_realizer.scheduler.concerned import concerned
 from reactive_realizer.scheduler.plan_view import PlanView
 from reactive_realizer.scheduler.verify import Violation, verify
 
@@ -31,11 +32,9 @@ class Verifier:
     def check(self, commits: Iterable[Commit], now: GlobalTime) -> None:
         """Check what the commits of the tick at ``now`` moved."""
         moved = {change.cell for commit in commits for change in commit.changes}
-        owners = {self._board.owner(cell) for cell in moved}
-        alive = self._blocks.alive
-        self._said = {block.key: self._said.get(block.key, set()) for block in alive}
-        for block in alive:
-            if block.state is not BlockState.IN_PREP and (block.key in owners or not block.outside.isdisjoint(moved)):
+        self._said = {block.key: self._said.get(block.key, set()) for block in self._blocks.alive}
+        for block in concerned(self._blocks, self._board, moved):
+            if block.state is not BlockState.IN_PREP:
                 self._verify(block, now)
 
     def _verify(self, block: BMLBlock, now: GlobalTime) -> None:

@@ -17,6 +17,7 @@ from reactive_realizer.scheduler.block_planner import BlockPlanner
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BlockState, BMLBlock
 from reactive_realizer.scheduler.cast import Cast
+from reactive_realizer.scheduler.concerned import concerned
 from reactive_realizer.scheduler.endings import Endings
 from reactive_realizer.scheduler.joining import Joining
 from reactive_realizer.scheduler.planning import Planning
@@ -132,13 +133,13 @@ class BMLScheduler:
     def clamp(self, previous: GlobalTime, now: GlobalTime, commits: Iterable[Commit]) -> None:
         """Points ahead, of blocks that play, that were written into the past happen now."""
         moved = {change.cell for commit in commits for change in commit.changes}
-        if not moved:
-            return
-        owners = {self._board.owner(cell) for cell in moved}
-        blocks = [block for block in self.blocks.alive if block.state.plays and block.key in owners]
+        blocks = [block for block in concerned(self.blocks, self._board, moved) if block.state.plays]
         units = [u for block in blocks for u in block.live_units if any(p.peg in moved for p in u.points)]
+        if not units:
+            return
         with self._board.graph.transaction("no later than now"):
             for point in (point for unit in units for point in unit.ahead()):
+                # One that is brought to now may bring those that hang on it.
                 time = point.peg.value
                 if point.peg in moved and time is not None and time < previous:
                     point.peg.pin(now)

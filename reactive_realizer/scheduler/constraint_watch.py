@@ -11,6 +11,7 @@ from reactive_realizer.reactive.cell import Cell
 from reactive_realizer.reactive.commit import Commit
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock
+from reactive_realizer.scheduler.concerned import concerned
 from reactive_realizer.scheduler.problem import Node, Order, Origin, Point, Tie
 from reactive_realizer.scheduler.reporter import Reporter
 from reactive_realizer.scheduler.verify import TOLERANCE
@@ -39,10 +40,8 @@ class ConstraintWatch:
         moved: dict[Cell[Any], Any] = {}
         for change in (change for commit in commits for change in commit.changes):
             moved.setdefault(change.cell, change.old)
-        owners = {self._board.owner(cell) for cell in moved}
-        for block in self._blocks.alive if moved else ():
-            if block.kept and (block.key in owners or not block.outside.isdisjoint(moved)):
-                self._check(block, moved, now)
+        for block in concerned(self._blocks, self._board, moved):
+            self._check(block, moved, now)
 
     def _check(self, block: BMLBlock, moved: Moved, now: GlobalTime) -> None:
         units = {unit.behavior.id: unit for unit in block.units}
