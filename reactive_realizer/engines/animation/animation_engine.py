@@ -16,11 +16,11 @@ from reactive_realizer.engine.context import EngineContext
 from reactive_realizer.engine.effects import Play
 from reactive_realizer.engine.engine import DefaultEngine
 from reactive_realizer.engines.animation.animation_unit import AMOUNT_RANGE, AnimationUnit, Stage
-from reactive_realizer.engines.animation.gaze_motion_unit import GazeMotionUnit
-from reactive_realizer.engines.animation.idle import Idle
+from reactive_realizer.engines.animation.gaze.gaze_motion_unit import GazeMotionUnit
+from reactive_realizer.engines.animation.idle.idle import Idle
 from reactive_realizer.engines.animation.motion_library import MotionLibrary
+from reactive_realizer.engines.animation.posture.rest_pose import REST_POSE
 from reactive_realizer.engines.animation.release import Release
-from reactive_realizer.engines.animation.rest_pose import REST_POSE
 from reactive_realizer.pegboard.peg_key import BlockKey
 
 GAZE = "direction of the head"

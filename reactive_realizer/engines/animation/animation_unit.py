@@ -9,8 +9,8 @@ from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.pose import Layer, LayerKind
 from reactive_realizer.embodiment.quaternion import Quat
+from reactive_realizer.engines.animation.arms.gesture_motion_unit import GestureMotionUnit
 from reactive_realizer.engines.animation.easing import share
-from reactive_realizer.engines.animation.gesture_motion_unit import GestureMotionUnit
 from reactive_realizer.engines.animation.motion_unit import MotionUnit
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.parameter import Parameter, Range

@@ -14,13 +14,13 @@ from reactive_realizer.bml.words import Influence
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.vector import ZERO, Vec3
 from reactive_realizer.engine.context import EngineContext
-from reactive_realizer.engines.animation.gaze_motion_unit import GazeMotionUnit
-from reactive_realizer.engines.animation.gesture_motion_unit import GestureMotionUnit
+from reactive_realizer.engines.animation.arms.gesture_motion_unit import GestureMotionUnit
+from reactive_realizer.engines.animation.gaze.gaze_motion_unit import GazeMotionUnit
 from reactive_realizer.engines.animation.motion_unit import MotionUnit
-from reactive_realizer.engines.animation.proc_animation import ProcAnimation
-from reactive_realizer.engines.animation.proc_animation_reader import read_proc_animation
-from reactive_realizer.engines.animation.proc_motion_unit import ProcMotionUnit
-from reactive_realizer.engines.animation.rest_pose import REST_POSE
+from reactive_realizer.engines.animation.posture.rest_pose import REST_POSE
+from reactive_realizer.engines.animation.procedural.proc_animation import ProcAnimation
+from reactive_realizer.engines.animation.procedural.proc_animation_reader import read_proc_animation
+from reactive_realizer.engines.animation.procedural.proc_motion_unit import ProcMotionUnit
 from reactive_realizer.errors import error
 
 DYNAMIC = (BMLT, "dynamic")

@@ -20,7 +20,8 @@ from reactive_realizer.embodiment.quaternion import (
     rotate,
 )
 from reactive_realizer.embodiment.vector import Vec3, add, dot, subtract, unit
-from reactive_realizer.engines.animation.gaze import (
+from reactive_realizer.engines.animation.gaze.gaze_motion_unit import GazeMotionUnit
+from reactive_realizer.engines.animation.gaze.turning import (
     EYE_PITCH,
     EYE_YAW,
     EYES,
@@ -30,7 +31,6 @@ from reactive_realizer.engines.animation.gaze import (
     offset_target,
     turn_toward,
 )
-from reactive_realizer.engines.animation.gaze_motion_unit import GazeMotionUnit
 
 REST: dict = {}
 

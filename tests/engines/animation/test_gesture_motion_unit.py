@@ -7,11 +7,11 @@ import pytest
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.quaternion import IDENTITY, angle, conjugate, from_euler, multiply
 from reactive_realizer.embodiment.vector import distance, subtract
+from reactive_realizer.engines.animation.arms.gesture_motion_unit import AMOUNT, HOLD, GestureMotionUnit
 from reactive_realizer.engines.animation.easing import minimum_jerk
-from reactive_realizer.engines.animation.gesture_motion_unit import AMOUNT, HOLD, GestureMotionUnit
 from reactive_realizer.engines.animation.motion_unit import GESTURE_POINTS
-from reactive_realizer.engines.animation.proc_animation_reader import read_proc_animation
-from reactive_realizer.engines.animation.rest_pose import REST_POSE
+from reactive_realizer.engines.animation.posture.rest_pose import REST_POSE
+from reactive_realizer.engines.animation.procedural.proc_animation_reader import read_proc_animation
 
 GESTURES = ["beat_right", "beat_both", "offer_right", "offer_both", "greet_right", "conduct_right", "self_right"]
 RAISED = {"r_shoulder": from_euler(-1.4, 0.3, -0.4), "r_elbow": from_euler(-0.9, 0.0, 0.0)}

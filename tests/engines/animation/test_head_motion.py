@@ -7,8 +7,8 @@ import pytest
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat
 from reactive_realizer.engines.animation.motion_unit import GESTURE_POINTS, completed
-from reactive_realizer.engines.animation.proc_animation_reader import read_proc_animation
-from reactive_realizer.engines.animation.proc_motion_unit import ProcMotionUnit
+from reactive_realizer.engines.animation.procedural.proc_animation_reader import read_proc_animation
+from reactive_realizer.engines.animation.procedural.proc_motion_unit import ProcMotionUnit
 
 
 @pytest.fixture

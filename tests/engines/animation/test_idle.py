@@ -8,8 +8,8 @@ import pytest
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.quaternion import angle, conjugate, multiply
 from reactive_realizer.embodiment.vector import distance
-from reactive_realizer.engines.animation.idle import Idle
-from reactive_realizer.engines.animation.rest_pose import REST_POSE
+from reactive_realizer.engines.animation.idle.idle import Idle
+from reactive_realizer.engines.animation.posture.rest_pose import REST_POSE
 
 
 def blinks(idle: Idle, seconds: float) -> list[float]:

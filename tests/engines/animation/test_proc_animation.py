@@ -7,9 +7,9 @@ import pytest
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.quaternion import IDENTITY, angle, from_axis_angle, from_euler, rotate
 from reactive_realizer.embodiment.vector import subtract
-from reactive_realizer.engines.animation.proc_animation import ProcAnimation
-from reactive_realizer.engines.animation.proc_animation_reader import read_proc_animation
-from reactive_realizer.engines.animation.proc_motion_unit import ProcMotionUnit
+from reactive_realizer.engines.animation.procedural.proc_animation import ProcAnimation
+from reactive_realizer.engines.animation.procedural.proc_animation_reader import read_proc_animation
+from reactive_realizer.engines.animation.procedural.proc_motion_unit import ProcMotionUnit
 from reactive_realizer.errors import RealizerError
 
 

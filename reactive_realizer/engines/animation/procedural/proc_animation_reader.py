@@ -11,8 +11,8 @@ from pathlib import Path
 from reactive_realizer.binding.xml_file import Element, attribute, bad, number, read_xml
 from reactive_realizer.engines.animation.expression.nodes import Node, Number, variables
 from reactive_realizer.engines.animation.expression.parser import parse
-from reactive_realizer.engines.animation.proc_animation import ProcAnimation
-from reactive_realizer.engines.animation.tracks import EffectorTrack, Keyframe, KeyframeTrack, RotationTrack
+from reactive_realizer.engines.animation.procedural.proc_animation import ProcAnimation
+from reactive_realizer.engines.animation.procedural.tracks import EffectorTrack, Keyframe, KeyframeTrack, RotationTrack
 from reactive_realizer.errors import RealizerError
 
 _log = logging.getLogger(__name__)

@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from reactive_realizer.embodiment.quaternion import angle, multiply, rotate
+from reactive_realizer.embodiment.two_bone_ik import Arm
 from reactive_realizer.embodiment.vector import add, cross, distance, dot, length, scale, subtract, unit
-from reactive_realizer.engines.animation.two_bone_ik import Arm
 
 STRAIGHT = Arm((0.0, -0.25, 0.0), (0.0, -0.23, 0.0))
 CROOKED = Arm((0.02, -0.25, 0.03), (-0.03, -0.22, 0.04))

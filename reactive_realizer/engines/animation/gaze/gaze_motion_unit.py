@@ -11,7 +11,7 @@ from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, slerp
 from reactive_realizer.embodiment.skeleton import Pose
 from reactive_realizer.embodiment.vector import Vec3
 from reactive_realizer.engines.animation.easing import minimum_jerk, share
-from reactive_realizer.engines.animation.gaze import (
+from reactive_realizer.engines.animation.gaze.turning import (
     aim_eyes,
     gaze_joints,
     offset_target,

@@ -17,11 +17,11 @@ from reactive_realizer.embodiment.quaternion import (
     slerp,
     twist,
 )
+from reactive_realizer.embodiment.two_bone_ik import Arm
 from reactive_realizer.embodiment.vector import Vec3, subtract, unit
 from reactive_realizer.engines.animation.expression.compiler import Compiled, compile_formulas
 from reactive_realizer.engines.animation.expression.nodes import Node
-from reactive_realizer.engines.animation.tracks import EffectorTrack, Keyframe, KeyframeTrack, RotationTrack
-from reactive_realizer.engines.animation.two_bone_ik import Arm
+from reactive_realizer.engines.animation.procedural.tracks import EffectorTrack, Keyframe, KeyframeTrack, RotationTrack
 from reactive_realizer.errors import error
 
 

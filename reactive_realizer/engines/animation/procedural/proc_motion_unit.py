@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.quaternion import Quat
 from reactive_realizer.engines.animation.motion_unit import completed
-from reactive_realizer.engines.animation.proc_animation import ProcAnimation, Timing
+from reactive_realizer.engines.animation.procedural.proc_animation import ProcAnimation, Timing
 
 REPEATS = "r"
 """The parameter that says how often an animation repeats its stroke, by convention of the published files."""

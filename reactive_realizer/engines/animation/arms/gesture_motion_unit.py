@@ -11,7 +11,7 @@ from reactive_realizer.embodiment.skeleton import Pose
 from reactive_realizer.embodiment.vector import distance
 from reactive_realizer.engines.animation.easing import minimum_jerk, share
 from reactive_realizer.engines.animation.motion_unit import GESTURE_POINTS, completed
-from reactive_realizer.engines.animation.proc_animation import ProcAnimation
+from reactive_realizer.engines.animation.procedural.proc_animation import ProcAnimation
 
 HOLD = "postStrokeHoldDuration"
 """The parameter of a binding that says how long the hands stay after the stroke, s."""

@@ -1,0 +1,1 @@
+"""What arms and hands do: gestures with their phases, and how a wrist gets to its place."""

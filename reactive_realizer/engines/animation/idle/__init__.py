@@ -1,0 +1,1 @@
+"""What a living figure does when it does nothing."""

@@ -1,0 +1,1 @@
+"""How the figure stands, sits and rests."""
