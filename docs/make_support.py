@@ -240,7 +240,8 @@ def _lexemes(scene: Scene) -> str:
     """Words that mean something in the package's own files."""
     found: dict[str, set[str]] = {}
     for spec in GestureBinding.read(scene.assets("gesturebinding.xml")).specs:
-        found.setdefault(spec.behavior, set()).add(spec.constraints["lexeme"])
+        if (lexeme := spec.constraints.get("lexeme")) is not None:
+            found.setdefault(spec.behavior, set()).add(lexeme)
     found["faceLexeme"] = set(read_face_lexemes(scene.assets("face/lexemes.json")))
     rows = ((f"`{element}`", ", ".join(sorted(words))) for element, words in sorted(found.items()))
     return _table(("element", "words of the default scene"), rows)

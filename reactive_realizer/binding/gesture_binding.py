@@ -115,7 +115,7 @@ def _spec(element: Element) -> UnitSpec:
         behavior=attribute(element, "type"),
         namespace=element.get("namespace", BML),
         constraints=_pairs(element, "constraints/constraint", "name", "value"),
-        unit=attribute(unit, "type"),
+        unit=implementation if attribute(unit, "type") == "class" and implementation else attribute(unit, "type"),
         file=file,
         implementation=implementation,
         parameter_map=_pairs(element, "parametermap/parameter", "src", "dst"),

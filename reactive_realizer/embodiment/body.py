@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat
 from reactive_realizer.embodiment.skeleton import Place, Pose, Skeleton
+from reactive_realizer.embodiment.vector import ZERO, Vec3
 
 
 @dataclass(frozen=True, slots=True)
@@ -14,10 +15,12 @@ class Body:
     Attributes:
         skeleton: its proportions.
         pose: of its joints; for a motion that begins, the pose without additive layers, which would be added twice.
+        root: how far HumanoidRoot is moved from its place in the default pose, m.
     """
 
     skeleton: Skeleton
     pose: Pose = field(default_factory=dict)
+    root: Vec3 = ZERO
 
     def place(self, joint: str) -> Place:
         """Where a joint is.
@@ -25,12 +28,12 @@ class Body:
         Raises:
             KeyError: no such joint.
         """
-        return self.skeleton.place(self.pose, joint)
+        return self.skeleton.place(self.pose, joint, self.root)
 
     def rotation(self, joint: str) -> Quat:
         """A joint's rotation local to its parent."""
         return self.pose.get(joint, IDENTITY)
 
-    def posed(self, rotations: Mapping[str, Quat]) -> "Body":
-        """This body with some joints turned otherwise."""
-        return Body(self.skeleton, {**self.pose, **rotations})
+    def posed(self, rotations: Mapping[str, Quat], root: Vec3 | None = None) -> "Body":
+        """This body with some joints turned otherwise, and its root elsewhere if that is said."""
+        return Body(self.skeleton, {**self.pose, **rotations}, self.root if root is None else root)

@@ -34,7 +34,7 @@ class Humanoid:
         self._position = position
         self._turn = from_axis_angle(UP, heading)
         self._limit = SpeedLimit(avatar.skeleton)
-        self._shown: Mapping[str, Quat] | None = None
+        self._shown: Body | None = None
         self._shown_at = GlobalTime(0.0)
         self.body = Body(avatar.skeleton)
         """The figure without additive motion, in its own frame: where a motion that begins finds it."""
@@ -44,12 +44,12 @@ class Humanoid:
         composed = compose(self.avatar.skeleton, layers)
         pose = composed.pose
         if eyes is not None:
-            pose |= eyes(Body(self.avatar.skeleton, pose))
+            pose |= eyes(Body(self.avatar.skeleton, pose, composed.root))
         if self._shown is not None and time > self._shown_at:
-            pose = self._limit(self._shown, pose, time - self._shown_at)
-        self._shown, self._shown_at = pose, time
-        self.body = Body(self.avatar.skeleton, composed.steady)
-        return Frame(time, self._root(), self._rotations(pose), self._weights(face))
+            pose = self._limit(self._shown.pose, pose, time - self._shown_at)
+        self._shown, self._shown_at = Body(self.avatar.skeleton, pose, composed.root), time
+        self.body = Body(self.avatar.skeleton, composed.steady, composed.steady_root)
+        return Frame(time, self._root(composed.root), self._rotations(pose), self._weights(face))
 
     def to_own_frame(self, point: Vec3) -> Vec3:
         """A point of the world as seen from the figure, m."""
@@ -60,14 +60,14 @@ class Humanoid:
         name = joint or "skullbase"
         if name not in self.avatar.skeleton.joints:
             return None
-        body = Body(self.avatar.skeleton, self._shown or {})
+        body = self._shown or Body(self.avatar.skeleton)
         place = body.place(name)
         point = place.position if joint else _between_eyes(body)
         return add(self._position, rotate(self._turn, point))
 
-    def _root(self) -> NDArray[np.float64]:
-        offset = self.avatar.skeleton.offsets[self.avatar.skeleton.joints.index(_ROOT)]
-        return np.array(add(self._position, rotate(self._turn, offset)))
+    def _root(self, moved: Vec3) -> NDArray[np.float64]:
+        place = add(self.avatar.skeleton.offset(_ROOT), moved)
+        return np.array(add(self._position, rotate(self._turn, place)))
 
     def _rotations(self, pose: Mapping[str, Quat]) -> NDArray[np.float64]:
         root = multiply(self._turn, pose.get(_ROOT, IDENTITY))

@@ -6,6 +6,7 @@ from enum import IntEnum
 
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, multiply, power, slerp
 from reactive_realizer.embodiment.skeleton import Skeleton
+from reactive_realizer.embodiment.vector import ZERO, Vec3, add, scale, subtract
 
 
 class LayerKind(IntEnum):
@@ -31,12 +32,14 @@ class Layer:
         rotations: joint -> rotation local to the parent.
         weight: 0 leaves what is below as it is, 1 is the layer in full.
         priority: among layers of one kind, the higher lies above; equal ones lie in the order given.
+        root: how far HumanoidRoot is moved from its place in the default pose, m; None leaves it where it is.
     """
 
     kind: LayerKind
     rotations: Mapping[str, Quat]
     weight: float = 1.0
     priority: int = 0
+    root: Vec3 | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,10 +50,14 @@ class Composed:
         pose: with every layer.
         steady: without the additive ones. A motion that begins from "where the body is" begins here: nodding goes on
             while it plays and must not be counted twice.
+        root: how far HumanoidRoot is moved from its place in the default pose, with every layer, m.
+        steady_root: the same without the additive ones.
     """
 
     pose: dict[str, Quat]
     steady: dict[str, Quat]
+    root: Vec3 = ZERO
+    steady_root: Vec3 = ZERO
 
 
 def compose(skeleton: Skeleton, layers: Iterable[Layer]) -> Composed:
@@ -61,13 +68,20 @@ def compose(skeleton: Skeleton, layers: Iterable[Layer]) -> Composed:
     """
     pose = dict.fromkeys(skeleton.joints, IDENTITY)
     steady = dict(pose)
+    root = steady_root = ZERO
     for layer in sorted(layers, key=lambda layer: (layer.kind, layer.priority)):
         if layer.kind is LayerKind.ADDITIVE:
             _turn_further(pose, layer)
+            root = root if layer.root is None else add(root, scale(layer.root, layer.weight))
         else:
             _replace(pose, layer)
             _replace(steady, layer)
-    return Composed(pose, steady)
+            root, steady_root = _moved(root, layer), _moved(steady_root, layer)
+    return Composed(pose, steady, root, steady_root)
+
+
+def _moved(root: Vec3, layer: Layer) -> Vec3:
+    return root if layer.root is None else add(root, scale(subtract(layer.root, root), min(1.0, layer.weight)))
 
 
 def _replace(pose: dict[str, Quat], layer: Layer) -> None:

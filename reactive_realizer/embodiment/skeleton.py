@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, multiply, rotate
-from reactive_realizer.embodiment.vector import Vec3, add
+from reactive_realizer.embodiment.vector import ZERO, Vec3, add
 
 Pose = Mapping[str, Quat]
 """Joint name -> rotation local to the parent; a joint left out is in its default pose."""
@@ -76,13 +76,18 @@ class Skeleton:
         chain = self._chains[joint]
         return chain[-2][0] if len(chain) > 1 else None
 
-    def place(self, pose: Pose, joint: str) -> Place:
+    def place(self, pose: Pose, joint: str, root: Vec3 = ZERO) -> Place:
         """Where one joint is in a pose: forward kinematics along its chain.
+
+        Args:
+            pose: rotations.
+            joint: which.
+            root: how far the root is moved from its default place, m.
 
         Raises:
             KeyError: no such joint.
         """
-        position: Vec3 = (0.0, 0.0, 0.0)
+        position = root
         rotation = IDENTITY
         for name, offset in self._chains[joint]:
             position = add(position, rotate(rotation, offset))

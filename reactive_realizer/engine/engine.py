@@ -67,6 +67,10 @@ class Engine(Protocol):
         """Drop every unit: the engine itself has failed."""
         ...
 
+    def reset(self, time: GlobalTime) -> None:
+        """Go back to how everything was at first, whatever behaviors have left behind: a block replaces all others."""
+        ...
+
 
 class DefaultEngine:
     """An engine around a `Player`; modalities override what they have."""
@@ -117,6 +121,9 @@ class DefaultEngine:
             unit.drop(time)
             self.player.remove(unit)
         return Play(self._take_reached(), (*dropped, *(Dropped(unit, fault) for unit in units)))
+
+    def reset(self, time: GlobalTime) -> None:
+        """Nothing is left behind."""
 
     def requests(self, tick: Tick) -> tuple[Request, ...]:
         """What others are to do now."""

@@ -2,6 +2,7 @@
 
 import logging
 from collections.abc import Callable
+from math import inf
 from typing import TypeVar
 
 from reactive_realizer.clock.units import GlobalTime
@@ -60,9 +61,13 @@ class Player:
         return tuple(reached)
 
     def show(self, kind: type[U], show: Callable[[U], T], now: GlobalTime) -> list[T]:
-        """What every unit of a kind that plays shows; one that fails leaves, the others go on."""
+        """What every unit of a kind that plays shows, what lies above others last (thesis 8.7.5).
+
+        Who started last lies above, of those that started together the one that ends first. One that fails leaves, the
+        others go on.
+        """
         shown: list[T] = []
-        for unit in self.playing:
+        for unit in sorted(self.playing, key=_height):
             if isinstance(unit, kind):
                 try:
                     shown.append(show(unit))
@@ -98,7 +103,9 @@ class Player:
         if (fault := unit.refusal()) is not None:
             self._drop(unit, fault, now)
             return True
-        owners = [other for other in self.playing if other.resources & unit.resources]
+        playing = self.playing
+        unit.settle(frozenset().union(*(other.resources for other in playing if not other.subsiding(start))))
+        owners = [other for other in playing if unit.excludes(other)]
         staying = [owner for owner in owners if not owner.subsiding(start)]
         if staying:
             self._drop(unit, _taken(unit, staying[0]), now)
@@ -125,7 +132,12 @@ class Player:
         self._dropped.append(Dropped(unit, fault))
 
 
+def _height(unit: PlanUnit) -> tuple[float, float]:
+    start, end = unit.times_around
+    return (inf if start is None else start, -inf if end is None else -end)
+
+
 def _taken(unit: PlanUnit, owner: PlanUnit) -> Fault:
-    what = ", ".join(sorted(owner.resources & unit.resources))
+    what = ", ".join(sorted(owner.resources & unit.resources)) or f"replacement group {unit.group}"
     names = {"behavior": f"{unit.block.block}:{unit.behavior.id}", "other": f"{owner.block.block}:{owner.behavior.id}"}
     return Fault("resource-taken", {**names, "resource": what})

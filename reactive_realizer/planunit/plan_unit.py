@@ -64,6 +64,9 @@ class PlanUnit:
         behavior: what was asked for.
         timing: what it prefers; the strategy decides.
         resources: what of the body it owns while it plays; units that share one exclude each other.
+        group: its replacement group (thesis 8.7.5), None without one.
+        yields: whether others of its group may take its place while it plays, and give it back when they end: of these
+            the one that started last plays. Who is overwritten keeps its points and their feedback.
         points: its sync points in order; empty until the plan is committed.
         parameters: what of it may be changed while it plays, by name.
     """
@@ -75,6 +78,8 @@ class PlanUnit:
         self.behavior = behavior
         self.timing = timing
         self.resources = resources
+        self.group: str | None = None
+        self.yields = False
         self.points: list[SyncPoint] = []
         self.parameters: dict[str, Parameter] = {}
         self.state = UnitState.PENDING
@@ -93,6 +98,13 @@ class PlanUnit:
     def preference(self) -> Timing:
         """How it would like to be timed if it began now; a chunk is planned anew when it starts (thesis 12.1.4)."""
         return self.timing
+
+    def settle(self, taken: frozenset[str]) -> None:
+        """Choose what to play, if there is a choice, now that it is to begin.
+
+        Args:
+            taken: the resources that others own and keep.
+        """
 
     def gentle_end(self, time: GlobalTime) -> GlobalTime:
         """When it can end without breaking off in the middle of something, if it is asked to at a time."""
@@ -162,6 +174,19 @@ class PlanUnit:
         """Whether at a time nothing is left of it but a way back to rest that BML says nothing of."""
         relaxed = any(point.id == "relax" and is_due(point.fired, time) for point in self.points)
         return relaxed and not self.points[-1].tied
+
+    def excludes(self, other: "PlanUnit") -> bool:
+        """Whether this and another one cannot play together."""
+        rivals = self.group is not None and self.group == other.group
+        if rivals and (self.yields or other.yields):
+            # Whichever lies above hides the other; of two that begin and end together neither can.
+            return self.times_around == other.times_around
+        return rivals or bool(self.resources & other.resources)
+
+    @property
+    def times_around(self) -> tuple[Time, Time]:
+        """When it starts and ends."""
+        return self.points[0].time, self.points[-1].time
 
     def due(self, now: GlobalTime) -> bool:
         """Whether it is its turn to begin."""

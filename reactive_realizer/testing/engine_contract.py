@@ -100,14 +100,15 @@ class EngineContract:
         stand, behavior = self._stand(), behavior_of(element)
         unit = stand.enter(behavior, _START)
         declared = stand.engine.parameters.get(type(behavior), {})
-        for name, parameter in unit.parameters.items():
+        assert declared.keys() <= unit.parameters.keys(), "a unit may have more: those of its file"
+        for parameter in unit.parameters.values():
             assert parameter.unit is unit
-            assert parameter.range == declared[name]
             assert parameter.value in parameter.range
         for share in (0.0, 1.0):
             stand.advance(_START + 0.3 * _duration(unit))
-            for parameter in unit.parameters.values():
-                parameter.set(parameter.range.low + share * (parameter.range.high - parameter.range.low))
+            for name, (low, high) in declared.items():
+                assert unit.parameters[name].range == (low, high)
+                unit.parameters[name].set(low + share * (high - low))
         self._plays_whole(stand, unit)
 
     # --- how it plays

@@ -75,8 +75,16 @@ class Greedy(WaitEngine):
         return True
 
 
-class Undeclared(WaitEngine):
-    """Lets something be changed that nobody can know of."""
+class Boastful(WaitEngine):
+    """Says that something may be changed that is not there."""
+
+    parameters = MappingProxyType({Wait: {"size": Range(0.0, 1.0)}})
+
+
+class Resizable(WaitEngine):
+    """Lets something be changed."""
+
+    parameters = MappingProxyType({Wait: {"size": Range(0.0, 1.0)}})
 
     def __init__(self, context):
         super().__init__(context)
@@ -88,10 +96,8 @@ class Undeclared(WaitEngine):
         return unit
 
 
-class Meddling(Undeclared):
+class Meddling(Resizable):
     """Writes while it plays."""
-
-    parameters = MappingProxyType({Wait: {"size": Range(0.0, 1.0)}})
 
     def play(self, tick):
         for unit in self.player.playing:
@@ -189,7 +195,7 @@ def engine_contract(engine: Callable) -> type[EngineContract]:
         (Hasty, "test_what_is_not_in_its_plan_is_not_played", ()),
         (OneOff, "test_one_preparation_is_good_for_two_plans", ()),
         (Greedy, "test_it_knows_its_own_behaviors_and_no_others", ()),
-        (Undeclared, "test_what_may_be_changed_while_it_plays_is_declared_and_may_be_changed", ()),
+        (Boastful, "test_what_may_be_changed_while_it_plays_is_declared_and_may_be_changed", ()),
         (Meddling, "test_playing_writes_nothing", ()),
         (Sticky, "test_what_is_interrupted_is_not_heard_of_again_and_goes_back_to_rest", (0.3,)),
         (Moody, "test_playing_a_tick_again_changes_nothing", ()),

@@ -1,29 +1,29 @@
 """Motions in a plan."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from math import inf
 
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body
-from reactive_realizer.embodiment.pose import Layer, LayerKind
-from reactive_realizer.embodiment.quaternion import Quat
+from reactive_realizer.embodiment.pose import Layer
+from reactive_realizer.embodiment.quaternion import Quat, slerp
 from reactive_realizer.engines.animation.arms.gesture_motion_unit import GestureMotionUnit
+from reactive_realizer.engines.animation.choice import Choice
 from reactive_realizer.engines.animation.easing import share
-from reactive_realizer.engines.animation.motion_unit import MotionUnit
+from reactive_realizer.engines.animation.motion_unit import AMOUNT, AMOUNT_RANGE, Moment, MotionUnit, completed
 from reactive_realizer.pegboard.peg_key import BlockKey
-from reactive_realizer.planunit.parameter import Parameter, Range
+from reactive_realizer.planunit.parameter import Parameter
 from reactive_realizer.planunit.phase_clock import PhaseClock
 from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.planunit.timing import Phase, PhaseKind, Timing
 from reactive_realizer.reactive.cell import Source
 from reactive_realizer.reactive.graph import Graph
 
-_HOLDS = frozenset({("ready", "strokeStart"), ("strokeEnd", "relax"), ("ready", "relax")})
-"""Before and after a stroke the hands wait; between coming and going a gaze looks."""
-
-AMOUNT_RANGE = Range(0.0, 1.0)
+_HOLDS = frozenset({("ready", "strokeStart"), ("strokeEnd", "relax")})
+"""Before and after a stroke the hands wait."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,28 +49,32 @@ class AnimationUnit(PlanUnit):
 
     Attributes:
         motion: what is played.
-        kind: where it lies among the layers of a frame.
-        shown: the rotations that it showed last.
+        shown: what it showed last.
     """
 
-    def __init__(
-        self,
-        block: BlockKey,
-        behavior: Behavior,
-        motion: MotionUnit,
-        kind: LayerKind,
-        resources: frozenset[str],
-        stage: Stage,
-    ) -> None:
-        super().__init__(block, behavior, motion_timing(behavior, motion), resources)
+    def __init__(self, block: BlockKey, behavior: Behavior, choices: Sequence[Choice], stage: Stage) -> None:
+        """Plans a motion.
+
+        Args:
+            block: of which block.
+            behavior: what is asked for.
+            choices: the motions that could play it, the best first: this one is planned.
+            stage: where it plays.
+        """
+        chosen = choices[0]
+        motion = chosen.motion
+        super().__init__(block, behavior, motion_timing(behavior, motion), motion.resources)
         self.motion = motion
-        self.kind = kind
-        self.shown: Layer = Layer(kind, {})
-        self._clock = PhaseClock({sync: motion.key_positions[sync] for sync in self.timing.points})
+        self.group = chosen.group or motion.group
+        self.yields = chosen.yields
+        self.shown = Layer(motion.kind, {})
+        self._choices = choices
+        self._clock = PhaseClock({sync: _keys(behavior, motion)[sync] for sync in self.timing.points})
         self._stage = stage
-        if motion.amount is not None:
-            amount = Source(stage.graph, str(self.key("amount")), motion.parameters[motion.amount])
-            self.parameters["amount"] = Parameter(self, amount, AMOUNT_RANGE)
+        self._names = chosen.names
+        for name, own in chosen.names.items():
+            cell = Source(stage.graph, str(self.key(name)), motion.parameters[own])
+            self.parameters[name] = Parameter(self, cell, AMOUNT_RANGE if name == AMOUNT else motion.ranges[own])
 
     @property
     def phase(self) -> float:
@@ -95,28 +99,48 @@ class AnimationUnit(PlanUnit):
 
     def layer(self, now: GlobalTime) -> Layer:
         """What the motion shows now."""
-        if self.motion.amount is not None:
-            self.motion.parameters[self.motion.amount] = self.parameters["amount"].value
-        self.shown = Layer(self.kind, self.motion.pose(self._clock.advance(self, now), self._stage.body()))
+        for name, own in self._names.items():
+            self.motion.parameters[own] = self.parameters[name].value
+        posed = self.motion.pose(Moment(self._clock.advance(self, now), now, self._stage.body()))
+        self.shown = Layer(self.motion.kind, posed.rotations, posed.weight, root=posed.root)
         return self.shown
 
     def way_back(self, now: GlobalTime, rest: Body) -> dict[str, Quat]:
-        """The rotations of a unit past its relax, from the times of its points alone."""
+        """The rotations of a unit past its relax, on its way to a body at rest, from the times of its points alone."""
         relax, end = self.time("relax"), self.time("end")
         gone = 0.0 if relax is None or end is None else share(now, relax, end)
         begin = self.motion.key_positions["relax"]
-        return self.motion.pose(begin + gone * (1.0 - begin), rest)
+        posed = self.motion.pose(Moment(begin + gone * (1.0 - begin), now, rest))
+        return {joint: slerp(rest.rotation(joint), goal, posed.weight) for joint, goal in posed.rotations.items()}
 
 
 def motion_timing(behavior: Behavior, motion: MotionUnit) -> Timing:
-    """The preferred timing of a behavior, from the key positions of its motion."""
-    points = behavior.sync_points
-    keys = motion.key_positions
+    """The preferred timing of a behavior, from the key positions of its motion.
+
+    Its points are those of the motion, whatever their names, and those that BML wants of such a behavior.
+    """
+    keys = _keys(behavior, motion)
+    shortest, longest = motion.limits or (0.0, inf)
+    # What only comes and goes, such as a gaze, waits between.
+    holds = {*_HOLDS, *({("ready", "relax")} & set(pairwise(behavior.sync_points)))}
     phases = (
-        Phase(
-            (keys[after] - keys[before]) * motion.preferred_duration,
-            PhaseKind.HOLD if (before, after) in _HOLDS else PhaseKind.ELASTIC,
+        Phase((keys[b] - keys[a]) * motion.preferred_duration, PhaseKind.HOLD)
+        if (a, b) in holds
+        else Phase(
+            (keys[b] - keys[a]) * motion.preferred_duration,
+            PhaseKind.ELASTIC,
+            (keys[b] - keys[a]) * shortest,
+            (keys[b] - keys[a]) * longest if keys[b] > keys[a] else inf,
         )
-        for before, after in pairwise(points)
+        for a, b in pairwise(keys)
     )
-    return Timing(points, tuple(phases))
+    return Timing(tuple(keys), tuple(phases))
+
+
+def _keys(behavior: Behavior, motion: MotionUnit) -> dict[str, float]:
+    wanted = behavior.sync_points
+    keys = motion.key_positions
+    if not keys.keys() >= set(wanted):
+        keys = completed(keys)
+    # One that strokes several times has no single stroke.
+    return {sync: phase for sync, phase in keys.items() if sync != "stroke" or "stroke:1" not in keys}

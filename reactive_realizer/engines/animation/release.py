@@ -1,6 +1,6 @@
 """The way back to rest of a motion that was cut: the engine's own, it blocks nothing."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.pose import Layer
@@ -24,4 +24,4 @@ class Release:
     def at(self, now: GlobalTime) -> Layer:
         """What is left of it."""
         gone = minimum_jerk(share(now, self.since, self.since + DURATION))
-        return Layer(self.layer.kind, self.layer.rotations, self.layer.weight * (1.0 - gone), -1)
+        return replace(self.layer, weight=self.layer.weight * (1.0 - gone), priority=-1)

@@ -5,17 +5,20 @@ import math
 import pytest
 
 from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.pose import LayerKind
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat
 from reactive_realizer.engines.animation.motion_unit import GESTURE_POINTS, completed
 from reactive_realizer.engines.animation.procedural.proc_animation_reader import read_proc_animation
 from reactive_realizer.engines.animation.procedural.proc_motion_unit import ProcMotionUnit
 
+from .showing import shown
+
 
 @pytest.fixture
 def head(animations, skeleton):
     def unit(name: str, **parameters: float):
-        motion = ProcMotionUnit(read_proc_animation(animations / f"{name}.xml"), parameters)
-        return motion, lambda phase: motion.pose(phase, Body(skeleton))["skullbase"]
+        motion = ProcMotionUnit(read_proc_animation(animations / f"{name}.xml"), parameters, LayerKind.ADDITIVE)
+        return motion, lambda phase: shown(motion, phase, Body(skeleton))["skullbase"]
 
     return unit
 
@@ -83,10 +86,3 @@ def test_missing_points_coincide_with_their_neighbors_and_all_are_in_order(autho
     assert authored.items() <= keys.items()
     assert keys["ready"] == authored.get("ready", 0.0)
     assert keys["strokeEnd"] == authored.get("strokeEnd", keys["relax"])
-
-
-def test_its_amount_is_the_parameter_that_the_binding_names_if_it_has_that(animations):
-    nod = read_proc_animation(animations / "nod.xml")
-    assert ProcMotionUnit(nod, {"a": 0.7}, "a").amount == "a"
-    assert ProcMotionUnit(nod, {"a": 0.7}, "size").amount is None
-    assert ProcMotionUnit(nod, {"a": 0.7}).amount is None

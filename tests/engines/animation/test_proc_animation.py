@@ -5,12 +5,15 @@ import math
 import pytest
 
 from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.pose import LayerKind
 from reactive_realizer.embodiment.quaternion import IDENTITY, angle, from_axis_angle, from_euler, rotate
 from reactive_realizer.embodiment.vector import subtract
 from reactive_realizer.engines.animation.procedural.proc_animation import ProcAnimation
 from reactive_realizer.engines.animation.procedural.proc_animation_reader import read_proc_animation
 from reactive_realizer.engines.animation.procedural.proc_motion_unit import ProcMotionUnit
 from reactive_realizer.errors import RealizerError
+
+from .showing import shown
 
 
 @pytest.fixture
@@ -170,7 +173,7 @@ def test_a_keyframe_that_is_no_rotation_is_no_motion(read, skeleton):
 )
 def test_a_motion_of_no_duration_or_with_points_outside_it_cannot_be_planned(read, content, durations):
     with pytest.raises(RealizerError, match="gives no pose"):
-        ProcMotionUnit(read(content, durations), {})
+        ProcMotionUnit(read(content, durations), {}, LayerKind.ADDITIVE)
 
 
 def test_what_is_not_realized_is_left_out_and_noted(read, caplog):
@@ -187,15 +190,15 @@ def test_every_animation_of_the_peer_is_read_and_has_a_pose_at_every_phase(share
     files = sorted((shared_cases / "asap" / "procanimation").rglob("*.xml"))
     assert len(files) == 11
     for path in files:
-        unit = ProcMotionUnit(read_proc_animation(path), {})
+        unit = ProcMotionUnit(read_proc_animation(path), {}, LayerKind.ADDITIVE)
         assert unit.preferred_duration > 0.0
         for step in range(51):
-            rotations = unit.pose(step / 50, Body(skeleton))
+            rotations = shown(unit, step / 50, Body(skeleton))
             assert rotations.keys() == unit.joints
 
 
 def test_every_animation_of_ours_is_read_and_has_a_pose_at_every_phase(animations, skeleton):
     for path in animations.glob("*.xml"):
-        unit = ProcMotionUnit(read_proc_animation(path), {})
+        unit = ProcMotionUnit(read_proc_animation(path), {}, LayerKind.ADDITIVE)
         for step in range(51):
-            assert unit.pose(step / 50, Body(skeleton)).keys() == unit.joints
+            assert shown(unit, step / 50, Body(skeleton)).keys() == unit.joints

@@ -6,12 +6,22 @@ from itertools import pairwise
 from typing import Self
 
 from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.pose import LayerKind
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, slerp
 from reactive_realizer.embodiment.skeleton import Pose
 from reactive_realizer.embodiment.vector import distance
 from reactive_realizer.engines.animation.easing import minimum_jerk, share
-from reactive_realizer.engines.animation.motion_unit import GESTURE_POINTS, completed
+from reactive_realizer.engines.animation.motion_unit import (
+    AMOUNT_RANGE,
+    ANY_VALUE,
+    GESTURE_POINTS,
+    Moment,
+    Posed,
+    arms_of,
+    completed,
+)
 from reactive_realizer.engines.animation.procedural.proc_animation import ProcAnimation
+from reactive_realizer.planunit.parameter import Range
 
 HOLD = "postStrokeHoldDuration"
 """The parameter of a binding that says how long the hands stay after the stroke, s."""
@@ -34,7 +44,10 @@ class GestureMotionUnit:
     smaller stroke would not look like a smaller gesture.
     """
 
-    amount = AMOUNT
+    kind: LayerKind = LayerKind.GESTURE
+    group: str | None = None
+    lasts: str | None = None
+    limits: tuple[float, float] | None = None
 
     def __init__(self, animation: ProcAnimation, parameters: Mapping[str, float], rest: Pose, body: Body) -> None:
         """Plans a gesture.
@@ -50,6 +63,8 @@ class GestureMotionUnit:
             RealizerError: "no-motion": the animation has no pose at its ready or relax.
         """
         self.parameters = {AMOUNT: 1.0, **animation.values(parameters)}
+        self.ranges: Mapping[str, Range] = {**dict.fromkeys(self.parameters, ANY_VALUE), AMOUNT: AMOUNT_RANGE}
+        self.resources = arms_of(animation.joints)
         self._animation = animation
         self._rest = rest
         self._begin = {joint: body.rotation(joint) for joint in animation.joints}
@@ -110,17 +125,14 @@ class GestureMotionUnit:
         """The hands set out from where they are now."""
         self._begin = {joint: body.rotation(joint) for joint in self.joints}
 
-    def pose(self, phase: float, body: Body) -> dict[str, Quat]:
-        """Rotations of arms and fingers at a phase."""
-        keys = self._key_positions
-        stroke = self._stroke(phase, body)
+    def pose(self, moment: Moment) -> Posed:
+        """Rotations of arms and fingers; they leave for whatever lies below."""
+        keys, phase = self._key_positions, moment.phase
+        stroke = self._stroke(phase, moment.body)
         if phase < keys["ready"]:
             done = minimum_jerk(share(phase, 0.0, keys["ready"]))
-            return {joint: slerp(self._begin[joint], goal, done) for joint, goal in stroke.items()}
-        if phase > keys["relax"]:
-            done = minimum_jerk(share(phase, keys["relax"], 1.0))
-            return {joint: slerp(last, self._rest.get(joint, IDENTITY), done) for joint, last in stroke.items()}
-        return stroke
+            return Posed({joint: slerp(self._begin[joint], goal, done) for joint, goal in stroke.items()})
+        return Posed(stroke, 1.0 - minimum_jerk(share(phase, keys["relax"], 1.0)) if phase > keys["relax"] else 1.0)
 
     def preparation(self, body: Body) -> float:
         """How long the hands would like to take to the stroke from where a body has them, s."""

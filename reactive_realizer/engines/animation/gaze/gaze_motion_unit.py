@@ -8,7 +8,6 @@ from reactive_realizer.bml.words import Influence
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.pose import Layer, LayerKind
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, slerp
-from reactive_realizer.embodiment.skeleton import Pose
 from reactive_realizer.embodiment.vector import Vec3
 from reactive_realizer.engines.animation.easing import minimum_jerk, share
 from reactive_realizer.engines.animation.gaze.turning import (
@@ -17,6 +16,8 @@ from reactive_realizer.engines.animation.gaze.turning import (
     offset_target,
     turn_toward,
 )
+from reactive_realizer.engines.animation.motion_unit import Moment, Posed, Resource
+from reactive_realizer.planunit.parameter import Range
 
 _KEY_POSITIONS = MappingProxyType({"start": 0.0, "ready": 0.25, "relax": 0.75, "end": 1.0})
 _DURATION = 2.0
@@ -31,14 +32,17 @@ class GazeMotionUnit:
     layer is asked for last (`eye_layer`).
     """
 
-    parameters: dict[str, float]
-    amount: None = None
+    kind: LayerKind = LayerKind.GAZE
+    resources = frozenset({Resource.HEAD})
+    group: str | None = "gaze"
+    lasts: str | None = None
+    limits: tuple[float, float] | None = None
+    ranges: Mapping[str, Range] = MappingProxyType({})
 
     def __init__(
         self,
         target: Callable[[], Vec3],
         influence: Influence,
-        rest: Pose,
         offset_angle: float = 0.0,
         offset_direction: str = "RIGHT",
     ) -> None:
@@ -47,16 +51,14 @@ class GazeMotionUnit:
         Args:
             target: where the target is now, in the figure's frame, m; a static gaze always gives the same.
             influence: what takes part.
-            rest: where the joints return to; those it leaves out return to the default pose.
             offset_angle: between the target and what is looked at, degrees.
             offset_direction: toward which, as the figure sees it (BML 1.0).
         """
-        self.parameters = {}
+        self.parameters: dict[str, float] = {}
         self._target = target
         self._influence = influence
-        self._rest = rest
         self._offset = (math.radians(offset_angle), offset_direction)
-        self._begin: dict[str, Quat] = {joint: rest.get(joint, IDENTITY) for joint in gaze_joints(influence)}
+        self._begin: dict[str, Quat] = dict.fromkeys(gaze_joints(influence), IDENTITY)
 
     @property
     def joints(self) -> frozenset[str]:
@@ -77,15 +79,14 @@ class GazeMotionUnit:
         """The head turns from where it is now, which may be another gaze."""
         self._begin = {joint: body.rotation(joint) for joint in self._begin}
 
-    def pose(self, phase: float, body: Body) -> dict[str, Quat]:
-        """Rotations of trunk, neck and head at a phase."""
-        keys = _KEY_POSITIONS
+    def pose(self, moment: Moment) -> Posed:
+        """Rotations of trunk, neck and head; they leave for whatever lies below."""
+        keys, phase, body = _KEY_POSITIONS, moment.phase, moment.body
         there = turn_toward(body, self._point(body), self._influence)
         if phase < keys["ready"]:
             done = minimum_jerk(share(phase, keys["start"], keys["ready"]))
-            return {joint: slerp(self._begin[joint], goal, done) for joint, goal in there.items()}
-        done = minimum_jerk(share(phase, keys["relax"], keys["end"]))
-        return {joint: slerp(goal, self._rest.get(joint, IDENTITY), done) for joint, goal in there.items()}
+            return Posed({joint: slerp(self._begin[joint], goal, done) for joint, goal in there.items()})
+        return Posed(there, 1.0 - minimum_jerk(share(phase, keys["relax"], keys["end"])))
 
     def eye_layer(self, phase: float, composed: Body) -> Layer:
         """What the eyes do at a phase.

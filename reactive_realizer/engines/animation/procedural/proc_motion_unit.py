@@ -3,9 +3,10 @@
 from collections.abc import Mapping
 
 from reactive_realizer.embodiment.body import Body
-from reactive_realizer.embodiment.quaternion import Quat
-from reactive_realizer.engines.animation.motion_unit import completed
+from reactive_realizer.embodiment.pose import LayerKind
+from reactive_realizer.engines.animation.motion_unit import ANY_VALUE, Moment, Posed, arms_of, completed
 from reactive_realizer.engines.animation.procedural.proc_animation import ProcAnimation, Timing
+from reactive_realizer.planunit.parameter import Range
 
 REPEATS = "r"
 """The parameter that says how often an animation repeats its stroke, by convention of the published files."""
@@ -17,19 +18,24 @@ class ProcMotionUnit:
     With r repeats the stroke comes r times, a period of 1/r of the whole apart: stroke:1 to stroke:r.
     """
 
-    def __init__(self, animation: ProcAnimation, parameters: Mapping[str, float], amount: str | None = None) -> None:
+    group: str | None = None
+    lasts: str | None = None
+
+    def __init__(self, animation: ProcAnimation, parameters: Mapping[str, float], kind: LayerKind) -> None:
         """Prepares a motion.
 
         Args:
             animation: what to play.
             parameters: values for some of its parameters; names it does not know are of no effect.
-            amount: the parameter that says how much of it is shown, if one does.
+            kind: where it lies among the layers; an additive one owns nothing.
 
         Raises:
             RealizerError: "no-motion": durations or key positions make no sense with these values.
         """
         self.parameters = animation.values(parameters)
-        self.amount = amount if amount in self.parameters else None
+        self.ranges: Mapping[str, Range] = dict.fromkeys(self.parameters, ANY_VALUE)
+        self.kind = kind
+        self.resources: frozenset[str] = frozenset() if kind is LayerKind.ADDITIVE else arms_of(animation.joints)
         self._animation = animation
         # Where things happen is planned once: a parameter that changes while it plays changes the motion only.
         self._timing = animation.timing(self.parameters)
@@ -58,9 +64,9 @@ class ProcMotionUnit:
     def start(self, body: Body) -> None:
         """Does not matter: the animation says where everything begins."""
 
-    def pose(self, phase: float, body: Body) -> dict[str, Quat]:
-        """The animation's rotations at a phase."""
-        return self._animation.sample(phase, self.parameters, body)
+    def pose(self, moment: Moment) -> Posed:
+        """The animation's rotations."""
+        return Posed(self._animation.sample(moment.phase, self.parameters, moment.body))
 
 
 def _with_repeats(timing: Timing, repeats: int) -> dict[str, float]:
