@@ -1,6 +1,7 @@
 """The formulas of pegs: times from times, global, in seconds; None while unknown."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
+from math import inf
 
 from reactive_realizer.clock.units import GlobalTime, Time
 
@@ -35,13 +36,19 @@ def not_before(distances: tuple[float, ...]) -> Callable[..., Time]:
     return formula
 
 
-def not_after(distances: tuple[float, ...]) -> Callable[..., Time]:
-    """The first time, or the earliest of the others with their distances (s), as far as they are known."""
+def not_after(bounds: tuple[float, ...], floors: tuple[float, ...]) -> Callable[..., Time]:
+    """The first time, or the earliest of the bounds, as far as they are known and not before any floor.
 
-    def formula(natural: Time, *bounds: Time) -> Time:
+    Args:
+        bounds: distance (s) from each time after the first that is a bound.
+        floors: from each of those that follow.
+    """
+
+    def formula(natural: Time, *others: Time) -> Time:
         if natural is None:
             return None
-        return GlobalTime(min([natural, *(b + d for b, d in zip(bounds, distances, strict=True) if b is not None)]))
+        floor = max(_known(others[len(bounds) :], floors), default=-inf)
+        return GlobalTime(min([natural, *(time for time in _known(others[: len(bounds)], bounds) if time >= floor)]))
 
     return formula
 
@@ -54,3 +61,7 @@ def latest(floor: GlobalTime) -> Callable[..., Time]:
         return max([floor, *known]) if len(known) == len(times) else None
 
     return formula
+
+
+def _known(times: Iterable[Time], distances: Iterable[float]) -> Iterator[float]:
+    return (time + distance for time, distance in zip(times, distances, strict=True) if time is not None)

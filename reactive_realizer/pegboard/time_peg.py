@@ -6,7 +6,8 @@ block is an `OffsetPeg` on the `BMLBlockPeg`: moved with the block, read back as
 
 import weakref
 from abc import abstractmethod
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import partial
 from typing import ClassVar, NamedTuple
 
 from reactive_realizer.clock.units import GlobalTime, Time
@@ -152,9 +153,10 @@ class BoundedPeg(TimePeg):
         natural: TimeCell,
         bounds: Sequence[Bound],
         formula: Callable[[tuple[float, ...]], Callable[..., Time]],
+        others: Sequence[Bound] = (),
     ) -> None:
         self.bounds = tuple(distance for _, distance in bounds)
-        super().__init__(graph, name, (natural, *(cell for cell, _ in bounds)), formula(self.bounds))
+        super().__init__(graph, name, (natural, *(cell for cell, _ in (*bounds, *others))), formula(self.bounds))
 
     @property
     def parameters(self) -> Mapping[str, object]:
@@ -168,8 +170,7 @@ class BoundedPeg(TimePeg):
 
     def _bounded(self, side: str) -> str:
         natural, *others = self.links
-        bounds = ", ".join(f"{link.name} {distance:+g} s" for link, distance in zip(others, self.bounds, strict=True))
-        return f"{natural.name}, not {side} {bounds}"
+        return f"{natural.name}, not {side} {_shifted(others[: len(self.bounds)], self.bounds)}"
 
 
 class AfterPeg(BoundedPeg):
@@ -193,19 +194,28 @@ class AfterPeg(BoundedPeg):
 class BeforePeg(BoundedPeg):
     """Where another peg is, but not after any of its bounds: a live `before`.
 
-    A bound that is unknown binds nothing.
+    A bound that is unknown binds nothing, and neither does one in front of a floor: it cannot be kept any more.
     """
 
-    __slots__ = ()
+    __slots__ = ("floors",)
 
     kind = "before"
 
-    def __init__(self, graph: Graph, name: str, natural: TimeCell, bounds: Sequence[Bound]) -> None:
-        super().__init__(graph, name, natural, bounds, not_after)
+    def __init__(
+        self, graph: Graph, name: str, natural: TimeCell, bounds: Sequence[Bound], floors: Sequence[Bound] = ()
+    ) -> None:
+        self.floors = tuple(distance for _, distance in floors)
+        super().__init__(graph, name, natural, bounds, partial(not_after, floors=self.floors), floors)
+
+    @property
+    def parameters(self) -> Mapping[str, object]:
+        """``bounds`` and ``floors``, the distance (s) from each peg after the first."""
+        return {**super().parameters, "floors": list(self.floors)}
 
     def describe(self) -> str:
         """``natural, not after ...``."""
-        return self._bounded("after")
+        floors = _shifted(self.links[1 + len(self.bounds) :], self.floors)
+        return self._bounded("after") + (f", unless that is before {floors}" if floors else "")
 
 
 class LatestPeg(TimePeg):
@@ -249,6 +259,28 @@ class BMLBlockPeg(LatestPeg):
     kind = "block"
 
 
+class OpenPeg(TimePeg):
+    """The end of what goes on until somebody ends it: unknown until it is pinned."""
+
+    __slots__ = ()
+
+    kind = "open"
+
+    def __init__(self, graph: Graph, name: str) -> None:
+        super().__init__(
+            graph, name, (Source[Time](graph, f"the end of what persists, {name}", None),), shifted_by(0.0)
+        )
+
+    @property
+    def parameters(self) -> Mapping[str, object]:
+        """None."""
+        return {}
+
+    def describe(self) -> str:
+        """That nobody knows."""
+        return "until it is ended"
+
+
 class AnticipatorPeg(Source[Time]):
     """A predicted point: absolute, written by its anticipator alone."""
 
@@ -256,7 +288,7 @@ class AnticipatorPeg(Source[Time]):
 
 
 def kind_of(peg: TimeCell) -> str:
-    """A word for what a peg is: offset, ratio, after, before, latest, block, predicted."""
+    """A word for what a peg is: offset, ratio, after, before, latest, block, open, predicted."""
     return peg.kind if isinstance(peg, TimePeg) else "predicted"
 
 
@@ -277,10 +309,14 @@ def _link(peg: TimeCell) -> Link:
     return Link(peg.name, kind_of(peg), time_of(peg), peg.stamp, weakref.ref(peg))
 
 
+def _shifted(links: Iterable[Link], distances: Iterable[float]) -> str:
+    return ", ".join(f"{link.name} {distance:+g} s" for link, distance in zip(links, distances, strict=True))
+
+
 def _reached(peg: TimePeg, distances: Sequence[float]) -> tuple[Link, ...]:
     """The first link that gives a peg its time at a distance (s) from it; of an unknown time those that are unknown."""
     time = time_of(peg)
     if time is None:
         return tuple(link for link in peg.links if link.time is None)
-    pairs = zip(peg.links, distances, strict=True)
+    pairs = zip(peg.links, distances, strict=False)  # floors of a `before` decide nothing
     return tuple(link for link, distance in pairs if link.time is not None and link.time + distance == time)[:1]

@@ -61,8 +61,8 @@ class PegBuilder:
                 return RatioPeg(self._graph, name, self._cell(before), self._cell(after), ratio)
             case AtLeast(natural, bounds):
                 return AfterPeg(self._graph, name, self._cell(natural), self._bounds(bounds))
-            case AtMost(natural, bounds):
-                return BeforePeg(self._graph, name, self._cell(natural), self._bounds(bounds))
+            case AtMost(natural, bounds, floors):
+                return BeforePeg(self._graph, name, self._cell(natural), self._bounds(bounds), self._bounds(floors))
 
     def _cell(self, link: PegSpec | TimeCell) -> TimeCell:
         return link if isinstance(link, Cell) else self._built[link]

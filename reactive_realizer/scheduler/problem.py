@@ -159,10 +159,14 @@ class AtLeast:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class AtMost:
-    """Where another peg would be, but not after any bound, each a peg and a distance (s): a `before` kept alive."""
+    """Where another peg would be, but not after any bound, each a peg and a distance (s): a `before` kept alive.
+
+    What must come first are its floors: a bound in front of one cannot be kept, and binds nothing.
+    """
 
     natural: "PegSpec | TimeCell"
     bounds: "tuple[tuple[PegSpec | TimeCell, float], ...]"
+    floors: "tuple[tuple[PegSpec | TimeCell, float], ...]" = ()
 
 
 PegSpec = AtBlock | AtOffset | AtRatio | AtLeast | AtMost
@@ -178,8 +182,10 @@ def links_of(spec: PegSpec) -> "list[PegSpec | TimeCell]":
             return [link]
         case AtRatio(before, after, _):
             return [before, after]
-        case AtLeast(natural, bounds) | AtMost(natural, bounds):
+        case AtLeast(natural, bounds):
             return [natural, *(link for link, _ in bounds)]
+        case AtMost(natural, bounds, floors):
+            return [natural, *(link for link, _ in (*bounds, *floors))]
 
 
 @dataclass(frozen=True, slots=True)
@@ -206,3 +212,12 @@ class Solution:
 
     pegs: Mapping[str, Mapping[str, PegSpec]]
     losses: tuple[Loss, ...]
+
+    def kept(self, problem: Problem) -> tuple[Tie | Order, ...]:
+        """The constraints of its problem that it keeps: not lost, and on no behavior that is."""
+        lost = {id(loss.constraint) for loss in self.losses}
+        constraints: tuple[Tie | Order, ...] = (*problem.ties, *problem.orders)
+        return tuple(each for each in constraints if id(each) not in lost and all(map(self._has, each.nodes)))
+
+    def _has(self, node: Node) -> bool:
+        return not isinstance(node, Point) or node.behavior in self.pegs

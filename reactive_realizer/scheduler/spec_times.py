@@ -1,7 +1,8 @@
 """Descriptions of pegs as times, without a board."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
+from reactive_realizer.pegboard.formulas import not_after, not_before
 from reactive_realizer.pegboard.time_peg import TimeCell
 from reactive_realizer.reactive.cell import Cell
 from reactive_realizer.scheduler.problem import AtBlock, AtLeast, AtMost, AtOffset, AtRatio, PegSpec, links_of
@@ -49,17 +50,17 @@ class SpecTimes:
             case AtRatio(before, after, ratio):
                 low, high = self._time(before), self._time(after)
                 return None if low is None or high is None else low + ratio * (high - low)
-            case AtLeast(natural, bounds):
-                times = [self._time(natural), *(_shifted(self._time(link), offset) for link, offset in bounds)]
-                known = [time for time in times if time is not None]
-                return max(known) if len(known) == len(times) else None
-            case AtMost(natural, bounds):
-                limits = (_shifted(self._time(link), offset) for link, offset in bounds)
-                time = self._time(natural)
-                return None if time is None else min([time, *(limit for limit in limits if limit is not None)])
+            case AtLeast(_, bounds):
+                return not_before(_distances(bounds))(*map(self._time, links_of(spec)))
+            case AtMost(_, bounds, floors):
+                return not_after(_distances(bounds), _distances(floors))(*map(self._time, links_of(spec)))
 
     def _time(self, link: PegSpec | TimeCell) -> float | None:
         return self._outer[link] if isinstance(link, Cell) else self._known[link]
+
+
+def _distances(bounds: Sequence[tuple[PegSpec | TimeCell, float]]) -> tuple[float, ...]:
+    return tuple(distance for _, distance in bounds)
 
 
 def _shifted(time: float | None, offset: float) -> float | None:

@@ -113,6 +113,38 @@ async def test_a_before_on_what_cannot_go_is_lost_and_nothing_else_is(pilot, fir
     assert pilot.feedback.time("b:w:end") in (2.0, 2.2)
 
 
+@pytest.mark.parametrize("start", ["1", "anticipators:t:go"])
+@pytest.mark.parametrize("moved", [0.6, -1.0])
+async def test_a_before_that_moves_in_front_of_what_must_come_first_is_given_up_and_nothing_else_is(
+    pilot, start, moved
+) -> None:
+    pilot.predict("t", "go", 1.0)
+    pilot.predict("t", "hit", 3.0)
+    pilot.block("b", nod("n", start=start) + nod("like", start="1") + before(HIT, "n:end"))
+    await moves(pilot, 0.5, ("hit", moved), 0.1, ("hit", moved + 0.01), 3)
+    for sync in ("start", "stroke", "end"):
+        assert_linked(pilot.feedback, f"b:n:{sync}", f"b:like:{sync}")
+    (said,) = texts(pilot)
+    assert f"n:end before {HIT} {LOST}" in said
+
+
+async def test_it_binds_again_when_its_bound_comes_back(pilot) -> None:
+    pilot.predict("t", "hit", 3.0)
+    pilot.block("b", nod("n", start="1") + before(HIT, "n:end"))
+    await moves(pilot, 0.5, ("hit", 0.6), 0.1, ("hit", 1.2), 3)
+    assert_time(pilot.feedback, "b:n:start", 1.0)
+    assert_time(pilot.feedback, "b:n:end", 1.2)
+
+
+async def test_a_before_is_given_up_rather_than_the_tie_of_a_point_in_front(pilot) -> None:
+    pilot.predict("t", "go", 1.0)
+    pilot.predict("t", "hit", 3.0)
+    pilot.block("b", BEAT.format(f' stroke="{GO}"') + before(HIT, "g:end"))
+    await moves(pilot, 0.5, ("hit", 0.9), 3)
+    assert_time(pilot.feedback, "b:g:stroke", 1.0)
+    assert [f"g:end before {HIT} {LOST}" in said for said in texts(pilot)] == [True]
+
+
 async def test_after_the_unknown_waits_before_it_nothing_is_bound_and_at_it_a_whole_cluster_waits(pilot) -> None:
     tied = nod("n", stroke=HIT) + nod("m", start="n:end")
     pilot.block("b", wait("w", 1) + after(HIT, "w:start") + wait("v", 1) + before(HIT, "v:end") + tied)

@@ -125,6 +125,20 @@ def test_of_several_bounds_the_tightest_holds(graph) -> None:
     assert (after.value, before.value) == (7.0, 4.0)
 
 
+def test_a_bound_of_a_before_peg_in_front_of_a_floor_binds_nothing(graph) -> None:
+    natural, bound, other, floor = (
+        AnticipatorPeg(graph, name, None) for name in ("natural", "bound", "other", "floor")
+    )
+    peg = BeforePeg(graph, "before", natural, [(bound, -1.0), (other, 0.0)], [(floor, 0.5)])
+    assert peg.describe() == "natural, not after bound -1 s, other +0 s, unless that is before floor +0.5 s"
+    for cell, time, expected in [
+        (bound, 4.0, None), (natural, 9.0, 3.0), (floor, 3.0, 9.0),
+        (other, 7.0, 7.0), (floor, 2.5, 3.0), (floor, None, 3.0),
+    ]:  # fmt: skip
+        write(cell, time)
+        assert peg.value == expected, (cell.name, time)
+
+
 def test_a_bound_that_moves_within_its_distance_wakes_nobody(graph) -> None:
     natural, bound = AnticipatorPeg(graph, "natural", 5.0), AnticipatorPeg(graph, "bound", 1.0)
     told = []

@@ -1,5 +1,6 @@
 """EMBR's scheduling: the least sum of deviations in seconds, before/after kept (thesis 7.2.3)."""
 
+from dataclasses import replace
 from itertools import pairwise
 
 import pytest
@@ -111,17 +112,32 @@ def test_a_before_is_an_after_the_other_way_round() -> None:
     assert plan.deviation == pytest.approx(0.5)
 
 
+def moved(point, hit, moves, *constraints):
+    """The times of a point of a nod as a time from outside moves and nothing is solved again."""
+    asked = problem([item("n", NOD)], *constraints)
+    solution = EmbrStrategy().solve(asked)
+    assert solution.losses == ()
+    views = [PlanView.of_solution(replace(asked, times={hit: time}), solution) for time in moves]
+    return [view.times[Point(*point.split(":"))] for view in views]
+
+
 def test_a_cluster_after_a_time_that_moves_follows_it() -> None:
     hit = outer("hit", 3.0)
-    asked = problem([item("n", NOD)], after("n:stroke", hit))
-    specs = EmbrStrategy().solve(asked)
-    times = {time: PlanView.of_solution(problem_at(asked, hit, time), specs).times for time in (0.0, 3.0, 5.0, None)}
-    strokes = {time: plan[Point("n", "stroke")] for time, plan in times.items()}
-    assert strokes == {0.0: pytest.approx(0.4), 3.0: 3.0, 5.0: 5.0, None: None}
+    strokes = moved("n:stroke", hit, (0.0, 3.0, 5.0, None), after("n:stroke", hit))
+    assert strokes == [pytest.approx(0.4), 3.0, 5.0, None]
 
 
-def problem_at(asked, cell, time):
-    return type(asked)(asked.items, asked.ties, {cell: time}, asked.orders)
+def test_a_point_of_a_grounded_behavior_follows_too() -> None:
+    hit = outer("hit", 1.0)
+    grounded = at("n:start", START, 1.0)
+    assert moved("n:end", hit, (0.0, 3.0, 5.0, None), grounded, after("n:end", hit)) == [2.0, 3.0, 5.0, None]
+
+
+def test_a_before_stays_alive_until_its_bound_moves_in_front_of_what_must_come_first() -> None:
+    hit = outer("hit", 3.0)
+    for grounded in ([at("n:start", START, 1.0)], [after("n:start", START, 1.0)]):
+        ends = moved("n:end", hit, (3.0, 1.5, None, 0.9, -1.0), *grounded, after(hit, "n:end"))
+        assert ends == [2.0, 1.5, 2.0, 2.0, 2.0]
 
 
 def test_clusters_that_wait_for_each_other_in_a_circle_are_planned() -> None:
@@ -167,6 +183,12 @@ def test_two_times_of_the_outside_are_never_made_one() -> None:
 def test_what_hangs_on_a_time_that_has_passed_joins_late_unless_it_is_over() -> None:
     assert Plan({"n": NOD}, at("n:start", outer("hit", -0.5))).times("n") == pytest.approx([-0.5, -0.1, 0.5])
     assert Plan({"n": NOD}, at("n:start", outer("hit", -1.5))).losses == [("n", "all-past")]
+
+
+def test_what_was_tied_to_a_behavior_that_is_over_starts_as_early_as_it_can() -> None:
+    plan = Plan({"g": TIMINGS["gaze"], "n": NOD}, at("g:relax", outer("hit", -0.5)), at("n:start", "g:start", 3.0))
+    assert plan.losses == [("g", "all-past")]
+    assert plan["n:start"] == 0.0
 
 
 def test_what_takes_no_time_is_dropped_unless_it_is_an_event() -> None:

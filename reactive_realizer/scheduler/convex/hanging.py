@@ -42,10 +42,14 @@ class Hanging:
         self.recipes = {root: Recipe(natural) for root, natural in self._naturals(given).items()}
         for order in self._orders:
             self._begin_after(order)
-        bounded = self._keep_orders() - given
-        if bounded:
+        bounded = self._keep_orders()
+        if bounded - given:
             # What these hang on themselves stays as it is, so that nothing comes to hang on itself by nature.
-            self._hang_on(given | bounded | {spot.root for root in bounded for spot in self.recipes[root].spots})
+            given |= bounded | {spot.root for root in bounded - given for spot in self.recipes[root].spots}
+            self._hang_on(given)
+        held = [root for root in sorted(bounded) if self.recipes[root].before]
+        for root, floors in network.floors(held, given).items() if held else ():
+            self.recipes[root].floors = floors
         self.steps = self._order_steps()
 
     # --- clusters
@@ -133,20 +137,12 @@ class Hanging:
             leads = self._network.leads
             # The earlier one goes with a later one that comes from outside, or that cannot go.
             if order.earlier in movable and not (order.own and order.earlier in moved):
-                self._pull(order.earlier, Spot(order.later, leads[order.earlier] - order.distance))
+                self.recipes[order.earlier].before.append(Spot(order.later, leads[order.earlier] - order.distance))
                 bounded.add(order.earlier)
             if order.own:
                 self.recipes[order.later].after.append(Spot(order.earlier, leads[order.later] + order.distance))
                 bounded.add(order.later)
         return bounded
-
-    def _pull(self, root: int, latest: Spot) -> None:
-        """A root comes no later than something, but is not pulled before the block (thesis 7.13)."""
-        recipe = self.recipes[root]
-        recipe.before.append(latest)
-        floor = Spot(START, 0.0)
-        if self._network.first_time(root) >= 0 and floor not in recipe.after:
-            recipe.after.append(floor)
 
     def _begins_after(self, order: Precedence) -> bool:
         """Whether an order is kept by the beginning of the cluster."""
@@ -177,6 +173,8 @@ class Hanging:
 
     def _open(self, circle: Sequence[Step]) -> None:
         bounds = [(step, needed) for needed, step in pairwise(circle) if step.bounded and needed != (step.root, False)]
+        if self._drop_floors(bounds):
+            return
         step, needed = min(bounds, key=lambda pair: (self._network.first_time(pair[0].root), pair))
         recipe = self.recipes[step.root]
         held = recipe.after if needed.bounded else recipe.before
@@ -184,3 +182,13 @@ class Hanging:
         within = self._network.cluster(step.root) == self._network.cluster(needed.root)
         if isinstance(recipe.natural, First) and not within:
             recipe.natural = First(self._network.first_time(step.root))
+
+    def _drop_floors(self, bounds: Sequence[tuple[Step, Step]]) -> bool:
+        """What hangs on a point is no floor of it."""
+        found = False
+        for step, needed in bounds:
+            recipe = self.recipes[step.root]
+            left = [spot for spot in recipe.floors if spot.root != needed.root]
+            found = found or left != recipe.floors
+            recipe.floors = left
+        return found

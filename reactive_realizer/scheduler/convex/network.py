@@ -1,6 +1,8 @@
 """The roots of a timetable and the phases between them."""
 
-from collections.abc import Iterable, Sequence
+from collections import defaultdict
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from math import inf
 from typing import NamedTuple
 
 from reactive_realizer.scheduler.convex.longest_path import TOLERANCE, components
@@ -105,6 +107,32 @@ class Network:
                 own = isinstance(order.later, Point) and late.root != START
                 found.append(Precedence(late.root, early.root, distance, own))
         return found
+
+    def floors(self, roots: Iterable[int], given: Collection[int]) -> dict[int, list[Spot]]:
+        """What the first points of some roots cannot come before: given roots that phases lead from, and the block.
+
+        Phases of no preference count too: thesis 7.13 and 7.15 hold for all.
+        """
+        into: defaultdict[int, list[tuple[int, float]]] = defaultdict(list)
+        for span in self._model.spans:
+            way = self._way(span)
+            into[way.end].append((way.start, way.distance + span.least))
+        return {root: [Spot(*floor) for floor in self._floors(root, given, into).items()] for root in roots}
+
+    def _floors(
+        self, root: int, given: Collection[int], into: Mapping[int, Sequence[tuple[int, float]]]
+    ) -> dict[int, float]:
+        floors = {} if self.first_time(root) < 0 else {START: 0.0}
+        waiting, seen = [(root, self.leads[root])], {root}
+        while waiting:
+            end, distance = waiting.pop()
+            for start, least in into.get(end, ()):
+                if start in given and start != root:
+                    floors[start] = max(distance + least, floors.get(start, -inf))
+                elif start not in seen:
+                    seen.add(start)
+                    waiting.append((start, distance + least))
+        return floors
 
     def latest_before(self, given: Iterable[int]) -> dict[int, Spot]:
         """For each root that phases lead to from a given one: where it would be if these took no time.

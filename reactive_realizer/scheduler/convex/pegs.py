@@ -89,7 +89,8 @@ class _Roots:
     def _bounded(self, root: int) -> PegSpec | TimeCell:
         recipe, peg = self._recipes[root], self._made[Step(root, bounded=False)]
         if recipe.before:
-            peg = AtMost(peg, self._bounds(recipe.before, bounded=False))
+            floors = self._bounds(recipe.floors, bounded=True)
+            peg = AtMost(peg, self._bounds(recipe.before, bounded=False), floors)
         if recipe.after:
             peg = AtLeast(peg, self._bounds(recipe.after, bounded=True))
         return peg

@@ -55,11 +55,13 @@ class Recipe:
     Attributes:
         natural: where it is, but for the bounds.
         before: spots that it may not come after; they count as they naturally are.
+        floors: spots that are not to come after it whatever ``before`` says.
         after: spots that it may not come before.
     """
 
     natural: Natural
     before: list[Spot] = field(default_factory=list)
+    floors: list[Spot] = field(default_factory=list)
     after: list[Spot] = field(default_factory=list)
 
     @property
@@ -92,6 +94,6 @@ def steps(recipes: Mapping[int, Recipe]) -> list[Step]:
         needs[Step(root, bounded=False)] = [Step(spot.root, bounded=True) for spot in recipe.spots]
         bounds = [Step(root, bounded=False)]
         bounds += [Step(spot.root, bounded=False) for spot in recipe.before]
-        bounds += [Step(spot.root, bounded=True) for spot in recipe.after]
+        bounds += [Step(spot.root, bounded=True) for spot in (*recipe.floors, *recipe.after)]
         needs[Step(root, bounded=True)] = bounds
     return list(TopologicalSorter(needs).static_order())

@@ -57,21 +57,23 @@ class EmbrStrategy:
 
 
 def _solve(items: Sequence[Item], constraints: Sequence[Tie | Order], given: Mapping[Node, Given]) -> Solution:
-    """Time some behaviors; constraints on those that are dropped go with them."""
+    """Time some behaviors; those that cannot be played are dropped, and constraints on them go with them."""
     faults = {item.behavior.id: fault for item in items if (fault := _alone(item, constraints, given)) is not None}
-    playable = [item for item in items if item.behavior.id not in faults]
-    ids = {item.behavior.id for item in playable}
-    left = [each for each in constraints if all(node in given or _is_of(node, ids) for node in each.nodes)]
-    case = Case(playable, left, given)
-    kept = keep(case)
-    times = place(case, kept)
-    pegs = Pegs(case, kept, times)
+    while True:
+        playable = [item for item in items if item.behavior.id not in faults]
+        ids = {item.behavior.id for item in playable}
+        left = [each for each in constraints if all(node in given or _is_of(node, ids) for node in each.nodes)]
+        case = Case(playable, left, given)
+        kept = keep(case)
+        times = place(case, kept)
+        pegs = Pegs(case, kept, times)
+        past = {id_: end for id_ in kept.late if (end := times[pegs.knots(id_)[-1]]) < -SHORTEST}
+        if not past:  # else what is tied to them may be earlier without them
+            break
+        faults |= {id_: Fault("all-past", {"late": -end}) for id_, end in past.items()}
     ground(case, kept, times, pegs)
-    past = {id_: times[pegs.knots(id_)[-1]] for id_ in sorted(kept.late) if times[pegs.knots(id_)[-1]] < -SHORTEST}
     losses = [_dropped(item, constraints, faults[item.behavior.id]) for item in items if item not in playable]
-    losses += [_dropped(case.items[id_], constraints, Fault("all-past", {"late": -end})) for id_, end in past.items()]
-    specs = {id_: points for id_, points in pegs.all().items() if id_ not in past}
-    return Solution(specs, (*losses, *kept.losses))
+    return Solution(pegs.all(), (*losses, *kept.losses))
 
 
 def _is_of(node: Node, behaviors: Container[str]) -> bool:

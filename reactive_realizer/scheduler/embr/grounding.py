@@ -66,6 +66,7 @@ def _waits(order: Order, members: set[str]) -> bool:
 def _start(cluster: _Cluster, times: Mapping[Node, float], pegs: Pegs) -> PegSpec:
     start = times[cluster.first]
     live = [order for order in cluster.waits if pegs.hung(order.earlier)]
+    pegs.orders = [order for order in pegs.orders if order not in live]
     natural = AtBlock(Anchor(0.0 if len(live) == len(cluster.waits) else start), 0.0)
     bounds = [(pegs.link(order.earlier), order.offset - (times[order.later] - start)) for order in live]
     return AtLeast(natural, tuple(bounds)) if bounds else natural
