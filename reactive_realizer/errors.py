@@ -107,6 +107,9 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
         "rigid": ErrorKind("{point} cannot be where it is tied to, {gap:g} s away; that tie is dropped", _SCHEDULE),
         "cyclic-reference": ErrorKind("{reference} hangs on the block '{block}' itself", _SCHEDULE),
         "unknown-target-block": ErrorKind("{attribute}: there never was a block '{block}'", _SCHEDULE),
+        "not-awaited": ErrorKind(
+            "'{block}' is not over: {behaviors} goes on until it is ended; nothing waits for that", _SCHEDULE
+        ),
         "started-already": ErrorKind(
             "'{block}' has started, and nothing comes before it; this one is refused", _SCHEDULE
         ),

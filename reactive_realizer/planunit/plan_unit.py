@@ -12,7 +12,7 @@ from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.peg_key import BlockKey, PegKey
 from reactive_realizer.pegboard.time_peg import TimePeg
 from reactive_realizer.planunit.parameter import Parameter
-from reactive_realizer.planunit.timing import SHORTEST, Timing
+from reactive_realizer.planunit.timing import OPEN, SHORTEST, Timing
 
 logger = logging.getLogger(__name__)
 
@@ -68,6 +68,7 @@ class PlanUnit:
         yields: whether others of its group may take its place while it plays, and give it back when they end: of these
             the one that started last plays. Who is overwritten keeps its points and their feedback.
         points: its sync points in order; empty until the plan is committed.
+        open: pegs of the points that are unknown until it is ended, if it is persistent.
         parameters: what of it may be changed while it plays, by name.
     """
 
@@ -81,6 +82,7 @@ class PlanUnit:
         self.group: str | None = None
         self.yields = False
         self.points: list[SyncPoint] = []
+        self.open: dict[str, TimePeg] = {}
         self.parameters: dict[str, Parameter] = {}
         self.state = UnitState.PENDING
 
@@ -165,6 +167,19 @@ class PlanUnit:
         """Whether one of the points that it once had was never reached, or not as planned: it was cut short before."""
         point = next((point for point in self.points if point.id == sync), None)
         return point is None or point.cut
+
+    @property
+    def last_known(self) -> SyncPoint:
+        """Its end, or, while it persists, the last point that can be known."""
+        return next(point for point in reversed(self.points) if not self._open(point))
+
+    @property
+    def lasting(self) -> bool:
+        """Whether it persists, and nothing else is ahead of it."""
+        return self.begun and self.timing.persistent and all(self._open(point) for point in self.ahead())
+
+    def _open(self, point: SyncPoint) -> bool:
+        return self.timing.persistent and point.id in OPEN and point.fired is None
 
     def ahead(self) -> list[SyncPoint]:
         """The points not yet fired."""

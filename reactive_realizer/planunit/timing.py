@@ -10,6 +10,10 @@ SHORTEST = 1e-5
 """A behavior shorter than a thousandth of a tick (s) cannot be played."""
 
 
+OPEN = ("relax", "end")
+"""The points of a persistent behavior that are unknown until it is ended."""
+
+
 class PhaseKind(Enum):
     """How a phase may be stretched."""
 
@@ -46,11 +50,13 @@ class Timing:
         points: sync ids in order, from start to end; two or more.
         phases: one between each two points.
         instant: whether it is an event, all its points at one time; other behaviors take time (thesis 7.14).
+        persistent: whether it goes on until it is ended: until then nobody knows its relax and its end (thesis 6.3.1).
     """
 
     points: tuple[str, ...]
     phases: tuple[Phase, ...]
     instant: bool = False
+    persistent: bool = False
 
     def __post_init__(self) -> None:
         if len(self.phases) != len(self.points) - 1:
@@ -65,6 +71,14 @@ class Timing:
     def free(self) -> bool:
         """Whether it follows what others leave to it, and moves nothing."""
         return all(phase.kind is PhaseKind.FREE for phase in self.phases)
+
+    @property
+    def closed(self) -> "Timing":
+        """What of it can be timed: all of it, or, while it persists, what comes before it relaxes."""
+        if not self.persistent:
+            return self
+        count = len([point for point in self.points if point not in OPEN])
+        return Timing(self.points[:count], self.phases[: count - 1], self.instant)
 
     @property
     def offsets(self) -> tuple[float, ...]:

@@ -63,7 +63,7 @@ class Wait:
     def over(self) -> bool:
         """Whether it is; what was predicted does not matter."""
         state = self.target.state
-        return state.ended or (self.chunk and state is BlockState.SUBSIDING)
+        return state.ended or (self.chunk and state is BlockState.SUBSIDING) or self.target.lasting
 
 
 class BMLBlock:
@@ -77,7 +77,7 @@ class BMLBlock:
         activation: when a preplanned block was activated, None before; None for others.
         start: its peg; pinned when it starts.
         relax: when it subsides: the latest relax of its behaviors, or end of those that have none.
-        end: the latest end of its behaviors.
+        end: the latest end of its behaviors; those that persist have none, and count with their last known point.
         waits: for other blocks.
         holds: pegs that its constraints say it does not start before.
         units: its behaviors that are planned and not dropped, in document order.
@@ -163,7 +163,13 @@ class BMLBlock:
     def end_again(self, floor: GlobalTime) -> None:
         """Within a transaction: the end follows the behaviors that are left, and is not before ``floor``."""
         self.relax.wait_for(floor, (self.start, *(_subsiding(unit).peg for unit in self.units)))
-        self.end.wait_for(floor, (self.start, *(unit.points[-1].peg for unit in self.units)))
+        self.end.wait_for(floor, (self.start, *(unit.last_known.peg for unit in self.units)))
+
+    @property
+    def lasting(self) -> bool:
+        """Whether nothing is left of it but behaviors that persist: nobody waits for these."""
+        live = self.live_units if self.state.plays else ()
+        return bool(live) and all(unit.lasting for unit in live)
 
     @property
     def waits_for(self) -> list[Wait]:
@@ -202,8 +208,9 @@ class BMLBlock:
 
 
 def _subsiding(unit: PlanUnit) -> SyncPoint:
-    """Its relax, or its end if it has none."""
-    return next((point for point in unit.points if point.id == "relax"), unit.points[-1])
+    """Its relax, or its end if it has none; of one that persists, its last point before these."""
+    relax = next((point for point in unit.points if point.id == "relax"), unit.points[-1])
+    return unit.last_known if unit.timing.persistent and relax.fired is None else relax
 
 
 def _outside(constraints: Iterable[Tie | Order]) -> frozenset[TimeCell]:

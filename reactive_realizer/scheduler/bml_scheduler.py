@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterable, Sequence
 
 from reactive_realizer.bml.block import BehaviorBlock, Parsed
 from reactive_realizer.bml.procedure import DefineProc
+from reactive_realizer.bml.words import Composition
 from reactive_realizer.clock.units import RESOLUTION, GlobalTime, is_due
 from reactive_realizer.engine.effects import Play
 from reactive_realizer.errors import Fault, RealizerError, error
@@ -184,6 +185,8 @@ class BMLScheduler:
         # Before anything of the new block is known to others.
         for other in joining.ended_by_it():
             self._requests.interrupt(other, now)
+        if description.composition is Composition.REPLACE:
+            self._cast.reset(character, now)
         block = self._new_block(description, character, joining, now)
         if failed:
             self._endings.end(block, BlockState.FAILED, now)
@@ -247,6 +250,7 @@ class BMLScheduler:
                 self._endings.drop_unit(unit, Fault("all-past", {"late": time - (unit.time("end") or 0.0)}), now)
         self._owe_prediction(block)
         self._reporter.started(block, time)
+        self._reporter.unawaited(block)
         for name in block.description.on_start:
             fault = self._requests.activate(block.key.character, name, time)
             if fault is not None:

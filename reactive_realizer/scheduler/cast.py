@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Mapping, Sequence
 
 from reactive_realizer.bml.behavior import Behavior
+from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.engine.engine import Engine
 from reactive_realizer.planunit.plan_unit import PlanUnit
 
@@ -41,6 +42,11 @@ class Cast:
         """Have an engine play a unit that has its pegs."""
         self._playing[unit] = engine
         engine.add(unit)
+
+    def reset(self, character: str, time: GlobalTime) -> None:
+        """Have a character's engines forget what behaviors have left behind."""
+        for engine in self._engines[character]:
+            engine.reset(time)
 
     def take(self, unit: PlanUnit) -> None:
         """Take a unit from the engine that plays it; one that nobody plays is no mistake."""

@@ -9,7 +9,7 @@ from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.following import followers_of
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.pegboard.time_peg import TimePeg
+from reactive_realizer.pegboard.time_peg import OpenPeg, TimePeg
 from reactive_realizer.planunit.plan_unit import PlanUnit, UnitState
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BlockState, BMLBlock
@@ -155,7 +155,8 @@ class Endings:
             for point in unit.ahead():
                 moved = unit in self._cuts and point is unit.points[-1]
                 peg = self._board.get(unit.key(point.id))
-                if isinstance(peg, TimePeg) and (moved or not is_due(point.peg.value, time)):
+                ahead = moved or not is_due(point.peg.value, time)
+                if ahead and isinstance(peg, TimePeg) and not isinstance(peg, OpenPeg):
                     missed[Point(unit.behavior.id, point.id)] = peg
         return missed
 

@@ -41,7 +41,7 @@ class Names:
             raise error("unknown-reference", behavior=ref.behavior, reference=str(ref), known=_list(self._units))
         if ref.sync not in unit.timing.points:
             raise _no_sync(ref, unit.timing.points)
-        return Point(ref.behavior, ref.sync)
+        return unit.open.get(ref.sync) or Point(ref.behavior, ref.sync)
 
     def _outside(self, ref: SyncRef) -> TimeCell:
         """A peg of another block."""

@@ -49,10 +49,7 @@ class PlanView:
         time_of = SpecTimes(problem.times)
         timings = {i.behavior.id: i.timing for i in problem.items if i.behavior.id in solution.pegs}
         times = {Point(id_, sync): time_of(spec) for id_, pegs in solution.pegs.items() for sync, spec in pegs.items()}
-        lost = {loss.constraint for loss in solution.losses}
-        constraints: tuple[Tie | Order, ...] = (*problem.ties, *problem.orders)
-        kept = tuple(each for each in constraints if each not in lost)
-        return cls(timings, times, frozenset(), kept, problem.times, 0.0, 0.0)
+        return cls(timings, times, frozenset(), solution.kept(problem), problem.times, 0.0, 0.0)
 
     @classmethod
     def of_block(cls, block: BMLBlock, now: GlobalTime) -> Self:
@@ -60,7 +57,11 @@ class PlanView:
         points = {Point(unit.behavior.id, p.id): p for unit in block.units for p in unit.points}
         start = block.start.value
         return cls(
-            timings={unit.behavior.id: unit.timing for unit in block.units},
+            # The end of what persists is nobody's business before it comes.
+            timings={
+                unit.behavior.id: unit.timing if unit.points[-1].fired is not None else unit.timing.closed
+                for unit in block.units
+            },
             times={Point(u.behavior.id, sync): time for u in block.units for sync, time in u.times().items()},
             past=frozenset(key for key, p in points.items() if p.fired is not None or p.peg.pinned),
             kept=block.kept,

@@ -9,9 +9,9 @@ from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.following import hangs_on
 from reactive_realizer.pegboard.peg_key import PegKey
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.pegboard.time_peg import Bound, OffsetPeg, TimeCell, TimePeg
+from reactive_realizer.pegboard.time_peg import Bound, OffsetPeg, OpenPeg, TimeCell, TimePeg
 from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
-from reactive_realizer.planunit.timing import Timing
+from reactive_realizer.planunit.timing import OPEN, Timing
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.scheduler.constraints import drop_unplaceable, holding, orders_of, ties_of
@@ -25,7 +25,6 @@ from reactive_realizer.scheduler.problem import (
     PegSpec,
     Point,
     Problem,
-    Solution,
     Tie,
 )
 from reactive_realizer.scheduler.strategy import SchedulingStrategy
@@ -77,17 +76,25 @@ class Planning:
             now: the time of the tick.
         """
         kept = {unit.behavior.id: unit for unit in timings}
+        for unit in kept.values():
+            self._open(unit)
         names = Names(block, kept, self._board, self._blocks)
         losses = drop_unplaceable(kept, names.locate)
         ties, lost_ties = ties_of(block.description, kept, names.locate)
         orders, lost_orders = orders_of(block.description, names.locate)
-        items = tuple(Item(unit.behavior, timings[unit]) for unit in kept.values())
+        items = tuple(Item(unit.behavior, timings[unit].closed) for unit in kept.values())
         holds = _holds([*ties, *orders], predicted_start(block, now))
         ties, orders = [tie for tie in ties if tie not in holds], [order for order in orders if order not in holds]
         start = _held_start(block, holds.values(), now)
         times = _outer_times([*ties, *orders], start)
         problem = Problem(items, tuple(ties), times, tuple(orders))
         return Task(tuple(kept.values()), problem, (*losses, *lost_ties, *lost_orders), start, holds)
+
+    def _open(self, unit: PlanUnit) -> None:
+        """Give one that persists the pegs of its points that nobody knows; others may hang on them."""
+        if unit.timing.persistent and not unit.open:
+            graph = self._board.graph
+            unit.open = {sync: OpenPeg(graph, str(unit.key(sync))) for sync in unit.timing.points if sync in OPEN}
 
     def solve(self, task: Task) -> Plan:
         """A plan by the strategy; it may be called in another thread, for it reads and writes nothing but the task.
@@ -101,7 +108,7 @@ class Planning:
             fault = Fault("work-failed", {"reason": failure})
             return Plan((), {}, (*task.losses, Loss(None, fault, dropped=False, required=True)), (), ())
         planned = tuple(unit for unit in task.units if unit.behavior.id in solution.pegs)
-        kept = (*_kept(task.problem, solution), *task.holds)
+        kept = (*solution.kept(task.problem), *task.holds)
         return Plan(planned, solution.pegs, (*task.losses, *solution.losses), kept, tuple(task.holds.values()))
 
     def is_stale(self, task: Task) -> bool:
@@ -127,7 +134,9 @@ class Planning:
         """Within a transaction, put another plan in the place of that on the board; who hung on that hangs on this."""
         replaced: dict[TimeCell, TimeCell] = {}
         for key, peg in self._hang(block, plan).items():
-            if (old := self._board.get(key)) is not None:
+            if (old := self._board.get(key)) is peg:
+                continue
+            if old is not None:
                 replaced[old] = peg
             self._board.replace(key, peg)
         for other in self._blocks.alive:
@@ -152,7 +161,8 @@ class Planning:
         for unit in plan.units:
             id_ = unit.behavior.id
             unit.points = [SyncPoint(sync, pegs[unit.key(sync)], Point(id_, sync) in tied) for sync in plan.pegs[id_]]
-        return pegs
+            unit.points += [SyncPoint(sync, peg) for sync, peg in unit.open.items()]
+        return pegs | {unit.key(sync): peg for unit in plan.units for sync, peg in unit.open.items()}
 
 
 def _reasons(block: BMLBlock, kept: Sequence[Tie | Order]) -> Iterator[tuple[PegKey, str]]:
@@ -197,14 +207,3 @@ def _moved(now: Time, planned: float | None, start: GlobalTime) -> bool:
     if now is None or planned is None:
         return now is not planned
     return abs(now - start - planned) > RESOLUTION
-
-
-def _kept(problem: Problem, solution: Solution) -> tuple[Tie | Order, ...]:
-    lost = {id(loss.constraint) for loss in solution.losses}
-    constraints: list[Tie | Order] = [*problem.ties, *problem.orders]
-    return tuple(
-        each
-        for each in constraints
-        if id(each) not in lost
-        and all(not isinstance(node, Point) or node.behavior in solution.pegs for node in each.nodes)
-    )

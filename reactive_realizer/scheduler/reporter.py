@@ -51,6 +51,14 @@ class Reporter:
         place = block.place(max(time, block.start.value), unit.behavior.order, order)
         self._feedback.progress(message, place)
 
+    def unawaited(self, block: BMLBlock) -> None:
+        """A block started beside others that it came after, because what is left of these has no end."""
+        place = block.description.location
+        for other in {wait.target for wait in block.waits if wait.target.lasting}:
+            names = ", ".join(unit.behavior.id for unit in other.live_units)
+            fault = Fault("not-awaited", {"block": other.key.block, "behaviors": names})
+            self.warn(block.key.character, block.key.block, fault.located(place.line, place.column))
+
     def lost(self, block: BMLBlock, losses: Iterable[Loss]) -> None:
         """Something of a block could not be planned."""
         for loss in losses:

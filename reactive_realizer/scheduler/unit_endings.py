@@ -7,6 +7,7 @@ from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.engine.effects import Dropped, Reached
 from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.pegboard import PegBoard
+from reactive_realizer.pegboard.time_peg import OpenPeg
 from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint, UnitState
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.cast import Cast
@@ -97,9 +98,15 @@ class UnitEndings:
             self._cast.take(unit)
 
     def split(self, unit: PlanUnit, point: SyncPoint, now: GlobalTime) -> SyncPoint:
-        """Give a cut point a peg of its own: others that share the old one keep what was predicted last."""
+        """Give a cut point a peg of its own: others that share the old one keep what was predicted last.
+
+        The end of what persists is known by being cut, and whoever hangs on it learns it.
+        """
         with self._board.graph.transaction(f"cut {unit.key(point.id)}"):
-            point.peg = point.peg.apart(str(unit.key(point.id)), now)
+            if isinstance(point.peg, OpenPeg):
+                point.peg.pin(now)
+            else:
+                point.peg = point.peg.apart(str(unit.key(point.id)), now)
         return point
 
     def _cut_short(self, unit: PlanUnit, now: GlobalTime, at_end: bool) -> bool:

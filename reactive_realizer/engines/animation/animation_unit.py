@@ -134,7 +134,7 @@ def motion_timing(behavior: Behavior, motion: MotionUnit) -> Timing:
         )
         for a, b in pairwise(keys)
     )
-    return Timing(tuple(keys), tuple(phases))
+    return Timing(tuple(keys), tuple(phases), persistent=getattr(behavior, "persistent", False))
 
 
 def _keys(behavior: Behavior, motion: MotionUnit) -> dict[str, float]:
