@@ -1,7 +1,7 @@
 """What all behaviors have in common."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import ClassVar
 
 from reactive_realizer.bml.attribute_types import Integer, Name, Text
@@ -23,11 +23,13 @@ class Description:
         priority: the highest one whose type is known is played in place of the core behavior.
         type: name of its language, such as ``application/ssml+xml``.
         content: what stands inside, as XML.
+        behavior: what that says, if it is a behavior of a namespace that is known here.
     """
 
     priority: int = field(metadata=attribute(Integer(-_PRIORITIES, _PRIORITIES)))
     type: str = field(metadata=attribute(Text()))
     content: str
+    behavior: "Behavior | None" = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -43,6 +45,7 @@ class Behavior:
         syncs: the constrained sync points and what they are tied to, in order of writing.
         required: whether the block fails without it.
         descriptions: its other forms, as written.
+        instead_of: of a form that describes another behavior, the sync points of that one, which it must have too.
         extensions: attributes of other namespaces, (namespace, local name) to value.
         source: its own element as XML.
     """
@@ -59,6 +62,7 @@ class Behavior:
     syncs: Mapping[str, SyncRef] = field(default_factory=dict)
     required: bool = False
     descriptions: tuple[Description, ...] = ()
+    instead_of: SyncPoints = ()
     extensions: Mapping[tuple[str, str], str] = field(default_factory=dict)
     source: str = ""
 
@@ -66,6 +70,24 @@ class Behavior:
     def sync_points(self) -> SyncPoints:
         """All its sync points, in the order in which they are reached."""
         return self.SYNC_POINTS
+
+    @property
+    def forms(self) -> "tuple[Behavior, ...]":
+        """What may be played for it, the best first: its descriptions by priority, then itself."""
+        described = sorted((each for each in self.descriptions if each.behavior), key=lambda each: -each.priority)
+        return (*(self._told_by(each.behavior) for each in described if each.behavior), self)
+
+    def _told_by(self, form: "Behavior") -> "Behavior":
+        """A form of it: when it is and what hangs on it, the behavior itself says."""
+        return replace(
+            form,
+            id=self.id,
+            location=self.location,
+            order=self.order,
+            syncs=self.syncs,
+            required=self.required,
+            instead_of=self.sync_points,
+        )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

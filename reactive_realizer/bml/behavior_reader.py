@@ -85,10 +85,25 @@ def _descriptions(tree: Tree, source: Source, notes: list[Fault]) -> tuple[Descr
     for child in children_of(tree, _DESCRIPTION):
         try:
             values = source.values(child, attributes_of(Description))
-            descriptions.append(Description(**values, content=source.content(child)))
+            content = source.content(child)
+            descriptions.append(Description(**values, content=content, behavior=_described(tree, child, source, notes)))
         except RealizerError as refused:
             notes.append(refused.fault)
     return tuple(descriptions)
+
+
+def _described(tree: Tree, description: Tree, source: Source, notes: list[Fault]) -> Behavior | None:
+    """The one behavior inside a description, if it is one that can be realized.
+
+    Raises:
+        RealizerError: it cannot be read.
+    """
+    inside = list(description)
+    element = _element_of(inside[0]) if len(inside) == 1 else None
+    if element is None:
+        return None
+    inside[0].set("id", tree.get("id", ""))
+    return _known(inside[0], element, source, {"order": 0, "required": False}, notes)
 
 
 def _foreign(tree: Tree, source: Source, place: dict[str, Any]) -> Behavior:

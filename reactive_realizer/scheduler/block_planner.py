@@ -180,13 +180,35 @@ def _units(block: BMLBlock, preparation: Preparation) -> tuple[dict[PlanUnit, En
         if behavior.id in block.cancelled:
             continue
         try:
-            units[engine.plan(block.key, behavior, preparation.result(behavior.id))] = engine
+            units[_unit(block, behavior, engine, preparation)] = engine
         except RealizerError as problem:
             losses.append(lost_behavior(behavior, problem.fault))
         except Exception as failure:
             logger.exception("%s/%s:%s could not be made", *block.key, behavior.id)
             losses.append(lost_behavior(behavior, Fault("work-failed", {"reason": failure})))
     return units, losses
+
+
+def _unit(block: BMLBlock, behavior: Behavior, engine: Engine, preparation: Preparation) -> PlanUnit:
+    """A unit for the best form of a behavior that the engine can make.
+
+    Raises:
+        RealizerError: it can make none; what is wrong with the behavior itself.
+    """
+    prepared = preparation.result(behavior.id)
+    *others, last = [form for form in behavior.forms if engine.supports(form)]
+    for form in others:
+        try:
+            return _named(engine.plan(block.key, form, prepared), behavior)
+        except RealizerError as problem:
+            logger.info("%s/%s:%s is not played by its description: %s", *block.key, behavior.id, problem)
+    return _named(engine.plan(block.key, last, prepared), behavior)
+
+
+def _named(unit: PlanUnit, behavior: Behavior) -> PlanUnit:
+    """Whatever form of it is played, feedback is about the behavior."""
+    unit.behavior = behavior
+    return unit
 
 
 def _unsupported(behavior: Behavior) -> Loss:

@@ -29,14 +29,15 @@ class Cast:
         """All engines, in rank order."""
         return tuple(engine for own in self._engines.values() for engine in own)
 
-    def engine_for(self, character: str, behavior: Behavior) -> Engine | None:
-        """The first engine of a character that plays such behaviors."""
-        return next((engine for engine in self._engines[character] if engine.supports(behavior)), None)
-
     def engines_for(self, character: str, behaviors: Iterable[Behavior]) -> dict[str, tuple[Behavior, Engine]]:
         """Behaviors by id with the engine that plays each; those that nobody plays are not among them."""
-        found = ((behavior, self.engine_for(character, behavior)) for behavior in behaviors)
+        found = ((behavior, self._engine_for(character, behavior)) for behavior in behaviors)
         return {behavior.id: (behavior, engine) for behavior, engine in found if engine is not None}
+
+    def _engine_for(self, character: str, behavior: Behavior) -> Engine | None:
+        """The first engine of a character that plays the best form of a behavior."""
+        engines = self._engines[character]
+        return next((engine for form in behavior.forms for engine in engines if engine.supports(form)), None)
 
     def give(self, unit: PlanUnit, engine: Engine) -> None:
         """Have an engine play a unit that has its pegs."""

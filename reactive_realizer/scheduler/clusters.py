@@ -24,15 +24,14 @@ class Cluster:
         return any(not isinstance(node, Point) or node not in plan.times for tie in self.ties for node in tie.nodes)
 
     def joins_late(self, plan: PlanView) -> bool:
-        """Whether the outside brings it before the start of its block: as long as nothing of it has begun, or for good.
+        """Whether the outside brings it before the start of its block.
 
         What has lost whom it was tied to stays where it was too.
         """
         tied = [tie for tie in self.ties if not plan.outer.keys().isdisjoint(tie.nodes)]
         times = [time for tie in tied for node in tie.nodes if (time := plan.time(node)) is not None]
         lost = any(isinstance(node, Point) and node not in plan.times for tie in self.ties for node in tie.nodes)
-        passed = plan.start is not None and any(time < plan.start for time in times)
-        return lost or passed or (bool(tied) and self.behaviors <= plan.lurking)
+        return lost or (plan.start is not None and any(time < plan.start for time in times))
 
 
 def clusters_of(plan: PlanView, behaviors: Collection[str]) -> list[Cluster]:

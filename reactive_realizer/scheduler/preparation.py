@@ -27,7 +27,7 @@ class Preparation:
         """Request the work."""
         for id_, (behavior, engine) in self.engines.items():
             try:
-                work = engine.prepare(behavior)
+                work = engine.prepare(next(form for form in behavior.forms if engine.supports(form)))
             except Exception as failure:
                 self._results[id_] = failure
                 continue

@@ -63,7 +63,7 @@ def _orders(plan: PlanView) -> Iterator[Violation]:
 def _not_before_block(plan: PlanView) -> Iterator[Violation]:
     """7.13: nothing comes before the start of its block, but what joins an outer time that passed before it."""
     late = [cluster.behaviors for cluster in clusters_of(plan, plan.timings) if cluster.joins_late(plan)]
-    excused = frozenset[str]().union(*late)
+    excused = plan.lurking.union(*late)
     for point in plan.times:
         if point.behavior not in excused and plan.movable(point):
             amount = _gap(plan, point, Origin.BLOCK_START)

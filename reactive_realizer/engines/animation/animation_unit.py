@@ -138,7 +138,7 @@ def motion_timing(behavior: Behavior, motion: MotionUnit) -> Timing:
 
 
 def _keys(behavior: Behavior, motion: MotionUnit) -> dict[str, float]:
-    wanted = behavior.sync_points
+    wanted = (*behavior.sync_points, *behavior.instead_of)
     keys = motion.key_positions
     if not keys.keys() >= set(wanted):
         keys = completed(keys)

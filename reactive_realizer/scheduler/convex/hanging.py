@@ -135,8 +135,9 @@ class Hanging:
             if not moved & {order.later, order.earlier} or self._begins_after(order):
                 continue
             leads = self._network.leads
-            # The earlier one goes with a later one that comes from outside, or that cannot go.
-            if order.earlier in movable and not (order.own and order.earlier in moved):
+            # The earlier one goes with a later one that comes from outside, hangs there, or cannot go.
+            pushed = order.own and order.earlier in moved and order.later not in self._network.branches
+            if order.earlier in movable and not pushed:
                 self.recipes[order.earlier].before.append(Spot(order.later, leads[order.earlier] - order.distance))
                 bounded.add(order.earlier)
             if order.own:
