@@ -18,7 +18,7 @@ PAGE := $(STATIC)/index.html
 PAGE_SOURCES := $(shell find web \( -name node_modules -o -name dist -o -name avatars -o -name tests \) -prune -o -type f -print 2>/dev/null)
 
 .DEFAULT_GOAL := help
-.PHONY: help install page demo test bench check format docs wheel avatars clean
+.PHONY: help install page demo test bench check format docs gallery wheel avatars clean
 .DELETE_ON_ERROR:
 
 help: ## List what can be made
@@ -56,6 +56,10 @@ docs: $(INSTALLED) ## Write the pages of docs/ that are made from the code
 	$(BIN)/python docs/make_errors.py
 	$(BIN)/python docs/make_limits.py
 	$(BIN)/python docs/make_drawings.py
+
+gallery: $(INSTALLED) $(PAGE) ## Make the pictures of docs/gallery (COMPARE=1: say which would be others)
+	$(PIP) install --quiet --constraint constraints.txt --group gallery
+	$(BIN)/python docs/make_gallery.py $(if $(COMPARE),--compare)
 
 wheel: $(INSTALLED) $(PAGE) ## Build the wheel, page included, into dist/
 	SKIP_WEB_BUILD=1 $(PIP) wheel --no-deps --build-constraint constraints.txt --wheel-dir dist .

@@ -1,6 +1,9 @@
 """Where files are found by name."""
 
+import os
+from functools import lru_cache
 from pathlib import Path, PurePosixPath
+from stat import S_ISREG
 
 from reactive_realizer.errors import error
 
@@ -43,7 +46,14 @@ class Assets:
 def _within(folder: Path, file: Path) -> Path | None:
     """The file, if it is one and no link leads out of its folder."""
     try:
-        found = file.resolve(strict=True)
+        status = os.stat(file)
     except (OSError, ValueError):  # not there, or no name that a file could have
         return None
-    return found if found.is_file() and found.is_relative_to(folder.resolve()) else None
+    return _resolved(folder, file, status.st_ino) if S_ISREG(status.st_mode) else None
+
+
+@lru_cache(1000)
+def _resolved(folder: Path, file: Path, inode: int) -> Path | None:
+    """Where a file really is, None if that is not in its folder: found once for each file, for it takes its time."""
+    found = file.resolve()
+    return found if found.is_relative_to(folder.resolve()) else None

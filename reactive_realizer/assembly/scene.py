@@ -8,6 +8,7 @@ from inspect import Parameter, signature
 from pathlib import Path
 
 from reactive_realizer.assembly.assets import PACKAGE_ASSETS, Assets
+from reactive_realizer.assembly.binding_files import binding_files
 from reactive_realizer.assembly.human_file import AnticipatorSpec, CharacterSpec, HumanFile, read_human_file
 from reactive_realizer.assembly.registry import load, names
 from reactive_realizer.clock.units import GlobalTime
@@ -105,7 +106,7 @@ def _character(id_: str, spec: CharacterSpec, world: World, assets: Assets, tts:
         seed,
         tts,
         spec.voice or None,
-        dict(spec.bindings),
+        binding_files(spec.bindings, assets),
         mouth,
         trajectories={name: load("trajectories", name) for name in names("trajectories")},
     )

@@ -1,0 +1,204 @@
+"""Pictures of every lexeme and unit, by the real page: a strip of moments for each, in docs/gallery.
+
+    python docs/make_gallery.py [--compare] [NAME...]
+
+With --compare nothing is written: strips that differ from the last ones are named, with how much of the picture does.
+"""
+
+import argparse
+import asyncio
+import io
+from collections.abc import AsyncIterator, Iterable, Sequence
+from contextlib import asynccontextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from aiohttp import web
+from gallery_entries import Entry, entries
+from PIL import Image, ImageChops
+from playwright.async_api import Page, async_playwright
+
+from reactive_realizer.assembly.scene import SceneOptions, open_scene
+from reactive_realizer.clock.clock import ManualClock
+from reactive_realizer.clock.ticker import Tick
+from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.realizer.inputs import BmlText
+from reactive_realizer.server.app import create_app
+from reactive_realizer.server.live import Live
+from reactive_realizer.server.security import Security
+
+GALLERY = Path(__file__).parent / "gallery"
+FLAGS = ["--no-sandbox", "--use-gl=angle", "--use-angle=gl-egl", "--ignore-gpu-blocklist"]
+WITH_SOUND = "--autoplay-policy=no-user-gesture-required"
+"""Else a button that enables it would be in the picture."""
+WINDOW = {"width": 1000, "height": 560}
+WIDTH, HEIGHT = 180, 240
+MOMENTS = 7
+LONGEST = 20.0
+"""s; of what goes on for ever the first seconds are shown."""
+
+_NOTICEABLE = 24
+"""Of 255: software renderers differ by less."""
+
+
+class Studio(Live):
+    """A scene whose page is told that it is late, so that it shows each frame at once.
+
+    Attributes:
+        newest: time of the last frame.
+    """
+
+    newest = GlobalTime(0.0)
+
+    @property
+    def now(self) -> GlobalTime:
+        """Long after whatever was sent."""
+        return GlobalTime(super().now + 3600.0)
+
+    async def step(self, tick: Tick) -> None:
+        """As every scene."""
+        await super().step(tick)
+        if tick.frame:
+            self.newest = tick.time
+
+
+@dataclass(frozen=True, slots=True)
+class Camera:
+    """The page, for pictures of one character.
+
+    Attributes:
+        live: what it shows.
+        page: in a browser.
+    """
+
+    live: Studio
+    page: Page
+
+    async def picture(self) -> Image.Image:
+        """What the page shows of the newest frame."""
+        newest = self.live.newest - 1e-6
+        await self.page.wait_for_function("time => viewer.lastFrameTime >= time", arg=newest)
+        await self.page.wait_for_timeout(120)  # low quality draws 12 times a second
+        shot = Image.open(io.BytesIO(await self.page.locator("#stage canvas").screenshot()))
+        height = shot.height
+        width = round(height * WIDTH / HEIGHT)
+        left = (shot.width - width) // 2
+        return shot.crop((left, 0, left + width, height)).resize((WIDTH, HEIGHT)).convert("RGB")
+
+
+async def strip(camera: Camera, entry: Entry) -> Image.Image:
+    """An entry at moments from its start to its end, side by side."""
+    live = camera.live
+    ticks = live.ticker.ticks()
+    live.realizer.put(BmlText(entry.block))
+    await live.step(await anext(ticks))
+    await live.realizer.settle()
+    await live.step(await anext(ticks))
+    begun, end = live.realizer.time, _end(live, entry)
+    pictures = []
+    for i in range(MOMENTS):
+        moment = begun + (end - begun) * (i + 0.5) / MOMENTS
+        while live.realizer.time < moment:
+            await live.step(await anext(ticks))
+        pictures.append(await camera.picture())
+    whole = Image.new("RGB", (WIDTH * MOMENTS, HEIGHT))
+    for i, picture in enumerate(pictures):
+        whole.paste(picture, (i * WIDTH, 0))
+    return whole
+
+
+def _end(live: Live, entry: Entry) -> float:
+    block = live.realizer.scheduler.blocks.find(next(iter(live.realizer.characters)), entry.name)
+    if block is None or block.end.value is None:
+        raise SystemExit(f"{entry.name} was not planned")
+    return min(max(block.end.value, live.realizer.time + entry.seconds), live.realizer.time + LONGEST)
+
+
+@asynccontextmanager
+async def studio(page: Page) -> AsyncIterator[Camera]:
+    """A new scene in front of the page."""
+    async with open_scene(SceneOptions(voice="text")) as scene:
+        live = Studio(scene, ManualClock())
+        runner = web.AppRunner(create_app(live, Security()), shutdown_timeout=1)
+        await runner.setup()
+        await web.TCPSite(runner, "127.0.0.1", 0).start()
+        host, port = runner.addresses[0]
+        await page.goto(f"http://{host}:{port}/?quality=low")
+        await page.wait_for_function("window.viewer && viewer.connected")
+        try:
+            yield Camera(live, page)
+        finally:
+            await page.goto("about:blank")
+            await runner.cleanup()
+
+
+async def make(wanted: Sequence[Entry], compare: bool) -> int:
+    """Make or compare strips; how many differ from the last ones."""
+    differing = 0
+    async with async_playwright() as playwright:
+        browser = await playwright.chromium.launch(executable_path="/usr/bin/chromium", args=[*FLAGS, WITH_SOUND])
+        page = await browser.new_page(viewport=WINDOW)
+        for entry in wanted:
+            async with studio(page) as camera:
+                if entry.whole_body:
+                    await page.mouse.move(300, 300)
+                    await page.mouse.wheel(0, 600)
+                picture = await strip(camera, entry)
+            file = GALLERY / f"{entry.name}.webp"
+            if compare:
+                share = _difference(file, picture)
+                differing += share > 0.0
+                print(f"{entry.name}: {_told(share)}")
+            else:
+                picture.save(file, quality=80, method=6)
+                print(file.name)
+        await browser.close()
+    return differing
+
+
+def _difference(file: Path, picture: Image.Image) -> float:
+    """The share of pixels that are noticeably not what they were, 0 to 1; 2 where there was no picture."""
+    if not file.is_file():
+        return 2.0
+    before = Image.open(file).convert("RGB")
+    if before.size != picture.size:
+        return 1.0
+    kept = io.BytesIO()
+    picture.save(kept, format="webp", quality=80, method=6)  # what a file keeps of it, so that like meets like
+    differences = ImageChops.difference(before, Image.open(kept).convert("RGB")).convert("L")
+    noticed = sum(differences.histogram()[_NOTICEABLE:])
+    return noticed / (picture.width * picture.height)
+
+
+def _told(share: float) -> str:
+    if share > 1.0:
+        return "no picture yet"
+    return f"{share:.1%} differs" if share else "same"
+
+
+def write_index(all_entries: Iterable[Entry]) -> None:
+    """The page that shows all strips."""
+    lines = ["# Gallery", "", "Every lexeme and unit at seven moments from start to end; made by `make gallery`.", ""]
+    for entry in all_entries:
+        picture = f"![{entry.name}]({entry.name}.webp)"
+        lines += [f"### {entry.name}", "", picture, "", "```xml", entry.behaviors, "```", ""]
+    (GALLERY / "README.md").write_text("\n".join(lines), encoding="utf-8")
+
+
+def main() -> None:
+    """As the command line says."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("names", nargs="*", help="only these, by the names of their files")
+    parser.add_argument("--compare", action="store_true", help="name what differs from the last pictures")
+    options = parser.parse_args()
+    known = entries()
+    wanted = [entry for entry in known if not options.names or entry.name in options.names]
+    GALLERY.mkdir(exist_ok=True)
+    differing = asyncio.run(make(wanted, options.compare))
+    if not options.compare:
+        write_index(known)
+    raise SystemExit(1 if differing else 0)
+
+
+if __name__ == "__main__":
+    main()
