@@ -1,6 +1,9 @@
-"""What the gallery shows: each lexeme that plays, and each unit."""
+"""What the gallery shows: each word that plays, and each unit."""
 
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+
+from reactive_realizer.engine.lexicon import Word
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,9 +29,86 @@ class Entry:
         return f'<bml {namespaces} id="{self.name}">{self.behaviors}</bml>'
 
 
-def entries() -> list[Entry]:
+def entries(words: Iterable[Word]) -> list[Entry]:
     """All strips, in order."""
-    return [
-        Entry("gesture-beat-right", '<gesture id="g" lexeme="BEAT" mode="RIGHT_HAND"/>'),
-        Entry("head-nod", '<head id="h" lexeme="NOD" amount="1"/>'),
-    ]
+    playing = [word for word in words if word.problem is None]
+    own_modes = {word.lexeme for word in playing if word.element == "gesture" and word.constraints}
+    found = [entry for word in playing for entry in _of_word(word) if word.constraints or word.lexeme not in own_modes]
+    return [*found, *_UNITS]
+
+
+def _of_word(word: Word) -> Iterator[Entry]:
+    said = "".join(f' {name}="{value}"' for name, value in word.constraints.items())
+    name = "-".join([word.element, word.lexeme, *word.constraints.values()]).lower().replace("_", "-")
+    match word.element:
+        case "faceLexeme":
+            yield Entry(name, f'<faceLexeme id="f" lexeme="{word.lexeme}" amount="1"/>')
+        case "head":
+            yield Entry(name, f'<head id="h" lexeme="{word.lexeme}" amount="1"/>')
+        case "gesture":
+            yield Entry(name, f'<gesture id="g" lexeme="{word.lexeme}"{said}/>')
+        case "pose":
+            yield Entry(name, f'<posture id="p">{_pose(word.lexeme)}</posture>', whole_body=True)
+        case "procanimation":
+            yield Entry(name, f'<bmlt:procanimation id="a" name="{word.lexeme}"{said}/>')
+
+
+def _pose(lexeme: str) -> str:
+    part = {"ARMS": "ARMS", "LEGS": "LEGS"}.get(lexeme.partition("_")[0], "WHOLEBODY")
+    return f'<stance type="STANDING"/><pose part="{part}" lexeme="{lexeme}"/>'
+
+
+_CLIP = """
+<SkeletonInterpolator xmlns="" rotationEncoding="axisangles" parts="skullbase r_elbow" encoding="R">
+  0    0 1 0 0     1 0 0 -0.2
+  0.7  0 1 0 0.7   1 0 0 -1.5
+  1.4  0 1 0 -0.7  1 0 0 -0.6
+  2    0 1 0 0     1 0 0 -0.2
+</SkeletonInterpolator>
+""".strip()
+
+_UNITS = (
+    *(
+        Entry(
+            f"gaze-{influence.lower()}",
+            f'<gaze id="z" target="greensphere" influence="{influence}" start="0" end="3"/>',
+        )
+        for influence in ("EYES", "HEAD", "SHOULDER", "WAIST", "WHOLE")
+    ),
+    Entry("gaze-offset", '<gaze id="z" target="camera" offsetAngle="20" offsetDirection="UPLEFT" start="0" end="3"/>'),
+    Entry(
+        "gaze-while-nodding",
+        '<gaze id="z" target="bluebox" start="0" end="3"/><head id="n" lexeme="NOD" repetition="3"/>',
+    ),
+    Entry("gazeshift", '<gazeShift id="z" target="greensphere"/>', seconds=2.0),
+    Entry("headdirectionshift", '<headDirectionShift id="z" target="bluebox"/>', seconds=2.0),
+    *(
+        Entry(f"pointing-{mode.lower().replace('_', '-')}", f'<pointing id="p" target="{target}" mode="{mode}"/>', True)
+        for mode, target in (("RIGHT_HAND", "bluebox"), ("LEFT_HAND", "greensphere"), ("BOTH_HANDS", "camera"))
+    ),
+    *(
+        Entry(
+            f"stance-{stance.lower()}", f'<posture id="p" start="0" end="5"><stance type="{stance}"/></posture>', True
+        )
+        for stance in ("SITTING", "CROUCHING", "LYING")
+    ),
+    Entry(
+        "postureshift-and-beat",
+        '<postureShift id="p"><pose part="ARMS" lexeme="ARMS_CROSSED"/></postureShift>'
+        '<gesture id="g" lexeme="BEAT" mode="RIGHT_HAND" start="p:end+0.3"/>',
+        whole_body=True,
+    ),
+    Entry("keyframe", f'<bmlt:keyframe id="k">{_CLIP}</bmlt:keyframe>'),
+    Entry(
+        "noise",
+        '<bmlt:noise id="n" type="perlin" joint="vl5" end="4"><bmlt:parameter name="basefreqx" value="0.5"/>'
+        '<bmlt:parameter name="baseamplitudex" value="0.2"/></bmlt:noise>',
+    ),
+    Entry(
+        "transition",
+        '<bmlt:transition id="t" class="HermiteTransition" start="0" end="1">'
+        '<bmlt:parameter name="joints" value="r_shoulder r_elbow r_wrist l_shoulder l_elbow l_wrist"/>'
+        '</bmlt:transition><bmlt:procanimation id="a" name="3-beat" start="t:end"/>',
+    ),
+    Entry("idle", "", whole_body=True, seconds=12.0),
+)

@@ -15,13 +15,14 @@ from pathlib import Path
 
 from aiohttp import web
 from gallery_entries import Entry, entries
-from PIL import Image, ImageChops
-from playwright.async_api import Page, async_playwright
+from PIL import Image, ImageChops, ImageOps
+from playwright.async_api import Page, ViewportSize, async_playwright
 
 from reactive_realizer.assembly.scene import SceneOptions, open_scene
 from reactive_realizer.clock.clock import ManualClock
 from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.engine.lexicon import words_of
 from reactive_realizer.realizer.inputs import BmlText
 from reactive_realizer.server.app import create_app
 from reactive_realizer.server.live import Live
@@ -31,8 +32,11 @@ GALLERY = Path(__file__).parent / "gallery"
 FLAGS = ["--no-sandbox", "--use-gl=angle", "--use-angle=gl-egl", "--ignore-gpu-blocklist"]
 WITH_SOUND = "--autoplay-policy=no-user-gesture-required"
 """Else a button that enables it would be in the picture."""
-WINDOW = {"width": 1000, "height": 560}
-WIDTH, HEIGHT = 180, 240
+WIDE: ViewportSize = {"width": 1000, "height": 560}
+HIGH: ViewportSize = {"width": 1000, "height": 1200}
+"""In a high window the page shows legs and feet."""
+PICTURE = (180, 240)
+WHOLE_BODY = (150, 300)
 MOMENTS = 7
 LONGEST = 20.0
 """s; of what goes on for ever the first seconds are shown."""
@@ -69,10 +73,12 @@ class Camera:
     Attributes:
         live: what it shows.
         page: in a browser.
+        size: of a picture, pixels.
     """
 
     live: Studio
     page: Page
+    size: tuple[int, int]
 
     async def picture(self) -> Image.Image:
         """What the page shows of the newest frame."""
@@ -80,10 +86,7 @@ class Camera:
         await self.page.wait_for_function("time => viewer.lastFrameTime >= time", arg=newest)
         await self.page.wait_for_timeout(120)  # low quality draws 12 times a second
         shot = Image.open(io.BytesIO(await self.page.locator("#stage canvas").screenshot()))
-        height = shot.height
-        width = round(height * WIDTH / HEIGHT)
-        left = (shot.width - width) // 2
-        return shot.crop((left, 0, left + width, height)).resize((WIDTH, HEIGHT)).convert("RGB")
+        return ImageOps.fit(shot.convert("RGB"), self.size)
 
 
 async def strip(camera: Camera, entry: Entry) -> Image.Image:
@@ -101,21 +104,23 @@ async def strip(camera: Camera, entry: Entry) -> Image.Image:
         while live.realizer.time < moment:
             await live.step(await anext(ticks))
         pictures.append(await camera.picture())
-    whole = Image.new("RGB", (WIDTH * MOMENTS, HEIGHT))
+    width, height = camera.size
+    whole = Image.new("RGB", (width * MOMENTS, height))
     for i, picture in enumerate(pictures):
-        whole.paste(picture, (i * WIDTH, 0))
+        whole.paste(picture, (i * width, 0))
     return whole
 
 
 def _end(live: Live, entry: Entry) -> float:
+    """When the last picture of an entry is due: with the end of its block, if not later."""
     block = live.realizer.scheduler.blocks.find(next(iter(live.realizer.characters)), entry.name)
-    if block is None or block.end.value is None:
-        raise SystemExit(f"{entry.name} was not planned")
-    return min(max(block.end.value, live.realizer.time + entry.seconds), live.realizer.time + LONGEST)
+    now = live.realizer.time
+    end = now if block is None or block.end.value is None else block.end.value
+    return min(max(end, now + entry.seconds), now + LONGEST)
 
 
 @asynccontextmanager
-async def studio(page: Page) -> AsyncIterator[Camera]:
+async def studio(page: Page, size: tuple[int, int]) -> AsyncIterator[Camera]:
     """A new scene in front of the page."""
     async with open_scene(SceneOptions(voice="text")) as scene:
         live = Studio(scene, ManualClock())
@@ -126,7 +131,7 @@ async def studio(page: Page) -> AsyncIterator[Camera]:
         await page.goto(f"http://{host}:{port}/?quality=low")
         await page.wait_for_function("window.viewer && viewer.connected")
         try:
-            yield Camera(live, page)
+            yield Camera(live, page, size)
         finally:
             await page.goto("about:blank")
             await runner.cleanup()
@@ -137,12 +142,10 @@ async def make(wanted: Sequence[Entry], compare: bool) -> int:
     differing = 0
     async with async_playwright() as playwright:
         browser = await playwright.chromium.launch(executable_path="/usr/bin/chromium", args=[*FLAGS, WITH_SOUND])
-        page = await browser.new_page(viewport=WINDOW)
+        page = await browser.new_page()
         for entry in wanted:
-            async with studio(page) as camera:
-                if entry.whole_body:
-                    await page.mouse.move(300, 300)
-                    await page.mouse.wheel(0, 600)
+            await page.set_viewport_size(HIGH if entry.whole_body else WIDE)
+            async with studio(page, WHOLE_BODY if entry.whole_body else PICTURE) as camera:
                 picture = await strip(camera, entry)
             file = GALLERY / f"{entry.name}.webp"
             if compare:
@@ -185,13 +188,19 @@ def write_index(all_entries: Iterable[Entry]) -> None:
     (GALLERY / "README.md").write_text("\n".join(lines), encoding="utf-8")
 
 
+async def _known() -> list[Entry]:
+    async with open_scene(SceneOptions(voice="text")) as scene:
+        engines = next(iter(scene.realizer.characters.values())).engines
+        return entries(words_of(engines))
+
+
 def main() -> None:
     """As the command line says."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("names", nargs="*", help="only these, by the names of their files")
     parser.add_argument("--compare", action="store_true", help="name what differs from the last pictures")
     options = parser.parse_args()
-    known = entries()
+    known = asyncio.run(_known())
     wanted = [entry for entry in known if not options.names or entry.name in options.names]
     GALLERY.mkdir(exist_ok=True)
     differing = asyncio.run(make(wanted, options.compare))

@@ -42,6 +42,9 @@ const MARGIN = 0.05;
 const REACH = 0.5;
 const EYE_HEIGHT = 1.6;
 
+/** Who has moved less is still in view, m. */
+const STEP = 0.4;
+
 /** Light, ground, backdrop and camera; what stands on it is added to `scene` by others. */
 export class Stage {
   readonly scene = new Scene();
@@ -58,7 +61,10 @@ export class Stage {
     private readonly quality: Quality,
   ) {
     const canvas = document.createElement("canvas");
-    this.renderer = new WebGLRenderer({ canvas, antialias: quality === "normal" });
+    this.renderer = new WebGLRenderer({
+      canvas,
+      antialias: quality === "normal",
+    });
     container.prepend(canvas);
     this.controls = this.orbit(canvas);
     this.light();
@@ -77,7 +83,7 @@ export class Stage {
 
   /** Turns the camera to everyone who stands at these roots (m), unless the user has taken it. */
   frame(roots: Position[]): void {
-    if (this.framed === null) return;
+    if (this.framed === null || near(this.framed, roots)) return;
     this.framed = roots;
     this.look();
   }
@@ -111,10 +117,21 @@ export class Stage {
     key.shadow.radius = 5;
     key.shadow.bias = -0.0004;
     key.shadow.normalBias = 0.02;
-    Object.assign(key.shadow.camera, { left: -2.5, right: 2.5, top: 2.5, bottom: -2.5, near: 0.5, far: 9 });
+    Object.assign(key.shadow.camera, {
+      left: -2.5,
+      right: 2.5,
+      top: 2.5,
+      bottom: -2.5,
+      near: 0.5,
+      far: 9,
+    });
     const rim = new DirectionalLight("#dcecff", 0.9);
     rim.position.set(-2.2, 2.4, -2.4);
-    this.scene.add(key, rim, new HemisphereLight("#ffffff", "#b9b2a8", low ? 2 : 0.35));
+    this.scene.add(
+      key,
+      rim,
+      new HemisphereLight("#ffffff", "#b9b2a8", low ? 2 : 0.35),
+    );
   }
 
   private embellish(): void {
@@ -122,7 +139,10 @@ export class Stage {
     this.renderer.shadowMap.enabled = true;
     this.renderer.toneMapping = NeutralToneMapping;
     const generator = new PMREMGenerator(this.renderer);
-    this.scene.environment = generator.fromScene(new RoomEnvironment(), 0.04).texture;
+    this.scene.environment = generator.fromScene(
+      new RoomEnvironment(),
+      0.04,
+    ).texture;
     this.scene.environmentIntensity = 0.55;
     generator.dispose();
     this.scene.background = painted(2, 512, (context) => {
@@ -136,8 +156,15 @@ export class Stage {
   private resize(): void {
     const { clientWidth, clientHeight } = this.container;
     if (clientWidth === 0 || clientHeight === 0) return;
-    const scale = this.quality === "low" ? Math.sqrt(LOW_PIXELS / (clientWidth * clientHeight)) : 1;
-    this.renderer.setSize(Math.round(clientWidth * scale), Math.round(clientHeight * scale), false);
+    const scale =
+      this.quality === "low"
+        ? Math.sqrt(LOW_PIXELS / (clientWidth * clientHeight))
+        : 1;
+    this.renderer.setSize(
+      Math.round(clientWidth * scale),
+      Math.round(clientHeight * scale),
+      false,
+    );
     this.camera.aspect = clientWidth / clientHeight;
     this.camera.updateProjectionMatrix();
     this.look();
@@ -152,23 +179,49 @@ export class Stage {
   }
 }
 
+/** Whether everyone stands where they stood: who sways, bows or sits down does not move the camera. */
+function near(before: Position[], roots: Position[]): boolean {
+  return (
+    before.length === roots.length &&
+    roots.every(
+      ([x, , z], i) =>
+        Math.hypot(x - (before[i]?.[0] ?? 0), z - (before[i]?.[2] ?? 0)) < STEP,
+    )
+  );
+}
+
 /** Where to look, and from how far in front, to see those who stand at these roots (m). */
-function framing(roots: Position[], camera: PerspectiveCamera): { target: Vector3; distance: number } {
-  const standing = roots.length === 0 ? [new Vector3(0, USUAL_HIPS, 0)] : roots.map((root) => new Vector3(...root));
+function framing(
+  roots: Position[],
+  camera: PerspectiveCamera,
+): { target: Vector3; distance: number } {
+  const standing =
+    roots.length === 0
+      ? [new Vector3(0, USUAL_HIPS, 0)]
+      : roots.map((root) => new Vector3(...root));
   const { min, max } = new Box3().setFromPoints(standing);
   const top = max.y / HIPS + MARGIN;
   const width = max.x - min.x + 2 * REACH;
   const height = Math.max(top - min.y + MARGIN, width / camera.aspect);
   // A narrow window that must show more height shows more of the legs, and never less of the floor than of the sky.
-  const target = new Vector3((min.x + max.x) / 2, Math.max(top - height / 2, top / 2), max.z);
-  return { target, distance: height / 2 / Math.tan(MathUtils.degToRad(camera.fov / 2)) };
+  const target = new Vector3(
+    (min.x + max.x) / 2,
+    Math.max(top - height / 2, top / 2),
+    max.z,
+  );
+  return {
+    target,
+    distance: height / 2 / Math.tan(MathUtils.degToRad(camera.fov / 2)),
+  };
 }
 
 /** A disc that fades into the backdrop. */
 function floor(quality: Quality): Mesh {
   const options = { color: FLOOR, transparent: true, alphaMap: fading() };
   const material =
-    quality === "low" ? new MeshLambertMaterial(options) : new MeshStandardMaterial({ ...options, roughness: 0.95 });
+    quality === "low"
+      ? new MeshLambertMaterial(options)
+      : new MeshStandardMaterial({ ...options, roughness: 0.95 });
   const disc = new Mesh(new CircleGeometry(FLOOR_RADIUS, 64), material);
   disc.rotation.x = -Math.PI / 2;
   disc.receiveShadow = true;
@@ -193,7 +246,8 @@ function painted(
   canvas.width = width;
   canvas.height = height;
   const context = canvas.getContext("2d");
-  if (context === null) throw new Error("this browser does not paint on a canvas");
+  if (context === null)
+    throw new Error("this browser does not paint on a canvas");
   context.fillStyle = fill(context);
   context.fillRect(0, 0, width, height);
   const texture = new CanvasTexture(canvas);
