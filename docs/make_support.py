@@ -15,9 +15,10 @@ from reactive_realizer.bml.block import BehaviorBlock
 from reactive_realizer.bml.continuous import Trajectory
 from reactive_realizer.bml.document import parse
 from reactive_realizer.bml.elements import ELEMENTS, Element
-from reactive_realizer.bml.names import BML, BML_EXT, BMLA
+from reactive_realizer.bml.names import BML, BML_EXT, BMLA, BMLT
 from reactive_realizer.bml.posture import Pose, Stance
 from reactive_realizer.bml.procedure import DefineProc, UseProc
+from reactive_realizer.bml.twente import Parameter
 from reactive_realizer.errors import ERRORS
 from reactive_realizer.limits import Limits
 
@@ -37,12 +38,13 @@ _INSIDE: tuple[tuple[str, type, bool], ...] = (
     ("sync of a speech's text", Mark, True),
     ("stance of a posture", Stance, False),
     ("pose of a posture", Pose, False),
-    ("description of any behavior", Description, False),
+    ("description of any behavior", Description, True),
     ("trajectory of a parametervaluechange", Trajectory, True),
+    ("parameter of any behavior, of BMLT", Parameter, True),
 )
 """Elements inside of behaviors: their title, what is read from them, and whether that is realized."""
 
-_PREFIXES = {BML_EXT: "ext:", BMLA: "bmla:"}
+_PREFIXES = {BML_EXT: "ext:", BMLA: "bmla:", BMLT: "bmlt:"}
 
 _NOTES = {
     "bml composition": "in any case, with `-`, `_` or nothing between; the last two are `appendAfter` and `chunkAfter`",
@@ -59,6 +61,12 @@ _NOTES = {
     "gesture mode": "without it: the right hand",
     "gaze target": "a name of the world, a character, or its joint: `alice:l_wrist`",
     "gaze influence": "without it: HEAD; `NECK` is HEAD, `TORSO` is WAIST; WHOLE leaves the feet where they stand",
+    "procanimation name": "that of an entry of the binding, else of its file without suffix",
+    "procanimation mode": "of an animation that the binding has for several hands",
+    "keyframe name": "of a file, `NAME.xml` (SkeletonInterpolator) or `NAME.bvh` (a capture), else keys stand inside",
+    "noise type": "perlin",
+    "transition class": "SlerpTransition, HermiteTransition",
+    "parameter of any behavior name": "of what plays the behavior: that of an animation, mirror, joints, filter, replacementgroup",
     "wait duration": "nothing stretches it",
     "wait max-wait": "how long it lasts where neither `duration` nor its sync points say it",
 }
@@ -102,7 +110,7 @@ _AROUND = """\
 | `required` | yes | what is inside must succeed, or the block ends FAILED and nothing of it plays |
 | `constraint`, `synchronize` | yes | the points of its `<sync ref="..."/>` are one; an absolute one pins them |
 | `constraint`, `before`, `after` | yes | also while it plays; the strategy `smartbody` keeps none and says so |
-| `description` | no | its attributes are checked, then the core behavior plays |
+| `description` | yes | the one with the highest priority whose behavior can be made is played |
 
 ## Other namespaces
 
@@ -111,6 +119,10 @@ _AROUND = """\
 | `dynamic="true"` on `gaze`, of `http://hmi.ewi.utwente.nl/bmlt` | yes | the gaze follows a target that moves |
 | other attributes | no | warning `CUSTOM_ATTRIBUTE_NOT_SUPPORTED`; what they stand on plays |
 | elements, those of BMLA and BMLT among them that have no table above | no | warning `CUSTOM_BEHAVIOUR_NOT_SUPPORTED` |
+
+`procanimation`, `procanimationgesture`, `keyframe`, `noise` and `transition` are of
+`http://hmi.ewi.utwente.nl/bmlt`. What plays a `gesture`, a `head` or one of them may have further sync points, such as
+the beats of a conducting pattern: constraints name them as any other, attributes do not.
 
 `activate`, `interrupt` and `parametervaluechange` are of `http://www.asap-project.org/bmla` or
 `http://hmi.ewi.utwente.nl/bmlt`, whichever; so are the attributes of a block above, `defineproc` and `useproc`.
@@ -139,8 +151,8 @@ and what the drafts wrote otherwise. Nothing is guessed: what has no place in th
 | `synchronize ref="..."` | one more `sync` in it |
 | `stroke_start`, `stroke_end` | `strokeStart`, `strokeEnd` |
 
-A `gaze` or `posture` of which nothing says when it relaxes or ends is read as one that persists, and played like any
-other. A reference to a behavior of another block wants `allowexternalrefs="true"`.
+A `gaze` or `posture` of which nothing says when it ends [persists](semantics.md#what-persists-and-what-lasts).
+A reference to a behavior of another block wants `allowexternalrefs="true"`.
 """
 
 
@@ -186,7 +198,7 @@ def _example(element: Element) -> Behavior:
     name = f"{_PREFIXES.get(element.namespace, '')}{element.name}"
     needed = " ".join(f'{each.name}="{_sample(each)}"' for each in element.attributes if each.required)
     written = f"<{name} {needed}>{_CHILDREN.get(element.name, '')}</{name}>"
-    namespaces = f'xmlns="{BML}" xmlns:ext="{BML_EXT}" xmlns:bmla="{BMLA}"'
+    namespaces = f'xmlns="{BML}" xmlns:ext="{BML_EXT}" xmlns:bmla="{BMLA}" xmlns:bmlt="{BMLT}"'
     (parsed,) = parse(f'<bml {namespaces} id="b">{written}</bml>', Limits())
     if parsed.block is None or not parsed.block.behaviors:
         raise ValueError(f"{written} is no example of {element.name}: {parsed.problems}")

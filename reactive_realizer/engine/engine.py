@@ -60,7 +60,10 @@ class Engine(Protocol):
         ...
 
     def play(self, tick: Tick) -> Play:
-        """Play what is due; called once or more a tick, and never blocks."""
+        """Play what is due; never blocks.
+
+        Called once or more in each tick in which it has units, or in which one was taken from it or a frame is due.
+        """
         ...
 
     def fail(self, time: GlobalTime, fault: Fault) -> Play:

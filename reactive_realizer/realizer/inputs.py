@@ -1,7 +1,9 @@
 """What enters a realizer; every input waits for a tick."""
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, field
 
+from reactive_realizer.bml.block import Parsed
 from reactive_realizer.clock.units import GlobalTime
 
 Position = tuple[float, float, float]
@@ -9,9 +11,15 @@ Position = tuple[float, float, float]
 
 @dataclass(frozen=True, slots=True)
 class BmlText:
-    """A document of one or more blocks."""
+    """A document of one or more blocks.
+
+    Attributes:
+        text: the document.
+        parsed: what came of it, where somebody has read it already; else it is read as it enters.
+    """
 
     text: str | bytes
+    parsed: Sequence[Parsed] | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)

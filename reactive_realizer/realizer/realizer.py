@@ -205,7 +205,7 @@ class Realizer:
         return self.anticipators[name]
 
     def _read(self, entry: BmlText, now: GlobalTime) -> None:
-        for parsed in parse(entry.text, self.limits):
+        for parsed in parse(entry.text, self.limits) if entry.parsed is None else entry.parsed:
             self.scheduler.accept(parsed, now)
 
     async def _play(self, tick: Tick) -> list[Play]:
@@ -214,9 +214,9 @@ class Realizer:
         for _ in range(_MOST_ROUNDS):
             self.scheduler.advance(tick.time)
             self._clamp(tick)
-            if self.scheduler.apply(await play_all(self._leading, tick), tick.time):
+            if self.scheduler.apply(await play_all(self._awake(self._leading), tick), tick.time):
                 continue
-            plays = await play_all(self._following, tick)
+            plays = await play_all(self._following if tick.frame else self._awake(self._following), tick)
             changed = self.scheduler.apply(plays, tick.time)
             for play in plays:
                 self._publish_audio(play)
@@ -224,6 +224,10 @@ class Realizer:
                 return plays
         self.scheduler.fail_restless(_MOST_ROUNDS, tick.time)
         return plays
+
+    def _awake(self, tasks: Sequence[EngineTask]) -> list[EngineTask]:
+        """Those that have something to play: of many characters most engines rest, and to wake one has its price."""
+        return [task for task in tasks if self._cast.awake(task.engine)]
 
     def _clamp(self, tick: Tick) -> None:
         """Nothing that changed since the last call has moved points into the past."""

@@ -1,5 +1,6 @@
 """Who plays: the characters and their engines."""
 
+from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 
 from reactive_realizer.bml.behavior import Behavior
@@ -18,6 +19,8 @@ class Cast:
     def __init__(self, engines: Mapping[str, Sequence[Engine]]) -> None:
         self._engines = {character: tuple(own) for character, own in engines.items()}
         self._playing: dict[PlanUnit, Engine] = {}
+        self._units: Counter[Engine] = Counter()
+        self._stirred = set(self.engines)
 
     @property
     def characters(self) -> tuple[str, ...]:
@@ -42,10 +45,12 @@ class Cast:
     def give(self, unit: PlanUnit, engine: Engine) -> None:
         """Have an engine play a unit that has its pegs."""
         self._playing[unit] = engine
+        self._units[engine] += 1
         engine.add(unit)
 
     def reset(self, character: str, time: GlobalTime) -> None:
         """Have a character's engines forget what behaviors have left behind."""
+        self._stirred.update(self._engines[character])
         for engine in self._engines[character]:
             engine.reset(time)
 
@@ -53,4 +58,15 @@ class Cast:
         """Take a unit from the engine that plays it; one that nobody plays is no mistake."""
         engine = self._playing.pop(unit, None)
         if engine is not None:
+            self._units[engine] -= 1
+            self._stirred.add(engine)
             engine.remove(unit)
+
+    def awake(self, engine: Engine) -> bool:
+        """Whether an engine is to play now, frames aside: it has units, or something was taken from it meanwhile.
+
+        Whoever asks has it play then.
+        """
+        stirred = engine in self._stirred
+        self._stirred.discard(engine)
+        return stirred or self._units[engine] > 0

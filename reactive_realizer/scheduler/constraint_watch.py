@@ -14,7 +14,7 @@ from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.scheduler.concerned import concerned
 from reactive_realizer.scheduler.problem import Node, Order, Origin, Point, Tie
 from reactive_realizer.scheduler.reporter import Reporter
-from reactive_realizer.scheduler.verify import TOLERANCE
+from reactive_realizer.scheduler.verify import TOLERANCE, missed
 
 _NOTICEABLE = 0.1
 """A gesture that misses its moment by less (s) is seen as on time."""
@@ -48,12 +48,11 @@ class ConstraintWatch:
         for each in block.kept:
             if each in block.settled or _cut(each, units):
                 continue
-            late = _late(each, *(_time(node, block, units) for node in each.nodes))
-            missed = late > TOLERANCE
-            if missed and not _over(each, late, block, units, moved, now):
-                self._say(block, each, late)
-            if missed:
+            late = missed(each, *(_time(node, block, units) for node in each.nodes))
+            if late > TOLERANCE:
                 block.settled.add(each)
+                if not _over(each, late, block, units, moved, now):
+                    self._say(block, each, late)
 
     def _say(self, block: BMLBlock, constraint: Tie | Order, late: float) -> None:
         owner = constraint.owner if isinstance(constraint, Tie) else None
@@ -61,14 +60,6 @@ class ConstraintWatch:
         fault = fault.located(constraint.location.line, constraint.location.column)
         id_ = block.key.block if owner is None else f"{block.key.block}:{owner}"
         self._reporter.warn(block.key.character, id_, fault)
-
-
-def _late(constraint: Tie | Order, first: Time, second: Time) -> float:
-    """By how much (s) a constraint is missed; 0 while nobody knows."""
-    if first is None or second is None:
-        return 0.0
-    late = second + constraint.offset - first
-    return abs(late) if isinstance(constraint, Tie) else late
 
 
 def _time(node: Node, block: BMLBlock, units: Mapping[str, PlanUnit]) -> Time:

@@ -83,7 +83,7 @@ class Planning:
         ties, lost_ties = ties_of(block.description, kept, names.locate)
         orders, lost_orders = orders_of(block.description, names.locate)
         items = tuple(Item(unit.behavior, timings[unit].closed) for unit in kept.values())
-        holds = _holds([*ties, *orders], predicted_start(block, now))
+        holds = _holds([*ties, *orders], _predicted_start(block, now))
         ties, orders = [tie for tie in ties if tie not in holds], [order for order in orders if order not in holds]
         start = _held_start(block, holds.values(), now)
         times = _outer_times([*ties, *orders], start)
@@ -176,7 +176,7 @@ def _reasons(block: BMLBlock, kept: Sequence[Tie | Order]) -> Iterator[tuple[Peg
         yield PegKey(*block.key, *point), "; ".join(reasons)
 
 
-def predicted_start(block: BMLBlock, now: GlobalTime) -> GlobalTime:
+def _predicted_start(block: BMLBlock, now: GlobalTime) -> GlobalTime:
     """When a block that was not started yet is expected to start."""
     return max(now, block.start.value or now)
 
@@ -194,7 +194,7 @@ def _before(bound: Bound, time: GlobalTime) -> bool:
 
 def _held_start(block: BMLBlock, holds: Iterable[Bound], now: GlobalTime) -> GlobalTime:
     known = [GlobalTime(cell.value + distance) for cell, distance in holds if cell.value is not None]
-    return max([predicted_start(block, now), *known])
+    return max([_predicted_start(block, now), *known])
 
 
 def _outer_times(constraints: Sequence[Tie | Order], start: GlobalTime) -> dict[TimeCell, float | None]:

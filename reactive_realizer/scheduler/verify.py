@@ -42,11 +42,17 @@ def verify(plan: PlanView) -> list[Violation]:
     return [violation for check in checks for violation in check(plan) if violation.amount > TOLERANCE]
 
 
+def missed(constraint: Tie | Order, first: float | None, second: float | None) -> float:
+    """By how much (s) a constraint is missed with its nodes at some times; minus infinity if one is unknown."""
+    late = _late(first, second, constraint.offset)
+    return abs(late) if isinstance(constraint, Tie) and late > -inf else late
+
+
 def _ties(plan: PlanView) -> Iterator[Violation]:
     """7.8, 7.11, 7.32: ``f(left) = f(right) + offset``."""
     for tie in plan.expected:
         if isinstance(tie, Tie) and plan.movable(tie.left) and plan.movable(tie.right):
-            amount = max(_gap(plan, tie.left, tie.right, tie.offset), _gap(plan, tie.right, tie.left, -tie.offset))
+            amount = missed(tie, *map(plan.time, tie.nodes))
             yield Violation(_equation(tie.nodes, "7.8", "7.11", "7.32"), _names(*tie.nodes), amount, tie.text)
 
 
@@ -54,7 +60,7 @@ def _orders(plan: PlanView) -> Iterator[Violation]:
     """7.9, 7.10, 7.12, 7.33, 7.34: ``f(later) >= f(earlier) + offset``."""
     for order in plan.expected:
         if isinstance(order, Order) and plan.movable(order.later):
-            amount = _gap(plan, order.later, order.earlier, order.offset)
+            amount = missed(order, *map(plan.time, order.nodes))
             before = not isinstance(order.later, Point)
             numbers = ("7.10", "7.12", "7.34") if before else ("7.9", "7.12", "7.33")
             yield Violation(_equation(order.nodes, *numbers), _names(*order.nodes), amount, order.text)
@@ -119,7 +125,7 @@ def _could_be_earlier(plan: PlanView, cluster: Cluster) -> float:
     for order in plan.kept:
         inside = [isinstance(node, Point) and node.behavior in cluster.behaviors for node in order.nodes]
         if isinstance(order, Order) and inside == [True, False]:
-            gap = _gap(plan, order.later, order.earlier, order.offset)
+            gap = missed(order, *map(plan.time, order.nodes))
             room = min(room, 0.0 if gap == -inf else -gap)
     return room
 
@@ -138,8 +144,11 @@ def _block_end(plan: PlanView) -> Iterator[Violation]:
 
 def _gap(plan: PlanView, later: Node, earlier: Node, offset: float = 0.0) -> float:
     """By how much (s) ``later >= earlier + offset`` is missed; minus infinity if nobody knows."""
-    after, before = plan.time(later), plan.time(earlier)
-    return -inf if after is None or before is None else before + offset - after
+    return _late(plan.time(later), plan.time(earlier), offset)
+
+
+def _late(later: float | None, earlier: float | None, offset: float) -> float:
+    return -inf if later is None or earlier is None else earlier + offset - later
 
 
 def _equation(nodes: tuple[Node, Node], absolute: str, relative: str, predicted: str) -> str:

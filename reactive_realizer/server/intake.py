@@ -51,10 +51,10 @@ class Intake:
         Raises:
             RealizerError: why the first of the others is refused; nothing has entered.
         """
-        ids, faults = await self._judge(text)
+        entry, ids, faults = await self._judge(text)
         if faults:
             raise RealizerError(faults[0])
-        self._realizer.put(BmlText(text))
+        self._realizer.put(entry)
         return ids
 
     async def blocks(self, text: str) -> list[str]:
@@ -65,8 +65,8 @@ class Intake:
         Raises:
             BlocksRefused: why the first of the others is refused.
         """
-        ids, faults = await self._judge(text)
-        self._realizer.put(BmlText(text))
+        entry, ids, faults = await self._judge(text)
+        self._realizer.put(entry)
         if faults:
             raise BlocksRefused(faults[0], ids)
         return ids
@@ -118,8 +118,8 @@ class Intake:
             case _:  # "demo" is what is left of the protocol
                 self.demo.perform()
 
-    async def _judge(self, text: str | bytes) -> tuple[list[str], list[Fault]]:
-        """The ids of the blocks that can be accepted, and why the others cannot."""
+    async def _judge(self, text: str | bytes) -> tuple[BmlText, list[str], list[Fault]]:
+        """A document, the ids of the blocks that can be accepted, and why the others cannot."""
         if len(text) < _SMALL:
             read = parse(text, self._live.limits)
         else:
@@ -132,7 +132,7 @@ class Intake:
                 faults.append(fault)
             elif parsed.block is not None:
                 ids.append(parsed.block.id)
-        return ids, faults
+        return BmlText(text, read), ids, faults
 
     def _event(self, event: Event) -> None:
         known = self._realizer.anticipators

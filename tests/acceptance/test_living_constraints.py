@@ -294,6 +294,19 @@ async def test_of_two_on_anticipators_that_come_too_close_the_later_one_is_held_
     assert [f"n:start = {HIT} {LOST}" in said for said in texts(pilot)] == [True] * (start != 1.7)
 
 
+@pytest.mark.parametrize("moved", [(0.5, ("go", 1.6)), (1.2, ("hit", 1.7)), (0.5, ("hit", 1.3))])
+async def test_what_lies_between_them_and_can_be_shorter_is_whoever_was_predicted_last(pilot, moved) -> None:
+    pilot.predict("t", "go", 1.0)
+    pilot.predict("t", "hit", 2.0)
+    pilot.block("b", nod("m", start=GO) + nod("n", start=HIT) + after("m:end", "n:start"))
+    await moves(pilot, *moved, 4)
+    predicted = {"go": 1.0, "hit": 2.0} | dict([moved[1]])
+    assert_time(pilot.feedback, "b:m:start", predicted["go"])
+    assert_time(pilot.feedback, "b:n:start", predicted["hit"])
+    assert_order(pilot.feedback, "b:m:end", "b:n:start")
+    assert pilot.feedback.warnings == []
+
+
 async def test_a_point_that_its_successor_overtakes_comes_with_it_and_is_predicted_so(pilot) -> None:
     pilot.predict("t", "go", 1.5)
     pilot.predict("t", "hit", 1.0)
@@ -451,6 +464,18 @@ async def test_a_required_constraint_that_is_lost_while_it_plays_is_said_like_an
     await moves(pilot, 0.7, ("hit", 2.0), 2)
     assert [LOST in said for said in texts(pilot)] == [True]
     assert pilot.feedback.status("b") == "DONE"
+
+
+async def test_a_wait_is_not_stretched_beyond_its_most_where_others_can_be(pilot) -> None:
+    pilot.block(
+        "b", nod("n", start="0") + '<wait id="w" max-wait="1" start="n:end"/>' + nod("m", start="w:end", end="8")
+    )
+    pilot.block("c", '<wait id="w" max-wait="1" start="0" end="3"/>')  # what its sync points say goes first
+    await pilot.advance(9)
+    assert_time(pilot.feedback, "b:w:end", pilot.feedback.time("b:w:start") + 1)
+    assert_time(pilot.feedback, "b:m:end", 8.0)
+    assert_time(pilot.feedback, "c:w:end", 3.0)
+    assert pilot.feedback.warnings == []
 
 
 async def test_a_constraint_that_contradicts_itself_says_so(pilot) -> None:

@@ -266,7 +266,9 @@ def test_an_order_between_two_that_hang_on_different_outer_times_is_kept() -> No
     one, two = outer("one", 1.0), outer("two", 5.0)
     plan = Plan({"a": NOD, "b": NOD}, at("a:start", one), at("b:start", two), after("b:start", "a:end"))
     move(one, 4.5)
-    assert plan["b:start"] == plan["a:end"] == pytest.approx(5.5)
+    assert plan["b:start"] == plan["a:end"] == pytest.approx(5.0)  # the first is hurried
+    move(one, 5.5)
+    assert plan["b:start"] == plan["a:end"] == pytest.approx(6.5)  # no more: the second is held back
 
 
 def test_a_predicted_time_is_never_pushed_by_what_is_to_come_before_it() -> None:

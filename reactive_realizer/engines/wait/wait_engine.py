@@ -10,7 +10,7 @@ from reactive_realizer.planunit.timing import Phase, PhaseKind, Timing
 
 
 class WaitEngine(DefaultEngine):
-    """Waits: a duration is rigid; without one a wait lasts as its sync points say, else as ``max-wait`` says."""
+    """Waits: a duration is rigid; without one a wait lasts as its sync points say, else ``max-wait`` and no longer."""
 
     behaviors = frozenset({Wait})
 
@@ -29,4 +29,4 @@ def _phase(wait: Wait) -> Phase:
         return Phase(wait.duration, PhaseKind.RIGID)
     if {"start", "end"} <= wait.syncs.keys():
         return Phase(0.0, PhaseKind.FREE)
-    return Phase(wait.max_wait or 0.0)
+    return Phase(0.0) if wait.max_wait is None else Phase(wait.max_wait, maximum=wait.max_wait)

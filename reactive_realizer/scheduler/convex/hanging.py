@@ -173,7 +173,8 @@ class Hanging:
                 self._open(problem.args[1])
 
     def _open(self, circle: Sequence[Step]) -> None:
-        bounds = [(step, needed) for needed, step in pairwise(circle) if step.bounded and needed != (step.root, False)]
+        pairs = [(step, needed) for needed, step in pairwise(circle) if step.bounded]
+        bounds = [(step, needed) for step, needed in pairs if needed in self.recipes[step.root].bounds]
         if self._drop_floors(bounds):
             return
         step, needed = min(bounds, key=lambda pair: (self._network.first_time(pair[0].root), pair))

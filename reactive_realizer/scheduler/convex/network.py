@@ -54,6 +54,7 @@ class Network:
         self.fixed = len(self._model.stage.fixed)
         links = [pair for pair in self._model.roots.pairs if min(pair) >= self.fixed]
         self._parts = components(len(self._model.roots), links)
+        self._spots = [self._spot(node) for node in range(len(self._model.roots))]
         self.branches: dict[int, Spot] = {}
         self._hanging = table.grounded | {self.cluster(root) for root in range(self.fixed)}
         self.leads: dict[int, float] = dict.fromkeys(range(self.fixed), 0.0)
@@ -66,12 +67,13 @@ class Network:
         for root in (self.spot(node).root for span in spans for node in (span.start, span.end)):
             self.leads.setdefault(root, 0.0)
         self.roots = sorted(self.leads)
+        self._times = {root: table.time(root) for root in self.roots}
         ways = [self._way(span) for span in spans]
         self.ways = sorted((w for w in ways if w.start != w.end), key=self._turn)
 
     def time(self, root: int) -> float:
         """Of a root, s after the block's start."""
-        return self._table.time(root)
+        return self._times[root]
 
     def cluster(self, root: int) -> int:
         """The cluster of a root."""
@@ -83,11 +85,7 @@ class Network:
 
     def spot(self, node: int) -> Spot:
         """Where a node is."""
-        fixed, distance = self._model.roots.find(node)
-        root = self._parts[node]
-        if fixed == START or node < self.fixed:
-            return Spot(fixed, distance)
-        return Spot(root, distance - self._model.roots.find(root)[1])
+        return self._spots[node]
 
     def at(self, spot: Spot) -> float:
         """When, s after the block's start."""
@@ -161,6 +159,13 @@ class Network:
                 if old is None or sign * (self.at(spot) - self.at(old)) > TOLERANCE:
                     found[way.end], moved = spot, True
         return {root: spot for root, spot in found.items() if root not in ends}
+
+    def _spot(self, node: int) -> Spot:
+        fixed, distance = self._model.roots.find(node)
+        root = self._parts[node]
+        if fixed == START or node < self.fixed:
+            return Spot(fixed, distance)
+        return Spot(root, distance - self._model.roots.find(root)[1])
 
     def _turn(self, way: Way) -> tuple[float, float, Way]:
         """By start; of those that start together, but for rounding, one that takes no time goes first."""

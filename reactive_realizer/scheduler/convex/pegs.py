@@ -87,7 +87,7 @@ class _Roots:
                 return AtRatio(self._at(before), self._at(after), ratio)
 
     def _bounded(self, root: int) -> PegSpec | TimeCell:
-        recipe, peg = self._recipes[root], self._made[Step(root, bounded=False)]
+        recipe, peg = self._recipes[root], self._made.get(Step(root, bounded=False)) or self._natural(root)
         if recipe.before:
             floors = self._bounds(recipe.floors, bounded=True)
             peg = AtMost(peg, self._bounds(recipe.before, bounded=False), floors)

@@ -48,6 +48,13 @@ class Between:
 Natural = Given | First | Hung | Between
 
 
+class Step(NamedTuple):
+    """A peg to be made: of a root, with its bounds or as it naturally is; where that is the same, there is one."""
+
+    root: int
+    bounded: bool
+
+
 @dataclass(slots=True)
 class Recipe:
     """How the peg of a root is made.
@@ -75,12 +82,14 @@ class Recipe:
             case _:
                 return []
 
-
-class Step(NamedTuple):
-    """A peg to be made: of a root, with its bounds or as it naturally is."""
-
-    root: int
-    bounded: bool
+    @property
+    def bounds(self) -> list[Step]:
+        """What its bounds hang on."""
+        others = (*self.floors, *self.after)
+        return [
+            *(Step(spot.root, bounded=False) for spot in self.before),
+            *(Step(spot.root, bounded=True) for spot in others),
+        ]
 
 
 def steps(recipes: Mapping[int, Recipe]) -> list[Step]:
@@ -90,10 +99,12 @@ def steps(recipes: Mapping[int, Recipe]) -> list[Step]:
         graphlib.CycleError: one hangs on itself; its second argument is a circle of steps, each needed for the next.
     """
     needs: dict[Step, list[Step]] = {}
+    named = {spot.root for recipe in recipes.values() for spot in recipe.before}
     for root, recipe in recipes.items():
-        needs[Step(root, bounded=False)] = [Step(spot.root, bounded=True) for spot in recipe.spots]
-        bounds = [Step(root, bounded=False)]
-        bounds += [Step(spot.root, bounded=False) for spot in recipe.before]
-        bounds += [Step(spot.root, bounded=True) for spot in (*recipe.floors, *recipe.after)]
-        needs[Step(root, bounded=True)] = bounds
+        natural, bounded = Step(root, bounded=False), Step(root, bounded=True)
+        spots = [Step(spot.root, bounded=True) for spot in recipe.spots]
+        if recipe.before or recipe.after or root in named:
+            needs[natural], needs[bounded] = spots, [natural, *recipe.bounds]
+        else:
+            needs[bounded] = spots
     return list(TopologicalSorter(needs).static_order())

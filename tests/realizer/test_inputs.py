@@ -1,0 +1,30 @@
+"""What enters: a document that somebody has read already is not read again."""
+
+from reactive_realizer.assembly.scene import SceneOptions, open_scene
+from reactive_realizer.bml.document import parse
+from reactive_realizer.clock.clock import ManualClock
+from reactive_realizer.clock.ticker import Tick
+from reactive_realizer.realizer.inputs import BmlText
+from reactive_realizer.server.intake import Intake
+from reactive_realizer.server.live import Live
+from reactive_realizer.testing.pilot import block, open_pilot
+
+WAIT = '<wait id="w" duration="1"/>'
+
+
+async def test_what_came_of_a_document_enters_with_it() -> None:
+    async with open_pilot() as pilot:
+        pilot.realizer.put(BmlText("read before", parse(block("b", WAIT), pilot.realizer.limits)))
+        await pilot.advance(2)
+        assert pilot.feedback.progress == ["b:start", "b:w:start", "b:w:end", "b:end"]
+
+
+async def test_the_door_of_a_server_reads_a_document_for_the_realizer_too() -> None:
+    entered = []
+    async with open_scene(SceneOptions(voice="text")) as scene:
+        live = Live(scene, ManualClock())
+        live.realizer.record(lambda each: entered.extend(each.inputs))
+        for name, enter in (("b", Intake(live).document), ("c", Intake(live).blocks)):
+            assert await enter(block(name, WAIT)) == [name]
+        await live.step(Tick.following(None, 0))
+    assert [[parsed.block.id for parsed in entry.parsed] for entry in entered] == [["b"], ["c"]]
