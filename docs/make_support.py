@@ -5,8 +5,6 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from reactive_realizer.assembly.scene import Scene, SceneOptions, open_scene
-from reactive_realizer.binding.face_lexemes import read_face_lexemes
-from reactive_realizer.binding.gesture_binding import GestureBinding
 from reactive_realizer.bml.attribute_types import Integer
 from reactive_realizer.bml.attributes import Attribute, attributes_of
 from reactive_realizer.bml.behavior import Behavior, Description
@@ -19,6 +17,7 @@ from reactive_realizer.bml.names import BML, BML_EXT, BMLA, BMLT
 from reactive_realizer.bml.posture import Pose, Stance
 from reactive_realizer.bml.procedure import DefineProc, UseProc
 from reactive_realizer.bml.twente import Parameter
+from reactive_realizer.engine.lexicon import words_of
 from reactive_realizer.errors import ERRORS
 from reactive_realizer.limits import Limits
 
@@ -36,8 +35,8 @@ _CHILDREN = {
 
 _INSIDE: tuple[tuple[str, type, bool], ...] = (
     ("sync of a speech's text", Mark, True),
-    ("stance of a posture", Stance, False),
-    ("pose of a posture", Pose, False),
+    ("stance of a posture", Stance, True),
+    ("pose of a posture", Pose, True),
     ("description of any behavior", Description, True),
     ("trajectory of a parametervaluechange", Trajectory, True),
     ("parameter of any behavior, of BMLT", Parameter, True),
@@ -58,7 +57,10 @@ _NOTES = {
     "bml allowexternalrefs": "only a draft has to say it",
     "useproc procid": "the procedure",
     "useproc bmlid": "the block that it becomes",
-    "gesture mode": "without it: the right hand",
+    "gesture mode": "without it: the right hand, or the left one if that is busy",
+    "pointing target": "as that of a gaze; it is followed while it moves",
+    "pointing mode": "without it: the hand on the side of the target, or the other one if that is busy or cannot",
+    "head amount": "1 is the most there is",
     "gaze target": "a name of the world, a character, or its joint: `alice:l_wrist`",
     "gaze influence": "without it: HEAD; `NECK` is HEAD, `TORSO` is WAIST; WHOLE leaves the feet where they stand",
     "procanimation name": "that of an entry of the binding, else of its file without suffix",
@@ -66,18 +68,19 @@ _NOTES = {
     "keyframe name": "of a file, `NAME.xml` (SkeletonInterpolator) or `NAME.bvh` (a capture), else keys stand inside",
     "noise type": "perlin",
     "transition class": "SlerpTransition, HermiteTransition",
-    "parameter of any behavior name": "of what plays the behavior: that of an animation, mirror, joints, filter, replacementgroup",
+    "parameter of any behavior name": "of [what plays it](binding.md#kinds-of-motions)",
+    "pose of a posture lexeme": "a word of a `pose`, below, or of [a file of your own](human.md#postures)",
     "wait duration": "nothing stretches it",
-    "wait max-wait": "how long it lasts where neither `duration` nor its sync points say it",
+    "wait max-wait": "how long it lasts where nothing else says it, and the most that it is stretched to",
 }
 
 _HEAD = """\
 # What is supported
 
 This page is made by `make docs` from the code that reads BML and the engines that play it. Everything of the BML 1.0
-core, `faceFacs` of the core extensions, and what BMLA and BMLT add for continuous interaction is *read* and checked:
-ids, references, values. *Realized* means that it is seen or heard. What is read and not realized is left out with one
-warning, and the rest of the block plays.
+core, `faceFacs` of the core extensions, and what BMLA and BMLT add for continuous interaction and for motions is *read*
+and checked: ids, references, values. *Realized* means that it is seen or heard. What is read and not realized is left
+out with one warning, and the rest of the block plays.
 """
 
 _SYNC_POINTS = """\
@@ -96,8 +99,9 @@ _LEXEMES = """\
 ## Lexemes
 
 Words are read in any case, with `_` or `-`. One that is not in this table drops its behavior with a warning
-(`CANNOT_CREATE_BEHAVIOR`). Those of `gesture` and `head` are entries of a binding that can be exchanged:
-[how to add a gesture](gesture.md).
+(`CANNOT_CREATE_BEHAVIOR`). Those of `gesture`, `head` and `procanimation` are entries of a [binding](binding.md), to
+which [others can be added](gesture.md); those of a `pose` are [files](human.md#postures). `reactive-realizer lexicon`
+lists them with their hands, sync points and parameters, and the [gallery](gallery/README.md) shows them.
 
 """
 
@@ -116,7 +120,7 @@ _AROUND = """\
 
 | what | realized | |
 |---|---|---|
-| `dynamic="true"` on `gaze`, of `http://hmi.ewi.utwente.nl/bmlt` | yes | the gaze follows a target that moves |
+| `dynamic="true"` of `http://hmi.ewi.utwente.nl/bmlt` on `gaze` and its shifts | yes | it follows a target that moves |
 | other attributes | no | warning `CUSTOM_ATTRIBUTE_NOT_SUPPORTED`; what they stand on plays |
 | elements, those of BMLA and BMLT among them that have no table above | no | warning `CUSTOM_BEHAVIOUR_NOT_SUPPORTED` |
 
@@ -249,12 +253,12 @@ def _default(value: object) -> str:
 
 
 def _lexemes(scene: Scene) -> str:
-    """Words that mean something in the package's own files."""
+    """Words that play in the default scene."""
+    (character,) = scene.realizer.characters.values()
     found: dict[str, set[str]] = {}
-    for spec in GestureBinding.read(scene.assets("gesturebinding.xml")).specs:
-        if (lexeme := spec.constraints.get("lexeme")) is not None:
-            found.setdefault(spec.behavior, set()).add(lexeme)
-    found["faceLexeme"] = set(read_face_lexemes(scene.assets("face/lexemes.json")))
+    for word in words_of(character.engines):
+        if word.lexeme and word.problem is None:
+            found.setdefault(word.element, set()).add(word.lexeme)
     rows = ((f"`{element}`", ", ".join(sorted(words))) for element, words in sorted(found.items()))
     return _table(("element", "words of the default scene"), rows)
 

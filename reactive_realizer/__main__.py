@@ -5,7 +5,7 @@ import logging
 import sys
 
 from reactive_realizer import __version__
-from reactive_realizer.cli import check, conformance, realize, serve
+from reactive_realizer.cli import check, conformance, lexicon, realize, serve
 from reactive_realizer.errors import RealizerError
 
 
@@ -38,7 +38,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=__version__)
     parser.add_argument("--verbose", action="store_true", help="log what happens to stderr")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
-    for command in (serve, realize, check, conformance):
+    for command in (serve, realize, check, lexicon, conformance):
         command.add_parser(commands)
     return parser
 

@@ -158,6 +158,9 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
         "work-failed": ErrorKind("its preparation failed: {reason}", _CREATE),
         "never-moves": ErrorKind("still waiting for {waits} when nothing more could happen", _SCHEDULE),
         # --- playing
+        "target-lost": ErrorKind(
+            "the {hand} hand cannot follow '{target}' any further and stays where it is: {reason}", _PLAYING
+        ),
         "unit-failed": ErrorKind("it failed while playing: {reason}", _PLAYING),
         "engine-failed": ErrorKind("the engine {engine} failed: {reason}", _PLAYING),
         "constraint-broken": ErrorKind("'{text}' is missed by {amount:g} s ({points}; thesis {equation})", _SCHEDULE),
@@ -174,6 +177,7 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
         "no-folder": ErrorKind("no folder {folder}"),
         "forbidden-path": ErrorKind("'{name}' is no name of an asset: it may not leave the folders", _CREATE, 400),
         "no-asset": ErrorKind("no file '{name}' among the assets", _CREATE, 404),
+        "two-assets": ErrorKind("'{name}' is the name of several files among the assets: {known}", _CREATE, 409),
         "bad-number": ErrorKind("{name}={value} is not within {low:g} and {high:g}", None, 400),
         "bad-peak-name": ErrorKind(
             "'{name}' cannot name a peak: wanted is a letter, then letters, digits, '_', each name once"
@@ -181,13 +185,25 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
         # --- making a behavior
         "no-motion-for": ErrorKind("nothing in the binding plays <{element}> with lexeme '{lexeme}'", _CREATE),
         "no-unit": ErrorKind("there is no motion unit '{unit}'", _CREATE),
+        "no-posture": ErrorKind("no pose '{lexeme}' of the {part} for one who is {stance}; there are {known}", _CREATE),
+        "no-transition": ErrorKind("no transition is called '{kind}'; known are {known}", _CREATE),
         "no-face": ErrorKind("no face for the lexeme '{lexeme}'; known are {known}", _CREATE),
         "no-target": ErrorKind("no target '{target}' in the world; there are {known}", WarningType.NO_SUCH_TARGET),
+        "bad-parameter": ErrorKind(
+            "the parameter {name} is from {low:g} to {high:g}, and {value:g} is not within", _CREATE
+        ),
+        "not-pointable": ErrorKind("the {hand} hand cannot point at '{target}': {reason}", _CREATE),
+        "no-joints": ErrorKind("this figure has no {joints}, which <{element}> needs", _CREATE),
         # --- avatars, bindings, animations
         "bad-avatar": ErrorKind("{file} is no usable avatar: {reason}"),
         "bad-asset": ErrorKind("{file}, line {row}, <{element}>: {reason}", _CREATE),
+        "asset-too-big": ErrorKind("{file} has {size} bytes, the limit is {limit}", _CREATE),
         "bad-expression": ErrorKind("{reason} at character {at} of '{expression}'", _CREATE),
+        "bad-capture": ErrorKind("{file}, line {row}: {reason}", _CREATE),
+        "bad-keys": ErrorKind("{animation}: {reason}", _CREATE),
         "no-motion": ErrorKind("{animation} gives no pose at phase {phase:g}: {reason}", _PLAYING),
+        "none-turned": ErrorKind("{animation} turns none of {joints}; it turns {known}", _CREATE),
+        "bad-pose": ErrorKind("its motion asks {what} for {value}, which cannot be", _PLAYING),
         # --- the peg board
         "no-point": ErrorKind("there is no point {point}", None, 404),
         "point-pinned": ErrorKind("{point} stays at {time}: it has been reached, or hangs on nothing", None, 409),

@@ -2,12 +2,16 @@
 
 import os
 from functools import lru_cache
+from glob import escape
 from pathlib import Path, PurePosixPath
 from stat import S_ISREG
 
 from reactive_realizer.errors import error
 
 PACKAGE_ASSETS = Path(__file__).parent.parent / "assets"
+
+_ANYWHERE = "**"
+"""The first part of a name that is looked for in all folders, however deep."""
 
 
 class Assets:
@@ -27,20 +31,33 @@ class Assets:
         self._folders = (*(folder.resolve() for folder in folders), PACKAGE_ASSETS)
 
     def __call__(self, name: str) -> Path:
-        """The file of a name: as written, then without leading folders one by one.
+        """The file of a name: as written, then without leading folders one by one; with ``**/`` before it, anywhere.
 
         Raises:
-            RealizerError: the name leaves the folders, or no file has it.
+            RealizerError: the name leaves the folders, or no file has it, or several in the folders of one root.
         """
         path = PurePosixPath(name)
         if path.is_absolute() or ".." in path.parts or "\\" in name or not path.parts:
             raise error("forbidden-path", name=name)
+        if path.parts[0] == _ANYWHERE and len(path.parts) > 1:
+            return self._anywhere(path.relative_to(_ANYWHERE))
         for folder in self._folders:
             for start in range(len(path.parts)):
                 found = _within(folder, folder.joinpath(*path.parts[start:]))
                 if found is not None:
                     return found
         raise error("no-asset", name=name)
+
+    def _anywhere(self, name: PurePosixPath) -> Path:
+        for folder in self._folders:
+            files = (file for file in folder.rglob(escape(name.name)) if file.parts[-len(name.parts) :] == name.parts)
+            found = sorted(filter(None, (_within(folder, file) for file in files)))
+            if len(found) > 1:
+                known = ", ".join(str(file.relative_to(folder)) for file in found)
+                raise error("two-assets", name=name.name, known=known)
+            if found:
+                return found[0]
+        raise error("no-asset", name=name.name)
 
 
 def _within(folder: Path, file: Path) -> Path | None:

@@ -32,6 +32,7 @@ class CharacterSpec:
         position: of the place on the ground that it stands on, m.
         heading: how far it is turned to its left, degrees; 0 faces +z.
         engines: ids of engines, in rank order.
+        idle: whether it breathes, blinks, glances and shifts its weight while it does nothing.
         bindings: names of files among the assets, by kind; those of `DEFAULT_BINDINGS` where nothing is said.
     """
 
@@ -40,6 +41,7 @@ class CharacterSpec:
     position: Vec3 = ZERO
     heading: float = 0.0
     engines: tuple[str, ...] = DEFAULT_ENGINES
+    idle: bool = True
     bindings: Mapping[str, str] = field(default_factory=lambda: DEFAULT_BINDINGS)
 
 
@@ -149,7 +151,7 @@ class _Reader:
         number = isinstance(value, int | float) and not isinstance(value, bool) and abs(value) <= float_info.max
         if number and (kind is float or kind is type(value)):
             return kind(value)
-        if kind is str and isinstance(value, str):
+        if kind in (str, bool) and isinstance(value, kind):
             return value
         if kind == Vec3 and isinstance(value, list) and len(value) == 3:
             return tuple(self._value(key, part, float) for part in value)

@@ -109,6 +109,8 @@ def _character(id_: str, spec: CharacterSpec, world: World, assets: Assets, tts:
         binding_files(spec.bindings, assets),
         mouth,
         trajectories={name: load("trajectories", name) for name in names("trajectories")},
+        functions={name: load("functions", name) for name in names("functions")},
+        idle=spec.idle,
     )
     engines: list[Engine] = [load("engines", name)(context) for name in spec.engines]
     mouth.voices = [engine for engine in engines if isinstance(engine, LipSyncProvider)]

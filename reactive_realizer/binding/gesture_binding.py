@@ -1,91 +1,81 @@
-"""Reads GestureBinding files, in AsapRealizer's format, and finds the unit that plays a behavior."""
+"""Reads GestureBinding files, in AsapRealizer's format, and finds the units that play a behavior (thesis 8.6.1)."""
 
 import logging
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
-from functools import lru_cache
+from dataclasses import dataclass, field
 from pathlib import Path
 
+from lxml import etree
+
+from reactive_realizer.binding.class_names import unit_id
+from reactive_realizer.binding.unit_spec import UnitSpec, comparable
 from reactive_realizer.binding.xml_file import Element, attribute, bad, read_xml
+from reactive_realizer.bml.elements import ELEMENTS
 from reactive_realizer.bml.names import BML
+from reactive_realizer.errors import RealizerError
+from reactive_realizer.limits import Limits
 
 _log = logging.getLogger(__name__)
 
-
-@dataclass(frozen=True, slots=True)
-class UnitSpec:
-    """One entry of a binding: which behaviors it is for, and what plays them.
-
-    Attributes:
-        behavior: name of the behavior's element, such as "gesture".
-        namespace: of that element.
-        constraints: attribute -> value that a behavior must have; an attribute of another namespace is `{uri}name`.
-        unit: kind of the unit that plays it: ProcAnimation (a file as it is), Gesture (a file with preparation and
-            retraction), or what another engine knows.
-        file: the unit's file, None for a unit without one.
-        implementation: name of the unit's implementation, None for a unit that is a file.
-        parameter_map: attribute of the behavior -> parameter of the unit.
-        defaults: parameter of the unit -> value where the behavior says nothing.
-    """
-
-    behavior: str
-    namespace: str
-    constraints: Mapping[str, str]
-    unit: str
-    file: str | None
-    implementation: str | None
-    parameter_map: Mapping[str, str]
-    defaults: Mapping[str, str]
-
-    def fits(self, behavior: str, namespace: str, attributes: Mapping[str, str]) -> bool:
-        """Whether a behavior meets every constraint; words compare in any case, `_` like `-`."""
-        return (
-            behavior == self.behavior
-            and namespace == self.namespace
-            and all(
-                name in attributes and _word(attributes[name]) == _word(value)
-                for name, value in self.constraints.items()
-            )
-        )
-
-    def parameters(self, attributes: Mapping[str, str]) -> dict[str, str]:
-        """The unit's parameters for a behavior with these attributes: what it says, else the defaults."""
-        said = {to: attributes[name] for name, to in self.parameter_map.items() if name in attributes}
-        return {**self.defaults, **said}
+_HANDS = "mode"
+"""The attribute that says which hands; a behavior that does not leaves it to the realizer."""
 
 
 @dataclass(frozen=True, slots=True)
 class GestureBinding:
-    """The entries of a binding, in the order of its file."""
+    """The entries of bindings, in order.
+
+    Attributes:
+        specs: which unit plays what.
+        rest_poses: stance, as BML writes it -> file of the pose that it is at rest.
+    """
 
     specs: tuple[UnitSpec, ...]
+    rest_poses: Mapping[str, str]
+    _by_element: Mapping[tuple[str, str], list[UnitSpec]] = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        by_element: dict[tuple[str, str], list[UnitSpec]] = {}
+        for spec in self.specs:
+            by_element.setdefault((spec.namespace, spec.behavior), []).append(spec)
+        object.__setattr__(self, "_by_element", by_element)
 
     @classmethod
-    def read(cls, path: Path) -> "GestureBinding":
-        """The binding in a file; rest poses and rest gazes are logged and left out.
+    def read(cls, *paths: Path) -> "GestureBinding":
+        """The bindings in files, those of earlier files first.
 
         Raises:
             RealizerError: "bad-asset", with file, line and element.
-            OSError: the file cannot be read.
+            OSError: a file cannot be read.
         """
-        root = read_xml(path, "gesturebinding")
-        for element in root:
-            if element.tag in ("RestPoseSpec", "RestGazeSpec"):
-                _log.info("%s, line %s: <%s> is not realized", path.name, element.sourceline, element.tag)
-            elif element.tag != "MotionUnitSpec":
-                raise bad(element, "known are MotionUnitSpec, RestPoseSpec, RestGazeSpec")
-        return cls(tuple(_spec(element) for element in root.iterfind("MotionUnitSpec")))
+        elements = [element for path in paths for element in read_xml(path, "gesturebinding")]
+        for element in elements:
+            if element.tag not in (*_SPECS, _REST_POSE):
+                raise bad(element, f"known are {', '.join((*_SPECS, _REST_POSE))}")
+        poses = (pose for element in elements if element.tag == _REST_POSE for pose in _rest_poses(element))
+        return cls(
+            tuple(_spec(element, *_SPECS[element.tag]) for element in elements if element.tag in _SPECS),
+            dict(reversed(list(poses))),
+        )
 
     def match(self, behavior: str, namespace: str, attributes: Mapping[str, str]) -> tuple[UnitSpec, ...]:
-        """The entries that fit a behavior, in the order of the file: the first one that can be played plays it.
+        """The entries that fit a behavior, the best first.
+
+        They are in the order of the files. A behavior that leaves its hands to the realizer may also be played by
+        entries for certain hands, which come after the others. For one that names its hands an entry that does not is
+        no second choice: it could be for the other hand.
 
         Args:
             behavior: name of its element.
             namespace: of its element.
-            attributes: as written; those of other namespaces as `{uri}name`.
+            attributes: as `seen`.
         """
-        return tuple(spec for spec in self.specs if spec.fits(behavior, namespace, attributes))
+        specs, said = self._by_element.get((namespace, behavior), []), comparable(attributes)
+        exact = [spec for spec in specs if spec.fits(said)]
+        if _HANDS in attributes:
+            return (*exact[:1], *(spec for spec in exact[1:] if _HANDS in spec.constraints))
+        return (*exact, *(spec for spec in specs if _HANDS in spec.constraints and spec.fits(said, _HANDS)))
 
 
 def numbers(parameters: Mapping[str, str]) -> dict[str, float]:
@@ -103,24 +93,63 @@ def _numbers(parameters: Mapping[str, str]) -> Iterator[tuple[str, float]]:
             yield name, value
 
 
-def _spec(element: Element) -> UnitSpec:
-    unit = element.find("MotionUnit")
-    if unit is None:
-        raise bad(element, "no MotionUnit inside")
+_SPECS: Mapping[str, tuple[str, str | None]] = {
+    "MotionUnitSpec": ("MotionUnit", None),
+    "RestGazeSpec": ("RestGaze", "gazeShift"),
+}
+"""Element of an entry -> the element in it that says what plays, and the behavior, if it is always the same."""
+
+_REST_POSE = "RestPoseSpec"
+
+
+def _spec(element: Element, part: str, behavior: str | None) -> UnitSpec:
+    unit = _part(element, part)
+    behavior, namespace = behavior or attribute(element, "type"), element.get("namespace", BML)
+    _named(element, namespace, behavior)
+    parameter_map = _pairs(element, "parametermap/parameter", "src", "dst")
     defaults = _pairs(element, "parameterdefaults/parameterdefault", "name", "value")
-    file, implementation = unit.get("file", defaults.pop("file", None)), unit.get("class")
-    if file is None and implementation is None:
+    file = unit.get("file", defaults.pop("file", None))
+    if file is None and "class" not in unit.attrib and not {"file", "name"} & set(parameter_map.values()):
         raise bad(unit, "neither a file nor a class")
+    kind = attribute(unit, "type")
     return UnitSpec(
-        behavior=attribute(element, "type"),
-        namespace=element.get("namespace", BML),
-        constraints=_pairs(element, "constraints/constraint", "name", "value"),
-        unit=implementation if attribute(unit, "type") == "class" and implementation else attribute(unit, "type"),
+        behavior=behavior,
+        namespace=namespace,
+        constraints=_constraints(element, behavior, namespace),
+        unit=unit_id(attribute(unit, "class")) if kind == "class" else kind,
         file=file,
-        implementation=implementation,
-        parameter_map=_pairs(element, "parametermap/parameter", "src", "dst"),
+        parameter_map=parameter_map,
         defaults=defaults,
+        place=f"{Path(element.base or '').name}, line {element.sourceline}",
     )
+
+
+def _rest_poses(element: Element) -> Iterator[tuple[str, str]]:
+    pose, stance = _part(element, "RestPose"), _pairs(element, "constraints/constraint", "name", "value").get("stance")
+    if stance is not None and "file" in pose.attrib:
+        yield stance.upper(), attribute(pose, "file")
+    else:
+        _log.warning("line %s: a RestPoseSpec without a stance or a file is left out", element.sourceline)
+
+
+def _part(element: Element, name: str) -> Element:
+    part = element.find(name)
+    if part is None:
+        raise bad(element, f"no {name} inside")
+    return part
+
+
+def _constraints(element: Element, behavior: str, namespace: str) -> dict[str, str]:
+    """As written; words of closed vocabularies in the spelling of BML 1.0."""
+    known = ELEMENTS.get(behavior)
+    own = {each.name: each.type for each in known.attributes} if known and known.namespace == namespace else {}
+    constraints = _pairs(element, "constraints/constraint", "name", "value")
+    try:
+        return {
+            name: str(own[name].read(value, Limits())) if name in own else value for name, value in constraints.items()
+        }
+    except RealizerError as problem:
+        raise bad(element, f"a constraint: {problem.fault.sentence}") from problem
 
 
 def _pairs(element: Element, path: str, name: str, value: str) -> dict[str, str]:
@@ -129,9 +158,12 @@ def _pairs(element: Element, path: str, name: str, value: str) -> dict[str, str]
 
 def _qualified(pair: Element, name: str) -> str:
     namespace = pair.get("namespace")
-    return f"{{{namespace}}}{name}" if namespace else name
+    return _named(pair, namespace, name) if namespace else name
 
 
-@lru_cache
-def _word(text: str) -> str:
-    return text.strip().casefold().replace("_", "-")
+def _named(element: Element, namespace: str, name: str) -> str:
+    """The name as ``{uri}name``, if XML can have it."""
+    try:
+        return etree.QName(namespace, name).text
+    except ValueError as problem:
+        raise bad(element, f"'{name}' of '{namespace}' is no name") from problem

@@ -5,6 +5,7 @@ from pathlib import Path
 
 from lxml import etree
 
+from reactive_realizer.binding.asset_file import read_bytes
 from reactive_realizer.errors import RealizerError, error
 
 Element = etree._Element
@@ -18,14 +19,14 @@ def read_xml(path: Path, root: str) -> Element:
         root: name the root element must have.
 
     Raises:
-        RealizerError: "bad-asset": not well-formed, a DOCTYPE, or another root.
+        RealizerError: "bad-asset": not well-formed, a DOCTYPE, or another root; "asset-too-big".
         OSError: the file cannot be read.
     """
     parser = etree.XMLParser(
         resolve_entities=False, no_network=True, load_dtd=False, huge_tree=False, remove_comments=True, remove_pis=True
     )
     try:
-        document = etree.fromstring(path.read_bytes(), parser, base_url=path.as_posix())
+        document = etree.fromstring(read_bytes(path), parser, base_url=path.as_posix())
     except etree.XMLSyntaxError as problem:
         line, _ = problem.position
         raise error("bad-asset", file=path.name, row=line, element=root, reason=problem.msg) from problem

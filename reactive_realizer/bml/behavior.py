@@ -47,12 +47,15 @@ class Behavior:
         descriptions: its other forms, as written.
         instead_of: of a form that describes another behavior, the sync points of that one, which it must have too.
         extensions: attributes of other namespaces, (namespace, local name) to value.
+        parameters: what else it says to what plays it, by ``bmlt:parameter`` (thesis C.1.1): name to value.
         source: its own element as XML.
     """
 
     NAMESPACE: ClassVar[str] = BML
     CHILDREN: ClassVar[tuple[str, ...]] = ()
     SYNC_POINTS: ClassVar[SyncPoints] = ()
+    OPEN_POINTS: ClassVar[bool] = False
+    """Whether what plays it may know further sync points: references to those are judged when it is planned."""
 
     id: str = field(metadata=attribute(Name()))
     namespace: str
@@ -64,6 +67,7 @@ class Behavior:
     descriptions: tuple[Description, ...] = ()
     instead_of: SyncPoints = ()
     extensions: Mapping[tuple[str, str], str] = field(default_factory=dict)
+    parameters: Mapping[str, str] = field(default_factory=dict)
     source: str = ""
 
     @property
@@ -100,6 +104,7 @@ class ForeignBehavior(Behavior):
     """
 
     SYNC_POINTS = ("start", "ready", "strokeStart", "attackPeak", "stroke", "strokeEnd", "relax", "end")
+    OPEN_POINTS = True
 
     attributes: Mapping[str, str] = field(default_factory=dict)
     children: str = ""

@@ -11,12 +11,13 @@ from reactive_realizer.bml.behaviors import Speech
 from reactive_realizer.bml.continuous import ParameterValueChange
 from reactive_realizer.bml.elements import ELEMENTS, Element
 from reactive_realizer.bml.face import Face, FaceShift
-from reactive_realizer.bml.parts import read_change, read_face, read_posture
+from reactive_realizer.bml.parts import read_change, read_face, read_interpolator, read_parameters, read_posture
 from reactive_realizer.bml.posture import Posture, PostureShift
 from reactive_realizer.bml.procedure import PROCEDURES
 from reactive_realizer.bml.source import Source
 from reactive_realizer.bml.speech_reader import read_speech
 from reactive_realizer.bml.trees import (
+    PARAMETER,
     Tree,
     attributes_in,
     children_of,
@@ -26,6 +27,7 @@ from reactive_realizer.bml.trees import (
     name_of,
     namespace_of,
 )
+from reactive_realizer.bml.twente import Keyframe
 from reactive_realizer.errors import Fault, RealizerError
 
 _DESCRIPTION: Final = "description"
@@ -37,6 +39,7 @@ _READ_PARTS: Final[Mapping[type[Behavior], Callable[[Tree, Source, list[Fault]],
     Posture: read_posture,
     PostureShift: read_posture,
     ParameterValueChange: read_change,
+    Keyframe: read_interpolator,
 }
 
 
@@ -63,7 +66,7 @@ def read_behavior(tree: Tree, source: Source, order: int, required: bool, notes:
 
 def _element_of(tree: Tree) -> Element | None:
     element = ELEMENTS.get(name_of(tree))
-    return element if element and (is_continuous(tree) if element.continuous else is_core(tree)) else None
+    return element if element and namespace_of(tree) in element.namespaces else None
 
 
 def _known(tree: Tree, element: Element, source: Source, place: dict[str, Any], notes: list[Fault]) -> Behavior:
@@ -75,8 +78,13 @@ def _known(tree: Tree, element: Element, source: Source, place: dict[str, Any], 
     # A head that strokes several times has no single stroke to be tied.
     points = [name for name in element.sync_points if name in behavior.sync_points]
     names = [*(each.name for each in element.attributes), *points]
-    notes += source.unread(tree, names, [*element.children, _DESCRIPTION])
-    return replace(behavior, syncs=source.syncs(tree, points), descriptions=_descriptions(tree, source, notes))
+    notes += source.unread(tree, names, [*element.children, _DESCRIPTION, PARAMETER])
+    return replace(
+        behavior,
+        syncs=source.syncs(tree, points),
+        parameters=read_parameters(tree, source, notes),
+        descriptions=_descriptions(tree, source, notes),
+    )
 
 
 def _descriptions(tree: Tree, source: Source, notes: list[Fault]) -> tuple[Description, ...]:

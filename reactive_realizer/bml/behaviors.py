@@ -52,6 +52,7 @@ class Gesture(Behavior):
     """Moves arms and hands as an open word says; the hands may be left to the realizer."""
 
     SYNC_POINTS = _STROKE_POINTS
+    OPEN_POINTS = True
 
     lexeme: str = field(metadata=attribute(Text()))
     mode: Mode | None = field(default=None, metadata=attribute(Word(Mode)))
@@ -78,6 +79,7 @@ class Head(Behavior):
     """
 
     SYNC_POINTS = _STROKE_POINTS
+    OPEN_POINTS = True
 
     lexeme: str = field(metadata=attribute(Text()))
     repetition: int = field(default=1, metadata=attribute(Integer(1, _MOST_REPETITIONS)))

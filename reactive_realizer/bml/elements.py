@@ -19,17 +19,18 @@ from reactive_realizer.bml.behaviors import (
 )
 from reactive_realizer.bml.continuous import Activate, Interrupt, ParameterValueChange
 from reactive_realizer.bml.face import Face, FaceFacs, FaceLexeme, FaceShift
-from reactive_realizer.bml.names import CONTINUOUS
+from reactive_realizer.bml.names import BML, BML_EXT, BMLA, CONTINUOUS
 from reactive_realizer.bml.posture import Posture, PostureShift
+from reactive_realizer.bml.twente import Keyframe, Noise, ProcAnimation, ProcAnimationGesture, Transition
 
 
 @dataclass(frozen=True, slots=True)
 class Element:
-    """An element of BML 1.0 or of continuous interaction that is a behavior.
+    """An element of BML 1.0, of continuous interaction or of BMLT that is a behavior.
 
     Attributes:
         name: local name.
-        namespace: the core's, that of the core extensions, or BMLA's, which may be BMLT's too.
+        namespace: the core's, that of the core extensions, BMLA's, or BMLT's.
         behavior: the class of what is read from it.
         attributes: those other than sync points.
     """
@@ -41,8 +42,15 @@ class Element:
 
     @property
     def continuous(self) -> bool:
-        """Whether it stands in the namespace of BMLA or of BMLT."""
+        """Whether it is none of BML 1.0's."""
         return self.namespace in CONTINUOUS
+
+    @property
+    def namespaces(self) -> tuple[str, ...]:
+        """Where it may stand: what is the core's also in none, what is BMLA's also in that of BMLT."""
+        if not self.continuous:
+            return ("", BML, BML_EXT)
+        return CONTINUOUS if self.namespace == BMLA else (self.namespace,)
 
     @property
     def children(self) -> tuple[str, ...]:
@@ -60,7 +68,7 @@ def _element(behavior: type[Behavior]) -> Element:
 
 
 def _name(behavior: type[Behavior]) -> str:
-    """BML 1.0 writes it in camelCase, BMLA in small letters."""
+    """BML 1.0 writes it in camelCase, the others in small letters."""
     name = behavior.__name__
     return name.lower() if behavior.NAMESPACE in CONTINUOUS else name[0].lower() + name[1:]
 
@@ -84,6 +92,11 @@ _BEHAVIORS = (
     Activate,
     Interrupt,
     ParameterValueChange,
+    ProcAnimation,
+    ProcAnimationGesture,
+    Keyframe,
+    Noise,
+    Transition,
 )
 
 ELEMENTS: Mapping[str, Element] = MappingProxyType({each.name: each for each in map(_element, _BEHAVIORS)})

@@ -1,6 +1,7 @@
-"""The parts of faces, postures, and changes of parameters."""
+"""The parts of faces, postures, changes of parameters and keyframe animations, and parameters of all behaviors."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from types import MappingProxyType
 from typing import Any
 
 from reactive_realizer.bml.attributes import attributes_of
@@ -10,7 +11,8 @@ from reactive_realizer.bml.elements import ELEMENTS
 from reactive_realizer.bml.face import Face
 from reactive_realizer.bml.posture import Pose, Posture, Stance
 from reactive_realizer.bml.source import Source
-from reactive_realizer.bml.trees import Tree, children_of, name_of
+from reactive_realizer.bml.trees import PARAMETER, Tree, children_of, name_of
+from reactive_realizer.bml.twente import Keyframe, Parameter
 from reactive_realizer.bml.words import PosePart
 from reactive_realizer.errors import Fault, RealizerError
 
@@ -66,6 +68,33 @@ def read_posture(tree: Tree, source: Source, notes: list[Fault]) -> dict[str, An
             raise _repeated(child, f"pose part='{pose.part}'", tree, source)
         by_part[pose.part] = pose
     return {"stance": stance, "poses": tuple(by_part.values())}
+
+
+def read_interpolator(tree: Tree, source: Source, notes: list[Fault]) -> dict[str, Any]:
+    """The keys that stand inside a keyframe animation, if they do.
+
+    Raises:
+        RealizerError: there are two.
+    """
+    written = children_of(tree, *Keyframe.CHILDREN)
+    if len(written) > 1:
+        raise _repeated(written[1], name_of(written[1]), tree, source)
+    return {"interpolator": source.xml(written[0]) if written else None}
+
+
+def read_parameters(tree: Tree, source: Source, notes: list[Fault]) -> Mapping[str, str]:
+    """What a behavior says to what plays it, by name (thesis C.1.1).
+
+    Raises:
+        RealizerError: one is said twice, or is bad.
+    """
+    parameters: dict[str, str] = {}
+    for child in children_of(tree, PARAMETER):
+        parameter = Parameter(**_values(child, Parameter, source, notes))
+        if parameter.name in parameters:
+            raise _repeated(child, f"{PARAMETER} name='{parameter.name}'", tree, source)
+        parameters[parameter.name] = parameter.value
+    return MappingProxyType(parameters)
 
 
 def _values(tree: Tree, kind: type, source: Source, notes: list[Fault]) -> dict[str, Any]:

@@ -1,8 +1,8 @@
 """Whether what a block refers to exists."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 
-from reactive_realizer.bml.behavior import Behavior, ForeignBehavior
+from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.block import BehaviorBlock, Problem
 from reactive_realizer.bml.constraint import Constraint, Order
 from reactive_realizer.bml.names import Location
@@ -11,17 +11,25 @@ from reactive_realizer.bml.sync_ref import SyncRef
 from reactive_realizer.bml.trees import listed
 from reactive_realizer.errors import Fault
 
+Points = Callable[[Behavior], Collection[str] | None]
+"""The sync points of a behavior; None where they are not known."""
 
-def check_references(block: BehaviorBlock | DefineProc) -> tuple[Problem, ...]:
+
+def standard_points(behavior: Behavior) -> Collection[str] | None:
+    """Those that BML names; None where what plays the behavior may know more."""
+    return None if behavior.OPEN_POINTS else behavior.sync_points
+
+
+def check_references(block: BehaviorBlock | DefineProc, points: Points = standard_points) -> tuple[Problem, ...]:
     """A problem for each reference to a behavior or sync point that this block or procedure should have and has not.
 
-    Other blocks, anticipators, and sync points that only the realizer of a foreign behavior knows are not judged.
+    Other blocks, anticipators, and behaviors of which `points` does not know the sync points are not judged.
     """
     behaviors = {behavior.id: behavior for behavior in block.behaviors}
     return tuple(
         Problem(fault, place)
         for place, location, ref in references_of(block)
-        if ref.block in {None, block.id} and (fault := _fault(ref, behaviors, location))
+        if ref.block in {None, block.id} and (fault := _fault(ref, behaviors, location, points))
     )
 
 
@@ -49,15 +57,15 @@ def _refs_of(constraint: Constraint) -> tuple[SyncRef, ...]:
     return (constraint.ref, *constraint.refs) if isinstance(constraint, Order) else constraint.refs
 
 
-def _fault(ref: SyncRef, behaviors: Mapping[str, Behavior], location: Location) -> Fault | None:
+def _fault(ref: SyncRef, behaviors: Mapping[str, Behavior], location: Location, points: Points) -> Fault | None:
     if ref.behavior is None:
         return None
     details: dict[str, object] = {"reference": str(ref), "behavior": ref.behavior, "sync": ref.sync}
     behavior = behaviors.get(ref.behavior)
     if behavior is None:
         code, known = "unknown-reference", listed(behaviors)
-    elif isinstance(behavior, ForeignBehavior) or ref.sync in behavior.sync_points:
+    elif (those := points(behavior)) is None or ref.sync in those:
         return None
     else:
-        code, known = "unknown-sync", listed(behavior.sync_points)
+        code, known = "unknown-sync", listed(those)
     return Fault(code, details | {"known": known}, location.line, location.column)

@@ -11,6 +11,9 @@ from reactive_realizer.bml.names import BML, BML_EXT, CONTINUOUS
 Tree = etree._Element
 """An element with what is inside it."""
 
+PARAMETER: Final = "parameter"
+"""The element that tells a value to what plays a behavior (thesis C.1.1)."""
+
 _MOST_QUOTED: Final = 60
 _MOST_LISTED: Final = 20
 
@@ -49,7 +52,12 @@ def is_continuous(tree: Tree) -> bool:
 
 
 def is_part(child: Tree, tree: Tree) -> bool:
-    """Whether a child is of the language of its parent: core, or of continuous interaction as its parent is."""
+    """Whether a child is of the language of its parent: core, or of continuous interaction as its parent is.
+
+    A parameter is BMLT's, and may stand in any behavior.
+    """
+    if name_of(child) == PARAMETER:
+        return is_continuous(child) or is_continuous(tree)
     return is_core(child) or (is_continuous(child) and is_continuous(tree))
 
 

@@ -3,7 +3,8 @@
 import argparse
 import asyncio
 import sys
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
+from contextlib import suppress
 from pathlib import Path
 
 from reactive_realizer.assembly.scene import DEFAULT_HUMAN, SceneOptions, open_scene
@@ -14,10 +15,13 @@ from reactive_realizer.bml.block import BehaviorBlock
 from reactive_realizer.bml.document import parse
 from reactive_realizer.bml.names import ANTICIPATORS
 from reactive_realizer.bml.procedure import DefineProc
-from reactive_realizer.bml.references import check_references, references_of, unknown_block
+from reactive_realizer.bml.references import check_references, references_of, standard_points, unknown_block
 from reactive_realizer.embodiment.world import World
-from reactive_realizer.errors import Fault
+from reactive_realizer.errors import Fault, RealizerError
+from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.realizer.realizer import Realizer
+
+_NOWHERE = BlockKey("", "")
 
 
 def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
@@ -76,9 +80,19 @@ class _Checker:
                 self._earlier.add(parsed.block.id)
 
     def _inside(self, block: BehaviorBlock | DefineProc) -> Iterator[Fault]:
-        yield from (problem.fault for problem in check_references(block))
+        yield from (problem.fault for problem in check_references(block, self._points))
         yield from self._unknown_blocks(block)
         yield from _unknown_targets(block, self._realizer.world)
+
+    def _points(self, behavior: Behavior) -> Collection[str] | None:
+        """Its sync points, those of what would play it among them; None where nothing would."""
+        characters = self._realizer.characters.values()
+        engines = (engine for character in characters for engine in character.engines if engine.supports(behavior))
+        known = standard_points(behavior)
+        if known is None and (engine := next(engines, None)):
+            with suppress(RealizerError):
+                known = engine.plan(_NOWHERE, behavior, None).timing.points
+        return known
 
     def _unknown_procedure(self, block: BehaviorBlock) -> Iterator[Fault]:
         if block.procedure not in {None, *self._procedures}:

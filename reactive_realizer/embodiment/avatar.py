@@ -1,6 +1,7 @@
 """An avatar file: its skeleton in H-Anim terms, its morph targets, and poses turned into its own bones."""
 
-from collections.abc import Iterator, Sequence
+import math
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -10,12 +11,16 @@ from numpy.typing import NDArray
 
 from reactive_realizer.embodiment.glb import read_glb
 from reactive_realizer.embodiment.mixamo import JOINTS, alignment
-from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, conjugate, rotate
+from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, conjugate, multiply, rotate
 from reactive_realizer.embodiment.skeleton import Skeleton
-from reactive_realizer.embodiment.vector import ZERO, Vec3, add
+from reactive_realizer.embodiment.vector import ZERO, Vec3, add, length
 from reactive_realizer.errors import error
 
+_UNITS: tuple[Quat, ...] = ((1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0), (0.0, 0.0, 1.0, 0.0), (0.0, 0.0, 0.0, 1.0))
 _NEEDED = ("HumanoidRoot", "skullbase", "l_shoulder", "l_elbow", "l_wrist", "r_shoulder", "r_elbow", "r_wrist")
+# The bones that motions aim with, or solve limbs by: without a length they have no direction.
+_FAR_FROM_PARENT = frozenset({"elbow", "wrist", "knee", "ankle", "index2", "index3"})
+_SHORTEST = 1e-3
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,8 +52,8 @@ class Avatar:
     morphs: tuple[str, ...]
     skeleton: Skeleton
     _bone_of_joint: NDArray[np.intp]
-    _before: NDArray[np.float64]
-    _after: NDArray[np.float64]
+    _to_bones: NDArray[np.float64]
+    _at_rest: NDArray[np.float64]
 
     @classmethod
     def read(cls, path: Path) -> "Avatar":
@@ -69,7 +74,7 @@ class Avatar:
         """An avatar of given bones.
 
         Raises:
-            RealizerError: "bad-avatar": a bone is missing; `file` is named.
+            RealizerError: "bad-avatar": a bone is missing, or one has no length that needs one; `file` is named.
         """
         names = tuple(JOINTS[bone.name] for bone in bones if bone.name in JOINTS)
         missing = [joint for joint in _NEEDED if joint not in names]
@@ -80,13 +85,14 @@ class Avatar:
         parents = tuple(-1 if parent is None else names.index(parent) for parent, _ in links)
         above = [_alignment_of(parent) for parent, _ in links]
         offsets = tuple(rotate(turn, way) for turn, (_, way) in zip(above, links, strict=True))
+        _check_lengths(dict(zip(names, offsets, strict=True)), file)
         return cls(
             tuple(bones),
             tuple(morphs),
             Skeleton(names, parents, offsets),
             np.array(indices),
-            np.array([conjugate(turn) for turn in above]),
-            np.array([alignment(joint) for joint in names]),
+            np.array([_sandwich(conjugate(turn), alignment(joint)) for turn, joint in zip(above, names, strict=True)]),
+            np.array([IDENTITY for _ in bones]),
         )
 
     def bone_rotations(self, rotations: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -101,8 +107,8 @@ class Avatar:
         Returns:
             (B, 4) w x y z local to the parent bone, in the order of `bones`; bones without a joint are at rest.
         """
-        out = np.tile(np.array(IDENTITY), (len(self.bones), 1))
-        out[self._bone_of_joint] = _multiply(_multiply(self._before, rotations), self._after)
+        out = self._at_rest.copy()
+        out[self._bone_of_joint] = np.einsum("jab,jb->ja", self._to_bones, rotations)
         return out
 
 
@@ -140,20 +146,17 @@ def _link(bones: Sequence[Bone], index: int) -> tuple[str | None, Vec3]:
     return (JOINTS[bones[index].name] if index >= 0 else None), way
 
 
+def _check_lengths(offsets: Mapping[str, Vec3], file: str) -> None:
+    for joint, offset in offsets.items():
+        far = length(offset)
+        if not math.isfinite(far) or (joint[2:] in _FAR_FROM_PARENT and far < _SHORTEST):
+            raise error("bad-avatar", file=file, reason=f"{joint} is {far:g} m from the joint above")
+
+
 def _alignment_of(joint: str | None) -> Quat:
     return IDENTITY if joint is None else alignment(joint)
 
 
-def _multiply(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Row by row quaternion products, (N, 4)."""
-    aw, ax, ay, az = a.T
-    bw, bx, by, bz = b.T
-    return np.stack(
-        (
-            aw * bw - ax * bx - ay * by - az * bz,
-            aw * bx + ax * bw + ay * bz - az * by,
-            aw * by - ax * bz + ay * bw + az * bx,
-            aw * bz + ax * by - ay * bx + az * bw,
-        ),
-        axis=1,
-    )
+def _sandwich(before: Quat, after: Quat) -> NDArray[np.float64]:
+    """The matrix that takes a quaternion q to before q after: a product is linear in each factor, (4, 4)."""
+    return np.array([multiply(multiply(before, unit), after) for unit in _UNITS]).T

@@ -1,6 +1,7 @@
 """One picture of one character."""
 
 from dataclasses import dataclass
+from itertools import chain
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,4 +30,6 @@ class Frame:
 
 def rotation_array(skeleton: Skeleton, pose: Pose) -> NDArray[np.float64]:
     """A pose as an array, (J, 4), in the order of the skeleton's joints."""
-    return np.array([pose.get(joint, IDENTITY) for joint in skeleton.joints])
+    rotations = [pose.get(joint, IDENTITY) for joint in skeleton.joints]
+    # In half the time of an array of tuples.
+    return np.fromiter(chain.from_iterable(rotations), float, 4 * len(rotations)).reshape(-1, 4)

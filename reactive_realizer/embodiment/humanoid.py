@@ -11,8 +11,10 @@ from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.frame import Frame, rotation_array
 from reactive_realizer.embodiment.pose import Layer, compose
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, conjugate, from_axis_angle, multiply, rotate
-from reactive_realizer.embodiment.speed_limit import SpeedLimit
+from reactive_realizer.embodiment.speed_limit import SpeedLimit, slowed
 from reactive_realizer.embodiment.vector import UP, ZERO, Vec3, add, subtract
+
+EYES = ("l_eyeball_joint", "r_eyeball_joint")
 
 _ROOT = "HumanoidRoot"
 
@@ -33,8 +35,9 @@ class Humanoid:
         self.avatar = avatar
         self._position = position
         self._turn = from_axis_angle(UP, heading)
-        self._limit = SpeedLimit(avatar.skeleton)
-        self._shown: Body | None = None
+        self._morphs = {morph: i for i, morph in enumerate(avatar.morphs)}
+        self._limit: SpeedLimit | None = None
+        self._shown = Body(avatar.skeleton)
         self._shown_at = GlobalTime(0.0)
         self.body = Body(avatar.skeleton)
         """The figure without additive motion, in its own frame: where a motion that begins finds it."""
@@ -42,14 +45,16 @@ class Humanoid:
     def compose(self, time: GlobalTime, layers: Iterable[Layer], face: Mapping[str, float], eyes: Eyes | None) -> Frame:
         """The frame of a time; later ones follow from it without a jump."""
         composed = compose(self.avatar.skeleton, layers)
-        pose = composed.pose
-        if eyes is not None:
-            pose |= eyes(Body(self.avatar.skeleton, pose, composed.root))
-        if self._shown is not None and time > self._shown_at:
-            pose = self._limit(self._shown.pose, pose, time - self._shown_at)
-        self._shown, self._shown_at = Body(self.avatar.skeleton, pose, composed.root), time
+        wanted = Body(self.avatar.skeleton, composed.pose, composed.root)
+        self._shown = self._within_limits(wanted, eyes, time - self._shown_at)
+        self._shown_at = time
         self.body = Body(self.avatar.skeleton, composed.steady, composed.steady_root)
-        return Frame(time, self._root(composed.root), self._rotations(pose), self._weights(face))
+        return Frame(time, self._root(self._shown.root), self._rotations(self._shown.pose), self._weights(face))
+
+    @property
+    def shown(self) -> Body:
+        """The figure as it was shown last, additive motion included, in its own frame; at first in its default pose."""
+        return self._shown
 
     def to_own_frame(self, point: Vec3) -> Vec3:
         """A point of the world as seen from the figure, m."""
@@ -60,10 +65,17 @@ class Humanoid:
         name = joint or "skullbase"
         if name not in self.avatar.skeleton.joints:
             return None
-        body = self._shown or Body(self.avatar.skeleton)
-        place = body.place(name)
-        point = place.position if joint else _between_eyes(body)
+        point = self._shown.place(name).position if joint else _between_eyes(self._shown)
         return add(self._position, rotate(self._turn, point))
+
+    def _within_limits(self, wanted: Body, eyes: Eyes | None, duration: float) -> Body:
+        """What is shown: the eyes look from where the head really comes to be."""
+        if self._limit is None:
+            self._limit = SpeedLimit(wanted)
+            return wanted if eyes is None else wanted.posed(eyes(wanted))
+        body = self._limit(wanted, duration)
+        looking = {eye: body.rotation(eye) for eye in EYES if eye in body.skeleton}
+        return body.posed(slowed(self._shown.pose, looking if eyes is None else {**looking, **eyes(body)}, duration))
 
     def _root(self, moved: Vec3) -> NDArray[np.float64]:
         place = add(self.avatar.skeleton.offset(_ROOT), moved)
@@ -74,9 +86,12 @@ class Humanoid:
         return rotation_array(self.avatar.skeleton, {**pose, _ROOT: root})
 
     def _weights(self, face: Mapping[str, float]) -> NDArray[np.float64]:
-        return np.array([min(1.0, max(0.0, face.get(morph, 0.0))) for morph in self.avatar.morphs])
+        weights = np.zeros(len(self._morphs))
+        for morph in face.keys() & self._morphs.keys():
+            weights[self._morphs[morph]] = min(1.0, max(0.0, face[morph]))
+        return weights
 
 
 def _between_eyes(body: Body) -> Vec3:
-    left, right = (body.place(f"{side}_eyeball_joint").position for side in "lr")
+    left, right = (body.place(eye).position for eye in EYES)
     return ((left[0] + right[0]) / 2, (left[1] + right[1]) / 2, (left[2] + right[2]) / 2)

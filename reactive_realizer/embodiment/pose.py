@@ -1,12 +1,19 @@
 """Layers of motion become one pose, in one fixed order."""
 
+import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from enum import IntEnum
+from operator import attrgetter
 
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, multiply, power, slerp
 from reactive_realizer.embodiment.skeleton import Skeleton
 from reactive_realizer.embodiment.vector import ZERO, Vec3, add, scale, subtract
+from reactive_realizer.errors import error
+
+_ROOT = "HumanoidRoot"
+# Of the square of a quaternion's length from 1: rounding stays far below, and a product of ten stays a rotation.
+_NEARLY_ZERO = 1e-6
 
 
 class LayerKind(IntEnum):
@@ -33,6 +40,7 @@ class Layer:
         weight: 0 leaves what is below as it is, 1 is the layer in full.
         priority: among layers of one kind, the higher lies above; equal ones lie in the order given.
         root: how far HumanoidRoot is moved from its place in the default pose, m; None leaves it where it is.
+        weights: of joints that weigh less than the layer, the share of its weight; HumanoidRoot's is the root's too.
     """
 
     kind: LayerKind
@@ -40,6 +48,11 @@ class Layer:
     weight: float = 1.0
     priority: int = 0
     root: Vec3 | None = None
+    weights: Mapping[str, float] | None = None
+
+    def weight_of(self, joint: str) -> float:
+        """How much of one joint's rotation is shown, 0 to 1."""
+        return min(1.0, self.weight if self.weights is None else self.weight * self.weights.get(joint, 1.0))
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,31 +79,67 @@ def compose(skeleton: Skeleton, layers: Iterable[Layer]) -> Composed:
     Replacing layers blend over the pose below by their weight along the shorter arc; additive ones turn about the
     joint's own axes as it stands by then, so that a head turned aside still nods about its own ears.
     """
-    pose = dict.fromkeys(skeleton.joints, IDENTITY)
-    steady = dict(pose)
-    root = steady_root = ZERO
-    for layer in sorted(layers, key=lambda layer: (layer.kind, layer.priority)):
-        if layer.kind is LayerKind.ADDITIVE:
-            _turn_further(pose, layer)
-            root = root if layer.root is None else add(root, scale(layer.root, layer.weight))
-        else:
-            _replace(pose, layer)
-            _replace(steady, layer)
-            root, steady_root = _moved(root, layer), _moved(steady_root, layer)
+    lower, added, upper = _sorted(layers)
+    steady = dict.fromkeys(skeleton.joints, IDENTITY)
+    steady_root = ZERO
+    for layer in lower:
+        _replace(steady, layer)
+        steady_root = _moved(steady_root, layer)
+    pose, root = dict(steady), steady_root
+    for layer in added:
+        _turn_further(pose, layer)
+        root = root if layer.root is None else add(root, scale(layer.root, layer.weight_of(_ROOT)))
+    for layer in upper:
+        _replace(pose, layer)
+        _replace(steady, layer)
+        root, steady_root = _moved(root, layer), _moved(steady_root, layer)
     return Composed(pose, steady, root, steady_root)
 
 
+def _sorted(layers: Iterable[Layer]) -> tuple[list[Layer], list[Layer], list[Layer]]:
+    """Layers from the lowest to the highest: those below the additive ones, these, those above."""
+    ordered = sorted(layers, key=attrgetter("kind", "priority"))
+    return (
+        [layer for layer in ordered if layer.kind < LayerKind.ADDITIVE],
+        [layer for layer in ordered if layer.kind is LayerKind.ADDITIVE],
+        [layer for layer in ordered if layer.kind > LayerKind.ADDITIVE],
+    )
+
+
+def checked(layer: Layer) -> Layer:
+    """A layer that can be composed.
+
+    Raises:
+        RealizerError: "bad-pose": a rotation is no unit quaternion, or weight or root are no finite numbers.
+    """
+    for joint, (w, x, y, z) in layer.rotations.items():
+        if not abs(w * w + x * x + y * y + z * z - 1.0) < _NEARLY_ZERO:
+            raise error("bad-pose", what=joint, value=(w, x, y, z))
+    for weight in (layer.weight, *(layer.weights or {}).values()):
+        if not math.isfinite(weight):
+            raise error("bad-pose", what="its weight", value=weight)
+    if layer.root is not None and not all(map(math.isfinite, layer.root)):
+        raise error("bad-pose", what="HumanoidRoot's place", value=layer.root)
+    return layer
+
+
 def _moved(root: Vec3, layer: Layer) -> Vec3:
-    return root if layer.root is None else add(root, scale(subtract(layer.root, root), min(1.0, layer.weight)))
+    return root if layer.root is None else add(root, scale(subtract(layer.root, root), layer.weight_of(_ROOT)))
 
 
 def _replace(pose: dict[str, Quat], layer: Layer) -> None:
-    for joint, rotation in layer.rotations.items():
+    rotations, weights = layer.rotations, layer.weights
+    if layer.weight >= 1.0 and weights is None:
+        pose |= rotations if rotations.keys() <= pose.keys() else {j: q for j, q in rotations.items() if j in pose}
+        return
+    for joint, rotation in rotations.items():
         if joint in pose:
-            pose[joint] = rotation if layer.weight >= 1.0 else slerp(pose[joint], rotation, layer.weight)
+            weight = layer.weight if weights is None else layer.weight_of(joint)
+            pose[joint] = slerp(pose[joint], rotation, weight)
 
 
 def _turn_further(pose: dict[str, Quat], layer: Layer) -> None:
     for joint, rotation in layer.rotations.items():
         if joint in pose:
-            pose[joint] = multiply(pose[joint], rotation if layer.weight >= 1.0 else power(rotation, layer.weight))
+            weight = layer.weight_of(joint)
+            pose[joint] = multiply(pose[joint], rotation if weight == 1.0 else power(rotation, weight))

@@ -73,15 +73,11 @@ def slerp(a: Quat, b: Quat, fraction: float) -> Quat:
         theta = math.acos(cosine)
         sine = math.sin(theta)
         of_a, of_b = math.sin((1.0 - fraction) * theta) / sine, sign * math.sin(fraction * theta) / sine
-    # Rounding adds up over thousands of frames where each pose starts from the last.
-    return normalize(
-        (
-            of_a * a[0] + of_b * b[0],
-            of_a * a[1] + of_b * b[1],
-            of_a * a[2] + of_b * b[2],
-            of_a * a[3] + of_b * b[3],
-        )
-    )
+    w, x = of_a * a[0] + of_b * b[0], of_a * a[1] + of_b * b[1]
+    y, z = of_a * a[2] + of_b * b[2], of_a * a[3] + of_b * b[3]
+    # Rounding adds up over thousands of frames where each pose starts from the last: a step of Newton's to length 1.
+    factor = 1.5 - 0.5 * (w * w + x * x + y * y + z * z)
+    return (w * factor, x * factor, y * factor, z * factor)
 
 
 def power(q: Quat, fraction: float) -> Quat:
@@ -93,6 +89,22 @@ def from_axis_angle(axis: Vec3, radians: float) -> Quat:
     """The turn about a unit axis, by the right hand."""
     sine = math.sin(0.5 * radians)
     return (math.cos(0.5 * radians), sine * axis[0], sine * axis[1], sine * axis[2])
+
+
+def from_rotation_vector(v: Vec3) -> Quat:
+    """The turn about the direction of v by its length, rad."""
+    radians = math.sqrt(dot(v, v))
+    # sin(x/2)/x by its series where it is near 0/0.
+    share = math.sin(0.5 * radians) / radians if radians > 1e-6 else 0.5
+    return (math.cos(0.5 * radians), share * v[0], share * v[1], share * v[2])
+
+
+def rotation_vector(q: Quat) -> Vec3:
+    """The axis of the shorter turn to q, as long as it turns, rad, 0 to pi."""
+    sine = math.sqrt(q[1] * q[1] + q[2] * q[2] + q[3] * q[3])
+    radians = 2.0 * math.atan2(sine, abs(q[0]))
+    factor = math.copysign(radians / sine if sine > 1e-9 else 2.0, q[0])
+    return (factor * q[1], factor * q[2], factor * q[3])
 
 
 def from_euler(x: float, y: float, z: float) -> Quat:

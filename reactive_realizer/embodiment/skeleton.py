@@ -2,16 +2,16 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
-from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, multiply, rotate
-from reactive_realizer.embodiment.vector import ZERO, Vec3, add
+from reactive_realizer.embodiment.quaternion import Quat
+from reactive_realizer.embodiment.vector import Vec3
 
 Pose = Mapping[str, Quat]
 """Joint name -> rotation local to the parent; a joint left out is in its default pose."""
 
 
-@dataclass(frozen=True, slots=True)
-class Place:
+class Place(NamedTuple):
     """Where a joint is in the figure's frame.
 
     Attributes:
@@ -51,6 +51,14 @@ class Skeleton:
     def __contains__(self, joint: str) -> bool:
         return joint in self._chains
 
+    def links(self, joint: str) -> tuple[tuple[str, Vec3], ...]:
+        """The joints from the root to a joint, both included, each with its offset.
+
+        Raises:
+            KeyError: no such joint.
+        """
+        return self._chains[joint]
+
     def chain(self, joint: str) -> tuple[str, ...]:
         """The joints from the root to a joint, both included.
 
@@ -75,23 +83,3 @@ class Skeleton:
         """
         chain = self._chains[joint]
         return chain[-2][0] if len(chain) > 1 else None
-
-    def place(self, pose: Pose, joint: str, root: Vec3 = ZERO) -> Place:
-        """Where one joint is in a pose: forward kinematics along its chain.
-
-        Args:
-            pose: rotations.
-            joint: which.
-            root: how far the root is moved from its default place, m.
-
-        Raises:
-            KeyError: no such joint.
-        """
-        position = root
-        rotation = IDENTITY
-        for name, offset in self._chains[joint]:
-            position = add(position, rotate(rotation, offset))
-            local = pose.get(name)
-            if local is not None:
-                rotation = multiply(rotation, local)
-        return Place(position, rotation)

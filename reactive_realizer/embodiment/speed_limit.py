@@ -1,14 +1,20 @@
 """The last safety net under all motion: whatever was asked for, nothing on the figure jumps."""
 
+import math
+
+from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, angle, conjugate, multiply, slerp
-from reactive_realizer.embodiment.skeleton import Pose, Skeleton
-from reactive_realizer.embodiment.vector import ZERO, Vec3, dot, length, scale, subtract
+from reactive_realizer.embodiment.skeleton import Pose
+from reactive_realizer.embodiment.vector import ZERO, Vec3, add, dot, length, scale, subtract
 
 WRIST_SPEED = 2.4
-"""m/s, of each wrist in the figure's frame: less than 5 cm in 20 ms. Conversational gestures stay below 2 m/s."""
+"""m/s, of each wrist as seen from the root: less than 5 cm in 20 ms. Conversational gestures stay below 2 m/s."""
 
 WRIST_ACCELERATION = 37.5
 """m/s^2, of each wrist that sets out or turns back: 1.5 cm more in each 20 ms than in those before."""
+
+ROOT_SPEED = 2.0
+"""m/s: a brisk walk; who sits down or stands up stays below 1 m/s."""
 
 # Peak velocities, rad/s: the trunk in a lively turn; the neck in a fast voluntary one; the eye in a saccade 9 to 12
 # (the thesis, 4.2.2, has a plateau of 8.7 rad/s); an elbow in a throw above 20, in conversation far below. A wrist
@@ -25,65 +31,93 @@ _SPEEDS = {
     **dict.fromkeys(("l_eyeball_joint", "r_eyeball_joint"), _EYE),
     **dict.fromkeys(_WRISTS, _WRIST),
 }
+_ALL_SPEEDS = frozenset((_LIMB, *_SPEEDS.values()))
+
+
+def slowed(shown: Pose, wanted: Pose, duration: float) -> dict[str, Quat]:
+    """Rotations of joints that turn no faster than they can.
+
+    Args:
+        shown: the pose shown last.
+        wanted: what some of its joints are asked for now.
+        duration: between the two, s, more than 0.
+    """
+    within = {speed: math.cos(0.5 * speed * duration) for speed in _ALL_SPEEDS}
+    hasty = {
+        joint: _toward(start, goal, _SPEEDS.get(joint, _LIMB) * duration)
+        for joint, goal in wanted.items()
+        # Most joints are left where they are, by the same tuple.
+        if (start := shown.get(joint, IDENTITY)) is not goal
+        and abs(start[0] * goal[0] + start[1] * goal[1] + start[2] * goal[2] + start[3] * goal[3])
+        < within[_SPEEDS.get(joint, _LIMB)]
+    }
+    return {**wanted, **hasty}
 
 
 class SpeedLimit:
     """Keeps what is shown within a distance of what was shown before.
 
-    No joint turns faster than its limit, then no wrist moves faster than `WRIST_SPEED`, nor much faster than before. A
-    pose that asks for more is followed as fast as that allows, which ordinary motion never notices. How soon a wrist
-    stops is not limited: so it never goes past where it is wanted.
+    No joint turns faster than its limit, then no wrist moves faster than `WRIST_SPEED`, nor much faster than before,
+    and the root no faster than `ROOT_SPEED`. A pose that asks for more is followed as fast as that allows, which
+    ordinary motion never notices. How soon a wrist stops is not limited: so it never goes past where it is wanted.
     """
 
-    def __init__(self, skeleton: Skeleton) -> None:
-        self._skeleton = skeleton
-        self._speeds = {joint: _SPEEDS.get(joint, _LIMB) for joint in skeleton.joints}
-        self._arms = {wrist: skeleton.chain(wrist)[:-1] for wrist in _WRISTS}
+    def __init__(self, shown: Body) -> None:
+        """Begins with a body as it is shown first."""
+        self._shown = shown
+        self._default = dict.fromkeys(shown.skeleton.joints, IDENTITY)
+        self._arms = {wrist: shown.skeleton.chain(wrist)[:-1] for wrist in _WRISTS}
+        self._places = {wrist: _from_root(wrist, shown) for wrist in _WRISTS}
         self._velocities: dict[str, Vec3] = dict.fromkeys(_WRISTS, ZERO)
 
-    def __call__(self, shown: Pose, wanted: Pose, duration: float) -> dict[str, Quat]:
-        """The pose to show now.
+    def __call__(self, wanted: Body, duration: float) -> Body:
+        """The body to show now.
 
         Args:
-            shown: the pose shown last.
-            wanted: the pose asked for now.
-            duration: between the two, s, more than 0.
+            wanted: the one asked for now.
+            duration: since the last one was shown, s, more than 0.
         """
-        pose = {
-            joint: _toward(shown.get(joint, IDENTITY), wanted.get(joint, IDENTITY), speed * duration)
-            for joint, speed in self._speeds.items()
-        }
-        starts = {wrist: self._skeleton.place(shown, wrist).position for wrist in _WRISTS}
+        pose = slowed(self._shown.pose, {**self._default, **wanted.pose}, duration)
+        body = Body(wanted.skeleton, pose, self._root(wanted.root, ROOT_SPEED * duration))
         # The wrists share the trunk: holding one back may set the other free, so it goes on until both are content.
-        while any(self._hold_back(wrist, starts[wrist], shown, pose, duration) for wrist in _WRISTS):
-            pass
-        self._velocities = {wrist: scale(self._way(wrist, starts[wrist], pose), 1.0 / duration) for wrist in _WRISTS}
-        return pose
+        while (hasty := self._hasty(body, duration)) is not None:
+            wrist, fraction = hasty
+            body = body.posed(
+                {j: slerp(self._shown.rotation(j), body.rotation(j), fraction) for j in self._arms[wrist]}
+            )
+        places = {wrist: _from_root(wrist, body) for wrist in _WRISTS}
+        self._velocities = {w: scale(subtract(at, self._places[w]), 1.0 / duration) for w, at in places.items()}
+        self._places, self._shown = places, body
+        return body
 
-    def _hold_back(self, wrist: str, start: Vec3, shown: Pose, pose: dict[str, Quat], duration: float) -> bool:
-        """Where a wrist would move too far, lets the joints above it turn less; whether it had to."""
-        way = self._way(wrist, start, pose)
-        moved = length(way)
-        if moved == 0.0:
-            return False
-        reach = self._speed(wrist, scale(way, 1.0 / moved), duration) * duration
-        if not moved > reach:
-            return False
-        # A little less than in proportion: the way is an arc, so this comes to rest after a step or two.
-        fraction = 0.98 * reach / moved
-        for joint in self._arms[wrist]:
-            pose[joint] = slerp(shown.get(joint, IDENTITY), pose[joint], fraction)
-        return True
+    def _hasty(self, body: Body, duration: float) -> tuple[str, float] | None:
+        """A wrist that would move too far, with the share of their turns that the joints above it may make."""
+        for wrist in _WRISTS:
+            way = subtract(_from_root(wrist, body), self._places[wrist])
+            moved = length(way)
+            if moved == 0.0:
+                continue
+            reach = self._speed(wrist, scale(way, 1.0 / moved), duration) * duration
+            if moved > reach:
+                # A little less than in proportion: the way is an arc, so this comes to rest after a step or two.
+                return wrist, 0.98 * reach / moved
+        return None
 
     def _speed(self, wrist: str, direction: Vec3, duration: float) -> float:
         """How fast a wrist may go in a direction (a unit vector), m/s: for one that went the other way, from rest."""
         before = max(0.0, dot(self._velocities[wrist], direction))
         return min(WRIST_SPEED, before + WRIST_ACCELERATION * duration)
 
-    def _way(self, wrist: str, start: Vec3, pose: Pose) -> Vec3:
-        return subtract(self._skeleton.place(pose, wrist).position, start)
+    def _root(self, wanted: Vec3, furthest: float) -> Vec3:
+        way = subtract(wanted, self._shown.root)
+        moved = length(way)
+        return wanted if moved <= furthest else add(self._shown.root, scale(way, furthest / moved))
+
+
+def _from_root(wrist: str, body: Body) -> Vec3:
+    """Where a wrist is as seen from the root, m."""
+    return subtract(body.place(wrist).position, body.root)
 
 
 def _toward(start: Quat, goal: Quat, furthest: float) -> Quat:
-    way = angle(multiply(conjugate(start), goal))
-    return goal if way <= furthest else slerp(start, goal, furthest / way)
+    return slerp(start, goal, furthest / angle(multiply(conjugate(start), goal)))

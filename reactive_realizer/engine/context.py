@@ -26,10 +26,12 @@ class EngineContext:
         seed: of the randomness of this character.
         tts: the text-to-speech binding that all characters share.
         voice: name of this character's voice, None for the binding's default.
-        bindings: names of the character's binding files, by kind.
+        bindings: the character's binding files, by kind; entries of earlier files count before those of later ones.
         lip_sync: what the mouth does while this character speaks.
         graph: where the parameters of its behaviors are cells.
         trajectories: ways from one value of a parameter to another, by name.
+        functions: what formulas of animations may call besides those of the language, by name; pure.
+        idle: whether the figure breathes, blinks, glances and shifts its weight while it does nothing.
     """
 
     character: str
@@ -39,7 +41,9 @@ class EngineContext:
     seed: int
     tts: TTSBinding
     voice: str | None
-    bindings: dict[str, str]
+    bindings: Mapping[str, tuple[Path, ...]]
     lip_sync: LipSyncProvider | None = None
     graph: Graph = field(default_factory=Graph)
     trajectories: Mapping[str, Trajectory] = field(default_factory=dict)
+    functions: Mapping[str, Callable[..., float]] = field(default_factory=dict)
+    idle: bool = True

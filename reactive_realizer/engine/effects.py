@@ -113,6 +113,19 @@ class EndUnit:
     time: GlobalTime
 
 
+@dataclass(frozen=True, slots=True)
+class Warn:
+    """Something is wrong with a unit that plays on.
+
+    Attributes:
+        unit: which.
+        fault: what.
+    """
+
+    unit: PlanUnit
+    fault: Fault
+
+
 class ParameterUser(PlanUnit, ABC):
     """A unit that changes a parameter of another one."""
 
@@ -125,7 +138,7 @@ class ParameterUser(PlanUnit, ABC):
         """
 
 
-Request = ActivateBlock | InterruptBlock | BindParameter | SetParameter | EndUnit
+Request = ActivateBlock | InterruptBlock | BindParameter | SetParameter | EndUnit | Warn
 """What an engine asks the scheduler to do, in the same tick."""
 
 

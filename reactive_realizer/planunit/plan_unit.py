@@ -144,9 +144,10 @@ class PlanUnit:
         """When each of its points was, or is predicted to be; once it plays, none comes after its successor."""
         times: dict[str, Time] = {}
         following: Time = None
+        begun = self.begun
         for point in reversed(self.points):
             time = point.time
-            if self.begun and point.fired is None and time is not None and following is not None:
+            if begun and point.fired is None and time is not None and following is not None:
                 time = min(time, following)
             times[point.id] = time
             following = following if time is None else time

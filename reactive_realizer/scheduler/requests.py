@@ -10,6 +10,7 @@ from reactive_realizer.engine.effects import (
     InterruptBlock,
     Request,
     SetParameter,
+    Warn,
 )
 from reactive_realizer.errors import Fault, RealizerError, error
 from reactive_realizer.pegboard.pegboard import PegBoard
@@ -43,7 +44,9 @@ class Requests:
         for each in requests:
             if isinstance(each, SetParameter) and each.parameter.owner is each.unit:
                 each.parameter.set(each.value)
-        timed = [each for each in requests if not isinstance(each, SetParameter)]
+            elif isinstance(each, Warn):
+                self._reporter.warn_of(each.unit, each.fault)
+        timed = [each for each in requests if not isinstance(each, SetParameter | Warn)]
         for request in sorted(timed, key=lambda each: _time(each, now)):
             self._do(request, now)
         return bool(timed)

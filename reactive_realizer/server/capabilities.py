@@ -1,14 +1,13 @@
 """What a planner may ask of a scene."""
 
 import asyncio
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 from reactive_realizer.assembly.scene import Scene
-from reactive_realizer.binding.face_lexemes import read_face_lexemes
-from reactive_realizer.binding.gesture_binding import GestureBinding
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.elements import ELEMENTS, Element
+from reactive_realizer.engine.lexicon import words_of
 from reactive_realizer.planunit.parameter import Range
 
 
@@ -46,17 +45,10 @@ def _element(
 
 
 def _lexemes(scene: Scene) -> dict[str, list[str]]:
-    """By element; it reads files."""
-    files = {character.bindings["gesture"] for character in scene.specification.characters.values()}
-    specs = [spec for file in sorted(files) for spec in GestureBinding.read(scene.assets(file)).specs]
-    faces = read_face_lexemes(scene.assets("face/lexemes.json"))
-    lexemes = _by_element((spec.behavior, spec.constraints.get("lexeme")) for spec in specs)
-    return lexemes | {"faceLexeme": sorted(faces)}
-
-
-def _by_element(pairs: Iterable[tuple[str, str | None]]) -> dict[str, list[str]]:
+    """Those that play, by element; it reads files."""
     found: dict[str, set[str]] = {}
-    for element, word in pairs:
-        if word is not None:
-            found.setdefault(element, set()).add(word)
+    for character in scene.realizer.characters.values():
+        for word in words_of(character.engines):
+            if word.lexeme and word.problem is None:
+                found.setdefault(word.element, set()).add(word.lexeme)
     return {element: sorted(words) for element, words in sorted(found.items())}

@@ -22,6 +22,7 @@ from reactive_realizer.engine.effects import (
     Play,
     Request,
     SetParameter,
+    Warn,
 )
 from reactive_realizer.engine.engine import Engine
 from reactive_realizer.limits import Limits
@@ -238,11 +239,11 @@ class EngineStand:
                 case EndUnit(unit=unit, time=time):
                     unit.interrupt(time)
                     self.engine.remove(unit)
-                case ActivateBlock() | InterruptBlock():
-                    pass  # there are no blocks
+                case ActivateBlock() | InterruptBlock() | Warn():
+                    pass  # there are no blocks, and nobody to be warned
         for dropped in play.dropped:
             self.engine.remove(dropped.unit)
-        asks = any(not isinstance(each, SetParameter) for each in play.requests)
+        asks = any(not isinstance(each, SetParameter | Warn) for each in play.requests)
         return bool(play.reached or play.dropped or asks)
 
     def _note(self, commit: Commit) -> None:

@@ -4,6 +4,7 @@ from functools import cache
 from pathlib import Path
 
 from reactive_realizer.assembly.assets import Assets
+from reactive_realizer.assembly.binding_files import binding_files
 from reactive_realizer.assembly.human_file import CharacterSpec
 from reactive_realizer.assembly.registry import load, names
 from reactive_realizer.embodiment.avatar import Avatar
@@ -28,7 +29,7 @@ def lone_context(tts: TTSBinding | None = None, *assets: Path) -> EngineContext:
     world = World({"viewer": (0.0, 1.6, 2.5)})
     world.add_character(CHARACTER, humanoid.locate)
     trajectories = {name: load("trajectories", name) for name in names("trajectories")}
-    voice, bindings = tts or TextVoice(), dict(spec.bindings)
+    voice, bindings = tts or TextVoice(), binding_files(spec.bindings, found)
     return EngineContext(CHARACTER, humanoid, world, found, 0, voice, None, bindings, trajectories=trajectories)
 
 

@@ -149,8 +149,34 @@ def test_leading_folders_of_a_name_are_left_out_one_by_one(folders) -> None:
     assert Assets(folders)("Humanoids/shared/sub/both.xml") == folders[0] / "sub" / "both.xml"
 
 
+def test_a_name_may_be_looked_for_in_all_folders_of_one_root_after_the_other(folders) -> None:
+    one, two = folders
+    assets = Assets(folders)
+    assert assets("**/both.xml") == one / "sub" / "both.xml"
+    assert assets("**/only-two.xml") == two / "only-two.xml"
+    (two / "deep" / "er").mkdir(parents=True)
+    (two / "deep" / "er" / "lone*.xml").write_text("")
+    assert assets("**/er/lone*.xml") == two / "deep" / "er" / "lone*.xml"
+    with pytest.raises(RealizerError, match=r"no file 'l\*\.xml' among the assets"):
+        assets("**/l*.xml")
+
+
+def test_a_name_that_several_files_of_one_root_bear_is_refused_with_all_of_them(folders) -> None:
+    (folders[0] / "both.xml").write_text("")
+    with pytest.raises(RealizerError, match=r"'both\.xml' is the name of several files .*: both\.xml, sub/both\.xml"):
+        Assets(folders)("**/both.xml")
+
+
+def test_a_link_that_leads_out_of_its_folder_is_not_found_in_any(folders, tmp_path) -> None:
+    (tmp_path / "secret.xml").write_text("")
+    (folders[0] / "link.xml").symlink_to(tmp_path / "secret.xml")
+    with pytest.raises(RealizerError, match=r"no file 'link\.xml'"):
+        Assets(folders)("**/link.xml")
+
+
 @pytest.mark.parametrize(
-    "name", ["../one/only-one.xml", "sub/../only-one.xml", "/etc/passwd", "..", "sub\\both.xml", "", "."]
+    "name",
+    ["../one/only-one.xml", "**/../only-one.xml", "sub/../only-one.xml", "/etc/passwd", "..", "sub\\both.xml", "", "."],
 )
 def test_a_name_that_leaves_the_folders_is_refused(folders, name) -> None:
     with pytest.raises(RealizerError) as refused:
@@ -168,7 +194,7 @@ def test_a_link_that_leads_out_of_its_folder_is_no_file_of_it(folders, tmp_path)
         assets("link.xml")
 
 
-@pytest.mark.parametrize("name", ["nothing.xml", "sub", "x" * 1000, "a\0b"])
+@pytest.mark.parametrize("name", ["nothing.xml", "sub", "x" * 1000, "a\0b", "**", "**/sub", "**/a\0b", "**/**"])
 def test_a_name_that_nothing_has_is_answered(folders, name) -> None:
     with pytest.raises(RealizerError):
         Assets(folders)(name)

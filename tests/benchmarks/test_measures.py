@@ -10,6 +10,7 @@ ROOT = Path(__file__).parents[2]
 
 SIZES = ("10", "1000", "100000")
 SMALLEST = {
+    "animation": {"most": 1},
     "latency": {"runs": 2},
     "propagation": {"largest": 1000},
     "punctuality": {"seconds": 0.5},
@@ -17,6 +18,7 @@ SMALLEST = {
     "session": {"blocks": 4},
 }
 KEYS = {
+    "animation": {*(f"us_per_character_frame.{n}" for n in ("1", "10", "50", "100")), "characters_at_50fps"},
     "latency": {"tick_ms", *(f"{what}_ms.{part}" for what in ("predict", "activate") for part in ("p50", "p99"))},
     "propagation": {
         *(f"{whose}_ns.{shape}.{n}" for whose in ("cell", "reactivex") for shape in ("fanout", "chain") for n in SIZES),

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from reactive_realizer.binding.class_names import CLASS_NAMES
 from reactive_realizer.binding.gesture_binding import GestureBinding, numbers
 from reactive_realizer.bml.names import BML, BMLT
 from reactive_realizer.errors import RealizerError
@@ -46,39 +47,118 @@ def read(tmp_path):
     return read_text
 
 
-def test_every_entry_that_fits_is_given_in_the_order_of_the_file(read):
-    attributes = {"lexeme": "BEAT", "mode": "LEFT_HAND", "{urn:x}mood": "glad"}
-    assert [spec.file for spec in read(TWO).match("gesture", BML, attributes)] == ["beat.xml", "other.xml"]
+def files_of(binding: GestureBinding, **attributes: str) -> list[str | None]:
+    """The files of the entries that fit a gesture."""
+    return [spec.file for spec in binding.match("gesture", BML, attributes)]
 
 
-@pytest.mark.parametrize("attributes", [{"lexeme": "BEAT"}, {"lexeme": "BEAT", "mode": "LEFT_HAND", "mood": "glad"}])
-def test_an_entry_fits_only_if_every_constraint_is_met(read, attributes):
-    assert [spec.file for spec in read(TWO).match("gesture", BML, attributes)] == ["other.xml"]
+@pytest.fixture
+def hands(read) -> GestureBinding:
+    """One gesture, by three entries: for any hands, for the left one, for the right one."""
+    entry = """<MotionUnitSpec type="gesture">
+      <constraints><constraint name="lexeme" value="X"/>{mode}</constraints>
+      <MotionUnit type="Gesture" file="{file}.xml"/></MotionUnitSpec>"""
+    mode = '<constraint name="mode" value="{}_HAND"/>'
+    entries = {"any": "", "left": mode.format("LEFT"), "right": mode.format("RIGHT")}
+    content = "".join(entry.format(file=file, mode=constraint) for file, constraint in entries.items())
+    return read(f"<gesturebinding>{content}</gesturebinding>")
+
+
+def test_an_entry_fits_only_if_every_constraint_is_met(read):
+    binding = read(TWO)
+    assert files_of(binding, lexeme="BEAT", mode="LEFT_HAND", **{"{urn:x}mood": "glad"}) == ["beat.xml"]
+    assert files_of(binding, lexeme="BEAT", mode="LEFT_HAND", mood="glad") == ["other.xml"]
+    assert files_of(binding, lexeme="OTHER") == []
+
+
+def test_without_a_mode_entries_for_certain_hands_come_after_those_that_want_none(hands):
+    assert files_of(hands, lexeme="X") == ["any.xml", "left.xml", "right.xml"]
+
+
+def test_with_a_mode_no_entry_for_any_hands_comes_second(hands):
+    assert files_of(hands, lexeme="X", mode="LEFT_HAND") == ["any.xml", "left.xml"]
+    assert files_of(GestureBinding(hands.specs[::-1], {}), lexeme="X", mode="LEFT_HAND") == ["left.xml"]
 
 
 def test_words_compare_in_any_case_and_with_either_hyphen(read):
-    (spec, _) = read(TWO).match("gesture", BML, {"lexeme": "beat", "mode": "Left-Hand", "{urn:x}mood": "GLAD"})
+    (spec,) = read(TWO).match("gesture", BML, {"lexeme": "beat", "mode": "Left-Hand", "{urn:x}mood": "GLAD"})
     assert spec.file == "beat.xml"
+
+
+def test_what_bml_calls_by_two_names_is_one_word(read):
+    binding = read(
+        """<gesturebinding><MotionUnitSpec type="gaze">
+          <constraints><constraint name="influence" value="neck"/></constraints>
+          <MotionUnit type="class" class="gaze"/></MotionUnitSpec></gesturebinding>"""
+    )
+    assert binding.match("gaze", BML, {"influence": "HEAD"})
+    assert not binding.match("gaze", BML, {"influence": "EYES"})
+
+
+def test_of_several_files_the_entries_of_the_first_come_first(tmp_path):
+    for name in ("user", "package"):
+        entry = f'<MotionUnitSpec type="gesture"><MotionUnit type="Gesture" file="{name}.xml"/></MotionUnitSpec>'
+        (tmp_path / f"{name}_binding.xml").write_text(f"<gesturebinding>{entry}</gesturebinding>")
+    binding = GestureBinding.read(tmp_path / "user_binding.xml", tmp_path / "package_binding.xml")
+    assert files_of(binding, lexeme="X") == ["user.xml", "package.xml"]
 
 
 def test_an_entry_is_for_one_element_of_one_namespace(read):
     binding = read(TWO)
-    assert [spec.implementation for spec in binding.match("noise", BMLT, {})] == ["Perlin"]
+    assert [spec.unit for spec in binding.match("noise", BMLT, {})] == ["Perlin"]
     assert binding.match("noise", BML, {}) == ()
     assert binding.match("head", BML, {"lexeme": "BEAT"}) == ()
 
 
 def test_parameters_are_what_the_behavior_says_or_else_the_defaults(read):
-    (spec, _) = read(TWO).match("gesture", BML, {"lexeme": "BEAT", "mode": "LEFT_HAND", "{urn:x}mood": "glad"})
+    spec = read(TWO).specs[0]
     assert spec.parameters({"lexeme": "BEAT"}) == {"a": "0.3", "hold": "long"}
     assert spec.parameters({"amount": "0.9"}) == {"a": "0.9", "hold": "long"}
     assert numbers({"a": "0.9", "hold": "long", "b": "nan", "c": "1e999"}) == {"a": 0.9}
 
 
-def test_rest_poses_are_left_out_and_noted(read, caplog):
-    with caplog.at_level("INFO"):
-        assert read("<gesturebinding><RestPoseSpec/></gesturebinding>").specs == ()
-    assert "<RestPoseSpec> is not realized" in caplog.text
+def test_a_behavior_may_name_a_parameter_of_the_unit_which_no_map_knows(read):
+    spec = read(TWO).specs[0]
+    assert spec.parameters({}, {"hold": "short", "b": "1"}) == {"a": "0.3", "hold": "short", "b": "1"}
+    assert spec.parameters({"amount": "0.9"}, {"a": "0.1"})["a"] == "0.9"
+
+
+@pytest.mark.parametrize(("name", "unit"), CLASS_NAMES.items())
+def test_a_class_of_a_published_binding_is_a_unit_here(read, name, unit):
+    assert (
+        read(
+            f"""<gesturebinding><MotionUnitSpec type="gaze">
+          <MotionUnit type="class" class="{name}"/></MotionUnitSpec></gesturebinding>"""
+        )
+        .specs[0]
+        .unit
+        == unit
+    )
+
+
+def test_a_stance_has_its_rest_pose_from_the_first_entry_that_names_one(read):
+    pose = """<RestPoseSpec><constraints><constraint name="stance" value="{stance}"/></constraints>
+      <RestPose type="SkeletonPose" file="{file}"/></RestPoseSpec>"""
+    poses = [pose.format(stance="sitting", file="a.xml"), pose.format(stance="SITTING", file="b.xml")]
+    binding = read(f"<gesturebinding>{''.join(poses)}{pose.format(stance='LYING', file='c.xml')}</gesturebinding>")
+    assert binding.rest_poses == {"SITTING": "a.xml", "LYING": "c.xml"}
+
+
+def test_a_rest_pose_without_a_file_is_left_out_and_noted(read, caplog):
+    assert read('<gesturebinding><RestPoseSpec><RestPose type="X"/></RestPoseSpec></gesturebinding>').rest_poses == {}
+    assert "RestPoseSpec without a stance or a file" in caplog.text
+
+
+def test_a_rest_gaze_is_what_plays_a_gaze_shift(read):
+    binding = read(
+        """<gesturebinding><RestGazeSpec>
+          <parametermap><parameter src="target" dst="target"/></parametermap>
+          <RestGaze type="class" class="asap.animationengine.gaze.DynamicRestGaze"/>
+        </RestGazeSpec></gesturebinding>"""
+    )
+    (spec,) = binding.match("gazeShift", BML, {"target": "viewer"})
+    assert spec.unit == "rest-gaze"
+    assert spec.parameters({"target": "viewer"}) == {"target": "viewer"}
 
 
 @pytest.mark.parametrize(
@@ -102,6 +182,17 @@ def test_rest_poses_are_left_out_and_noted(read, caplog):
             '<MotionUnit type="x" file="y"/></MotionUnitSpec></gesturebinding>',
             r"line 2, <constraint>: the attribute value is missing",
         ),
+        (
+            '<gesturebinding>\n<MotionUnitSpec type="gesture"><constraints><constraint name="mode" value="FOOT"/>'
+            '</constraints><MotionUnit type="Gesture" file="y"/></MotionUnitSpec></gesturebinding>',
+            r"line 2, <MotionUnitSpec>: a constraint: known are LEFT_HAND, RIGHT_HAND, BOTH_HANDS",
+        ),
+        (
+            '<gesturebinding><MotionUnitSpec type="a b">'
+            '<MotionUnit type="x" file="y"/></MotionUnitSpec></gesturebinding>',
+            r"<MotionUnitSpec>: 'a b' of 'http://www.bml-initiative.org/bml/bml-1.0' is no name",
+        ),
+        ("<gesturebinding><RestGazeSpec/></gesturebinding>", r"<RestGazeSpec>: no RestGaze inside"),
     ],
 )
 def test_a_wrong_binding_is_refused_by_file_line_element_and_reason(read, content, message):
@@ -112,7 +203,8 @@ def test_a_wrong_binding_is_refused_by_file_line_element_and_reason(read, conten
 
 def test_the_binding_of_the_peer_is_read_and_finds_its_nod(shared_cases):
     binding = GestureBinding.read(shared_cases / "asap" / "gesturebinding" / "gesturebinding.xml")
-    assert len(binding.specs) == 78
+    assert len(binding.specs) == 79
+    assert binding.rest_poses.keys() == {"SITTING"}
     (spec,) = binding.match("head", BML, {"lexeme": "NOD", "repetition": "2", "amount": "0.8"})
     assert spec.file is not None
     assert spec.file.endswith("nod.xml")
@@ -122,13 +214,13 @@ def test_the_binding_of_the_peer_is_read_and_finds_its_nod(shared_cases):
 OURS = GestureBinding.read(ASSETS / "gesturebinding.xml")
 
 
-@pytest.mark.parametrize("lexeme", ["BEAT", "OFFER", "GREET", "WAVE", "CONDUCT", "SELF"])
+@pytest.mark.parametrize("lexeme", ["BEAT", "OFFER", "GREET", "WAVE", "CONDUCT", "SELF", "ONE", "REFUSE"])
 @pytest.mark.parametrize(("mode", "mirror"), [("RIGHT_HAND", None), ("LEFT_HAND", "true"), (None, None)])
 def test_our_binding_has_every_gesture_for_either_hand_and_the_right_one_by_default(lexeme, mode, mirror):
     attributes = {"lexeme": lexeme} | ({"mode": mode} if mode else {})
     spec = OURS.match("gesture", BML, attributes)[0]
     assert spec.file is not None
-    assert spec.file.endswith("_right.xml")
+    assert "both" not in spec.file
     assert spec.parameters(attributes).get("mirror") == mirror
 
 
@@ -139,7 +231,7 @@ def test_our_binding_has_beat_and_offer_for_both_hands(lexeme):
     )
 
 
-@pytest.mark.parametrize("lexeme", ["NOD", "SHAKE"])
+@pytest.mark.parametrize("lexeme", ["NOD", "SHAKE", "TILT", "TOSS", "WIGGLE"])
 def test_our_binding_maps_amount_and_repetition_of_head_movements(lexeme):
     attributes = {"lexeme": lexeme, "amount": "0.7", "repetition": "3"}
     (spec,) = OURS.match("head", BML, attributes)
@@ -150,3 +242,12 @@ def test_every_file_that_our_binding_names_is_there():
     files = [spec.file for spec in OURS.specs if spec.file is not None]
     assert files
     assert all((ASSETS / file).is_file() for file in files)
+
+
+def test_a_binding_of_100_megabytes_is_refused_before_it_is_read(tmp_path):
+    path = tmp_path / "binding.xml"
+    with path.open("wb") as file:
+        file.truncate(100_000_000)
+    with pytest.raises(RealizerError) as caught:
+        GestureBinding.read(path)
+    assert caught.value.fault.code == "asset-too-big"

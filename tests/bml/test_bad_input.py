@@ -102,9 +102,21 @@ DROPPED = {
         "b:x",
         "targetValue='loud' of <trajectory>: not a finite number",
     ),
-    '<bmlt:noise id="x" start="bml:end"/>': (
+    '<head id="x" lexeme="NOD"><bmlt:parameter name="a"/></head>': (
         "b:x",
-        "start='bml:end' of <noise>: of its own block a reference may name the start, of another one start, relax and "
+        "<parameter> needs the attribute 'value'",
+    ),
+    '<head id="x" lexeme="A"><bmlt:parameter name="a" value="1"/><bmlt:parameter name="a" value="2"/></head>': (
+        "b:x",
+        "a second <parameter name='a'> in <head>",
+    ),
+    '<bmlt:keyframe id="x"><SkeletonInterpolator/><SkeletonInterpolator/></bmlt:keyframe>': (
+        "b:x",
+        "a second <SkeletonInterpolator> in <keyframe>",
+    ),
+    '<bmlt:text id="x" start="bml:end"/>': (
+        "b:x",
+        "start='bml:end' of <text>: of its own block a reference may name the start, of another one start, relax and "
         "end",
     ),
     '<constraint id="x"><synchronize><sync ref="1"/></synchronize></constraint>': (
@@ -135,7 +147,10 @@ KEPT = {
     "known are id, duration, max-wait, start, end",
     '<head id="x" lexeme="NOD" repetition="2" stroke="1"/>': "unknown attribute stroke of <head>; "
     "known are id, lexeme, repetition, amount, start, ready, strokeStart, strokeEnd, relax, end",
-    '<wait id="x"><nap/></wait>': "unknown nap in <wait>; known are description",
+    '<wait id="x"><nap/></wait>': "unknown nap in <wait>; known are description, parameter",
+    '<wait id="x"><parameter name="a" value="1"/></wait>': (
+        "unknown parameter in <wait>; known are description, parameter"
+    ),
     '<wait id="x">zzz</wait>': "text 'zzz' stands where none is read",
     SAY.format("so <b>very</b> nice"): "unknown b in <text>; known are sync",
     '<wait id="x"><description type="t"/></wait>': "<description> needs the attribute 'priority'",

@@ -124,10 +124,9 @@ MISSING = {
         "b:h",
         "line 1, column {column}: no behavior 'nobody' for nobody:ready+1; there are nod, h",
     ),
-    '<head id="h" lexeme="NOD" start="nod:apex"/>': (
-        "b:h",
-        "line 1, column {column}: 'nod' has no sync point 'apex' for nod:apex; "
-        "it has start, ready, strokeStart, stroke, strokeEnd, relax, end",
+    '<wait id="w" start="w:apex"/>': (
+        "b:w",
+        "line 1, column {column}: 'w' has no sync point 'apex' for w:apex; it has start, end",
     ),
     '<head id="h" lexeme="NOD" start="b:nobody:end"/>': (
         "b:h",
@@ -155,3 +154,14 @@ def test_a_reference_to_nothing_names_itself_and_what_there_is(inside: str) -> N
     assert problem.fault.kind.warning is WarningType.IMPOSSIBLE_TO_SCHEDULE
     column = len(start) + (inside.index("<", 1) if inside.startswith("<constraint") else 0) + 1
     assert str(problem.fault) == sentence.format(column=column)
+
+
+@pytest.mark.parametrize(
+    "behavior",
+    ['<gesture id="g" lexeme="3-BEAT"/>', '<head id="g" lexeme="NOD"/>', '<bmlt:procanimation id="g" name="3-beat"/>'],
+)
+def test_what_plays_a_behavior_may_know_more_sync_points_than_bml(block: Block, behavior: str) -> None:
+    read = block(f'{behavior}<wait id="w" start="g:beat2"/>')
+    assert not check_references(read)
+    (problem,) = check_references(read, lambda each: ("start", "end"))
+    assert problem.fault.sentence == "'g' has no sync point 'beat2' for g:beat2; it has start, end"

@@ -140,9 +140,9 @@ def test_the_elements_of_continuous_interaction_are_none_of_the_core(read: Read)
 def test_elements_without_an_id_get_the_next_free_one(block: Block) -> None:
     behaviors = block(
         '<wait id="w" start="activate3:end"/><bmla:activate target="b1"/><bmla:activate id="activate2" target="b1"/>'
-        '<required><bmla:activate target="b1"/></required><bmlt:noise/>'
+        '<required><bmla:activate target="b1"/></required><bmlt:text/>'
     ).behaviors
-    assert [each.id for each in behaviors] == ["w", "activate1", "activate2", "activate3", "noise1"]
+    assert [each.id for each in behaviors] == ["w", "activate1", "activate2", "activate3", "text1"]
     assert isinstance(behaviors[1], Activate)
     assert isinstance(behaviors[4], ForeignBehavior)
     assert str(behaviors[0].syncs["start"]) == "activate3:end"

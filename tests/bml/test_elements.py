@@ -23,6 +23,7 @@ from reactive_realizer.bml.elements import ELEMENTS, Element
 from reactive_realizer.bml.face import Face, FaceFacs, FaceLexeme, FaceShift
 from reactive_realizer.bml.names import BML, BML_EXT, BMLA, BMLT, Location
 from reactive_realizer.bml.posture import Pose, Posture, PostureShift
+from reactive_realizer.bml.twente import Keyframe, Noise, ProcAnimation, ProcAnimationGesture, Transition
 from reactive_realizer.bml.words import Influence, InterruptSpeech, Mode, OffsetDirection, PosePart, Side, StanceType
 
 Block = Callable[[str], BehaviorBlock]
@@ -34,7 +35,7 @@ SHIFT = ("start", "end")
 PARTS = '<faceLexeme lexeme="OPEN_MOUTH" amount="1"/><ext:faceFacs au="12" side="LEFT"/>'
 STANCE = '<stance type="SITTING"/><pose part="ARMS" lexeme="ARMS_OPEN"/><pose part="LEGS" lexeme="LEGS_CROSSED"/>'
 CHANGE = '<bmla:trajectory type="linear" initialValue="-0.5" targetValue="90"/>'
-PREFIXES = {BML: "", BML_EXT: "ext:", BMLA: "bmla:"}
+PREFIXES = {BML: "", BML_EXT: "ext:", BMLA: "bmla:", BMLT: "bmlt:"}
 
 WRITTEN: dict[str, tuple[type[Behavior], dict[str, object], tuple[str, ...]]] = {
     '<speech id="x"><text>Hi</text></speech>': (Speech, {"text": "Hi", "marks": ()}, SHIFT),
@@ -134,6 +135,20 @@ WRITTEN: dict[str, tuple[type[Behavior], dict[str, object], tuple[str, ...]]] = 
         },
         ("start", "stroke", "end"),
     ),
+    '<bmlt:procanimation id="x"/>': (ProcAnimation, {"animation": None, "file_name": None, "mode": None}, SHIFT),
+    '<bmlt:procanimation id="x" name="row" fileName="sports/row.xml" mode="BOTH_HANDS"/>': (
+        ProcAnimation,
+        {"animation": "row", "file_name": "sports/row.xml", "mode": Mode.BOTH_HANDS},
+        SHIFT,
+    ),
+    '<bmlt:procanimationgesture id="x" fileName="sports/row.xml"/>': (
+        ProcAnimationGesture,
+        {"animation": None, "file_name": "sports/row.xml"},
+        STROKE,
+    ),
+    '<bmlt:keyframe id="x" name="walk"/>': (Keyframe, {"animation": "walk", "interpolator": None}, SHIFT),
+    '<bmlt:noise id="x" type="perlin" joint="vl5"/>': (Noise, {"type": "perlin", "joint": "vl5"}, SHIFT),
+    '<bmlt:transition id="x" class="SlerpTransition"/>': (Transition, {"kind": "SlerpTransition"}, SHIFT),
 }
 
 
@@ -178,6 +193,7 @@ def test_every_default_sync_point_is_an_attribute_that_holds_a_reference(block: 
     inside = "".join(needed.get(child, "") for child in element.children)
     prefix = PREFIXES[element.namespace]
     values = {"lexeme": "NOD", "target": "box", "au": "1", "paramId": "volume"}
+    values |= {"type": "perlin", "joint": "vl5", "class": "SlerpTransition"}
     attributes = "".join(f' {each.name}="{values[each.name]}"' for each in element.attributes[1:] if each.required)
     ties = "".join(f' {point}="other:h:start+{number}"' for number, point in enumerate(element.sync_points))
     xml = f'<{prefix}{element.name} id="x"{attributes}{ties}>{inside}</{prefix}{element.name}>'
@@ -269,15 +285,41 @@ def test_a_behavior_keeps_its_place_its_source_and_the_attributes_of_other_names
     assert two.source.endswith('id="h" lexeme="NOD" bmla:mood="calm"/>')
 
 
+def test_a_keyframe_animation_keeps_the_keys_that_stand_in_it(block: Block) -> None:
+    keys = '<SkeletonInterpolator xmlns="" parts="skullbase">0 1 0 0 0</SkeletonInterpolator>'
+    (keyframe,) = block(f'<bmlt:keyframe id="k">{keys}</bmlt:keyframe>').behaviors
+    assert isinstance(keyframe, Keyframe)
+    assert keyframe.interpolator is not None
+    assert keyframe.interpolator.endswith(">0 1 0 0 0</SkeletonInterpolator>")
+
+
+@pytest.mark.parametrize(
+    "xml",
+    [
+        '<head id="x" lexeme="NOD">{}</head>',
+        '<speech id="x"><text>Hi</text>{}</speech>',
+        '<bmlt:noise id="x" type="perlin" joint="vl5">{}</bmlt:noise>',
+    ],
+)
+def test_any_behavior_may_hold_parameters_for_what_plays_it(block: Block, xml: str) -> None:
+    parameters = '<bmlt:parameter name="a" value="0.5"/><bmlt:parameter name="joints" value="vl5 vt6"/>'
+    assert block(xml.format(parameters)).behaviors[0].parameters == {"a": "0.5", "joints": "vl5 vt6"}
+    assert block(xml.format("")).behaviors[0].parameters == {}
+
+
+def test_the_elements_of_bmlt_are_none_of_bmlas(block: Block) -> None:
+    assert isinstance(block('<bmla:noise id="n" type="perlin" joint="vl5"/>').behaviors[0], ForeignBehavior)
+
+
 def test_a_behavior_of_another_namespace_is_kept_for_who_knows_it(block: Block) -> None:
-    (noise,) = block(
-        '<bmlt:noise id="n" joint="vl5" start="s1:start" end="4" bmla:x="1"><bmlt:parameter/>text</bmlt:noise>'
+    (motor,) = block(
+        '<bmlt:motor id="n" joint="vl5" start="s1:start" end="4" bmla:x="1"><bmlt:parameter/>text</bmlt:motor>'
     ).behaviors
-    assert isinstance(noise, ForeignBehavior)
-    assert (noise.namespace, noise.name, noise.id) == (BMLT, "noise", "n")
-    assert noise.attributes == {"joint": "vl5"}
-    assert {name: str(ref) for name, ref in noise.syncs.items()} == {"start": "s1:start", "end": "4"}
-    assert noise.sync_points == ("start", "end")
-    assert noise.extensions == {(BMLA, "x"): "1"}
-    assert noise.children.startswith("<bmlt:parameter")
-    assert noise.children.endswith("/>text")
+    assert isinstance(motor, ForeignBehavior)
+    assert (motor.namespace, motor.name, motor.id) == (BMLT, "motor", "n")
+    assert motor.attributes == {"joint": "vl5"}
+    assert {name: str(ref) for name, ref in motor.syncs.items()} == {"start": "s1:start", "end": "4"}
+    assert motor.sync_points == ("start", "end")
+    assert motor.extensions == {(BMLA, "x"): "1"}
+    assert motor.children.startswith("<bmlt:parameter")
+    assert motor.children.endswith("/>text")

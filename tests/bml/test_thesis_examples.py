@@ -14,12 +14,11 @@ import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.bml.behavior import Behavior, ForeignBehavior
-from reactive_realizer.bml.behaviors import Locomotion, Pointing
+from reactive_realizer.bml.behaviors import Locomotion
 from reactive_realizer.bml.block import Parsed
 from reactive_realizer.bml.document import parse
 from reactive_realizer.bml.face import FaceFacs
 from reactive_realizer.bml.names import BMLT
-from reactive_realizer.bml.posture import Posture
 from reactive_realizer.bml.references import check_references
 from reactive_realizer.limits import Limits
 from reactive_realizer.testing.pilot import open_pilot
@@ -131,7 +130,7 @@ EXAMPLES: dict[int, tuple[Part, ...]] = {
     ),
     5: (Part(4154, 4167, "Speech", (block(),), FRAGMENT),),
     6: (Part(4172, 4196, "Speech", (block(),), FRAGMENT),),
-    7: (Part(4395, 4404, "ForeignBehavior Synchronize Synchronize", (DOTS, block()), UNBOUND),),
+    7: (Part(4395, 4404, "ProcAnimation Synchronize Synchronize", (DOTS, block()), UNBOUND),),
     8: (Part(4472, 4476, "Speech", (slip("stop+x", "stop+0.5"),), ("bad-attribute", 2)),),
     9: (Part(4541, 4546, "ParameterValueChange", (declare_bmlt,), UNBOUND),),
     10: (
@@ -219,7 +218,7 @@ EXAMPLES: dict[int, tuple[Part, ...]] = {
         Part(5827, 5832, "Head Gesture Gesture", (GESTURE,), ("malformed-xml", 6)),
     ),
     30: (Part(6032, 6042, "Speech Pointing Head Locomotion", (SYNC,), ("malformed-xml", 5), still="unknown-sync"),),
-    31: (Part(6902, 6913, "Gesture Synchronize Synchronize", still="unknown-sync"),),
+    31: (Part(6902, 6913, "Gesture Synchronize Synchronize"),),
     32: (Part(8907, 8910, "Speech Gesture", (SYNC, slip("type=..", 'type="BEAT"')), ("malformed-xml", 2)),),
     33: (Part(8921, 8923, "", (DOTS,), ("stray-text", 1)),),
     34: (Part(8928, 8937, "Order", (DOTS,), ("stray-text", 1)),),
@@ -233,18 +232,18 @@ EXAMPLES: dict[int, tuple[Part, ...]] = {
             still="unknown-attribute",
         ),
     ),
-    36: (Part(9309, 9312, "ForeignBehavior", (block(),), UNBOUND),),
+    36: (Part(9309, 9312, "Keyframe", (block(),), UNBOUND),),
     37: (Part(9335, 9335, "ForeignBehavior", (block(),), UNBOUND),),
     38: (Part(9359, 9362, "ForeignBehavior", (block(),), UNBOUND),),
-    39: (Part(9382, 9384, "ForeignBehavior", (block(),), UNBOUND),),
-    40: (Part(9404, 9408, "ForeignBehavior ForeignBehavior", (block(),), UNBOUND),),
-    41: (Part(9432, 9435, "ForeignBehavior", (block(),), UNBOUND),),
+    39: (Part(9382, 9384, "ProcAnimation", (block(),), UNBOUND),),
+    40: (Part(9404, 9408, "Transition ProcAnimation", (block(),), UNBOUND),),
+    41: (Part(9432, 9435, "Noise", (block(),), UNBOUND),),
     42: (Part(9467, 9468, "ForeignBehavior", (slip("<facemorph", "<bmlt:facemorph"), block()), FRAGMENT),),
     43: (Part(9511, 9512, "Head Interrupt", (block(SHAKE),), UNBOUND),),
     44: (Part(9536, 9539, "ParameterValueChange", (block(),), UNBOUND),),
     45: (Part(9582, 9584, "", (DOTS, declare_bmlt), UNBOUND),),
     46: (Part(9605, 9605, "Activate", (block(),), UNBOUND),),
-    47: (Part(9616, 9627, "ForeignBehavior Synchronize Synchronize Synchronize", (block(),), UNBOUND),),
+    47: (Part(9616, 9627, "ProcAnimation Synchronize Synchronize Synchronize", (block(),), UNBOUND),),
     48: (Part(9636, 9638, "ForeignBehavior"),),
     49: (
         Part(
@@ -280,8 +279,6 @@ LATER: dict[type[Behavior], str] = {
     ForeignBehavior: "CUSTOM_BEHAVIOUR_NOT_SUPPORTED",
     FaceFacs: "BEHAVIOR_TYPE_NOT_SUPPORTED",
     Locomotion: "BEHAVIOR_TYPE_NOT_SUPPORTED",
-    Pointing: "BEHAVIOR_TYPE_NOT_SUPPORTED",
-    Posture: "BEHAVIOR_TYPE_NOT_SUPPORTED",
 }
 """What is read and not yet realized, and its warning."""
 

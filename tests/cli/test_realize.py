@@ -253,6 +253,14 @@ def test_a_reference_to_a_block_that_comes_later_is_a_problem_also_in_a_constrai
 BMLT = 'xmlns:x="http://hmi.ewi.utwente.nl/bmlt"'
 
 
+def test_a_sync_point_that_what_plays_a_behavior_does_not_know_is_a_problem(bml, capsys) -> None:
+    nod = '<head id="h" lexeme="NOD"/><wait id="w" start="h:{}"/>'
+    assert check(capsys, bml(block("b", nod.format("strokeStart")))) == (0, [])
+    status, (line,) = check(capsys, bml(block("b", nod.format("apex"))))
+    assert status == 1
+    assert "'h' has no sync point 'apex' for h:apex; it has start, ready" in line
+
+
 def test_blocks_that_are_activated_and_interrupted_are_no_targets_of_the_world(bml, capsys) -> None:
     inside = f'<x:activate {BMLT} id="a" target="later"/><x:interrupt {BMLT} id="i" target="later"/>'
     assert check(capsys, bml(block("b", inside))) == (0, [])

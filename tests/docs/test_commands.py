@@ -9,7 +9,7 @@ import pytest
 
 from reactive_realizer.__main__ import main
 
-from .conftest import EXAMPLES, REPOSITORY, Fence, fences
+from .conftest import EXAMPLES, REPOSITORY, Fence, fences, page
 
 PAGES = ["README.md", *(f"docs/{path.name}" for path in sorted((REPOSITORY / "docs").glob("*.md")))]
 SESSIONS = [fence for name in PAGES for fence in fences(name, "console")]
@@ -66,7 +66,15 @@ def test_the_frames_of_the_page_are_read_as_it_says(capsys: pytest.CaptureFixtur
     assert re.fullmatch(r"\(\d+, 4\)\n", capsys.readouterr().out)
 
 
-@pytest.mark.parametrize("command", ["realize", "check", "serve", "demo", "conformance"])
+def test_the_lexicon_has_the_lines_that_are_shown(capsys: pytest.CaptureFixture[str]) -> None:
+    section = page("docs/cli.md").partition("## lexicon")[2].partition("\n## ")[0]
+    shown = re.findall(r"^ {4}(RAISE_HAND.*)$", section, re.MULTILINE)
+    assert run(["lexicon", "--assets", str(EXAMPLES / "gesture")]) == 0
+    printed = [line.strip() for line in capsys.readouterr().out.splitlines()]
+    assert [line for line in printed if line.startswith("RAISE_HAND")] == shown
+
+
+@pytest.mark.parametrize("command", ["realize", "check", "lexicon", "serve", "demo", "conformance"])
 def test_the_page_names_every_option(command: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert run([command, "--help"]) == 0
     options = set(re.findall(r"--[a-z-]+", capsys.readouterr().out)) - {"--help"}

@@ -1,5 +1,7 @@
 """docs/gesture.md: the gesture of its example is played, and the page shows the files as they are."""
 
+import os
+import re
 import shutil
 from pathlib import Path
 from xml.etree.ElementTree import canonicalize
@@ -10,7 +12,8 @@ from lxml import etree
 
 from reactive_realizer.assembly.scene import DEFAULT_HUMAN, SceneOptions
 from reactive_realizer.embodiment.body import Body
-from reactive_realizer.engines.animation.expression.functions import FUNCTIONS
+from reactive_realizer.engines.animation.procedural.proc_animation_reader import read_proc_animation
+from reactive_realizer.errors import RealizerError
 from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 from .conftest import EXAMPLES, fences, page
@@ -53,6 +56,31 @@ async def test_the_hand_goes_up_stays_there_and_comes_down_again(mode: str, rais
     assert above_shoulder(pilot, other).max() < -0.4
 
 
+async def test_the_left_hand_is_raised_while_the_right_one_is_busy() -> None:
+    beat = '<gesture id="busy" lexeme="BEAT" mode="RIGHT_HAND" start="0" end="9"/>'
+    pilot = await play(QUESTION.replace('<gesture id="me"', f'{beat}<gesture id="me"').replace("words:start", "2"))
+    assert pilot.feedback.warnings == []
+    assert above_shoulder(pilot, "l").max() > 0.15
+    assert above_shoulder(pilot, "r").max() < 0
+
+
+async def test_a_file_that_is_saved_while_it_runs_is_read_anew(tmp_path: Path) -> None:
+    own = tmp_path / "own"
+    shutil.copytree(GESTURE, own)
+    animation = own / "procanimation" / "raise_hand.xml"
+    async with open_pilot(SceneOptions(DEFAULT_HUMAN, "text", (own,))) as pilot:
+        pilot.watch()
+        pilot.perform(QUESTION)
+        await pilot.advance(4)
+        highest = above_shoulder(pilot, "r").max()
+        animation.write_text(animation.read_text("utf-8").replace("0.06, up)", "0.06, up - 0.1)"), "utf-8")
+        os.utime(animation, ns=(0, 0))
+        pilot.frames.clear()
+        pilot.perform(QUESTION)
+        await pilot.advance(4)
+        assert highest - above_shoulder(pilot, "r").max() == pytest.approx(0.1, abs=0.02)
+
+
 async def test_the_parameter_says_how_high(tmp_path: Path) -> None:
     lower = tmp_path / "lower"
     shutil.copytree(GESTURE, lower)
@@ -73,6 +101,11 @@ def test_the_page_shows_the_files_of_the_example() -> None:
     assert said(binding[0]) == said(etree.parse(GESTURE / "gesturebinding.xml").find("MotionUnitSpec"))
 
 
-def test_the_page_names_every_function() -> None:
-    text = page("docs/gesture.md")
-    assert [name for name in FUNCTIONS if name not in text] == []
+def test_the_page_has_a_row_for_every_element_of_an_animation(tmp_path: Path) -> None:
+    file = tmp_path / "x.xml"
+    file.write_text('<ProcAnimation prefDuration="1"><Nothing/></ProcAnimation>', encoding="utf-8")
+    with pytest.raises(RealizerError) as refused:
+        read_proc_animation(file)
+    known = refused.value.fault.sentence.rpartition("known are ")[2].split(", ")
+    rows = re.findall(r"^\| `(\w+)` \|", page("docs/gesture.md"), re.MULTILINE)
+    assert set(rows) == {"ProcAnimation", *known}

@@ -4,6 +4,7 @@ import re
 from dataclasses import fields
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from reactive_realizer.assembly.human_file import CharacterSpec, read_human_file
@@ -27,6 +28,32 @@ async def test_both_characters_play_and_one_waits_for_the_words_of_the_other() -
         assert told.time("answer:words:start") == pytest.approx(told.time("ask:words:end") + 0.3)
         for frames in (pilot.frames["alice"], pilot.frames["bert"]):
             assert max(abs(frame.rotations - frames[0].rotations).max() for frame in frames) > 0.1
+
+
+async def test_a_file_of_the_user_is_a_new_pose(tmp_path: Path) -> None:
+    file = fences("docs/human.md", "xml")[1]
+    (tmp_path / "postures").mkdir()
+    (tmp_path / file.note).write_text(file.text, encoding="utf-8")
+    async with open_pilot(SceneOptions(voice="text", assets=(tmp_path,))) as pilot:
+        pilot.watch()
+        pilot.block("b", '<posture id="p" start="0" end="4"><pose part="HEAD" lexeme="HEAD_BOWED"/></posture>')
+        await pilot.advance(5)
+        assert pilot.feedback.warnings == []
+        joints = pilot.realizer.characters["alice"].humanoid.avatar.skeleton.joints
+        nods = np.array([frame.rotations[joints.index("skullbase")][1] for frame in pilot.frames["alice"]])
+        assert 2 * np.arcsin(nods.max()) == pytest.approx(0.3, abs=0.02)
+        assert abs(nods[-1]) < 0.01
+
+
+async def test_without_idle_life_nothing_moves(tmp_path: Path) -> None:
+    human = tmp_path / "human.toml"
+    human.write_text("[character.alice]\nidle = false\n", encoding="utf-8")
+    async with open_pilot(SceneOptions(human, "text")) as pilot:
+        pilot.watch()
+        await pilot.advance(20)
+        first, *others = pilot.frames["alice"]
+        assert all((frame.rotations == first.rotations).all() for frame in others)
+        assert all((frame.weights == first.weights).all() for frame in others)
 
 
 def test_the_page_shows_the_files_of_the_example() -> None:

@@ -93,5 +93,6 @@ def test_the_page_names_every_kind_of_plug_in() -> None:
     table = {
         line.split("`")[1] for line in (REPOSITORY / PAGE).read_text("utf-8").splitlines() if line.startswith("| [")
     }
-    project = (REPOSITORY / "pyproject.toml").read_text("utf-8")
-    assert table == {line.split('"')[1] for line in project.splitlines() if line.startswith("[project.entry-points.")}
+    projects = ((folder / "pyproject.toml").read_text("utf-8") for folder in (REPOSITORY, PLUGIN))
+    lines = [line for project in projects for line in project.splitlines()]
+    assert table == {line.split('"')[1] for line in lines if line.startswith("[project.entry-points.")}

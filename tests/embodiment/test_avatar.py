@@ -10,9 +10,11 @@ import numpy as np
 import pytest
 
 from reactive_realizer.embodiment.avatar import Avatar, Bone
+from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.frame import rotation_array
 from reactive_realizer.embodiment.quaternion import IDENTITY, from_axis_angle, multiply, rotate
 from reactive_realizer.embodiment.skeleton import Pose
+from reactive_realizer.embodiment.two_bone_ik import Arm
 from reactive_realizer.embodiment.vector import add, distance, subtract, unit
 from reactive_realizer.errors import RealizerError
 
@@ -73,7 +75,8 @@ def test_every_joint_is_where_its_bone_is_in_any_pose(avatar):
     }
     places = bone_places(avatar, turns)
     positions = sorted(place[0] for place in places.values())
-    joints = sorted(avatar.skeleton.place(turns, joint).position for joint in avatar.skeleton.joints)
+    body = Body(avatar.skeleton, turns)
+    joints = sorted(body.place(joint).position for joint in avatar.skeleton.joints)
     assert len(joints) == len(avatar.bones)
     assert np.allclose(positions, joints, atol=1e-9)
 
@@ -112,6 +115,21 @@ def test_a_bone_that_is_no_joint_keeps_its_rest_and_its_length_counts_for_the_jo
 def test_an_avatar_without_an_arm_is_refused_by_name():
     with pytest.raises(RealizerError, match=r"some\.glb .* no bone for r_wrist"):
         Avatar.of_bones(bones()[:-1], [], "some.glb")
+
+
+@pytest.mark.parametrize(("way", "said"), [((0.0, 0.0, 0.0), "0 m"), ((math.nan, 0.0, 0.0), "nan m")])
+def test_a_forearm_that_leads_nowhere_is_refused_by_name(way, said):
+    *others, hand = bones()
+    with pytest.raises(RealizerError, match=rf"some\.glb .* r_wrist is {said} from the joint above"):
+        Avatar.of_bones([*others, Bone(hand.name, hand.parent, way)], [], "some.glb")
+
+
+def test_other_bones_may_lie_on_those_above_them():
+    parts = [Bone(bone.name, bone.parent, (0.0, 0.0, 0.0)) if bone.name == "Spine" else bone for bone in bones()]
+    skeleton = Avatar.of_bones(parts, [], "some.glb").skeleton
+    body = Body(skeleton, {"vl5": from_axis_angle((0.0, 1.0, 0.0), 0.5)})
+    assert body.place("vl5").position == body.place("HumanoidRoot").position
+    Arm.of(skeleton, "l").solve((0.0, 0.0, 0.0))
 
 
 def glb(scene: dict | bytes) -> bytes:

@@ -4,9 +4,10 @@ import math
 
 import pytest
 
-from reactive_realizer.embodiment.pose import Layer, LayerKind, compose
+from reactive_realizer.embodiment.pose import Layer, LayerKind, checked, compose
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, from_axis_angle, multiply
 from reactive_realizer.embodiment.skeleton import Skeleton
+from reactive_realizer.errors import RealizerError
 
 SKELETON = Skeleton(
     ("HumanoidRoot", "vl5", "skullbase"), (-1, 0, 1), ((0.0, 1.0, 0.0), (0.0, 0.2, 0.0), (0.0, 0.3, 0.0))
@@ -67,3 +68,47 @@ def test_the_steady_pose_leaves_the_additive_layers_out():
 
 def test_joints_that_the_skeleton_lacks_are_left_out():
     assert "l_pinky1" not in compose(SKELETON, [Layer(LayerKind.GESTURE, {"l_pinky1": about_x(10)})]).pose
+
+
+def test_what_lies_above_the_additive_layers_is_neither_added_to_nor_left_out_of_the_steady_pose():
+    layers = [Layer(LayerKind.END_EFFECTOR, {"vl5": about_y(30)}), Layer(LayerKind.ADDITIVE, {"vl5": about_x(10)})]
+    composed = compose(SKELETON, layers)
+    assert composed.pose["vl5"] == composed.steady["vl5"] == about_y(30)
+
+
+def test_the_root_is_moved_by_weight_and_further_by_additive_layers():
+    layers = [
+        Layer(LayerKind.POSTURE, {}, weight=0.5, root=(0.0, -0.4, 0.0)),
+        Layer(LayerKind.ADDITIVE, {}, root=(0.02, 0.0, 0.0)),
+        Layer(LayerKind.GESTURE, {"vl5": about_x(10)}),
+    ]
+    composed = compose(SKELETON, layers)
+    assert composed.root == pytest.approx((0.02, -0.2, 0.0))
+    assert composed.steady_root == pytest.approx((0.0, -0.2, 0.0))
+
+
+@pytest.mark.parametrize(
+    ("layer", "said"),
+    [
+        (Layer(LayerKind.GESTURE, {"vl5": about_x(10), "skullbase": (math.nan, 0.0, 0.0, 0.0)}), "asks skullbase for"),
+        (Layer(LayerKind.GESTURE, {"skullbase": (0.0, 0.0, 0.0, 0.0)}), "asks skullbase for"),
+        (Layer(LayerKind.GESTURE, {"skullbase": (math.inf, 0.0, 0.0, 0.0)}), "asks skullbase for"),
+        (Layer(LayerKind.GESTURE, {}, weight=math.nan), "asks its weight for nan"),
+        (Layer(LayerKind.GESTURE, {}, root=(0.0, math.inf, 0.0)), "asks HumanoidRoot's place for"),
+    ],
+)
+def test_what_is_no_rotation_is_refused_with_the_name_of_the_joint(layer, said):
+    with pytest.raises(RealizerError, match=said):
+        checked(layer)
+
+
+def test_joints_may_weigh_less_than_their_layer():
+    half = Layer(LayerKind.GESTURE, {"vl5": about_x(40), "skullbase": about_x(40)}, 0.5, weights={"vl5": 0.5})
+    composed = compose(SKELETON, [half]).pose
+    assert composed["vl5"] == pytest.approx(about_x(10))
+    assert composed["skullbase"] == pytest.approx(about_x(20))
+
+
+def test_a_root_that_comes_goes_with_the_joint_of_its_name():
+    layer = Layer(LayerKind.GESTURE, {}, root=(0.0, 0.0, 1.0), weights={"HumanoidRoot": 0.25})
+    assert compose(SKELETON, [layer]).root == pytest.approx((0.0, 0.0, 0.25))

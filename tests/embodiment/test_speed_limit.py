@@ -9,87 +9,105 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from reactive_realizer.embodiment.avatar import Avatar
+from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.quaternion import IDENTITY, angle, conjugate, from_axis_angle, from_euler, multiply
-from reactive_realizer.embodiment.speed_limit import SpeedLimit
-from reactive_realizer.embodiment.vector import distance
+from reactive_realizer.embodiment.speed_limit import SpeedLimit, slowed
+from reactive_realizer.embodiment.vector import distance, length
 
 SKELETON = Avatar.read(Path(str(files("reactive_realizer"))) / "assets" / "avatars" / "male.glb").skeleton
 FRAME = 0.02
+WRISTS = ("l_wrist", "r_wrist")
 
 radians = st.floats(-3.0, 3.0)
 MOVING = ("vl5", "vt6", "l_sternoclavicular", "l_shoulder", "l_elbow", "r_shoulder", "r_elbow", "skullbase")
 pose = st.fixed_dictionaries({joint: st.builds(from_euler, radians, radians, radians) for joint in MOVING})
 
 
+def body(pose=None, root=(0.0, 0.0, 0.0)):
+    return Body(SKELETON, pose or {}, root)
+
+
+def followed(begin, *calls):
+    """The bodies shown, frame by frame, where a limit that begins with a body is given others for so many frames."""
+    limit, shown = SpeedLimit(begin), [begin]
+    for wanted, frames in calls:
+        shown += [limit(wanted, FRAME) for _ in range(frames)]
+    return shown
+
+
+def steps(shown, joint):
+    """By how much a joint moved from each frame to the next, m."""
+    return [distance(a.place(joint).position, b.place(joint).position) for a, b in pairwise(shown)]
+
+
 @settings(max_examples=50)
 @given(pose, pose)
-def test_no_wrist_moves_5_cm_in_20_ms_whatever_is_asked_for(shown, wanted):
-    limit = SpeedLimit(SKELETON)
-    for _ in range(6):
-        before, shown = shown, limit(shown, wanted, FRAME)
-        for wrist in ("l_wrist", "r_wrist"):
-            assert distance(SKELETON.place(before, wrist).position, SKELETON.place(shown, wrist).position) < 0.05
+def test_no_wrist_moves_5_cm_in_20_ms_whatever_is_asked_for(begin, wanted):
+    shown = followed(body(begin), (body(wanted), 6))
+    for wrist in WRISTS:
+        assert max(steps(shown, wrist)) < 0.05
 
 
 def test_a_small_step_passes_unchanged():
     wanted = {joint: from_axis_angle((1.0, 0.0, 0.0), 0.003) for joint in MOVING}
-    limited = SpeedLimit(SKELETON)({}, wanted, FRAME)
-    assert {joint: limited[joint] for joint in MOVING} == wanted
+    limited = SpeedLimit(body())(body(wanted), FRAME)
+    assert {joint: limited.rotation(joint) for joint in MOVING} == wanted
 
 
 def test_a_pose_far_away_is_reached_after_a_while_and_kept():
     wanted = {"l_shoulder": from_axis_angle((1.0, 0.0, 0.0), -2.5), "skullbase": from_axis_angle((0.0, 1.0, 0.0), 1.0)}
-    limit, shown = SpeedLimit(SKELETON), dict.fromkeys(SKELETON.joints, IDENTITY)
-    for _ in range(60):
-        shown = limit(shown, wanted, FRAME)
-    assert shown["l_shoulder"] == pytest.approx(wanted["l_shoulder"])
-    assert shown["skullbase"] == pytest.approx(wanted["skullbase"])
+    shown = followed(body(), (body(wanted), 60), (body(), 60))
+    for joint, goal in wanted.items():
+        assert shown[60].rotation(joint) == pytest.approx(goal)
+        assert shown[-1].rotation(joint) == pytest.approx(IDENTITY)
 
 
 def test_the_head_turns_no_faster_than_a_neck_can():
-    limited = SpeedLimit(SKELETON)({}, {"skullbase": from_axis_angle((0.0, 1.0, 0.0), 1.5)}, FRAME)
-    assert angle(multiply(conjugate(IDENTITY), limited["skullbase"])) == pytest.approx(8.0 * FRAME)
+    limited = SpeedLimit(body())(body({"skullbase": from_axis_angle((0.0, 1.0, 0.0), 1.5)}), FRAME)
+    assert angle(limited.rotation("skullbase")) == pytest.approx(8.0 * FRAME)
+
+
+def test_a_joint_that_turns_the_long_way_round_is_the_same_rotation_and_passes():
+    turned = from_axis_angle((1.0, 0.0, 0.0), 0.4)
+    w, x, y, z = from_axis_angle((1.0, 0.0, 0.0), 0.41)
+    assert slowed({"l_elbow": turned}, {"l_elbow": (-w, -x, -y, -z)}, FRAME) == {"l_elbow": (-w, -x, -y, -z)}
 
 
 @settings(max_examples=25)
 @given(st.lists(st.tuples(pose, st.integers(1, 4)), min_size=2, max_size=3))
 def test_a_wrist_never_goes_much_faster_than_before_however_often_it_is_called_elsewhere(calls):
-    limit, shown = SpeedLimit(SKELETON), dict.fromkeys(SKELETON.joints, IDENTITY)
-    steps = {"l_wrist": [0.0], "r_wrist": [0.0]}
-    for wanted, frames in calls:
-        for _ in range(frames):
-            before, shown = shown, limit(shown, wanted, FRAME)
-            for wrist, moved in steps.items():
-                moved.append(distance(SKELETON.place(before, wrist).position, SKELETON.place(shown, wrist).position))
-    for moved in steps.values():
+    shown = followed(body(), *((body(wanted), frames) for wanted, frames in calls))
+    for wrist in WRISTS:
+        moved = [0.0, *steps(shown, wrist)]
         assert max(after - before for before, after in pairwise(moved)) < 0.0151
 
 
 @settings(max_examples=10)
 @given(pose)
 def test_a_wrist_comes_to_where_it_is_wanted_and_never_goes_past(wanted):
-    limit, shown = SpeedLimit(SKELETON), dict.fromkeys(SKELETON.joints, IDENTITY)
-    shares = []
-    for _ in range(60):
-        shown = limit(shown, wanted, FRAME)
-        shares.append(angle(multiply(conjugate(shown["r_elbow"]), wanted["r_elbow"])))
+    shown = followed(body(), (body(wanted), 60))
+    shares = [angle(multiply(conjugate(each.rotation("r_elbow")), wanted["r_elbow"])) for each in shown]
     assert all(after < before + 1e-9 for before, after in pairwise(shares))
     assert shares[-1] < 1e-6
 
 
 def test_a_wrist_that_is_called_back_sets_out_anew():
-    limit, shown = SpeedLimit(SKELETON), dict.fromkeys(SKELETON.joints, IDENTITY)
     there = {"r_elbow": from_axis_angle((1.0, 0.0, 0.0), -2.0)}
-    places = [SKELETON.place(shown, "r_wrist").position]
-    for wanted in [there] * 5 + [{}] * 2:
-        shown = limit(shown, wanted, FRAME)
-        places.append(SKELETON.place(shown, "r_wrist").position)
-    steps = [distance(a, b) for a, b in pairwise(places)]
-    assert steps[0] < 0.0151
-    assert steps[4] > 0.04, "at full speed"
-    assert steps[5] < 0.0151, "and back slowly"
+    moved = steps(followed(body(), (body(there), 5), (body(), 2)), "r_wrist")
+    assert moved[0] < 0.0151
+    assert moved[4] > 0.04, "at full speed"
+    assert moved[5] < 0.0151, "and back slowly"
 
 
 def test_a_hand_turns_about_its_wrist_so_slowly_that_its_fingertips_move_less_than_3_cm():
-    limited = SpeedLimit(SKELETON)({}, {"r_wrist": from_axis_angle((1.0, 0.0, 0.0), 1.5)}, FRAME)
-    assert distance(SKELETON.place({}, "r_middle3").position, SKELETON.place(limited, "r_middle3").position) < 0.03
+    shown = followed(body(), (body({"r_wrist": from_axis_angle((1.0, 0.0, 0.0), 1.5)}), 1))
+    assert steps(shown, "r_middle3")[0] < 0.03
+
+
+def test_the_root_goes_no_faster_than_2_m_a_second_and_takes_the_arms_along():
+    shown = followed(body(), (body(root=(0.3, -0.4, 0.0)), 20))
+    places = [each.root for each in shown]
+    assert max(distance(a, b) for a, b in pairwise(places)) == pytest.approx(0.04)
+    assert length(places[5]) == pytest.approx(0.2)
+    assert places[-1] == (0.3, -0.4, 0.0)
+    assert steps(shown, "r_wrist")[0] == pytest.approx(0.04)

@@ -1,4 +1,4 @@
-"""Inverse kinematics of an arm."""
+"""Inverse kinematics of arms and legs."""
 
 import math
 from itertools import pairwise
@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from reactive_realizer.embodiment.quaternion import angle, multiply, rotate
-from reactive_realizer.embodiment.two_bone_ik import Arm
+from reactive_realizer.embodiment.two_bone_ik import Arm, Leg, Limb
 from reactive_realizer.embodiment.vector import add, cross, distance, dot, length, scale, subtract, unit
 
 STRAIGHT = Arm((0.0, -0.25, 0.0), (0.0, -0.23, 0.0))
@@ -21,7 +21,7 @@ swivel = st.floats(-3.0, 3.0)
 arms = st.sampled_from([STRAIGHT, CROOKED])
 
 
-def reached(arm: Arm, goal, swivel=0.0) -> tuple:
+def reached(arm: Limb, goal, swivel=0.0) -> tuple:
     """Where elbow and wrist come to be."""
     shoulder, elbow = arm.solve(goal, swivel)
     at = rotate(shoulder, arm.upper)
@@ -99,3 +99,40 @@ def test_a_goal_that_moves_a_millimeter_moves_the_arm_a_little(way, share, swive
     turn = angle(multiply((shoulder[0], *(-part for part in shoulder[1:])), shoulder_after))
     assert turn < math.radians(3.0)
     assert abs(angle(elbow) - angle(elbow_after)) < math.radians(3.0)
+
+
+THIGH_AND_SHANK = Leg((0.0, -0.43, 0.01), (0.0, -0.42, -0.02))
+below = direction.filter(lambda v: v[1] < 0.5)
+
+
+@settings(derandomize=True)
+@given(below, st.floats(0.3, 0.999), swivel)
+def test_the_ankle_comes_to_any_goal_in_reach_within_a_millimeter(way, share, swivel):
+    goal = scale(way, share * THIGH_AND_SHANK.reach)
+    _, ankle = reached(THIGH_AND_SHANK, goal, swivel)
+    assert distance(ankle, goal) < 0.001
+
+
+@settings(derandomize=True)
+@given(direction, st.floats(0.0, 3.0), swivel)
+def test_the_knee_never_bends_forward(way, far, swivel):
+    leg = Leg((0.0, -0.43, 0.0), (0.0, -0.42, 0.0))
+    w, x, y, z = leg.solve(scale(way, far), swivel)[1]
+    assert (y, z) == pytest.approx((0.0, 0.0), abs=1e-9)
+    assert -1e-9 <= 2.0 * math.atan2(x, w) <= math.radians(150.001)
+
+
+def test_without_swivel_the_knee_is_in_front_of_a_foot_below_and_above_one_in_front():
+    goal_below, goal_in_front = (0.0, -0.6, 0.0), (0.0, 0.0, 0.6)
+    assert reached(THIGH_AND_SHANK, goal_below)[0][2] > 0.2
+    assert reached(THIGH_AND_SHANK, goal_in_front)[0][1] > 0.2
+
+
+def test_positive_swivel_turns_the_knee_to_the_figures_left():
+    knee, _ = reached(THIGH_AND_SHANK, (0.0, -0.6, 0.0), 0.5)
+    assert knee[0] > 0.1
+
+
+def test_a_leg_that_stands_is_as_good_as_straight():
+    leg = Leg((0.0, -0.43, 0.0), (0.0, -0.42, 0.0))
+    assert distance(reached(leg, (0.0, -0.85, 0.0))[1], (0.0, -0.85, 0.0)) < 0.001

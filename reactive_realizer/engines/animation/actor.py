@@ -1,5 +1,6 @@
 """The figure that moves, and what it finds around it: what motions are made for."""
 
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -7,8 +8,13 @@ from pathlib import Path
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.embodiment.humanoid import Humanoid
 from reactive_realizer.embodiment.world import World
+from reactive_realizer.engines.animation.expression.functions import Function
 from reactive_realizer.engines.animation.motion_unit import MotionUnit
 from reactive_realizer.engines.animation.posture.rest import Rest
+from reactive_realizer.errors import RealizerError, error
+
+_NAME, _MIRROR, _JOINTS = "name", "mirror", "joints"
+"""Parameters that belong to every animation."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -21,6 +27,7 @@ class Actor:
         asset: finds a file by name.
         seed: of the randomness of this character.
         rest: how it stands when it does nothing.
+        functions: what formulas of animations may call besides those of the language.
     """
 
     humanoid: Humanoid
@@ -28,6 +35,27 @@ class Actor:
     asset: Callable[[str], Path]
     seed: int
     rest: Rest
+    functions: Mapping[str, Function]
+
+    def file_of(self, wanted: "Wanted", *suffixes: str) -> Path:
+        """The file of a motion, else that of its name, with one of these suffixes, anywhere among the assets.
+
+        Raises:
+            RealizerError: there is none, or there are two.
+        """
+        if wanted.file is not None:
+            return self.asset(wanted.file)
+        name = wanted.parameters.get(_NAME)
+        if name is None:
+            raise error("no-unit", unit="an animation without a name and without a file")
+        *first, last = suffixes
+        for suffix in first:
+            try:
+                return self.asset(f"**/{name}.{suffix}")
+            except RealizerError as problem:
+                if problem.fault.code != "no-asset":
+                    raise
+        return self.asset(f"**/{name}.{last}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,6 +73,16 @@ class Wanted:
     parameters: Mapping[str, str]
     file: str | None = None
     added: bool = False
+
+    @property
+    def mirror(self) -> bool:
+        """Whether left is to be right (thesis C.1.2)."""
+        return self.parameters.get(_MIRROR, "").strip().lower() == "true"
+
+    @property
+    def joints(self) -> frozenset[str]:
+        """The joints to which it is confined, as they are called in the mirror (C.1.2); none: all that it turns."""
+        return frozenset(re.findall(r"[^\s,]+", self.parameters.get(_JOINTS, "")))
 
 
 Maker = Callable[[Wanted], MotionUnit]

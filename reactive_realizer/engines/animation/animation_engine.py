@@ -1,30 +1,49 @@
 """The engine of body animation (thesis 8.7): gestures, head movements, gaze, posture, and idle life."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from math import inf
 from random import Random
 from types import MappingProxyType
 
 from reactive_realizer.binding.gesture_binding import GestureBinding
 from reactive_realizer.bml.behavior import Behavior
-from reactive_realizer.bml.behaviors import Gaze, Gesture, Head
+from reactive_realizer.bml.behaviors import Gaze, GazeShift, Gesture, Head, HeadDirectionShift, Pointing
+from reactive_realizer.bml.posture import Posture, PostureShift
+from reactive_realizer.bml.twente import BEHAVIORS as TWENTE
 from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.humanoid import Eyes
 from reactive_realizer.embodiment.pose import Layer, LayerKind
-from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, slerp
+from reactive_realizer.embodiment.quaternion import Quat
 from reactive_realizer.engine.context import EngineContext
-from reactive_realizer.engine.effects import Play
+from reactive_realizer.engine.effects import Play, Request, Warn
 from reactive_realizer.engine.engine import DefaultEngine
+from reactive_realizer.engine.lexicon import Word
 from reactive_realizer.engines.animation.actor import Actor
 from reactive_realizer.engines.animation.animation_unit import AnimationUnit, Stage
+from reactive_realizer.engines.animation.expression.functions import registered
 from reactive_realizer.engines.animation.gaze.gaze_motion_unit import GazeMotionUnit
+from reactive_realizer.engines.animation.gaze.influence import HEAD_WEIGHTS, WEIGHTS
+from reactive_realizer.engines.animation.gaze.lids import with_lids
+from reactive_realizer.engines.animation.gaze.looking import Looking
 from reactive_realizer.engines.animation.idle.idle import Idle
+from reactive_realizer.engines.animation.keyframe.clip_unit import ClipUnit
+from reactive_realizer.engines.animation.keyframe.keyframe_motion_unit import KeyframeMotionUnit
 from reactive_realizer.engines.animation.lasting import Lasting
+from reactive_realizer.engines.animation.lexicon import binding_words
 from reactive_realizer.engines.animation.motion_library import MotionLibrary
 from reactive_realizer.engines.animation.motion_unit import AMOUNT_RANGE
+from reactive_realizer.engines.animation.moving import Moving
+from reactive_realizer.engines.animation.posture.footing import Footing
+from reactive_realizer.engines.animation.posture.posture_library import PostureLibrary
+from reactive_realizer.engines.animation.posture.posture_motion_unit import PostureMotionUnit
 from reactive_realizer.engines.animation.posture.rest import Rest
-from reactive_realizer.engines.animation.release import Release
+from reactive_realizer.engines.animation.prediction import AnimationPredictor
+from reactive_realizer.engines.animation.release import Release, release_duration, stacked
+from reactive_realizer.engines.animation.trail import Trail
+from reactive_realizer.engines.animation.transition.transition_motion_unit import TransitionMotionUnit
+from reactive_realizer.engines.animation.transition.transition_unit import TransitionUnit
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.plan_unit import UnitState
 
@@ -32,21 +51,39 @@ from reactive_realizer.planunit.plan_unit import UnitState
 class AnimationEngine(DefaultEngine):
     """Turns the joints of one figure."""
 
-    behaviors = frozenset({Gesture, Head, Gaze})
-    parameters = MappingProxyType({Gesture: {"amount": AMOUNT_RANGE}, Head: {"amount": AMOUNT_RANGE}})
+    behaviors = TWENTE | {Gesture, Head, HeadDirectionShift, Gaze, GazeShift, Pointing, Posture, PostureShift}
+    parameters = MappingProxyType(
+        {
+            Gesture: {"amount": AMOUNT_RANGE},
+            Head: {"amount": AMOUNT_RANGE},
+            **dict.fromkeys((Gaze, GazeShift), WEIGHTS),
+            HeadDirectionShift: HEAD_WEIGHTS,
+        }
+    )
 
     def __init__(self, context: EngineContext) -> None:
         super().__init__(f"{context.character}/animation")
         self._humanoid = context.humanoid
-        self._rest = Rest(context.humanoid.avatar.skeleton)
-        actor = Actor(context.humanoid, context.world, context.asset, context.seed, self._rest)
-        self._library = MotionLibrary(GestureBinding.read(context.asset(context.bindings["gesture"])), actor)
-        self._idle = Idle(Random(context.seed))
+        self._world = context.world
+        binding = GestureBinding.read(*context.bindings["gesture"])
+        self._rest = Rest(PostureLibrary(context.humanoid.avatar.skeleton, context.asset, binding.rest_poses))
+        functions = registered(context.functions)
+        actor = Actor(context.humanoid, context.world, context.asset, context.seed, self._rest, functions)
+        self._library = MotionLibrary(binding, actor)
+        self._idle = Idle(Random(context.seed)) if context.idle else None
+        self._footing = Footing(context.humanoid.avatar.skeleton)
         self._lasting = Lasting()
+        self._looking = Looking(self._idle.blink) if self._idle else Looking()
         self._releases: list[Release] = []
-        self._stage = Stage(lambda: self._humanoid.body, self._hands, self._release, context.graph)
+        self._trail = Trail()
+        self._stage = Stage(lambda: self._humanoid.body, self._moving, self._hands, self._release, context.graph)
+        self._predictor = AnimationPredictor(context.humanoid.avatar.skeleton, self._base, lambda: self.player.units)
         self._now = GlobalTime(0.0)
         self.extensions = self._library.extensions
+
+    def words(self) -> Iterator[Word]:
+        """What its binding says, and the poses of postures."""
+        return binding_words(self._library, next(iter(self._world.targets)))
 
     def plan(self, block: BlockKey, behavior: Behavior, prepared: object) -> AnimationUnit:
         """The motion that the binding has for the behavior.
@@ -54,7 +91,14 @@ class AnimationEngine(DefaultEngine):
         Raises:
             RealizerError: it has none, or the target is not there.
         """
-        return AnimationUnit(block, behavior, self._library.choices(behavior), self._stage)
+        choices = self._library.choices(behavior)
+        match choices[0].motion:
+            case TransitionMotionUnit():
+                return TransitionUnit(block, behavior, choices, self._stage, self._predictor.moving)
+            case KeyframeMotionUnit():
+                return ClipUnit(block, behavior, choices, self._stage)
+            case _:
+                return AnimationUnit(block, behavior, choices, self._stage)
 
     def play(self, tick: Tick) -> Play:
         """As every engine."""
@@ -66,27 +110,49 @@ class AnimationEngine(DefaultEngine):
         for layer in self._lasting.layers(time, self._humanoid.body):
             self._releases.append(Release(layer, time))
         self._lasting.clear()
+        base = self._base()
+        if self._rest.reset():
+            self._let_go(base, time)
 
     def layers(self, tick: Tick) -> tuple[Layer, ...]:
-        """Rest pose and idle life, what has stayed, what is on its way back, what plays."""
+        """Rest pose and idle life, what has stayed, what is on its way back, what plays, and where the feet stay."""
+        self._trail.frame(tick.time, self._humanoid.body)
         self._releases = [release for release in self._releases if not release.over(tick.time)]
-        return (
-            Layer(LayerKind.BASE, self._rest.pose),
-            Layer(LayerKind.ADDITIVE, self._idle.rotations(tick.time)),
+        layers = (
+            self._base(),
+            *((self._idle.layer(tick.time, -self._humanoid.body.root[1]),) if self._idle else ()),
             *self._lasting.layers(tick.time, self._humanoid.body),
-            *(release.at(tick.time) for release in self._releases),
-            *self.player.show(AnimationUnit, lambda unit: unit.layer(tick.time), tick.time),
+            *stacked(self._releases, self._playing(tick.time), tick.time),
         )
+        return (*layers, *self._footing.layers(layers))
+
+    def _playing(self, now: GlobalTime) -> list[tuple[float, Layer]]:
+        return self.player.show(AnimationUnit, lambda unit: (unit.started, unit.layer(now)), now)
 
     def face(self, tick: Tick) -> Mapping[str, float]:
-        """Blinks."""
-        return self._idle.weights(tick.time)
+        """Lids: they blink, and follow the eyes a frame later."""
+        return with_lids(self._looking.turns, self._idle.weights(tick.time) if self._idle else {})
 
-    def eyes(self, tick: Tick) -> Eyes | None:
-        """The eyes of the gaze that plays; straight ahead without one."""
-        units = (unit for unit in self.player.playing if isinstance(unit, AnimationUnit))
-        gazing = [(unit, unit.motion) for unit in units if isinstance(unit.motion, GazeMotionUnit)]
-        return _eyes_of(*gazing[-1]) if gazing else None
+    def eyes(self, tick: Tick) -> Eyes:
+        """What the eyes of all gazes make of it, from the head as it is shown."""
+        gazes = list(self._gazes(tick.time))
+        resting = self._idle.eyes(tick.time) if self._idle else {}
+        return lambda body: self._looking.eyes(tick.time, gazes, body, resting)
+
+    def requests(self, tick: Tick) -> tuple[Request, ...]:
+        """What is wrong with a unit that plays on is told."""
+        units = [unit for unit in self.player.playing if isinstance(unit, AnimationUnit)]
+        return tuple(Warn(unit, fault) for unit in units if (fault := unit.complaint()) is not None)
+
+    def _gazes(self, now: GlobalTime) -> Iterator[GazeMotionUnit]:
+        """What looks now: what has stayed, then what plays, the one that started last at the end."""
+        yield from (motion for motion in self._lasting.motions if isinstance(motion, GazeMotionUnit))
+        for unit in self.player.show(AnimationUnit, lambda unit: unit, now):
+            if isinstance(unit.motion, GazeMotionUnit) and unit.motion.looks(unit.phase):
+                yield unit.motion
+
+    def _moving(self, time: GlobalTime) -> Moving:
+        return self._trail.at(time, self._humanoid.body)
 
     def _hands(self) -> Body | None:
         rest, back = self._rest.body, dict[str, Quat]()
@@ -98,15 +164,15 @@ class AnimationEngine(DefaultEngine):
     def _release(self, unit: AnimationUnit, time: GlobalTime) -> None:
         """Take over the joints of a unit that plays no more."""
         stays = unit.state is UnitState.DONE and unit.motion.lasts is not None and not unit.was_cut("end")
-        if stays:
-            self._lasting.keep(unit.motion)
-        elif unit.shown.rotations:
-            self._releases.append(Release(unit.shown, time))
+        if stays and isinstance(unit.motion, PostureMotionUnit):
+            self._rest.take(unit.motion.posture, unit.motion.body)
+        elif stays:
+            self._lasting.keep(unit.motion, time, self._humanoid.body)
+        elif unit.shown.rotations or unit.shown.root is not None:
+            self._let_go(unit.shown, time, unit.started)
 
+    def _base(self) -> Layer:
+        return Layer(LayerKind.BASE, self._rest.pose, root=self._rest.body.root)
 
-def _eyes_of(unit: AnimationUnit, motion: GazeMotionUnit) -> Eyes:
-    def eyes(composed: Body) -> dict[str, Quat]:
-        layer = motion.eye_layer(unit.phase, composed)
-        return {joint: slerp(IDENTITY, rotation, layer.weight) for joint, rotation in layer.rotations.items()}
-
-    return eyes
+    def _let_go(self, layer: Layer, time: GlobalTime, started: float = -inf) -> None:
+        self._releases.append(Release(layer, time, release_duration(layer, self._rest.body.root), started))

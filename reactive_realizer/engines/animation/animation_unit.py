@@ -6,14 +6,25 @@ from itertools import pairwise
 from math import inf
 
 from reactive_realizer.bml.behavior import Behavior
+from reactive_realizer.bml.behaviors import Pointing
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body
-from reactive_realizer.embodiment.pose import Layer
+from reactive_realizer.embodiment.pose import Layer, LayerKind
 from reactive_realizer.embodiment.quaternion import Quat, slerp
 from reactive_realizer.engines.animation.arms.gesture_motion_unit import GestureMotionUnit
-from reactive_realizer.engines.animation.choice import Choice
+from reactive_realizer.engines.animation.arms.pointing_motion_unit import PointingMotionUnit
+from reactive_realizer.engines.animation.choice import Choice, choose
 from reactive_realizer.engines.animation.easing import share
-from reactive_realizer.engines.animation.motion_unit import AMOUNT, AMOUNT_RANGE, Moment, MotionUnit, completed
+from reactive_realizer.engines.animation.motion_unit import (
+    AMOUNT,
+    AMOUNT_RANGE,
+    Moment,
+    MotionUnit,
+    completed,
+    layer_of,
+)
+from reactive_realizer.engines.animation.moving import Moving
+from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.parameter import Parameter
 from reactive_realizer.planunit.phase_clock import PhaseClock
@@ -25,6 +36,9 @@ from reactive_realizer.reactive.graph import Graph
 _HOLDS = frozenset({("ready", "strokeStart"), ("strokeEnd", "relax")})
 """Before and after a stroke the hands wait."""
 
+_STAYS = frozenset({("strokeStart", "stroke"), ("stroke", "strokeEnd")})
+"""The stroke of a pointing is a stay."""
+
 
 @dataclass(frozen=True, slots=True)
 class Stage:
@@ -32,6 +46,7 @@ class Stage:
 
     Attributes:
         body: the body as shown last, without additive layers.
+        moving: the same body as it has moved on by a time, and how it moves then.
         hands: the body with its hands where they are on their way back to rest, whether anybody looks or not; None
             where they are at rest.
         released: takes the joints of a unit that has ended.
@@ -39,6 +54,7 @@ class Stage:
     """
 
     body: Callable[[], Body]
+    moving: Callable[[GlobalTime], Moving]
     hands: Callable[[], Body | None]
     released: Callable[["AnimationUnit", GlobalTime], None]
     graph: Graph
@@ -49,7 +65,9 @@ class AnimationUnit(PlanUnit):
 
     Attributes:
         motion: what is played.
+        keys: sync id -> phase of the motion, 0 to 1.
         shown: what it showed last.
+        started: when it started, s; before that it lies below all others.
     """
 
     def __init__(self, block: BlockKey, behavior: Behavior, choices: Sequence[Choice], stage: Stage) -> None:
@@ -61,57 +79,89 @@ class AnimationUnit(PlanUnit):
             choices: the motions that could play it, the best first: this one is planned.
             stage: where it plays.
         """
-        chosen = choices[0]
-        motion = chosen.motion
-        super().__init__(block, behavior, motion_timing(behavior, motion), motion.resources)
-        self.motion = motion
-        self.group = chosen.group or motion.group
-        self.yields = chosen.yields
-        self.shown = Layer(motion.kind, {})
-        self._choices = choices
-        self._clock = PhaseClock({sync: _keys(behavior, motion)[sync] for sync in self.timing.points})
+        planned = choices[0]
+        motion = planned.motion
+        super().__init__(block, behavior, motion_timing(behavior, motion))
         self._stage = stage
-        self._names = chosen.names
-        for name, own in chosen.names.items():
+        self._play(planned)
+        for name, own in planned.names.items():
             cell = Source(stage.graph, str(self.key(name)), motion.parameters[own])
             self.parameters[name] = Parameter(self, cell, AMOUNT_RANGE if name == AMOUNT else motion.ranges[own])
+        self.started = GlobalTime(-inf)
+        self._complained = False
+        self._choices = [choice for choice in choices if self._stands_in(choice)]
 
     @property
     def phase(self) -> float:
         """How far the motion has come, 0 to 1."""
         return self._clock.phase
 
+    def _play(self, choice: Choice) -> None:
+        motion = choice.motion
+        self.motion = motion
+        self.resources = motion.resources
+        self.group = choice.group or motion.group
+        self.yields = choice.yields
+        self.shown = Layer(motion.kind, {})
+        self.keys = _keys(self.behavior, motion)
+        self._clock = PhaseClock({sync: self.keys[sync] for sync in self.timing.points})
+        self._names = choice.names
+
+    def _stands_in(self, choice: Choice) -> bool:
+        """Whether a choice has the points and the parameters of the one that is planned."""
+        points = tuple(_keys(self.behavior, choice.motion))
+        return points == self.timing.points and choice.names.keys() >= self._names.keys()
+
+    def settle(self, taken: frozenset[str]) -> None:
+        """The other hand plays if one is busy, and what is short if there is little time (thesis 8.17)."""
+        start, end = self.times_around
+        chosen = choose(self._choices, taken, None if start is None or end is None else end - start)
+        if chosen.motion is not self.motion:
+            self._play(chosen)
+
     def preference(self) -> Timing:
         """A gesture that begins now is prepared from where the hands are (thesis 12.1.4)."""
         hands = self._stage.hands()
-        if self.begun or hands is None or not isinstance(self.motion, GestureMotionUnit):
+        if self.begun or hands is None or not isinstance(self.motion, GestureMotionUnit | PointingMotionUnit):
             return self.timing
         preparation, *others = self.timing.phases
         return replace(self.timing, phases=(replace(preparation, duration=self.motion.preparation(hands)), *others))
 
     def on_start(self, time: GlobalTime) -> None:
         """The motion begins from where the body is."""
-        self.motion.start(self._stage.body())
+        self.started = time
+        self.motion.start(self._stage.moving(time).body)
 
     def on_finish(self, time: GlobalTime) -> None:
         """Give the joints back."""
         self._stage.released(self, time)
 
     def layer(self, now: GlobalTime) -> Layer:
-        """What the motion shows now."""
+        """What the motion shows now.
+
+        Raises:
+            RealizerError: the motion has nothing to show, or not what can be shown: the unit should be stopped.
+        """
         for name, own in self._names.items():
             self.motion.parameters[own] = self.parameters[name].value
-        posed = self.motion.pose(Moment(self._clock.advance(self, now), now, self._stage.body()))
-        self.shown = Layer(self.motion.kind, posed.rotations, posed.weight, root=posed.root)
+        self.shown = layer_of(self.motion, Moment(self._clock.advance(self, now), now, self._stage.body()))
         return self.shown
+
+    def complaint(self) -> Fault | None:
+        """What is wrong with it though it plays on; told once."""
+        fault = self.motion.fault if isinstance(self.motion, PointingMotionUnit) and not self._complained else None
+        self._complained = self._complained or fault is not None
+        return fault
 
     def way_back(self, now: GlobalTime, rest: Body) -> dict[str, Quat]:
         """The rotations of a unit past its relax, on its way to a body at rest, from the times of its points alone."""
         relax, end = self.time("relax"), self.time("end")
         gone = 0.0 if relax is None or end is None else share(now, relax, end)
-        begin = self.motion.key_positions["relax"]
-        posed = self.motion.pose(Moment(begin + gone * (1.0 - begin), now, rest))
-        return {joint: slerp(rest.rotation(joint), goal, posed.weight) for joint, goal in posed.rotations.items()}
+        begin = self.motion.key_positions.get("relax", 1.0)
+        layer = layer_of(self.motion, Moment(begin + gone * (1.0 - begin), now, rest))
+        return {
+            joint: slerp(rest.rotation(joint), goal, layer.weight_of(joint)) for joint, goal in layer.rotations.items()
+        }
 
 
 def motion_timing(behavior: Behavior, motion: MotionUnit) -> Timing:
@@ -121,8 +171,8 @@ def motion_timing(behavior: Behavior, motion: MotionUnit) -> Timing:
     """
     keys = _keys(behavior, motion)
     shortest, longest = motion.limits or (0.0, inf)
-    # What only comes and goes, such as a gaze, waits between.
-    holds = {*_HOLDS, *({("ready", "relax")} & set(pairwise(behavior.sync_points)))}
+    # What is added to other motion waits for nothing: where its points coincide they stay together.
+    holds = frozenset[tuple[str, str]]() if motion.kind is LayerKind.ADDITIVE else _holds(behavior)
     phases = (
         Phase((keys[b] - keys[a]) * motion.preferred_duration, PhaseKind.HOLD)
         if (a, b) in holds
@@ -135,6 +185,14 @@ def motion_timing(behavior: Behavior, motion: MotionUnit) -> Timing:
         for a, b in pairwise(keys)
     )
     return Timing(tuple(keys), tuple(phases), persistent=getattr(behavior, "persistent", False))
+
+
+def _holds(behavior: Behavior) -> frozenset[tuple[str, str]]:
+    """The phases in which a motion waits."""
+    if isinstance(behavior, Pointing):
+        return _HOLDS | _STAYS
+    # What only comes and goes, such as a gaze, waits between.
+    return _HOLDS | ({("ready", "relax")} & set(pairwise(behavior.sync_points)))
 
 
 def _keys(behavior: Behavior, motion: MotionUnit) -> dict[str, float]:

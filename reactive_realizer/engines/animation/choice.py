@@ -1,9 +1,13 @@
-"""A motion that could play a behavior."""
+"""The motions that could play a behavior, and which of them does."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from math import inf
 
 from reactive_realizer.engines.animation.motion_unit import MotionUnit
+
+_SHORT = 0.6
+"""Below this share of its preferred duration a motion looks hurried."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,3 +25,25 @@ class Choice:
     names: Mapping[str, str] = field(default_factory=dict)
     group: str | None = None
     yields: bool = False
+
+
+def choose(choices: Sequence[Choice], taken: frozenset[str], time: float | None) -> Choice:
+    """The choice that is to be played: of those that are free the first that has time enough, else the shortest.
+
+    Thesis 8.17 names both as what a binding with several motions for one behavior is good for.
+
+    Args:
+        choices: one or more, the best first.
+        taken: resources that others own; where no choice is free it is the first, whose conflict is then told.
+        time: from start to end, s; None where that is unknown.
+    """
+    free = [choice for choice in choices if not choice.motion.resources & taken]
+    if not free:
+        return choices[0]
+    unhurried = (choice for choice in free if time is None or not _hurried(choice.motion, time))
+    return next(unhurried, min(free, key=lambda choice: choice.motion.preferred_duration))
+
+
+def _hurried(motion: MotionUnit, time: float) -> bool:
+    shortest, _ = motion.limits or (0.0, inf)
+    return time < max(shortest, _SHORT * motion.preferred_duration)

@@ -1,54 +1,88 @@
 """From a behavior to the motions that could play it: the gesture binding, and who makes what it names."""
 
+import logging
 from collections.abc import Mapping
 
-from lxml import etree
-
-from reactive_realizer.binding.gesture_binding import GestureBinding, UnitSpec
+from reactive_realizer.binding.gesture_binding import GestureBinding
+from reactive_realizer.binding.seen import seen
+from reactive_realizer.binding.unit_spec import UnitSpec
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.behaviors import Head
 from reactive_realizer.engines.animation.actor import Actor, Wanted
 from reactive_realizer.engines.animation.choice import Choice
 from reactive_realizer.engines.animation.gaze.gaze_maker import DYNAMIC
-from reactive_realizer.engines.animation.makers import MAKERS
+from reactive_realizer.engines.animation.makers import makers_of
 from reactive_realizer.engines.animation.motion_unit import MotionUnit
-from reactive_realizer.errors import error
+from reactive_realizer.errors import RealizerError, error
+
+_log = logging.getLogger(__name__)
+
+_FILE = "file"
+"""The parameter by which a behavior names the file of what plays it, where the binding lets it."""
 
 
 class MotionLibrary:
     """Makes motions for one character.
 
     Attributes:
+        binding: what the entries say.
         extensions: namespaced attributes that it understands.
     """
 
     extensions = frozenset({DYNAMIC})
 
     def __init__(self, binding: GestureBinding, actor: Actor) -> None:
-        self._binding = binding
-        self._makers = {unit: maker(actor) for unit, maker in MAKERS.items()}
+        self.binding = binding
+        self._makers = makers_of(actor)
+        self._noted: set[UnitSpec] = set()
 
     def choices(self, behavior: Behavior) -> tuple[Choice, ...]:
         """The motions that could play a behavior, the best first: one or more.
 
+        An entry of the binding whose file or unit is not there is passed over; one without constraints is for what no
+        entry before it plays.
+
         Raises:
-            RealizerError: no entry of the binding fits, a file is not usable, a target is not there.
+            RealizerError: no entry fits, or none of those that do can be made: what is wrong with the best one.
         """
-        attributes = _attributes(behavior)
-        specs = self._binding.match(behavior.name, behavior.namespace, attributes)
+        attributes = seen(behavior)
+        specs = self.binding.match(behavior.name, behavior.namespace, attributes)
         if not specs:
             raise error("no-motion-for", element=behavior.name, lexeme=attributes.get("lexeme", ""))
-        return (self._choice(specs[0], behavior, attributes),)
+        choices: list[Choice] = []
+        refused: dict[UnitSpec, RealizerError] = {}
+        for spec in specs:
+            try:
+                if spec.constraints or not choices:
+                    choices.append(self.choice(spec, behavior, attributes))
+            except RealizerError as problem:
+                refused[spec] = problem
+        if not choices:
+            raise next(iter(refused.values()))
+        self._note(refused)
+        return tuple(choices)
 
-    def _choice(self, spec: UnitSpec, behavior: Behavior, attributes: Mapping[str, str]) -> Choice:
+    def _note(self, refused: Mapping[UnitSpec, RealizerError]) -> None:
+        """Log entries that are passed over, each once."""
+        for spec in refused.keys() - self._noted:
+            _log.warning("%s: this entry does not play: %s", spec.place, refused[spec].fault.sentence)
+        self._noted |= refused.keys()
+
+    def choice(self, spec: UnitSpec, behavior: Behavior, attributes: Mapping[str, str]) -> Choice:
+        """The motion that an entry of the binding has for a behavior with these attributes.
+
+        Raises:
+            RealizerError: it cannot be made.
+        """
         maker = self._makers.get(spec.unit)
         if maker is None:
             raise error("no-unit", unit=spec.unit)
-        parameters = spec.parameters(attributes)
+        parameters = spec.parameters(attributes, behavior.parameters)
+        file = parameters.get(_FILE, spec.file)
         # Nodding adds to whatever the head does.
-        motion = maker(Wanted(behavior, parameters, spec.file, added=isinstance(behavior, Head)))
+        motion = maker(Wanted(behavior, parameters, file, added=isinstance(behavior, Head)))
         group = parameters.get("replacementgroup")
-        yields = group is not None or getattr(behavior, "persistent", False)
+        yields = group is not None or motion.lasts is not None or getattr(behavior, "persistent", False)
         return Choice(motion, _names(spec, motion), group, yields)
 
 
@@ -56,10 +90,3 @@ def _names(spec: UnitSpec, motion: MotionUnit) -> Mapping[str, str]:
     """The motion's parameters as BML calls them."""
     mapped = {own: name for name, own in spec.parameter_map.items()}
     return {mapped.get(own, own): own for own in motion.ranges}
-
-
-def _attributes(behavior: Behavior) -> dict[str, str]:
-    """As written, attributes of other namespaces as ``{uri}name``, and the core's defaults that bindings map."""
-    written = {str(name): str(value) for name, value in etree.fromstring(behavior.source).attrib.items()}
-    defaults = {"amount": getattr(behavior, "amount", None), "repetition": getattr(behavior, "repetition", None)}
-    return {**{name: str(value) for name, value in defaults.items() if value is not None}, **written}

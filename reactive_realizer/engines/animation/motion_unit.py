@@ -6,7 +6,7 @@ from typing import NamedTuple, Protocol
 
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body
-from reactive_realizer.embodiment.pose import LayerKind
+from reactive_realizer.embodiment.pose import Layer, LayerKind, checked
 from reactive_realizer.embodiment.quaternion import Quat
 from reactive_realizer.embodiment.vector import Vec3
 from reactive_realizer.planunit.parameter import Range
@@ -45,11 +45,13 @@ class Posed(NamedTuple):
         rotations: joint -> rotation local to the parent; of additive motions, the turn to be added.
         weight: how much of it is shown, 0 to 1: motions come and go by it, over whatever lies below them.
         root: how far HumanoidRoot is moved from its place in the default pose, m; None leaves it where it is.
+        weights: of joints that come and go for themselves, the share of the weight; HumanoidRoot's is the root's too.
     """
 
     rotations: Mapping[str, Quat]
     weight: float = 1.0
     root: Vec3 | None = None
+    weights: Mapping[str, float] | None = None
 
 
 class MotionUnit(Protocol):
@@ -101,6 +103,16 @@ class MotionUnit(Protocol):
         """
 
 
+def layer_of(motion: MotionUnit, moment: Moment, priority: int = 0) -> Layer:
+    """What a motion shows at a moment, as a layer of a frame.
+
+    Raises:
+        RealizerError: "no-motion", "bad-pose": nothing, or not what can be shown: the unit should be stopped.
+    """
+    posed = motion.pose(moment)
+    return checked(Layer(motion.kind, posed.rotations, posed.weight, priority, posed.root, posed.weights))
+
+
 class Resource:
     """What of a body has one owner at a time; an additive motion owns nothing."""
 
@@ -119,6 +131,12 @@ def arms_of(joints: frozenset[str]) -> frozenset[str]:
     )
 
 
+def owned(joints: frozenset[str]) -> frozenset[str]:
+    """What a motion of these joints owns: the arms, and with a leg or the root the stance."""
+    return arms_of(joints) | (frozenset() if _STANCE.isdisjoint(joints) else {Resource.STANCE})
+
+
+_STANCE = frozenset({"HumanoidRoot", *(f"{side}_{joint}" for side in "lr" for joint in ("hip", "knee", "ankle"))})
 _LEG = {side: tuple(f"{side}_{joint}" for joint in ("hip", "knee", "ankle", "midtarsal", "eyeball")) for side in "lr"}
 
 

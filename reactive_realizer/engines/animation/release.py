@@ -1,27 +1,69 @@
 """The way back to rest of a motion that was cut: the engine's own, it blocks nothing."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from math import inf
+from operator import itemgetter
 
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.pose import Layer
+from reactive_realizer.embodiment.vector import Vec3, distance
 from reactive_realizer.engines.animation.easing import minimum_jerk, share
 
 DURATION = 0.6
 """s; at this pace a hand that is let go at shoulder height stays below 2 m/s."""
 
+_A_METER = 2.8
+"""s that a pelvis takes for a meter; getting up from a chair takes near two seconds."""
+
+_NOTICEABLE = 1e-3
+"""A motion that has eased out by itself is let go with less."""
+
 
 @dataclass(frozen=True, slots=True)
 class Release:
-    """A layer that leaves."""
+    """A layer that leaves.
+
+    Attributes:
+        layer: as it was shown last.
+        since: when it began to leave.
+        duration: until nothing is left of it, s.
+        height: when the motion that it is of had started: what had started before stays below.
+    """
 
     layer: Layer
     since: GlobalTime
+    duration: float = DURATION
+    height: float = -inf
 
     def over(self, now: GlobalTime) -> bool:
         """Whether nothing of it is left."""
-        return now >= self.since + DURATION
+        return now >= self.since + self.duration or self.layer.weight < _NOTICEABLE
 
     def at(self, now: GlobalTime) -> Layer:
         """What is left of it."""
-        gone = minimum_jerk(share(now, self.since, self.since + DURATION))
-        return replace(self.layer, weight=self.layer.weight * (1.0 - gone), priority=-1)
+        gone = minimum_jerk(share(now, self.since, self.since + self.duration))
+        return replace(self.layer, weight=self.layer.weight * (1.0 - gone))
+
+
+def stacked(releases: Iterable[Release], playing: Iterable[tuple[float, Layer]], now: GlobalTime) -> list[Layer]:
+    """Layers that leave and layers that play, what started first below.
+
+    Args:
+        releases: what leaves.
+        playing: layers with the times at which they started, the lowest first.
+        now: time of the frame.
+    """
+    heights = [*((release.height, release.at(now)) for release in releases), *playing]
+    return [layer for _, layer in sorted(heights, key=itemgetter(0))]
+
+
+def release_duration(layer: Layer, rest: Vec3) -> float:
+    """How long a layer takes to leave, s: where the whole figure has to move, longer.
+
+    Args:
+        layer: that leaves.
+        rest: where HumanoidRoot is without it, as a displacement from its default place, m.
+    """
+    moved = 0.0 if layer.root is None else layer.weight * distance(layer.root, rest)
+    return max(DURATION, _A_METER * moved)

@@ -1,6 +1,6 @@
 """The engine of the face (thesis 8.9)."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from reactive_realizer.binding.face_lexemes import read_face_lexemes
 from reactive_realizer.bml.behavior import Behavior
@@ -9,7 +9,8 @@ from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.engine.context import EngineContext
 from reactive_realizer.engine.engine import DefaultEngine
-from reactive_realizer.engines.face.face_unit import FaceUnit
+from reactive_realizer.engine.lexicon import Word
+from reactive_realizer.engines.face.face_unit import TIMING, FaceUnit
 from reactive_realizer.engines.face.fadings import Fadings
 from reactive_realizer.engines.face.mouth_share import MouthShare
 from reactive_realizer.errors import error
@@ -31,6 +32,14 @@ class FaceEngine(DefaultEngine):
         self._faces = Fadings()
         self._mouths = Fadings()
         self._mouth: Mapping[str, float] = {}
+
+    def words(self) -> Iterator[Word]:
+        """The faces it knows."""
+        duration = sum(phase.duration for phase in TIMING.phases)
+        return (
+            Word("faceLexeme", lexeme, sync_points=TIMING.points, duration=duration, file=_LEXEMES)
+            for lexeme in self._lexemes
+        )
 
     def plan(self, block: BlockKey, behavior: Behavior, prepared: object) -> FaceUnit:
         """The face that a lexeme means.

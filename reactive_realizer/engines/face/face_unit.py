@@ -10,7 +10,7 @@ from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.planunit.timing import Phase, PhaseKind, Timing
 
 _KEYS = {"start": 0.0, "attackPeak": 1.0, "relax": 2.0, "end": 3.0}
-_PHASES = (Phase(0.5), Phase(1.0, PhaseKind.HOLD), Phase(0.5))
+TIMING = Timing(tuple(_KEYS), (Phase(0.5), Phase(1.0, PhaseKind.HOLD), Phase(0.5)))
 """The attack and the decay are a quarter each of a preferred two seconds."""
 
 MOUTH = "mouth"
@@ -31,7 +31,7 @@ class FaceUnit(PlanUnit):
         released: Callable[["FaceUnit", GlobalTime], None],
     ) -> None:
         mouth = any(morph.startswith(("mouth", "jaw")) for morph in weights)
-        super().__init__(block, behavior, Timing(tuple(_KEYS), _PHASES), frozenset({MOUTH} if mouth else ()))
+        super().__init__(block, behavior, TIMING, frozenset({MOUTH} if mouth else ()))
         self.weights = weights
         self.level = 0.0
         self._amount, self._overshoot = behavior.amount, behavior.overshoot

@@ -36,9 +36,16 @@ class GivingUp:
         choice = [cause for cause in droppable if cause not in kept] or droppable
         lowest = min(cause.rank for cause in choice)
         dropped = max(cause for cause in choice if cause.rank is lowest)
-        self.things.add(dropped)
+        self.things |= self._with(dropped)
         if dropped.rank > Rank.LIMIT:
             self.losses.append(self._loss(dropped, clash))
+
+    def _with(self, dropped: Cause) -> set[Cause]:
+        """What goes with it: without one of its limits a behavior is stretched evenly only without the others too."""
+        if dropped.rank is not Rank.LIMIT:
+            return {dropped}
+        phases = range(len(self._case.items[dropped.number].timing.phases))
+        return {dropped._replace(phase=phase) for phase in phases}
 
     def report_orphans(self) -> None:
         """Required constraints that name a behavior that was given up are lost with it."""

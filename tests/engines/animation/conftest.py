@@ -1,5 +1,6 @@
 """The avatars and animations that ship with the realizer."""
 
+from collections.abc import Callable
 from importlib.resources import files
 from pathlib import Path
 
@@ -7,6 +8,8 @@ import pytest
 
 from reactive_realizer.embodiment.avatar import Avatar
 from reactive_realizer.embodiment.skeleton import Skeleton
+from reactive_realizer.engines.animation.procedural.proc_animation import ProcAnimation
+from reactive_realizer.engines.animation.procedural.proc_animation_reader import read_proc_animation
 
 ASSETS = Path(str(files("reactive_realizer"))) / "assets"
 
@@ -24,3 +27,15 @@ def skeleton(avatar) -> Skeleton:
 @pytest.fixture(scope="session")
 def animations() -> Path:
     return ASSETS / "procanimation"
+
+
+@pytest.fixture
+def read(tmp_path) -> Callable[..., ProcAnimation]:
+    """Reads what a ProcAnimation says inside, and of its durations."""
+
+    def read_text(content: str, durations: str = 'prefDuration="1"') -> ProcAnimation:
+        path = tmp_path / "some.xml"
+        path.write_text(f"<ProcAnimation {durations}>\n{content}\n</ProcAnimation>")
+        return read_proc_animation(path)
+
+    return read_text

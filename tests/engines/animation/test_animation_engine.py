@@ -1,11 +1,15 @@
 """Motions between pegs, as frames show them."""
 
+import math
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.embodiment.body import Body
+from reactive_realizer.engines.animation.motion_unit import Posed
+from reactive_realizer.engines.animation.procedural.proc_motion_unit import ProcMotionUnit
 from reactive_realizer.testing.pilot import open_pilot
 
 BINDING = """
@@ -53,6 +57,28 @@ async def test_a_motion_that_has_no_pose_any_more_stops_with_a_warning_and_the_r
     assert turns(rotations(pilot, "r_elbow")[40:60]).max() > 0.001
 
 
+@pytest.mark.parametrize("wrong", [(math.nan, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0), (2.0, 0.0, 0.0, 0.0)])
+async def test_a_motion_that_gives_what_is_no_rotation_stops_with_a_warning_before_anybody_sees_it(
+    pilot, monkeypatch, wrong
+) -> None:
+    pose = ProcMotionUnit.pose
+
+    def goes_wrong(self, moment):
+        posed = pose(self, moment)
+        return Posed({"r_elbow": wrong}) if moment.phase > 0.4 and "r_elbow" in posed.rotations else posed
+
+    monkeypatch.setattr(ProcMotionUnit, "pose", goes_wrong)
+    pilot.block("b", '<gesture id="bad" lexeme="LIFT"/><head id="good" lexeme="NOD" end="3"/>')
+    await pilot.advance(4)
+    (warning,) = pilot.feedback.of("warningFeedback")
+    assert (warning.id, warning.element.get("type")) == ("b:bad", "EXECUTION_FAILURE")
+    assert "its motion asks r_elbow for" in warning.element.text
+    assert pilot.feedback.time("b:good:end") == 3.0
+    seen = np.array([frame.rotations for frame in pilot.frames["alice"]])
+    assert np.abs(np.linalg.norm(seen, axis=2) - 1.0).max() < 1e-6
+    assert turns(rotations(pilot, "r_elbow")).max() < 0.1, "back to rest without a jump"
+
+
 async def test_a_motion_that_is_cut_goes_back_to_rest_without_a_jump(pilot) -> None:
     await pilot.advance(0.1)
     pilot.block("b", '<gesture id="g" lexeme="LIFT"/>')
@@ -86,7 +112,7 @@ async def test_a_stroke_that_is_moved_late_sets_the_hand_off_without_a_jerk(hit,
         poses = [
             dict(zip(skeleton.joints, map(tuple, frame.rotations), strict=True)) for frame in pilot.frames["alice"]
         ]
-        path = np.array([skeleton.place(pose, "r_wrist").position for pose in poses])
+        path = np.array([Body(skeleton, pose).place("r_wrist").position for pose in poses])
         steps = np.linalg.norm(np.diff(path, axis=0), axis=1)
         assert steps.max() > 0.03, "it hurries"
         assert np.diff(steps).max() < 0.0151

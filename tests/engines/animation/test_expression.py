@@ -2,15 +2,18 @@
 
 import math
 import operator
+from itertools import pairwise
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from reactive_realizer.engines.animation.expression.compiler import compile_formulas
-from reactive_realizer.engines.animation.expression.functions import hermite, tcbspline
+from reactive_realizer.engines.animation.expression.functions import FUNCTIONS, Function, noise, perlin, registered
 from reactive_realizer.engines.animation.expression.nodes import variables
 from reactive_realizer.engines.animation.expression.parser import LONGEST, parse
+from reactive_realizer.engines.animation.expression.splines import hermite, tcbspline
+from reactive_realizer.engines.animation.noise import PerlinNoise
 from reactive_realizer.errors import RealizerError
 
 
@@ -45,6 +48,18 @@ def value(text: str, **names: float) -> float:
         ("atan2(1, 0) * 2", math.pi),
         ("log(e) + exp(0) + sqrt(9) + abs(-1)", 6.0),
         ("floor(-1.5)", -2.0),
+        ("ceil(1.2) + round(2.5) + round(-2.6)", 2.0),
+        ("ln(e) + log10(100)", 3.0),
+        ("tanh(atanh(0.5)) + sinh(asinh(2)) + cosh(acosh(3))", 5.5),
+        ("7 % 4 + 2 * 3 % 4", 5.0),
+        ("mod(-7, 4)", -3.0),
+        ("1 < 2 && 3 < 4", 1.0),
+        ("1 < 2 && 3 < 2", 0.0),
+        ("0 || 2", 1.0),
+        ("1 || 0 && 0", 1.0),
+        ("1 + 1 == 2 && !(1 > 2)", 1.0),
+        ("!3 + !0", 1.0),
+        ("if(1 < 2 || 0, 5, 6)", 5.0),
     ],
 )
 def test_a_formula_means_what_it_does_in_mathematics(text, expected):
@@ -127,6 +142,7 @@ def test_any_formula_is_worth_what_python_says(case):
         ("hermite(t, 0, 0, 1)", "hermite takes x, two speeds and 2 points or more, not 4", 1),
         ("tcbspline(t,0,0, 0,0, 1,0.5,0,0, 1,1)", "tcbspline takes t, two speeds", 1),
         ("t & 1", "'&' has no meaning", 3),
+        ("t && ", "it ends too early", 6),
         ("a.b", "'.' has no meaning", 2),
         ("t # comment", "'#' has no meaning", 3),
         ("1" + "+1" * LONGEST, "more than 20000 characters", LONGEST + 1),
@@ -235,3 +251,77 @@ def test_continuity_makes_a_corner():
     keys = flat_keys([0.0, 1.0, 0.0], [0.0, 0.5, 1.0], (0.0, -1.0, 0.0))
     assert tcbspline(0.499, 0.0, 0.0, *keys) < 0.999
     assert tcbspline(0.499, 0.0, 0.0, *flat_keys([0.0, 1.0, 0.0], [0.0, 0.5, 1.0], (0.0, 0.0, 0.0))) > 0.9999
+
+
+@settings(derandomize=True)
+@given(st.integers(0, 1000), st.floats(-300.0, 300.0))
+def test_noise_stays_within_1_and_is_0_at_whole_numbers(seed, x):
+    wave = PerlinNoise(seed)
+    assert -1.0 <= wave(x) <= 1.0
+    assert wave(float(math.floor(x))) == pytest.approx(0.0, abs=1e-9)
+
+
+def test_noise_has_neither_jumps_nor_kinks():
+    wave, step = PerlinNoise(5), 0.01
+    values = [wave(-3.0 + step * i) for i in range(1001)]
+    speeds = [(after - before) / step for before, after in pairwise(values)]
+    accelerations = [(after - before) / step for before, after in pairwise(speeds)]
+    assert max(map(abs, speeds)) < 4.0
+    assert max(map(abs, accelerations)) < 20.0
+
+
+def test_noise_of_another_seed_is_another_noise_and_that_of_the_same_seed_the_same():
+    values = [[PerlinNoise(seed)(0.37 * i) for i in range(100)] for seed in (1, 1, 2)]
+    assert values[0] == values[1] != values[2]
+    assert max(values[0]) > 0.3
+    assert min(values[0]) < -0.3
+
+
+@settings(derandomize=True)
+@given(st.floats(-100.0, 100.0), st.integers(1, 8), st.floats(0.0, 2.0))
+def test_octaves_add_quicker_waves_and_stay_within_1(x, count, persistence):
+    assert -1.0 <= perlin(x, float(count), persistence) <= 1.0
+    assert perlin(x, float(count), 0.0) == perlin(x, 1.0)
+
+
+@settings(derandomize=True)
+@given(st.floats(-20.0, 20.0), st.integers(1, 12))
+def test_the_noise_of_published_files_repeats_after_its_number_of_points(x, points):
+    assert noise(x, float(points)) == pytest.approx(noise(x + points, float(points)), abs=1e-6)
+    assert -0.2 <= noise(x, float(points)) <= 1.2
+
+
+@pytest.mark.parametrize("text", ["noise(t, 0)", "noise(t, 300)", "perlin(t, 0)", "perlin(t, 1e9)", "perlin(t, 2, -1)"])
+def test_noise_without_sense_has_no_value(text):
+    with pytest.raises(ValueError, match="noise"):
+        value(text, t=0.5)
+
+
+def wobble(x: float, strength: float = 2.0) -> float:
+    if x < 0.0:
+        raise LookupError("only ahead")
+    return strength * x
+
+
+OURS = {**FUNCTIONS, "wobble": Function.of("wobble", wobble)}
+
+
+def test_a_formula_may_call_a_function_that_is_registered():
+    (result,) = compile_formulas([parse("wobble(t) + wobble(t, 3)", OURS)], ["t"])(0.5)
+    assert result == 2.5
+
+
+def test_a_registered_function_takes_as_many_numbers_as_it_does_in_python():
+    with pytest.raises(RealizerError, match=r"wobble takes \(x: float, strength: float = 2.0\) -> float, not 3"):
+        parse("wobble(1, 2, 3)", OURS)
+
+
+def test_where_a_registered_function_fails_there_is_no_value():
+    with pytest.raises(ValueError, match="wobble: only ahead"):
+        compile_formulas([parse("wobble(t)", OURS)], ["t"])(-1.0)
+
+
+@pytest.mark.parametrize("name", ["sin", "if"])
+def test_no_plug_in_changes_what_the_language_means(name):
+    with pytest.raises(RealizerError, match=f"'{name}' among the functions is claimed"):
+        registered({name: wobble})

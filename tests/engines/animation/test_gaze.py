@@ -1,181 +1,134 @@
-"""Looking at things."""
+"""The gaze as a motion: it comes, follows, and goes."""
 
 import math
 from itertools import pairwise
 
 import pytest
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
 
-from reactive_realizer.bml.words import Influence
+from reactive_realizer.bml.words import Influence, OffsetDirection
 from reactive_realizer.embodiment.body import Body
-from reactive_realizer.embodiment.pose import Layer, LayerKind, compose
-from reactive_realizer.embodiment.quaternion import (
-    IDENTITY,
-    angle,
-    conjugate,
-    from_axis_angle,
-    from_euler,
-    multiply,
-    rotate,
-)
-from reactive_realizer.embodiment.vector import Vec3, add, dot, subtract, unit
-from reactive_realizer.engines.animation.gaze.gaze_motion_unit import GazeMotionUnit
-from reactive_realizer.engines.animation.gaze.turning import (
-    EYE_PITCH,
-    EYE_YAW,
-    EYES,
-    aim_eyes,
-    eye_point,
-    gaze_joints,
-    offset_target,
-    turn_toward,
-)
+from reactive_realizer.embodiment.quaternion import IDENTITY, angle, conjugate, from_axis_angle, multiply
+from reactive_realizer.embodiment.vector import subtract, unit
+from reactive_realizer.engines.animation.gaze.aim import Aim
+from reactive_realizer.engines.animation.gaze.eyes import Sockets
+from reactive_realizer.engines.animation.gaze.gaze_motion_unit import GAZE_SHIFT, HEAD_SHIFT
+from reactive_realizer.engines.animation.motion_unit import Moment
 
-from .showing import shown as rotations
-
-REST: dict = {}
+from .gazing import between, gaze, target_at, way
+from .showing import shown
 
 
-def direction(yaw: float, pitch: float, far: float = 2.0) -> Vec3:
-    """A way to the figure's left by yaw and up by pitch, degrees."""
-    turn = from_euler(-math.radians(pitch), math.radians(yaw), 0.0)
-    return rotate(turn, (0.0, 0.0, far))
+def apart(a, b) -> float:
+    return angle(multiply(conjugate(a), b))
 
 
-def target_at(body: Body, yaw: float, pitch: float, far: float = 2.0) -> Vec3:
-    return add(eye_point(body), direction(yaw, pitch, far))
-
-
-def shown(unit: GazeMotionUnit, phase: float, body: Body, *more: Layer) -> Body:
-    """The body with a gaze and more layers, the eyes last."""
-    layers = [Layer(LayerKind.BASE, body.pose), Layer(LayerKind.GAZE, rotations(unit, phase, body)), *more]
-    head = Body(body.skeleton, compose(body.skeleton, layers).pose)
-    return Body(body.skeleton, compose(body.skeleton, [*layers, unit.eye_layer(phase, head)]).pose)
-
-
-def error(body: Body, eye: str, target: Vec3) -> float:
-    """Between where an eye looks and where the target is, degrees."""
-    place = body.place(eye)
-    looks = rotate(place.rotation, (0.0, 0.0, 1.0))
-    return math.degrees(math.acos(min(1.0, dot(looks, unit(subtract(target, place.position))))))
-
-
-@settings(derandomize=True, max_examples=40, suppress_health_check=[HealthCheck.function_scoped_fixture])
-@given(st.floats(-105, 105), st.floats(-45, 45), st.floats(0.7, 20.0), st.sampled_from(list(Influence)[1:]))
-def test_at_ready_both_eyes_are_on_the_target_within_a_degree(skeleton, yaw, pitch, far, influence):
-    body = Body(skeleton)
-    target = target_at(body, yaw, pitch, far)
-    unit = GazeMotionUnit(lambda: target, influence)
-    unit.start(body)
-    for phase in (unit.key_positions["ready"], 0.5, unit.key_positions["relax"]):
-        for eye in EYES:
-            assert error(shown(unit, phase, body), eye, target) < 1.0
-
-
-@pytest.mark.parametrize(("yaw", "pitch"), [(108, 0), (0, 55), (0, -55)])
-def test_the_head_goes_further_than_usual_where_the_eyes_could_not_make_up_for_the_rest(skeleton, yaw, pitch):
-    body = Body(skeleton)
-    target = target_at(body, yaw, pitch)
-    unit = GazeMotionUnit(lambda: target, Influence.HEAD)
-    assert all(error(shown(unit, 0.5, body), eye, target) < 1.0 for eye in EYES)
-
-
-def test_the_eyes_stay_on_the_target_while_the_head_nods_and_the_chest_breathes(skeleton):
-    body = Body(skeleton)
-    target = target_at(body, 40, 10)
-    unit = GazeMotionUnit(lambda: target, Influence.HEAD)
-    for nod in (-0.15, 0.1, 0.25):
-        layer = Layer(
-            LayerKind.ADDITIVE, {"skullbase": from_axis_angle((1.0, 0.0, 0.0), nod), "vt6": from_euler(0.02, 0.0, 0.0)}
-        )
-        for eye in EYES:
-            assert error(shown(unit, 0.5, body, layer), eye, target) < 1.0
-
-
-def test_a_gaze_of_the_eyes_turns_nothing_else(skeleton):
-    body = Body(skeleton)
-    target = target_at(body, 20, -10)
-    unit = GazeMotionUnit(lambda: target, Influence.EYES)
-    assert unit.joints == frozenset()
-    for eye in EYES:
-        assert error(shown(unit, 0.5, body), eye, target) < 1.0
-
-
-def test_each_influence_takes_in_the_joints_of_the_one_before_it():
-    sets = [set(gaze_joints(influence)) for influence in Influence]
-    assert sets == sorted(sets, key=len)
-    assert all(small <= large for small, large in pairwise(sets))
-    assert sets[1] == {"vc4", "skullbase"}
-
-
-def test_the_eyes_turn_no_further_than_eyes_do(skeleton):
-    body = Body(skeleton)
-    for yaw, pitch in ((120, 0), (-170, 60), (0, -80)):
-        for rotation in aim_eyes(body, target_at(body, yaw, pitch)).values():
-            ahead = rotate(rotation, (0.0, 0.0, 1.0))
-            assert abs(math.atan2(ahead[0], ahead[2])) <= EYE_YAW + 1e-9
-            assert abs(math.asin(ahead[1])) <= EYE_PITCH + 1e-9
-
-
-@pytest.mark.parametrize("influence", list(Influence)[1:])
-def test_the_head_goes_most_of_the_way_to_the_side_and_less_of_the_way_up(skeleton, influence):
-    body = Body(skeleton)
-    for yaw, pitch, least, most in ((50, 0, 0.55, 0.95), (0, 30, 0.35, 0.75)):
-        head = body.posed(turn_toward(body, target_at(body, yaw, pitch), influence)).place("skullbase").rotation
-        assert least < math.degrees(angle(head)) / max(yaw, pitch) < most
-
-
-def test_the_gaze_begins_where_the_head_is_and_ends_at_rest_without_a_jump(skeleton):
+def test_it_begins_where_the_head_is_and_ends_in_what_lies_below_without_a_jump(skeleton):
     aside = {"skullbase": from_axis_angle((0.0, 1.0, 0.0), -0.5), "vc4": IDENTITY}
-    body = Body(skeleton, aside)
-    target = target_at(Body(skeleton), 45, 5)
-    unit = GazeMotionUnit(lambda: target, Influence.HEAD)
-    unit.start(body)
-    assert rotations(unit, 0.0, body)["skullbase"] == pytest.approx(aside["skullbase"])
-    assert rotations(unit, 1.0, Body(skeleton))["skullbase"] == pytest.approx(IDENTITY)
-    poses = [rotations(unit, i / 200, Body(skeleton))["skullbase"] for i in range(201)]
-    steps = [angle(multiply(conjugate(a), b)) for a, b in pairwise(poses)]
+    begun, below = Body(skeleton, aside), Body(skeleton)
+    unit_ = gaze(below, target_at(below, 45, 5))
+    unit_.start(begun)
+    assert shown(unit_, 0.0, begun)["skullbase"] == pytest.approx(aside["skullbase"])
+    assert shown(unit_, 1.0, below)["skullbase"] == pytest.approx(IDENTITY)
+    poses = [shown(unit_, i / 200, below)["skullbase"] for i in range(201)]
+    steps = [apart(a, b) for a, b in pairwise(poses)]
     assert max(steps) < 0.06
     assert steps[0] < 1e-3 > steps[-1]
 
 
-def test_the_eyes_are_there_before_the_head(skeleton):
+def test_the_head_speeds_up_and_slows_down_in_the_same_way(skeleton):
     body = Body(skeleton)
-    target = target_at(body, 30, 0)
-    unit = GazeMotionUnit(lambda: target, Influence.HEAD)
-    unit.start(body)
-    halfway = shown(unit, 0.5 * unit.key_positions["ready"], body)
-    assert all(error(halfway, eye, target) < 1.0 for eye in EYES)
-    assert angle(halfway.place("skullbase").rotation) < 0.7 * angle(shown(unit, 0.5, body).place("skullbase").rotation)
+    unit_ = gaze(body, target_at(body, 40, 10))
+    unit_.start(body)
+    ready = unit_.key_positions["ready"]
+    turns = [angle(shown(unit_, ready * i / 50, body)["skullbase"]) for i in range(51)]
+    steps = [b - a for a, b in pairwise(turns)]
+    assert steps == pytest.approx(steps[::-1], abs=1e-6)
+    assert max(steps) == pytest.approx(1.875 * turns[-1] / 50, rel=0.01)
 
 
-def test_a_target_that_moves_is_followed(skeleton):
+def test_a_shift_is_there_at_its_end_and_stays(skeleton):
+    body = Body(skeleton)
+    for course in (GAZE_SHIFT, HEAD_SHIFT):
+        unit_ = gaze(body, target_at(body, 40, 10), course=course)
+        unit_.start(body)
+        last = unit_.pose(Moment(1.0, 9.0, body))
+        assert last.weight == 1.0
+        assert unit_.lasts is not None
+        assert angle(last.rotations["skullbase"]) > 0.2
+        assert unit_.looks(1.0)
+
+
+def test_the_eyes_leave_first(skeleton):
+    unit_ = gaze(Body(skeleton), target_at(Body(skeleton), 0, 0))
+    assert unit_.looks(0.0)
+    assert unit_.looks(0.74)
+    assert not unit_.looks(0.75)
+
+
+def test_a_slow_target_is_followed_by_the_head_at_once_and_a_jump_as_people_do(skeleton):
     body = Body(skeleton)
     at = [target_at(body, 20, 0)]
-    unit = GazeMotionUnit(lambda: at[0], Influence.HEAD)
-    before = rotations(unit, 0.5, body)
-    at[0] = target_at(body, -20, 0)
-    assert rotations(unit, 0.5, body) != before
-    assert all(error(shown(unit, 0.5, body), eye, at[0]) < 1.0 for eye in EYES)
+    unit_ = gaze(body, lambda: at[0])
+    unit_.start(body)
+
+    def head(frame: int) -> tuple:
+        return unit_.pose(Moment(0.5, 0.02 * frame, body)).rotations["skullbase"]
+
+    for i in range(20):
+        at[0] = target_at(body, 20 - 0.5 * i, 0)
+        followed = head(i)
+    assert apart(followed, gaze(body, at[0]).pose(Moment(0.5, 0.0, body)).rotations["skullbase"]) < 1e-9
+    at[0] = target_at(body, -30, 0)
+    poses = [head(20 + i) for i in range(40)]
+    steps = [apart(a, b) for a, b in pairwise([followed, *poses])]
+    assert max(steps) < 0.05
+    assert steps[0] < 0.01
+    assert apart(poses[-1], gaze(body, at[0]).pose(Moment(0.5, 0.0, body)).rotations["skullbase"]) < 1e-9
 
 
+def test_weights_may_change_while_it_plays(skeleton):
+    body = Body(skeleton)
+    unit_ = gaze(body, target_at(body, 30, 0), Influence.WAIST)
+    before = unit_.pose(Moment(0.5, 0.0, body)).rotations
+    unit_.parameters["back"] = 0.0
+    later = unit_.pose(Moment(0.5, 0.0, body)).rotations
+    assert "vl5" in before
+    assert "vl5" not in later
+    assert set(unit_.ranges) == {"back", "chest", "neck", "head", "eyes"}
+
+
+@pytest.mark.parametrize("target", [(0, 0), (40, 0), (0, 50), (-60, -30)])
 @pytest.mark.parametrize(
-    ("word", "yaw", "pitch"),
-    [("RIGHT", -1, 0), ("LEFT", 1, 0), ("UP", 0, 1), ("DOWN", 0, -1), ("UPRIGHT", -1, 1), ("DOWNLEFT", 1, -1)],
+    ("side", "left", "up"),
+    [
+        (OffsetDirection.RIGHT, -1, 0),
+        (OffsetDirection.LEFT, 1, 0),
+        (OffsetDirection.UP, 0, 1),
+        (OffsetDirection.DOWN, 0, -1),
+        (OffsetDirection.UPRIGHT, -1, 1),
+        (OffsetDirection.UPLEFT, 1, 1),
+        (OffsetDirection.DOWNRIGHT, -1, -1),
+        (OffsetDirection.DOWNLEFT, 1, -1),
+    ],
 )
-def test_an_offset_lies_beside_the_target_as_the_figure_sees_it(skeleton, word, yaw, pitch):
-    body = Body(skeleton)
-    target = target_at(body, 0, 0)
-    way = unit(subtract(offset_target(body, target, math.radians(20), word), eye_point(body)))
-    assert math.degrees(math.acos(way[2])) == pytest.approx(20.0, abs=0.5)
-    assert (round(way[0], 6) > 0) - (round(way[0], 6) < 0) == yaw
-    assert (round(way[1], 6) > 0) - (round(way[1], 6) < 0) == pitch
+def test_an_offset_lies_so_many_degrees_beside_the_target_as_the_figure_sees_it(skeleton, side, left, up, target):
+    eyes = Sockets.of(Body(skeleton)).middle
+    point = Aim(lambda: target_at(Body(skeleton), *target), 20.0, side).point(eyes)
+    toward = unit(subtract(point, eyes))
+    assert between(toward, way(*target)) == pytest.approx(20.0, abs=1e-3)
+    yaw, pitch = math.degrees(math.atan2(toward[0], toward[2])), math.degrees(math.asin(toward[1]))
+    if left:
+        assert (yaw - target[0]) * left > 5
+    if up:
+        assert (pitch - target[1]) * up > 5
 
 
-def test_a_gaze_with_an_offset_looks_there_with_eyes_and_head(skeleton):
-    body = Body(skeleton)
-    target = target_at(body, 0, 0)
-    unit = GazeMotionUnit(lambda: target, Influence.HEAD, offset_angle=25.0, offset_direction="LEFT")
-    beside = target_at(body, 25, 0)
-    assert all(error(shown(unit, 0.5, body), eye, beside) < 1.5 for eye in EYES)
+def test_an_offset_from_straight_above_is_still_one(skeleton):
+    eyes = Sockets.of(Body(skeleton)).middle
+    point = Aim(lambda: target_at(Body(skeleton), 0, 90), 30.0, OffsetDirection.DOWN).point(eyes)
+    assert between(unit(subtract(point, eyes)), way(0, 60)) < 0.01
+
+
+def test_an_offset_of_what_is_between_the_eyes_is_there_too(skeleton):
+    eyes = Sockets.of(Body(skeleton)).middle
+    assert Aim(lambda: eyes, 30.0, OffsetDirection.LEFT).point(eyes) == eyes

@@ -7,12 +7,12 @@ import pytest
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.quaternion import IDENTITY, angle, conjugate, from_euler, multiply
 from reactive_realizer.embodiment.vector import distance, subtract
-from reactive_realizer.engines.animation.arms.gesture_motion_unit import AMOUNT, HOLD, GestureMotionUnit
+from reactive_realizer.engines.animation.arms.gesture_motion_unit import HOLD, GestureMotionUnit
 from reactive_realizer.engines.animation.easing import minimum_jerk
-from reactive_realizer.engines.animation.motion_unit import GESTURE_POINTS
-from reactive_realizer.engines.animation.posture.rest_pose import REST_POSE
+from reactive_realizer.engines.animation.motion_unit import AMOUNT, GESTURE_POINTS
 from reactive_realizer.engines.animation.procedural.proc_animation_reader import read_proc_animation
 
+from .resting import REST_POSE
 from .showing import shown as shown_over
 
 GESTURES = ["beat_right", "beat_both", "offer_right", "offer_both", "greet_right", "conduct_right", "self_right"]
@@ -28,7 +28,8 @@ def shown(unit, phase, body):
 def gesture(animations, skeleton):
     def plan(name: str, pose=REST_POSE, **parameters: float) -> tuple[GestureMotionUnit, Body]:
         body = Body(skeleton, {**REST_POSE, **pose})
-        return GestureMotionUnit(read_proc_animation(animations / f"{name}.xml"), parameters, REST_POSE, body), body
+        animation = read_proc_animation(animations / f"{name}.xml").on(skeleton)
+        return GestureMotionUnit(animation, parameters, REST_POSE, body), body
 
     return plan
 

@@ -17,7 +17,9 @@ from .showing import shown
 @pytest.fixture
 def head(animations, skeleton):
     def unit(name: str, **parameters: float):
-        motion = ProcMotionUnit(read_proc_animation(animations / f"{name}.xml"), parameters, LayerKind.ADDITIVE)
+        motion = ProcMotionUnit(
+            read_proc_animation(animations / f"smartbody/{name}.xml"), parameters, LayerKind.ADDITIVE
+        )
         return motion, lambda phase: shown(motion, phase, Body(skeleton))["skullbase"]
 
     return unit

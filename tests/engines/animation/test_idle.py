@@ -1,21 +1,28 @@
 """What the figure does when it does nothing."""
 
+import math
 from itertools import pairwise
 from random import Random
 
 import pytest
 
 from reactive_realizer.embodiment.body import Body
-from reactive_realizer.embodiment.quaternion import angle, conjugate, multiply
-from reactive_realizer.embodiment.vector import distance
+from reactive_realizer.embodiment.quaternion import angle, conjugate, multiply, rotate
+from reactive_realizer.embodiment.vector import FORWARD, distance
 from reactive_realizer.engines.animation.idle.idle import Idle
-from reactive_realizer.engines.animation.posture.rest_pose import REST_POSE
+
+from .resting import body_in
 
 
 def blinks(idle: Idle, seconds: float) -> list[float]:
     """When lids begin to close."""
     frames = [idle.weights(i / 100)["eyeBlinkLeft"] for i in range(round(seconds * 100))]
     return [i / 100 for i, (a, b) in enumerate(pairwise(frames)) if a == 0.0 < b]
+
+
+def life(idle: Idle, time: float):
+    """All of it."""
+    return idle.layer(time, 0.0), idle.weights(time), idle.eyes(time)
 
 
 def test_the_figure_blinks_every_two_to_six_seconds():
@@ -38,14 +45,16 @@ def test_a_blink_closes_both_lids_and_opens_them_within_150_ms():
 def test_the_same_seed_gives_the_same_life_in_whatever_order_it_is_asked_for():
     forward, backward = Idle(Random(3)), Idle(Random(3))
     times = [i / 10 for i in range(600)]
-    seen = {time: (forward.weights(time), forward.rotations(time)) for time in times}
-    assert seen == {time: (backward.weights(time), backward.rotations(time)) for time in reversed(times)}
+    seen = {time: life(forward, time) for time in times}
+    assert seen == {time: life(backward, time) for time in reversed(times)}
 
 
 def test_two_figures_do_not_blink_and_breathe_as_one():
     one, other = Idle(Random(1)), Idle(Random(2))
     assert blinks(one, 60.0) != blinks(other, 60.0)
     assert one.rotations(1.0) != other.rotations(1.0)
+    assert [one.layer(t, 0.0).root for t in range(60)] != [other.layer(t, 0.0).root for t in range(60)]
+    assert [one.eyes(t) for t in range(60)] != [other.eyes(t) for t in range(60)]
 
 
 def test_the_figure_is_never_quite_still_and_never_restless(skeleton):
@@ -64,9 +73,101 @@ def test_the_shoulders_rise_and_fall_fifteen_times_a_minute(skeleton):
     assert peaks == 15
 
 
+def test_a_blink_that_is_asked_for_begins_at_once_and_is_as_long_as_others():
+    idle = Idle(Random(7))
+    (start, *_) = blinks(idle, 20.0)
+    asked = start + 0.5
+    idle.blink(asked)
+    closed = [idle.weights(asked + i / 1000)["eyeBlinkLeft"] for i in range(200)]
+    assert closed[0] == 0.0 < closed[10]
+    assert max(closed) > 0.99
+    assert closed[151] == 0.0
+
+
+# --- weight
+
+
+def stances(idle: Idle, seconds: int) -> list[float]:
+    """Where the pelvis is to the side, ten times a second, m."""
+    return [idle.layer(i / 10, 0.0).root[0] for i in range(10 * seconds)]
+
+
+def test_who_stands_moves_the_weight_from_foot_to_foot_now_and_then_and_rests_between():
+    places = stances(Idle(Random(5)), 600)
+    resting = sum(a == b for a, b in pairwise(places))
+    assert resting > 0.8 * len(places)
+    crossings = sum(a < 0.0 <= b or b < 0.0 <= a for a, b in pairwise(places))
+    assert 600 / 20 < crossings < 600 / 6
+    assert 0.02 < max(map(abs, places)) <= 0.031
+
+
+def test_a_shift_of_weight_is_slow_and_starts_and_stops_gently():
+    places = stances(Idle(Random(5)), 600)
+    speeds = [abs(b - a) * 10 for a, b in pairwise(places)]
+    assert max(speeds) < 0.07
+    assert max(abs(b - a) for a, b in pairwise(speeds)) < 0.03
+
+
+def test_the_lower_a_figure_sits_the_less_weight_there_is_to_shift():
+    idle = Idle(Random(5))
+    time = next(i / 10 for i in range(600) if abs(idle.layer(i / 10, 0.0).root[0]) > 0.02)
+    ways = [abs(idle.layer(time, sunk).root[0]) for sunk in (0.0, 0.03, 0.07, 0.1, 0.4)]
+    assert ways == sorted(ways, reverse=True)
+    assert ways[-2:] == [0.0, 0.0]
+
+
+def test_shifting_weight_leaves_the_head_level(skeleton):
+    idle = Idle(Random(5))
+    still = Idle(Random(5))
+    for i in range(0, 600, 7):
+        layer = idle.layer(float(i), 0.0)
+        head = Body(skeleton, layer.rotations, layer.root).place("skullbase").rotation
+        alone = Body(skeleton, still.rotations(float(i))).place("skullbase").rotation
+        assert angle(multiply(conjugate(alone), head)) < 0.02
+
+
+# --- eyes
+
+
+def directions(idle: Idle, seconds: float, rate: int = 100) -> list[tuple[float, float]]:
+    """Where the left eye looks: to the left and up, degrees."""
+    turns = (rotate(idle.eyes(i / rate)["l_eyeball_joint"], FORWARD) for i in range(round(seconds * rate)))
+    return [(math.degrees(math.atan2(x, z)), math.degrees(math.asin(y))) for x, y, z in turns]
+
+
+def test_idle_eyes_look_straight_ahead_most_of_the_time_and_aside_for_moments():
+    seen = directions(Idle(Random(9)), 600.0, 50)
+    ahead = sum(math.hypot(*each) < 0.05 for each in seen) / len(seen)
+    # Lee, Badler and Badler 2002, of a listener: 237.5 frames at the other, 13 frames away.
+    assert ahead == pytest.approx(237.5 / (237.5 + 13.0), abs=0.03)
+
+
+def test_idle_eyes_never_look_further_aside_than_five_degrees():
+    amplitudes = [math.hypot(*each) for each in directions(Idle(Random(9)), 600.0, 50)]
+    assert 3.0 < max(amplitudes) <= 5.01
+
+
+def test_idle_eyes_go_up_down_and_to_the_sides_more_often_than_askew():
+    # Of the directions of Lee, Badler and Badler 2002, 70 % are within 22.5 degrees of an axis.
+    seen = directions(Idle(Random(9)), 6000.0, 10)
+    aside = [each for each in seen if math.hypot(*each) > 1.0]
+    along = sum(min(abs(x), abs(y)) < math.tan(math.radians(22.5)) * max(abs(x), abs(y)) for x, y in aside)
+    assert along / len(aside) == pytest.approx(0.70, abs=0.06)
+
+
+def test_both_idle_eyes_turn_together_and_by_saccades():
+    idle = Idle(Random(9))
+    assert all(len(set(idle.eyes(i / 10).values())) == 1 for i in range(600))
+    seen = directions(idle, 60.0, 1000)
+    speeds = [1000 * math.dist(a, b) for a, b in pairwise(seen)]
+    moving = [i for i, speed in enumerate(speeds) if speed > 1.0]
+    assert 50.0 < max(speeds) < 300.0
+    assert len(moving) < 0.02 * len(speeds)
+
+
 @pytest.mark.parametrize(("side", "outward"), [("l", 1.0), ("r", -1.0)])
 def test_at_rest_the_hands_hang_beside_the_hips_with_loose_fingers(skeleton, side, outward):
-    body = Body(skeleton, REST_POSE)
+    body = body_in(skeleton)
     shoulder, wrist, hip = (body.place(f"{side}_{joint}").position for joint in ("shoulder", "wrist", "hip"))
     assert wrist[1] < shoulder[1] - 0.35
     assert outward * (wrist[0] - hip[0]) > 0.08

@@ -9,9 +9,10 @@ from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.pose import LayerKind
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, slerp
 from reactive_realizer.embodiment.skeleton import Pose
-from reactive_realizer.embodiment.vector import distance
+from reactive_realizer.engines.animation.arms.pace import comfortable, seven_points
 from reactive_realizer.engines.animation.easing import minimum_jerk, share
 from reactive_realizer.engines.animation.motion_unit import (
+    AMOUNT,
     AMOUNT_RANGE,
     ANY_VALUE,
     GESTURE_POINTS,
@@ -26,9 +27,6 @@ from reactive_realizer.planunit.parameter import Range
 HOLD = "postStrokeHoldDuration"
 """The parameter of a binding that says how long the hands stay after the stroke, s."""
 
-AMOUNT = "amount"
-"""The parameter of a gesture that says how far it leaves the rest pose, 0 to 1; 1 is as authored."""
-
 _INNER = GESTURE_POINTS[1:-1]
 
 
@@ -40,8 +38,8 @@ class GestureMotionUnit:
     coincide, as ready and strokeStart mostly do, the hands wait. Preparation and retraction start and stop as people do
     (`minimum_jerk`), every joint along its shortest arc.
 
-    With less than its full amount it stays nearer to the rest pose, all of it: a hand raised as high as ever for a
-    smaller stroke would not look like a smaller gesture.
+    Of less than its full `AMOUNT`, which is as authored, it stays nearer to the rest pose, all of it: a hand raised as
+    high as ever for a smaller stroke would not look like a smaller gesture.
     """
 
     kind: LayerKind = LayerKind.GESTURE
@@ -68,37 +66,23 @@ class GestureMotionUnit:
         self._animation = animation
         self._rest = rest
         self._begin = {joint: body.rotation(joint) for joint in animation.joints}
+        self._asked: tuple[float, ...] = ()
+        self._found: Mapping[str, Quat] = {}
         timing = animation.timing(self.parameters)
         keys = completed(timing.key_positions)
         self._inner = [keys[point] for point in _INNER]
         durations = self._durations(body, timing.duration, max(0.0, parameters.get(HOLD, 0.0)))
         self._duration = sum(durations)
-        self._key_positions = _accumulated(durations)
+        self._key_positions = seven_points(durations)
 
     def _durations(self, body: Body, whole: float, hold: float) -> list[float]:
         """Of the six phases between the seven points, s."""
-        ready = body.posed(self._animation.sample(self._inner[0], self.parameters, body))
-        relax = body.posed(self._animation.sample(self._inner[-1], self.parameters, body))
+        ready = body.posed(self._animation.sample(self._inner[0], self.parameters, body).rotations)
+        relax = body.posed(self._animation.sample(self._inner[-1], self.parameters, body).rotations)
         rest = body.posed({joint: self._rest.get(joint, IDENTITY) for joint in self.joints})
         stroke = [whole * (after - before) for before, after in pairwise(self._inner)]
         stroke[-1] += hold
-        return [self._way(body, ready), *stroke, self._way(relax, rest)]
-
-    def _way(self, start: Body, goal: Body) -> float:
-        """How long the hands would like to take between two poses, s.
-
-        Peak speed of a minimum-jerk reach is 1.9 times its mean; with these numbers a wrist stays below 2 m/s, and
-        a fingertip, which also swings about the wrist, below 2.5 m/s.
-        """
-        between = {joint: slerp(start.rotation(joint), goal.rotation(joint), 0.5) for joint in self.joints}
-        bodies = (start, start.posed(between), goal)
-        return max(0.25 + 0.75 * self._furthest("wrist", bodies), 0.84 * self._furthest("middle3", bodies))
-
-    def _furthest(self, joint: str, bodies: tuple[Body, ...]) -> float:
-        """The longer of the ways of a joint of the left and of the right arm, m; 0 where neither arm is turned."""
-        names = (f"{side}_{joint}" for side in ("l", "r") if f"{side}_shoulder" in self.joints)
-        paths = [[body.place(name).position for body in bodies] for name in names if name in bodies[0].skeleton]
-        return max((sum(distance(a, b) for a, b in pairwise(path)) for path in paths), default=0.0)
+        return [comfortable(body, ready, self.joints), *stroke, comfortable(relax, rest, self.joints)]
 
     @property
     def joints(self) -> frozenset[str]:
@@ -136,11 +120,18 @@ class GestureMotionUnit:
 
     def preparation(self, body: Body) -> float:
         """How long the hands would like to take to the stroke from where a body has them, s."""
-        return self._way(body, body.posed(self._animation.sample(self._inner[0], self.parameters, body)))
+        ready = body.posed(self._animation.sample(self._inner[0], self.parameters, body).rotations)
+        return comfortable(body, ready, self.joints)
 
-    def _stroke(self, phase: float, body: Body) -> dict[str, Quat]:
-        """The animation's pose at a phase, as much of it as is to be shown."""
-        pose = self._animation.sample(self._animation_phase(phase), self.parameters, body)
+    def _stroke(self, phase: float, body: Body) -> Mapping[str, Quat]:
+        """The animation's pose at a phase, as much of it as is to be shown; while the hands come and go, the same."""
+        asked = (self._animation_phase(phase), *self.parameters.values())
+        if asked != self._asked or not self._animation.alone:
+            self._asked, self._found = asked, self._sampled(asked[0], body)
+        return self._found
+
+    def _sampled(self, phase: float, body: Body) -> Mapping[str, Quat]:
+        pose = self._animation.sample(phase, self.parameters, body).rotations
         amount = self.parameters[AMOUNT]
         if amount == 1.0:
             return pose
@@ -153,12 +144,3 @@ class GestureMotionUnit:
             if phase < right:
                 return begin + (end - begin) * share(phase, left, right) if phase > left else begin
         return self._inner[-1]
-
-
-def _accumulated(durations: list[float]) -> dict[str, float]:
-    """Phases of the seven points from the durations between them."""
-    total, passed, keys = sum(durations), 0.0, {"start": 0.0}
-    for point, duration in zip(_INNER, durations, strict=False):
-        passed += duration
-        keys[point] = passed / total
-    return {**keys, "end": 1.0}

@@ -1,9 +1,8 @@
 """From trees to one Python function of floats."""
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 
-from reactive_realizer.engines.animation.expression.functions import FUNCTIONS
 from reactive_realizer.engines.animation.expression.nodes import (
     Call,
     Choice,
@@ -13,6 +12,7 @@ from reactive_realizer.engines.animation.expression.nodes import (
     Operation,
     Variable,
     children,
+    walk,
 )
 
 Compiled = Callable[..., tuple[float, ...]]
@@ -21,18 +21,11 @@ Compiled = Callable[..., tuple[float, ...]]
 May raise ArithmeticError or ValueError where a formula has no value: 1/0, log(-1), exp(1000).
 """
 
-_SCOPE: dict[str, object] = {
-    # Without this entry Python would add its own functions.
-    "__builtins__": {},
-    "_power": math.pow,
-    **{f"_{name}": function.call for name, function in FUNCTIONS.items()},
-}
-
 
 def compile_formulas(formulas: Sequence[Node], names: Sequence[str]) -> Compiled:
     """One function for all formulas of an animation; equal formulas (fifteen fingers) are computed once.
 
-    The source is written from the tree alone: numbers as their `repr`, names by their place, functions from the table.
+    The source is written from the tree alone: numbers as their `repr`, names by their place.
 
     Args:
         formulas: trees whose variables are all among the names.
@@ -47,10 +40,22 @@ def compile_formulas(formulas: Sequence[Node], names: Sequence[str]) -> Compiled
     lines = [f"def formulas({', '.join(arguments.values())}):"]
     lines += [f" {result} = {_source(node, arguments)}" for node, result in results.items()]
     lines += [f" return ({''.join(f'{results[node]}, ' for node in folded)})"]
-    scope = dict(_SCOPE)
+    scope = _scope(folded)
     exec("\n".join(lines), scope)
     compiled: Compiled = scope["formulas"]  # type: ignore[assignment]
     return compiled
+
+
+def _scope(formulas: Iterable[Node]) -> dict[str, object]:
+    """What formulas call, by the names that they have in their source."""
+    calls = (node for formula in formulas for node in walk(formula) if isinstance(node, Call))
+    # Without the first entry Python would add its own functions.
+    return {
+        "__builtins__": {},
+        "_power": math.pow,
+        "_rest": math.fmod,
+        **{f"f_{call.name}": call.function.call for call in calls},
+    }
 
 
 def fold(node: Node) -> Node:
@@ -64,11 +69,11 @@ def fold(node: Node) -> Node:
             node = Operation(operator, fold(left), fold(right))
         case Choice(condition, yes, no):
             node = Choice(fold(condition), fold(yes), fold(no))
-        case Call(function, arguments):
-            node = Call(function, tuple(map(fold, arguments)))
+        case Call(name, function, arguments):
+            node = Call(name, function, tuple(map(fold, arguments)))
     if all(isinstance(child, Number) for child in children(node)):
         try:
-            value = float(eval(_source(node, {}), dict(_SCOPE)))
+            value = float(eval(_source(node, {}), _scope([node])))
         except (ArithmeticError, ValueError):
             return node
         if math.isfinite(value):
@@ -86,12 +91,20 @@ def _source(node: Node, arguments: Mapping[str, str]) -> str:
             return arguments[name]
         case Negation(operand):
             return f"(-{_source(operand, arguments)})"
-        case Operation("^", left, right):
-            return f"_power({_source(left, arguments)}, {_source(right, arguments)})"
         case Operation(operator, left, right):
-            return f"({_source(left, arguments)} {operator} {_source(right, arguments)})"
+            parts = (_source(part, arguments) for part in (left, right))
+            return _OPERATIONS.get(operator, f"({{}} {operator} {{}})").format(*parts)
         case Choice(condition, yes, no):
             parts = (_source(part, arguments) for part in (yes, condition, no))
             return "({} if {} > 0 else {})".format(*parts)
-        case Call(function, given):
-            return f"_{function}({', '.join(_source(argument, arguments) for argument in given)})"
+        case Call(name, _, given):
+            return f"f_{name}({', '.join(_source(argument, arguments) for argument in given)})"
+
+
+_OPERATIONS: Mapping[str, str] = {
+    "^": "_power({}, {})",
+    "%": "_rest({}, {})",
+    "&&": "({} != 0 and {} != 0)",
+    "||": "({} != 0 or {} != 0)",
+}
+"""Those that are written otherwise in Python; with what holds as a truth value, which counts as 1 there too."""

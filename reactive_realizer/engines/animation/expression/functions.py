@@ -1,8 +1,15 @@
 """What a formula may call."""
 
+import inspect
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from random import Random
+from types import MappingProxyType
+
+from reactive_realizer.engines.animation.expression.splines import hermite, tcbspline
+from reactive_realizer.engines.animation.noise import PerlinNoise
+from reactive_realizer.errors import error
 
 
 @dataclass(frozen=True, slots=True)
@@ -10,7 +17,8 @@ class Function:
     """A function and the numbers of arguments it takes.
 
     Attributes:
-        call: of floats.
+        call: of floats, and of nothing else: the same arguments always give the same value. Where it has none it raises
+            ArithmeticError or ValueError.
         accepts: whether it takes this number of arguments.
         takes: the same for people.
     """
@@ -19,90 +27,91 @@ class Function:
     accepts: Callable[[int], bool]
     takes: str
 
+    @classmethod
+    def of(cls, name: str, call: Callable[..., float]) -> "Function":
+        """A function of a plug-in: what it raises means that it has no value there.
 
-def hermite(x: float, start_speed: float, end_speed: float, *points: float) -> float:
-    """A cubic curve through points that lie one unit of x apart, the first at x = 0; constant outside.
+        Raises:
+            TypeError: it is no function.
+        """
+        signature = inspect.signature(call)
 
-    Between its neighbors a point is passed with half their difference as speed (Catmull and Rom 1974).
+        def accepts(given: int) -> bool:
+            try:
+                signature.bind(*[0.0] * given)
+            except TypeError:
+                return False
+            return True
 
-    Args:
-        x: where on the curve, 0 to len(points) - 1.
-        start_speed: slope at the first point, per unit of x.
-        end_speed: slope at the last point, per unit of x.
-        points: values, two or more.
+        def guarded(*arguments: float) -> float:
+            try:
+                return float(call(*arguments))
+            except Exception as problem:
+                raise ValueError(f"{name}: {problem}") from problem
+
+        return cls(guarded, accepts, str(signature))
+
+
+def noise(x: float, points: float) -> float:
+    """A smooth curve through random points, 0 to 1, that lie one unit of x apart; it repeats after so many points.
+
+    As in AsapRealizer, where the points are others each time that the program is started.
     """
-    last = len(points) - 1
-    if x >= last:
-        return points[last]
-    if x < 0.0:
-        return points[0]
-    i = int(x)
-    enter = start_speed if i == 0 else 0.5 * (points[i + 1] - points[i - 1])
-    leave = end_speed if i + 1 == last else 0.5 * (points[i + 2] - points[i])
-    return _cubic(x - i, points[i], points[i + 1], enter, leave)
+    length = int(points)
+    if not 1 <= length <= len(_POINTS):
+        raise ValueError(f"noise repeats after 1 to {len(_POINTS)} points, not after {points:g}")
+    i = math.floor(x)
+    near = [_POINTS[(i + step) % length] for step in (-1, 0, 1, 2)]
+    return hermite(x - i, 0.5 * (near[2] - near[0]), 0.5 * (near[3] - near[1]), near[1], near[2])
 
 
-def tcbspline(t: float, start_speed: float, end_speed: float, *keys: float) -> float:
-    """A curve through keys with tension, continuity and bias; the last value after the last key.
-
-    D. Kochanek and R. Bartels, "Interpolating splines with local tension, continuity, and bias control" (SIGGRAPH
-    1984), with their correction for unequal intervals. The order of the arguments is AsapRealizer's.
-
-    Args:
-        t: where on the curve.
-        start_speed: slope at the first key, per first interval.
-        end_speed: slope at the last key, per last interval.
-        keys: value and time of the first key; value, time, tension, continuity and bias of each between; value and
-            time of the last. Tension, continuity and bias are from -1 to 1; with 0 each it is a Catmull-Rom curve.
-    """
-    values = (keys[0], *keys[2:-2:5], keys[-2])
-    times = (keys[1], *keys[3:-2:5], keys[-1])
-    right = next((i for i, time in enumerate(times) if time > t), None)
-    if right is None:
-        return values[-1]
-    if right == 0:
-        return values[0]
-    left = right - 1
-    interval = times[right] - times[left]
-    enter, leave = start_speed, end_speed
-    # Slopes are per interval; the corrections make them equal per unit of t on both sides of a key.
-    if left > 0:
-        enter = _tangent(values, keys, left, -1.0) * 2.0 * interval / (times[right] - times[left - 1])
-    if right + 1 < len(values):
-        leave = _tangent(values, keys, right, 1.0) * 2.0 * interval / (times[right + 1] - times[left])
-    return _cubic((t - times[left]) / interval, values[left], values[right], enter, leave)
+def perlin(x: float, octaves: float = 1.0, persistence: float = 0.5) -> float:
+    """Perlin's noise, -1 to 1 (`PerlinNoise.octaves`)."""
+    return _PERLIN.octaves(x, int(octaves), persistence)
 
 
-def _tangent(values: Sequence[float], keys: Sequence[float], i: int, arriving: float) -> float:
-    """Slope at an inner key, per interval; arriving is 1 for the side before the key and -1 for the side after."""
-    tension, continuity, bias = keys[5 * i - 1 : 5 * i + 2]
-    before = (1.0 - tension) * (1.0 - arriving * continuity) * (1.0 + bias)
-    after = (1.0 - tension) * (1.0 + arriving * continuity) * (1.0 - bias)
-    return 0.5 * (before * (values[i] - values[i - 1]) + after * (values[i + 1] - values[i]))
+_POINTS: Sequence[float] = [i / 255 for i in Random(0).sample(range(256), 256)]
+_PERLIN = PerlinNoise(0)
 
 
-def _cubic(u: float, a: float, b: float, enter: float, leave: float) -> float:
-    """The cubic from a to b over u in 0..1 with given slopes at its ends."""
-    rest = 1.0 - u
-    return rest * rest * ((1.0 + 2.0 * u) * a + u * enter) + u * u * ((1.0 + 2.0 * rest) * b - rest * leave)
-
-
-def _exactly(number: int) -> tuple[Callable[[int], bool], str]:
-    return (lambda given: given == number), f"{number}"
-
-
-FUNCTIONS: Mapping[str, Function] = {
-    **{name: Function(getattr(math, name), *_exactly(1)) for name in ("sin", "cos", "tan", "asin", "acos", "atan")},
-    **{name: Function(getattr(math, name), *_exactly(1)) for name in ("sqrt", "exp", "log")},
-    "abs": Function(abs, *_exactly(1)),
-    "floor": Function(lambda x: float(math.floor(x)), *_exactly(1)),
-    "atan2": Function(math.atan2, *_exactly(2)),
-    "min": Function(min, lambda given: given >= 2, "2 or more"),
-    "max": Function(max, lambda given: given >= 2, "2 or more"),
-    "hermite": Function(hermite, lambda given: given >= 5, "x, two speeds and 2 points or more"),
-    "tcbspline": Function(
-        tcbspline, lambda given: given >= 7 and given % 5 == 2, "t, two speeds, and keys of 2, 5, ..., 5, 2 numbers"
-    ),
+_OF_ONE: Mapping[str, Callable[[float], float]] = {
+    **{name: getattr(math, name) for name in ("sin", "cos", "tan", "asin", "acos", "atan")},
+    **{name: getattr(math, name) for name in ("sinh", "cosh", "tanh", "asinh", "acosh", "atanh")},
+    **{name: getattr(math, name) for name in ("sqrt", "exp", "log", "log10")},
+    "ln": math.log,
+    "abs": abs,
+    "floor": lambda x: float(math.floor(x)),
+    "ceil": lambda x: float(math.ceil(x)),
+    "round": lambda x: float(math.floor(x + 0.5)),
 }
+_OF_TWO: Mapping[str, Callable[[float, float], float]] = {"atan2": math.atan2, "mod": math.fmod}
+
+FUNCTIONS: Mapping[str, Function] = MappingProxyType(
+    {
+        **{name: Function(call, lambda given: given == 1, "1") for name, call in _OF_ONE.items()},
+        **{name: Function(call, lambda given: given == 2, "2") for name, call in _OF_TWO.items()},
+        "min": Function(min, lambda given: given >= 2, "2 or more"),
+        "max": Function(max, lambda given: given >= 2, "2 or more"),
+        "hermite": Function(hermite, lambda given: given >= 5, "x, two speeds and 2 points or more"),
+        "tcbspline": Function(
+            tcbspline, lambda given: given >= 7 and given % 5 == 2, "t, two speeds, and keys of 2, 5, ..., 5, 2 numbers"
+        ),
+        "noise": Function(noise, lambda given: given == 2, "x and a number of points"),
+        "perlin": Function(perlin, lambda given: 1 <= given <= 3, "x, octaves and persistence, the last two if wanted"),
+    }
+)
+"""Those of the language, and of AsapRealizer's. `log` is the natural one, as in mathematics; there it is `log10`."""
+
+
+def registered(calls: Mapping[str, Callable[..., float]]) -> Mapping[str, Function]:
+    """Functions of plug-ins, by name.
+
+    Raises:
+        RealizerError: "two-plugins": one is called as a function of the language.
+    """
+    for name in calls.keys() & {"if", *FUNCTIONS}:
+        raise error("two-plugins", name=name, group="functions", known="the language of formulas and a plug-in")
+    return {name: Function.of(name, call) for name, call in calls.items()}
+
 
 CONSTANTS: Mapping[str, float] = {"pi": math.pi, "e": math.e}

@@ -3,6 +3,8 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from reactive_realizer.engines.animation.expression.functions import Function
+
 
 @dataclass(frozen=True, slots=True)
 class Number:
@@ -27,7 +29,7 @@ class Negation:
 
 @dataclass(frozen=True, slots=True)
 class Operation:
-    """Left operator right; a comparison is 1 where it holds, else 0."""
+    """Left operator right; what holds is 1, what does not is 0, and every other number counts as what holds."""
 
     operator: str
     left: "Node"
@@ -45,9 +47,16 @@ class Choice:
 
 @dataclass(frozen=True, slots=True)
 class Call:
-    """A function of the table `functions.FUNCTIONS`."""
+    """A function of some arguments.
 
-    function: str
+    Attributes:
+        name: as the formula calls it; no two functions of a formula have the same.
+        function: what is called.
+        arguments: as many as it accepts.
+    """
+
+    name: str
+    function: Function
     arguments: tuple["Node", ...]
 
 
@@ -65,13 +74,17 @@ def children(node: Node) -> tuple[Node, ...]:
             return (left, right)
         case Choice(condition, yes, no):
             return (condition, yes, no)
-        case Call(_, arguments):
+        case Call(_, _, arguments):
             return arguments
+
+
+def walk(node: Node) -> Iterator[Node]:
+    """A node and all under it, in order of appearance."""
+    yield node
+    for child in children(node):
+        yield from walk(child)
 
 
 def variables(node: Node) -> Iterator[str]:
     """Names in a formula, in order of appearance, each as often as it appears."""
-    if isinstance(node, Variable):
-        yield node.name
-    for child in children(node):
-        yield from variables(child)
+    return (found.name for found in walk(node) if isinstance(found, Variable))

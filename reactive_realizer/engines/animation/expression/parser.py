@@ -1,10 +1,11 @@
 """From the text of a formula to its tree (V. Pratt, "Top down operator precedence", 1973)."""
 
 import re
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import NoReturn
 
-from reactive_realizer.engines.animation.expression.functions import CONSTANTS, FUNCTIONS
+from reactive_realizer.engines.animation.expression.functions import CONSTANTS, FUNCTIONS, Function
 from reactive_realizer.engines.animation.expression.nodes import (
     Call,
     Choice,
@@ -23,12 +24,18 @@ DEEPEST = 80
 """Nesting of one formula. Python's own parser, which compiles it in the end, gives up at 200 parentheses."""
 
 _TOKEN = re.compile(
-    r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)|(?P<name>[A-Za-z_]\w*)|(?P<sign><=|>=|==|!=|[-+*/^(),<>]))",
+    r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)|(?P<name>[A-Za-z_]\w*)|(?P<sign><=|>=|==|!=|&&|\|\||[-+*/%^!(),<>]))",
     re.ASCII,
 )
 # How tightly an operator holds its operands. A minus sign holds less tightly than a power: -t^2 is -(t^2).
-_BINDING = {"==": 1, "!=": 1, "<": 2, ">": 2, "<=": 2, ">=": 2, "+": 3, "-": 3, "*": 4, "/": 4, "^": 6}
-_SIGN = 5
+_LEVELS = (("||",), ("&&",), ("==", "!="), ("<", ">", "<=", ">="), ("+", "-"), ("*", "/", "%"), (), ("^",))
+_BINDING = {operator: level for level, operators in enumerate(_LEVELS, 1) for operator in operators}
+_SIGN = 7
+_SIGNED: Mapping[str, Callable[[Node], Node]] = {
+    "+": lambda operand: operand,
+    "-": Negation,
+    "!": lambda operand: Operation("==", operand, Number(0.0)),
+}
 _END = ""
 
 
@@ -41,18 +48,23 @@ class _Token:
     at: int
 
 
-def parse(text: str) -> Node:
+def parse(text: str, functions: Mapping[str, Function] = FUNCTIONS) -> Node:
     """The tree of a formula; names that are neither a function nor a constant are variables.
+
+    Args:
+        text: the formula.
+        functions: what it may call.
 
     Raises:
         RealizerError: "bad-expression", with the place and what is wrong there.
     """
-    return _Parser(text).whole()
+    return _Parser(text, functions).whole()
 
 
 class _Parser:
-    def __init__(self, text: str) -> None:
+    def __init__(self, text: str, functions: Mapping[str, Function]) -> None:
         self._text = text
+        self._functions = functions
         if len(text) > LONGEST:
             self._fail(f"more than {LONGEST} characters", LONGEST)
         self._token = self._read(0)
@@ -88,9 +100,9 @@ class _Parser:
             inside = self._expression(0, depth + 1)
             self._expect(")")
             return inside
-        if token.text in ("+", "-"):
+        if token.text in _SIGNED:
             operand, height = self._expression(_SIGN, depth + 1)
-            return (operand, height) if token.text == "+" else (Negation(operand), height + 1)
+            return _SIGNED[token.text](operand), height + 1
         self._fail(
             f"'{token.text}' where a number or a name should be" if token.text else "it ends too early", token.at
         )
@@ -105,12 +117,12 @@ class _Parser:
             if len(arguments) != 3:
                 self._fail("if takes 3 arguments, a condition and two values", token.at)
             return Choice(*arguments), height + 1
-        function = FUNCTIONS.get(token.text)
+        function = self._functions.get(token.text)
         if function is None:
-            self._fail(f"unknown function '{token.text}'; known are if, {', '.join(sorted(FUNCTIONS))}", token.at)
+            self._fail(f"unknown function '{token.text}'; known are if, {', '.join(sorted(self._functions))}", token.at)
         if not function.accepts(len(arguments)):
             self._fail(f"{token.text} takes {function.takes}, not {len(arguments)}", token.at)
-        return Call(token.text, tuple(arguments)), height + 1
+        return Call(token.text, function, tuple(arguments)), height + 1
 
     def _arguments(self, depth: int) -> tuple[list[Node], int]:
         self._expect("(")

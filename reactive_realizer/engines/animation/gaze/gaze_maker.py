@@ -1,13 +1,17 @@
 """From a behavior to a gaze."""
 
-from collections.abc import Callable
+from collections.abc import Mapping
 
-from reactive_realizer.bml.behaviors import Gaze
+from reactive_realizer.binding.gesture_binding import numbers
+from reactive_realizer.bml.behavior import Behavior
+from reactive_realizer.bml.behaviors import Gaze, GazeShift, HeadDirectionShift
 from reactive_realizer.bml.names import BMLT
 from reactive_realizer.bml.words import Influence
-from reactive_realizer.embodiment.vector import ZERO, Vec3
 from reactive_realizer.engines.animation.actor import Actor, Wanted
-from reactive_realizer.engines.animation.gaze.gaze_motion_unit import GazeMotionUnit
+from reactive_realizer.engines.animation.gaze.aim import Aim
+from reactive_realizer.engines.animation.gaze.gaze_motion_unit import GAZE_SHIFT, HEAD_SHIFT, LOOK, GazeMotionUnit
+from reactive_realizer.engines.animation.gaze.influence import EYES, WEIGHTS, usual_weights
+from reactive_realizer.engines.animation.sight import sight_of
 from reactive_realizer.errors import error
 
 DYNAMIC = (BMLT, "dynamic")
@@ -15,35 +19,52 @@ DYNAMIC = (BMLT, "dynamic")
 
 
 class GazeMaker:
-    """Makes gazes at targets of the world."""
+    """Makes gazes and shifts of gaze at targets of the world.
+
+    Args:
+        actor: who looks.
+        follow: whether all of them follow their target; else those that say so.
+        influence: what takes part where the behavior does not say.
+    """
+
+    def __init__(self, actor: Actor, *, follow: bool = False, influence: Influence = Influence.HEAD) -> None:
+        self._actor = actor
+        self._follow = follow
+        self._influence = influence
+
+    def __call__(self, wanted: Wanted) -> GazeMotionUnit:
+        """As every maker."""
+        gaze = wanted.behavior
+        if not isinstance(gaze, Gaze):
+            raise error("no-unit", unit=f"gaze for {gaze.name}")
+        follow = self._follow or _follows(gaze)
+        aim = Aim(sight_of(self._actor, gaze.target, follow=follow), gaze.offset_angle, gaze.offset_direction)
+        weights = usual_weights(gaze.influence or self._influence) | _said(wanted.parameters)
+        return GazeMotionUnit(aim, weights, self._actor.rest, GAZE_SHIFT if isinstance(gaze, GazeShift) else LOOK)
+
+
+class HeadDirectionMaker:
+    """Makes shifts of the head's direction: as those of gaze, without the eyes."""
 
     def __init__(self, actor: Actor) -> None:
         self._actor = actor
 
     def __call__(self, wanted: Wanted) -> GazeMotionUnit:
         """As every maker."""
-        behavior = wanted.behavior
-        if not isinstance(behavior, Gaze):
-            raise error("no-unit", unit=f"gaze for {behavior.name}")
-        world = self._actor.world
-        if world.position(behavior.target) is None:
-            raise error("no-target", target=behavior.target, known=", ".join(world.targets))
-        return GazeMotionUnit(
-            self._target(behavior.target, behavior.extensions.get(DYNAMIC) == "true"),
-            behavior.influence or Influence.HEAD,
-            behavior.offset_angle,
-            behavior.offset_direction.value,
-        )
+        shift = wanted.behavior
+        if not isinstance(shift, HeadDirectionShift):
+            raise error("no-unit", unit=f"head-direction for {shift.name}")
+        aim = Aim(sight_of(self._actor, shift.target, follow=_follows(shift)))
+        weights = usual_weights(Influence.HEAD) | _said(wanted.parameters)
+        del weights[EYES]
+        return GazeMotionUnit(aim, weights, self._actor.rest, HEAD_SHIFT)
 
-    def _target(self, name: str, dynamic: bool) -> Callable[[], Vec3]:
-        """Where to look, in the figure's own frame; a target that is gone stays where it was seen last."""
-        world, humanoid = self._actor.world, self._actor.humanoid
-        seen: list[Vec3] = []
 
-        def locate() -> Vec3:
-            position = world.position(name) if dynamic or not seen else None
-            if position is not None:
-                seen[:] = [position]
-            return humanoid.to_own_frame(seen[0]) if seen else ZERO
+def _follows(behavior: Behavior) -> bool:
+    return behavior.extensions.get(DYNAMIC) == "true"
 
-        return locate
+
+def _said(parameters: Mapping[str, str]) -> dict[str, float]:
+    """The weights that a behavior or its binding says, each within what it may be."""
+    said = numbers(parameters)
+    return {group: min(high, max(low, said[group])) for group, (low, high) in WEIGHTS.items() if group in said}

@@ -1,106 +1,129 @@
-"""Looking at a target for a while, and back."""
+"""Looking at something: the part that trunk, neck and head have in it."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
+from dataclasses import dataclass
 from types import MappingProxyType
 
-from reactive_realizer.bml.words import Influence
 from reactive_realizer.embodiment.body import Body
-from reactive_realizer.embodiment.pose import Layer, LayerKind
-from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, slerp
+from reactive_realizer.embodiment.pose import LayerKind
+from reactive_realizer.embodiment.quaternion import slerp
 from reactive_realizer.embodiment.vector import Vec3
 from reactive_realizer.engines.animation.easing import minimum_jerk, share
-from reactive_realizer.engines.animation.gaze.turning import (
-    aim_eyes,
-    gaze_joints,
-    offset_target,
-    turn_toward,
-)
+from reactive_realizer.engines.animation.gaze.aim import Aim
+from reactive_realizer.engines.animation.gaze.influence import EYES, JOINTS, WEIGHTS
+from reactive_realizer.engines.animation.gaze.settling import Settling
+from reactive_realizer.engines.animation.gaze.turning import turn_toward
 from reactive_realizer.engines.animation.motion_unit import Moment, Posed, Resource
+from reactive_realizer.engines.animation.posture.rest import Rest
 from reactive_realizer.planunit.parameter import Range
 
-_KEY_POSITIONS = MappingProxyType({"start": 0.0, "ready": 0.25, "relax": 0.75, "end": 1.0})
-_DURATION = 2.0
-# The eyes are there in this part of the time that the head takes, and wait for it there.
-_EYES_LEAD = 0.4
+
+@dataclass(frozen=True, slots=True)
+class Course:
+    """How a kind of gaze comes and goes.
+
+    Attributes:
+        key_positions: of its points; without a ready it is there at its end, without a relax it stays.
+        duration: from start to end, where nothing else is asked for, s.
+        group: its replacement group.
+        lasts: the name under which it stays.
+        resources: what it owns.
+    """
+
+    key_positions: Mapping[str, float]
+    duration: float
+    group: str
+    lasts: str | None = None
+    resources: frozenset[str] = frozenset()
+
+
+_SHIFT = MappingProxyType({"start": 0.0, "end": 1.0})
+
+LOOK = Course(
+    MappingProxyType({"start": 0.0, "ready": 0.25, "relax": 0.75, "end": 1.0}),
+    2.0,
+    "gaze",
+    resources=frozenset({Resource.HEAD}),
+)
+"""A gaze: a quarter to turn, half to look, a quarter to turn back."""
+
+GAZE_SHIFT = Course(_SHIFT, 0.5, "gaze", lasts="gaze", resources=frozenset({Resource.HEAD}))
+"""A gaze that stays, until another one does."""
+
+HEAD_SHIFT = Course(_SHIFT, 0.5, "head direction", lasts="head direction")
+"""A head that is turned, and stays so; it may be turned elsewhere than the eyes look."""
 
 
 class GazeMotionUnit:
-    """Turns head and trunk toward a target from start to ready, follows it until relax, and is back at end.
+    """Turns trunk, neck and head toward what is looked at, and stays turned to it until it relaxes.
 
-    The eyes are not among its joints: they look from the head as it is in the end, nods and breath included, so their
-    layer is asked for last (`eye_layer`).
+    The eyes are not among its joints: they look from the head as it is shown in the end, nods and breath included. What
+    they do with all gazes of a figure is up to `Looking`.
     """
 
     kind: LayerKind = LayerKind.GAZE
-    resources = frozenset({Resource.HEAD})
-    group: str | None = "gaze"
-    lasts: str | None = None
     limits: tuple[float, float] | None = None
-    ranges: Mapping[str, Range] = MappingProxyType({})
 
-    def __init__(
-        self,
-        target: Callable[[], Vec3],
-        influence: Influence,
-        offset_angle: float = 0.0,
-        offset_direction: str = "RIGHT",
-    ) -> None:
+    def __init__(self, aim: Aim, weights: Mapping[str, float], rest: Rest, course: Course = LOOK) -> None:
         """Plans a gaze.
 
         Args:
-            target: where the target is now, in the figure's frame, m; a static gaze always gives the same.
-            influence: what takes part.
-            offset_angle: between the target and what is looked at, degrees.
-            offset_direction: toward which, as the figure sees it (BML 1.0).
+            aim: where to look.
+            weights: group of joints -> its part (`WEIGHTS`); one without eyes is about the head alone.
+            rest: what trunk, neck and head do without it.
+            course: how it comes and goes.
         """
-        self.parameters: dict[str, float] = {}
-        self._target = target
-        self._influence = influence
-        self._offset = (math.radians(offset_angle), offset_direction)
-        self._begin: dict[str, Quat] = dict.fromkeys(gaze_joints(influence), IDENTITY)
+        self.parameters = dict(weights)
+        self.ranges: Mapping[str, Range] = {group: WEIGHTS[group] for group in weights}
+        self.group: str | None = course.group
+        self.lasts = course.lasts
+        self.resources = course.resources
+        self._aim = aim
+        self._rest = rest
+        self._course = course
+        self._ready = course.key_positions.get("ready", 1.0)
+        self._relax = course.key_positions.get("relax", math.inf)
+        self._settling = Settling()
+        self._begin = rest.body
 
     @property
     def joints(self) -> frozenset[str]:
-        """Of trunk, neck and head."""
-        return frozenset(self._begin)
+        """Of trunk, neck and head; which of them turn is a matter of weights."""
+        return frozenset(joint for joints in JOINTS.values() for joint in joints)
 
     @property
     def key_positions(self) -> Mapping[str, float]:
-        """A quarter to turn, half to look, a quarter to turn back."""
-        return _KEY_POSITIONS
+        """As its course has them."""
+        return self._course.key_positions
 
     @property
     def preferred_duration(self) -> float:
-        """From start to end, s."""
-        return _DURATION
+        """As its course has it, s."""
+        return self._course.duration
 
     def start(self, body: Body) -> None:
         """The head turns from where it is now, which may be another gaze."""
-        self._begin = {joint: body.rotation(joint) for joint in self._begin}
+        self._begin = body
 
     def pose(self, moment: Moment) -> Posed:
         """Rotations of trunk, neck and head; they leave for whatever lies below."""
-        keys, phase, body = _KEY_POSITIONS, moment.phase, moment.body
-        there = turn_toward(body, self._point(body), self._influence)
-        if phase < keys["ready"]:
-            done = minimum_jerk(share(phase, keys["start"], keys["ready"]))
-            return Posed({joint: slerp(self._begin[joint], goal, done) for joint, goal in there.items()})
-        return Posed(there, 1.0 - minimum_jerk(share(phase, keys["relax"], keys["end"])))
+        body, phase = moment.body, moment.phase
+        there = self._settling(turn_toward(body, self._rest.pose, self.point, self.parameters), moment.time)
+        done = minimum_jerk(share(phase, 0.0, self._ready))
+        if done < 1.0:
+            there = {joint: slerp(self._begin.rotation(joint), turn, done) for joint, turn in there.items()}
+        return Posed(there, 1.0 - minimum_jerk(share(phase, self._relax, 1.0)) if phase > self._relax else 1.0)
 
-    def eye_layer(self, phase: float, composed: Body) -> Layer:
-        """What the eyes do at a phase.
+    @property
+    def eyes(self) -> float:
+        """The part that the eyes go of the way to what is looked at, 0 to 1."""
+        return self.parameters.get(EYES, 0.0)
 
-        Args:
-            phase: 0 to 1.
-            composed: the body with every other layer of this frame.
-        """
-        keys = _KEY_POSITIONS
-        come = minimum_jerk(share(phase, keys["start"], _EYES_LEAD * keys["ready"]))
-        leave = minimum_jerk(share(phase, keys["relax"], keys["end"]))
-        return Layer(LayerKind.EYES, aim_eyes(composed, self._point(composed)), come * (1.0 - leave))
+    def looks(self, phase: float) -> bool:
+        """Whether the eyes are its own at a phase: they go there first, and leave first."""
+        return phase < self._relax
 
-    def _point(self, body: Body) -> Vec3:
-        angle, direction = self._offset
-        target = self._target()
-        return offset_target(body, target, angle, direction) if angle else target
+    def point(self, eyes: Vec3) -> Vec3:
+        """Where it looks from between the eyes, both in the figure's frame, m."""
+        return self._aim.point(eyes)

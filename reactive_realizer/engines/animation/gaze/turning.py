@@ -1,155 +1,138 @@
-"""Looking at something: how trunk, neck and head share the turn, and what is left to the eyes.
+"""How trunk, neck and head share the turn toward what is looked at (D. Tweed's model of gaze).
 
-All functions are pure. Directions are yaw (to the figure's left) and pitch (up), rad, from straight ahead.
+All functions are pure.
 """
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
 
-from reactive_realizer.bml.words import Influence
 from reactive_realizer.embodiment.body import Body
-from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, conjugate, from_euler, rotate
-from reactive_realizer.embodiment.vector import Vec3, add, length, scale, subtract
+from reactive_realizer.embodiment.quaternion import (
+    IDENTITY,
+    Quat,
+    angle,
+    between,
+    conjugate,
+    from_axis_angle,
+    multiply,
+    power,
+    rotate,
+)
+from reactive_realizer.embodiment.skeleton import Pose
+from reactive_realizer.embodiment.vector import FORWARD, Vec3, unit
+from reactive_realizer.engines.animation.gaze.eyes import EYE_RANGE, Sockets, direction
+from reactive_realizer.engines.animation.gaze.influence import EYES, joint_weights
 
-EYES = ("l_eyeball_joint", "r_eyeball_joint")
+HORIZONTAL = 0.9
+VERTICAL = 0.3
+TORSIONAL = -0.15
+"""What the head makes of the turn that would bring the nose to the target: D. Tweed, "Three-dimensional model of the
+human eye-head saccadic system" (Journal of Neurophysiology 77, 1997)."""
 
-EYE_YAW = math.radians(35.0)
-"""The eyes turn no further to a side."""
-
-EYE_PITCH = math.radians(25.0)
-"""The eyes turn no further up or down."""
-
-# What the joints must leave to the eyes is less than these can do, so that a nod does not lose the target.
+# The head leaves to the eyes no more than this part of what they can do, so that a nod does not lose the target.
 _COMFORT = 0.8
 
-
-@dataclass(frozen=True, slots=True)
-class _Turn:
-    """A joint's part in a gaze: shares of yaw and pitch, and the furthest it turns, rad."""
-
-    yaw: float
-    pitch: float
-    furthest_yaw: float
-    furthest_pitch: float
-
-
-# The head follows a gaze to about two thirds to the side and to half up or down (D. Tweed, "Three-dimensional model of
-# the human eye-head saccadic system", 1997); furthest turns are what the segments of a spine allow.
-_HEAD = {"vc4": _Turn(0.30, 0.22, 0.60, 0.35), "skullbase": _Turn(0.40, 0.30, 0.75, 0.45)}
-_SHOULDER = {
-    "vt10": _Turn(0.08, 0.03, 0.25, 0.12),
-    "vt6": _Turn(0.12, 0.04, 0.25, 0.12),
-    "vc4": _Turn(0.25, 0.20, 0.60, 0.35),
-    "skullbase": _Turn(0.33, 0.26, 0.75, 0.45),
-}
-_WAIST = {
-    "vl5": _Turn(0.14, 0.05, 0.35, 0.15),
-    "vt10": _Turn(0.10, 0.03, 0.25, 0.12),
-    "vt6": _Turn(0.10, 0.03, 0.25, 0.12),
-    "vc4": _Turn(0.22, 0.18, 0.60, 0.35),
-    "skullbase": _Turn(0.28, 0.24, 0.75, 0.45),
-}
-_TURNS: Mapping[Influence, Mapping[str, _Turn]] = {
-    Influence.EYES: {},
-    Influence.HEAD: _HEAD,
-    Influence.SHOULDER: _SHOULDER,
-    Influence.WAIST: _WAIST,
-    # Feet stay where they stand: what would turn the legs is locomotion.
-    Influence.WHOLE: _WAIST,
+# The furthest a joint turns up or down and to a side, rad: what the segments of a spine allow.
+_FURTHEST = {
+    "vl5": (0.15, 0.35),
+    "vt10": (0.12, 0.25),
+    "vt6": (0.12, 0.25),
+    "vc4": (0.35, 0.60),
+    "skullbase": (0.45, 0.75),
 }
 
-_OFFSETS: Mapping[str, tuple[float, float]] = {
-    "RIGHT": (-1.0, 0.0),
-    "LEFT": (1.0, 0.0),
-    "UP": (0.0, 1.0),
-    "DOWN": (0.0, -1.0),
-    "UPRIGHT": (-math.sqrt(0.5), math.sqrt(0.5)),
-    "UPLEFT": (math.sqrt(0.5), math.sqrt(0.5)),
-    "DOWNRIGHT": (-math.sqrt(0.5), -math.sqrt(0.5)),
-    "DOWNLEFT": (math.sqrt(0.5), -math.sqrt(0.5)),
-}
+# What is further behind is turned to as if it were here: across the back, the shortest way there is over the head.
+_SIDEWAYS = sum(side for _, side in _FURTHEST.values())
 
 
-def gaze_joints(influence: Influence) -> tuple[str, ...]:
-    """The joints that turn with a gaze, from below; the eyes are not among them."""
-    return tuple(_TURNS[influence])
+def turn_toward(body: Body, rest: Pose, point: Callable[[Vec3], Vec3], weights: Mapping[str, float]) -> dict[str, Quat]:
+    """Rotations of trunk, neck and head toward a point, as far as they take part.
 
-
-def turn_toward(body: Body, target: Vec3, influence: Influence) -> dict[str, Quat]:
-    """Rotations of trunk, neck and head toward a target, their part of the way.
+    All of them turn about one axis, so the head does too while they come from rest: "Listing's law for gaze-directing
+    head movements" (D. Tweed and T. Vilis, 1992).
 
     Args:
-        body: as it is; what it does with these joints themselves does not matter.
-        target: in the figure's frame, m.
-        influence: which joints.
+        body: as it is; what it does with these joints itself does not matter.
+        rest: what they do when nobody looks anywhere.
+        point: from between the eyes to where they look, both in the figure's frame, m.
+        weights: of each group of joints.
     """
-    turns = {joint: turn for joint, turn in _TURNS[influence].items() if joint in body.skeleton}
-    if not turns:
+    parts = {joint: part for joint, part in joint_weights(weights).items() if joint in body.skeleton}
+    if not parts:
         return {}
-    ahead = body.posed(dict.fromkeys(turns, IDENTITY))
-    axes = ahead.place("skullbase").rotation
-    yaw, pitch = _direction(rotate(conjugate(axes), subtract(target, eye_point(ahead))))
-    yaws = _shared(yaw, EYE_YAW, {joint: (turn.yaw, turn.furthest_yaw) for joint, turn in turns.items()})
-    pitches = _shared(pitch, EYE_PITCH, {joint: (turn.pitch, turn.furthest_pitch) for joint, turn in turns.items()})
-    return {joint: from_euler(-pitches[joint], yaws[joint], 0.0) for joint in turns}
+    chain = body.skeleton.chain("skullbase")
+    ahead = {joint: rest.get(joint, IDENTITY) if joint in parts else body.rotation(joint) for joint in chain}
+    sockets = Sockets.of(Body(body.skeleton, ahead, body.root))
+    way = direction(sockets.middle, point(sockets.middle))
+    sight = FORWARD if way is None else _reachable(rotate(conjugate(sockets.rotation), way))
+    turn = head_turn(sight, min(1.0, sum(parts.values())), weights.get(EYES, 0.0) * _COMFORT * EYE_RANGE)
+    return _spread(turn, parts, ahead)
 
 
-def _shared(angle: float, eyes: float, parts: Mapping[str, tuple[float, float]]) -> dict[str, float]:
-    """An angle shared out by parts of (share, furthest); they grow where the eyes could not make up for the rest."""
-    usual = abs(angle) * sum(share for share, _ in parts.values())
-    needed = abs(angle) - _COMFORT * eyes
-    more = max(1.0, needed / usual) if usual > 0.0 else 1.0
-    return {joint: _clamped(more * share * angle, furthest) for joint, (share, furthest) in parts.items()}
+def head_turn(sight: Vec3, part: float, left: float) -> Quat:
+    """The head's turn toward a direction: more of it to the side than up or down, and as much roll as Donders' law has.
 
-
-def aim_eyes(body: Body, target: Vec3) -> dict[str, Quat]:
-    """Rotations of the eyeballs that look at a target, each for itself, as far as eyes turn.
+    With x the turn that would bring the nose there, a quaternion, it is (0.3 x_v, 0.9 x_h, -0.15 x_v x_h): for each
+    direction there is one roll, wherever the head comes from. Where the eyes could not make up for what is missing, the
+    head goes on by the shortest way.
 
     Args:
-        body: with its head where it will be shown.
-        target: in the figure's frame, m.
+        sight: a unit vector in the axes of a head that looks straight ahead.
+        part: how much of it is done, 0 to 1.
+        left: the angle that the eyes make up for, rad.
     """
-    aimed = {}
-    for eye in EYES:
-        if eye in body.skeleton:
-            place = body.place(eye)
-            # The eye's own rotation is what is wanted, so the direction is taken in the axes of the head.
-            head = body.place(body.skeleton.chain(eye)[-2]).rotation
-            yaw, pitch = _direction(rotate(conjugate(head), subtract(target, place.position)))
-            aimed[eye] = from_euler(-_clamped(pitch, EYE_PITCH), _clamped(yaw, EYE_YAW), 0.0)
-    return aimed
+    _, vertical, horizontal, _ = between(FORWARD, sight)
+    x, y, z = VERTICAL * vertical, HORIZONTAL * horizontal, TORSIONAL * vertical * horizontal
+    turn = power((math.sqrt(1.0 - x * x - y * y - z * z), x, y, z), part)
+    missing = between(rotate(turn, FORWARD), sight)
+    excess = angle(missing) - left
+    return turn if excess <= 0.0 else multiply(power(missing, excess / angle(missing)), turn)
 
 
-def offset_target(body: Body, target: Vec3, angle: float, direction: str) -> Vec3:
-    """A point as far away as the target, seen beside it from between the eyes.
+def _reachable(sight: Vec3) -> Vec3:
+    x, y, z = sight
+    side = math.atan2(x, z)
+    if abs(side) <= _SIDEWAYS:
+        return sight
+    level = math.hypot(x, z)
+    side = math.copysign(_SIDEWAYS, side)
+    return (level * math.sin(side), y, level * math.cos(side))
+
+
+def _spread(turn: Quat, parts: Mapping[str, float], ahead: dict[str, Quat]) -> dict[str, Quat]:
+    """The head's turn as turns of the joints below it, each about the same axis in space.
 
     Args:
-        body: who looks.
-        target: in the figure's frame, m.
-        angle: between the two, rad.
-        direction: of BML's offsetDirection, as the figure sees it; any other word is no offset.
+        turn: in the axes of the head as it is ahead.
+        parts: joint -> its part.
+        ahead: the joints from the root to the head as they are without a turn, in order.
     """
-    sideways, upward = _OFFSETS.get(direction, (0.0, 0.0))
-    eyes = eye_point(body)
-    way = subtract(target, eyes)
-    yaw, pitch = _direction(way)
-    turned = from_euler(-(pitch + upward * angle), yaw + sideways * angle, 0.0)
-    return add(eyes, rotate(turned, (0.0, 0.0, length(way))))
+    far = angle(turn)
+    if far == 0.0:
+        return {joint: ahead[joint] for joint in parts}
+    axis = unit((turn[1], turn[2], turn[3]))
+    turns = _shared(far, parts, {joint: _furthest(joint, axis) for joint in parts})
+    rotations = dict[str, Quat]()
+    for joint, local in reversed(ahead.items()):
+        if joint in turns:
+            rotations[joint] = multiply(local, from_axis_angle(axis, turns[joint]))
+        # As its parent sees it.
+        axis = rotate(local, axis)
+    return rotations
 
 
-def eye_point(body: Body) -> Vec3:
-    """The point between the eyes, or the top of the neck of a figure without eyes, m."""
-    places = [body.place(eye).position for eye in EYES if eye in body.skeleton]
-    if len(places) == len(EYES):
-        return scale(add(*places), 0.5)
-    return body.place("skullbase").position
+def _shared(far: float, parts: Mapping[str, float], furthest: Mapping[str, float]) -> dict[str, float]:
+    """An angle shared out by parts; what a joint cannot do the others do, as far as they can."""
+    turns, free = dict.fromkeys(parts, 0.0), dict(parts)
+    while free and (left := far - sum(turns.values())) > 1e-9:
+        whole = sum(free.values())
+        for joint, part in free.items():
+            turns[joint] = min(furthest[joint], turns[joint] + left * (part / whole))
+        free = {joint: part for joint, part in free.items() if turns[joint] < furthest[joint]}
+    return turns
 
 
-def _direction(way: Vec3) -> tuple[float, float]:
-    x, y, z = way
-    return math.atan2(x, z), math.atan2(y, math.hypot(x, z))
-
-
-def _clamped(angle: float, furthest: float) -> float:
-    return max(-furthest, min(furthest, angle))
+def _furthest(joint: str, axis: Vec3) -> float:
+    """How far a joint turns about an axis, rad: its limits are an ellipse."""
+    pitch, yaw = _FURTHEST[joint]
+    return 1.0 / math.hypot(axis[0] / pitch, axis[1] / yaw, axis[2] / yaw)

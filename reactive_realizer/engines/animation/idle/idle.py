@@ -1,36 +1,50 @@
-"""What a living figure does when it does nothing: breathe, sway, blink. A figure without it looks crashed."""
+"""What a living figure does when it does nothing: breathe, sway, shift its weight, blink, glance.
+
+A figure without it looks crashed.
+"""
 
 import math
-from bisect import bisect_right
 from random import Random
 
-from reactive_realizer.embodiment.quaternion import Quat, from_euler
+from reactive_realizer.embodiment.pose import Layer, LayerKind
+from reactive_realizer.embodiment.quaternion import Quat, from_euler, multiply
+from reactive_realizer.engines.animation.idle.blinks import Blinks
+from reactive_realizer.engines.animation.idle.glances import Glances
+from reactive_realizer.engines.animation.idle.weight_shift import WeightShift, leaning
 
 _BREATHS = 0.25
 """Hz, of a person at rest."""
 
-_BLINK = 0.15
-"""s, from open to open."""
-
-_BLINK_PAUSE = (2.0, 6.0)
-"""s, shortest and longest from one blink to the next."""
-
-_CLOSING = 0.35
-"""Lids close in this share of a blink and open in the rest."""
+_UPRIGHT = 0.1
+"""m that the pelvis is lower than in standing when there is no weight to shift any more."""
 
 
 class Idle:
-    """Breath, sway and blinks as functions of time; two figures of different seeds do not move as one."""
+    """Life as functions of time; two figures of different seeds do not move as one."""
 
     def __init__(self, random: Random) -> None:
-        """Draws phases and blinks from a generator that nobody else draws from."""
-        self._random = random
+        """Draws all that chance decides from a generator that nobody else draws from."""
         self._breath = random.random()
         self._sway = random.uniform(0.0, 100.0)
-        self._blinks = [random.uniform(*_BLINK_PAUSE)]
+        self._blinks = Blinks(Random(random.getrandbits(64)))
+        self._shift = WeightShift(Random(random.getrandbits(64)))
+        self._glances = Glances(Random(random.getrandbits(64)))
+
+    def layer(self, time: float, sunk: float) -> Layer:
+        """What is added to the body at a time, s.
+
+        Args:
+            time: s.
+            sunk: how much lower the pelvis is than in standing, m: who sits does not shift his weight.
+        """
+        standing = max(0.0, 1.0 - max(0.0, sunk) / _UPRIGHT)
+        turns, root = leaning(self._shift.at(time) * standing)
+        alive = self.rotations(time)
+        joined = {joint: multiply(turns[joint], turn) if joint in turns else turn for joint, turn in alive.items()}
+        return Layer(LayerKind.ADDITIVE, {**turns, **joined}, root=root)
 
     def rotations(self, time: float) -> dict[str, Quat]:
-        """Additive rotations at a time, s: the chest rises, the head stays level, the trunk is never quite still."""
+        """Breath and sway: the chest rises, the head stays level, the trunk is never quite still."""
         air = self._air(time)
         # Three slow waves without a common period, each well below a degree.
         side = math.sin(0.43 * (time + self._sway))
@@ -50,18 +64,17 @@ class Idle:
         turn = 2.0 * math.pi * (_BREATHS * time + self._breath)
         return 0.5 - 0.5 * math.cos(turn + 0.4 * math.sin(turn))
 
+    def eyes(self, time: float) -> dict[str, Quat]:
+        """Rotations of eyes that look at nothing in particular."""
+        yaw, pitch = self._glances.at(time)
+        turn = from_euler(-pitch, yaw, 0.0)
+        return {"l_eyeball_joint": turn, "r_eyeball_joint": turn}
+
+    def blink(self, time: float) -> None:
+        """Blink at a time, s, as with a large turn of gaze."""
+        self._blinks.ask(time)
+
     def weights(self, time: float) -> dict[str, float]:
         """Morph weights at a time, s."""
-        closed = self._lids(time)
+        closed = self._blinks.closed(time)
         return {"eyeBlinkLeft": closed, "eyeBlinkRight": closed}
-
-    def _lids(self, time: float) -> float:
-        """How far the lids are closed, 0..1."""
-        while self._blinks[-1] <= time:
-            self._blinks.append(self._blinks[-1] + self._random.uniform(*_BLINK_PAUSE))
-        last = bisect_right(self._blinks, time) - 1
-        passed = (time - self._blinks[last]) / _BLINK if last >= 0 else 1.0
-        if passed >= 1.0:
-            return 0.0
-        share = passed / _CLOSING if passed < _CLOSING else (1.0 - passed) / (1.0 - _CLOSING)
-        return share * share * (3.0 - 2.0 * share)

@@ -1,28 +1,26 @@
 """Procedural animation: motion written as formulas of phase and parameters (thesis 4.2.1 and 10.2.2.2)."""
 
+import logging
 import math
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import accumulate, pairwise
 from typing import ClassVar
 
 from reactive_realizer.embodiment.body import Body
-from reactive_realizer.embodiment.quaternion import (
-    Quat,
-    conjugate,
-    from_euler,
-    multiply,
-    normalize,
-    power,
-    rotate,
-    slerp,
-    twist,
-)
+from reactive_realizer.embodiment.quaternion import Quat
+from reactive_realizer.embodiment.skeleton import Skeleton
 from reactive_realizer.embodiment.two_bone_ik import Arm
-from reactive_realizer.embodiment.vector import Vec3, subtract, unit
 from reactive_realizer.engines.animation.expression.compiler import Compiled, compile_formulas
 from reactive_realizer.engines.animation.expression.nodes import Node
-from reactive_realizer.engines.animation.procedural.tracks import EffectorTrack, Keyframe, KeyframeTrack, RotationTrack
+from reactive_realizer.engines.animation.motion_unit import Posed
+from reactive_realizer.engines.animation.procedural.effector_track import EffectorTrack, share_twist
+from reactive_realizer.engines.animation.procedural.tracks import ROOT, Formulas, RootTrack, RotationTrack, Track
 from reactive_realizer.errors import error
+
+_log = logging.getLogger(__name__)
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +38,7 @@ class Timing:
     key_positions: Mapping[str, float]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class ProcAnimation:
     """What a ProcAnimation file says.
 
@@ -49,44 +47,67 @@ class ProcAnimation:
         parameters: their names and values where nobody says otherwise.
         durations: formulas of the preferred, shortest and longest duration, s.
         key_times: sync id -> formula of its phase.
-        rotations: of joints.
-        effectors: of wrists.
-        keyframes: of joints.
+        root: where HumanoidRoot is, None for an animation that leaves it alone.
+        tracks: what turns joints; later ones stand on what earlier ones do.
     """
 
     name: str
     parameters: Mapping[str, float]
     durations: tuple[Node, Node, Node]
     key_times: Mapping[str, Node]
-    rotations: tuple[RotationTrack, ...] = ()
-    effectors: tuple[EffectorTrack, ...] = ()
-    keyframes: tuple[KeyframeTrack, ...] = ()
-    joints: frozenset[str] = field(init=False)
-    _motion: Compiled = field(init=False, repr=False)
-    _times: Compiled = field(init=False, repr=False)
+    root: RootTrack | None = None
+    tracks: tuple[Track, ...] = ()
 
     TIME: ClassVar[str] = "t"
     """The name of the phase in formulas."""
 
-    def __post_init__(self) -> None:
-        names = tuple(self.parameters)
-        motion = [formula for formulas in self._formulas() for formula in formulas]
-        times = [*self.durations, *self.key_times.values()]
-        object.__setattr__(self, "_motion", compile_formulas(motion, (self.TIME, *names)))
-        object.__setattr__(self, "_times", compile_formulas(times, names))
-        object.__setattr__(self, "joints", frozenset(self._turned()))
+    @cached_property
+    def joints(self) -> frozenset[str]:
+        """The joints that it turns."""
+        return frozenset().union(*(track.joints for track in self.tracks))
 
-    def _turned(self) -> Iterator[str]:
-        yield from (track.joint for track in self.rotations)
-        yield from (track.joint for track in self.keyframes)
-        for track in self.effectors:
-            yield from (f"{track.side}_shoulder", f"{track.side}_elbow")
+    @cached_property
+    def alone(self) -> bool:
+        """Whether its poses are the same whatever the rest of the body does."""
+        return all(track.alone for track in self.tracks)
 
-    def _formulas(self) -> Iterator[tuple[Node, ...]]:
-        """All formulas of motion, in the order in which `sample` takes their values."""
-        yield from (track.angles for track in self.rotations)
-        yield from (track.path for track in self.effectors)
-        yield from (key.rotation for track in self.keyframes for key in track.keyframes)
+    @cached_property
+    def _times(self) -> Compiled:
+        return compile_formulas([*self.durations, *self.key_times.values()], tuple(self.parameters))
+
+    @cached_property
+    def _motion(self) -> Compiled:
+        motion = [node for formulas in self._formulas for node in formulas]
+        return compile_formulas(motion, (self.TIME, *self.parameters))
+
+    @cached_property
+    def _parts(self) -> Sequence[tuple[Track, slice]]:
+        """The tracks that move, each with the place of its values among those of all."""
+        ends = accumulate(map(len, self._formulas), initial=0)
+        _, *slices = (slice(*both) for both in pairwise(ends))
+        return tuple(zip(self._moving, slices, strict=True))
+
+    @cached_property
+    def _held(self) -> Mapping[str, Quat]:
+        """What never changes, mostly fingers: found once, for a hand has many."""
+        tracks = Counter(joint for track in self.tracks for joint in track.joints)
+        alone = (track for track in self.tracks if isinstance(track, RotationTrack) and tracks[track.joint] == 1)
+        return {track.joint: held for track in alone if (held := track.held) is not None}
+
+    @cached_property
+    def _moving(self) -> Sequence[Track]:
+        return [track for track in self.tracks if not track.joints <= self._held.keys()]
+
+    @property
+    def _formulas(self) -> Sequence[Formulas]:
+        """Of the root and of each track that moves."""
+        return [() if self.root is None else self.root.formulas, *(track.formulas for track in self._moving)]
+
+    @cached_property
+    def _wrung(self) -> Sequence[str]:
+        """The sides of the wrists that are led."""
+        arms = (track for track in self.tracks if isinstance(track, EffectorTrack) and track.limb is Arm)
+        return tuple(track.side for track in arms)
 
     def values(self, parameters: Mapping[str, float]) -> dict[str, float]:
         """Values of its parameters: as given, else its own; names that it does not know are of no effect."""
@@ -108,28 +129,33 @@ class ProcAnimation:
         authored = not shortest == preferred == longest
         return Timing(preferred, (shortest, longest) if authored else None, keys)
 
-    def sample(self, phase: float, parameters: Mapping[str, float], body: Body) -> dict[str, Quat]:
-        """The rotations at a phase, 0 to 1, of the joints that this animation turns.
+    def sample(self, phase: float, parameters: Mapping[str, float], body: Body) -> Posed:
+        """The pose at a phase: of the joints that this animation turns, and of the root if it moves that.
 
         Args:
             phase: 0 to 1.
             parameters: a value for each of the animation's names.
-            body: proportions, and the pose of the joints above those turned.
+            body: of a figure that it has been made for (`on`); the pose of the joints above those turned counts.
 
         Raises:
-            RealizerError: "no-motion": a formula has no value there.
+            RealizerError: "no-motion": a formula has no value there, or names no rotation.
         """
-        values = iter(self._values(self._motion, phase, [phase, *(parameters[name] for name in self.parameters)]))
-        turned = {track.joint: from_euler(next(values), next(values), next(values)) for track in self.rotations}
-        for effector in self.effectors:
-            goal = (next(values), next(values), next(values))
-            turned.update(_arm(effector, goal, next(values), body.posed(turned)))
-        for track in self.keyframes:
-            keys = [(key, self._quaternion(values, phase)) for key in track.keyframes]
-            turned[track.joint] = _between_keys(track.joint, keys, phase, body.posed(turned))
-        for effector in self.effectors:
-            _share_twist(effector.side, turned, body)
-        return turned
+        values = self._values(self._motion, phase, [phase, *(parameters[name] for name in self.parameters)])
+        root = None if self.root is None else self.root.moved(values[:3], body.skeleton)
+        turned = dict(self._held)
+
+        def so_far() -> Body:
+            return body.posed(turned, root)
+
+        for track, its in self._parts:
+            try:
+                turned |= track.turned(values[its], phase, so_far)
+            except ArithmeticError as problem:
+                what = f"what is asked of {', '.join(sorted(track.joints))} is no rotation"
+                raise error("no-motion", animation=self.name, phase=phase, reason=what) from problem
+        for side in self._wrung:
+            turned |= share_twist(side, turned, body.skeleton)
+        return Posed(turned, root=root)
 
     def _values(self, formulas: Compiled, phase: float, arguments: Sequence[float]) -> tuple[float, ...]:
         try:
@@ -140,53 +166,33 @@ class ProcAnimation:
             raise error("no-motion", animation=self.name, phase=phase, reason="a formula is infinite or undefined")
         return values
 
-    def _quaternion(self, values: Iterator[float], phase: float) -> Quat:
-        try:
-            return normalize((next(values), next(values), next(values), next(values)))
-        except ZeroDivisionError as problem:
-            raise error("no-motion", animation=self.name, phase=phase, reason="a keyframe of length 0") from problem
-
     def mirrored(self) -> "ProcAnimation":
         """The same motion in a mirror: left is right."""
-        return replace(
-            self,
-            rotations=tuple(track.mirrored() for track in self.rotations),
-            effectors=tuple(track.mirrored() for track in self.effectors),
-            keyframes=tuple(track.mirrored() for track in self.keyframes),
-        )
+        root = None if self.root is None else self.root.mirrored()
+        return replace(self, root=root, tracks=tuple(track.mirrored() for track in self.tracks))
 
+    def of(self, joints: frozenset[str]) -> "ProcAnimation":
+        """What of it is about these joints.
 
-def _arm(track: EffectorTrack, goal: Vec3, swivel: float, body: Body) -> dict[str, Quat]:
-    shoulder, elbow = f"{track.side}_shoulder", f"{track.side}_elbow"
-    if not track.local:
-        above = body.place(body.skeleton.chain(shoulder)[-2]).rotation
-        goal = rotate(conjugate(above), subtract(goal, body.place(shoulder).position))
-    upper, lower = Arm.of(body.skeleton, track.side).solve(goal, swivel)
-    return {shoulder: upper, elbow: lower}
+        Raises:
+            RealizerError: "none-turned": nothing is.
+        """
+        root = self.root if ROOT in joints else None
+        tracks = tuple(part for track in self.tracks if (part := track.of(joints)) is not None)
+        if root is None and not tracks:
+            known = ", ".join(sorted(self.joints)) or "none"
+            raise error("none-turned", joints=", ".join(sorted(joints)), animation=self.name, known=known)
+        return replace(self, root=root, tracks=tracks)
 
+    def on(self, skeleton: Skeleton) -> "ProcAnimation":
+        """What of it a figure can do, from its root outward, so that a hand is turned after the arm that carries it.
 
-def _between_keys(joint: str, keys: Sequence[tuple[Keyframe, Quat]], phase: float, body: Body) -> Quat:
-    later = next((i for i, (key, _) in enumerate(keys) if key.phase >= phase), len(keys) - 1)
-    (before, start), (after, goal) = keys[max(0, later - 1)], keys[later]
-    start, goal = _local(joint, before, start, body), _local(joint, after, goal, body)
-    length = after.phase - before.phase
-    return slerp(start, goal, min(1.0, (phase - before.phase) / length)) if length > 0.0 else goal
-
-
-def _local(joint: str, key: Keyframe, rotation: Quat, body: Body) -> Quat:
-    if key.local or joint not in body.skeleton:
-        return rotation
-    return multiply(conjugate(body.place(body.skeleton.chain(joint)[-2]).rotation), rotation)
-
-
-def _share_twist(side: str, turned: dict[str, Quat], body: Body) -> None:
-    """Lets the forearm make half of the wrist's twist, as a radius and an ulna do; the hand stays as it is.
-
-    All of it in the wrist would wring the skin there like a towel.
-    """
-    elbow, wrist = f"{side}_elbow", f"{side}_wrist"
-    if wrist not in turned:
-        return
-    half = power(twist(turned[wrist], unit(body.skeleton.offset(wrist))), 0.5)
-    turned[elbow] = multiply(turned[elbow], half)
-    turned[wrist] = multiply(conjugate(half), turned[wrist])
+        Joints that the figure lacks are left out, and limbs with a bone of no length; the log says which.
+        """
+        tracks = [part for track in self.tracks if (part := track.on(skeleton)) is not None]
+        missing = self.joints.difference(*(track.joints for track in tracks))
+        if missing:
+            _log.info("%s: this figure cannot turn %s; left out", self.name, ", ".join(sorted(missing)))
+        depth = {joint: len(skeleton.links(joint)) for track in tracks for joint in track.joints}
+        tracks.sort(key=lambda track: min(depth[joint] for joint in track.joints))
+        return replace(self, root=self.root if ROOT in skeleton else None, tracks=tuple(tracks))

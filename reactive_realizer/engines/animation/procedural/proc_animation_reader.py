@@ -1,116 +1,167 @@
 """Reads ProcAnimation files, in AsapRealizer's format.
 
-Two things are more general here: durations and key times may be formulas of the parameters, so that a nod repeated
-three times lasts longer; and names that no Parameter declares are parameters of value 0, as they are there.
+Some things are more general here: durations and key times may be formulas of the parameters, so that a nod repeated
+three times lasts longer; ankles may be placed from the hip, and the root from where it is (`local`).
 """
 
 import logging
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
 from reactive_realizer.binding.xml_file import Element, attribute, bad, number, read_xml
+from reactive_realizer.engines.animation.expression.functions import FUNCTIONS, Function
 from reactive_realizer.engines.animation.expression.nodes import Node, Number, variables
 from reactive_realizer.engines.animation.expression.parser import parse
+from reactive_realizer.engines.animation.keyframe.skeleton_interpolator import read_interpolator
+from reactive_realizer.engines.animation.procedural.clip_track import ClipTrack
+from reactive_realizer.engines.animation.procedural.effector_track import EFFECTORS, EffectorTrack
+from reactive_realizer.engines.animation.procedural.encodings import ENCODINGS
 from reactive_realizer.engines.animation.procedural.proc_animation import ProcAnimation
-from reactive_realizer.engines.animation.procedural.tracks import EffectorTrack, Keyframe, KeyframeTrack, RotationTrack
+from reactive_realizer.engines.animation.procedural.tracks import (
+    ROOT,
+    Keyframe,
+    KeyframeTrack,
+    RootTrack,
+    RotationTrack,
+    Track,
+)
 from reactive_realizer.errors import RealizerError
 
 _log = logging.getLogger(__name__)
 
-_WRISTS = {"l_wrist": "l", "r_wrist": "r"}
-_READ = ("Rotation", "EndEffector", "Keyframes", "KeyPosition", "Parameter")
+LONGEST = 100_000
+"""Characters of all formulas of a file; it is read while figures move, and reading so many takes half a second."""
+
+_ELEMENTS = ("SkeletonInterpolator", "Rotation", "EndEffector", "Keyframes", "KeyPosition", "Parameter")
+_ROOTS = ("root", ROOT)
 
 
-def read_proc_animation(path: Path) -> ProcAnimation:
-    """The animation in a file. What is not realized (other end effectors, SkeletonInterpolator) is logged and left out.
+def read_proc_animation(path: Path, functions: Mapping[str, Function] = FUNCTIONS) -> ProcAnimation:
+    """The animation in a file.
+
+    Args:
+        path: the file.
+        functions: what its formulas may call.
 
     Raises:
         RealizerError: "bad-asset", with file, line and element.
         OSError: the file cannot be read.
     """
-    root = read_xml(path, "ProcAnimation")
-    _note_unread(root, path.name)
-    preferred = _formula(root, "prefDuration")
-    durations = tuple(
-        _formula(root, name) if name in root.attrib else preferred for name in ("minDuration", "maxDuration")
-    )
-    key_times = {attribute(key, "id"): _formula(key, "time") for key in root.iterfind("KeyPosition")}
-    rotations = tuple(_rotation(element) for element in root.iterfind("Rotation"))
-    effectors = tuple(_effector(element) for element in root.iterfind("EndEffector") if _side(element))
-    keyframes = tuple(_keyframes(element) for element in root.iterfind("Keyframes"))
-    times = [preferred, *durations, *key_times.values()]
-    motion = [node for track in rotations for node in track.angles]
-    motion += [node for track in effectors for node in track.path]
-    motion += [node for track in keyframes for key in track.keyframes for node in key.rotation]
-    return ProcAnimation(
-        name=path.name,
-        parameters=_parameters(root, times, motion),
-        durations=(preferred, durations[0], durations[1]),
-        key_times=key_times,
-        rotations=rotations,
-        effectors=effectors,
-        keyframes=keyframes,
-    )
+    return _Reader(functions).animation(read_xml(path, "ProcAnimation"), path.name)
 
 
-def _note_unread(root: Element, file: str) -> None:
-    for element in root:
-        target = element.get("target", "")
-        if element.tag not in _READ or (element.tag == "EndEffector" and not _side(element)):
-            _log.info("%s, line %s: <%s %s> is not realized", file, element.sourceline, element.tag, target)
+class _Reader:
+    """Reads elements of one file."""
+
+    def __init__(self, functions: Mapping[str, Function]) -> None:
+        self._functions = functions
+        self._characters = 0
+
+    def animation(self, document: Element, name: str) -> ProcAnimation:
+        for element in document:
+            if element.tag not in _ELEMENTS:
+                raise bad(element, f"known are {', '.join(_ELEMENTS)}")
+        preferred = self._formula(document, "prefDuration")
+        shortest, longest = (
+            self._formula(document, limit) if limit in document.attrib else preferred
+            for limit in ("minDuration", "maxDuration")
+        )
+        key_times = {attribute(key, "id"): self._formula(key, "time") for key in document.iterfind("KeyPosition")}
+        root, tracks = self._root(document), tuple(self._tracks(document))
+        motion = [*(root.formulas if root else ()), *(node for track in tracks for node in track.formulas)]
+        return ProcAnimation(
+            name=name,
+            parameters=_parameters(document, [preferred, shortest, longest, *key_times.values()], motion),
+            durations=(preferred, shortest, longest),
+            key_times=key_times,
+            root=root,
+            tracks=tracks,
+        )
+
+    def _root(self, document: Element) -> RootTrack | None:
+        roots = [element for element in document.iterfind("EndEffector") if attribute(element, "target") in _ROOTS]
+        return RootTrack(_flag(roots[-1], False), self._formulas(roots[-1], "translation", 3)) if roots else None
+
+    def _tracks(self, document: Element) -> Iterator[Track]:
+        limbs = (element for element in document.iterfind("EndEffector") if element.get("target") not in _ROOTS)
+        effectors = [self._effector(element) for element in limbs]
+        led = frozenset().union(*(effector.led for effector in effectors))
+        # In AsapRealizer's order: of what turns one joint, the last prevails.
+        yield from (self._clip(element) for element in document.iterfind("SkeletonInterpolator"))
+        turned: list[KeyframeTrack | RotationTrack] = [
+            *(self._keyframes(element) for element in document.iterfind("Keyframes")),
+            *(self._rotation(element) for element in document.iterfind("Rotation")),
+        ]
+        for track in turned:
+            if track.joint in led:
+                _log.info("%s is where an EndEffector wants it; what else turns it is left out", track.joint)
+            else:
+                yield track
+        yield from effectors
+
+    def _clip(self, element: Element) -> ClipTrack:
+        clip = read_interpolator(element)
+        if clip.roots is not None:
+            raise bad(element, f"encoding='{element.get('encoding')}': in a ProcAnimation only R is read")
+        return ClipTrack(clip)
+
+    def _rotation(self, element: Element) -> RotationTrack:
+        return RotationTrack(attribute(element, "target"), _flag(element, True), self._formulas(element, "rotation", 3))
+
+    def _effector(self, element: Element) -> EffectorTrack:
+        target = attribute(element, "target")
+        if target not in EFFECTORS:
+            raise bad(element, f"no end effector '{target}'; known are {', '.join((*EFFECTORS, *_ROOTS))}")
+        swivel = self._formula(element, "swivel") if element.get("swivel", "").strip() else Number(0.0)
+        path = (*self._formulas(element, "translation", 3), swivel)
+        return EffectorTrack(*EFFECTORS[target], _flag(element, False), path)
+
+    def _keyframes(self, element: Element) -> KeyframeTrack:
+        encoding = ENCODINGS.get(attribute(element, "encoding"))
+        if encoding is None:
+            raise bad(element, f"encoding='{element.get('encoding')}': known are {', '.join(ENCODINGS)}")
+        keys = [
+            Keyframe(number(key, "time"), _flag(key, True), self._formulas(key, "value", encoding.size))
+            for key in element.iterfind("Keyframe")
+        ]
+        if not keys:
+            raise bad(element, "no Keyframe inside")
+        return KeyframeTrack(attribute(element, "target"), encoding, tuple(sorted(keys, key=lambda key: key.phase)))
+
+    def _formula(self, element: Element, name: str) -> Node:
+        return self._parsed(element, name, attribute(element, name))
+
+    def _formulas(self, element: Element, name: str, size: int) -> tuple[Node, ...]:
+        texts = attribute(element, name).split(";")
+        if len(texts) != size:
+            raise bad(element, f"{name} needs {size} formulas between semicolons, not {len(texts)}")
+        return tuple(self._parsed(element, name, text) for text in texts)
+
+    def _parsed(self, element: Element, name: str, text: str) -> Node:
+        self._characters += len(text)
+        if self._characters > LONGEST:
+            raise bad(element, f"{name}: more than {LONGEST} characters of formulas in one file")
+        try:
+            return parse(text, self._functions)
+        except RealizerError as problem:
+            raise bad(element, f"{name}: {problem.fault.sentence}") from problem
 
 
-def _side(element: Element) -> str | None:
-    return _WRISTS.get(attribute(element, "target"))
+def _flag(element: Element, otherwise: bool) -> bool:
+    """The attribute `local`."""
+    text = element.get("local", str(otherwise)).strip().lower()
+    if text not in ("true", "false"):
+        raise bad(element, f"local='{text}' is neither true nor false")
+    return text == "true"
 
 
-def _parameters(root: Element, times: Iterable[Node], motion: Iterable[Node]) -> dict[str, float]:
-    declared = {attribute(element, "sid"): number(element, "value") for element in root.iterfind("Parameter")}
+def _parameters(document: Element, times: Iterable[Node], motion: Iterable[Node]) -> dict[str, float]:
+    """Names and values; a name that no Parameter declares is one of value 0, as in AsapRealizer."""
+    declared = {attribute(element, "sid"): number(element, "value") for element in document.iterfind("Parameter")}
     if ProcAnimation.TIME in declared:
-        raise bad(root, f"a parameter may not be called {ProcAnimation.TIME}")
-    used = [name for formula in motion for name in variables(formula)]
+        raise bad(document, f"a parameter may not be called {ProcAnimation.TIME}")
     in_times = [name for formula in times for name in variables(formula)]
     if ProcAnimation.TIME in in_times:
-        raise bad(root, "a duration or key time depends on t")
-    missing = dict.fromkeys(name for name in [*in_times, *used] if name not in declared and name != ProcAnimation.TIME)
-    return {**declared, **dict.fromkeys(missing, 0.0)}
-
-
-def _rotation(element: Element) -> RotationTrack:
-    return RotationTrack(attribute(element, "target"), _formulas(element, "rotation", 3))
-
-
-def _effector(element: Element) -> EffectorTrack:
-    swivel = _formula(element, "swivel") if "swivel" in element.attrib else Number(0.0)
-    path = (*_formulas(element, "translation", 3), swivel)
-    return EffectorTrack(_WRISTS[attribute(element, "target")], element.get("local") == "true", path)
-
-
-def _keyframes(element: Element) -> KeyframeTrack:
-    if element.get("encoding") != "quaternion":
-        raise bad(element, "keyframes are read only with encoding='quaternion'")
-    keys = [
-        Keyframe(number(key, "time"), key.get("local") == "true", _formulas(key, "value", 4))
-        for key in element.iterfind("Keyframe")
-    ]
-    if not keys:
-        raise bad(element, "no Keyframe inside")
-    return KeyframeTrack(attribute(element, "target"), tuple(sorted(keys, key=lambda key: key.phase)))
-
-
-def _formula(element: Element, name: str) -> Node:
-    return _parsed(element, name, attribute(element, name))
-
-
-def _formulas(element: Element, name: str, size: int) -> tuple[Node, ...]:
-    texts = attribute(element, name).split(";")
-    if len(texts) != size:
-        raise bad(element, f"{name} needs {size} formulas between semicolons, not {len(texts)}")
-    return tuple(_parsed(element, name, text) for text in texts)
-
-
-def _parsed(element: Element, name: str, text: str) -> Node:
-    try:
-        return parse(text)
-    except RealizerError as problem:
-        raise bad(element, f"{name}: {problem.fault.sentence}") from problem
+        raise bad(document, "a duration or key time depends on t")
+    used = [*in_times, *(name for formula in motion for name in variables(formula))]
+    return {**declared, **dict.fromkeys((name for name in used if name not in declared | {ProcAnimation.TIME: 0}), 0.0)}

@@ -4,7 +4,7 @@ from reactive_realizer.binding.gesture_binding import numbers
 from reactive_realizer.embodiment.pose import LayerKind
 from reactive_realizer.engines.animation.actor import Actor, Wanted
 from reactive_realizer.engines.animation.procedural.animation_files import wanted_animation
-from reactive_realizer.engines.animation.procedural.proc_motion_unit import ProcMotionUnit
+from reactive_realizer.engines.animation.procedural.proc_motion_unit import ProcMotionUnit, kind_of
 
 
 class ProcMotionMaker:
@@ -15,5 +15,6 @@ class ProcMotionMaker:
 
     def __call__(self, wanted: Wanted) -> ProcMotionUnit:
         """As every maker."""
-        kind = LayerKind.ADDITIVE if wanted.added else LayerKind.GESTURE
-        return ProcMotionUnit(wanted_animation(self._actor, wanted), numbers(wanted.parameters), kind)
+        animation = wanted_animation(self._actor, wanted)
+        kind = LayerKind.ADDITIVE if wanted.added else kind_of(animation)
+        return ProcMotionUnit(animation, numbers(wanted.parameters), kind)

@@ -1,47 +1,118 @@
-"""What a procedural animation says of each joint and each wrist: formulas of phase and parameters."""
+"""What a procedural animation says of joints: formulas of phase and parameters."""
 
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from math import isfinite
+from typing import Protocol, Self
 
-from reactive_realizer.engines.animation.expression.nodes import Negation, Node
+from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, conjugate, from_euler, multiply, slerp
+from reactive_realizer.embodiment.skeleton import Skeleton
+from reactive_realizer.embodiment.vector import Vec3, subtract
+from reactive_realizer.engines.animation.expression.compiler import fold
+from reactive_realizer.engines.animation.expression.nodes import Negation, Node, Number
+from reactive_realizer.engines.animation.procedural.encodings import Encoding
 
 Formulas = tuple[Node, ...]
 
+ROOT = "HumanoidRoot"
+
+
+class Track(Protocol):
+    """What turns some joints of an animation."""
+
+    @property
+    def formulas(self) -> Formulas:
+        """Of which it wants the values."""
+
+    @property
+    def joints(self) -> frozenset[str]:
+        """Which it turns."""
+
+    @property
+    def alone(self) -> bool:
+        """Whether it does so in the same way whatever the rest of the body does."""
+
+    def turned(self, values: Sequence[float], phase: float, body: Callable[[], Body]) -> Mapping[str, Quat]:
+        """The rotations of its joints, local to their parents.
+
+        Args:
+            values: of its formulas.
+            phase: 0 to 1.
+            body: as it is turned so far.
+
+        Raises:
+            ArithmeticError: there is no such rotation.
+        """
+
+    def mirrored(self) -> Self:
+        """The same in a mirror."""
+
+    def of(self, joints: frozenset[str]) -> Self | None:
+        """What of it is about these joints, None if nothing."""
+
+    def on(self, skeleton: Skeleton) -> Self | None:
+        """What of it a figure can do, None if nothing."""
+
 
 @dataclass(frozen=True, slots=True)
-class RotationTrack:
-    """A joint's rotation, local to its parent.
+class JointTrack:
+    """What turns one joint.
 
     Attributes:
         joint: H-Anim name.
-        angles: formulas of x, y and z, rad, as `from_euler` takes them.
     """
 
     joint: str
-    angles: Formulas
 
-    def mirrored(self) -> "RotationTrack":
-        """The same in a mirror."""
-        return RotationTrack(_other(self.joint), _negated(self.angles, 1, 2))
+    @property
+    def joints(self) -> frozenset[str]:
+        """As every track."""
+        return frozenset({self.joint})
+
+    def of(self, joints: frozenset[str]) -> Self | None:
+        """As every track."""
+        return self if self.joint in joints else None
+
+    def on(self, skeleton: Skeleton) -> Self | None:
+        """As every track."""
+        return self if self.joint in skeleton else None
 
 
 @dataclass(frozen=True, slots=True)
-class EffectorTrack:
-    """Where a wrist is; shoulder and elbow follow by inverse kinematics.
+class RotationTrack(JointTrack):
+    """A joint's rotation.
 
     Attributes:
-        side: "l" or "r".
-        local: the place is from the shoulder, in the axes of the joint above it, which lean and turn with the trunk;
-            else it is in the figure's frame, from the ground between the feet.
-        path: formulas of x, y, z, m, and of the elbow's swivel, rad (`Arm.solve`).
+        local: to the parent; else in the figure's axes.
+        formulas: of x, y and z, rad, as `from_euler` takes them.
     """
 
-    side: str
     local: bool
-    path: Formulas
+    formulas: Formulas
 
-    def mirrored(self) -> "EffectorTrack":
-        """The same in a mirror."""
-        return EffectorTrack(_other(self.side), self.local, _negated(self.path, 0, 3))
+    @property
+    def alone(self) -> bool:
+        """As every track."""
+        return self.local
+
+    @property
+    def held(self) -> Quat | None:
+        """Its rotation, if that never changes."""
+        match tuple(map(fold, self.formulas)):
+            case Number(x), Number(y), Number(z) if self.local and isfinite(x + y + z):
+                return from_euler(x, y, z)
+        return None
+
+    def turned(self, values: Sequence[float], phase: float, body: Callable[[], Body]) -> Mapping[str, Quat]:
+        """As every track."""
+        x, y, z = values
+        rotation = from_euler(x, y, z)
+        return {self.joint: rotation if self.local else multiply(conjugate(above(self.joint, body())), rotation)}
+
+    def mirrored(self) -> "RotationTrack":
+        """As every track."""
+        return RotationTrack(other_side(self.joint), self.local, negated(self.formulas, 1, 2))
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +122,7 @@ class Keyframe:
     Attributes:
         phase: 0 to 1.
         local: to the parent; else in the figure's axes.
-        rotation: formulas of w, x, y and z.
+        rotation: formulas of its numbers.
     """
 
     phase: float
@@ -60,28 +131,85 @@ class Keyframe:
 
 
 @dataclass(frozen=True, slots=True)
-class KeyframeTrack:
+class KeyframeTrack(JointTrack):
     """A joint's rotation through keyframes, along the shortest arcs between them.
 
     Attributes:
-        joint: H-Anim name.
+        encoding: of its rotations.
         keyframes: one or more, in order of phase.
     """
 
-    joint: str
+    encoding: Encoding
     keyframes: tuple[Keyframe, ...]
 
+    @property
+    def formulas(self) -> Formulas:
+        """As every track."""
+        return tuple(formula for key in self.keyframes for formula in key.rotation)
+
+    @property
+    def alone(self) -> bool:
+        """As every track."""
+        return all(key.local for key in self.keyframes)
+
+    def turned(self, values: Sequence[float], phase: float, body: Callable[[], Body]) -> Mapping[str, Quat]:
+        """As every track."""
+        after = next((i for i, key in enumerate(self.keyframes) if key.phase >= phase), len(self.keyframes) - 1)
+        before = max(0, after - 1)
+        begin, end = self.keyframes[before].phase, self.keyframes[after].phase
+        goal = self._rotation(after, values, body)
+        if end <= begin or phase >= end:
+            return {self.joint: goal}
+        start = self._rotation(before, values, body)
+        return {self.joint: slerp(start, goal, max(0.0, phase - begin) / (end - begin))}
+
+    def _rotation(self, i: int, values: Sequence[float], body: Callable[[], Body]) -> Quat:
+        size = self.encoding.size
+        rotation = self.encoding.rotation(values[i * size : (i + 1) * size])
+        return rotation if self.keyframes[i].local else multiply(conjugate(above(self.joint, body())), rotation)
+
     def mirrored(self) -> "KeyframeTrack":
+        """As every track."""
+        turned = self.encoding.mirrored
+        keyframes = (replace(key, rotation=negated(key.rotation, *turned)) for key in self.keyframes)
+        return KeyframeTrack(other_side(self.joint), self.encoding, tuple(keyframes))
+
+
+@dataclass(frozen=True, slots=True)
+class RootTrack:
+    """Where HumanoidRoot is.
+
+    Attributes:
+        local: formulas say how far it is moved from its place in the default pose; else its place in the figure's
+            frame, from the ground between the feet.
+        formulas: of x, y and z, m.
+    """
+
+    local: bool
+    formulas: Formulas
+
+    def moved(self, values: Sequence[float], skeleton: Skeleton) -> Vec3:
+        """How far it is from its place in the default pose, m."""
+        x, y, z = values
+        return (x, y, z) if self.local else subtract((x, y, z), skeleton.offset(ROOT))
+
+    def mirrored(self) -> "RootTrack":
         """The same in a mirror."""
-        keyframes = (replace(key, rotation=_negated(key.rotation, 2, 3)) for key in self.keyframes)
-        return KeyframeTrack(_other(self.joint), tuple(keyframes))
+        return RootTrack(self.local, negated(self.formulas, 0))
 
 
-def _other(name: str) -> str:
-    """The side or the joint on the other side; a joint of the middle itself."""
+def above(joint: str, body: Body) -> Quat:
+    """The rotation of a joint's parent, from its axes to the figure's."""
+    parent = body.skeleton.parent(joint)
+    return IDENTITY if parent is None else body.place(parent).rotation
+
+
+def other_side(name: str) -> str:
+    """The joint on the other side; one of the middle itself."""
     side, underscore, joint = name.partition("_")
     return {"l": "r", "r": "l"}.get(side, side) + underscore + joint
 
 
-def _negated(formulas: Formulas, *which: int) -> Formulas:
+def negated(formulas: Formulas, *which: int) -> Formulas:
+    """Some formulas with their sign changed."""
     return tuple(Negation(node) if i in which else node for i, node in enumerate(formulas))

@@ -1,0 +1,80 @@
+"""What a moving figure costs in each frame: from its engine's play to rotations that are ready to be sent."""
+
+import asyncio
+import gc
+from collections.abc import Sequence
+from pathlib import Path
+from statistics import median
+from tempfile import TemporaryDirectory
+from time import perf_counter
+
+from reactive_realizer.assembly.scene import SceneOptions, open_scene
+from reactive_realizer.clock.ticker import FRAME_EVERY, RATE, Tick, tick_time
+from reactive_realizer.engine.engine import Engine
+from reactive_realizer.realizer.character import Character
+from reactive_realizer.testing.pilot import RealizerPilot, block
+
+AIMS = {"us_per_character_frame.1": 400, "us_per_character_frame.50": 250}
+
+_CROWDS = (1, 10, 50, 100)
+_FRAME_US = 1e6 * FRAME_EVERY / RATE
+
+_CHARACTER = '[character.c{0}]\navatar = "avatars/female.glb"\nposition = [{0}, 0, 0]\n'
+# They breathe of themselves; everybody looks at somebody else.
+_INSIDE = (
+    '<gaze id="z" target="c0:l_wrist" start="0" end="6"/>'
+    + "".join(
+        f'<gesture id="g{i}" lexeme="BEAT" mode="BOTH_HANDS" start="{2 * i}" end="{2 * i + 2}"/>' for i in range(3)
+    )
+    + "".join(f'<head id="h{i}" lexeme="NOD" start="{2 * i}" end="{2 * i + 2}"/>' for i in range(3))
+)
+_ALL_MOVE = (0.1, 5.5)
+"""s of the block, in which everything in it plays."""
+
+
+def measure(most: int = 100) -> dict[str, object]:
+    """Medians of the frames of a performance, us, and how many figures fill the time from one frame to the next.
+
+    Args:
+        most: characters in a crowd; there is no result for more of them.
+    """
+    times = {str(size): _microseconds(size) if size <= most else None for size in _CROWDS}
+    largest = [time for time in times.values() if time is not None][-1]
+    return {"us_per_character_frame": times, "characters_at_50fps": int(_FRAME_US / largest)}
+
+
+def _microseconds(size: int) -> float:
+    with TemporaryDirectory() as folder:
+        human = Path(folder, "crowd.toml")
+        human.write_text("".join(map(_CHARACTER.format, range(size))), encoding="utf-8")
+        return round(asyncio.run(_perform(human)), 1)
+
+
+async def _perform(human: Path) -> float:
+    async with open_scene(SceneOptions(human, "text")) as scene:
+        pilot = RealizerPilot(scene)
+        crowd = list(scene.realizer.characters.values())
+        for character in crowd:
+            pilot.perform(block(f"b-{character.id}", _INSIDE, characterId=character.id))
+        begin, end = _ALL_MOVE
+        await pilot.advance(begin)
+        gc.collect()
+        gc.freeze()  # as a server does
+        return median([await _frame(pilot, crowd) for _ in range(round((end - begin) * RATE / FRAME_EVERY))])
+
+
+async def _frame(pilot: RealizerPilot, crowd: Sequence[Character]) -> float:
+    """Time for one frame of one of a crowd, us; ticks go on outside of it, where nobody looks."""
+    await pilot.advance(FRAME_EVERY / RATE)
+    number = round(pilot.now * RATE)
+    tick = Tick(number, tick_time(number - 1), frame=True)
+    bodies = [(character, _animation(character)) for character in crowd]
+    begin = perf_counter()
+    for character, engine in bodies:
+        frame = character.compose(tick.time, [engine.play(tick)])
+        character.humanoid.avatar.bone_rotations(frame.rotations)
+    return 1e6 * (perf_counter() - begin) / len(crowd)
+
+
+def _animation(character: Character) -> Engine:
+    return next(engine for engine in character.engines if engine.name.endswith("/animation"))

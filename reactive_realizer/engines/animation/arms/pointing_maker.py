@@ -1,0 +1,67 @@
+"""From a behavior to a pointing."""
+
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
+
+from reactive_realizer.binding.gesture_binding import numbers
+from reactive_realizer.bml.behaviors import Pointing
+from reactive_realizer.bml.words import Mode
+from reactive_realizer.embodiment.vector import Vec3
+from reactive_realizer.engines.animation.actor import Actor, Wanted
+from reactive_realizer.engines.animation.arms.pointing_arm import PointingArm
+from reactive_realizer.engines.animation.arms.pointing_motion_unit import DEFAULTS, RANGES, PointingMotionUnit
+from reactive_realizer.engines.animation.sight import sight_of
+from reactive_realizer.errors import RealizerError, error
+
+_SIDES: Mapping[str, str] = {Mode.LEFT_HAND: "l", Mode.RIGHT_HAND: "r", Mode.BOTH_HANDS: "lr"}
+
+
+class PointingMaker:
+    """Makes pointings at targets of the world.
+
+    Which hand is said by the behavior's mode, else by the binding's parameter ``hand`` with the same words, else by
+    where the target is: the hand of that side if it can point there, or the other.
+    """
+
+    def __init__(self, actor: Actor) -> None:
+        self._actor = actor
+        self._arm = {side: PointingArm(actor.humanoid.avatar.skeleton, side) for side in "lr"}
+
+    def __call__(self, wanted: Wanted) -> PointingMotionUnit:
+        """As every maker."""
+        behavior = wanted.behavior
+        if not isinstance(behavior, Pointing):
+            raise error("no-unit", unit=f"pointing for {behavior.name}")
+        target = sight_of(self._actor, behavior.target, follow=True)
+        sides = _SIDES.get(behavior.mode or wanted.parameters.get("hand", ""))
+        arms = self._arms(sides, behavior, target) if sides else self._free(behavior, target)
+        humanoid, rest = self._actor.humanoid, self._actor.rest.body
+        return PointingMotionUnit(behavior.target, arms, target, lambda: humanoid.shown, rest, _parameters(wanted))
+
+    def _free(self, behavior: Pointing, target: Callable[[], Vec3]) -> Sequence[PointingArm]:
+        """The arm on the side of the target, or the other if that one cannot."""
+        first, second = "lr" if target()[0] > 0.0 else "rl"
+        try:
+            return self._arms(first, behavior, target)
+        except RealizerError as fault:
+            with suppress(RealizerError):
+                return self._arms(second, behavior, target)
+            raise fault
+
+    def _arms(self, sides: str, behavior: Pointing, target: Callable[[], Vec3]) -> Sequence[PointingArm]:
+        """Arms that can point at a target."""
+        body, arms = self._actor.rest.body, [self._arm[side] for side in sides]
+        if missing := [joint for arm in arms for joint in arm.missing]:
+            raise error("no-joints", element=behavior.name, joints=", ".join(missing))
+        for arm in arms:
+            if (fault := arm.aim(body, target()).fault) is not None:
+                raise error("not-pointable", target=behavior.target, hand=arm.hand, reason=fault)
+        return arms
+
+
+def _parameters(wanted: Wanted) -> Mapping[str, float]:
+    said = {**DEFAULTS, **numbers(wanted.parameters)}
+    for name, (low, high) in RANGES.items():
+        if not low <= said[name] <= high:
+            raise error("bad-parameter", name=name, value=said[name], low=low, high=high)
+    return {name: said[name] for name in RANGES}

@@ -1,0 +1,77 @@
+"""Where the eyes are, where they look, and how far they turn (Listing's law)."""
+
+import math
+from dataclasses import dataclass
+from typing import Self
+
+from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.quaternion import Quat, angle, between, conjugate, power, rotate
+from reactive_realizer.embodiment.vector import FORWARD, Vec3, add, length, scale, subtract
+
+EYE_JOINTS = ("l_eyeball_joint", "r_eyeball_joint")
+
+EYE_RANGE = 2.0 * math.asin(math.sqrt(0.12))
+"""How far an eye turns from straight ahead, rad (40.5 degrees).
+
+Of the rotation as a quaternion the squares of its vertical and its horizontal part add up to 0.12 at most: D. Tweed,
+"Three-dimensional model of the human eye-head saccadic system" (Journal of Neurophysiology 77, 1997).
+"""
+
+_NEAREST = 0.01
+"""m; what is nearer to an eye has no direction."""
+
+
+@dataclass(frozen=True, slots=True)
+class Sockets:
+    """The head as it carries the eyes, in the figure's frame.
+
+    Attributes:
+        rotation: of the head: an eye that looks straight ahead looks along its z.
+        places: eye joint -> where it is, m; empty for a figure without eyes.
+        middle: the point between the eyes, or the top of the neck of a figure without eyes, m.
+    """
+
+    rotation: Quat
+    places: dict[str, Vec3]
+    middle: Vec3
+
+    @classmethod
+    def of(cls, body: Body) -> Self:
+        """Those of a body."""
+        head, skeleton = body.place("skullbase"), body.skeleton
+        places = {
+            eye: add(head.position, rotate(head.rotation, skeleton.offset(eye)))
+            for eye in EYE_JOINTS
+            if eye in skeleton
+        }
+        if len(places) < len(EYE_JOINTS):
+            return cls(head.rotation, places, head.position)
+        return cls(head.rotation, places, scale(add(*places.values()), 0.5))
+
+
+def direction(origin: Vec3, target: Vec3) -> Vec3 | None:
+    """The unit vector from one point to another; None where they are too near for one."""
+    way = subtract(target, origin)
+    far = length(way)
+    return scale(way, 1.0 / far) if far > _NEAREST else None
+
+
+def turned(start: Vec3, goal: Vec3, part: float) -> Vec3:
+    """The unit vector a part of the way from one to another, along their great circle."""
+    if part >= 1.0:
+        return goal
+    return rotate(power(between(start, goal), part), start)
+
+
+def listing(head: Quat, sight: Vec3) -> Quat:
+    """An eye's rotation in the head that looks in a direction, or as near as it can.
+
+    Listing's law: the shortest turn from straight ahead, so an eye never rolls about its line of sight.
+
+    Args:
+        head: its rotation in the figure's frame.
+        sight: a unit vector of the figure's frame.
+    """
+    turn = between(FORWARD, rotate(conjugate(head), sight))
+    far = angle(turn)
+    return turn if far <= EYE_RANGE else power(turn, EYE_RANGE / far)

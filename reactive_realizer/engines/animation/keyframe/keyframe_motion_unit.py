@@ -1,0 +1,76 @@
+"""A keyframe animation or a capture as a motion."""
+
+from collections.abc import Mapping
+
+from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.pose import LayerKind
+from reactive_realizer.embodiment.skeleton import Skeleton
+from reactive_realizer.embodiment.vector import add
+from reactive_realizer.engines.animation.arrival import Arrival
+from reactive_realizer.engines.animation.keyframe.clip import Clip
+from reactive_realizer.engines.animation.motion_unit import Moment, Posed, owned
+from reactive_realizer.engines.animation.posture.ground import grounded
+from reactive_realizer.planunit.parameter import Range
+
+
+class KeyframeMotionUnit:
+    """Plays a clip: in the time that it took when it was made, if nothing else is asked for.
+
+    A clip that moves the root moves it from where the figure stands: in its first key whatever of the figure is lowest
+    touches the ground (`grounded`), for the place in a file is that of a figure of another size.
+    """
+
+    kind = LayerKind.FULL_BODY
+    group: str | None = None
+    lasts: str | None = None
+    limits: tuple[float, float] | None = None
+
+    def __init__(self, clip: Clip, skeleton: Skeleton) -> None:
+        """Prepares a motion.
+
+        Args:
+            clip: of joints that the figure has.
+            skeleton: the figure's.
+        """
+        self.parameters: dict[str, float] = {}
+        self.ranges: Mapping[str, Range] = {}
+        self.joints = frozenset(clip.joints)
+        self.resources = owned(self.joints)
+        self._clip = clip
+        first = clip.rotations_at(clip.times[0])
+        self._stand = None if clip.roots is None else grounded(Body(skeleton, first)).root
+        self._arrival: Arrival | None = None
+
+    @property
+    def key_positions(self) -> Mapping[str, float]:
+        """Start and end, and the points that the clip names."""
+        points = sorted((self._phase(point.time), sync) for sync, point in self._clip.points.items())
+        return {"start": 0.0, **{sync: phase for phase, sync in points}, "end": 1.0}
+
+    @property
+    def exits(self) -> tuple[str, ...]:
+        """The sync ids of the points where it may well be left, in order."""
+        return tuple(sync for sync in self.key_positions if sync in self._clip.points and self._clip.points[sync].leave)
+
+    @property
+    def preferred_duration(self) -> float:
+        """As it was made, s."""
+        return self._clip.duration
+
+    def start(self, body: Body) -> None:
+        """It sets in from where the body is."""
+        self._arrival = Arrival(body, self._clip.duration)
+
+    def pose(self, moment: Moment) -> Posed:
+        """The clip's rotations, and its root."""
+        posed = self._posed(moment.phase)
+        return posed if self._arrival is None else self._arrival(posed, moment.phase)
+
+    def _posed(self, phase: float) -> Posed:
+        time = self._clip.times[0] + phase * self._clip.duration
+        moved = self._clip.root_at(time)
+        root = None if moved is None or self._stand is None else add(self._stand, moved)
+        return Posed(self._clip.rotations_at(time), root=root)
+
+    def _phase(self, time: float) -> float:
+        return (time - self._clip.times[0]) / self._clip.duration

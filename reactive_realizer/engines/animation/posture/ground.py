@@ -1,0 +1,31 @@
+"""Where a body in a pose touches the ground."""
+
+from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.vector import Vec3, add, scale
+
+_FLESH = {"HumanoidRoot": 0.11, "vt6": 0.12, "skullbase": 0.09, "l_knee": 0.06, "r_knee": 0.06}
+"""How near these joints come to the ground, m: what is around them, of a body of ordinary size."""
+
+_ANKLES = ("l_ankle", "r_ankle")
+_SOLES = (*_ANKLES, "l_midtarsal", "r_midtarsal")
+
+
+def grounded(body: Body) -> Body:
+    """The body with its root where its feet stay in the place that they have in the default pose.
+
+    Whatever is lowest touches the ground: of one who stands or sits the feet, of one who lies the back. The middle
+    between the ankles stays where it is. The root of a figure without legs is not moved.
+    """
+    if not all(ankle in body.skeleton for ankle in _ANKLES):
+        return Body(body.skeleton, body.pose)
+    default, free = Body(body.skeleton), Body(body.skeleton, body.pose)
+    soles = {joint: default.place(joint).position[1] for joint in _SOLES if joint in body.skeleton}
+    clearances = {**_FLESH, **soles}.items()
+    up = max(above - free.place(joint).position[1] for joint, above in clearances if joint in body.skeleton)
+    (to_x, _, to_z), (x, _, z) = _between_feet(default), _between_feet(free)
+    return Body(body.skeleton, body.pose, (to_x - x, up, to_z - z))
+
+
+def _between_feet(body: Body) -> Vec3:
+    left, right = (body.place(ankle).position for ankle in _ANKLES)
+    return scale(add(left, right), 0.5)

@@ -1,0 +1,125 @@
+"""Where hands and feet are: what the joints of a limb have to do for it."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from math import atan2
+
+from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.quaternion import (
+    Quat,
+    conjugate,
+    from_axis_angle,
+    multiply,
+    power,
+    rotate,
+    twist,
+)
+from reactive_realizer.embodiment.skeleton import Skeleton
+from reactive_realizer.embodiment.two_bone_ik import Arm, Leg
+from reactive_realizer.embodiment.vector import UP, Vec3, length, subtract, unit
+from reactive_realizer.engines.animation.procedural.tracks import Formulas, above, negated
+
+EFFECTORS: Mapping[str, tuple[type[Arm] | type[Leg], str]] = {
+    "l_wrist": (Arm, "l"),
+    "r_wrist": (Arm, "r"),
+    "l_ankle": (Leg, "l"),
+    "r_ankle": (Leg, "r"),
+}
+"""Joint -> the limb that ends in it, and its side."""
+
+# A bone as short as this, m, has no direction.
+_NO_BONE = 1e-4
+
+
+@dataclass(frozen=True, slots=True)
+class EffectorTrack:
+    """Where a wrist or an ankle is; the two joints above follow by inverse kinematics.
+
+    A foot stays parallel to the ground, its toes where the knee points, unless the animation turns the ankle too.
+
+    Attributes:
+        limb: an arm or a leg.
+        side: "l" or "r".
+        local: the place is from the limb's first joint, in the axes of the joint above it, which lean and turn with the
+            trunk; else it is in the figure's frame, from the ground between the feet.
+        formulas: of x, y, z, m, and of the swivel of elbow or knee, rad (`Limb.solve`).
+    """
+
+    limb: type[Arm] | type[Leg]
+    side: str
+    local: bool
+    formulas: Formulas
+
+    @property
+    def chain(self) -> tuple[str, str, str]:
+        """The joints of the limb from its first to its end."""
+        first, middle, end = self.limb.JOINTS
+        return f"{self.side}_{first}", f"{self.side}_{middle}", f"{self.side}_{end}"
+
+    @property
+    def led(self) -> frozenset[str]:
+        """The joints that nothing else may turn."""
+        return frozenset(self.chain[:2])
+
+    @property
+    def joints(self) -> frozenset[str]:
+        """As every track."""
+        return frozenset(self.chain) if self.limb is Leg else self.led
+
+    @property
+    def alone(self) -> bool:
+        """As every track; a foot is kept parallel to the ground."""
+        return self.local and self.limb is Arm
+
+    def turned(self, values: Sequence[float], phase: float, body: Callable[[], Body]) -> Mapping[str, Quat]:
+        """As every track."""
+        first, middle, end = self.chain
+        now = body()
+        x, y, z, swivel = values
+        goal = (x, y, z) if self.local else _seen_from(first, (x, y, z), now)
+        upper, lower = self.limb.of(now.skeleton, self.side).solve(goal, swivel)
+        if self.limb is Arm:
+            return {first: upper, middle: lower}
+        shank = multiply(above(first, now), multiply(upper, lower))
+        return {first: upper, middle: lower, end: _flat(shank)}
+
+    def mirrored(self) -> "EffectorTrack":
+        """As every track."""
+        return EffectorTrack(self.limb, {"l": "r", "r": "l"}[self.side], self.local, negated(self.formulas, 0, 3))
+
+    def of(self, joints: frozenset[str]) -> "EffectorTrack | None":
+        """As every track; half a limb would reach nothing, so it is all or nothing."""
+        return self if self.joints & joints else None
+
+    def on(self, skeleton: Skeleton) -> "EffectorTrack | None":
+        """As every track."""
+        _, middle, end = self.chain
+        whole = all(joint in skeleton for joint in self.chain)
+        return self if whole and min(length(skeleton.offset(joint)) for joint in (middle, end)) > _NO_BONE else None
+
+
+def _seen_from(joint: str, place: Vec3, body: Body) -> Vec3:
+    """A place of the figure's frame from a joint, in the axes of the joint above it."""
+    return rotate(conjugate(above(joint, body)), subtract(place, body.place(joint).position))
+
+
+def _flat(shank: Quat) -> Quat:
+    """The rotation of an ankle with which its foot is parallel to the ground.
+
+    Args:
+        shank: from the knee's axes to the figure's.
+    """
+    x, _, z = rotate(shank, (1.0, 0.0, 0.0))
+    return multiply(conjugate(shank), from_axis_angle(UP, atan2(-z, x)))
+
+
+def share_twist(side: str, turned: Mapping[str, Quat], skeleton: Skeleton) -> Mapping[str, Quat]:
+    """Rotations with half of a wrist's twist made by the forearm, as a radius and an ulna do; the hand stays as it is.
+
+    All of it in the wrist would wring the skin there like a towel.
+    """
+    elbow, wrist = f"{side}_elbow", f"{side}_wrist"
+    if wrist not in turned:
+        return {}
+    half = power(twist(turned[wrist], unit(skeleton.offset(wrist))), 0.5)
+    return {elbow: multiply(turned[elbow], half), wrist: multiply(conjugate(half), turned[wrist])}

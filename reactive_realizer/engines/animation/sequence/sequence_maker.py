@@ -1,0 +1,78 @@
+"""From a file to motions that are played as one."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from pathlib import Path
+
+from reactive_realizer.binding.xml_file import Element, attribute, bad, number, read_xml
+from reactive_realizer.engines.animation.actor import Actor, Maker, Wanted
+from reactive_realizer.engines.animation.sequence.part import Part
+from reactive_realizer.engines.animation.sequence.sequence_motion_unit import SequenceMotionUnit
+from reactive_realizer.errors import error
+
+
+class SequenceMaker:
+    """Makes sequences of what other makers make.
+
+    A file has a `Motion` for each part, the later over the earlier: its `type` and `file` as in a binding, `start`, and
+    `end` (else it takes as long as it would like to), `easeIn`, `easeOut`, all in s, and a `parameter` for each of its
+    values, which the behavior may overrule. A `KeyPosition` gives a sync point of a part (`ref="part:sync"`) to the
+    whole.
+    """
+
+    def __init__(self, actor: Actor, makers: Mapping[str, Maker]) -> None:
+        """Makes them for an actor, of parts by these makers."""
+        self._actor = actor
+        self._makers = makers
+        self._making: list[Path] = []
+
+    def __call__(self, wanted: Wanted) -> SequenceMotionUnit:
+        """As every maker."""
+        if wanted.file is None:
+            raise error("no-unit", unit="a sequence without a file")
+        path = self._actor.asset(wanted.file)
+        root = read_xml(path, "Sequence")
+        if path in self._making:
+            raise bad(root, "it is a part of itself")
+        self._making.append(path)
+        try:
+            return self._sequence(root, wanted)
+        finally:
+            self._making.pop()
+
+    def _sequence(self, root: Element, wanted: Wanted) -> SequenceMotionUnit:
+        for element in root:
+            if element.tag not in ("Motion", "KeyPosition"):
+                raise bad(element, "known are Motion, KeyPosition")
+        elements = root.findall("Motion")
+        parts = [self._part(element, wanted) for element in elements]
+        if len({part.motion.kind for part in parts}) != 1:
+            raise bad(root, "its parts have to be one or more, all of one kind")
+        names = {element.get("id", ""): part for element, part in zip(elements, parts, strict=True)}
+        return SequenceMotionUnit(parts, dict(_key_position(key, names) for key in root.iterfind("KeyPosition")))
+
+    def _part(self, element: Element, wanted: Wanted) -> Part:
+        unit, own = attribute(element, "type"), dict(_parameters(element))
+        if unit not in self._makers:
+            raise error("no-unit", unit=unit)
+        motion = self._makers[unit](replace(wanted, parameters={**own, **wanted.parameters}, file=element.get("file")))
+        start = number(element, "start")
+        end = start + motion.preferred_duration if element.get("end") is None else number(element, "end")
+        eases = [number(element, name) if name in element.attrib else 0.0 for name in ("easeIn", "easeOut")]
+        if not 0.0 <= start < end or min(eases) < 0.0 or sum(eases) > end - start:
+            raise bad(element, "0 <= start < end is wanted, and easeIn and easeOut between them")
+        return Part(motion, start, end, *eases)
+
+
+def _parameters(element: Element) -> Iterator[tuple[str, str]]:
+    for parameter in element.iterfind("parameter"):
+        yield attribute(parameter, "name"), attribute(parameter, "value")
+
+
+def _key_position(key: Element, parts: Mapping[str, Part]) -> tuple[str, float]:
+    name, _, sync = attribute(key, "ref").partition(":")
+    if attribute(key, "id") in ("start", "end"):
+        raise bad(key, "start and end are those of the whole")
+    if name not in parts or sync not in parts[name].motion.key_positions:
+        raise bad(key, f"there is no point '{key.get('ref')}'")
+    return attribute(key, "id"), parts[name].time(sync)

@@ -1,0 +1,25 @@
+"""From a binding to a transition."""
+
+from reactive_realizer.engines.animation.actor import Actor, Wanted
+from reactive_realizer.engines.animation.transition.curves import CURVES
+from reactive_realizer.engines.animation.transition.transition_motion_unit import TransitionMotionUnit
+from reactive_realizer.errors import error
+
+_EYES = frozenset({"l_eyeball_joint", "r_eyeball_joint"})
+
+
+class TransitionMaker:
+    """Makes transitions of the kind that the parameter `class` names, of the `joints`, else of the whole figure."""
+
+    def __init__(self, actor: Actor) -> None:
+        self._joints = frozenset(actor.humanoid.avatar.skeleton.joints) - _EYES
+
+    def __call__(self, wanted: Wanted) -> TransitionMotionUnit:
+        """As every maker."""
+        kind = wanted.parameters.get("class", "").rpartition(".")[2]
+        if kind not in CURVES:
+            raise error("no-transition", kind=kind, known=", ".join(CURVES))
+        joints = self._joints & wanted.joints if wanted.joints else self._joints
+        if not joints:
+            raise error("no-joints", joints=", ".join(sorted(wanted.joints)), element=wanted.behavior.name)
+        return TransitionMotionUnit(joints, CURVES[kind])

@@ -1,0 +1,51 @@
+"""A transition in a plan."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+from reactive_realizer.bml.behavior import Behavior
+from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.embodiment.pose import Layer, LayerKind
+from reactive_realizer.engines.animation.animation_unit import AnimationUnit, Stage
+from reactive_realizer.engines.animation.choice import Choice
+from reactive_realizer.engines.animation.moving import Moving
+from reactive_realizer.engines.animation.transition.transition_motion_unit import TransitionMotionUnit
+from reactive_realizer.pegboard.peg_key import BlockKey
+
+Predict = Callable[[GlobalTime, AnimationUnit], Moving]
+"""How the body will move at a time, as far as it can be known, if one unit does nothing."""
+
+
+class TransitionUnit(AnimationUnit):
+    """A transition between pegs."""
+
+    def __init__(
+        self, block: BlockKey, behavior: Behavior, choices: Sequence[Choice], stage: Stage, predict: Predict
+    ) -> None:
+        """Plans a transition; where it leads to, a prediction says when it begins."""
+        super().__init__(block, behavior, choices, stage)
+        self._predict = predict
+        self._led = False
+
+    def on_start(self, time: GlobalTime) -> None:
+        """From here, as the body moves now."""
+        super().on_start(time)
+        self._lead(time)
+
+    def on_finish(self, time: GlobalTime) -> None:
+        """What it has led to begins now: what is left of the transition itself lies below that."""
+        if not self.was_cut("end"):
+            self.shown = replace(self.shown, kind=LayerKind.POSTURE)
+        super().on_finish(time)
+
+    def layer(self, now: GlobalTime) -> Layer:
+        """As every motion; while nobody knows when it ends, the joints stay where they are."""
+        if not self._led:
+            self._lead(now)
+        return super().layer(now)
+
+    def _lead(self, now: GlobalTime) -> None:
+        end = self.time("end")
+        if end is not None and end > now and isinstance(self.motion, TransitionMotionUnit):
+            self.motion.lead(self._stage.moving(now), self._predict(end, self), end - now)
+            self._led = True

@@ -1,0 +1,221 @@
+"""Gestures, from BML to frames: which hand, from where, back to where, and never a jump."""
+
+from pathlib import Path
+from random import Random
+
+import numpy as np
+import pytest
+
+from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
+
+BEAT = '<gesture id="{}" lexeme="BEAT" {} start="{}" end="{}"/>'
+RIGHT, LEFT, BOTH = (f'mode="{mode}_HAND{"S" * (mode == "BOTH")}"' for mode in ("RIGHT", "LEFT", "BOTH"))
+POINT = '<pointing id="p" target="bluebox" {}/>'
+FASTEST_STEP = 0.05
+"""m between two frames: `speed_limit.WRIST_SPEED` for 20 ms."""
+
+BINDING = """
+<gesturebinding>
+  <MotionUnitSpec type="gesture">
+    <constraints><constraint name="lexeme" value="SHOW"/></constraints>
+    <parameterdefaults><parameterdefault name="postStrokeHoldDuration" value="3"/></parameterdefaults>
+    <MotionUnit type="Gesture" file="procanimation/offer_right.xml"/>
+  </MotionUnitSpec>
+  <MotionUnitSpec type="gesture">
+    <constraints><constraint name="lexeme" value="SHOW"/></constraints>
+    <parameterdefaults>
+      <parameterdefault name="postStrokeHoldDuration" value="0"/>
+      <parameterdefault name="mirror" value="true"/>
+    </parameterdefaults>
+    <MotionUnit type="Gesture" file="procanimation/offer_right.xml"/>
+  </MotionUnitSpec>
+</gesturebinding>
+"""
+
+
+@pytest.fixture
+async def watched(pilot: RealizerPilot) -> RealizerPilot:
+    pilot.watch()
+    return pilot
+
+
+def moved(pilot: RealizerPilot, side: str) -> float:
+    """How far a wrist went away from where it was in the first frame, m."""
+    path = pilot.path(f"{side}_wrist")
+    return float(np.linalg.norm(path - path[0], axis=1).max())
+
+
+def largest_step(pilot: RealizerPilot) -> float:
+    paths = (pilot.path(f"{side}_wrist") for side in "lr")
+    return max(float(np.linalg.norm(np.diff(path, axis=0), axis=1).max()) for path in paths)
+
+
+def height(pilot: RealizerPilot, side: str, time: float) -> float:
+    """Of a wrist in the last frame up to a time, m."""
+    times = [frame.time for frame in pilot.frames["alice"]]
+    return float(pilot.path(f"{side}_wrist")[int(np.searchsorted(times, time, "right")) - 1][1])
+
+
+# --- several motions for one behavior (thesis 8.17)
+
+
+async def test_a_gesture_that_names_no_hand_is_made_with_the_right_one(watched) -> None:
+    watched.block("b", BEAT.format("g", "", 0, 2))
+    await watched.advance(2.5)
+    assert moved(watched, "r") > 0.2
+    assert moved(watched, "l") < 0.02
+
+
+async def test_it_is_made_with_the_left_hand_while_the_right_one_is_busy(watched) -> None:
+    watched.block("busy", POINT.format(RIGHT + ' start="0" end="6"'))
+    watched.block("b", BEAT.format("g", "", 1.5, 3.5))
+    await watched.advance(7)
+    assert watched.feedback.warnings == []
+    assert watched.feedback.time("b:g:end") == 3.5
+    assert moved(watched, "l") > 0.2
+
+
+async def test_of_two_that_begin_together_each_gets_a_hand(watched) -> None:
+    watched.block("b", BEAT.format("one", "", 0, 2) + BEAT.format("two", "", 0, 2))
+    await watched.advance(2.5)
+    assert watched.feedback.warnings == []
+    assert moved(watched, "r") > 0.2 < moved(watched, "l")
+
+
+async def test_with_both_hands_busy_it_is_dropped_with_a_warning(watched) -> None:
+    watched.block("busy", BEAT.format("g", BOTH, 0, 3))
+    watched.block("b", BEAT.format("g", "", 1, 2.5))
+    await watched.advance(4)
+    assert watched.feedback.warnings == [("b:g", "IMPOSSIBLE_TO_SCHEDULE")]
+
+
+async def test_a_hand_that_was_asked_for_is_not_exchanged(watched) -> None:
+    watched.block("busy", BEAT.format("g", RIGHT, 0, 3))
+    watched.block("b", BEAT.format("g", RIGHT, 1, 2.5))
+    await watched.advance(4)
+    assert watched.feedback.warnings == [("b:g", "IMPOSSIBLE_TO_SCHEDULE")]
+
+
+async def test_the_hand_is_chosen_when_the_gesture_begins_and_not_when_it_is_planned(watched) -> None:
+    watched.block("busy", BEAT.format("g", RIGHT, 0, 4))
+    watched.block("b", BEAT.format("g", "", 2, 4))
+    await watched.advance(1)
+    watched.perform('<bml xmlns="http://www.bml-initiative.org/bml/bml-1.0" id="now" composition="REPLACE"/>')
+    watched.block("c", BEAT.format("g", "", 1, 3))
+    await watched.advance(4)
+    assert watched.feedback.warnings == []
+    assert moved(watched, "l") < 0.02
+
+
+@pytest.mark.parametrize(("end", "hand"), [("3", "r"), ("1.4", "l")])
+async def test_with_little_time_the_shortest_of_the_motions_is_played(tmp_path: Path, end, hand) -> None:
+    (tmp_path / "gesturebinding.xml").write_text(BINDING)
+    async with open_pilot(SceneOptions(voice="text", assets=(tmp_path,))) as pilot:
+        pilot.watch()
+        pilot.block("b", f'<gesture id="g" lexeme="SHOW" start="0" end="{end}"/>')
+        await pilot.advance(4)
+        assert pilot.feedback.warnings == []
+        assert pilot.feedback.time("b:g:end") == float(end)
+        assert moved(pilot, hand) > 0.15
+        assert moved(pilot, "lr".replace(hand, "")) < 0.02
+
+
+# --- a running gesture whose times move
+
+
+@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("what", ['gesture lexeme="BEAT"', 'pointing target="greensphere"'])
+async def test_a_running_gesture_that_is_retimed_again_and_again_moves_on_without_a_jump(watched, what, seed) -> None:
+    random = Random(seed)
+    for name in ("stroke", "end"):
+        watched.predict("test", name, {"stroke": 1.5, "end": 3.0}[name])
+    watched.block(
+        "b",
+        f'<{what} id="g" {BOTH} start="0.2" stroke="anticipators:test:stroke" end="anticipators:test:end"/>',
+    )
+    await watched.tick()
+    while watched.now < 6:
+        await watched.advance(random.choice((0.05, 0.1, 0.2, 0.4)))
+        stroke = watched.now + random.uniform(0.05, 1.2)
+        watched.predict("test", "stroke", stroke)
+        watched.predict("test", "end", stroke + random.uniform(0.4, 2.0))
+    await watched.advance(4)
+    told = watched.feedback
+    assert told.time("b:g:stroke") < told.time("b:g:end")
+    assert 0.005 < largest_step(watched) < FASTEST_STEP
+    for side in "lr":
+        path = watched.path(f"{side}_wrist")
+        assert np.linalg.norm(path[-1] - path[0]) < 0.03
+
+
+async def test_a_stroke_that_is_put_off_while_the_hand_goes_up_has_it_go_up_more_slowly(watched) -> None:
+    watched.predict("test", "hit", 1.2)
+    watched.block("b", f'<gesture id="g" lexeme="BEAT" {RIGHT} start="0.2" stroke="anticipators:test:hit"/>')
+    await watched.advance(0.7)
+    halfway = height(watched, "r", 0.7)
+    watched.predict("test", "hit", 2.4)
+    await watched.advance(5)
+    rising = [height(watched, "r", 0.7 + 0.04 * i) for i in range(20)]
+    assert rising == pytest.approx(sorted(rising), abs=0.003)
+    assert rising[0] == pytest.approx(halfway, abs=0.02)
+    assert watched.feedback.time("b:g:stroke") == 2.4
+
+
+# --- one after the other (thesis 12.1)
+
+
+@pytest.mark.parametrize("first", [f'<gesture id="g" lexeme="BEAT" {RIGHT}/>', POINT.format(RIGHT)])
+@pytest.mark.parametrize("second", [f'<gesture id="g" lexeme="OFFER" {RIGHT}/>', POINT.format(RIGHT)])
+async def test_the_next_chunk_sets_out_from_where_the_hand_is_on_its_way_back(watched, first, second) -> None:
+    watched.block("one", first)
+    watched.block("two", second, **{"bmla:chunkAfter": "one"})
+    await watched.tick()
+    which, other = ("p" if "pointing" in block else "g" for block in (first, second))
+    planned = watched.feedback.predicted(f"two:{other}:ready") - watched.feedback.predicted(f"two:{other}:start")
+    await watched.advance(8)
+    told = watched.feedback
+    assert told.warnings == []
+    assert told.time(f"two:{other}:start") == told.time(f"one:{which}:relax") == told.time(f"one:{which}:end")
+    assert abs(told.time(f"two:{other}:ready") - told.time(f"two:{other}:start") - planned) > 0.05
+    assert largest_step(watched) < FASTEST_STEP
+
+
+async def test_after_a_gesture_of_both_hands_the_hand_that_is_not_needed_goes_back_in_full(watched) -> None:
+    watched.block("one", BEAT.format("g", BOTH, 0, 3))
+    watched.block("two", POINT.format(RIGHT + ' ready="2.6" relax="4"'), **{"bmla:chunkAfter": "one"})
+    await watched.advance(8)
+    assert largest_step(watched) < FASTEST_STEP
+    rest = height(watched, "l", 0.0)
+    assert height(watched, "l", watched.feedback.time("two:p:relax")) == pytest.approx(rest, abs=0.02)
+    assert height(watched, "r", watched.feedback.time("two:p:relax")) > rest + 0.1
+
+
+async def test_a_gesture_over_crossed_arms_comes_back_to_crossed_arms(watched) -> None:
+    watched.block(
+        "base", '<postureShift id="s" start="0" end="1.5"><pose part="ARMS" lexeme="ARMS_CROSSED"/></postureShift>'
+    )
+    await watched.advance(3)
+    crossed = [watched.path(f"{side}_wrist")[-1] for side in "lr"]
+    watched.block("b", BEAT.format("g", RIGHT, 0, 2) + POINT.format(LEFT + ' start="2.5" end="5"'))
+    await watched.advance(7)
+    assert watched.feedback.warnings == []
+    assert largest_step(watched) < FASTEST_STEP
+    for side, before in zip("lr", crossed, strict=True):
+        path = watched.path(f"{side}_wrist")
+        assert np.linalg.norm(path[150:] - before, axis=1).max() > 0.15
+        assert np.linalg.norm(path[-1] - before) < 0.03
+
+
+async def test_a_gesture_that_is_planned_in_another_posture_takes_the_time_of_the_way_from_there(watched) -> None:
+    watched.block("one", f'<gesture id="g" lexeme="BEAT" {RIGHT}/>')
+    await watched.advance(4)
+    watched.block(
+        "base", '<postureShift id="s" start="0" end="1.5"><pose part="ARMS" lexeme="ARMS_CROSSED"/></postureShift>'
+    )
+    await watched.advance(3)
+    watched.block("two", f'<gesture id="g" lexeme="BEAT" {RIGHT}/>')
+    await watched.advance(4)
+    told = watched.feedback
+    hanging, crossed = (told.time(f"{block}:g:ready") - told.time(f"{block}:g:start") for block in ("one", "two"))
+    assert crossed < hanging - 0.05

@@ -1,0 +1,154 @@
+"""Every word of a binding plays: it ends without a warning, and something of the figure moves."""
+
+from collections.abc import AsyncIterator, Sequence
+from contextlib import asynccontextmanager
+from itertools import groupby
+from pathlib import Path
+from shutil import copy
+
+import numpy as np
+import pytest
+
+from reactive_realizer.assembly.assets import PACKAGE_ASSETS
+from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.binding.asking import asking
+from reactive_realizer.binding.gesture_binding import GestureBinding
+from reactive_realizer.bml.names import BMLT
+from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
+
+DATA = Path(__file__).parent.parent / "data"
+HUMAN = "[character.alice]\nidle = false\n[target.bluebox]\nposition = [1.2, 1.1, 1.5]"
+"""Whatever moves then moves because it was asked to."""
+
+NOISE = f"""<b:noise xmlns:b="{BMLT}" id="word" type="perlin" joint="vl5" start="0" end="2">
+  <b:parameter name="basefreqx" value="2"/><b:parameter name="baseamplitudex" value="0.1"/></b:noise>"""
+"""What is asked for by more than a word."""
+
+
+def asked_of(binding: Path, but: Sequence[str] = ()) -> list[str]:
+    """How to ask for each entry of a binding that is a word, shifts last; those of some units left out."""
+    asked = [asking(spec, "bluebox") for spec in GestureBinding.read(binding).specs if spec.unit not in but]
+    return sorted((text for text in asked if text is not None), key=lambda text: "Shift" in text)
+
+
+def element_of(behavior: str) -> str:
+    """Its name."""
+    return behavior.lstrip("<").partition(" ")[0].rpartition(":")[2]
+
+
+OURS = {
+    element: list(behaviors)
+    for element, behaviors in groupby(
+        sorted(asked_of(PACKAGE_ASSETS / "gesturebinding.xml"), key=element_of), element_of
+    )
+}
+
+
+@pytest.fixture
+def play(tmp_path: Path):
+    @asynccontextmanager
+    async def stage(*assets: Path) -> AsyncIterator[RealizerPilot]:
+        human = tmp_path / "human.toml"
+        human.write_text(HUMAN)
+        async with open_pilot(SceneOptions(human, "text", assets)) as pilot:
+            pilot.watch()
+            yield pilot
+
+    async def play(behaviors: Sequence[str], *assets: Path) -> None:
+        async with stage(*assets) as pilot:
+            for i, behavior in enumerate(behaviors):
+                turned = await played(pilot, f"b{i}", behavior)
+                assert turned > 0.02 or is_still(behavior), behavior
+
+    return play
+
+
+async def played(pilot: RealizerPilot, id_: str, behavior: str) -> float:
+    """Play a behavior to its end; by how much a joint turned away from where it was, at most, rad."""
+    pilot.frames.clear()
+    pilot.block(id_, behavior)
+    while not pilot.feedback.reached(f"{id_}:end"):
+        await pilot.advance(0.1)
+    assert pilot.feedback.status(id_) == "DONE", behavior
+    assert pilot.feedback.reached(f"{id_}:word:end"), behavior
+    assert pilot.feedback.warnings == [], behavior
+    rotations = np.array([frame.rotations for frame in pilot.frames["alice"]])
+    return float(2.0 * np.arccos(np.clip(np.abs((rotations * rotations[:1]).sum(-1)), 0.0, 1.0)).max())
+
+
+def is_still(behavior: str) -> bool:
+    """Who is to look straight ahead, or to stand, does so already."""
+    return 'lexeme="FRONT"' in behavior or element_of(behavior) in {"posture", "postureShift"}
+
+
+@pytest.mark.parametrize("element", OURS)
+async def test_every_word_of_the_package_plays(play, element):
+    await play(OURS[element])
+
+
+async def test_every_word_of_a_published_binding_plays(play, tmp_path):
+    copy(DATA / "bindings" / "published.xml", tmp_path / "gesturebinding.xml")
+    asked = asked_of(tmp_path / "gesturebinding.xml", ["PhysicalController"])
+    assert len(asked) == 9
+    await play([*asked, NOISE], tmp_path)
+
+
+async def test_every_word_of_the_binding_of_the_peer_plays_though_its_file_is_as_it_was(play, tmp_path, shared_cases):
+    copy(shared_cases / "asap" / "gesturebinding" / "gesturebinding.xml", tmp_path)
+    asked = asked_of(tmp_path / "gesturebinding.xml", ["PhysicalController"])
+    assert len(asked) == 70
+    await play([*asked, NOISE], tmp_path)
+
+
+async def test_what_a_binding_gives_to_a_unit_that_is_not_there_is_played_by_the_package(play, tmp_path, caplog):
+    copy(DATA / "bindings" / "published.xml", tmp_path / "gesturebinding.xml")
+    await play(['<posture id="word" end="1"><stance type="STANDING"/></posture>'], tmp_path)
+    assert "this entry does not play: there is no motion unit 'PhysicalController'" in caplog.text
+
+
+async def test_the_entries_of_a_user_come_before_those_of_the_package(tmp_path):
+    (tmp_path / "gesturebinding.xml").write_text(
+        """<gesturebinding><MotionUnitSpec type="head">
+          <constraints><constraint name="lexeme" value="NOD"/></constraints>
+          <MotionUnit type="ProcAnimation" file="procanimation/shake.xml"/></MotionUnitSpec></gesturebinding>"""
+    )
+    async with open_pilot(SceneOptions(voice="text", assets=(tmp_path,))) as pilot:
+        pilot.watch()
+        pilot.block("b", '<head id="no" lexeme="NOD" amount="1"/><gesture id="yes" lexeme="BEAT" start="no:end"/>')
+        await pilot.advance(4)
+        assert pilot.feedback.warnings == []
+        assert pilot.feedback.reached("b:yes:end")
+        joints = list(pilot.realizer.characters["alice"].humanoid.avatar.skeleton.joints)
+        head = np.array([frame.rotations[joints.index("skullbase")] for frame in pilot.frames["alice"]])
+        assert np.ptp(head[:, 2]) > 5 * np.ptp(head[:, 1]), "it turned about the vertical axis: it shook its head"
+
+
+async def test_an_entry_whose_file_is_missing_is_passed_over_and_named_in_the_log(tmp_path, caplog):
+    (tmp_path / "gesturebinding.xml").write_text(
+        """<gesturebinding><MotionUnitSpec type="gesture">
+          <constraints><constraint name="lexeme" value="BEAT"/></constraints>
+          <MotionUnit type="Gesture" file="nowhere.xml"/></MotionUnitSpec></gesturebinding>"""
+    )
+    async with open_pilot(SceneOptions(voice="text", assets=(tmp_path,))) as pilot:
+        for i in range(2):
+            pilot.block(f"b{i}", '<gesture id="g" lexeme="BEAT"/>')
+            await pilot.advance(3)
+        assert pilot.feedback.warnings == []
+        assert pilot.feedback.reached("b1:g:end")
+    told = [record.message for record in caplog.records if "does not play" in record.message]
+    assert told == ["gesturebinding.xml, line 1: this entry does not play: no file 'nowhere.xml' among the assets"]
+
+
+async def test_where_no_entry_is_left_the_warning_says_what_is_wrong_with_the_first(tmp_path):
+    (tmp_path / "gesturebinding.xml").write_text(
+        """<gesturebinding><MotionUnitSpec type="gesture">
+          <constraints><constraint name="lexeme" value="HOP"/></constraints>
+          <MotionUnit type="Gesture" file="nowhere.xml"/></MotionUnitSpec></gesturebinding>"""
+    )
+    async with open_pilot(SceneOptions(voice="text", assets=(tmp_path,))) as pilot:
+        pilot.block("b", '<gesture id="g" lexeme="HOP"/><gesture id="h" lexeme="SKIP"/>')
+        await pilot.advance(1)
+        assert pilot.feedback.warnings == [("b:g", "CANNOT_CREATE_BEHAVIOR"), ("b:h", "CANNOT_CREATE_BEHAVIOR")]
+        texts = [str(line.element.text) for line in pilot.feedback.of("warningFeedback")]
+        assert "nowhere.xml" in texts[0]
+        assert "SKIP" in texts[1]

@@ -1,0 +1,229 @@
+"""Pointing, from BML to frames: the finger's line meets the target (thesis 4.2.2)."""
+
+import math
+from pathlib import Path
+from random import Random
+
+import numpy as np
+import pytest
+
+from reactive_realizer.assembly.assets import PACKAGE_ASSETS
+from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.frame import Frame
+from reactive_realizer.embodiment.vector import dot, subtract, unit
+from reactive_realizer.testing.pilot import RealizerPilot, block, open_pilot
+
+HUMANS = """
+[character.alice]
+avatar = "avatars/female.glb"
+voice = "text"
+
+[character.bob]
+avatar = "avatars/male.glb"
+voice = "text"
+position = [1.0, 0.0, 2.5]
+heading = 200.0
+
+[target.thing]
+position = [-0.4, 1.2, 1.3]
+"""
+HOLD = '<pointing id="p" target="thing" mode="{}" start="0" ready="1" relax="{}"/>'
+MODES = {"LEFT_HAND": "l", "RIGHT_HAND": "r"}
+
+
+@pytest.fixture
+async def pair(tmp_path: Path):
+    human = tmp_path / "pair.toml"
+    human.write_text(HUMANS)
+    async with open_pilot(SceneOptions(human=human, voice="text", verify=True)) as pilot:
+        pilot.watch()
+        yield pilot
+
+
+def body_in(pilot: RealizerPilot, frame: Frame, character: str = "alice") -> Body:
+    """The figure in a frame, in the frame of the world."""
+    skeleton = pilot.realizer.characters[character].humanoid.avatar.skeleton
+    pose = dict(zip(skeleton.joints, map(tuple, frame.rotations), strict=True))
+    x, y, z = subtract(tuple(frame.root), skeleton.offset("HumanoidRoot"))
+    return Body(skeleton, pose, (x, y, z))
+
+
+def miss(body: Body, side: str, target) -> float:
+    """The angle, degrees, between the line of the index finger and the way from its base to a target."""
+    base, tip = (body.place(f"{side}_index{i}").position for i in (1, 3))
+    cosine = dot(unit(subtract(tip, base)), unit(subtract(target, base)))
+    return math.degrees(math.acos(min(1.0, cosine)))
+
+
+def misses(pilot: RealizerPilot, character: str, side: str, target, since: float, until: float) -> list[float]:
+    frames = [frame for frame in pilot.frames[character] if since <= frame.time <= until]
+    assert len(frames) > 10
+    return [miss(body_in(pilot, frame, character), side, target) for frame in frames]
+
+
+@pytest.mark.parametrize("mode", MODES)
+@pytest.mark.parametrize("character", ["alice", "bob"])
+async def test_from_ready_to_relax_the_finger_is_on_its_target_wherever_that_is(pair, character, mode) -> None:
+    random, met = Random(7), 0
+    for i in range(8):
+        x, y, z = (random.uniform(*span) for span in ((-1.5, 1.5), (0.3, 2.2), (0.5, 2.5)))
+        # Bob faces about where Alice comes from.
+        target = (x, y, z) if character == "alice" else (1.0 - x, y, 2.5 - z)
+        pair.move("thing", target)
+        begun = pair.now
+        pair.perform(block(f"b{i}", HOLD.format(mode, 1.5), characterId=character))
+        await pair.advance(3.5)
+        if not any(id_ == f"b{i}:p" for id_, _ in pair.feedback.warnings):
+            met += 1
+            assert max(misses(pair, character, MODES[mode], target, begun + 1.05, begun + 1.5)) < 2.0
+    assert met >= 5
+
+
+async def test_a_target_that_moves_during_the_hold_is_followed(pair) -> None:
+    pair.block("b", HOLD.format("RIGHT_HAND", 5))
+    await pair.advance(1.2)
+    for i in range(300):
+        target = (0.7 * math.sin(0.02 * i) - 0.4, 1.2 + 0.3 * math.sin(0.03 * i), 1.3)
+        pair.move("thing", target)
+        await pair.tick()
+        if pair.frames["alice"][-1].time >= pair.now - 0.0101 and i > 2:
+            assert miss(body_in(pair, pair.frames["alice"][-1]), "r", target) < 2.0
+    assert pair.feedback.warnings == []
+
+
+async def test_a_trunk_that_turns_for_a_gaze_and_breathes_does_not_move_the_finger_off_its_target(pair) -> None:
+    pair.block("b", HOLD.format("LEFT_HAND", 6) + '<gaze id="g" target="bob" influence="WAIST" start="1.5" end="5"/>')
+    await pair.advance(7)
+    assert max(misses(pair, "alice", "l", (-0.4, 1.2, 1.3), 1.05, 6.0)) < 2.0
+
+
+async def test_a_target_that_leaves_the_reach_during_the_hold_is_told_once_and_the_arm_stays_near(pair) -> None:
+    pair.block("b", HOLD.format("RIGHT_HAND", 4))
+    await pair.advance(2)
+    for i in range(100):
+        pair.move("thing", (0.4 * math.sin(0.03 * i), 1.2, 1.3 - 0.03 * i))
+        await pair.advance(0.01)
+    await pair.advance(4)
+    told = pair.feedback
+    assert told.warnings == [("b:p", "EXECUTION_FAILURE")]
+    assert "'thing'" in str(told.of("warningFeedback")[0].element.text)
+    assert told.time("b:p:relax") == 4.0
+    assert told.reached("b:p:end")
+    steps = np.linalg.norm(np.diff(pair.path("r_wrist", "alice"), axis=0), axis=1)
+    assert steps.max() < 0.05
+
+
+async def test_a_target_that_vanishes_is_pointed_at_where_it_was(pair) -> None:
+    pair.block("b", HOLD.format("RIGHT_HAND", 4))
+    await pair.advance(2)
+    pair.move("thing", None)
+    await pair.advance(3)
+    assert max(misses(pair, "alice", "r", (-0.4, 1.2, 1.3), 1.05, 4.0)) < 2.0
+    assert pair.feedback.warnings == []
+
+
+@pytest.mark.parametrize(("x", "side"), [(-0.8, "r"), (0.8, "l")])
+async def test_without_a_mode_the_hand_of_the_side_of_the_target_points(pair, x, side) -> None:
+    pair.move("thing", (x, 1.2, 1.3))
+    pair.block("b", '<pointing id="p" target="thing" start="0" ready="1" relax="2"/>')
+    await pair.advance(3)
+    assert max(misses(pair, "alice", side, (x, 1.2, 1.3), 1.05, 2.0)) < 2.0
+
+
+async def test_if_that_hand_is_busy_the_other_one_points(pair) -> None:
+    pair.block("busy", '<gesture id="g" lexeme="BEAT" mode="RIGHT_HAND" start="0" end="4"/>')
+    pair.block("b", '<pointing id="p" target="thing" start="0.5" ready="1.5" relax="2.5"/>')
+    await pair.advance(4)
+    assert max(misses(pair, "alice", "l", (-0.4, 1.2, 1.3), 1.55, 2.5)) < 2.0
+    assert pair.feedback.warnings == []
+
+
+async def test_both_hands_point_at_once(pair) -> None:
+    pair.block("b", HOLD.format("BOTH_HANDS", 2))
+    await pair.advance(3)
+    for side in "lr":
+        assert max(misses(pair, "alice", side, (-0.4, 1.2, 1.3), 1.05, 2.0)) < 2.0
+
+
+async def test_the_hand_speeds_up_once_and_slows_down_once_on_its_way(pair) -> None:
+    pair.block("b", '<pointing id="p" target="thing" mode="RIGHT_HAND"/>')
+    await pair.advance(3)
+    ready = pair.feedback.time("b:p:ready")
+    times = [frame.time for frame in pair.frames["alice"]]
+    speed = np.linalg.norm(np.diff(pair.path("r_wrist", "alice"), axis=0), axis=1)[: int(np.searchsorted(times, ready))]
+    peak = int(speed.argmax())
+    rounding = 2e-4
+    assert (np.diff(speed[: peak + 1]) > -rounding).all()
+    assert (np.diff(speed[peak:]) < rounding).all()
+    assert times[peak] < 0.5 * ready + 0.02
+
+
+@pytest.mark.parametrize("end", [1.6, 8])
+async def test_where_it_stays_is_what_shrinks_and_grows_when_there_is_less_or_more_time(pair, end) -> None:
+    pair.block("b", '<pointing id="p" target="thing"/>')
+    await pair.advance(4)
+    pair.block("c", f'<pointing id="p" target="thing" start="0" end="{end}"/>')
+    await pair.advance(9)
+    told = pair.feedback
+    free, tied = (told.time(f"{block}:p:ready") - told.time(f"{block}:p:start") for block in "bc")
+    assert tied == pytest.approx(free, abs=0.03)
+    assert told.time("c:p:end") - told.time("c:p:relax") == pytest.approx(free, abs=0.03)
+
+
+async def test_a_target_that_does_not_exist_is_no_such_target(pair) -> None:
+    pair.block("b", '<pointing id="p" target="nowhere"/>')
+    await pair.advance(0.1)
+    assert pair.feedback.warnings == [("b:p", "NO_SUCH_TARGET")]
+
+
+@pytest.mark.parametrize(("place", "reason"), [((-0.3, 1.2, -2.0), "behind"), ((-0.15, 1.27, 0.1), "near")])
+async def test_what_no_hand_can_point_at_is_told_when_it_is_planned(pair, place, reason) -> None:
+    pair.move("thing", place)
+    pair.block("b", '<pointing id="p" target="thing" mode="RIGHT_HAND"/><head id="h" lexeme="NOD"/>')
+    await pair.advance(3)
+    told = pair.feedback
+    assert told.warnings == [("b:p", "CANNOT_CREATE_BEHAVIOR")]
+    sentence = str(told.of("warningFeedback")[0].element.text)
+    assert "right hand" in sentence
+    assert reason in sentence
+    assert told.reached("b:h:end")
+
+
+async def test_what_is_out_of_reach_of_the_nearer_hand_without_a_mode_is_left_to_the_other(pair) -> None:
+    place = (0.12, 1.3, 0.1)
+    pair.move("thing", place)
+    pair.block("b", '<pointing id="p" target="thing" start="0" ready="1" relax="2"/>')
+    await pair.advance(3)
+    assert pair.feedback.warnings == []
+    assert max(misses(pair, "alice", "r", place, 1.05, 2.0)) < 2.0
+
+
+async def test_a_figure_without_index_fingers_says_what_it_lacks(tmp_path: Path) -> None:
+    avatar = (PACKAGE_ASSETS / "avatars" / "female.glb").read_bytes()
+    (tmp_path / "avatars").mkdir()
+    (tmp_path / "avatars" / "female.glb").write_bytes(avatar.replace(b"HandIndex", b"HandOther"))
+    async with open_pilot(SceneOptions(voice="text", assets=(tmp_path,))) as pilot:
+        pilot.block("b", '<pointing id="p" target="bluebox"/><gesture id="g" lexeme="BEAT"/>')
+        await pilot.advance(3)
+        assert pilot.feedback.warnings == [("b:p", "CANNOT_CREATE_BEHAVIOR")]
+        assert "r_index1" in str(pilot.feedback.of("warningFeedback")[0].element.text)
+        assert pilot.feedback.reached("b:g:end")
+
+
+async def test_the_shape_of_the_bell_can_be_said_and_only_within_reason(pair) -> None:
+    pointing = (
+        '<pointing id="p" target="thing" mode="RIGHT_HAND"><bmlt:parameter name="asymmetry" value="{}"/></pointing>'
+    )
+    peaks = []
+    for i, asymmetry in enumerate((-0.5, 0.5)):
+        start = len(pair.frames.get("alice", ()))
+        pair.block(f"b{i}", pointing.format(asymmetry))
+        await pair.advance(4)
+        path = pair.path("r_wrist", "alice")[start : start + 35]
+        peaks.append(int(np.linalg.norm(np.diff(path, axis=0), axis=1).argmax()))
+    assert peaks[0] < peaks[1] - 5
+    pair.block("c", pointing.format(2))
+    await pair.advance(0.1)
+    assert pair.feedback.warnings == [("c:p", "CANNOT_CREATE_BEHAVIOR")]
+    assert "asymmetry" in str(pair.feedback.of("warningFeedback")[0].element.text)

@@ -1,0 +1,120 @@
+"""`lexicon`, as whoever calls it sees it."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from reactive_realizer.__main__ import main
+
+BINDING = """<gesturebinding>
+  <MotionUnitSpec type="gesture">
+    <constraints><constraint name="lexeme" value="HOP"/><constraint name="mode" value="LEFT_HAND"/></constraints>
+    <MotionUnit type="Gesture" file="nowhere.xml"/>
+  </MotionUnitSpec>
+  <MotionUnitSpec type="gesture">
+    <constraints><constraint name="lexeme" value="SKIP"/></constraints>
+    <MotionUnit type="PhysicalController" class="hmi.physics.controller.BalanceController"/>
+  </MotionUnitSpec>
+  <MotionUnitSpec type="gesture">
+    <constraints><constraint name="lexeme" value="JUMP"/><constraint name="mood" value="glad"/></constraints>
+    <parametermap><parameter src="how_high" dst="a"/></parametermap>
+    <parameterdefaults><parameterdefault name="a" value="0.25"/></parameterdefaults>
+    <MotionUnit type="Gesture" file="procanimation/beat_right.xml"/>
+  </MotionUnitSpec>
+</gesturebinding>"""
+
+
+@pytest.fixture
+def lexicon(capsys):
+    """Runs ``lexicon``: what it says and what it complains of, in lines."""
+
+    def run(*arguments: str | Path) -> tuple[list[str], list[str]]:
+        assert main(["lexicon", *map(str, arguments)]) == 0
+        said = capsys.readouterr()
+        return said.out.splitlines(), said.err.splitlines()
+
+    return run
+
+
+@pytest.fixture
+def words(lexicon):
+    """The words of the default scene, as ``--json`` has them."""
+
+    def run(*arguments: str | Path) -> list[dict]:
+        (text,), _ = lexicon("--json", *arguments)
+        return json.loads(text)["alice"]
+
+    return run
+
+
+def word(words: list[dict], element: str, lexeme: str, **constraints: str) -> dict:
+    (found,) = [w for w in words if (w["element"], w["lexeme"], w["constraints"]) == (element, lexeme, constraints)]
+    return found
+
+
+def test_all_words_of_the_package_play(lexicon):
+    said, complaints = lexicon()
+    assert complaints == []
+    assert {"alice:", "  gesture", "  head", "  faceLexeme", "  pose", "  procanimation"} <= set(said)
+
+
+def test_a_line_has_the_word_its_constraints_duration_points_parameters_and_file(lexicon):
+    said, _ = lexicon()
+    (beat,) = [line for line in said if line.split()[:2] == ["BEAT", "mode=BOTH_HANDS"]]
+    assert beat.endswith(
+        "s  start ready strokeStart stroke strokeEnd relax end  amount=1 (0 to 1), a=0.5  procanimation/beat_both.xml"
+    )
+
+
+def test_json_has_the_same(words):
+    nod = word(words(), "head", "NOD")
+    assert nod["syncPoints"] == ["start", "ready", "strokeStart", "stroke", "strokeEnd", "relax", "end"]
+    assert nod["duration"] == pytest.approx(0.7)
+    assert {"name": "amount", "default": 0.5, "low": None, "high": None} in nod["parameters"]
+    assert nod["file"] == "procanimation/smartbody/nod.xml"
+    assert nod["problem"] is None
+    assert word(words(), "faceLexeme", "RAISE_BROWS")["syncPoints"] == ["start", "attackPeak", "relax", "end"]
+
+
+def test_a_conducting_pattern_has_its_beats(words):
+    bar = word(words(), "procanimation", "conduct-3-beat", mode="RIGHT_HAND")
+    assert [point for point in bar["syncPoints"] if point.startswith("beat")] == ["beat1", "beat2", "beat3"]
+
+
+def test_what_a_user_adds_comes_first_and_what_does_not_play_is_told_on_stderr(lexicon, tmp_path):
+    (tmp_path / "gesturebinding.xml").write_text(BINDING)
+    said, complaints = lexicon("--assets", tmp_path)
+    jump, beat = (next(i for i, line in enumerate(said) if line.split()[:1] == [name]) for name in ("JUMP", "BEAT"))
+    assert jump < beat
+    assert not any(line.split()[0] in ("HOP", "SKIP") for line in said)
+    assert complaints == [
+        "alice: gesture HOP mode=LEFT_HAND: no file 'nowhere.xml' among the assets",
+        "alice: gesture SKIP: there is no motion unit 'PhysicalController'",
+    ]
+
+
+def test_parameters_have_the_names_and_defaults_of_the_binding(words, tmp_path):
+    (tmp_path / "gesturebinding.xml").write_text(BINDING)
+    jump = word(words("--assets", tmp_path), "gesture", "JUMP", mood="glad")
+    assert {"name": "how_high", "default": 0.25, "low": None, "high": None} in jump["parameters"]
+
+
+def test_each_character_has_its_own_words(lexicon, tmp_path):
+    human = tmp_path / "two.toml"
+    human.write_text('[character.alice]\n[character.bob]\nengines = ["face"]')
+    said, _ = lexicon("--human", human)
+    assert [line for line in said if not line.startswith(" ")] == ["alice:", "bob:"]
+    assert not any(line.startswith("  gesture") for line in said[said.index("bob:") :])
+
+
+def test_a_binding_that_is_not_well_formed_is_named_with_its_line(tmp_path, capsys):
+    (tmp_path / "gesturebinding.xml").write_text("<gesturebinding>\n<MotionUnitSpec>\n</gesturebinding>")
+    assert main(["lexicon", "--assets", str(tmp_path)]) == 2
+    assert "gesturebinding.xml, line 3" in capsys.readouterr().err
+
+
+def test_help_has_an_example(capsys):
+    with pytest.raises(SystemExit):
+        main(["lexicon", "--help"])
+    assert "example: reactive-realizer lexicon" in capsys.readouterr().out

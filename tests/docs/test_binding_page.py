@@ -1,0 +1,88 @@
+"""docs/binding.md: its folder of assets plays, and its tables are those of the code."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from reactive_realizer.assembly.scene import DEFAULT_HUMAN, SceneOptions
+from reactive_realizer.binding.class_names import CLASS_NAMES
+from reactive_realizer.binding.gesture_binding import GestureBinding
+from reactive_realizer.engines.animation.makers import MAKERS
+from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
+
+from .conftest import fences, page
+
+PAGE = "docs/binding.md"
+TEXT = page(PAGE)
+PACKAGE = "asap.animationengine."
+
+
+@pytest.fixture
+def assets(tmp_path: Path) -> Path:
+    """The folder of the page."""
+    folder = tmp_path / "my_assets"
+    folder.mkdir()
+    for fence in fences(PAGE, "xml"):
+        if fence.note.startswith("my_assets/"):
+            (tmp_path / fence.note).write_text(fence.text, encoding="utf-8")
+    return folder
+
+
+async def play(assets: Path, *blocks: str) -> RealizerPilot:
+    async with open_pilot(SceneOptions(DEFAULT_HUMAN, "text", (assets,))) as pilot:
+        pilot.watch()
+        for block in blocks:
+            pilot.perform(block)
+        await pilot.advance(10)
+        return pilot
+
+
+def moved(pilot: RealizerPilot, joint: str, behavior: str) -> float:
+    """How far a joint went while a behavior played, m."""
+    start, end = (round(50 * pilot.feedback.time(f"{behavior}:{point}")) for point in ("start", "end"))
+    return float(np.ptp(pilot.path(joint)[start:end], axis=0).max())
+
+
+async def test_the_block_of_the_page_plays_with_the_files_of_the_page(assets: Path) -> None:
+    pilot = await play(assets, (assets / "block.xml").read_text("utf-8"))
+    told = pilot.feedback
+    assert told.warnings == []
+    assert told.status("play") == "DONE"
+    assert told.time("play:yes:stroke") == pytest.approx(told.time("play:ball:caught") + 0.3)
+    assert moved(pilot, "skullbase", "play:bow") > 0.1
+    assert moved(pilot, "r_wrist", "play:ball") > 0.3
+    assert moved(pilot, "l_wrist", "play:ball") < 0.05
+    assert min(moved(pilot, "l_wrist", "play:come"), moved(pilot, "r_wrist", "play:come")) > 0.2
+
+
+async def test_an_interrupt_that_is_gentle_lets_the_catch_go_on_to_where_it_may_be_left(assets: Path) -> None:
+    spaces = 'xmlns="http://www.bml-initiative.org/bml/bml-1.0" xmlns:bmla="http://www.asap-project.org/bmla"'
+    catch = f'<bml {spaces} id="a"><gesture id="g" lexeme="CATCH" start="0"/></bml>'
+    stop = f'<bml {spaces} id="b"><bmla:interrupt id="i" target="a" start="0.3" speech="word"/></bml>'
+    pilot = await play(assets, catch, stop)
+    assert pilot.feedback.time("a:g:end") == pytest.approx(0.9)
+
+
+def test_the_binding_with_rests_is_read(tmp_path: Path) -> None:
+    (example,) = [fence for fence in fences(PAGE, "xml") if fence.note == "reads"]
+    file = tmp_path / "gesturebinding.xml"
+    file.write_text(example.text, encoding="utf-8")
+    binding = GestureBinding.read(file)
+    assert binding.rest_poses == {"STANDING": "at_ease.xml"}
+    assert [(spec.behavior, spec.unit) for spec in binding.specs] == [("gazeShift", "rest-gaze")]
+
+
+def test_the_page_has_every_kind_of_motion() -> None:
+    table = TEXT.partition("## Kinds of motions")[2].partition("## Rest")[0]
+    firsts = [line.split(" | ")[0] for line in table.splitlines() if line.startswith("| `")]
+    named = [name for first in firsts for name in re.findall(r"`([\w-]+)`", first)]
+    assert sorted(set(named) - {"type", "class"}) == sorted({*MAKERS, "Sequence"})
+
+
+def test_the_page_has_every_class_and_what_it_is_here() -> None:
+    table = TEXT.partition("## Classes of AsapRealizer")[2]
+    rows = re.findall(r"^\| (`.*`) \| `(.*)` \|$", table, re.MULTILINE)
+    named = {f"{PACKAGE}{name}": unit for names, unit in rows for name in re.findall(r"`([\w.]+)`", names)}
+    assert named == CLASS_NAMES

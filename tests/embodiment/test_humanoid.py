@@ -1,0 +1,76 @@
+"""A figure from layers to frames, over time."""
+
+import math
+from importlib.resources import files
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from reactive_realizer.embodiment.avatar import Avatar
+from reactive_realizer.embodiment.humanoid import EYES, Humanoid
+from reactive_realizer.embodiment.pose import Layer, LayerKind
+from reactive_realizer.embodiment.quaternion import angle, conjugate, from_axis_angle, multiply
+from reactive_realizer.embodiment.vector import UP
+
+AVATAR = Avatar.read(Path(str(files("reactive_realizer"))) / "assets" / "avatars" / "female.glb")
+FRAME = 0.02
+
+
+def frames(layers, eyes=None, count=30, **place):
+    """A figure in the default pose for one frame, then with these layers; its bodies as shown."""
+    figure = Humanoid(AVATAR, **place)
+    shown = []
+    for i in range(count):
+        figure.compose(i * FRAME, layers if i else [], {}, eyes if i else None)
+        shown.append(figure.shown)
+    return shown
+
+
+def looking_ahead(body):
+    """Eyes that look to +z whatever the head does."""
+    return dict.fromkeys(EYES, conjugate(body.place("skullbase").rotation))
+
+
+def test_the_eyes_look_from_where_the_head_is_held_back_to_and_not_from_where_it_is_wanted():
+    aside = Layer(LayerKind.GAZE, {"skullbase": from_axis_angle(UP, 0.5), "vc4": from_axis_angle(UP, 0.3)})
+    shown = frames([aside], looking_ahead)
+    turned = [angle(body.place("skullbase").rotation) for body in shown]
+    assert turned[1] < 0.4 < turned[-1], "held back at first"
+    # Two joints of the neck at 8 rad/s are no faster than an eye at 16.
+    for body in shown:
+        assert angle(body.place(EYES[0]).rotation) < math.radians(0.5)
+
+
+def test_an_eye_turns_no_faster_than_in_a_saccade_also_back_when_nobody_looks_any_more():
+    figure, aside = Humanoid(AVATAR), dict.fromkeys(EYES, from_axis_angle(UP, 0.6))
+    eyes = []
+    for i in range(20):
+        figure.compose(i * FRAME, [], {}, (lambda body: aside) if 1 <= i < 10 else None)
+        eyes.append(figure.shown.rotation(EYES[0]))
+    steps = [angle(multiply(conjugate(a), b)) for a, b in pairwise(eyes)]
+    assert max(steps) == pytest.approx(16.0 * FRAME)
+    assert angle(eyes[9]) == pytest.approx(0.6)
+    assert angle(eyes[-1]) == pytest.approx(0.0, abs=1e-9)
+
+
+def test_the_first_frame_is_as_it_is_asked_for():
+    figure = Humanoid(AVATAR)
+    figure.compose(3.0, [Layer(LayerKind.BASE, {"r_elbow": from_axis_angle(UP, 1.5)}, root=(0.0, -0.4, 0.0))], {}, None)
+    assert angle(figure.shown.rotation("r_elbow")) == pytest.approx(1.5)
+    assert figure.shown.root == (0.0, -0.4, 0.0)
+
+
+def test_a_frame_has_the_root_in_the_world_and_the_pose_in_the_order_of_the_skeleton():
+    figure = Humanoid(AVATAR, position=(1.0, 0.0, 2.0), heading=0.5 * math.pi)
+    elbow = from_axis_angle((1.0, 0.0, 0.0), -1.0)
+    layer = Layer(LayerKind.BASE, {"r_elbow": elbow, "l_no_such": elbow}, root=(0.0, 0.0, 0.1))
+    frame = figure.compose(0.0, [layer], {"jawOpen": 2.0, "noSuchMorph": 1.0}, None)
+    joints = AVATAR.skeleton.joints
+    assert tuple(frame.rotations[joints.index("r_elbow")]) == elbow
+    assert frame.rotations[joints.index("HumanoidRoot")] == pytest.approx(from_axis_angle(UP, 0.5 * math.pi))
+    x, y, z = AVATAR.skeleton.offset("HumanoidRoot")
+    assert frame.root == pytest.approx((1.1 + z, y, 2.0 - x))
+    assert frame.weights[AVATAR.morphs.index("jawOpen")] == 1.0
+    assert np.count_nonzero(frame.weights) == 1

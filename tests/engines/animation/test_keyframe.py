@@ -1,0 +1,258 @@
+"""Keyframe animations: how their files are read, and what they show."""
+
+import math
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.quaternion import IDENTITY, angle, from_axis_angle
+from reactive_realizer.engines.animation.keyframe.clip import Clip, KeyPoint
+from reactive_realizer.engines.animation.keyframe.keyframe_motion_unit import KeyframeMotionUnit
+from reactive_realizer.engines.animation.keyframe.skeleton_interpolator import (
+    read_interpolator_file,
+    read_interpolator_text,
+)
+from reactive_realizer.engines.animation.keyframe.skeleton_pose import read_skeleton_pose
+from reactive_realizer.engines.animation.motion_unit import Moment, Resource
+from reactive_realizer.errors import RealizerError
+
+X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
+
+
+def clip(rows: str, attributes: str = 'parts="skullbase" encoding="R" rotationEncoding="axisangles"') -> Clip:
+    return read_interpolator_text(f"<SkeletonInterpolator {attributes}>{rows}</SkeletonInterpolator>", "shake")
+
+
+def arm_clip() -> Clip:
+    """The right arm up and down in two seconds, then at rest for one."""
+    return clip(
+        "1 1 0 0 0  2 1 0 0 -1.2  3 1 0 0 0  4 1 0 0 0",
+        'parts="r_shoulder" encoding="R" rotationEncoding="axisangles"',
+    )
+
+
+def about_y(rotation) -> float:
+    return 2.0 * math.atan2(rotation[2], rotation[0])
+
+
+def test_between_keys_a_joint_turns_evenly_along_the_shortest_arc():
+    turning = clip("0 0 1 0 0   1 0 1 0 1   3 0 1 0 0.5")
+    turns = [about_y(turning.rotations_at(time)["skullbase"]) for time in (0.0, 0.25, 1.0, 2.0, 3.0)]
+    assert turns == pytest.approx([0.0, 0.25, 1.0, 0.75, 0.5])
+    assert turning.rotations_at(-1.0) == turning.rotations_at(0.0)
+    assert about_y(turning.rotations_at(9.0)["skullbase"]) == pytest.approx(0.5)
+
+
+def test_a_file_may_write_either_of_the_two_quaternions_that_turn_alike():
+    turning = clip("0 1 0 0 0  1 -0.9689124 0 -0.247404 0", 'parts="skullbase" encoding="R"')
+    assert about_y(turning.rotations_at(0.5)["skullbase"]) == pytest.approx(0.25, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("encoding", "numbers"),
+    [("quaternions", "2 0 2 0"), ("Quat", "1 0 1 0"), ("XYZW", "0 1 0 1"), ("axisangles", "0 3 0 1.5707963")],
+)
+def test_rotations_are_written_in_several_ways(encoding, numbers):
+    turning = clip(f"0 {numbers}  1 {numbers}", f'parts="vl5" encoding="R" rotationEncoding="{encoding}"')
+    assert turning.rotations_at(0.0)["vl5"] == pytest.approx(from_axis_angle(Y, math.pi / 2), abs=1e-6)
+
+
+def test_an_axis_of_no_length_turns_nothing_if_its_angle_is_0():
+    assert clip("0 0 0 0 0  1 0 1 0 1").rotations_at(0.0)["skullbase"] == IDENTITY
+
+
+def test_the_place_of_the_root_is_the_way_since_the_first_row():
+    walking = clip(
+        "0 5 0.95 7 1 0 0 0  2 5 0.85 9 1 0 0 0", 'parts="HumanoidRoot" encoding="T1R" rotationEncoding="quaternions"'
+    )
+    assert walking.root_at(0.0) == (0.0, 0.0, 0.0)
+    assert walking.root_at(1.0) == pytest.approx((0.0, -0.05, 1.0))
+
+
+def test_in_the_mirror_left_is_right():
+    turning = clip(
+        "0 0 0 1 0.4  1 0 0 1 0.4", 'parts="l_shoulder" encoding="R" rotationEncoding="axisangles"'
+    ).mirrored()
+    assert turning.rotations_at(0.0) == {"r_shoulder": pytest.approx(from_axis_angle(Z, -0.4))}
+
+
+def test_a_selection_moves_the_root_only_if_it_is_chosen():
+    whole = clip(
+        "0 0 0.9 0 1 0 0 0 1 0 0 0  1 0 0.9 1 1 0 0 0 1 0 0 0",
+        'parts="HumanoidRoot l_hip" encoding="T1R" rotationEncoding="quaternions"',
+    )
+    assert whole.only({"l_hip"}).joints == ("l_hip",)
+    assert whole.only({"l_hip"}).root_at(1.0) is None
+    assert whole.only({"HumanoidRoot"}).root_at(1.0) == (0.0, 0.0, 1.0)
+
+
+def test_a_filter_keeps_what_is_slow_takes_what_is_fast_and_delays_nothing():
+    """Thesis 3.2.2.2, equations 3.10 to 3.12: at the cutoff a sine keeps 1/sqrt(2) of its height, there and back."""
+    times = tuple(np.arange(601) / 120.0)
+    heights = {}
+    for frequency in (1.0, 20.0, 45.0):
+        angles = 0.2 * np.sin(2.0 * np.pi * frequency * np.array(times))
+        rotations = np.stack([np.cos(angles / 2), np.sin(angles / 2), 0 * angles, 0 * angles], axis=-1)[:, np.newaxis]
+        smooth = Clip("sine", times, ("vl5",), rotations).filtered(20.0)
+        out = 2.0 * np.arctan2(smooth.rotations[:, 0, 1], smooth.rotations[:, 0, 0])[150:450]
+        kept = angles[150:450]
+        heights[frequency] = float(out @ kept / (kept @ kept))
+        assert np.allclose(np.linalg.norm(smooth.rotations, axis=-1), 1.0)
+    assert heights[1.0] == pytest.approx(1.0, abs=0.01)
+    assert heights[20.0] == pytest.approx(math.sqrt(0.5), abs=0.02)
+    assert abs(heights[45.0]) < 0.05
+
+
+def test_a_filter_does_not_mind_which_of_the_two_quaternions_that_turn_alike_a_file_writes():
+    """Thesis 3.2.2.1, equations 3.8 and 3.9."""
+    halves = [0.4 * math.sin(2.0 * math.pi * i / 60) for i in range(60)]
+
+    def smooth(signs: list[float]) -> list[float]:
+        keys = enumerate(zip(signs, halves, strict=True))
+        rows = " ".join(f"{i / 60} {sign * math.cos(half)} {sign * math.sin(half)} 0 0" for i, (sign, half) in keys)
+        filtered = clip(rows, 'parts="vl5" encoding="R"').filtered(6.0)
+        return [angle(filtered.rotations_at(i / 60)["vl5"]) for i in range(60)]
+
+    assert smooth([(-1.0) ** (i // 3) for i in range(60)]) == pytest.approx(smooth([1.0] * 60))
+
+
+def test_only_keys_at_even_distances_can_be_filtered():
+    with pytest.raises(RealizerError, match="shake: only keys at even distances"):
+        clip("0 0 1 0 0  1 0 1 0 1  3 0 1 0 0").filtered(0.1)
+
+
+def test_where_the_keys_are_too_slow_for_a_frequency_nothing_is_taken_away():
+    turning = clip("0 0 1 0 0  1 0 1 0 1  2 0 1 0 0")
+    assert np.array_equal(turning.filtered(20.0).rotations, turning.rotations)
+
+
+def test_a_file_names_points_in_time_and_where_it_may_be_left():
+    turning = clip(
+        '<KeyPosition id="beat" time="0.5"/>0 0 1 0 0 <KeyPosition id="out" time="1" leave="true"/> 2 0 1 0 1'
+    )
+    assert turning.points == {"beat": KeyPoint(0.5), "out": KeyPoint(1.0, leave=True)}
+
+
+def test_points_of_a_file_are_sync_points_of_its_motion(skeleton):
+    named = clip('<KeyPosition id="late" time="3"/><KeyPosition id="out" time="2" leave="true"/>1 0 1 0 0  5 0 1 0 1')
+    unit = KeyframeMotionUnit(named, skeleton)
+    assert list(unit.key_positions.items()) == [("start", 0.0), ("out", 0.25), ("late", 0.5), ("end", 1.0)]
+    assert unit.exits == ("out",)
+    assert unit.preferred_duration == 4.0
+
+
+def test_a_motion_that_begins_elsewhere_leaves_from_there_and_arrives_without_a_jump(skeleton):
+    begin = from_axis_angle(X, 0.5)
+    unit = KeyframeMotionUnit(arm_clip(), skeleton)
+    body = Body(skeleton, {"r_shoulder": begin})
+    unit.start(body)
+    shown = [unit.pose(Moment(step / 300, 0.0, body)).rotations["r_shoulder"] for step in range(301)]
+    assert shown[0] == pytest.approx(begin)
+    clean = arm_clip()
+    assert shown[30] == pytest.approx(clean.rotations_at(1.0 + 3.0 * 0.1)["r_shoulder"])
+    turns = [2.0 * math.atan2(x, w) for w, x, _, _ in shown]
+    assert max(abs(b - a) for a, b in pairwise(turns)) < 0.06  # 6 rad/s; a jump would be of 0.5 rad
+
+
+def test_a_motion_that_begins_where_the_body_is_is_played_as_it_was_made(skeleton):
+    unit = KeyframeMotionUnit(arm_clip(), skeleton)
+    body = Body(skeleton, {})
+    unit.start(body)
+    for phase in (0.0, 0.02, 0.05, 0.5):
+        expected = arm_clip().rotations_at(1.0 + 3.0 * phase)["r_shoulder"]
+        assert unit.pose(Moment(phase, 0.0, body)).rotations["r_shoulder"] == pytest.approx(expected)
+
+
+def test_a_motion_that_joins_late_sets_in_from_where_the_body_is_then(skeleton):
+    unit = KeyframeMotionUnit(arm_clip(), skeleton)
+    body = Body(skeleton, {})
+    unit.start(body)
+    assert unit.pose(Moment(0.4, 0.0, body)).rotations["r_shoulder"] == pytest.approx(IDENTITY)
+    expected = arm_clip().rotations_at(1.0 + 3.0 * 0.52)["r_shoulder"]
+    assert unit.pose(Moment(0.52, 0.0, body)).rotations["r_shoulder"] == pytest.approx(expected)
+
+
+def test_a_motion_owns_the_arms_that_it_moves_and_with_a_leg_the_stance(skeleton):
+    legs = clip("0 1 0 0 0  1 1 0 0 0", 'parts="l_knee" encoding="R"')
+    assert KeyframeMotionUnit(arm_clip(), skeleton).resources == {Resource.RIGHT_ARM}
+    assert KeyframeMotionUnit(legs, skeleton).resources == {Resource.STANCE}
+    assert KeyframeMotionUnit(clip("0 0 1 0 0  1 0 1 0 0"), skeleton).resources == frozenset()
+
+
+def test_a_crouch_of_another_body_stands_on_the_ground_of_ours(skeleton):
+    """The file says 0.7 m of a body whose height nobody knows: here the feet decide."""
+    bend = "0 0.7 0 1 0 0 0 1 0 0 -1.2 1 0 0 -1.2 1 0 0 2.4 1 0 0 2.4 1 0 0 -1.2 1 0 0 -1.2"
+    crouch = clip(
+        f"0 {bend} 1 {bend}",
+        'parts="HumanoidRoot l_hip r_hip l_knee r_knee l_ankle r_ankle" encoding="T1R" rotationEncoding="axisangles"',
+    )
+    posed = KeyframeMotionUnit(crouch, skeleton).pose(Moment(0.5, 0.0, Body(skeleton)))
+    body = Body(skeleton).posed(posed.rotations, posed.root)
+    for ankle in ("l_ankle", "r_ankle"):
+        height = Body(skeleton).place(ankle).position[1]
+        assert body.place(ankle).position[1] == pytest.approx(height, abs=0.01)
+
+
+@pytest.mark.parametrize(
+    ("rows", "attributes", "message"),
+    [
+        ("0 0 1 0 0", 'parts="vl5"', "the attribute encoding is missing"),
+        ("0 0 1 0 0", 'parts="vl5" encoding="TRSVW"', "encoding='TRSVW' is not read; known are R and T1R"),
+        ("0 0 1 0 0", 'parts="vl5 vl5" encoding="R"', "a part stands twice"),
+        ("0 0 1 0", 'parts="vl5" encoding="R"', "4 numbers are no rows of 5"),
+        ("", 'parts="vl5" encoding="R"', "0 numbers are no rows of 5"),
+        ("0 0 1 0 x", 'parts="vl5" encoding="R"', "could not convert string to float: 'x'"),
+        ("0 0 1 0 1e999", 'parts="vl5" encoding="R"', "a number is infinite or undefined"),
+        ("0 0 1 0 0", 'parts="vl5" encoding="R"', "a motion needs two rows"),
+        ("1 0 1 0 0 1 0 1 0 0", 'parts="vl5" encoding="R"', "the times of the rows do not rise"),
+        ("0 0 1 0 0 1e9 0 1 0 0", 'parts="vl5" encoding="R"', "it would last longer than 86400 s"),
+        ("0 0 9e9 0 0 1 0 0", 'parts="vl5" encoding="T1R"', "a place is more than 10000 m away"),
+        ("0 0 1 0 0 1 0 0 0 0", 'parts="vl5" encoding="R"', "the rotation of part 1 in row 2 has the length 0"),
+        ("", 'parts="vl5" encoding="R" rotationEncoding="euler"', "0 numbers"),
+        ("0 0 1 0 0", 'parts="vl5" encoding="R" rotationEncoding="euler"', "rotationEncoding='euler' is not read"),
+        ("<Key/>0 0 1 0 0 1 0 1 0 0", 'parts="vl5" encoding="R"', "only KeyPosition may stand in"),
+        ('<KeyPosition id="a" time="2"/>0 0 1 0 0 1 0 1 0 0', 'parts="vl5" encoding="R"', "2 is not within 0 and 1"),
+    ],
+)
+def test_what_is_wrong_is_said_with_its_place(rows, attributes, message):
+    with pytest.raises(RealizerError, match=message) as caught:
+        clip(rows, attributes)
+    assert caught.value.fault.code == "bad-asset"
+    assert "shake, line 1" in str(caught.value)
+
+
+def test_a_file_that_is_no_animation_is_refused(tmp_path):
+    path = tmp_path / "some.xml"
+    path.write_text("<SkeletonPose/>")
+    with pytest.raises(RealizerError, match=r"some\.xml, line 1, <SkeletonPose>: the file should begin with"):
+        read_interpolator_file(path)
+
+
+def test_a_pose_file_is_one_row_without_a_time(tmp_path):
+    path = tmp_path / "rest.xml"
+    path.write_text(
+        '<SkeletonPose rotationEncoding="axisangles" parts="HumanoidRoot l_shoulder" encoding="T1R">'
+        "0 0.98 0  1 0 0 0  0 0 1 0.2</SkeletonPose>"
+    )
+    rotations, root = read_skeleton_pose(path)
+    assert rotations == {"HumanoidRoot": IDENTITY, "l_shoulder": pytest.approx(from_axis_angle(Z, 0.2))}
+    assert root == (0.0, 0.98, 0.0)
+
+
+def test_a_pose_of_several_rows_is_none(tmp_path):
+    path = tmp_path / "rest.xml"
+    path.write_text('<SkeletonPose parts="vl5" encoding="R">1 0 0 0 1 0 0 0</SkeletonPose>')
+    with pytest.raises(RealizerError, match="2 rows; a pose has one"):
+        read_skeleton_pose(path)
+
+
+def test_the_peers_files_are_read(shared_cases: Path):
+    fists = read_interpolator_file(shared_cases / "asap" / "keyframe" / "clench_fists.xml")
+    assert (fists.duration, len(fists.joints)) == (1.0, 22)
+    assert angle(fists.rotations_at(1.0)["r_index1"]) == pytest.approx(1.57)
+    rotations, root = read_skeleton_pose(shared_cases / "asap" / "restposes" / "looselyhangingarms.xml")
+    assert angle(rotations["l_shoulder"]) == pytest.approx(0.2)
+    assert root is not None

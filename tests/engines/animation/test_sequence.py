@@ -1,0 +1,194 @@
+"""Several motions as one: shifted, stretched, weighed in and out, one on top of the other."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.pose import Layer, LayerKind, compose
+from reactive_realizer.embodiment.quaternion import angle, from_axis_angle
+from reactive_realizer.embodiment.vector import UP
+from reactive_realizer.engines.animation.motion_unit import Moment, Posed, layer_of
+from reactive_realizer.engines.animation.sequence.part import Part
+from reactive_realizer.engines.animation.sequence.sequence_motion_unit import SequenceMotionUnit
+from reactive_realizer.planunit.parameter import Range
+from reactive_realizer.testing.pilot import open_pilot
+
+
+class Turning:
+    """Turns joints to the left, evenly from 0 to so much; begins where it is told to."""
+
+    resources = frozenset()
+    preferred_duration = 1.0
+    key_positions = {"start": 0.0, "stroke": 0.5, "end": 1.0}  # noqa: RUF012
+
+    def __init__(self, radians, *joints, kind=LayerKind.GESTURE, root=None, **parameters):
+        self.kind = kind
+        self.joints = frozenset(joints)
+        self.parameters = parameters
+        self.ranges = dict.fromkeys(parameters, Range(0.0, 1.0))
+        self.begun = []
+        self._radians, self._root = radians, root
+
+    def start(self, body):
+        self.begun.append(body)
+
+    def pose(self, moment):
+        return Posed(dict.fromkeys(self.joints, from_axis_angle(UP, self._radians * moment.phase)), root=self._root)
+
+
+@pytest.fixture
+def shown(skeleton):
+    """The angle of a joint, rad, at a time, s, of parts over a body whose joints are turned by 0.4 rad."""
+
+    def angle_of(parts, time, joint="skullbase"):
+        return angle(composed(parts, time).pose[joint])
+
+    def composed(parts, time):
+        whole = SequenceMotionUnit(parts, {})
+        below = Layer(LayerKind.BASE, dict.fromkeys(("skullbase", "vc4", "vl5"), from_axis_angle(UP, 0.4)))
+        body = Body(skeleton)
+        whole.start(body)
+        moment = Moment(time / whole.preferred_duration, time, body)
+        return compose(skeleton, [below, layer_of(whole, moment)])
+
+    angle_of.composed = composed
+    return angle_of
+
+
+def test_a_part_is_shifted_to_its_start_and_stretched_to_its_end(shown):
+    parts = [Part(Turning(1.0, "skullbase"), 1.0, 3.0), Part(Turning(1.0, "vl5"), 0.0, 4.0)]
+    assert shown(parts, 0.5) == pytest.approx(0.4), "what lies below"
+    assert shown(parts, 1.5) == pytest.approx(0.25)
+    assert shown(parts, 3.0) == pytest.approx(1.0)
+    assert shown(parts, 3.5) == pytest.approx(0.4)
+
+
+def test_a_part_comes_and_goes_by_weight_over_whatever_lies_below(shown):
+    parts = [Part(Turning(0.0, "skullbase"), 0.0, 2.0, ease_in=1.0, ease_out=0.5)]
+    assert shown(parts, 0.0) == pytest.approx(0.4)
+    assert shown(parts, 0.5) == pytest.approx(0.2)
+    assert shown(parts, 1.2) == pytest.approx(0.0)
+    assert shown(parts, 1.75) == pytest.approx(0.2)
+    assert shown(parts, 2.0) == pytest.approx(0.4)
+
+
+def test_the_later_part_lies_over_the_earlier_by_its_weight_and_both_over_what_is_below(shown):
+    half = {"ease_in": 1.0}
+    low, high = Turning(0.0, "skullbase"), Turning(1.6, "skullbase")
+    assert shown([Part(low, 0.0, 1.0), Part(high, 0.0, 1.0, **half)], 0.5) == pytest.approx(0.4)
+    # Three quarters of both, of which two thirds the upper one.
+    both = [Part(low, 0.0, 1.0, **half), Part(high, 0.0, 1.0, **half)]
+    assert shown(both, 0.5) == pytest.approx(0.5 * 0.8 + 0.25 * 0.0 + 0.25 * 0.4)
+
+
+def test_joints_of_one_part_do_not_come_with_those_of_another(shown):
+    parts = [Part(Turning(0.0, "skullbase"), 0.0, 1.0), Part(Turning(0.0, "vc4"), 0.0, 1.0, ease_in=1.0)]
+    assert shown(parts, 0.5, "skullbase") == pytest.approx(0.0)
+    assert shown(parts, 0.5, "vc4") == pytest.approx(0.2)
+
+
+def test_additive_parts_add_up(shown):
+    parts = [
+        Part(Turning(0.2, "skullbase", kind=LayerKind.ADDITIVE), 0.0, 1.0),
+        Part(Turning(0.4, "skullbase", kind=LayerKind.ADDITIVE), 0.0, 1.0, ease_out=1.0),
+    ]
+    assert shown(parts, 0.5) == pytest.approx(0.4 + 0.1 + 0.1)
+
+
+def test_the_root_comes_with_the_part_that_moves_it(shown):
+    parts = [
+        Part(Turning(0.0, "skullbase"), 0.0, 1.0),
+        Part(Turning(0.0, root=(0.0, -0.2, 0.0)), 0.0, 1.0, ease_in=1.0),
+    ]
+    assert shown.composed(parts, 0.5).root == pytest.approx((0.0, -0.1, 0.0))
+
+
+def test_each_part_begins_once_from_where_the_body_is_when_its_time_has_come(skeleton):
+    first, second = Turning(1.0, "skullbase"), Turning(1.0, "vc4")
+    whole = SequenceMotionUnit([Part(first, 0.0, 1.0), Part(second, 1.0, 2.0)], {})
+    bodies = [Body(skeleton) for _ in range(5)]
+    whole.start(bodies[0])
+    for phase, body in zip((0.0, 0.3, 0.6, 0.9), bodies[1:], strict=True):
+        whole.pose(Moment(phase, phase, body))
+    assert [len(part.begun) for part in (first, second)] == [1, 1]
+    assert second.begun[0] is bodies[3]
+
+
+def test_a_parameter_on_which_the_parts_agree_is_one_of_the_whole_and_reaches_them(skeleton):
+    first, second = Turning(1.0, "vc4", amount=1.0, a=0.2), Turning(1.0, "vl5", amount=1.0, a=0.3)
+    whole = SequenceMotionUnit([Part(first, 0.0, 1.0), Part(second, 0.0, 1.0)], {})
+    assert whole.parameters == {"amount": 1.0}
+    assert list(whole.ranges) == ["amount"]
+    whole.parameters["amount"] = 0.5
+    whole.pose(Moment(0.5, 0.5, Body(skeleton)))
+    assert first.parameters == {"amount": 0.5, "a": 0.2}
+    assert second.parameters == {"amount": 0.5, "a": 0.3}
+
+
+# --- files
+
+LIFT = '<ProcAnimation prefDuration="2"><Rotation target="r_elbow" rotation="0 - sin(t*pi);0;0"/></ProcAnimation>'
+TWO = """
+<Sequence>
+  <Motion id="low" type="ProcAnimation" file="lift.xml" start="0"/>
+  <Motion id="both" type="Gesture" file="procanimation/beat_both.xml" start="1.5" easeIn="0.2">
+    <parameter name="amount" value="0.5"/>
+  </Motion>
+  <KeyPosition id="stroke" ref="both:stroke"/>
+  <KeyPosition id="lifted" ref="low:end"/>
+</Sequence>
+"""
+BINDING = """
+<gesturebinding>
+  <MotionUnitSpec type="gesture">
+    <constraints><constraint name="lexeme" value="TWO"/></constraints>
+    <MotionUnit type="Sequence" file="two.xml"/>
+  </MotionUnitSpec>
+</gesturebinding>
+"""
+
+
+async def perform(folder: Path, sequence: str):
+    for name, text in {"gesturebinding.xml": BINDING, "lift.xml": LIFT, "two.xml": sequence}.items():
+        (folder / name).write_text(text, encoding="utf-8")
+    async with open_pilot(SceneOptions(voice="text", assets=(folder,))) as pilot:
+        pilot.watch()
+        pilot.block("b", '<gesture id="g" lexeme="TWO"/>')
+        await pilot.advance(8)
+        return pilot
+
+
+async def test_a_sequence_of_a_file_plays_as_one_behavior_with_its_parts_points(tmp_path) -> None:
+    pilot = await perform(tmp_path, TWO)
+    assert pilot.feedback.warnings == []
+    assert pilot.feedback.time("b:g:lifted") == 2.0
+    assert pilot.feedback.time("b:g:stroke") > 1.8
+    assert pilot.feedback.time("b:g:end") > pilot.feedback.time("b:g:stroke") + 0.5
+    right, left = (np.ptp(pilot.path(f"{side}_wrist"), axis=0).max() for side in "rl")
+    assert min(right, left) > 0.1
+    still = pilot.path("l_wrist")[:70]
+    assert np.ptp(still, axis=0).max() < 0.02
+
+
+@pytest.mark.parametrize(
+    ("sequence", "said"),
+    [
+        ("<Sequence/>", "one or more, all of one kind"),
+        ('<Sequence><Motion type="Dance" file="lift.xml" start="0"/></Sequence>', "no motion unit 'Dance'"),
+        ('<Sequence><Motion type="ProcAnimation" file="lift.xml" start="2" end="1"/></Sequence>', "start < end"),
+        ('<Sequence><Motion type="ProcAnimation" file="lift.xml" start="0" easeIn="9"/></Sequence>', "between them"),
+        ('<Sequence><Motion type="ProcAnimation" file="lift.xml" start="now"/></Sequence>', "is no number"),
+        ('<Sequence><Motion type="ProcAnimation" file="none.xml" start="0"/></Sequence>', "no file 'none.xml'"),
+        ('<Sequence><Motion type="Sequence" file="two.xml" start="0"/></Sequence>', "a part of itself"),
+        (TWO.replace("low:end", "high:end"), "no point 'high:end'"),
+        (TWO.replace('id="lifted"', 'id="end"'), "those of the whole"),
+        (TWO.replace("KeyPosition", "Point"), "known are Motion, KeyPosition"),
+    ],
+)
+async def test_a_file_that_makes_no_sense_is_refused_with_the_reason(sequence, said, tmp_path) -> None:
+    pilot = await perform(tmp_path, sequence)
+    assert [warning for _, warning in pilot.feedback.warnings] == ["CANNOT_CREATE_BEHAVIOR"]
+    assert said in pilot.feedback.of("warningFeedback")[0].element.text
