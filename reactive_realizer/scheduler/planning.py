@@ -15,6 +15,7 @@ from reactive_realizer.planunit.timing import OPEN, Timing
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.scheduler.constraints import drop_unplaceable, holding, orders_of, ties_of
+from reactive_realizer.scheduler.free_points import through_free
 from reactive_realizer.scheduler.names import Names
 from reactive_realizer.scheduler.peg_builder import PegBuilder
 from reactive_realizer.scheduler.problem import (
@@ -83,6 +84,7 @@ class Planning:
         ties, lost_ties = ties_of(block.description, kept, names.locate)
         orders, lost_orders = orders_of(block.description, names.locate)
         items = tuple(Item(unit.behavior, timings[unit].closed) for unit in kept.values())
+        ties = through_free(ties, items)
         holds = _holds([*ties, *orders], _predicted_start(block, now))
         ties, orders = [tie for tie in ties if tie not in holds], [order for order in orders if order not in holds]
         start = _held_start(block, holds.values(), now)

@@ -110,7 +110,8 @@ async def test_the_entries_of_a_user_come_before_those_of_the_package(tmp_path):
     (tmp_path / "gesturebinding.xml").write_text(
         """<gesturebinding><MotionUnitSpec type="head">
           <constraints><constraint name="lexeme" value="NOD"/></constraints>
-          <MotionUnit type="ProcAnimation" file="procanimation/shake.xml"/></MotionUnitSpec></gesturebinding>"""
+          <MotionUnit type="ProcAnimation" file="procanimation/smartbody/shake.xml"/>
+          </MotionUnitSpec></gesturebinding>"""
     )
     async with open_pilot(SceneOptions(voice="text", assets=(tmp_path,))) as pilot:
         pilot.watch()

@@ -11,6 +11,7 @@ from reactive_realizer.engines.animation.choice import Choice
 from reactive_realizer.engines.animation.moving import Moving
 from reactive_realizer.engines.animation.transition.transition_motion_unit import TransitionMotionUnit
 from reactive_realizer.pegboard.peg_key import BlockKey
+from reactive_realizer.planunit.timing import Phase, PhaseKind, Timing
 
 Predict = Callable[[GlobalTime, AnimationUnit], Moving]
 """How the body will move at a time, as far as it can be known, if one unit does nothing."""
@@ -24,6 +25,8 @@ class TransitionUnit(AnimationUnit):
     ) -> None:
         """Plans a transition; where it leads to, a prediction says when it begins."""
         super().__init__(block, behavior, choices, stage)
+        if {"start", "end"} <= behavior.syncs.keys():
+            self.timing = Timing(("start", "end"), (Phase(0.0, PhaseKind.FREE),))
         self._predict = predict
         self._led = False
 

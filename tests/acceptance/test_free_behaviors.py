@@ -1,0 +1,58 @@
+"""Behaviors without preferences: they follow the others, and what meets at one of their points is tied all the same."""
+
+import pytest
+
+from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.testing.pilot import open_pilot
+
+TRANSITION = (
+    '<bmlt:transition xmlns:bmlt="http://hmi.ewi.utwente.nl/bmlt" id="f" class="SlerpTransition" start="{}" end="{}">'
+    '<bmlt:parameter name="joints" value="r_shoulder r_elbow"/></bmlt:transition>'
+)
+FREE = ['<wait id="f" start="{}" end="{}"/>', TRANSITION]
+NOD = '<head id="n" lexeme="NOD" {}/>'
+SAY = '<speech id="s" start="1"><text>hello you there</text></speech>'
+
+
+@pytest.fixture(params=["convex", "embr"])
+async def pilot(request):
+    async with open_pilot(SceneOptions(voice="text", strategy=request.param, verify=True)) as pilot:
+        yield pilot
+
+
+@pytest.mark.parametrize("free", FREE, ids=["wait", "transition"])
+@pytest.mark.parametrize("turned", [False, True], ids=["", "the other way round"])
+async def test_what_starts_at_its_end_starts_when_that_is_said_to_be(pilot, free, turned) -> None:
+    parts = [free.format(1, 3), NOD.format('start="f:end+0.5"')]
+    pilot.block("b", "".join(reversed(parts) if turned else parts))
+    await pilot.advance(5)
+    assert pilot.feedback.time("b:f:start") == 1
+    assert pilot.feedback.time("b:f:end") == 3
+    assert pilot.feedback.time("b:n:start") == 3.5
+    assert pilot.feedback.warnings == []
+
+
+@pytest.mark.parametrize("free", FREE, ids=["wait", "transition"])
+async def test_two_that_meet_at_one_of_its_points_are_tied_to_each_other(pilot, free) -> None:
+    pilot.block("b", SAY + free.format("s:end", "s:end+2") + NOD.format('end="f:start"'))
+    await pilot.advance(6)
+    assert pilot.feedback.time("b:n:end") == pytest.approx(pilot.feedback.time("b:s:end"))
+    assert pilot.feedback.warnings == []
+
+
+@pytest.mark.parametrize("free", FREE, ids=["wait", "transition"])
+async def test_what_hangs_on_its_two_ends_is_not_tied_together_by_it(pilot, free) -> None:
+    pilot.block("b", NOD.format('start="1"') + SAY.replace('"1"', '"4"') + free.format("n:end", "s:start"))
+    await pilot.advance(7)
+    assert pilot.feedback.time("b:n:start") == 1
+    assert pilot.feedback.time("b:n:end") == pytest.approx(1.7)
+    assert pilot.feedback.time("b:f:end") == 4
+    assert pilot.feedback.warnings == []
+
+
+async def test_a_chain_of_them_is_followed_to_what_it_hangs_on(pilot) -> None:
+    waits = '<wait id="v" start="1" end="2"/><wait id="w" start="v:end" end="v:end+1"/>'
+    pilot.block("b", NOD.format('start="w:end"') + waits)
+    await pilot.advance(5)
+    assert pilot.feedback.time("b:n:start") == 3
+    assert pilot.feedback.warnings == []
