@@ -1,6 +1,6 @@
 """Pictures of every lexeme and unit, by the real page: a strip of moments for each, in docs/gallery.
 
-    python docs/make_gallery.py [--compare] [--assets DIR] [--into FOLDER] [NAME...]
+    python docs/make_gallery.py [--compare] [--assets DIR] [--into FOLDER] [--browser FILE] [NAME...]
 
 With --compare nothing is written: strips that differ from the last ones are named, with how much of the picture does.
 With --assets, words of somebody else's binding can be shown too.
@@ -9,6 +9,7 @@ With --assets, words of somebody else's binding can be shown too.
 import argparse
 import asyncio
 import io
+import shutil
 from collections.abc import AsyncIterator, Iterable, Sequence
 from contextlib import asynccontextmanager
 from dataclasses import dataclass
@@ -138,11 +139,11 @@ async def studio(options: SceneOptions, page: Page, size: tuple[int, int]) -> As
             await runner.cleanup()
 
 
-async def make(wanted: Sequence[Entry], options: SceneOptions, folder: Path, compare: bool) -> int:
-    """Make or compare strips in a folder; how many differ from the last ones."""
+async def make(wanted: Sequence[Entry], options: SceneOptions, folder: Path, browser_file: str, compare: bool) -> int:
+    """Make or compare strips in a folder by a Chromium; how many differ from the last ones."""
     differing = 0
     async with async_playwright() as playwright:
-        browser = await playwright.chromium.launch(executable_path="/usr/bin/chromium", args=[*FLAGS, WITH_SOUND])
+        browser = await playwright.chromium.launch(executable_path=browser_file, args=[*FLAGS, WITH_SOUND])
         page = await browser.new_page(bypass_csp=True)
         for entry in wanted:
             await page.set_viewport_size(HIGH if entry.whole_body else WIDE)
@@ -151,7 +152,7 @@ async def make(wanted: Sequence[Entry], options: SceneOptions, folder: Path, com
             file = folder / f"{entry.name}.webp"
             if compare:
                 share = _difference(file, picture)
-                differing += share > 0.0
+                differing += share != 0.0
                 print(f"{entry.name}: {_told(share)}")
             else:
                 picture.save(file, quality=80, method=6)
@@ -160,10 +161,10 @@ async def make(wanted: Sequence[Entry], options: SceneOptions, folder: Path, com
     return differing
 
 
-def _difference(file: Path, picture: Image.Image) -> float:
-    """The share of pixels that are noticeably not what they were, 0 to 1; 2 where there was no picture."""
+def _difference(file: Path, picture: Image.Image) -> float | None:
+    """The share of pixels that are noticeably not what they were, 0 to 1; None where there was no picture."""
     if not file.is_file():
-        return 2.0
+        return None
     before = Image.open(file).convert("RGB")
     if before.size != picture.size:
         return 1.0
@@ -174,8 +175,8 @@ def _difference(file: Path, picture: Image.Image) -> float:
     return noticed / (picture.width * picture.height)
 
 
-def _told(share: float) -> str:
-    if share > 1.0:
+def _told(share: float | None) -> str:
+    if share is None:
         return "no picture yet"
     return f"{share:.1%} differs" if share else "same"
 
@@ -202,12 +203,16 @@ def main() -> None:
     parser.add_argument("--compare", action="store_true", help="name what differs from the last pictures")
     parser.add_argument("--assets", type=Path, action="append", default=[], metavar="DIR", help="folder of assets")
     parser.add_argument("--into", type=Path, default=GALLERY, metavar="FOLDER", help="where pictures go")
+    parser.add_argument("--browser", default="chromium", metavar="FILE", help="a Chromium, by path or on the PATH")
     options = parser.parse_args()
+    browser = shutil.which(options.browser)
+    if browser is None:
+        parser.error(f"no program {options.browser}: --browser names a Chromium")
     scene = SceneOptions(voice="text", assets=tuple(options.assets))
     known = asyncio.run(_known(scene))
     wanted = [entry for entry in known if not options.names or entry.name in options.names]
     options.into.mkdir(exist_ok=True)
-    differing = asyncio.run(make(wanted, scene, options.into, options.compare))
+    differing = asyncio.run(make(wanted, scene, options.into, browser, options.compare))
     if not options.compare and options.into == GALLERY:
         write_index(known)
     raise SystemExit(1 if differing else 0)

@@ -126,7 +126,7 @@ _AROUND = """\
 
 `procanimation`, `procanimationgesture`, `keyframe`, `noise` and `transition` are of
 `http://hmi.ewi.utwente.nl/bmlt`. What plays a `gesture`, a `head` or one of them may have further sync points, such as
-the beats of a conducting pattern: constraints name them as any other, attributes do not.
+the beats of a conducting pattern: constraints name them as any other, and in BMLT's elements attributes do, too.
 
 `activate`, `interrupt` and `parametervaluechange` are of `http://www.asap-project.org/bmla` or
 `http://hmi.ewi.utwente.nl/bmlt`, whichever; so are the attributes of a block above, `defineproc` and `useproc`.

@@ -185,12 +185,15 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
         # --- making a behavior
         "no-motion-for": ErrorKind("nothing in the binding plays <{element}> with lexeme '{lexeme}'", _CREATE),
         "no-unit": ErrorKind("there is no motion unit '{unit}'", _CREATE),
+        "no-file": ErrorKind("<{element}> needs a file, or the name of one", _CREATE),
+        "wrong-element": ErrorKind("the motion unit '{unit}' does not play <{element}>", _CREATE),
+        "not-a-flag": ErrorKind("{name}='{value}' is neither true nor false", _CREATE),
         "no-posture": ErrorKind("no pose '{lexeme}' of the {part} for one who is {stance}; there are {known}", _CREATE),
         "no-transition": ErrorKind("no transition is called '{kind}'; known are {known}", _CREATE),
         "no-face": ErrorKind("no face for the lexeme '{lexeme}'; known are {known}", _CREATE),
         "no-target": ErrorKind("no target '{target}' in the world; there are {known}", WarningType.NO_SUCH_TARGET),
         "bad-parameter": ErrorKind(
-            "the parameter {name} is from {low:g} to {high:g}, and {value:g} is not within", _CREATE
+            "the parameter {name} is a number from {low:g} to {high:g}, which '{value}' is not", _CREATE
         ),
         "not-pointable": ErrorKind("the {hand} hand cannot point at '{target}': {reason}", _CREATE),
         "no-joints": ErrorKind("this figure has no {joints}, which <{element}> needs", _CREATE),

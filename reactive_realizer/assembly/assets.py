@@ -2,10 +2,10 @@
 
 import os
 from functools import lru_cache
-from glob import escape
 from pathlib import Path, PurePosixPath
 from stat import S_ISREG
 
+from reactive_realizer.assembly.asset_index import AssetIndex
 from reactive_realizer.errors import error
 
 PACKAGE_ASSETS = Path(__file__).parent.parent / "assets"
@@ -29,6 +29,7 @@ class Assets:
             if not folder.is_dir():
                 raise error("no-folder", folder=folder)
         self._folders = (*(folder.resolve() for folder in folders), PACKAGE_ASSETS)
+        self._indices = {folder: AssetIndex(folder) for folder in self._folders}
 
     def __call__(self, name: str) -> Path:
         """The file of a name: as written, then without leading folders one by one; with ``**/`` before it, anywhere.
@@ -49,8 +50,8 @@ class Assets:
         raise error("no-asset", name=name)
 
     def _anywhere(self, name: PurePosixPath) -> Path:
-        for folder in self._folders:
-            files = (file for file in folder.rglob(escape(name.name)) if file.parts[-len(name.parts) :] == name.parts)
+        for folder, index in self._indices.items():
+            files = (file for file in index.files(name.name) if file.parts[-len(name.parts) :] == name.parts)
             found = sorted(filter(None, (_within(folder, file) for file in files)))
             if len(found) > 1:
                 known = ", ".join(str(file.relative_to(folder)) for file in found)

@@ -1,8 +1,9 @@
-"""The bytes of files that people write for the realizer."""
+"""Files that people write for the realizer."""
 
+from collections.abc import Callable
 from pathlib import Path
 
-from reactive_realizer.errors import error
+from reactive_realizer.errors import RealizerError, error
 
 LARGEST = 8 * 1024 * 1024
 """Bytes of one file: minutes of captured motion."""
@@ -19,3 +20,23 @@ def read_bytes(path: Path) -> bytes:
     if size > LARGEST:
         raise error("asset-too-big", file=path.name, size=size, limit=LARGEST)
     return path.read_bytes()
+
+
+def first_asset(asset: Callable[[str], Path], *names: str) -> Path:
+    """The first of several files that is there.
+
+    Args:
+        asset: finds a file by name.
+        names: one or more.
+
+    Raises:
+        RealizerError: "no-asset": none of them is; or the name of one is wrong.
+    """
+    *others, last = names
+    for name in others:
+        try:
+            return asset(name)
+        except RealizerError as problem:
+            if problem.fault.code != "no-asset":
+                raise
+    return asset(last)

@@ -56,7 +56,7 @@ class GestureBinding:
         poses = (pose for element in elements if element.tag == _REST_POSE for pose in _rest_poses(element))
         return cls(
             tuple(_spec(element, *_SPECS[element.tag]) for element in elements if element.tag in _SPECS),
-            dict(reversed(list(poses))),
+            dict(reversed(list(poses))),  # of two for one stance the earlier is to hold, as of specs
         )
 
     def match(self, behavior: str, namespace: str, attributes: Mapping[str, str]) -> tuple[UnitSpec, ...]:

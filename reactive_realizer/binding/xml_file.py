@@ -6,6 +6,7 @@ from pathlib import Path
 from lxml import etree
 
 from reactive_realizer.binding.asset_file import read_bytes
+from reactive_realizer.binding.flag import flag
 from reactive_realizer.errors import RealizerError, error
 
 Element = etree._Element
@@ -70,3 +71,21 @@ def number(element: Element, name: str) -> float:
     if not math.isfinite(value):
         raise bad(element, f"{name}='{text}' is no number")
     return value
+
+
+def boolean(element: Element, name: str, otherwise: bool) -> bool:
+    """Whether an attribute is true.
+
+    Args:
+        element: which may have it.
+        name: of the attribute.
+        otherwise: what it is where it is not there.
+
+    Raises:
+        RealizerError: "bad-asset": it is neither true nor false.
+    """
+    text = element.get(name)
+    try:
+        return otherwise if text is None else flag(name, text)
+    except RealizerError as problem:
+        raise bad(element, problem.fault.sentence) from problem

@@ -44,6 +44,7 @@ class Behavior:
         order: its place among the behaviors of its block, in document order, from 0.
         syncs: the constrained sync points and what they are tied to, in order of writing.
         required: whether the block fails without it.
+        persistent: whether it goes on until another one takes its place; only in drafts, and not of every kind.
         descriptions: its other forms, as written.
         instead_of: of a form that describes another behavior, the sync points of that one, which it must have too.
         extensions: attributes of other namespaces, (namespace, local name) to value.
@@ -64,6 +65,7 @@ class Behavior:
     order: int
     syncs: Mapping[str, SyncRef] = field(default_factory=dict)
     required: bool = False
+    persistent: bool = False
     descriptions: tuple[Description, ...] = ()
     instead_of: SyncPoints = ()
     extensions: Mapping[tuple[str, str], str] = field(default_factory=dict)
@@ -74,6 +76,10 @@ class Behavior:
     def sync_points(self) -> SyncPoints:
         """All its sync points, in the order in which they are reached."""
         return self.SYNC_POINTS
+
+    def tied(self, syncs: Mapping[str, SyncRef]) -> Mapping[str, SyncRef]:
+        """What its points are tied to, if that is what is written of them."""
+        return syncs
 
     @property
     def forms(self) -> "tuple[Behavior, ...]":

@@ -77,14 +77,23 @@ def _known(tree: Tree, element: Element, source: Source, place: dict[str, Any], 
     behavior = element.behavior(**values, namespace=namespace)
     # A head that strokes several times has no single stroke to be tied.
     points = [name for name in element.sync_points if name in behavior.sync_points]
+    points += _own_points(tree, element, behavior, source)
     names = [*(each.name for each in element.attributes), *points]
     notes += source.unread(tree, names, [*element.children, _DESCRIPTION, PARAMETER])
     return replace(
         behavior,
-        syncs=source.syncs(tree, points),
+        syncs=behavior.tied(source.syncs(tree, points)),
         parameters=read_parameters(tree, source, notes),
         descriptions=_descriptions(tree, source, notes),
     )
+
+
+def _own_points(tree: Tree, element: Element, behavior: Behavior, source: Source) -> list[str]:
+    """The attributes of one of BMLT's motions that tie points of its own: each holds a reference, nothing else."""
+    if not (element.continuous and behavior.OPEN_POINTS):
+        return []
+    known = {*(each.name for each in element.attributes), *element.sync_points}
+    return [name for name in attributes_in(tree) if name not in known and source.holds_ref(tree, name)]
 
 
 def _descriptions(tree: Tree, source: Source, notes: list[Fault]) -> tuple[Description, ...]:

@@ -15,7 +15,8 @@ _STROKE_POINTS: SyncPoints = ("start", "ready", "strokeStart", "stroke", "stroke
 _HOLD_POINTS: SyncPoints = ("start", "ready", "relax", "end")
 _SHIFT_POINTS: SyncPoints = ("start", "end")
 _INFLUENCE = Word(Influence, {"NECK": Influence.HEAD, "TORSO": Influence.WAIST})
-_MOST_REPETITIONS = 1_000
+MOST_REPETITIONS = 100
+"""Strokes of a head; each is a sync point."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -82,7 +83,7 @@ class Head(Behavior):
     OPEN_POINTS = True
 
     lexeme: str = field(metadata=attribute(Text()))
-    repetition: int = field(default=1, metadata=attribute(Integer(1, _MOST_REPETITIONS)))
+    repetition: int = field(default=1, metadata=attribute(Integer(1, MOST_REPETITIONS)))
     amount: float = field(default=0.5, metadata=attribute(Number(0, 1)))
 
     @property
@@ -112,7 +113,6 @@ class Gaze(Behavior):
         influence: how much of the body takes part; None leaves it to the realizer.
         offset_angle: by how many degrees the gaze misses the target.
         offset_direction: to which side.
-        persistent: whether it goes on until another gaze takes its place; only in drafts.
     """
 
     SYNC_POINTS = _HOLD_POINTS
@@ -121,7 +121,6 @@ class Gaze(Behavior):
     influence: Influence | None = field(default=None, metadata=attribute(_INFLUENCE))
     offset_angle: float = field(default=0.0, metadata=attribute(Number(-360, 360)))
     offset_direction: OffsetDirection = field(default=OffsetDirection.RIGHT, metadata=attribute(Word(OffsetDirection)))
-    persistent: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

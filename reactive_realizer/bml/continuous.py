@@ -3,13 +3,16 @@
 BMLA and BMLT write them alike.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
+from types import MappingProxyType
 from typing import ClassVar
 
 from reactive_realizer.bml.attribute_types import BehaviorName, Name, Names, Number, Text, Word
 from reactive_realizer.bml.attributes import attribute
 from reactive_realizer.bml.behavior import Behavior, SyncPoints
-from reactive_realizer.bml.names import BMLA
+from reactive_realizer.bml.names import BMLA, BMLT
+from reactive_realizer.bml.sync_ref import SyncRef
 from reactive_realizer.bml.words import InterruptSpeech
 
 _EVENT_POINTS: SyncPoints = ("start", "end")
@@ -83,6 +86,12 @@ class ParameterValueChange(Behavior):
     target: str = field(metadata=attribute(BehaviorName()))
     parameter: str = field(metadata=attribute(Text(), "paramId"))
     trajectory: Trajectory
+
+    def tied(self, syncs: Mapping[str, SyncRef]) -> Mapping[str, SyncRef]:
+        """BMLT's stroke and its end are one point: where only the end is tied, the stroke is tied with it."""
+        if self.namespace != BMLT or "stroke" in syncs or "end" not in syncs:
+            return syncs
+        return MappingProxyType({**syncs, "stroke": syncs["end"]})
 
     @property
     def target_block(self) -> str | None:

@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 from typing import Final
 
+from lxml import etree
+
 BML: Final = "http://www.bml-initiative.org/bml/bml-1.0"
 """BML 1.0 core."""
 BML_EXT: Final = "http://www.bml-initiative.org/bml/coreextensions-1.0"
@@ -20,6 +22,19 @@ BLOCK: Final = "bml"
 """The reserved id by which a reference names a block itself, and a warning a block whose id could not be read."""
 ANTICIPATORS: Final = "anticipators"
 """The reserved block id of references to anticipators: ``anticipators:metronome:tick3``."""
+
+_NO_SYNC_IDS: Final = frozenset({"id", "xmlns"})
+
+
+def is_sync_id(name: str) -> bool:
+    """Whether an element can tell a sync point by an attribute of its name: an NCName (Namespaces in XML 1.0, 7).
+
+    But for its own id, and for `xmlns`, which is no attribute.
+    """
+    try:
+        return name not in _NO_SYNC_IDS and etree.QName(name).text == etree.QName(name).localname
+    except ValueError:
+        return False
 
 
 @dataclass(frozen=True, slots=True, order=True)

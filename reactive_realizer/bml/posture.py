@@ -32,7 +32,6 @@ class Posture(Behavior):
     Attributes:
         stance: None leaves it as it is; there is a stance or a pose.
         poses: at most one for each part.
-        persistent: whether it goes on until another posture takes its place; only in drafts.
     """
 
     CHILDREN = ("stance", "pose")
@@ -40,7 +39,6 @@ class Posture(Behavior):
 
     stance: StanceType | None
     poses: tuple[Pose, ...]
-    persistent: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

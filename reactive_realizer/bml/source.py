@@ -111,6 +111,14 @@ class Source:
         points = set(names)
         return MappingProxyType({name: self.ref(tree, name) for name in attributes_in(tree) if name in points})
 
+    def holds_ref(self, tree: Tree, name: str) -> bool:
+        """Whether an attribute holds a reference."""
+        try:
+            self.ref(tree, name)
+        except RealizerError:
+            return False
+        return True
+
     def ref(self, tree: Tree, name: str) -> SyncRef:
         """The reference that an attribute holds.
 

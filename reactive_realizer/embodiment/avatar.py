@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reactive_realizer.embodiment.glb import read_glb
+from reactive_realizer.embodiment.joints import ROOT
 from reactive_realizer.embodiment.mixamo import JOINTS, alignment
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, conjugate, multiply, rotate
 from reactive_realizer.embodiment.skeleton import Skeleton
@@ -17,7 +18,7 @@ from reactive_realizer.embodiment.vector import ZERO, Vec3, add, length
 from reactive_realizer.errors import error
 
 _UNITS: tuple[Quat, ...] = ((1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0), (0.0, 0.0, 1.0, 0.0), (0.0, 0.0, 0.0, 1.0))
-_NEEDED = ("HumanoidRoot", "skullbase", "l_shoulder", "l_elbow", "l_wrist", "r_shoulder", "r_elbow", "r_wrist")
+_NEEDED = (ROOT, "skullbase", "l_shoulder", "l_elbow", "l_wrist", "r_shoulder", "r_elbow", "r_wrist")
 # The bones that motions aim with, or solve limbs by: without a length they have no direction.
 _FAR_FROM_PARENT = frozenset({"elbow", "wrist", "knee", "ankle", "index2", "index3"})
 _SHORTEST = 1e-3

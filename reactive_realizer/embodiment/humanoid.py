@@ -9,14 +9,11 @@ from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.avatar import Avatar
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.frame import Frame, rotation_array
+from reactive_realizer.embodiment.joints import EYES, ROOT
 from reactive_realizer.embodiment.pose import Layer, compose
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, conjugate, from_axis_angle, multiply, rotate
 from reactive_realizer.embodiment.speed_limit import SpeedLimit, slowed
-from reactive_realizer.embodiment.vector import UP, ZERO, Vec3, add, subtract
-
-EYES = ("l_eyeball_joint", "r_eyeball_joint")
-
-_ROOT = "HumanoidRoot"
+from reactive_realizer.embodiment.vector import UP, ZERO, Vec3, add, scale, subtract
 
 Eyes = Callable[[Body], Mapping[str, Quat]]
 """What the eyes and lids do, from the composed head: they come last."""
@@ -45,10 +42,9 @@ class Humanoid:
     def compose(self, time: GlobalTime, layers: Iterable[Layer], face: Mapping[str, float], eyes: Eyes | None) -> Frame:
         """The frame of a time; later ones follow from it without a jump."""
         composed = compose(self.avatar.skeleton, layers)
-        wanted = Body(self.avatar.skeleton, composed.pose, composed.root)
-        self._shown = self._within_limits(wanted, eyes, time - self._shown_at)
+        self._shown = self._within_limits(composed.shown, eyes, time - self._shown_at)
         self._shown_at = time
-        self.body = Body(self.avatar.skeleton, composed.steady, composed.steady_root)
+        self.body = composed.steady
         return Frame(time, self._root(self._shown.root), self._rotations(self._shown.pose), self._weights(face))
 
     @property
@@ -65,7 +61,7 @@ class Humanoid:
         name = joint or "skullbase"
         if name not in self.avatar.skeleton.joints:
             return None
-        point = self._shown.place(name).position if joint else _between_eyes(self._shown)
+        point = self._shown.place(name).position if joint else between_eyes(self._shown)
         return add(self._position, rotate(self._turn, point))
 
     def _within_limits(self, wanted: Body, eyes: Eyes | None, duration: float) -> Body:
@@ -78,12 +74,12 @@ class Humanoid:
         return body.posed(slowed(self._shown.pose, looking if eyes is None else {**looking, **eyes(body)}, duration))
 
     def _root(self, moved: Vec3) -> NDArray[np.float64]:
-        place = add(self.avatar.skeleton.offset(_ROOT), moved)
+        place = add(self.avatar.skeleton.offset(ROOT), moved)
         return np.array(add(self._position, rotate(self._turn, place)))
 
     def _rotations(self, pose: Mapping[str, Quat]) -> NDArray[np.float64]:
-        root = multiply(self._turn, pose.get(_ROOT, IDENTITY))
-        return rotation_array(self.avatar.skeleton, {**pose, _ROOT: root})
+        root = multiply(self._turn, pose.get(ROOT, IDENTITY))
+        return rotation_array(self.avatar.skeleton, {**pose, ROOT: root})
 
     def _weights(self, face: Mapping[str, float]) -> NDArray[np.float64]:
         weights = np.zeros(len(self._morphs))
@@ -92,6 +88,9 @@ class Humanoid:
         return weights
 
 
-def _between_eyes(body: Body) -> Vec3:
+def between_eyes(body: Body) -> Vec3:
+    """The point between the eyes of a body, in its frame, m; the top of the neck of one that has not both."""
+    if not all(eye in body.skeleton for eye in EYES):
+        return body.place("skullbase").position
     left, right = (body.place(eye).position for eye in EYES)
-    return ((left[0] + right[0]) / 2, (left[1] + right[1]) / 2, (left[2] + right[2]) / 2)
+    return scale(add(left, right), 0.5)

@@ -4,20 +4,26 @@ import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from enum import IntEnum
+from functools import reduce
 from operator import attrgetter
+from typing import NamedTuple
 
+from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.joints import ROOT
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, multiply, power, slerp
 from reactive_realizer.embodiment.skeleton import Skeleton
-from reactive_realizer.embodiment.vector import ZERO, Vec3, add, scale, subtract
+from reactive_realizer.embodiment.vector import Vec3, add, length, scale, subtract
 from reactive_realizer.errors import error
 
-_ROOT = "HumanoidRoot"
 # Of the square of a quaternion's length from 1: rounding stays far below, and a product of ten stays a rotation.
 _NEARLY_ZERO = 1e-6
 
+FARTHEST = 10.0
+"""m that a motion may move HumanoidRoot from its default place: more than a stage is wide."""
+
 
 class LayerKind(IntEnum):
-    """Kinds of layers, the lowest first; eyes come last because they look from the composed head."""
+    """Kinds of layers, the lowest first."""
 
     BASE = 0
     POSTURE = 1
@@ -26,8 +32,6 @@ class LayerKind(IntEnum):
     GESTURE = 4
     ADDITIVE = 5
     END_EFFECTOR = 6
-    PHYSICS = 7
-    EYES = 8
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,45 +59,65 @@ class Layer:
         return min(1.0, self.weight if self.weights is None else self.weight * self.weights.get(joint, 1.0))
 
 
-@dataclass(frozen=True, slots=True)
-class Composed:
-    """A pose of all layers.
+class Composed(NamedTuple):
+    """A body under all layers.
 
     Attributes:
-        pose: with every layer.
+        shown: with every layer.
         steady: without the additive ones. A motion that begins from "where the body is" begins here: nodding goes on
             while it plays and must not be counted twice.
-        root: how far HumanoidRoot is moved from its place in the default pose, with every layer, m.
-        steady_root: the same without the additive ones.
     """
 
-    pose: dict[str, Quat]
-    steady: dict[str, Quat]
-    root: Vec3 = ZERO
-    steady_root: Vec3 = ZERO
+    shown: Body
+    steady: Body
 
 
 def compose(skeleton: Skeleton, layers: Iterable[Layer]) -> Composed:
-    """One pose of all layers; joints that no layer turns are in the default pose, joints not in the skeleton are left.
+    """One pose of all layers; joints that no layer turns are in the default pose.
 
-    Replacing layers blend over the pose below by their weight along the shorter arc; additive ones turn about the
-    joint's own axes as it stands by then, so that a head turned aside still nods about its own ears.
+    Replacing layers lie over the pose below (`over`); additive ones turn what has come together by then further
+    (`turned_further`), so that a head turned aside still nods about its own ears.
     """
     lower, added, upper = _sorted(layers)
-    steady = dict.fromkeys(skeleton.joints, IDENTITY)
-    steady_root = ZERO
-    for layer in lower:
-        _replace(steady, layer)
-        steady_root = _moved(steady_root, layer)
-    pose, root = dict(steady), steady_root
-    for layer in added:
-        _turn_further(pose, layer)
-        root = root if layer.root is None else add(root, scale(layer.root, layer.weight_of(_ROOT)))
-    for layer in upper:
-        _replace(pose, layer)
-        _replace(steady, layer)
-        root, steady_root = _moved(root, layer), _moved(steady_root, layer)
-    return Composed(pose, steady, root, steady_root)
+    steady = reduce(over, lower, Body(skeleton, dict.fromkeys(skeleton.joints, IDENTITY)))
+    shown = reduce(turned_further, added, steady)
+    return Composed(reduce(over, upper, shown), reduce(over, upper, steady))
+
+
+def over(body: Body, layer: Layer) -> Body:
+    """A body with a layer laid over it, by its weight along the shorter arc; joints that it has not are left out."""
+    rotations = _known(layer.rotations, body)
+    if layer.weight < 1.0 or layer.weights is not None:
+        rotations = {
+            joint: slerp(body.rotation(joint), goal, layer.weight_of(joint)) for joint, goal in rotations.items()
+        }
+    if layer.root is None:
+        return body.posed(rotations)
+    return body.posed(rotations, add(body.root, scale(subtract(layer.root, body.root), layer.weight_of(ROOT))))
+
+
+def turned_further(body: Body, layer: Layer) -> Body:
+    """A body with an additive layer, by its weight: each joint turns about its own axes as it stands.
+
+    Joints that the body has not are left out.
+    """
+    rotations = {
+        joint: multiply(body.rotation(joint), _weighed(turn, layer.weight_of(joint)))
+        for joint, turn in _known(layer.rotations, body).items()
+    }
+    root = body.root if layer.root is None else add(body.root, scale(layer.root, layer.weight_of(ROOT)))
+    return body.posed(rotations, root)
+
+
+def _weighed(turn: Quat, weight: float) -> Quat:
+    return turn if weight == 1.0 else power(turn, weight)
+
+
+def _known(rotations: Mapping[str, Quat], body: Body) -> Mapping[str, Quat]:
+    # Nearly always the pose has all of them.
+    if rotations.keys() <= body.pose.keys():
+        return rotations
+    return {joint: turn for joint, turn in rotations.items() if joint in body.skeleton}
 
 
 def _sorted(layers: Iterable[Layer]) -> tuple[list[Layer], list[Layer], list[Layer]]:
@@ -110,7 +134,8 @@ def checked(layer: Layer) -> Layer:
     """A layer that can be composed.
 
     Raises:
-        RealizerError: "bad-pose": a rotation is no unit quaternion, or weight or root are no finite numbers.
+        RealizerError: "bad-pose": a rotation is no unit quaternion, a weight is no finite number, or the root is
+            further away than `FARTHEST`.
     """
     for joint, (w, x, y, z) in layer.rotations.items():
         if not abs(w * w + x * x + y * y + z * z - 1.0) < _NEARLY_ZERO:
@@ -118,28 +143,6 @@ def checked(layer: Layer) -> Layer:
     for weight in (layer.weight, *(layer.weights or {}).values()):
         if not math.isfinite(weight):
             raise error("bad-pose", what="its weight", value=weight)
-    if layer.root is not None and not all(map(math.isfinite, layer.root)):
+    if layer.root is not None and not length(layer.root) <= FARTHEST:
         raise error("bad-pose", what="HumanoidRoot's place", value=layer.root)
     return layer
-
-
-def _moved(root: Vec3, layer: Layer) -> Vec3:
-    return root if layer.root is None else add(root, scale(subtract(layer.root, root), layer.weight_of(_ROOT)))
-
-
-def _replace(pose: dict[str, Quat], layer: Layer) -> None:
-    rotations, weights = layer.rotations, layer.weights
-    if layer.weight >= 1.0 and weights is None:
-        pose |= rotations if rotations.keys() <= pose.keys() else {j: q for j, q in rotations.items() if j in pose}
-        return
-    for joint, rotation in rotations.items():
-        if joint in pose:
-            weight = layer.weight if weights is None else layer.weight_of(joint)
-            pose[joint] = slerp(pose[joint], rotation, weight)
-
-
-def _turn_further(pose: dict[str, Quat], layer: Layer) -> None:
-    for joint, rotation in layer.rotations.items():
-        if joint in pose:
-            weight = layer.weight_of(joint)
-            pose[joint] = multiply(pose[joint], rotation if weight == 1.0 else power(rotation, weight))

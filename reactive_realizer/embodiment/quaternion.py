@@ -31,13 +31,20 @@ def conjugate(q: Quat) -> Quat:
     return (q[0], -q[1], -q[2], -q[3])
 
 
+def difference(a: Quat, b: Quat) -> Quat:
+    """The turn d that leads from a to b, in the axes of a: b = a d."""
+    return multiply(conjugate(a), b)
+
+
 def normalize(q: Quat) -> Quat:
     """The unit quaternion along q.
 
     Raises:
-        ZeroDivisionError: q is zero.
+        ArithmeticError: q is zero, or too long to be normalized in floats.
     """
     factor = 1.0 / math.sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3])
+    if not factor:
+        raise OverflowError(q)
     return (q[0] * factor, q[1] * factor, q[2] * factor, q[3] * factor)
 
 

@@ -3,9 +3,11 @@
 import math
 
 from reactive_realizer.embodiment.body import Body
-from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, angle, conjugate, multiply, slerp
+from reactive_realizer.embodiment.ground import depth, soles
+from reactive_realizer.embodiment.joints import EYES, HEAD, LOWER_BODY, TRUNK
+from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, angle, difference, slerp
 from reactive_realizer.embodiment.skeleton import Pose
-from reactive_realizer.embodiment.vector import ZERO, Vec3, add, dot, length, scale, subtract
+from reactive_realizer.embodiment.vector import UP, ZERO, Vec3, add, dot, length, scale, subtract
 
 WRIST_SPEED = 2.4
 """m/s, of each wrist as seen from the root: less than 5 cm in 20 ms. Conversational gestures stay below 2 m/s."""
@@ -26,9 +28,9 @@ _LIMB = 15.0
 _WRIST = 8.0
 _WRISTS = ("l_wrist", "r_wrist")
 _SPEEDS = {
-    **dict.fromkeys(("HumanoidRoot", "vl5", "vt10", "vt6"), _TRUNK),
-    **dict.fromkeys(("vc4", "skullbase"), _NECK),
-    **dict.fromkeys(("l_eyeball_joint", "r_eyeball_joint"), _EYE),
+    **dict.fromkeys(TRUNK, _TRUNK),
+    **dict.fromkeys(HEAD, _NECK),
+    **dict.fromkeys(EYES, _EYE),
     **dict.fromkeys(_WRISTS, _WRIST),
 }
 _ALL_SPEEDS = frozenset((_LIMB, *_SPEEDS.values()))
@@ -60,6 +62,8 @@ class SpeedLimit:
     No joint turns faster than its limit, then no wrist moves faster than `WRIST_SPEED`, nor much faster than before,
     and the root no faster than `ROOT_SPEED`. A pose that asks for more is followed as fast as that allows, which
     ordinary motion never notices. How soon a wrist stops is not limited: so it never goes past where it is wanted.
+
+    Legs and root, each held back for itself, would take the feet into the ground: so much the figure is raised.
     """
 
     def __init__(self, shown: Body) -> None:
@@ -69,6 +73,7 @@ class SpeedLimit:
         self._arms = {wrist: shown.skeleton.chain(wrist)[:-1] for wrist in _WRISTS}
         self._places = {wrist: _from_root(wrist, shown) for wrist in _WRISTS}
         self._velocities: dict[str, Vec3] = dict.fromkeys(_WRISTS, ZERO)
+        self._soles = soles(shown.skeleton)
 
     def __call__(self, wanted: Body, duration: float) -> Body:
         """The body to show now.
@@ -85,6 +90,7 @@ class SpeedLimit:
             body = body.posed(
                 {j: slerp(self._shown.rotation(j), body.rotation(j), fraction) for j in self._arms[wrist]}
             )
+        body = self._raised(body, wanted)
         places = {wrist: _from_root(wrist, body) for wrist in _WRISTS}
         self._velocities = {w: scale(subtract(at, self._places[w]), 1.0 / duration) for w, at in places.items()}
         self._places, self._shown = places, body
@@ -108,6 +114,13 @@ class SpeedLimit:
         before = max(0.0, dot(self._velocities[wrist], direction))
         return min(WRIST_SPEED, before + WRIST_ACCELERATION * duration)
 
+    def _raised(self, body: Body, wanted: Body) -> Body:
+        """The body with its feet no further under the ground than they are wanted."""
+        if body.root is wanted.root and all(body.rotation(joint) is wanted.rotation(joint) for joint in LOWER_BODY):
+            return body
+        sunk = depth(body, self._soles) - depth(wanted, self._soles)
+        return body.posed({}, add(body.root, scale(UP, sunk))) if sunk > 0.0 else body
+
     def _root(self, wanted: Vec3, furthest: float) -> Vec3:
         way = subtract(wanted, self._shown.root)
         moved = length(way)
@@ -120,4 +133,4 @@ def _from_root(wrist: str, body: Body) -> Vec3:
 
 
 def _toward(start: Quat, goal: Quat, furthest: float) -> Quat:
-    return slerp(start, goal, furthest / angle(multiply(conjugate(start), goal)))
+    return slerp(start, goal, furthest / angle(difference(start, goal)))

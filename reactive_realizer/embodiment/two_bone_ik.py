@@ -47,6 +47,8 @@ class _Circle(NamedTuple):
 
     def turn(self, far: float) -> float:
         """The angle at which the end is at a distance from the first joint, or as nearly as it can be, rad."""
+        if self.swing < _NEARLY_ZERO:
+            return self.begin
         cosine = (far * far - self.fixed) / (2.0 * self.swing)
         return self.begin + math.acos(max(-1.0, min(1.0, cosine)))
 

@@ -48,9 +48,12 @@ def unit(v: Vec3) -> Vec3:
     """The direction of v, which must not be (nearly) zero.
 
     Raises:
-        ZeroDivisionError: v has no direction.
+        ArithmeticError: v has no direction, or is too long to have one in floats.
     """
-    return scale(v, 1.0 / length(v))
+    factor = 1.0 / length(v)
+    if not factor:
+        raise OverflowError(v)
+    return scale(v, factor)
 
 
 def rejected(v: Vec3, axis: Vec3) -> Vec3:

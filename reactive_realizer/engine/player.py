@@ -7,7 +7,7 @@ from typing import TypeVar
 
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.engine.effects import Dropped, EndUnit, Reached
-from reactive_realizer.errors import Fault
+from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.planunit.plan_unit import PlanUnit, UnitState
 
 logger = logging.getLogger(__name__)
@@ -61,19 +61,24 @@ class Player:
         return tuple(reached)
 
     def show(self, kind: type[U], show: Callable[[U], T], now: GlobalTime) -> list[T]:
-        """What every unit of a kind that plays shows, what lies above others last (thesis 8.7.5).
+        """What every unit of a kind that plays shows, in the order of `stacked`.
 
-        Who started last lies above, of those that started together the one that ends first. One that fails leaves, the
-        others go on.
+        One that fails leaves, the others go on.
         """
         shown: list[T] = []
-        for unit in sorted(self.playing, key=_height):
-            if isinstance(unit, kind):
-                try:
-                    shown.append(show(unit))
-                except Exception as failure:
-                    self._fail(unit, failure, now)
+        for unit in self.stacked(kind):
+            try:
+                shown.append(show(unit))
+            except Exception as failure:
+                self._fail(unit, failure, now)
         return shown
+
+    def stacked(self, kind: type[U]) -> list[U]:
+        """The units of a kind that play, what lies above others last (thesis 8.7.5).
+
+        Who started last lies above, of those that started together the one that ends first.
+        """
+        return [unit for unit in sorted(self.playing, key=_height) if isinstance(unit, kind)]
 
     def take_ending(self) -> tuple[EndUnit, ...]:
         """The units that are to end now because others take over from them, since the last call."""
@@ -124,7 +129,9 @@ class Player:
         reached.extend(Reached(unit, point, point.fired) for point in ahead if point.fired is not None)
 
     def _fail(self, unit: PlanUnit, failure: Exception, now: GlobalTime) -> None:
-        logger.error("%s/%s:%s failed while playing", *unit.block, unit.behavior.id, exc_info=failure)
+        # What is wrong with somebody's file is said in a sentence; where we failed ourselves, the trace tells more.
+        trace = None if isinstance(failure, RealizerError) else failure
+        logger.error("%s/%s:%s failed while playing: %s", *unit.block, unit.behavior.id, failure, exc_info=trace)
         self._drop(unit, Fault("unit-failed", {"reason": failure}), now)
 
     def _drop(self, unit: PlanUnit, fault: Fault, now: GlobalTime) -> None:

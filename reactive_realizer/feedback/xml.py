@@ -5,7 +5,9 @@ from functools import singledispatch
 
 from lxml import etree
 
-from reactive_realizer.bml.names import BML, BMLA, OWN
+from reactive_realizer.bml.attributes import attributes_of
+from reactive_realizer.bml.behavior import Behavior
+from reactive_realizer.bml.names import BML, BMLA, OWN, is_sync_id
 from reactive_realizer.feedback.messages import (
     BehaviorPrediction,
     BlockProgress,
@@ -19,7 +21,7 @@ _DECIMALS = 6
 _STATUS = f"{{{BMLA}}}status"
 _OWN_TIME = f"{{{OWN}}}time"
 _NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
-"""What no XML may hold; the reason of a failure may be any text."""
+"""What no XML may hold; the reason of a failure may be any text, and so may a name of a plug-in."""
 
 
 def to_xml(message: Message) -> str:
@@ -46,7 +48,7 @@ def _element(message: object) -> etree._Element:
 @_element.register
 def _(message: BlockProgress) -> etree._Element:
     element = _root("blockProgress", message.character, {None: BML, "bmla": BMLA})
-    element.set("id", f"{message.block}:{message.sync}")
+    element.set("id", _told(f"{message.block}:{message.sync}"))
     element.set("globalTime", seconds(message.time))
     element.set(_STATUS, message.status)
     return element
@@ -55,18 +57,18 @@ def _(message: BlockProgress) -> etree._Element:
 @_element.register
 def _(message: SyncPointProgress) -> etree._Element:
     element = _root("syncPointProgress", message.character, {None: BML, **({"rr": OWN} if message.details else {})})
-    element.set("id", f"{message.block}:{message.behavior}:{message.sync}")
+    element.set("id", _told(f"{message.block}:{message.behavior}:{message.sync}"))
     element.set("time", seconds(message.block_time))
     element.set("globalTime", seconds(message.time))
     for name, value in message.details.items():
-        element.set(f"{{{OWN}}}{name}", value)
+        element.set(f"{{{OWN}}}{name}", _told(value))
     return element
 
 
 @_element.register
 def _(message: PredictionFeedback) -> etree._Element:
     element = _root("predictionFeedback", message.character, {None: BML, "bmla": BMLA, "rr": OWN})
-    block = etree.SubElement(element, f"{{{BML}}}bml", id=message.block)
+    block = etree.SubElement(element, f"{{{BML}}}bml", id=_told(message.block))
     block.set("globalStart", seconds(message.start))
     block.set("globalEnd", seconds(message.end))
     block.set(_STATUS, message.status)
@@ -77,31 +79,43 @@ def _(message: PredictionFeedback) -> etree._Element:
 @_element.register
 def _(message: WarningFeedback) -> etree._Element:
     element = _root("warningFeedback", message.character, {None: BML})
-    element.set("id", message.id)
+    element.set("id", _told(message.id))
     element.set("type", message.type)
-    element.text = _NOT_XML.sub("\N{REPLACEMENT CHARACTER}", message.text)
+    element.text = _told(message.text)
     return element
+
+
+def _told(text: str) -> str:
+    return _NOT_XML.sub("\N{REPLACEMENT CHARACTER}", text)
 
 
 def _root(name: str, character: str | None, namespaces: dict[str | None, str]) -> etree._Element:
     # lxml takes None for the default namespace; its stubs do not.
     element = etree.Element(f"{{{BML}}}{name}", nsmap=namespaces)  # type: ignore[arg-type]
     if character is not None:
-        element.set("characterId", character)
+        element.set("characterId", _told(character))
     return element
 
 
 def _predicted(block: str, prediction: BehaviorPrediction) -> etree._Element:
-    """The behavior's own element, its sync points now times; an inline sync of a speech carries its time itself."""
+    """The behavior's own element, its sync points now times; an inline sync of a speech carries its time itself.
+
+    One whose name is no attribute's, or that of an attribute that says something else, is left out.
+    """
     behavior = prediction.behavior
     element = etree.fromstring(behavior.source)
-    element.set("id", f"{block}:{behavior.id}")
+    element.set("id", _told(f"{block}:{behavior.id}"))
     for sync in behavior.syncs:
-        del element.attrib[sync]
+        if sync in element.attrib:  # not every one was written: a stroke may follow from an end
+            del element.attrib[sync]
     inline = {sync.get("id"): sync for sync in element.iter(f"{{{BML}}}sync", "sync")}
     for sync, time in prediction.times.items():
         if sync in inline:
             inline[sync].set(_OWN_TIME, seconds(time))
-        elif ":" not in sync:
+        elif is_sync_id(sync) and (sync in behavior.sync_points or sync not in _attributes(behavior)):
             element.set(sync, seconds(time))
     return element
+
+
+def _attributes(behavior: Behavior) -> set[str]:
+    return {each.name for each in attributes_of(type(behavior))}

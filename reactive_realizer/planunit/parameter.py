@@ -16,7 +16,7 @@ class Range(NamedTuple):
     high: float
 
     def __contains__(self, value: object) -> bool:
-        return isinstance(value, float) and self.low <= value <= self.high
+        return isinstance(value, int | float) and self.low <= value <= self.high
 
 
 @dataclass(slots=True, eq=False)

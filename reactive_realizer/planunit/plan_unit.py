@@ -97,7 +97,7 @@ class PlanUnit:
     def on_finish(self, time: GlobalTime) -> None:
         """The unit ended or was interrupted: the way back to rest is the engine's motion."""
 
-    def preference(self) -> Timing:
+    def preference(self, now: GlobalTime) -> Timing:
         """How it would like to be timed if it began now; a chunk is planned anew when it starts (thesis 12.1.4)."""
         return self.timing
 

@@ -127,7 +127,7 @@ class BlockPlanner:
         The plan that is there stays if the new one would lose anything.
         """
         before = {unit: unit.points for unit in block.units}
-        task = self._planning.pose(block, {unit: unit.preference() for unit in block.units}, now)
+        task = self._planning.pose(block, {unit: unit.preference(now) for unit in block.units}, now)
         plan = self._planning.solve(task)
         if not plan.losses and len(plan.units) == len(before):
             self._planning.recommit(block, plan)

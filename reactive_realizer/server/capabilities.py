@@ -1,6 +1,5 @@
 """What a planner may ask of a scene."""
 
-import asyncio
 from collections.abc import Mapping
 from typing import Any
 
@@ -10,10 +9,12 @@ from reactive_realizer.bml.elements import ELEMENTS, Element
 from reactive_realizer.engine.lexicon import words_of
 from reactive_realizer.planunit.parameter import Range
 
+Lexemes = Mapping[str, list[str]]
+"""The words that play, by element."""
 
-async def capabilities_of(scene: Scene) -> dict[str, Any]:
+
+async def capabilities_of(scene: Scene, lexemes: Lexemes) -> dict[str, Any]:
     """Elements with their attributes and sync points, and what stands in the scene's bindings, voice and world."""
-    lexemes = await asyncio.to_thread(_lexemes, scene)
     engines = [engine for character in scene.realizer.characters.values() for engine in character.engines]
     realized = frozenset[type[Behavior]]().union(*(engine.behaviors for engine in engines))
     changeable = {behavior: ranges for engine in engines for behavior, ranges in engine.parameters.items()}
@@ -44,8 +45,8 @@ def _element(
     }
 
 
-def _lexemes(scene: Scene) -> dict[str, list[str]]:
-    """Those that play, by element; it reads files."""
+def lexemes_of(scene: Scene) -> Lexemes:
+    """The words of a scene that does not play yet: it reads all their files, for which a tick has no time."""
     found: dict[str, set[str]] = {}
     for character in scene.realizer.characters.values():
         for word in words_of(character.engines):

@@ -56,7 +56,8 @@ async def explain(request: web.Request) -> web.Response:
 @routes.get("/capabilities")
 async def capabilities(request: web.Request) -> web.Response:
     """What may be asked for."""
-    return web.json_response(await capabilities_of(request.app[LIVE].scene))
+    live = request.app[LIVE]
+    return web.json_response(await capabilities_of(live.scene, live.lexemes))
 
 
 def _ticks(live: Live) -> dict[str, float | None]:

@@ -14,6 +14,9 @@ from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.audio import AudioChange
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.frame import Frame
+from reactive_realizer.embodiment.joints import ROOT
+from reactive_realizer.embodiment.skeleton import Skeleton
+from reactive_realizer.embodiment.vector import subtract
 from reactive_realizer.realizer.character import Character
 from reactive_realizer.realizer.inputs import BmlText, Event, Prediction, TargetMoved
 from reactive_realizer.realizer.realizer import Realizer
@@ -74,10 +77,16 @@ class RealizerPilot:
 
     def path(self, joint: str, character: str | None = None) -> npt.NDArray[np.float64]:
         """Where a joint was in each frame since `watch`, (F, 3), m, from the root of its character."""
+        return np.array([subtract(body.place(joint).position, body.root) for body in self.bodies(character)])
+
+    def bodies(self, character: str | None = None) -> list[Body]:
+        """The figure in each frame since `watch`, in the axes of the world; of the first character, if none is named.
+
+        So `place` and `root` say where it is in the world, too.
+        """
         name = character or next(iter(self.realizer.characters))
         skeleton = self.realizer.characters[name].humanoid.avatar.skeleton
-        poses = (dict(zip(skeleton.joints, map(tuple, f.rotations), strict=True)) for f in self.frames[name])
-        return np.array([Body(skeleton, pose).place(joint).position for pose in poses])
+        return [_body(frame, skeleton) for frame in self.frames[name]]
 
     async def advance(self, seconds: float) -> None:
         """Play the ticks of so many seconds."""
@@ -93,6 +102,12 @@ class RealizerPilot:
 
     def _keep(self, character: Character, frame: Frame) -> None:
         self.frames.setdefault(character.id, []).append(frame)
+
+
+def _body(frame: Frame, skeleton: Skeleton) -> Body:
+    pose = dict(zip(skeleton.joints, map(tuple, frame.rotations.tolist()), strict=True))
+    x, y, z = frame.root.tolist()
+    return Body(skeleton, pose, subtract((x, y, z), skeleton.offset(ROOT)))
 
 
 def block(id_: str, behaviors: str = "", **attributes: str) -> str:

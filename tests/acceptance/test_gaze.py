@@ -8,7 +8,7 @@ import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.embodiment.body import Body
-from reactive_realizer.embodiment.quaternion import angle, conjugate, from_euler, multiply, rotate
+from reactive_realizer.embodiment.quaternion import angle, conjugate, difference, from_euler, multiply, rotate
 from reactive_realizer.embodiment.quaternion import between as shortest
 from reactive_realizer.embodiment.vector import FORWARD, Vec3, add, dot, scale, subtract, unit
 from reactive_realizer.engines.animation.gaze.saccade import saccade_duration, saccade_progress
@@ -33,20 +33,6 @@ async def pilot():
 # --- what is seen
 
 
-def bodies(pilot, character: str = "alice") -> list[Body]:
-    """What was shown, frame by frame, in the axes of the world."""
-    skeleton = pilot.realizer.characters[character].humanoid.avatar.skeleton
-    start = skeleton.offset("HumanoidRoot")
-    return [
-        Body(
-            skeleton,
-            {joint: tuple(map(float, turn)) for joint, turn in zip(skeleton.joints, frame.rotations, strict=True)},
-            subtract(tuple(map(float, frame.root)), start),
-        )
-        for frame in pilot.frames[character]
-    ]
-
-
 def between(a: Vec3, b: Vec3) -> float:
     """The angle between two unit vectors, degrees."""
     return math.degrees(math.acos(max(-1.0, min(1.0, dot(a, b)))))
@@ -64,7 +50,7 @@ def miss(body: Body, target: Vec3) -> float:
 
 def place(pilot, yaw: float, pitch: float, far: float = 2.0) -> Vec3:
     """A point to the left and up as Alice sees it before she looks anywhere."""
-    body = bodies(pilot)[0]
+    body = pilot.bodies()[0]
     middle = scale(add(*(body.place(eye).position for eye in EYES)), 0.5)
     return add(middle, scale(rotate(from_euler(-math.radians(pitch), math.radians(yaw), 0.0), FORWARD), far))
 
@@ -96,7 +82,7 @@ async def test_the_eyes_are_on_the_target_while_the_head_still_turns_and_until_i
     await pilot.advance(4)
     there = at(pilot, pilot.feedback.time("b:g:start") + saccade_duration(math.radians(30)) + FRAME)
     relax = at(pilot, pilot.feedback.time("b:g:relax"))
-    assert max(miss(body, target) for body in bodies(pilot)[there:relax]) < 0.5
+    assert max(miss(body, target) for body in pilot.bodies()[there:relax]) < 0.5
 
 
 @pytest.mark.parametrize("head", ['lexeme="NOD" repetition="4" amount="1"', 'lexeme="SHAKE" repetition="4" amount="1"'])
@@ -104,7 +90,7 @@ async def test_the_eyes_stay_on_the_target_while_the_head_nods_and_shakes(pilot,
     target = put(pilot, "t", -15, 5)
     pilot.block("b", f'<gaze id="g" target="t" start="0" end="8"/><head id="h" {head} start="g:ready"/>')
     await pilot.advance(6)
-    shown = bodies(pilot)[at(pilot, 0.5) : at(pilot, 6)]
+    shown = pilot.bodies()[at(pilot, 0.5) : at(pilot, 6)]
     noses = [sight(body, "skullbase") for body in shown]
     assert max(between(a, noses[0]) for a in noses) > 3
     assert max(miss(body, target) for body in shown) < 0.5
@@ -114,7 +100,7 @@ async def test_the_eyes_are_there_before_the_head_and_it_overtakes_them_not(pilo
     target = put(pilot, "t", 30, 0)
     pilot.block("b", '<gaze id="g" target="t" start="0"/>')
     await pilot.advance(2)
-    shown = bodies(pilot)[at(pilot, pilot.feedback.time("b:g:start")) :]
+    shown = pilot.bodies()[at(pilot, pilot.feedback.time("b:g:start")) :]
     arrived = next(i for i, body in enumerate(shown) if miss(body, target) < 0.5)
     assert between(sight(shown[arrived], "skullbase"), FORWARD) < 3
     ready = at(pilot, pilot.feedback.time("b:g:ready") - pilot.feedback.time("b:g:start"))
@@ -129,7 +115,7 @@ async def test_a_saccade_takes_time_in_proportion_to_its_way_and_keeps_below_the
     put(pilot, "t", degrees, 0, FAR)
     pilot.block("b", '<gaze id="g" target="t" influence="EYES" start="0.5"/>')
     await pilot.advance(1.2)
-    shown = bodies(pilot)[at(pilot, pilot.feedback.time("b:g:start")) :]
+    shown = pilot.bodies()[at(pilot, pilot.feedback.time("b:g:start")) :]
     goal = sight(shown[-1])
     amplitude = between(sight(shown[0]), goal)
     left = [1.0 - saccade_progress(math.radians(amplitude), i * FRAME) for i in range(10)]
@@ -142,17 +128,17 @@ async def test_the_eyes_stay_on_the_target_while_a_head_that_is_hurried_falls_be
     target = put(pilot, "t", 38, 0)
     pilot.block("b", '<gaze id="g" target="t" influence="WAIST" start="0" ready="0.06" relax="1" end="1.5"/>')
     await pilot.advance(1)
-    shown = bodies(pilot)
+    shown = pilot.bodies()
     there = at(pilot, pilot.feedback.time("b:g:start") + saccade_duration(math.radians(40)) + FRAME)
     assert max(miss(body, target) for body in shown[there:]) < 0.5
-    assert max(angle(multiply(conjugate(a.rotation("vc4")), b.rotation("vc4"))) for a, b in pairwise(shown)) < 0.17
+    assert max(angle(difference(a.rotation("vc4"), b.rotation("vc4"))) for a, b in pairwise(shown)) < 0.17
 
 
 async def test_what_the_eyes_cannot_reach_they_come_to_with_the_head(pilot) -> None:
     target = put(pilot, "t", 100, 10)
     pilot.block("b", '<gaze id="g" target="t" influence="SHOULDER" start="0" end="4"/>')
     await pilot.advance(3)
-    shown = bodies(pilot)
+    shown = pilot.bodies()
     assert max(math.degrees(angle(body.rotation(eye))) for body in shown for eye in EYES) < 40.6
     assert miss(shown[at(pilot, 2)], target) < 0.5
 
@@ -161,7 +147,7 @@ async def test_a_gaze_ends_with_a_saccade_and_the_head_follows(pilot) -> None:
     put(pilot, "t", 30, -30)
     pilot.block("b", '<gaze id="g" target="t" start="0"/>')
     await pilot.advance(4)
-    shown = bodies(pilot)
+    shown = pilot.bodies()
     relax, end = (at(pilot, pilot.feedback.time(f"b:g:{sync}")) for sync in ("relax", "end"))
     back = relax + 10
     assert math.degrees(angle(shown[relax - 1].rotation(EYES[0]))) > 15
@@ -180,7 +166,7 @@ async def test_the_head_turns_by_nine_tenths_to_the_side_by_three_tenths_up_and_
     put(pilot, "t", yaw, pitch, FAR)
     pilot.block("b", '<gaze id="g" target="t" start="0" end="4"/>')
     await pilot.advance(2)
-    first, last = (body.place("skullbase").rotation for body in (bodies(pilot)[4], bodies(pilot)[-1]))
+    first, last = (body.place("skullbase").rotation for body in (pilot.bodies()[4], pilot.bodies()[-1]))
     _, x, y, z = multiply(last, conjugate(first))
     whole = shortest(FORWARD, unit(subtract(place(pilot, yaw, pitch, FAR), place(pilot, 0, 0, 0.0))))
     # A figure that breathes is never quite still.
@@ -193,25 +179,25 @@ async def test_where_the_head_ends_does_not_depend_on_where_it_came_from(pilot) 
     gazes = '<gaze id="a" target="first" start="0" end="3"/><gaze id="b" target="second" start="{}" end="{}"/>'
     pilot.block("b", gazes.format(3.0, 6.0))
     await pilot.advance(5)
-    around = bodies(pilot)[-1].place("skullbase").rotation
+    around = pilot.bodies()[-1].place("skullbase").rotation
     async with open_pilot(SceneOptions(voice="text")) as other:
         other.watch()
         await other.advance(0.1)
         put(other, "second", 35, 20)
         other.block("b", '<gaze id="b" target="second" start="3" end="6"/>')
         await other.advance(5)
-        straight = bodies(other)[-1].place("skullbase").rotation
-    assert math.degrees(angle(multiply(conjugate(around), straight))) < 0.1
+        straight = other.bodies()[-1].place("skullbase").rotation
+    assert math.degrees(angle(difference(around, straight))) < 0.1
 
 
 async def test_the_head_turns_about_one_axis_and_fastest_half_way(pilot) -> None:
     put(pilot, "t", 50, 20)
     pilot.block("b", '<gaze id="g" target="t" start="0" ready="1" end="4"/>')
     await pilot.advance(1.2)
-    shown = bodies(pilot)
+    shown = pilot.bodies()
     start, ready = (at(pilot, pilot.feedback.time(f"b:g:{sync}")) for sync in ("start", "ready"))
     first = shown[start].place("skullbase").rotation
-    turns = [multiply(conjugate(first), body.place("skullbase").rotation) for body in shown[start : ready + 1]]
+    turns = [difference(first, body.place("skullbase").rotation) for body in shown[start : ready + 1]]
     axes = [unit(turn[1:]) for turn in turns[15:]]
     assert max(between(axis, axes[-1]) for axis in axes) < 4
     steps = [angle(b) - angle(a) for a, b in pairwise(turns)]
@@ -233,11 +219,9 @@ async def test_an_influence_turns_its_joints_and_no_others(pilot, influence, joi
     put(pilot, "t", 60 if joints else 20, 0)
     pilot.block("b", f'<gaze id="g" target="t" influence="{influence}" start="0" end="4"/>')
     await pilot.advance(2)
-    first, last = bodies(pilot)[4], bodies(pilot)[-1]
+    first, last = pilot.bodies()[4], pilot.bodies()[-1]
     spine = ("vl5", "vt10", "vt6", "vc4", "skullbase", "l_hip", "r_hip", "HumanoidRoot")
-    turned = {
-        joint for joint in spine if angle(multiply(conjugate(first.rotation(joint)), last.rotation(joint))) > 0.05
-    }
+    turned = {joint for joint in spine if angle(difference(first.rotation(joint), last.rotation(joint))) > 0.05}
     assert turned == joints
 
 
@@ -248,9 +232,9 @@ async def test_a_behavior_may_say_how_much_each_group_of_joints_does(pilot) -> N
     pilot.block("b", f'<gaze id="g" target="t" start="0" end="4">{said}</gaze>')
     await pilot.advance(2)
     assert not pilot.feedback.warnings
-    first, last = bodies(pilot)[4], bodies(pilot)[-1]
+    first, last = pilot.bodies()[4], pilot.bodies()[-1]
     turns = {
-        joint: math.degrees(angle(multiply(conjugate(first.rotation(joint)), last.rotation(joint))))
+        joint: math.degrees(angle(difference(first.rotation(joint), last.rotation(joint))))
         for joint in ("vl5", "vt10", "vt6", "vc4", "skullbase")
     }
     assert turns == pytest.approx({"vl5": 18, "vt10": 0, "vt6": 0, "vc4": 9, "skullbase": 9}, abs=1.0)
@@ -265,7 +249,7 @@ async def test_the_weights_of_a_gaze_are_changed_while_it_plays(pilot) -> None:
         '<bmla:trajectory type="linear" targetValue="0"/></bmla:parametervaluechange>',
     )
     await pilot.advance(4)
-    shown = bodies(pilot)
+    shown = pilot.bodies()
     assert not pilot.feedback.warnings
     assert math.degrees(angle(shown[at(pilot, 1.9)].rotation("skullbase"))) > 10
     assert math.degrees(angle(shown[-1].rotation("skullbase"))) < 2
@@ -294,7 +278,7 @@ async def test_an_offset_is_so_many_degrees_to_its_side(pilot, side, left, up) -
     offset = f'offsetAngle="12" offsetDirection="{side}"'
     pilot.block("b", f'<gaze id="g" target="t" {offset} start="0" end="4"/>')
     await pilot.advance(2)
-    looks = sight(bodies(pilot)[-1])
+    looks = sight(pilot.bodies()[-1])
     toward = unit(subtract(place(pilot, 10, 5, FAR), place(pilot, 0, 0, 0.0)))
     assert between(looks, toward) == pytest.approx(12, abs=0.1)
     before, after = ((math.degrees(math.atan2(x, z)), math.degrees(math.asin(y))) for x, y, z in (toward, looks))
@@ -306,16 +290,24 @@ async def test_a_target_that_moves_is_followed_if_the_gaze_is_dynamic_and_only_t
         pilot.move("t", place(pilot, 0, 0))
         pilot.block(f"b-{follow}", f'<gaze id="g" target="t" bmlt:dynamic="{follow}" start="0" end="4"/>')
         await pilot.advance(1)
-        first = len(bodies(pilot))
+        first = len(pilot.bodies())
         for degrees in range(1, 21):
             there = place(pilot, degrees, 0)
             pilot.move("t", there)
             await pilot.advance(0.04)
-        missed = [miss(bodies(pilot)[-1], there), miss(bodies(pilot)[-1], place(pilot, 0, 0))]
+        missed = [miss(pilot.bodies()[-1], there), miss(pilot.bodies()[-1], place(pilot, 0, 0))]
         assert (missed[0] < 0.5) == (follow == "true")
         assert (missed[1] < 0.5) == (follow == "false")
-        assert max(speeds(bodies(pilot)[first:])) < 2
+        assert max(speeds(pilot.bodies()[first:])) < 2
         await pilot.advance(4)
+
+
+async def test_whether_a_gaze_is_dynamic_has_to_be_said_by_yes_or_no(pilot) -> None:
+    pilot.move("t", place(pilot, 0, 0))
+    pilot.block("b", '<gaze id="g" target="t" bmlt:dynamic="TRUE"/><gaze id="h" target="t" bmlt:dynamic="maybe"/>')
+    await pilot.advance(0.1)
+    assert pilot.feedback.warnings == [("b:h", "CANNOT_CREATE_BEHAVIOR")]
+    assert "dynamic='maybe' is neither true nor false" in pilot.feedback.of("warningFeedback")[0].element.text
 
 
 @pytest.mark.parametrize(("shift", "joint"), [("gazeShift", EYES[0]), ("headDirectionShift", "skullbase")])
@@ -326,7 +318,7 @@ async def test_a_dynamic_shift_goes_on_following_when_it_has_ended(pilot, shift,
     there = put(pilot, "t", -20, 0, FAR)
     await pilot.advance(2)
     toward = unit(subtract(there, place(pilot, 0, 0, 0.0)))
-    assert between(sight(bodies(pilot)[-1], joint), toward) < 3
+    assert between(sight(pilot.bodies()[-1], joint), toward) < 3
 
 
 async def test_a_target_that_jumps_is_caught_by_a_saccade_and_a_turn_of_the_head(pilot) -> None:
@@ -335,7 +327,7 @@ async def test_a_target_that_jumps_is_caught_by_a_saccade_and_a_turn_of_the_head
     await pilot.advance(2)
     there = put(pilot, "t", 35, 10)
     await pilot.advance(1)
-    shown = bodies(pilot)
+    shown = pilot.bodies()
     assert miss(shown[-1], there) < 0.5
     assert max(speeds(shown)) < PLATEAU + 0.2
     # A jump of 60 degrees takes the head as long as a gaze takes at first.
@@ -348,7 +340,7 @@ async def test_a_target_that_is_gone_is_still_looked_at_where_it_was(pilot) -> N
     await pilot.advance(1)
     pilot.move("t", None)
     await pilot.advance(1)
-    assert miss(bodies(pilot)[-1], there) < 0.5
+    assert miss(pilot.bodies()[-1], there) < 0.5
 
 
 async def test_a_static_gaze_looks_where_its_target_is_when_it_begins(pilot) -> None:
@@ -357,7 +349,7 @@ async def test_a_static_gaze_looks_where_its_target_is_when_it_begins(pilot) -> 
     await pilot.advance(0.5)
     there = put(pilot, "t", 25, 0)
     await pilot.advance(2)
-    assert miss(bodies(pilot)[-1], there) < 0.5
+    assert miss(pilot.bodies()[-1], there) < 0.5
 
 
 async def test_figures_look_at_each_other_and_at_each_others_joints(tests_data) -> None:
@@ -369,7 +361,7 @@ async def test_figures_look_at_each_other_and_at_each_others_joints(tests_data) 
         pilot.block("a", gaze.format(f"{bob}:r_shoulder"), characterId=alice)
         pilot.block("b", gaze.format(f"{alice}:skullbase"), characterId=bob)
         await pilot.advance(2)
-        hers, his = bodies(pilot, alice)[-1], bodies(pilot, bob)[-1]
+        hers, his = pilot.bodies(alice)[-1], pilot.bodies(bob)[-1]
     assert miss(hers, his.place("r_shoulder").position) < 0.5
     assert miss(his, hers.place("skullbase").position) < 0.5
 
@@ -377,7 +369,7 @@ async def test_figures_look_at_each_other_and_at_each_others_joints(tests_data) 
 async def test_a_figure_may_look_at_its_own_hand_as_far_as_it_can(pilot) -> None:
     pilot.block("b", '<gaze id="g" target="alice:l_wrist" bmlt:dynamic="true" start="0" end="4"/>')
     await pilot.advance(2)
-    body = bodies(pilot)[-1]
+    body = pilot.bodies()[-1]
     # A hand that hangs is below and behind the eyes.
     assert miss(body, body.place("l_wrist").position) < 10
 
@@ -407,7 +399,7 @@ async def test_a_gaze_shift_stays_and_a_gaze_comes_back_to_it_by_a_saccade(pilot
     rest, glance = put(pilot, "rest", 20, 0), put(pilot, "glance", -15, 10)
     pilot.block("b", '<gazeShift id="s" target="rest" start="0" end="0.6"/><gaze id="g" target="glance" start="2"/>')
     await pilot.advance(6)
-    shown = bodies(pilot)
+    shown = pilot.bodies()
     relax = pilot.feedback.time("b:g:relax")
     assert miss(shown[at(pilot, 1.9)], rest) < 0.5
     assert miss(shown[at(pilot, relax - 0.1)], glance) < 0.5
@@ -424,7 +416,7 @@ async def test_a_glance_of_the_eyes_leaves_the_head_to_the_gaze_below(pilot) -> 
     gaze = '<gaze id="g" target="glance" influence="EYES" start="2" end="3"/>'
     pilot.block("b", f'<gazeShift id="s" target="rest" start="0" end="0.6"/>{gaze}')
     await pilot.advance(4)
-    shown = bodies(pilot)
+    shown = pilot.bodies()
     assert miss(shown[at(pilot, 2.5)], glance) < 0.5
     noses = [sight(body, "skullbase") for body in shown[at(pilot, 1.5) :]]
     assert max(between(nose, noses[0]) for nose in noses) < 1.5
@@ -437,27 +429,27 @@ async def test_of_two_shifts_the_later_one_stays_and_a_block_that_replaces_all_e
     await pilot.advance(1)
     pilot.block("b", '<gazeShift id="s" target="two" start="0" end="0.5"/>')
     await pilot.advance(2)
-    assert miss(bodies(pilot)[-1], two) < 0.5
+    assert miss(pilot.bodies()[-1], two) < 0.5
     assert not pilot.feedback.warnings
     pilot.block("c", composition="REPLACE")
     await pilot.advance(2)
-    assert between(sight(bodies(pilot)[-1]), FORWARD) < 2 + GLANCE
-    assert max(speeds(bodies(pilot))) < PLATEAU + 0.2
+    assert between(sight(pilot.bodies()[-1]), FORWARD) < 2 + GLANCE
+    assert max(speeds(pilot.bodies())) < PLATEAU + 0.2
 
 
 async def test_a_shift_of_the_eyes_alone_leaves_the_head(pilot) -> None:
     target = put(pilot, "t", 20, 0)
     pilot.block("b", '<gazeShift id="s" target="t" influence="EYES" start="0"/>')
     await pilot.advance(2)
-    assert miss(bodies(pilot)[-1], target) < 0.5
-    assert between(sight(bodies(pilot)[-1], "skullbase"), FORWARD) < 2
+    assert miss(pilot.bodies()[-1], target) < 0.5
+    assert between(sight(pilot.bodies()[-1], "skullbase"), FORWARD) < 2
 
 
 async def test_the_direction_of_the_head_is_shifted_without_the_eyes(pilot) -> None:
     target = put(pilot, "t", 35, 10, FAR)
     pilot.block("b", '<headDirectionShift id="s" target="t" start="0" end="0.8"/>')
     await pilot.advance(3)
-    body = bodies(pilot)[-1]
+    body = pilot.bodies()[-1]
     toward = unit(subtract(target, place(pilot, 0, 0, 0.0)))
     assert between(sight(body, "skullbase"), toward) < 2
     assert math.degrees(angle(body.rotation(EYES[0]))) < GLANCE
@@ -470,10 +462,10 @@ async def test_a_gaze_looks_elsewhere_than_the_head_was_turned_and_gives_it_back
     pilot.block("b", '<headDirectionShift id="s" target="side" start="0" end="0.8"/>')
     pilot.block("c", '<gaze id="g" target="front" influence="EYES" start="2" end="4"/>')
     await pilot.advance(3)
-    assert miss(bodies(pilot)[-1], front) < 0.5
-    assert between(sight(bodies(pilot)[-1], "skullbase"), FORWARD) > 30
+    assert miss(pilot.bodies()[-1], front) < 0.5
+    assert between(sight(pilot.bodies()[-1], "skullbase"), FORWARD) > 30
     await pilot.advance(2)
-    assert math.degrees(angle(bodies(pilot)[-1].rotation(EYES[0]))) < GLANCE
+    assert math.degrees(angle(pilot.bodies()[-1].rotation(EYES[0]))) < GLANCE
 
 
 async def test_of_shifts_of_the_head_and_of_gaze_the_latest_has_the_head(pilot) -> None:
@@ -486,7 +478,7 @@ async def test_of_shifts_of_the_head_and_of_gaze_the_latest_has_the_head(pilot) 
     )
     pilot.block("b", shifts)
     await pilot.advance(4)
-    shown = bodies(pilot)
+    shown = pilot.bodies()
     heads = [sight(shown[at(pilot, time)], "skullbase") for time in (0.95, 1.95, 3.9)]
     # The eyes do their part of the gaze shift.
     assert [math.degrees(math.atan2(x, z)) for x, _, z in heads] == pytest.approx([30, 4.5, -25], abs=3)
@@ -500,7 +492,7 @@ async def test_the_head_may_be_turned_while_the_eyes_look_at_something(pilot) ->
     shift = '<headDirectionShift id="s" target="side" start="1" end="2"/>'
     pilot.block("b", f'<gaze id="g" target="front" start="0" end="4"/>{shift}')
     await pilot.advance(1.9)
-    shown = bodies(pilot)
+    shown = pilot.bodies()
     assert max(miss(body, front) for body in shown[at(pilot, 0.6) :]) < 0.5
     assert between(sight(shown[-1], "skullbase"), FORWARD) > 20
     assert not pilot.feedback.warnings

@@ -81,6 +81,12 @@ def is_still(behavior: str) -> bool:
     return 'lexeme="FRONT"' in behavior or element_of(behavior) in {"posture", "postureShift"}
 
 
+def test_the_package_has_words_for_these_elements():
+    shifts = {"gazeShift", "headDirectionShift", "postureShift"}
+    assert OURS.keys() == {"gaze", "gesture", "head", "pointing", "posture", "procanimation"} | shifts
+    assert sum(map(len, OURS.values())) == 96
+
+
 @pytest.mark.parametrize("element", OURS)
 async def test_every_word_of_the_package_plays(play, element):
     await play(OURS[element])

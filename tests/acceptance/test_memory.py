@@ -3,6 +3,7 @@
 import gc
 import weakref
 
+from reactive_realizer.engines.animation.arms.gesture_motion_unit import GestureMotionUnit
 from reactive_realizer.scheduler.bml_block import BMLBlock
 
 
@@ -54,3 +55,15 @@ async def test_only_the_last_ended_blocks_are_remembered(pilot) -> None:
         pilot.block(f"b{number}")
     await pilot.tick()
     assert [ended.key.block for ended in blocks.ended] == [f"b{n}" for n in range(5, 10)]
+
+
+async def test_a_gesture_that_was_asked_for_in_all_sizes_is_not_kept_in_all_of_them(pilot) -> None:
+    for number in range(200):
+        size = f'<bmlt:parameter name="amount" value="{number / 200}"/>'
+        pilot.block(
+            f"b{number}", f'<gesture id="g" lexeme="BEAT" mode="RIGHT_HAND">{size}</gesture>', composition="REPLACE"
+        )
+        await pilot.tick()
+        assert pilot.feedback.warnings == []
+    gc.collect()
+    assert sum(isinstance(thing, GestureMotionUnit) for thing in gc.get_objects()) < 140

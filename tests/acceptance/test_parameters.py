@@ -122,6 +122,13 @@ async def test_a_change_that_begins_where_another_one_ends_sets_out_from_the_tar
 # --- when it starts and ends
 
 
+async def test_in_the_older_form_the_end_may_be_tied_in_place_of_the_stroke(pilot) -> None:
+    pilot.block("b", SPEECH + change("p", 'start="s:m" end="s:m+1"', space="bmlt"))
+    await pilot.advance(4)
+    mark = pilot.feedback.time("b:s:m")
+    assert points(pilot, "b:p") == [("start", mark), ("stroke", mark + 1), ("end", mark + 1)]
+
+
 async def test_in_the_older_form_stroke_is_another_name_of_the_end(pilot) -> None:
     pilot.block("b", SPEECH + change("p", 'start="s:m" stroke="s:m+1"', space="bmlt"))
     await pilot.advance(4)
@@ -228,6 +235,20 @@ async def test_a_gesture_of_a_smaller_amount_stays_nearer_to_the_rest_pose_and_n
     assert part[:100] == pytest.approx(whole[:100])
     assert part[160:] == pytest.approx(0.5 * whole[160:], abs=0.02)
     assert np.abs(np.diff(part)).max() < 0.1
+
+
+async def test_a_gesture_may_be_of_a_smaller_amount_from_the_beginning() -> None:
+    seen = []
+    for amount in (1, 0.5):
+        async with open_pilot() as pilot:
+            pilot.watch()
+            await pilot.advance(0.1)
+            pilot.block("b", RAISED.replace("/>", f'><bmlt:parameter name="amount" value="{amount}"/></gesture>'))
+            await pilot.advance(2)
+            assert pilot.feedback.warnings == []
+            seen.append(_turns(pilot, "r_elbow"))
+    whole, half = seen
+    assert half[-1] == pytest.approx(0.5 * whole[-1], abs=0.02)
 
 
 # --- what cannot be

@@ -10,7 +10,6 @@ import pytest
 from reactive_realizer.assembly.assets import PACKAGE_ASSETS
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.embodiment.body import Body
-from reactive_realizer.embodiment.frame import Frame
 from reactive_realizer.embodiment.vector import dot, subtract, unit
 from reactive_realizer.testing.pilot import RealizerPilot, block, open_pilot
 
@@ -41,14 +40,6 @@ async def pair(tmp_path: Path):
         yield pilot
 
 
-def body_in(pilot: RealizerPilot, frame: Frame, character: str = "alice") -> Body:
-    """The figure in a frame, in the frame of the world."""
-    skeleton = pilot.realizer.characters[character].humanoid.avatar.skeleton
-    pose = dict(zip(skeleton.joints, map(tuple, frame.rotations), strict=True))
-    x, y, z = subtract(tuple(frame.root), skeleton.offset("HumanoidRoot"))
-    return Body(skeleton, pose, (x, y, z))
-
-
 def miss(body: Body, side: str, target) -> float:
     """The angle, degrees, between the line of the index finger and the way from its base to a target."""
     base, tip = (body.place(f"{side}_index{i}").position for i in (1, 3))
@@ -57,9 +48,10 @@ def miss(body: Body, side: str, target) -> float:
 
 
 def misses(pilot: RealizerPilot, character: str, side: str, target, since: float, until: float) -> list[float]:
-    frames = [frame for frame in pilot.frames[character] if since <= frame.time <= until]
-    assert len(frames) > 10
-    return [miss(body_in(pilot, frame, character), side, target) for frame in frames]
+    frames = zip(pilot.frames[character], pilot.bodies(character), strict=True)
+    shown = [body for frame, body in frames if since <= frame.time <= until]
+    assert len(shown) > 10
+    return [miss(body, side, target) for body in shown]
 
 
 @pytest.mark.parametrize("mode", MODES)
@@ -88,7 +80,7 @@ async def test_a_target_that_moves_during_the_hold_is_followed(pair) -> None:
         pair.move("thing", target)
         await pair.tick()
         if pair.frames["alice"][-1].time >= pair.now - 0.0101 and i > 2:
-            assert miss(body_in(pair, pair.frames["alice"][-1]), "r", target) < 2.0
+            assert miss(pair.bodies("alice")[-1], "r", target) < 2.0
     assert pair.feedback.warnings == []
 
 

@@ -8,8 +8,9 @@ import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.embodiment.body import Body
-from reactive_realizer.embodiment.quaternion import angle, conjugate, multiply, rotate
+from reactive_realizer.embodiment.quaternion import angle, difference, rotate
 from reactive_realizer.embodiment.vector import UP, distance, subtract
+from reactive_realizer.engine.lexicon import words_of
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.testing.pilot import open_pilot
 
@@ -26,28 +27,14 @@ async def pilot():
         yield pilot
 
 
-def bodies(pilot, character: str = "alice") -> list[Body]:
-    """What was shown, frame by frame."""
-    skeleton = pilot.realizer.characters[character].humanoid.avatar.skeleton
-    start = skeleton.offset("HumanoidRoot")
-    return [
-        Body(
-            skeleton,
-            {joint: tuple(map(float, turn)) for joint, turn in zip(skeleton.joints, frame.rotations, strict=True)},
-            subtract(tuple(map(float, frame.root)), start),
-        )
-        for frame in pilot.frames[character]
-    ]
-
-
 def body(pilot, time: float) -> Body:
     """What was shown at a time, s."""
-    return bodies(pilot)[round(time * 50)]
+    return pilot.bodies()[round(time * 50)]
 
 
 def apart(a: Body, b: Body, joint: str) -> float:
     """The angle between two bodies' rotations of a joint, degrees."""
-    return math.degrees(angle(multiply(conjugate(a.rotation(joint)), b.rotation(joint))))
+    return math.degrees(angle(difference(a.rotation(joint), b.rotation(joint))))
 
 
 def sits(shown: Body) -> bool:
@@ -89,6 +76,37 @@ async def test_a_shift_stays_and_a_posture_returns_to_it(pilot) -> None:
         assert sits(body(pilot, time)), time
     assert crossed(body(pilot, 5.0))
     assert not crossed(body(pilot, 8.0))
+
+
+GETTING_UP = 1.61
+"""s that standing up from a chair takes."""
+
+
+async def test_getting_up_takes_its_time_whatever_else_was_tried_out_before(pilot) -> None:
+    pilot.block("a", f'<postureShift id="s">{SIT}</postureShift>')
+    await pilot.advance(3)
+    assert words_of(pilot.realizer.characters["alice"].engines)
+    pilot.block("b", f'<postureShift id="s">{STAND}</postureShift>')
+    await pilot.advance(3)
+    assert pilot.feedback.time("b:s:end") - pilot.feedback.time("b:s:start") == pytest.approx(GETTING_UP, abs=0.02)
+
+
+async def test_getting_up_takes_its_time_also_if_it_is_planned_together_with_sitting_down(pilot) -> None:
+    pilot.block(
+        "b", f'<postureShift id="down">{SIT}</postureShift><postureShift id="up" start="3">{STAND}</postureShift>'
+    )
+    await pilot.advance(6)
+    assert pilot.feedback.time("b:up:end") - pilot.feedback.time("b:up:start") == pytest.approx(GETTING_UP, abs=0.02)
+
+
+async def test_a_shift_of_a_block_that_could_not_be_planned_is_not_expected(pilot) -> None:
+    nobody = '<required><gesture id="g" lexeme="NOBODY_KNOWS"/></required>'
+    pilot.block("a", f'<postureShift id="s">{SIT}</postureShift>{nobody}')
+    await pilot.advance(0.1)
+    assert not pilot.feedback.reached("a:start")
+    pilot.block("b", f'<postureShift id="s">{SIT}</postureShift>')
+    await pilot.advance(3)
+    assert pilot.feedback.time("b:s:end") - pilot.feedback.time("b:s:start") == pytest.approx(GETTING_UP, abs=0.02)
 
 
 async def test_a_later_shift_keeps_what_it_does_not_name(pilot) -> None:
@@ -135,7 +153,7 @@ async def test_one_stance_has_one_owner(pilot) -> None:
     await pilot.advance(6)
     ((about, _),) = pilot.feedback.warnings
     assert about == "b:p"
-    assert not any(map(sits, bodies(pilot)))
+    assert not any(map(sits, pilot.bodies()))
 
 
 async def test_a_posture_of_a_draft_without_an_end_goes_on_and_gives_way_to_the_next(pilot) -> None:
@@ -173,7 +191,7 @@ async def test_a_posture_of_a_draft_says_its_shape_and_part(pilot) -> None:
     pilot.perform(DRAFT)
     await pilot.advance(6)
     assert pilot.feedback.warnings == []
-    assert any(crossed(shown) and sits(shown) for shown in bodies(pilot))
+    assert any(crossed(shown) and sits(shown) for shown in pilot.bodies())
 
 
 SWITCH = """
@@ -209,20 +227,20 @@ async def test_the_peers_switch_of_postures_plays(pilot, shared_cases) -> None:
 
 def planted(pilot, start: float = 0.0) -> float:
     """The furthest that a foot was from where it stood at first, m."""
-    shown = bodies(pilot)[round(start * 50) :]
+    shown = pilot.bodies()[round(start * 50) :]
     return max(distance(each.place(foot).position, shown[0].place(foot).position) for each in shown for foot in FEET)
 
 
 def flat(pilot) -> float:
     """The steepest that a sole was, degrees."""
-    ups = (rotate(each.place(foot).rotation, UP)[1] for each in bodies(pilot) for foot in FEET)
+    ups = (rotate(each.place(foot).rotation, UP)[1] for each in pilot.bodies() for foot in FEET)
     return max(math.degrees(math.acos(min(1.0, up))) for up in ups)
 
 
 async def test_the_feet_stay_where_they_are_while_a_figure_sits_down_and_gets_up(pilot) -> None:
     pilot.block("b", f'<posture id="p" start="0.5">{SIT}</posture>')
     await pilot.advance(10)
-    assert any(map(sits, bodies(pilot)))
+    assert any(map(sits, pilot.bodies()))
     assert planted(pilot) < 0.003
     assert flat(pilot) < 0.5
 
@@ -237,7 +255,7 @@ async def test_the_feet_stay_where_they_are_when_sitting_down_is_cut_short(pilot
 
 async def test_the_feet_stay_where_they_are_while_the_weight_goes_from_one_to_the_other(pilot) -> None:
     await pilot.advance(60)
-    pelvis = [each.root[0] for each in bodies(pilot)]
+    pelvis = [each.root[0] for each in pilot.bodies()]
     assert max(pelvis) - min(pelvis) > 0.025
     assert planted(pilot) < 0.003
     assert flat(pilot) < 0.5
@@ -246,7 +264,7 @@ async def test_the_feet_stay_where_they_are_while_the_weight_goes_from_one_to_th
 async def test_a_figure_steps_with_one_foot_at_a_time_and_lifts_it(pilot) -> None:
     pilot.block("b", '<postureShift id="s" end="2"><pose part="LEGS" lexeme="LEGS_OPEN"/></postureShift>')
     await pilot.advance(3)
-    heights = np.array([[each.place(foot).position[1] for foot in FEET] for each in bodies(pilot)])
+    heights = np.array([[each.place(foot).position[1] for foot in FEET] for each in pilot.bodies()])
     lifted = heights - heights[0] > 0.003
     assert lifted.any(axis=0).all()
     assert not lifted.all(axis=1).any()
@@ -262,7 +280,7 @@ async def test_nothing_jumps_on_the_way_between_stances(pilot) -> None:
     await pilot.advance(15)
     assert pilot.feedback.warnings == []
     joints = ("HumanoidRoot", "skullbase", "l_knee", "r_knee", "l_wrist", "r_ankle")
-    ways = [distance(a.place(j).position, b.place(j).position) for a, b in pairwise(bodies(pilot)) for j in joints]
+    ways = [distance(a.place(j).position, b.place(j).position) for a, b in pairwise(pilot.bodies()) for j in joints]
     assert max(ways) < 0.06
 
 
@@ -342,5 +360,56 @@ async def test_the_same_seed_gives_the_same_life_and_another_one_another() -> No
 async def test_who_sits_does_not_shift_the_weight(pilot) -> None:
     pilot.block("a", f'<postureShift id="s">{SIT}</postureShift>')
     await pilot.advance(60)
-    roots = {tuple(np.round(each.root, 6)) for each in bodies(pilot)[150:]}
+    roots = {tuple(np.round(each.root, 6)) for each in pilot.bodies()[150:]}
     assert len(roots) == 1
+
+
+def sole(shown: Body) -> float:
+    """How much higher than in standing its lowest foot is, m."""
+    standing = Body(shown.skeleton)
+    joints = (f"{side}_{joint}" for side in "lr" for joint in ("ankle", "midtarsal"))
+    return min(shown.place(joint).position[1] - standing.place(joint).position[1] for joint in joints)
+
+
+@pytest.mark.parametrize("stance", ["SITTING", "CROUCHING", "LYING"])
+async def test_however_hurried_a_posture_is_no_foot_goes_into_the_ground(pilot, stance) -> None:
+    pilot.block("b", f'<posture id="p" start="0" end="0.5"><stance type="{stance}"/></posture>')
+    await pilot.advance(2)
+    assert min(map(sole, pilot.bodies())) > -0.01
+
+
+async def test_nor_does_one_when_postures_chase_each_other(pilot) -> None:
+    for number, stance in enumerate(("SITTING", "LYING", "STANDING", "CROUCHING", "LYING", "SITTING", "STANDING")):
+        shift = f'<postureShift id="s" start="0" end="0.3"><stance type="{stance}"/></postureShift>'
+        pilot.block(f"b{number}", shift)
+        await pilot.advance(0.4)
+    await pilot.advance(2)
+    assert min(map(sole, pilot.bodies())) > -0.01
+
+
+CROSSED_LEGS = '<pose part="LEGS" lexeme="LEGS_CROSSED"/>'
+CROUCH = '<stance type="CROUCHING"/>'
+
+
+async def test_what_cannot_be_kept_in_another_stance_is_left_out_and_is_there_again_after_it(pilot) -> None:
+    pilot.block("a", f'<postureShift id="s" end="2">{SIT}{CROSSED_LEGS}{CROSSED}</postureShift>')
+    await pilot.advance(3)
+    pilot.block("b", f'<posture id="p" start="0" ready="2" relax="4" end="6">{CROUCH}</posture>')
+    await pilot.advance(8)
+    assert pilot.feedback.warnings == []
+    assert "b:p:end" in pilot.feedback.progress
+    assert body(pilot, 6.0).root[1] < -0.45, "lower than a seat"
+    assert crossed(body(pilot, 6.0)), "arms can"
+    assert apart(body(pilot, 10.5), body(pilot, 2.9), "r_hip") < 2.0
+
+
+async def test_a_pose_whose_stance_never_comes_is_left_out(pilot) -> None:
+    pilot.block("a", f'<postureShift id="s" end="2">{CROUCH}</postureShift>')
+    await pilot.advance(3)
+    pilot.block("b", f'<postureShift id="s" start="0" end="3">{SIT}</postureShift>')
+    pilot.block("c", f'<posture id="p">{CROSSED_LEGS}</posture>', composition="APPEND")
+    await pilot.advance(1)
+    pilot.block("d", '<bmla:interrupt id="i" target="b"/>')
+    await pilot.advance(8)
+    assert pilot.feedback.warnings == []
+    assert "c:p:end" in pilot.feedback.progress

@@ -11,7 +11,7 @@ import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.embodiment.body import Body
-from reactive_realizer.embodiment.quaternion import angle, conjugate, from_euler, multiply
+from reactive_realizer.embodiment.quaternion import angle, difference, from_euler
 from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 PACKAGE = Path(__file__).parents[2] / "reactive_realizer" / "assets" / "procanimation"
@@ -63,17 +63,16 @@ def opened(tmp_path: Path) -> Open:
 
 
 def shown(pilot: RealizerPilot, time: float) -> Body:
-    """The figure as it was shown at a time, in its own frame."""
-    skeleton = pilot.realizer.characters["alice"].humanoid.avatar.skeleton
-    frame = next(frame for frame in pilot.frames["alice"] if frame.time >= time - 1e-9)
+    """The figure as it was shown at a time."""
+    shown = zip(pilot.frames["alice"], pilot.bodies("alice"), strict=True)
+    frame, body = next((frame, body) for frame, body in shown if frame.time >= time - 1e-9)
     assert frame.time == pytest.approx(time)
-    root = tuple(np.array(frame.root) - skeleton.offset("HumanoidRoot"))
-    return Body(skeleton, dict(zip(skeleton.joints, map(tuple, frame.rotations), strict=True)), root)
+    return body
 
 
 def gap(a, b) -> float:
     """The angle between two rotations, rad."""
-    return angle(multiply(conjugate(a), b))
+    return angle(difference(a, b))
 
 
 async def test_joints_turn_as_the_formulas_say(opened) -> None:
@@ -302,9 +301,13 @@ async def all_play(opened: Open, names: dict[str, str], avatar: str) -> None:
 async def test_all_of_the_peers_animations_play(opened, avatar) -> None:
     if not PEER.is_dir():
         pytest.skip("no ../shared/cases here")
-    await all_play(opened, texts(PEER), avatar)
+    peers = texts(PEER)
+    assert len(peers) == 11
+    await all_play(opened, peers, avatar)
 
 
 @pytest.mark.parametrize("avatar", ["female", "male"])
 async def test_all_of_our_animations_play(opened, avatar) -> None:
-    await all_play(opened, texts(PACKAGE), avatar)
+    ours = texts(PACKAGE)
+    assert len(ours) == 54
+    await all_play(opened, ours, avatar)

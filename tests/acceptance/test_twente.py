@@ -1,11 +1,15 @@
 """The elements of BMLT that play motion as it was made: animations, keyframes, noise, transitions (thesis app. C)."""
 
 from pathlib import Path
+from threading import current_thread
 
 import numpy as np
 import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.engines.animation.keyframe import clip_cache
+from reactive_realizer.engines.animation.keyframe.capture import Capture
+from reactive_realizer.engines.animation.keyframe.capture_reader import read_capture
 from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 SWING = """
@@ -38,6 +42,7 @@ Frame Time: 0.5
 0 98 0  0 0 0  0 0 0   0 0 0  0 0 0  0 0 0  0 0 0  0 0 0
 """
 FILES = {"moves/swing.xml": SWING, "moves/wave.xml": WAVE, "captures/bow.bvh": BOW}
+PERLIN = '<bmlt:noise id="x" type="perlin" joint="vl5"><bmlt:parameter name="{}" value="{}"/></bmlt:noise>'
 ARM = '<bmlt:parameter name="joints" value="r_shoulder,r_elbow r_wrist"/>'
 
 
@@ -65,6 +70,11 @@ def angles(pilot: RealizerPilot, joint: str, axis: int = 1) -> dict[float, float
 def told(pilot: RealizerPilot) -> str:
     """The text of the first warning."""
     return str(pilot.feedback.of("warningFeedback")[0].element.text)
+
+
+def after_start(pilot: RealizerPilot, *points: str) -> list[float]:
+    """How long after the start of its block points of block b came, s: it starts when its files have been read."""
+    return [round(pilot.feedback.time(f"b:{point}") - pilot.feedback.time("b:start"), 6) for point in points]
 
 
 async def test_a_procedural_animation_is_found_by_its_name_and_takes_parameters(pilot) -> None:
@@ -131,7 +141,7 @@ async def test_keys_of_a_file_or_of_bml_itself_are_played(pilot, inside) -> None
     pilot.block("b", f'<bmlt:keyframe id="k" {name} start="0">{inside}</bmlt:keyframe>')
     await pilot.advance(3)
     assert not pilot.feedback.warnings
-    assert (pilot.feedback.time("b:k:up"), pilot.feedback.time("b:k:end")) == (1.0, 2.0)
+    assert after_start(pilot, "k:up", "k:end") == [1.0, 2.0]
     shown = angles(pilot, "r_shoulder")
     assert [shown[time] for time in (0.5, 1.0, 1.5)] == pytest.approx([-0.4, -0.8, -0.5], abs=0.01)
 
@@ -146,12 +156,32 @@ async def test_a_capture_is_played_by_its_name(pilot) -> None:
     pilot.block("b", '<bmlt:keyframe id="k" name="bow" start="1"/>')
     await pilot.advance(3)
     assert not pilot.feedback.warnings
-    assert pilot.feedback.time("b:k:end") == 2.0
+    assert after_start(pilot, "k:end") == [2.0]
     assert angles(pilot, "vl5")[1.5] == pytest.approx(np.radians(30.0), abs=0.05)
     (frames,) = pilot.frames.values()
     feet = pilot.path("l_ankle") + [frame.root for frame in frames]
     assert np.ptp(feet[70:100], axis=0).max() < 0.001
     assert feet[:, 1].min() > feet[0, 1] - 0.005
+
+
+@pytest.mark.parametrize(("frames", "warnings"), [("3", []), ("9", [("b:k", "CANNOT_CREATE_BEHAVIOR")])])
+async def test_a_capture_is_read_once_and_aside_of_the_ticks_also_if_it_is_wrong(
+    pilot, tmp_path, monkeypatch, frames, warnings
+) -> None:
+    threads = []
+
+    def read(path: Path) -> Capture:
+        threads.append(current_thread())
+        return read_capture(path)
+
+    monkeypatch.setattr(clip_cache, "read_capture", read)
+    (tmp_path / "captures" / "bow.bvh").write_text(BOW.replace("Frames: 3", f"Frames: {frames}"))
+    pilot.block("b", '<bmlt:keyframe id="k" name="bow" start="0"/><wait id="w" start="0" end="1"/>')
+    await pilot.advance(2)
+    assert pilot.feedback.warnings == warnings
+    assert "b:w:end" in pilot.feedback.progress
+    assert len(threads) == 1
+    assert current_thread() not in threads
 
 
 async def test_a_keyframe_animation_is_mirrored_first_and_then_confined_to_joints(pilot) -> None:
@@ -168,7 +198,7 @@ async def test_a_gentle_interrupt_lets_it_go_on_to_the_next_point_where_it_may_b
     pilot.block("b", '<bmlt:keyframe id="k" name="wave" start="0"/>')
     pilot.block("c", '<bmla:interrupt id="i" target="b" start="0.5" speech="WORD"/>')
     await pilot.advance(3)
-    assert (pilot.feedback.time("b:k:up"), pilot.feedback.time("b:k:end")) == (1.0, 1.0)
+    assert after_start(pilot, "k:up", "k:end") == [1.0, 1.0]
 
 
 async def test_another_interrupt_breaks_it_off(pilot) -> None:
@@ -185,7 +215,7 @@ async def test_a_successor_may_take_over_at_such_a_point(pilot) -> None:
     )
     await pilot.advance(4)
     assert not pilot.feedback.warnings
-    assert (pilot.feedback.time("b:k:end"), pilot.feedback.time("b:p:end")) == (1.0, 3.0)
+    assert after_start(pilot, "k:end", "p:end") == [1.0, 3.0]
     turns = np.array(list(angles(pilot, "r_shoulder").values()))
     assert np.abs(np.diff(turns)).max() < 0.12
 
@@ -289,7 +319,7 @@ async def test_what_follows_a_transition_is_not_held_back_by_it(pilot) -> None:
     await pilot.advance(4)
     assert not pilot.feedback.warnings
     turns = angles(pilot, "r_shoulder")
-    assert [turns[3.0 + time] for time in (0.0, 0.1, 0.2, 0.5)] == pytest.approx([0.0, -0.08, -0.16, -0.4], abs=0.01)
+    assert [turns[3.0 + time] for time in (0.0, 0.1, 0.2, 0.5)] == pytest.approx([0.0, -0.08, -0.16, -0.4], abs=0.02)
 
 
 async def test_a_slerp_transition_leaves_and_arrives_at_rest(pilot) -> None:
@@ -311,6 +341,21 @@ async def test_a_transition_to_nothing_leads_to_rest(pilot) -> None:
     turns = angles(pilot, "r_shoulder")
     end = round(pilot.feedback.time("b:t:end"), 2)
     assert turns[end] == pytest.approx(turns[3.9], abs=0.03)
+
+
+async def test_a_transition_leads_to_the_posture_that_the_figure_is_in_by_then(pilot) -> None:
+    pilot.block(
+        "b",
+        f"""
+        <posture id="p" start="0" ready="2" relax="5"><pose part="ARMS" lexeme="ARMS_CROSSED"/></posture>
+        <bmlt:transition id="t" class="SlerpTransition" start="3" end="4">{ARM}</bmlt:transition>
+        """,
+    )
+    await pilot.advance(4.5)
+    assert not pilot.feedback.warnings
+    turns = angles(pilot, "r_elbow")
+    assert abs(turns[2.9] - turns[0.0]) > 0.5
+    assert turns[3.98] == pytest.approx(turns[2.9], abs=0.02)
 
 
 async def test_a_transition_whose_end_moves_away_goes_there_more_slowly(pilot) -> None:
@@ -357,13 +402,37 @@ async def test_a_transition_of_which_nobody_knows_the_end_waits_where_it_is(pilo
     ("xml", "said"),
     [
         ('<bmlt:procanimation id="x" name="nowhere"/>', "no file 'nowhere.xml' among the assets"),
-        ('<bmlt:procanimation id="x"/>', "an animation without a name and without a file"),
+        ('<bmlt:procanimation id="x"/>', "<procanimation> needs a file, or the name of one"),
         ('<bmlt:keyframe id="x" name="nowhere"/>', "no file 'nowhere.bvh' among the assets"),
         ('<bmlt:keyframe id="x" name="../secret"/>', "it may not leave the folders"),
+        (f'<bmlt:keyframe id="x" name="wave">{ARM.replace("joints", "mirror")}</bmlt:keyframe>',
+         "mirror='r_shoulder,r_elbow r_wrist' is neither true nor false"),
+        (f'<bmlt:keyframe id="x">{WAVE.strip().replace("true", "maybe")}</bmlt:keyframe>',
+         "x, line 2, <KeyPosition>: leave='maybe' is neither true nor false"),
         (f'<bmlt:keyframe id="x">{WAVE.strip().replace(KEYS, "0 1 0")}</bmlt:keyframe>',
          "x, line 1, <SkeletonInterpolator>: 3 numbers are no rows of 5"),
+        (f'<bmlt:keyframe id="x">{WAVE.strip().replace("up", "a b")}</bmlt:keyframe>',
+         "x, line 2, <KeyPosition>: id='a b' cannot name a sync point"),
         (f'<bmlt:keyframe id="x" name="wave">{ARM.replace("r_shoulder,r_elbow r_wrist", "l_knee")}</bmlt:keyframe>',
          "this figure has no l_knee, which <keyframe> needs"),
+        ('<bmlt:keyframe id="x" name="wave"><bmlt:parameter name="filter" value="-3"/></bmlt:keyframe>',
+         "the parameter filter is a number from 0 to 1e+06, which '-3' is not"),
+        (PERLIN.format("persistencex", "1e300"),
+         "the parameter persistencex is a number from 0 to 1, which '1e+300' is not"),
+        (PERLIN.format("basefreqx", "fast"),
+         "the parameter basefreqx is a number from 0 to 1000, which 'fast' is not"),
+        ('<bmlt:procanimation id="x" name="swing"><bmlt:parameter name="a" value="much"/></bmlt:procanimation>',
+         "the parameter a is a number from -inf to inf, which 'much' is not"),
+        ('<head id="x" lexeme="NOD"><bmlt:parameter name="amount" value="7"/></head>',
+         "the parameter amount is a number from 0 to 1, which '7' is not"),
+        ('<head id="x" lexeme="NOD"><bmlt:parameter name="repetition" value="1e9"/></head>',
+         "the parameter r is a number from 0 to 100, which '1e+09' is not"),
+        ('<gesture id="x" lexeme="BEAT"><bmlt:parameter name="amount" value="1.5"/></gesture>',
+         "the parameter amount is a number from 0 to 1, which '1.5' is not"),
+        ('<gesture id="x" lexeme="BEAT"><bmlt:parameter name="postStrokeHoldDuration" value="-3"/></gesture>',
+         "the parameter postStrokeHoldDuration is a number from 0 to 600, which '-3' is not"),
+        ('<gaze id="x" target="bluebox"><bmlt:parameter name="back" value="-1"/></gaze>',
+         "the parameter back is a number from 0 to 1, which '-1' is not"),
         ('<bmlt:noise id="x" type="perlin" joint="tail"/>', "this figure has no tail, which <noise> needs"),
         ('<bmlt:noise id="x" type="white" joint="vl5"/>', "nothing in the binding plays <noise>"),
         ('<bmlt:transition id="x" class="Teleport"/>', "no transition is called 'Teleport'; known are SlerpTransition"),
@@ -398,3 +467,43 @@ async def test_the_peers_own_examples_play(shared_cases) -> None:
             await pilot.advance(4)
             assert not pilot.feedback.warnings
             assert max(np.ptp(list(angles(pilot, joint, axis).values())) for axis in (1, 2, 3)) > 0.015
+
+
+async def test_a_point_of_its_own_may_be_tied_by_an_attribute_of_its_name(pilot) -> None:
+    pilot.block("b", '<bmlt:procanimation id="a" name="conduct-3-beat" start="0.3" beat2="2.5"/>')
+    await pilot.advance(6)
+    assert pilot.feedback.time("b:a:start") == 0.3
+    assert pilot.feedback.time("b:a:beat2") == 2.5
+    assert pilot.feedback.warnings == []
+
+
+async def test_an_attribute_that_names_no_point_of_it_drops_it_and_says_which_there_are(pilot) -> None:
+    pilot.block("b", '<bmlt:procanimation id="a" name="conduct-3-beat" beat9="2.5"/>')
+    await pilot.advance(1)
+    (warning,) = pilot.feedback.of("warningFeedback")
+    assert "beat9" in str(warning.element.text)
+    assert "beat1, beat2, beat3" in str(warning.element.text)
+
+
+async def test_a_transition_may_describe_a_gesture_whose_points_it_has_then(pilot) -> None:
+    described = (
+        '<gesture id="g" lexeme="BEAT" start="0.2" end="1.5"><description priority="1" type="transition">'
+        '<bmlt:transition class="SlerpTransition"/></description></gesture>'
+    )
+    pilot.block("b", described)
+    await pilot.advance(3)
+    assert pilot.feedback.time("b:g:start") == 0.2
+    assert pilot.feedback.time("b:g:end") == 1.5
+    assert pilot.feedback.warnings == []
+
+
+async def test_what_a_clip_turns_and_the_figure_has_not_is_logged_once(tmp_path, caplog) -> None:
+    rows = "0 1 0 0 0 1 0 0 0 1 1 0 0 0 1 0 0 0"
+    wagging = f'<SkeletonInterpolator parts="skullbase tail" encoding="R">{rows}</SkeletonInterpolator>'
+    (tmp_path / "wagging.xml").write_text(wagging)
+    async with open_pilot(SceneOptions(voice="text", assets=(tmp_path,))) as pilot:
+        for number in range(3):
+            pilot.block(f"b{number}", '<bmlt:keyframe id="k" name="wagging"/>')
+            await pilot.advance(1.5)
+        assert pilot.feedback.warnings == []
+    assert caplog.text.count("wagging.xml leaves out what it has not, or the figure has not: tail") == 1

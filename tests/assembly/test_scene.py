@@ -1,5 +1,6 @@
 """A scene is what its files say, or says which line of them cannot be."""
 
+import os
 from pathlib import Path
 
 import pytest
@@ -156,9 +157,41 @@ def test_a_name_may_be_looked_for_in_all_folders_of_one_root_after_the_other(fol
     assert assets("**/only-two.xml") == two / "only-two.xml"
     (two / "deep" / "er").mkdir(parents=True)
     (two / "deep" / "er" / "lone*.xml").write_text("")
-    assert assets("**/er/lone*.xml") == two / "deep" / "er" / "lone*.xml"
+    assert Assets(folders)("**/er/lone*.xml") == two / "deep" / "er" / "lone*.xml"
     with pytest.raises(RealizerError, match=r"no file 'l\*\.xml' among the assets"):
-        assets("**/l*.xml")
+        Assets(folders)("**/l*.xml")
+
+
+def test_what_comes_and_goes_in_a_folder_is_noticed(folders) -> None:
+    assets = Assets(folders)
+    added = folders[1] / "sub" / "added.xml"
+    with pytest.raises(RealizerError, match=r"no file 'added\.xml'"):
+        assets("**/added.xml")
+    added.write_text("")
+    later(added.parent)
+    assert assets("**/added.xml") == added
+    added.unlink()
+    later(added.parent)
+    with pytest.raises(RealizerError, match=r"no file 'added\.xml'"):
+        assets("**/added.xml")
+
+
+def later(folder: Path) -> None:
+    """As if it had not been changed within the few ms that a file system tells apart."""
+    at = folder.stat().st_mtime_ns + 10**9
+    os.utime(folder, ns=(at, at))
+
+
+def test_folders_are_walked_once_for_many_names(folders, monkeypatch) -> None:
+    walks = []
+    walk = os.walk
+    monkeypatch.setattr(os, "walk", lambda folder: walks.append(folder) or walk(folder))
+    assets = Assets(folders)
+    for _ in range(10):
+        assets("**/only-two.xml")
+        with pytest.raises(RealizerError):
+            assets("**/none.xml")
+    assert walks == [*folders, PACKAGE_ASSETS]
 
 
 def test_a_name_that_several_files_of_one_root_bear_is_refused_with_all_of_them(folders) -> None:

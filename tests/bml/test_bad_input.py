@@ -29,10 +29,10 @@ DROPPED = {
     '<head id="x" lexeme="NOD" amount="1.01"/>': ("b:x", "amount='1.01' of <head>: not within 0 and 1"),
     '<head id="x" lexeme="NOD" amount="-0.1"/>': ("b:x", "amount='-0.1' of <head>: not within 0 and 1"),
     '<head id="x" lexeme="NOD" repetition="1.5"/>': ("b:x", "repetition='1.5' of <head>: not a whole number"),
-    '<head id="x" lexeme="NOD" repetition="0"/>': ("b:x", "repetition='0' of <head>: not within 1 and 1000"),
+    '<head id="x" lexeme="NOD" repetition="0"/>': ("b:x", "repetition='0' of <head>: not within 1 and 100"),
     '<head id="x" lexeme="NOD" repetition="1000000000"/>': (
         "b:x",
-        "repetition='1000000000' of <head>: not within 1 and 1000",
+        "repetition='1000000000' of <head>: not within 1 and 100",
     ),
     '<head id="x" lexeme="NOD" start="now"/>': (
         "b:x",

@@ -23,14 +23,14 @@ def about_y(degrees: float) -> Quat:
 
 
 def test_without_layers_the_figure_is_in_the_default_pose():
-    assert compose(SKELETON, []).pose == dict.fromkeys(SKELETON.joints, IDENTITY)
+    assert compose(SKELETON, []).shown.pose == dict.fromkeys(SKELETON.joints, IDENTITY)
 
 
 def test_a_gesture_replaces_what_gaze_does_to_a_joint_whatever_the_order_they_come_in():
     gaze = Layer(LayerKind.GAZE, {"skullbase": about_y(40), "vl5": about_y(10)})
     gesture = Layer(LayerKind.GESTURE, {"skullbase": about_x(5)})
     for layers in ([gaze, gesture], [gesture, gaze]):
-        assert compose(SKELETON, layers).pose == {
+        assert compose(SKELETON, layers).shown.pose == {
             "HumanoidRoot": IDENTITY,
             "vl5": about_y(10),
             "skullbase": about_x(5),
@@ -40,17 +40,17 @@ def test_a_gesture_replaces_what_gaze_does_to_a_joint_whatever_the_order_they_co
 def test_of_two_gestures_the_one_of_higher_priority_lies_above():
     low = Layer(LayerKind.GESTURE, {"vl5": about_x(10)}, priority=1)
     high = Layer(LayerKind.GESTURE, {"vl5": about_x(20)}, priority=2)
-    assert compose(SKELETON, [high, low]).pose["vl5"] == about_x(20)
+    assert compose(SKELETON, [high, low]).shown.pose["vl5"] == about_x(20)
 
 
 def test_a_layer_of_half_weight_goes_half_the_way():
     layers = [Layer(LayerKind.BASE, {"vl5": about_x(10)}), Layer(LayerKind.GESTURE, {"vl5": about_x(50)}, weight=0.5)]
-    assert compose(SKELETON, layers).pose["vl5"] == pytest.approx(about_x(30))
+    assert compose(SKELETON, layers).shown.pose["vl5"] == pytest.approx(about_x(30))
 
 
 def test_a_nod_turns_a_head_that_looks_aside_about_its_own_ears():
     layers = [Layer(LayerKind.ADDITIVE, {"skullbase": about_x(10)}), Layer(LayerKind.GAZE, {"skullbase": about_y(60)})]
-    assert compose(SKELETON, layers).pose["skullbase"] == pytest.approx(multiply(about_y(60), about_x(10)))
+    assert compose(SKELETON, layers).shown.pose["skullbase"] == pytest.approx(multiply(about_y(60), about_x(10)))
 
 
 def test_two_additive_layers_add_up_and_weigh_in():
@@ -58,22 +58,22 @@ def test_two_additive_layers_add_up_and_weigh_in():
         Layer(LayerKind.ADDITIVE, {"vl5": about_x(10)}),
         Layer(LayerKind.ADDITIVE, {"vl5": about_x(8)}, weight=0.5),
     ]
-    assert compose(SKELETON, layers).pose["vl5"] == pytest.approx(about_x(14))
+    assert compose(SKELETON, layers).shown.pose["vl5"] == pytest.approx(about_x(14))
 
 
 def test_the_steady_pose_leaves_the_additive_layers_out():
     layers = [Layer(LayerKind.GAZE, {"vl5": about_y(30)}), Layer(LayerKind.ADDITIVE, {"vl5": about_x(10)})]
-    assert compose(SKELETON, layers).steady["vl5"] == about_y(30)
+    assert compose(SKELETON, layers).steady.pose["vl5"] == about_y(30)
 
 
 def test_joints_that_the_skeleton_lacks_are_left_out():
-    assert "l_pinky1" not in compose(SKELETON, [Layer(LayerKind.GESTURE, {"l_pinky1": about_x(10)})]).pose
+    assert "l_pinky1" not in compose(SKELETON, [Layer(LayerKind.GESTURE, {"l_pinky1": about_x(10)})]).shown.pose
 
 
 def test_what_lies_above_the_additive_layers_is_neither_added_to_nor_left_out_of_the_steady_pose():
     layers = [Layer(LayerKind.END_EFFECTOR, {"vl5": about_y(30)}), Layer(LayerKind.ADDITIVE, {"vl5": about_x(10)})]
     composed = compose(SKELETON, layers)
-    assert composed.pose["vl5"] == composed.steady["vl5"] == about_y(30)
+    assert composed.shown.pose["vl5"] == composed.steady.pose["vl5"] == about_y(30)
 
 
 def test_the_root_is_moved_by_weight_and_further_by_additive_layers():
@@ -83,8 +83,8 @@ def test_the_root_is_moved_by_weight_and_further_by_additive_layers():
         Layer(LayerKind.GESTURE, {"vl5": about_x(10)}),
     ]
     composed = compose(SKELETON, layers)
-    assert composed.root == pytest.approx((0.02, -0.2, 0.0))
-    assert composed.steady_root == pytest.approx((0.0, -0.2, 0.0))
+    assert composed.shown.root == pytest.approx((0.02, -0.2, 0.0))
+    assert composed.steady.root == pytest.approx((0.0, -0.2, 0.0))
 
 
 @pytest.mark.parametrize(
@@ -104,11 +104,11 @@ def test_what_is_no_rotation_is_refused_with_the_name_of_the_joint(layer, said):
 
 def test_joints_may_weigh_less_than_their_layer():
     half = Layer(LayerKind.GESTURE, {"vl5": about_x(40), "skullbase": about_x(40)}, 0.5, weights={"vl5": 0.5})
-    composed = compose(SKELETON, [half]).pose
+    composed = compose(SKELETON, [half]).shown.pose
     assert composed["vl5"] == pytest.approx(about_x(10))
     assert composed["skullbase"] == pytest.approx(about_x(20))
 
 
 def test_a_root_that_comes_goes_with_the_joint_of_its_name():
     layer = Layer(LayerKind.GESTURE, {}, root=(0.0, 0.0, 1.0), weights={"HumanoidRoot": 0.25})
-    assert compose(SKELETON, [layer]).root == pytest.approx((0.0, 0.0, 0.25))
+    assert compose(SKELETON, [layer]).shown.root == pytest.approx((0.0, 0.0, 0.25))

@@ -10,7 +10,14 @@ from hypothesis import strategies as st
 
 from reactive_realizer.embodiment.avatar import Avatar
 from reactive_realizer.embodiment.body import Body
-from reactive_realizer.embodiment.quaternion import IDENTITY, angle, conjugate, from_axis_angle, from_euler, multiply
+from reactive_realizer.embodiment.ground import depth, grounded, soles
+from reactive_realizer.embodiment.quaternion import (
+    IDENTITY,
+    angle,
+    difference,
+    from_axis_angle,
+    from_euler,
+)
 from reactive_realizer.embodiment.speed_limit import SpeedLimit, slowed
 from reactive_realizer.embodiment.vector import distance, length
 
@@ -86,7 +93,7 @@ def test_a_wrist_never_goes_much_faster_than_before_however_often_it_is_called_e
 @given(pose)
 def test_a_wrist_comes_to_where_it_is_wanted_and_never_goes_past(wanted):
     shown = followed(body(), (body(wanted), 60))
-    shares = [angle(multiply(conjugate(each.rotation("r_elbow")), wanted["r_elbow"])) for each in shown]
+    shares = [angle(difference(each.rotation("r_elbow"), wanted["r_elbow"])) for each in shown]
     assert all(after < before + 1e-9 for before, after in pairwise(shares))
     assert shares[-1] < 1e-6
 
@@ -111,3 +118,27 @@ def test_the_root_goes_no_faster_than_2_m_a_second_and_takes_the_arms_along():
     assert length(places[5]) == pytest.approx(0.2)
     assert places[-1] == (0.3, -0.4, 0.0)
     assert steps(shown, "r_wrist")[0] == pytest.approx(0.04)
+
+
+def sunk(shown):
+    """How far its lowest foot is under the ground, m."""
+    return depth(shown, soles(SKELETON))
+
+
+def bent(knees, root):
+    turns = {"hip": -0.5 * knees, "knee": knees, "ankle": -0.5 * knees}
+    pose = {f"{side}_{joint}": from_euler(turn, 0.0, 0.0) for side in "lr" for joint, turn in turns.items()}
+    return body(pose, (0.0, root, 0.0))
+
+
+def test_who_is_asked_to_get_up_too_fast_does_not_push_his_feet_into_the_ground():
+    low = grounded(bent(2.0, 0.0))
+    shown = followed(low, (body(), 40))
+    assert max(map(sunk, shown)) < 0.001
+    assert shown[-1].root == (0.0, 0.0, 0.0)
+
+
+def test_feet_that_are_wanted_under_the_ground_come_there():
+    shown = followed(body(), (bent(0.0, -0.3), 40))
+    assert sunk(shown[-1]) == pytest.approx(0.3)
+    assert steps(shown, "HumanoidRoot")[0] == pytest.approx(0.04)

@@ -136,3 +136,9 @@ def test_positive_swivel_turns_the_knee_to_the_figures_left():
 def test_a_leg_that_stands_is_as_good_as_straight():
     leg = Leg((0.0, -0.43, 0.0), (0.0, -0.42, 0.0))
     assert distance(reached(leg, (0.0, -0.85, 0.0))[1], (0.0, -0.85, 0.0)) < 0.001
+
+
+def test_a_limb_whose_lower_half_lies_along_its_hinge_is_as_it_is():
+    turn, end = Leg((0.0, -0.4, 0.0), (0.4, 0.0, 0.0)).bent(Leg.HINGE, 0.3)
+    assert sum(part * part for part in turn) == pytest.approx(1.0)
+    assert end == pytest.approx((0.4, -0.4, 0.0))

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from lxml import etree
 
 from reactive_realizer.bml.document import parse
-from reactive_realizer.bml.names import BML, BMLA, OWN
+from reactive_realizer.bml.names import BML, BMLA, BMLT, OWN, is_sync_id
 from reactive_realizer.errors import WarningType
 from reactive_realizer.feedback.feedback_manager import FeedbackManager, Place
 from reactive_realizer.feedback.messages import (
@@ -61,9 +61,12 @@ def test_a_warning_of_a_document_names_no_character() -> None:
     assert "characterId" not in read(WarningFeedback(None, "bml", WarningType.PARSING_FAILURE, "no block")).attrib
 
 
-@given(st.text())
-def test_whatever_the_reason_it_can_be_told(text) -> None:
-    read(WarningFeedback("alice", "b", WarningType.EXECUTION_FAILURE, text))
+@given(st.text(), st.text(), st.text(), st.text())
+def test_whatever_things_are_called_and_whatever_the_reason_it_can_be_told(character, block, name, text) -> None:
+    read(BlockProgress(character, block, name, 1.0, "IN_EXEC"))
+    read(SyncPointProgress(character, block, name, text, 0.0, 1.0, {"word": text}))
+    read(WarningFeedback(character, block, WarningType.EXECUTION_FAILURE, text))
+    read(PredictionFeedback(character, block, 0.0, 1.0, "LURKING"))
 
 
 @pytest.mark.parametrize(
@@ -101,6 +104,41 @@ def test_a_prediction_gives_every_behavior_with_all_it_was_written_with_and_its_
     assert "".join(speech.itertext()).strip() == "Well then."
     assert next(e for e in speech.iter() if etree.QName(e).localname == "sync").get(f"{{{OWN}}}time") == "1.4"
     assert dict(nod.attrib) == {"id": "b:h", "lexeme": "NOD", "amount": "0.3", "start": "1", "end": "3.25"}
+
+
+KEYFRAME = f'<bmlt:keyframe xmlns:bmlt="{BMLT}" id="k" name="wave"/>'
+
+
+def predicted(times):
+    """The attributes of a keyframe animation with these points in a prediction."""
+    (parsed,) = parse(f'<bml xmlns="{BML}" id="b">{KEYFRAME}</bml>', Limits())
+    (keyframe,) = parsed.block.behaviors
+    behaviors = (BehaviorPrediction(keyframe, times),)
+    return dict(read(PredictionFeedback("alice", "b", 0.0, 1.0, "LURKING", behaviors))[1].attrib)
+
+
+@given(
+    st.text() | st.sampled_from(["id", "name", "xmlns", "xmlns:a", "a b", "1x", "{x}", "{urn:x}y", "a+b", "", "é-1.a"])
+)
+def test_a_point_is_predicted_by_an_attribute_of_its_name_or_where_that_cannot_be_not_at_all(sync) -> None:
+    attributes = predicted({sync: 0.5})
+    assert attributes.pop("id") == "b:k"
+    assert attributes.pop("name") == "wave"
+    assert attributes == ({sync: "0.5"} if is_sync_id(sync) and sync != "name" else {})
+
+
+@pytest.mark.parametrize(
+    ("name", "may"),
+    [
+        *((name, True) for name in ("stroke", "beat1a", "é-1.a", "_", "xml")),
+        *(
+            (name, False)
+            for name in ("", "a b", " a", "1x", "-1", "a+b", "a:b", "{x}", "{urn:x}y", "id", "xmlns", "\0")
+        ),
+    ],
+)
+def test_a_sync_id_is_what_the_name_of_an_attribute_can_be(name, may) -> None:
+    assert is_sync_id(name) is may
 
 
 @pytest.fixture

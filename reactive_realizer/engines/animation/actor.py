@@ -4,14 +4,17 @@ import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Protocol, runtime_checkable
 
+from reactive_realizer.binding.asset_file import first_asset
+from reactive_realizer.binding.flag import flag
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.embodiment.humanoid import Humanoid
 from reactive_realizer.embodiment.world import World
 from reactive_realizer.engines.animation.expression.functions import Function
 from reactive_realizer.engines.animation.motion_unit import MotionUnit
 from reactive_realizer.engines.animation.posture.rest import Rest
-from reactive_realizer.errors import RealizerError, error
+from reactive_realizer.errors import error
 
 _NAME, _MIRROR, _JOINTS = "name", "mirror", "joints"
 """Parameters that belong to every animation."""
@@ -47,15 +50,8 @@ class Actor:
             return self.asset(wanted.file)
         name = wanted.parameters.get(_NAME)
         if name is None:
-            raise error("no-unit", unit="an animation without a name and without a file")
-        *first, last = suffixes
-        for suffix in first:
-            try:
-                return self.asset(f"**/{name}.{suffix}")
-            except RealizerError as problem:
-                if problem.fault.code != "no-asset":
-                    raise
-        return self.asset(f"**/{name}.{last}")
+            raise error("no-file", element=wanted.behavior.name)
+        return first_asset(self.asset, *(f"**/{name}.{suffix}" for suffix in suffixes))
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,13 +72,33 @@ class Wanted:
 
     @property
     def mirror(self) -> bool:
-        """Whether left is to be right (thesis C.1.2)."""
-        return self.parameters.get(_MIRROR, "").strip().lower() == "true"
+        """Whether left is to be right (thesis C.1.2).
+
+        Raises:
+            RealizerError: "not-a-flag": it says neither yes nor no.
+        """
+        return flag(_MIRROR, self.parameters.get(_MIRROR, "false"))
 
     @property
     def joints(self) -> frozenset[str]:
         """The joints to which it is confined, as they are called in the mirror (C.1.2); none: all that it turns."""
         return frozenset(re.findall(r"[^\s,]+", self.parameters.get(_JOINTS, "")))
+
+
+@runtime_checkable
+class SlowMaker(Protocol):
+    """A maker that has to read long files first."""
+
+    def reading(self, wanted: Wanted) -> Callable[[], object] | None:
+        """The work of reading what a motion is made of, for any thread; making it finds that at hand.
+
+        Returns:
+            It raises no `RealizerError`. None where there is nothing to be read.
+
+        Raises:
+            RealizerError: what is wanted cannot be played.
+        """
+        ...
 
 
 Maker = Callable[[Wanted], MotionUnit]

@@ -1,9 +1,11 @@
 """The engine of body animation (thesis 8.7): gestures, head movements, gaze, posture, and idle life."""
 
-from collections.abc import Iterator, Mapping
+import asyncio
+from collections.abc import Awaitable, Callable, Iterator, Mapping
 from math import inf
 from random import Random
 from types import MappingProxyType
+from typing import TypeVar
 
 from reactive_realizer.binding.gesture_binding import GestureBinding
 from reactive_realizer.bml.behavior import Behavior
@@ -14,38 +16,37 @@ from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.humanoid import Eyes
-from reactive_realizer.embodiment.pose import Layer, LayerKind
+from reactive_realizer.embodiment.pose import Layer, LayerKind, checked, over
 from reactive_realizer.embodiment.quaternion import Quat
 from reactive_realizer.engine.context import EngineContext
-from reactive_realizer.engine.effects import Play, Request, Warn
+from reactive_realizer.engine.effects import Request, Warn
 from reactive_realizer.engine.engine import DefaultEngine
 from reactive_realizer.engine.lexicon import Word
 from reactive_realizer.engines.animation.actor import Actor
 from reactive_realizer.engines.animation.animation_unit import AnimationUnit, Stage
 from reactive_realizer.engines.animation.expression.functions import registered
-from reactive_realizer.engines.animation.gaze.gaze_motion_unit import GazeMotionUnit
 from reactive_realizer.engines.animation.gaze.influence import HEAD_WEIGHTS, WEIGHTS
 from reactive_realizer.engines.animation.gaze.lids import with_lids
 from reactive_realizer.engines.animation.gaze.looking import Looking
 from reactive_realizer.engines.animation.idle.idle import Idle
-from reactive_realizer.engines.animation.keyframe.clip_unit import ClipUnit
-from reactive_realizer.engines.animation.keyframe.keyframe_motion_unit import KeyframeMotionUnit
 from reactive_realizer.engines.animation.lasting import Lasting
 from reactive_realizer.engines.animation.lexicon import binding_words
 from reactive_realizer.engines.animation.motion_library import MotionLibrary
-from reactive_realizer.engines.animation.motion_unit import AMOUNT_RANGE
+from reactive_realizer.engines.animation.motion_unit import AMOUNT_RANGE, Gazing
 from reactive_realizer.engines.animation.moving import Moving
+from reactive_realizer.engines.animation.net import Net
+from reactive_realizer.engines.animation.posture.expectation import posture_after
 from reactive_realizer.engines.animation.posture.footing import Footing
 from reactive_realizer.engines.animation.posture.posture_library import PostureLibrary
-from reactive_realizer.engines.animation.posture.posture_motion_unit import PostureMotionUnit
 from reactive_realizer.engines.animation.posture.rest import Rest
 from reactive_realizer.engines.animation.prediction import AnimationPredictor
-from reactive_realizer.engines.animation.release import Release, release_duration, stacked
+from reactive_realizer.engines.animation.release import Release, caught, release_duration, stacked
 from reactive_realizer.engines.animation.trail import Trail
-from reactive_realizer.engines.animation.transition.transition_motion_unit import TransitionMotionUnit
 from reactive_realizer.engines.animation.transition.transition_unit import TransitionUnit
 from reactive_realizer.pegboard.peg_key import BlockKey
-from reactive_realizer.planunit.plan_unit import UnitState
+from reactive_realizer.planunit.plan_unit import PlanUnit, UnitState
+
+T = TypeVar("T")
 
 
 class AnimationEngine(DefaultEngine):
@@ -75,15 +76,29 @@ class AnimationEngine(DefaultEngine):
         self._lasting = Lasting()
         self._looking = Looking(self._idle.blink) if self._idle else Looking()
         self._releases: list[Release] = []
+        # Of the block that is being planned: they are not in the plan yet.
+        self._drafts: list[AnimationUnit] = []
         self._trail = Trail()
-        self._stage = Stage(lambda: self._humanoid.body, self._moving, self._hands, self._release, context.graph)
+        self._net = Net(self.name)
+        self._stage = Stage(
+            lambda: self._humanoid.body,
+            lambda: self._humanoid.shown,
+            self._moving,
+            self._hands,
+            self._release,
+            context.graph,
+        )
         self._predictor = AnimationPredictor(context.humanoid.avatar.skeleton, self._base, lambda: self.player.units)
-        self._now = GlobalTime(0.0)
         self.extensions = self._library.extensions
 
     def words(self) -> Iterator[Word]:
         """What its binding says, and the poses of postures."""
         return binding_words(self._library, next(iter(self._world.targets)))
+
+    def prepare(self, behavior: Behavior) -> Awaitable[object] | None:
+        """Long files are read aside."""
+        works = self._library.readings(behavior)
+        return asyncio.to_thread(lambda: [work() for work in works]) if works else None
 
     def plan(self, block: BlockKey, behavior: Behavior, prepared: object) -> AnimationUnit:
         """The motion that the binding has for the behavior.
@@ -91,19 +106,23 @@ class AnimationEngine(DefaultEngine):
         Raises:
             RealizerError: it has none, or the target is not there.
         """
-        choices = self._library.choices(behavior)
-        match choices[0].motion:
-            case TransitionMotionUnit():
-                return TransitionUnit(block, behavior, choices, self._stage, self._predictor.moving)
-            case KeyframeMotionUnit():
-                return ClipUnit(block, behavior, choices, self._stage)
-            case _:
-                return AnimationUnit(block, behavior, choices, self._stage)
+        self._drafts = [unit for unit in self._drafts if unit.block == block and unit.behavior.order < behavior.order]
+        planned = (unit.motion for unit in (*self.player.units, *self._drafts) if isinstance(unit, AnimationUnit))
+        self._rest.expected = posture_after(self._rest.posture, planned)
+        unit = self._unit(block, behavior)
+        self._drafts.append(unit)
+        return unit
 
-    def play(self, tick: Tick) -> Play:
+    def add(self, unit: PlanUnit) -> None:
         """As every engine."""
-        self._now = tick.time
-        return super().play(tick)
+        self._drafts = [draft for draft in self._drafts if draft is not unit]
+        super().add(unit)
+
+    def _unit(self, block: BlockKey, behavior: Behavior) -> AnimationUnit:
+        choices = self._library.choices(behavior)
+        if choices[0].motion.led:
+            return TransitionUnit(block, behavior, choices, self._stage, self._predictor.moving)
+        return AnimationUnit(block, behavior, choices, self._stage)
 
     def reset(self, time: GlobalTime) -> None:
         """The figure stands and looks as at first."""
@@ -120,56 +139,68 @@ class AnimationEngine(DefaultEngine):
         self._releases = [release for release in self._releases if not release.over(tick.time)]
         layers = (
             self._base(),
-            *((self._idle.layer(tick.time, -self._humanoid.body.root[1]),) if self._idle else ()),
+            *self._breath(tick.time),
             *self._lasting.layers(tick.time, self._humanoid.body),
-            *stacked(self._releases, self._playing(tick.time), tick.time),
+            *self._stacked(tick.time),
         )
-        return (*layers, *self._footing.layers(layers))
+        feet: tuple[Layer, ...] = self._net("where its feet are", lambda: self._footing.layers(layers), ())
+        return (*layers, *feet)
+
+    def _breath(self, now: GlobalTime) -> tuple[Layer, ...]:
+        return self._alive(lambda idle: (checked(idle.layer(now, -self._humanoid.body.root[1])),), ())
+
+    def _alive(self, show: Callable[[Idle], T], instead: T) -> T:
+        """Something of its idle life, if it has one."""
+        idle = self._idle
+        return instead if idle is None else self._net("its idle life", lambda: show(idle), instead)
+
+    def _stacked(self, now: GlobalTime) -> list[Layer]:
+        playing = self._playing(now)
+        alone = [layer for _, layer in playing]
+        return self._net("what is on its way back", lambda: stacked(self._releases, playing, now), alone)
 
     def _playing(self, now: GlobalTime) -> list[tuple[float, Layer]]:
         return self.player.show(AnimationUnit, lambda unit: (unit.started, unit.layer(now)), now)
 
     def face(self, tick: Tick) -> Mapping[str, float]:
         """Lids: they blink, and follow the eyes a frame later."""
-        return with_lids(self._looking.turns, self._idle.weights(tick.time) if self._idle else {})
+        return with_lids(self._looking.turns, self._alive(lambda idle: idle.weights(tick.time), {}))
 
     def eyes(self, tick: Tick) -> Eyes:
         """What the eyes of all gazes make of it, from the head as it is shown."""
-        gazes = list(self._gazes(tick.time))
-        resting = self._idle.eyes(tick.time) if self._idle else {}
-        return lambda body: self._looking.eyes(tick.time, gazes, body, resting)
+        gazes = list(self._gazes())
+        resting: Mapping[str, Quat] = self._alive(lambda idle: idle.eyes(tick.time), {})
+        return lambda body: self._net("its gaze", lambda: self._looking.eyes(tick.time, gazes, body, resting), resting)
 
     def requests(self, tick: Tick) -> tuple[Request, ...]:
         """What is wrong with a unit that plays on is told."""
         units = [unit for unit in self.player.playing if isinstance(unit, AnimationUnit)]
         return tuple(Warn(unit, fault) for unit in units if (fault := unit.complaint()) is not None)
 
-    def _gazes(self, now: GlobalTime) -> Iterator[GazeMotionUnit]:
+    def _gazes(self) -> Iterator[Gazing]:
         """What looks now: what has stayed, then what plays, the one that started last at the end."""
-        yield from (motion for motion in self._lasting.motions if isinstance(motion, GazeMotionUnit))
-        for unit in self.player.show(AnimationUnit, lambda unit: unit, now):
-            if isinstance(unit.motion, GazeMotionUnit) and unit.motion.looks(unit.phase):
-                yield unit.motion
+        lasting = (motion.gaze(1.0) for motion in self._lasting.motions)
+        playing = (unit.motion.gaze(unit.phase) for unit in self.player.stacked(AnimationUnit))
+        return (gaze for gaze in (*lasting, *playing) if gaze is not None)
 
     def _moving(self, time: GlobalTime) -> Moving:
         return self._trail.at(time, self._humanoid.body)
 
-    def _hands(self) -> Body | None:
-        rest, back = self._rest.body, dict[str, Quat]()
+    def _hands(self, now: GlobalTime) -> Body | None:
+        rest = hands = self._rest.body
         for unit in self.player.playing:
-            if isinstance(unit, AnimationUnit) and unit.motion.kind is LayerKind.GESTURE and unit.subsiding(self._now):
-                back |= unit.way_back(self._now, rest)
-        return rest.posed(back) if back else None
+            if isinstance(unit, AnimationUnit) and unit.motion.kind is LayerKind.GESTURE and unit.subsiding(now):
+                hands = over(hands, unit.way_back(now, rest))
+        return None if hands is rest else hands
 
     def _release(self, unit: AnimationUnit, time: GlobalTime) -> None:
         """Take over the joints of a unit that plays no more."""
         stays = unit.state is UnitState.DONE and unit.motion.lasts is not None and not unit.was_cut("end")
-        if stays and isinstance(unit.motion, PostureMotionUnit):
-            self._rest.take(unit.motion.posture, unit.motion.body)
-        elif stays:
-            self._lasting.keep(unit.motion, time, self._humanoid.body)
+        if stays:
+            if not unit.motion.becomes_rest():
+                self._lasting.keep(unit.motion, time, self._humanoid.body)
         elif unit.shown.rotations or unit.shown.root is not None:
-            self._let_go(unit.shown, time, unit.started)
+            self._let_go(caught(unit.shown, self._humanoid.shown.root), time, unit.started)
 
     def _base(self) -> Layer:
         return Layer(LayerKind.BASE, self._rest.pose, root=self._rest.body.root)

@@ -7,17 +7,12 @@ from math import inf
 
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.behaviors import Pointing
-from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.clock.units import RESOLUTION, GlobalTime
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.pose import Layer, LayerKind
-from reactive_realizer.embodiment.quaternion import Quat, slerp
-from reactive_realizer.engines.animation.arms.gesture_motion_unit import GestureMotionUnit
-from reactive_realizer.engines.animation.arms.pointing_motion_unit import PointingMotionUnit
 from reactive_realizer.engines.animation.choice import Choice, choose
 from reactive_realizer.engines.animation.easing import share
 from reactive_realizer.engines.animation.motion_unit import (
-    AMOUNT,
-    AMOUNT_RANGE,
     Moment,
     MotionUnit,
     completed,
@@ -28,7 +23,7 @@ from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.parameter import Parameter
 from reactive_realizer.planunit.phase_clock import PhaseClock
-from reactive_realizer.planunit.plan_unit import PlanUnit
+from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
 from reactive_realizer.planunit.timing import Phase, PhaseKind, Timing
 from reactive_realizer.reactive.cell import Source
 from reactive_realizer.reactive.graph import Graph
@@ -46,16 +41,18 @@ class Stage:
 
     Attributes:
         body: the body as shown last, without additive layers.
+        shown: the body as shown last.
         moving: the same body as it has moved on by a time, and how it moves then.
-        hands: the body with its hands where they are on their way back to rest, whether anybody looks or not; None
-            where they are at rest.
+        hands: the body with its hands where they are at a time on their way back to rest, whether anybody looks or
+            not; None where they are at rest.
         released: takes the joints of a unit that has ended.
         graph: where parameters are cells.
     """
 
     body: Callable[[], Body]
+    shown: Callable[[], Body]
     moving: Callable[[GlobalTime], Moving]
-    hands: Callable[[], Body | None]
+    hands: Callable[[GlobalTime], Body | None]
     released: Callable[["AnimationUnit", GlobalTime], None]
     graph: Graph
 
@@ -86,7 +83,7 @@ class AnimationUnit(PlanUnit):
         self._play(planned)
         for name, own in planned.names.items():
             cell = Source(stage.graph, str(self.key(name)), motion.parameters[own])
-            self.parameters[name] = Parameter(self, cell, AMOUNT_RANGE if name == AMOUNT else motion.ranges[own])
+            self.parameters[name] = Parameter(self, cell, planned.range(name))
         self.started = GlobalTime(-inf)
         self._complained = False
         self._choices = [choice for choice in choices if self._stands_in(choice)]
@@ -119,13 +116,27 @@ class AnimationUnit(PlanUnit):
         if chosen.motion is not self.motion:
             self._play(chosen)
 
-    def preference(self) -> Timing:
+    def preference(self, now: GlobalTime) -> Timing:
         """A gesture that begins now is prepared from where the hands are (thesis 12.1.4)."""
-        hands = self._stage.hands()
-        if self.begun or hands is None or not isinstance(self.motion, GestureMotionUnit | PointingMotionUnit):
+        hands = None if self.begun else self._stage.hands(now)
+        duration = None if hands is None else self.motion.preparation(hands)
+        if duration is None:
             return self.timing
         preparation, *others = self.timing.phases
-        return replace(self.timing, phases=(replace(preparation, duration=self.motion.preparation(hands)), *others))
+        return replace(self.timing, phases=(replace(preparation, duration=duration), *others))
+
+    def gentle_end(self, time: GlobalTime) -> GlobalTime:
+        """The next point at which it may well be left; without one it is broken off."""
+        times = (point.time for point in self._exits())
+        return min((GlobalTime(at) for at in times if at is not None and at >= time), default=time)
+
+    def subsiding(self, time: GlobalTime) -> bool:
+        """Just at such a point a successor may take over, too."""
+        leaving = any(point.fired is not None and abs(point.fired - time) <= RESOLUTION for point in self._exits())
+        return leaving or super().subsiding(time)
+
+    def _exits(self) -> list[SyncPoint]:
+        return [point for point in self.points if point.id in self.motion.exits]
 
     def on_start(self, time: GlobalTime) -> None:
         """The motion begins from where the body is."""
@@ -144,24 +155,22 @@ class AnimationUnit(PlanUnit):
         """
         for name, own in self._names.items():
             self.motion.parameters[own] = self.parameters[name].value
-        self.shown = layer_of(self.motion, Moment(self._clock.advance(self, now), now, self._stage.body()))
+        stage = self._stage
+        self.shown = layer_of(self.motion, Moment(self._clock.advance(self, now), now, stage.body(), stage.shown()))
         return self.shown
 
     def complaint(self) -> Fault | None:
         """What is wrong with it though it plays on; told once."""
-        fault = self.motion.fault if isinstance(self.motion, PointingMotionUnit) and not self._complained else None
+        fault = None if self._complained else self.motion.fault
         self._complained = self._complained or fault is not None
         return fault
 
-    def way_back(self, now: GlobalTime, rest: Body) -> dict[str, Quat]:
-        """The rotations of a unit past its relax, on its way to a body at rest, from the times of its points alone."""
+    def way_back(self, now: GlobalTime, rest: Body) -> Layer:
+        """The layer of a unit past its relax, on its way to a body at rest, from the times of its points alone."""
         relax, end = self.time("relax"), self.time("end")
         gone = 0.0 if relax is None or end is None else share(now, relax, end)
         begin = self.motion.key_positions.get("relax", 1.0)
-        layer = layer_of(self.motion, Moment(begin + gone * (1.0 - begin), now, rest))
-        return {
-            joint: slerp(rest.rotation(joint), goal, layer.weight_of(joint)) for joint, goal in layer.rotations.items()
-        }
+        return layer_of(self.motion, Moment(begin + gone * (1.0 - begin), now, rest))
 
 
 def motion_timing(behavior: Behavior, motion: MotionUnit) -> Timing:
@@ -184,7 +193,7 @@ def motion_timing(behavior: Behavior, motion: MotionUnit) -> Timing:
         )
         for a, b in pairwise(keys)
     )
-    return Timing(tuple(keys), tuple(phases), persistent=getattr(behavior, "persistent", False))
+    return Timing(tuple(keys), tuple(phases), persistent=behavior.persistent)
 
 
 def _holds(behavior: Behavior) -> frozenset[tuple[str, str]]:

@@ -3,9 +3,10 @@
 from collections.abc import Mapping
 
 from reactive_realizer.embodiment.body import Body
-from reactive_realizer.embodiment.quaternion import Quat, conjugate, multiply, power
+from reactive_realizer.embodiment.quaternion import Quat, difference
 from reactive_realizer.embodiment.vector import ZERO, Vec3, add, scale, subtract
 from reactive_realizer.engines.animation.easing import minimum_jerk, share
+from reactive_realizer.engines.animation.inertia import faded
 from reactive_realizer.engines.animation.motion_unit import Posed
 
 _DURATION, _MOST = 0.3, 0.25
@@ -16,7 +17,7 @@ class Arrival:
     """What the body lacks of the first pose of a motion; it fades away while the motion plays in full.
 
     So nothing jumps, and a motion that a transition led to goes on as fast as it was made: what lacks nothing is not
-    changed (D. Bollo, "Inertialization: high-performance animation transitions in Gears of War", GDC 2018).
+    changed (`faded`).
     """
 
     def __init__(self, body: Body, duration: float) -> None:
@@ -40,18 +41,12 @@ class Arrival:
         left = 1.0 - minimum_jerk(share(phase, self._entered, self._entered + self._over))
         if left == 0.0:
             return posed
-        return posed._replace(rotations=self._turned(posed.rotations, left), root=self._moved(posed.root, left))
+        return posed._replace(rotations=faded(posed.rotations, self._turns, left), root=self._moved(posed.root, left))
 
     def _begin(self, first: Posed) -> None:
         goals = first.rotations.items()
-        self._turns = {joint: multiply(conjugate(goal), self._body.rotation(joint)) for joint, goal in goals}
+        self._turns = {joint: difference(goal, self._body.rotation(joint)) for joint, goal in goals}
         self._way = ZERO if first.root is None else subtract(self._body.root, first.root)
-
-    def _turned(self, rotations: Mapping[str, Quat], left: float) -> dict[str, Quat]:
-        return {
-            joint: multiply(goal, power(self._turns[joint], left)) if joint in self._turns else goal
-            for joint, goal in rotations.items()
-        }
 
     def _moved(self, root: Vec3 | None, left: float) -> Vec3 | None:
         return None if root is None else add(root, scale(self._way, left))

@@ -4,7 +4,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from math import inf
 
-from reactive_realizer.engines.animation.motion_unit import MotionUnit
+from reactive_realizer.engines.animation.motion_unit import AMOUNT, AMOUNT_RANGE, MotionUnit
+from reactive_realizer.planunit.parameter import Range
 
 _SHORT = 0.6
 """Below this share of its preferred duration a motion looks hurried."""
@@ -25,6 +26,10 @@ class Choice:
     names: Mapping[str, str] = field(default_factory=dict)
     group: str | None = None
     yields: bool = False
+
+    def range(self, name: str) -> Range:
+        """The values that mean something of a parameter, by its name in BML: an amount is one, whatever it scales."""
+        return AMOUNT_RANGE if name == AMOUNT else self.motion.ranges[self.names[name]]
 
 
 def choose(choices: Sequence[Choice], taken: frozenset[str], time: float | None) -> Choice:

@@ -11,6 +11,11 @@ def minimum_jerk(progress: float) -> float:
     return t * t * t * (10.0 + t * (6.0 * t - 15.0))
 
 
+def smoothstep(progress: float) -> float:
+    """The share that is done, 0..1, of what need only be at rest at both ends: 3t^2 - 2t^3, t from 0 to 1."""
+    return progress * progress * (3.0 - 2.0 * progress)
+
+
 def share(value: float, start: float, end: float) -> float:
     """How far a value lies between start and end, 0..1; 1 where they coincide, for then it is past."""
     if end <= start:

@@ -12,8 +12,10 @@ from reactive_realizer.engines.animation.release import Release
 logger = logging.getLogger(__name__)
 
 _BELOW = -2
+"""Priority of what stays: whatever plays lies above it."""
+
 _LEAVING = -3
-"""Who is replaced lies below who replaces him: the joints that both move do not notice."""
+"""Priority of what leaves: who is replaced lies below who replaces him, so the joints that both move do not notice."""
 
 
 class Lasting:

@@ -1,18 +1,20 @@
 """From a behavior to the motions that could play it: the gesture binding, and who makes what it names."""
 
 import logging
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from contextlib import suppress
 
 from reactive_realizer.binding.gesture_binding import GestureBinding
 from reactive_realizer.binding.seen import seen
 from reactive_realizer.binding.unit_spec import UnitSpec
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.behaviors import Head
-from reactive_realizer.engines.animation.actor import Actor, Wanted
+from reactive_realizer.engines.animation.actor import Actor, SlowMaker, Wanted
 from reactive_realizer.engines.animation.choice import Choice
 from reactive_realizer.engines.animation.gaze.gaze_maker import DYNAMIC
 from reactive_realizer.engines.animation.makers import makers_of
 from reactive_realizer.engines.animation.motion_unit import MotionUnit
+from reactive_realizer.engines.animation.values import values_of
 from reactive_realizer.errors import RealizerError, error
 
 _log = logging.getLogger(__name__)
@@ -59,8 +61,20 @@ class MotionLibrary:
                 refused[spec] = problem
         if not choices:
             raise next(iter(refused.values()))
-        self._note(refused)
+        # One without constraints promises nothing: that it has nothing for this behavior is no fault of it.
+        self._note({spec: problem for spec, problem in refused.items() if spec.constraints})
         return tuple(choices)
+
+    def readings(self, behavior: Behavior) -> list[Callable[[], object]]:
+        """The work of `SlowMaker`s for a behavior; what they cannot make is told when it is made."""
+        attributes = seen(behavior)
+        works: list[Callable[[], object] | None] = []
+        for spec in self.binding.match(behavior.name, behavior.namespace, attributes):
+            maker: object = self._makers.get(spec.unit)
+            if isinstance(maker, SlowMaker):
+                with suppress(RealizerError):
+                    works.append(maker.reading(_wanted(spec, behavior, attributes)))
+        return [work for work in works if work is not None]
 
     def _note(self, refused: Mapping[UnitSpec, RealizerError]) -> None:
         """Log entries that are passed over, each once."""
@@ -72,18 +86,26 @@ class MotionLibrary:
         """The motion that an entry of the binding has for a behavior with these attributes.
 
         Raises:
-            RealizerError: it cannot be made.
+            RealizerError: it cannot be made, or what is said for a parameter is none of its values.
         """
         maker = self._makers.get(spec.unit)
         if maker is None:
             raise error("no-unit", unit=spec.unit)
-        parameters = spec.parameters(attributes, behavior.parameters)
-        file = parameters.get(_FILE, spec.file)
-        # Nodding adds to whatever the head does.
-        motion = maker(Wanted(behavior, parameters, file, added=isinstance(behavior, Head)))
+        wanted = _wanted(spec, behavior, attributes)
+        motion, parameters = maker(wanted), wanted.parameters
         group = parameters.get("replacementgroup")
-        yields = group is not None or motion.lasts is not None or getattr(behavior, "persistent", False)
-        return Choice(motion, _names(spec, motion), group, yields)
+        yields = group is not None or motion.lasts is not None or behavior.persistent
+        choice = Choice(motion, _names(spec, motion), group, yields)
+        said = {name: parameters[own] for name, own in choice.names.items() if own in parameters}
+        values_of(said, {name: choice.range(name) for name in said})
+        return choice
+
+
+def _wanted(spec: UnitSpec, behavior: Behavior, attributes: Mapping[str, str]) -> Wanted:
+    parameters = spec.parameters(attributes, behavior.parameters)
+    file = parameters.get(_FILE, spec.file)
+    # Nodding adds to whatever the head does.
+    return Wanted(behavior, parameters, file, added=isinstance(behavior, Head))
 
 
 def _names(spec: UnitSpec, motion: MotionUnit) -> Mapping[str, str]:

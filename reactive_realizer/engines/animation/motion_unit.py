@@ -1,19 +1,28 @@
 """A motion as a function of phase: what the animation engine plays between pegs (thesis 4.2)."""
 
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
+from enum import Enum
 from math import inf
+from operator import itemgetter
+from types import MappingProxyType
 from typing import NamedTuple, Protocol
 
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.joints import LEFT_ARM, LOWER_BODY, RIGHT_ARM
 from reactive_realizer.embodiment.pose import Layer, LayerKind, checked
 from reactive_realizer.embodiment.quaternion import Quat
 from reactive_realizer.embodiment.vector import Vec3
+from reactive_realizer.engines.animation.moving import Moving
+from reactive_realizer.errors import Fault
 from reactive_realizer.planunit.parameter import Range
 
 GESTURE_POINTS = ("start", "ready", "strokeStart", "stroke", "strokeEnd", "relax", "end")
 """Sync points of gesture, head and pointing, in order (BML 1.0)."""
 
+START_TO_END: Mapping[str, float] = MappingProxyType({"start": 0.0, "end": 1.0})
+"""Key positions of a motion without other points."""
 
 AMOUNT = "amount"
 """How much of a motion is shown, as BML calls it."""
@@ -31,11 +40,13 @@ class Moment(NamedTuple):
         phase: how far the motion has come, 0 to 1.
         time: of the frame, s.
         body: as shown last, without additive motion.
+        shown: as shown last, with it; None where nothing is shown, but asked what would be.
     """
 
     phase: float
     time: GlobalTime
     body: Body
+    shown: Body | None = None
 
 
 class Posed(NamedTuple):
@@ -54,53 +65,100 @@ class Posed(NamedTuple):
     weights: Mapping[str, float] | None = None
 
 
-class MotionUnit(Protocol):
-    """One motion of one character.
+class Foreseen(Enum):
+    """When it is known what a motion will show, as long as its plan stands."""
+
+    NEVER = "never"
+    ONCE_BEGUN = "once begun"
+    """It depends on where the body is when it begins."""
+    ALWAYS = "always"
+
+
+class Gazing(Protocol):
+    """What leads the eyes."""
+
+    @property
+    def eyes(self) -> float:
+        """The part that the eyes go of the way to what is looked at, 0 to 1."""
+        ...
+
+    def point(self, eyes: Vec3) -> Vec3:
+        """Where it looks from between the eyes, both in the figure's frame, m."""
+        ...
+
+
+class MotionUnit(ABC):
+    """One motion of one character; a kind of motions is a subclass, and says what it has otherwise than here.
 
     Which phase it is when is not its business: phases are spread between key positions as their pegs say.
 
     Attributes:
         kind: where it lies among the layers of a frame.
+        joints: the joints that it turns, while it plays.
         resources: what of the body it owns while it plays (`Resource`); units that share one exclude each other.
         group: its replacement group, if it has one of its own: see `PlanUnit.group`.
         lasts: the name under which its last pose stays when it has ended, until another of that name has ended or
             everything is replaced; None for what goes when it ends.
         parameters: name -> value; a value may be changed while the motion plays.
         ranges: the parameters that may be changed, with the values that mean something.
+        key_positions: sync id -> phase, 0 to 1; "start" is 0 and "end" is 1, and later points never lie at earlier
+            phases.
+        exits: the sync ids of the points where it may well be left, in order.
+        preferred_duration: how long it takes where nothing else is asked for, s.
+        limits: shortest and longest duration, s, if its author named any; given up before any constraint is.
+        foreseen: when it is known what it will show.
+        led: whether it goes to where others go on, and is told of them (`lead`).
+        fault: what is wrong with it though it plays on, None as long as nothing is.
     """
 
     kind: LayerKind
-    resources: frozenset[str]
-    group: str | None
-    lasts: str | None
+    joints: frozenset[str]
+    resources: frozenset[str] = frozenset()
+    group: str | None = None
+    lasts: str | None = None
     parameters: dict[str, float]
-    ranges: Mapping[str, Range]
+    ranges: Mapping[str, Range] = MappingProxyType({})
+    key_positions: Mapping[str, float] = START_TO_END
+    exits: tuple[str, ...] = ()
+    preferred_duration: float
+    limits: tuple[float, float] | None = None
+    foreseen: Foreseen = Foreseen.NEVER
+    led: bool = False
+    fault: Fault | None = None
 
-    @property
-    def joints(self) -> frozenset[str]:
-        """The joints that it turns, while it plays."""
-
-    @property
-    def key_positions(self) -> Mapping[str, float]:
-        """Sync id -> phase, 0 to 1; "start" is 0 and "end" is 1, and later points never lie at earlier phases."""
-
-    @property
-    def preferred_duration(self) -> float:
-        """How long it takes where nothing else is asked for, s."""
-
-    @property
-    def limits(self) -> tuple[float, float] | None:
-        """Shortest and longest duration, s, if its author named any; given up before any constraint is."""
-
+    @abstractmethod
     def start(self, body: Body) -> None:
         """The motion begins from here: the body as shown last, without additive layers."""
 
+    @abstractmethod
     def pose(self, moment: Moment) -> Posed:
         """What it asks for at a moment.
 
         Raises:
             RealizerError: "no-motion": there is none at this phase; the unit should be stopped.
         """
+
+    def preparation(self, body: Body) -> float | None:
+        """How long its first phase would take from where a body is, s; None where that makes no difference."""
+        return None
+
+    def lead(self, begin: Moving, goal: Moving, duration: float) -> None:
+        """Where to; only motions that are `led` are told.
+
+        Args:
+            begin: how the body moves at phase 0.
+            goal: how it will move at phase 1.
+            duration: s between the two.
+        """
+        raise NotImplementedError
+
+    def gaze(self, phase: float) -> Gazing | None:
+        """What leads the eyes at a phase, if it does."""
+        return None
+
+    def becomes_rest(self) -> bool:
+        """It has ended, and stays: whether the figure rests so from now on, and nothing is to be shown for it."""
+        return False
 
 
 def layer_of(motion: MotionUnit, moment: Moment, priority: int = 0) -> Layer:
@@ -124,20 +182,22 @@ class Resource:
 
 def arms_of(joints: frozenset[str]) -> frozenset[str]:
     """The arms, as resources, that a motion of these joints owns."""
-    return frozenset(
-        arm
-        for side, arm in (("l", Resource.LEFT_ARM), ("r", Resource.RIGHT_ARM))
-        if any(joint.startswith(f"{side}_") and not joint.startswith(_LEG[side]) for joint in joints)
-    )
+    arms = ((LEFT_ARM, Resource.LEFT_ARM), (RIGHT_ARM, Resource.RIGHT_ARM))
+    return frozenset(arm for its_joints, arm in arms if not its_joints.isdisjoint(joints))
 
 
 def owned(joints: frozenset[str]) -> frozenset[str]:
     """What a motion of these joints owns: the arms, and with a leg or the root the stance."""
-    return arms_of(joints) | (frozenset() if _STANCE.isdisjoint(joints) else {Resource.STANCE})
+    return arms_of(joints) | (frozenset() if LOWER_BODY.isdisjoint(joints) else {Resource.STANCE})
 
 
-_STANCE = frozenset({"HumanoidRoot", *(f"{side}_{joint}" for side in "lr" for joint in ("hip", "knee", "ankle"))})
-_LEG = {side: tuple(f"{side}_{joint}" for joint in ("hip", "knee", "ankle", "midtarsal", "eyeball")) for side in "lr"}
+def in_order(key_positions: Mapping[str, float]) -> dict[str, float]:
+    """Key positions as authored, from start to end.
+
+    None are added: points that nobody authored would be holds, which take what time there is.
+    """
+    inner = ((sync, phase) for sync, phase in key_positions.items() if sync not in START_TO_END)
+    return {"start": 0.0, **dict(sorted(inner, key=itemgetter(1))), "end": 1.0}
 
 
 def completed(key_positions: Mapping[str, float]) -> dict[str, float]:

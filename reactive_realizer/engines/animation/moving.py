@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.quaternion import (
-    conjugate,
+    difference,
     from_rotation_vector,
     multiply,
     rotation_vector,
@@ -28,7 +28,7 @@ class Moving(NamedTuple):
     def between(cls, before: Body, after: Body, passed: float) -> "Moving":
         """A body that is as the later one of two, so many seconds apart, and goes on as they do."""
         pairs = ((joint, before.rotation(joint), now) for joint, now in after.pose.items())
-        turns = {joint: multiply(conjugate(old), now) for joint, old, now in pairs if old != now}
+        turns = {joint: difference(old, now) for joint, old, now in pairs if old != now}
         return cls(after, {joint: scale(rotation_vector(turn), 1.0 / passed) for joint, turn in turns.items()})
 
     def after(self, seconds: float) -> "Moving":

@@ -2,9 +2,9 @@
 
 from zlib import crc32
 
-from reactive_realizer.binding.gesture_binding import numbers
 from reactive_realizer.engines.animation.actor import Actor, Wanted
-from reactive_realizer.engines.animation.noise_motion_unit import NoiseMotionUnit
+from reactive_realizer.engines.animation.noise_motion_unit import RANGES, NoiseMotionUnit
+from reactive_realizer.engines.animation.values import values_of
 from reactive_realizer.errors import error
 
 _JOINT = "joint"
@@ -23,4 +23,4 @@ class NoiseMaker:
         if joint not in self._actor.humanoid.avatar.skeleton:
             raise error("no-joints", joints=joint, element=wanted.behavior.name)
         seed = crc32(f"{self._actor.seed} {wanted.behavior.id} {joint}".encode())
-        return NoiseMotionUnit(joint, numbers(wanted.parameters), seed)
+        return NoiseMotionUnit(joint, values_of(wanted.parameters, RANGES), seed)

@@ -1,6 +1,7 @@
 """A joint that stirs at random (thesis C.1.7)."""
 
 from collections.abc import Mapping
+from math import pi
 from random import Random
 
 from reactive_realizer.clock.units import GlobalTime
@@ -8,8 +9,8 @@ from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.pose import LayerKind
 from reactive_realizer.embodiment.quaternion import from_euler
 from reactive_realizer.engines.animation.easing import minimum_jerk, share
-from reactive_realizer.engines.animation.motion_unit import ANY_VALUE, Moment, Posed
-from reactive_realizer.engines.animation.noise import PerlinNoise
+from reactive_realizer.engines.animation.expression.noise import PerlinNoise
+from reactive_realizer.engines.animation.motion_unit import Moment, MotionUnit, Posed
 from reactive_realizer.planunit.parameter import Range
 
 _AXES = "xyz"
@@ -26,8 +27,16 @@ _DEFAULTS: Mapping[str, float] = {
 }
 """Cycles in a second, rad, the weight of each octave against the one before, rad."""
 
+RANGES: Mapping[str, Range] = {
+    **{f"basefreq{axis}": Range(0.0, 1000.0) for axis in _AXES},
+    **{f"baseamplitude{axis}": Range(-pi, pi) for axis in _AXES},
+    **{f"persistence{axis}": Range(0.0, 1.0) for axis in _AXES},
+    **{f"offset{axis}": Range(-pi, pi) for axis in _AXES},
+}
+"""The values of these that mean something."""
 
-class NoiseMotionUnit:
+
+class NoiseMotionUnit(MotionUnit):
     """Turns one joint by Perlin noise, about each of its axes by itself, further than whatever else turns it.
 
     About an axis it turns by `offset` plus at most `baseamplitude`, rad. Time passes for it in cycles of `basefreq`: a
@@ -35,11 +44,6 @@ class NoiseMotionUnit:
     """
 
     kind = LayerKind.ADDITIVE
-    resources: frozenset[str] = frozenset()
-    group: str | None = None
-    lasts: str | None = None
-    limits: tuple[float, float] | None = None
-    key_positions: Mapping[str, float] = {"start": 0.0, "end": 1.0}
     preferred_duration = 1.0
 
     def __init__(self, joint: str, parameters: Mapping[str, float], seed: int) -> None:
@@ -51,9 +55,7 @@ class NoiseMotionUnit:
             seed: of its randomness.
         """
         self.parameters = {name: parameters.get(name, value) for name, value in _DEFAULTS.items()}
-        self.ranges: Mapping[str, Range] = {
-            name: Range(0.0, 1.0) if name.startswith("persistence") else ANY_VALUE for name in _DEFAULTS
-        }
+        self.ranges = RANGES
         self.joints = frozenset({joint})
         self._joint = joint
         random = Random(seed)

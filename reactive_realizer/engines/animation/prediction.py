@@ -10,23 +10,14 @@ from reactive_realizer.embodiment.pose import Layer, compose
 from reactive_realizer.embodiment.skeleton import Skeleton
 from reactive_realizer.embodiment.vector import ZERO
 from reactive_realizer.engines.animation.animation_unit import AnimationUnit
-from reactive_realizer.engines.animation.arms.gesture_motion_unit import GestureMotionUnit
 from reactive_realizer.engines.animation.easing import share
-from reactive_realizer.engines.animation.keyframe.keyframe_motion_unit import KeyframeMotionUnit
-from reactive_realizer.engines.animation.motion_unit import Moment, layer_of
+from reactive_realizer.engines.animation.motion_unit import Foreseen, Moment, layer_of
 from reactive_realizer.engines.animation.moving import Moving
-from reactive_realizer.engines.animation.posture.posture_motion_unit import PostureMotionUnit
-from reactive_realizer.engines.animation.procedural.proc_motion_unit import ProcMotionUnit
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.planunit.plan_unit import PlanUnit
 
 _STEP = 0.01
 """s over which velocities are measured."""
-
-_ALWAYS = (ProcMotionUnit, KeyframeMotionUnit)
-"""Motions of which it is known what they will do; others depend on where the body will be when they begin."""
-
-_ONCE_BEGUN = (GestureMotionUnit, PostureMotionUnit)
 
 
 class AnimationPredictor:
@@ -58,8 +49,7 @@ class AnimationPredictor:
             if unit is not without:
                 with suppress(RealizerError):  # one that cannot be shown will leave, with a word of its own
                     layers.append(layer_of(unit.motion, Moment(phase_at(unit, time), time, body)))
-        composed = compose(self._skeleton, layers)
-        return Body(self._skeleton, composed.steady, composed.steady_root)
+        return compose(self._skeleton, layers).steady
 
     def _predictable(self, start: GlobalTime) -> Iterator[AnimationUnit]:
         """The units that will play from a start on and of which one knows what they will show."""
@@ -79,9 +69,9 @@ def phase_at(unit: AnimationUnit, time: GlobalTime) -> float:
 
 def _known(unit: AnimationUnit) -> bool:
     if not unit.begun:
-        return isinstance(unit.motion, _ALWAYS)
+        return unit.motion.foreseen is Foreseen.ALWAYS
     # What has not shown itself yet does not know with which pose it begins, and must not learn it here.
-    return bool(unit.shown.rotations) and isinstance(unit.motion, (*_ALWAYS, *_ONCE_BEGUN))
+    return bool(unit.shown.rotations) and unit.motion.foreseen is not Foreseen.NEVER
 
 
 def _plays(unit: AnimationUnit, time: GlobalTime) -> bool:

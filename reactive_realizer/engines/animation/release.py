@@ -6,7 +6,8 @@ from math import inf
 from operator import itemgetter
 
 from reactive_realizer.clock.units import GlobalTime
-from reactive_realizer.embodiment.pose import Layer
+from reactive_realizer.embodiment.joints import ROOT
+from reactive_realizer.embodiment.pose import Layer, LayerKind
 from reactive_realizer.embodiment.vector import Vec3, distance
 from reactive_realizer.engines.animation.easing import minimum_jerk, share
 
@@ -15,6 +16,15 @@ DURATION = 0.6
 
 _A_METER = 2.8
 """s that a pelvis takes for a meter; getting up from a chair takes near two seconds."""
+
+_LONGEST = 3.0
+"""s; who has gone further than one gets in that time at this pace comes back faster."""
+
+_WALK = 1.0
+"""s that it takes for each meter, at least: so the pelvis stays below 2 m/s."""
+
+_OUTRUN = 0.5
+"""m; a figure that is further behind a motion has not kept up with it."""
 
 _NOTICEABLE = 1e-3
 """A motion that has eased out by itself is let go with less."""
@@ -58,6 +68,18 @@ def stacked(releases: Iterable[Release], playing: Iterable[tuple[float, Layer]],
     return [layer for _, layer in sorted(heights, key=itemgetter(0))]
 
 
+def caught(layer: Layer, root: Vec3) -> Layer:
+    """A layer that is to leave: from where the figure is, where it has been asked to be elsewhere too soon.
+
+    Args:
+        layer: as it was asked for.
+        root: where HumanoidRoot has come to, as a displacement from its default place, m.
+    """
+    leads = layer.kind is not LayerKind.ADDITIVE and layer.weight_of(ROOT) == 1.0
+    outrun = layer.root is not None and distance(layer.root, root) > _OUTRUN
+    return replace(layer, root=root) if leads and outrun else layer
+
+
 def release_duration(layer: Layer, rest: Vec3) -> float:
     """How long a layer takes to leave, s: where the whole figure has to move, longer.
 
@@ -66,4 +88,4 @@ def release_duration(layer: Layer, rest: Vec3) -> float:
         rest: where HumanoidRoot is without it, as a displacement from its default place, m.
     """
     moved = 0.0 if layer.root is None else layer.weight * distance(layer.root, rest)
-    return max(DURATION, _A_METER * moved)
+    return max(DURATION, min(_A_METER * moved, _LONGEST), _WALK * moved)

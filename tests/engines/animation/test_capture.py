@@ -237,12 +237,14 @@ GOOD = bvh({}, {})
         (GOOD.replace("Zrotation", "Wrotation", 1), "line 5: no channel is called 'Wrotation'"),
         (GOOD.replace("JOINT Spine\n", "BONE Spine\n"), "'BONE' stands where JOINT, End Site or } should"),
         (GOOD.replace("}\nMOTION", "MOTION"), "the HIERARCHY ends too early"),
-        (GOOD.replace("Frames: 2", "Frames: 3"), "numbers are not 3 frames of 60 finite numbers"),
+        (GOOD.replace("Frames: 2", "Frames: 3"), "numbers are not 3 frames of 60 numbers up to 1e"),
         (GOOD.replace("Frames: 2", "Frames 2"), "after MOTION should come 'Frames: N' and 'Frame Time: s'"),
-        (GOOD.replace("Frame Time: 0.01", "Frame Time: 0"), "are not 2 frames of 60 finite numbers, 0 s apart"),
+        (GOOD.replace("Frame Time: 0.01", "Frame Time: 0"), "are not 2 frames of 60 numbers up to 1e.09, 0 s apart"),
         (GOOD.rstrip().removesuffix("0.000000") + "oops\n", "could not convert string to float: 'oops'"),
-        (GOOD.rstrip().removesuffix("0.000000") + "inf\n", "finite numbers"),
-        (bvh({}), "not 1 frames of 60 finite numbers, 0.01 s apart, or there are not two"),
+        (GOOD.rstrip().removesuffix("0.000000") + "inf\n", "numbers up to 1e"),
+        (GOOD.rstrip().removesuffix("0.000000") + "1e300\n", "numbers up to 1e"),
+        (GOOD.replace("OFFSET 0.0 12.0", "OFFSET 0.0 1e300"), r"line \d+: '1e300' is no number"),
+        (bvh({}), "not 1 frames of 60 numbers up to 1e.09, 0.01 s apart, or there are not two"),
     ],
 )
 def test_what_is_wrong_in_a_file_is_said_with_its_line(capture, text, message):
@@ -256,6 +258,12 @@ def test_joints_that_nobody_knows_are_refused(capture, skeleton):
     strange = {name: f"bone{i}" for i, (name, _, _) in enumerate(T_POSE)}
     with pytest.raises(RealizerError, match="no joint is called in a way that is known for HumanoidRoot, l_hip"):
         retargeted(capture(bvh({}, {}, names=strange)), skeleton)
+
+
+def test_who_walks_out_of_sight_is_refused(capture, skeleton):
+    text = bvh({}, {}, places=[(0.0, 95.0, 0.0), (0.0, 95.0, 1e7)])
+    with pytest.raises(RealizerError, match="it goes further than 10 m, by the length of its thighs"):
+        retargeted(capture(text), skeleton)
 
 
 def test_a_figure_that_lies_at_rest_is_refused(capture, skeleton):

@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 from reactive_realizer.engines.animation.expression.compiler import compile_formulas
 from reactive_realizer.engines.animation.expression.functions import FUNCTIONS, Function, noise, perlin, registered
 from reactive_realizer.engines.animation.expression.nodes import variables
+from reactive_realizer.engines.animation.expression.noise import PerlinNoise
 from reactive_realizer.engines.animation.expression.parser import LONGEST, parse
 from reactive_realizer.engines.animation.expression.splines import hermite, tcbspline
-from reactive_realizer.engines.animation.noise import PerlinNoise
 from reactive_realizer.errors import RealizerError
 
 

@@ -7,7 +7,7 @@ import pytest
 
 from reactive_realizer.bml.words import Influence, OffsetDirection
 from reactive_realizer.embodiment.body import Body
-from reactive_realizer.embodiment.quaternion import IDENTITY, angle, conjugate, from_axis_angle, multiply
+from reactive_realizer.embodiment.quaternion import IDENTITY, angle, difference, from_axis_angle
 from reactive_realizer.embodiment.vector import subtract, unit
 from reactive_realizer.engines.animation.gaze.aim import Aim
 from reactive_realizer.engines.animation.gaze.eyes import Sockets
@@ -19,7 +19,7 @@ from .showing import shown
 
 
 def apart(a, b) -> float:
-    return angle(multiply(conjugate(a), b))
+    return angle(difference(a, b))
 
 
 def test_it_begins_where_the_head_is_and_ends_in_what_lies_below_without_a_jump(skeleton):

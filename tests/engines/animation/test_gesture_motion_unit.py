@@ -5,7 +5,7 @@ from itertools import pairwise
 import pytest
 
 from reactive_realizer.embodiment.body import Body
-from reactive_realizer.embodiment.quaternion import IDENTITY, angle, conjugate, from_euler, multiply
+from reactive_realizer.embodiment.quaternion import IDENTITY, angle, difference, from_euler
 from reactive_realizer.embodiment.vector import distance, subtract
 from reactive_realizer.engines.animation.arms.gesture_motion_unit import HOLD, GestureMotionUnit
 from reactive_realizer.engines.animation.easing import minimum_jerk
@@ -13,23 +13,18 @@ from reactive_realizer.engines.animation.motion_unit import AMOUNT, GESTURE_POIN
 from reactive_realizer.engines.animation.procedural.proc_animation_reader import read_proc_animation
 
 from .resting import REST_POSE
-from .showing import shown as shown_over
+from .showing import shown
 
 GESTURES = ["beat_right", "beat_both", "offer_right", "offer_both", "greet_right", "conduct_right", "self_right"]
 RAISED = {"r_shoulder": from_euler(-1.4, 0.3, -0.4), "r_elbow": from_euler(-0.9, 0.0, 0.0)}
 
 
-def shown(unit, phase, body):
-    """The rotations of its joints at a phase, over the rest pose."""
-    return shown_over(unit, phase, body, Body(body.skeleton, dict(REST_POSE)))
-
-
 @pytest.fixture
 def gesture(animations, skeleton):
     def plan(name: str, pose=REST_POSE, **parameters: float) -> tuple[GestureMotionUnit, Body]:
-        body = Body(skeleton, {**REST_POSE, **pose})
+        rest = Body(skeleton, {**REST_POSE, **pose})
         animation = read_proc_animation(animations / f"{name}.xml").on(skeleton)
-        return GestureMotionUnit(animation, parameters, REST_POSE, body), body
+        return GestureMotionUnit(animation, parameters, rest), rest
 
     return plan
 
@@ -40,11 +35,13 @@ def wrist(body: Body, side: str = "r"):
 
 @pytest.mark.parametrize("name", GESTURES)
 def test_it_begins_where_the_arms_are_and_ends_in_the_rest_pose(gesture, name):
-    unit, body = gesture(name, RAISED)
-    begin, end = body.posed(shown(unit, 0.0, body)), body.posed(shown(unit, 1.0, body))
+    unit, rest = gesture(name)
+    body = rest.posed(RAISED)
+    unit.start(body)
+    begin, end = (body.posed(shown(unit, phase, body, rest)) for phase in (0.0, 1.0))
     assert distance(wrist(begin), wrist(body)) < 1e-9
     for joint in unit.joints:
-        assert angle(multiply(conjugate(end.rotation(joint)), REST_POSE.get(joint, IDENTITY))) < 1e-6
+        assert angle(difference(end.rotation(joint), REST_POSE.get(joint, IDENTITY))) < 1e-6
 
 
 @pytest.mark.parametrize("name", GESTURES)
@@ -167,17 +164,19 @@ def test_a_reach_of_minimum_jerk_starts_and_stops_softly_and_is_symmetric():
 
 @pytest.mark.parametrize("name", GESTURES)
 def test_of_a_smaller_amount_each_joint_leaves_the_rest_pose_by_that_part_and_still_begins_where_it_is(gesture, name):
-    unit, body = gesture(name, RAISED)
+    unit, rest = gesture(name)
+    body = rest.posed(RAISED)
+    unit.start(body)
     keys = unit.key_positions
     whole = shown(unit, keys["stroke"], body)
     unit.parameters[AMOUNT] = 0.4
     for joint, part in shown(unit, keys["stroke"], body).items():
-        rest = conjugate(REST_POSE.get(joint, IDENTITY))
-        assert angle(multiply(rest, part)) == pytest.approx(0.4 * angle(multiply(rest, whole[joint])), abs=1e-6)
+        begin = rest.rotation(joint)
+        assert angle(difference(begin, part)) == pytest.approx(0.4 * angle(difference(begin, whole[joint])), abs=1e-6)
     assert distance(wrist(body.posed(shown(unit, 0.0, body))), wrist(body)) < 1e-9
     unit.parameters[AMOUNT] = 0.0
     for joint, rotation in shown(unit, keys["stroke"], body).items():
-        assert angle(multiply(conjugate(REST_POSE.get(joint, IDENTITY)), rotation)) < 1e-6
+        assert angle(difference(REST_POSE.get(joint, IDENTITY), rotation)) < 1e-6
 
 
 @pytest.mark.parametrize("name", GESTURES)

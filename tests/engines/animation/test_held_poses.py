@@ -27,7 +27,7 @@ def reaching(tmp_path, skeleton):
     def make(local: bool) -> GestureMotionUnit:
         path = tmp_path / "reach.xml"
         path.write_text(REACH.format(str(local).lower(), "-0.1" if local else "1.1"), encoding="utf-8")
-        gesture = GestureMotionUnit(read_proc_animation(path).on(skeleton), {}, {}, Body(skeleton))
+        gesture = GestureMotionUnit(read_proc_animation(path).on(skeleton), {}, Body(skeleton))
         gesture.start(Body(skeleton))
         return gesture
 

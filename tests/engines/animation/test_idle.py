@@ -3,12 +3,14 @@
 import math
 from itertools import pairwise
 from random import Random
+from weakref import ref
 
 import pytest
 
 from reactive_realizer.embodiment.body import Body
-from reactive_realizer.embodiment.quaternion import angle, conjugate, multiply, rotate
+from reactive_realizer.embodiment.quaternion import angle, difference, rotate
 from reactive_realizer.embodiment.vector import FORWARD, distance
+from reactive_realizer.engines.animation.idle.episodes import Episodes
 from reactive_realizer.engines.animation.idle.idle import Idle
 
 from .resting import body_in
@@ -49,6 +51,25 @@ def test_the_same_seed_gives_the_same_life_in_whatever_order_it_is_asked_for():
     assert seen == {time: life(backward, time) for time in reversed(times)}
 
 
+def test_of_a_long_life_only_the_last_episodes_are_kept():
+    class What:
+        pass
+
+    drawn: list[ref[What]] = []
+
+    def draw() -> tuple[float, What]:
+        what = What()
+        drawn.append(ref(what))
+        return 1.0, what
+
+    episodes = Episodes(What(), draw)
+    for hour in range(1, 4):
+        now, before = episodes.at(3600.0 * hour + 0.5)
+        assert (now.since, before.since) == (3600.0 * hour, 3600.0 * hour - 1.0)
+    assert len(drawn) > 3 * 3600
+    assert sum(what() is not None for what in drawn) == Episodes.KEPT
+
+
 def test_two_figures_do_not_blink_and_breathe_as_one():
     one, other = Idle(Random(1)), Idle(Random(2))
     assert blinks(one, 60.0) != blinks(other, 60.0)
@@ -63,7 +84,7 @@ def test_the_figure_is_never_quite_still_and_never_restless(skeleton):
     for before, after in zip(places, places[10:], strict=False):
         assert distance(before.position, after.position) < 0.01
     assert max(distance(places[0].position, place.position) for place in places) > 0.002
-    assert max(angle(multiply(conjugate(places[0].rotation), place.rotation)) for place in places) < 0.07
+    assert max(angle(difference(places[0].rotation, place.rotation)) for place in places) < 0.07
 
 
 def test_the_shoulders_rise_and_fall_fifteen_times_a_minute(skeleton):
@@ -123,7 +144,7 @@ def test_shifting_weight_leaves_the_head_level(skeleton):
         layer = idle.layer(float(i), 0.0)
         head = Body(skeleton, layer.rotations, layer.root).place("skullbase").rotation
         alone = Body(skeleton, still.rotations(float(i))).place("skullbase").rotation
-        assert angle(multiply(conjugate(alone), head)) < 0.02
+        assert angle(difference(alone, head)) < 0.02
 
 
 # --- eyes

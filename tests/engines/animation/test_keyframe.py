@@ -119,6 +119,12 @@ def test_a_filter_does_not_mind_which_of_the_two_quaternions_that_turn_alike_a_f
     assert smooth([(-1.0) ** (i // 3) for i in range(60)]) == pytest.approx(smooth([1.0] * 60))
 
 
+@pytest.mark.parametrize("cutoff", [1e-300, 0.09])
+def test_a_filter_that_would_leave_nothing_is_refused(cutoff):
+    with pytest.raises(RealizerError, match=r"shake: a filter has 0\.1 Hz or more, not"):
+        clip("0 0 1 0 0  1 0 1 0 1  2 0 1 0 0").filtered(cutoff)
+
+
 def test_only_keys_at_even_distances_can_be_filtered():
     with pytest.raises(RealizerError, match="shake: only keys at even distances"):
         clip("0 0 1 0 0  1 0 1 0 1  3 0 1 0 0").filtered(0.1)
@@ -205,16 +211,24 @@ def test_a_crouch_of_another_body_stands_on_the_ground_of_ours(skeleton):
         ("0 0 1 0", 'parts="vl5" encoding="R"', "4 numbers are no rows of 5"),
         ("", 'parts="vl5" encoding="R"', "0 numbers are no rows of 5"),
         ("0 0 1 0 x", 'parts="vl5" encoding="R"', "could not convert string to float: 'x'"),
-        ("0 0 1 0 1e999", 'parts="vl5" encoding="R"', "a number is infinite or undefined"),
+        ("0 1 0 0 0 1 0 1 0 1e999", 'parts="vl5" encoding="R"', "a number in row 2 is beyond 1e\\+100, or undefined"),
+        ("0 1 0 0 0 1 0 1e200 0 0", 'parts="vl5" encoding="R"', "a number in row 2 is beyond 1e\\+100, or undefined"),
+        ("0 nan 0 0 0 1 0 1 0 0", 'parts="vl5" encoding="R"', "a number in row 1 is beyond 1e\\+100, or undefined"),
+        ("0 1 0 0 0 1 0 1 0 0", 'parts=" " encoding="R"', "parts names no joint"),
         ("0 0 1 0 0", 'parts="vl5" encoding="R"', "a motion needs two rows"),
         ("1 0 1 0 0 1 0 1 0 0", 'parts="vl5" encoding="R"', "the times of the rows do not rise"),
         ("0 0 1 0 0 1e9 0 1 0 0", 'parts="vl5" encoding="R"', "it would last longer than 86400 s"),
-        ("0 0 9e9 0 0 1 0 0", 'parts="vl5" encoding="T1R"', "a place is more than 10000 m away"),
+        ("0 7 0 9 1 0 0 0 1 7 0 20 1 0 0 0", 'parts="vl5" encoding="T1R"', "it goes further than 10 m"),
         ("0 0 1 0 0 1 0 0 0 0", 'parts="vl5" encoding="R"', "the rotation of part 1 in row 2 has the length 0"),
         ("", 'parts="vl5" encoding="R" rotationEncoding="euler"', "0 numbers"),
         ("0 0 1 0 0", 'parts="vl5" encoding="R" rotationEncoding="euler"', "rotationEncoding='euler' is not read"),
         ("<Key/>0 0 1 0 0 1 0 1 0 0", 'parts="vl5" encoding="R"', "only KeyPosition may stand in"),
-        ('<KeyPosition id="a" time="2"/>0 0 1 0 0 1 0 1 0 0', 'parts="vl5" encoding="R"', "2 is not within 0 and 1"),
+        ('<KeyPosition id="a" time="2"/>0 0 1 0 0 1 0 1 0 0', 'parts="vl5" encoding="R"', "a at 2 s: it lasts from"),
+        ('<KeyPosition id="end" time="0.5"/>0 0 1 0 0 1 0 1 0 0', 'parts="vl5" encoding="R"', "end at 0.5 s: it lasts"),
+        ('<KeyPosition id="start" time="1"/>0 0 1 0 0 1 0 1 0 0', 'parts="vl5" encoding="R"', "start at 1 s: it lasts"),
+        ('<KeyPosition id="a b" time="1"/>0 0 1 0 0 1 0 1 0 0', 'parts="vl5" encoding="R"', "id='a b' cannot name"),
+        ('<KeyPosition id="" time="1"/>0 0 1 0 0 1 0 1 0 0', 'parts="vl5" encoding="R"', "id='' cannot name"),
+        ('<KeyPosition id="id" time="1"/>0 0 1 0 0 1 0 1 0 0', 'parts="vl5" encoding="R"', "id='id' cannot name"),
     ],
 )
 def test_what_is_wrong_is_said_with_its_place(rows, attributes, message):
@@ -222,6 +236,12 @@ def test_what_is_wrong_is_said_with_its_place(rows, attributes, message):
         clip(rows, attributes)
     assert caught.value.fault.code == "bad-asset"
     assert "shake, line 1" in str(caught.value)
+
+
+def test_start_and_end_may_be_named_where_they_are(skeleton):
+    rows = '<KeyPosition id="end" time="2"/><KeyPosition id="zoom" time="2"/><KeyPosition id="start" time="1"/>'
+    motion = KeyframeMotionUnit(clip(f"1 1 0 0 0 2 0 1 0 0{rows}", 'parts="vl5" encoding="R"'), skeleton)
+    assert list(motion.key_positions.items()) == [("start", 0.0), ("zoom", 1.0), ("end", 1.0)]
 
 
 def test_a_file_that_is_no_animation_is_refused(tmp_path):
@@ -237,9 +257,8 @@ def test_a_pose_file_is_one_row_without_a_time(tmp_path):
         '<SkeletonPose rotationEncoding="axisangles" parts="HumanoidRoot l_shoulder" encoding="T1R">'
         "0 0.98 0  1 0 0 0  0 0 1 0.2</SkeletonPose>"
     )
-    rotations, root = read_skeleton_pose(path)
-    assert rotations == {"HumanoidRoot": IDENTITY, "l_shoulder": pytest.approx(from_axis_angle(Z, 0.2))}
-    assert root == (0.0, 0.98, 0.0)
+    turned = pytest.approx(from_axis_angle(Z, 0.2))
+    assert read_skeleton_pose(path) == {"HumanoidRoot": IDENTITY, "l_shoulder": turned}
 
 
 def test_a_pose_of_several_rows_is_none(tmp_path):
@@ -253,6 +272,5 @@ def test_the_peers_files_are_read(shared_cases: Path):
     fists = read_interpolator_file(shared_cases / "asap" / "keyframe" / "clench_fists.xml")
     assert (fists.duration, len(fists.joints)) == (1.0, 22)
     assert angle(fists.rotations_at(1.0)["r_index1"]) == pytest.approx(1.57)
-    rotations, root = read_skeleton_pose(shared_cases / "asap" / "restposes" / "looselyhangingarms.xml")
+    rotations = read_skeleton_pose(shared_cases / "asap" / "restposes" / "looselyhangingarms.xml")
     assert angle(rotations["l_shoulder"]) == pytest.approx(0.2)
-    assert root is not None

@@ -34,7 +34,7 @@ def lasting():
 @pytest.fixture
 def turn(lasting, skeleton):
     """How far a joint is turned at a time by what stays."""
-    return lambda joint, now: angle(compose(skeleton, lasting.layers(now, Body(skeleton))).pose[joint])
+    return lambda joint, now: angle(compose(skeleton, lasting.layers(now, Body(skeleton))).shown.pose[joint])
 
 
 def test_what_has_ended_stays_until_another_of_its_name_has_ended(lasting, turn, skeleton):

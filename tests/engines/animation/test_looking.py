@@ -9,9 +9,10 @@ from hypothesis import strategies as st
 
 from reactive_realizer.bml.words import Influence
 from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.joints import EYES
 from reactive_realizer.embodiment.quaternion import angle, from_axis_angle, from_euler, rotate
 from reactive_realizer.embodiment.vector import FORWARD
-from reactive_realizer.engines.animation.gaze.eyes import EYE_JOINTS, EYE_RANGE, listing
+from reactive_realizer.engines.animation.gaze.eyes import EYE_RANGE, listing
 from reactive_realizer.engines.animation.gaze.lids import with_lids
 from reactive_realizer.engines.animation.gaze.looking import Looking
 from reactive_realizer.engines.animation.gaze.saccade import saccade_progress
@@ -30,7 +31,7 @@ def after(looking: Looking, gazes, body: Body, frames: int, start: float = 0.0) 
 
 
 def looked(body: Body) -> tuple:
-    return rotate(body.place(EYE_JOINTS[0]).rotation, FORWARD)
+    return rotate(body.place(EYES[0]).rotation, FORWARD)
 
 
 @settings(derandomize=True, max_examples=40, suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None)
@@ -51,8 +52,8 @@ def test_both_eyes_are_on_something_near(skeleton):
     body = Body(skeleton)
     target = target_at(body, 5, -10, 0.3)
     last = after(Looking(), [gaze(body, target)], body, 20)[-1]
-    assert all(miss(last, eye, target) < 1e-3 for eye in EYE_JOINTS)
-    assert between(*(rotate(last.place(eye).rotation, FORWARD) for eye in EYE_JOINTS)) > 5
+    assert all(miss(last, eye, target) < 1e-3 for eye in EYES)
+    assert between(*(rotate(last.place(eye).rotation, FORWARD) for eye in EYES)) > 5
 
 
 def test_they_hold_it_while_the_head_turns_nods_and_leans(skeleton):
@@ -66,7 +67,7 @@ def test_they_hold_it_while_the_head_turns_nods_and_leans(skeleton):
             {"skullbase": turn, "vc4": from_euler(0.0, 0.01 * i, 0.0), "vl5": from_euler(0.002 * i, 0, 0)}
         )
         seen = moved.posed(looking.eyes(0.4 + i * FRAME, looks, moved, {}))
-        assert all(miss(seen, eye, target) < 1e-3 for eye in EYE_JOINTS)
+        assert all(miss(seen, eye, target) < 1e-3 for eye in EYES)
 
 
 def test_they_get_there_by_a_saccade(skeleton):
@@ -74,7 +75,7 @@ def test_they_get_there_by_a_saccade(skeleton):
     target = target_at(body, 20, 0, 1000.0)
     looking = Looking()
     after(looking, [], body, 2)
-    angles = [miss(shown, EYE_JOINTS[0], target) for shown in after(looking, [gaze(body, target)], body, 6, 2 * FRAME)]
+    angles = [miss(shown, EYES[0], target) for shown in after(looking, [gaze(body, target)], body, 6, 2 * FRAME)]
     # 20 degrees take 65 ms.
     left = [20 * (1 - saccade_progress(math.radians(20), frame * FRAME)) for frame in range(6)]
     assert angles == pytest.approx(left, abs=0.01)
@@ -106,9 +107,9 @@ def test_a_slow_target_is_followed_and_a_jump_is_a_saccade(skeleton):
     for i in range(40):
         at[0] = target_at(body, 0.5 * i, 0)
         (shown,) = after(looking, looks, body, 1, 0.2 + i * FRAME)
-        assert miss(shown, EYE_JOINTS[0], at[0]) < 1e-3
+        assert miss(shown, EYES[0], at[0]) < 1e-3
     at[0] = target_at(body, -15, 0)
-    misses = [miss(shown, EYE_JOINTS[0], at[0]) for shown in after(looking, looks, body, 8, 1.0)]
+    misses = [miss(shown, EYES[0], at[0]) for shown in after(looking, looks, body, 8, 1.0)]
     assert misses[0] > 20
     assert misses == sorted(misses, reverse=True)
     assert misses[-1] < 1e-3
@@ -123,7 +124,7 @@ def test_a_target_that_jumps_again_in_the_middle_of_a_saccade_does_not_carry_the
         at[0] = target_at(body, yaw, 0)
         bodies += after(looking, looks, body, 1, 0.2 + i * FRAME)
     assert max(between(looked(a), looked(b)) for a, b in pairwise(bodies)) < math.degrees(8.7) * FRAME + 0.1
-    assert miss(bodies[-1], EYE_JOINTS[0], at[0]) < 1e-3
+    assert miss(bodies[-1], EYES[0], at[0]) < 1e-3
 
 
 def test_behind_a_target_that_is_too_quick_they_fall_and_catch_up(skeleton):
@@ -135,7 +136,7 @@ def test_behind_a_target_that_is_too_quick_they_fall_and_catch_up(skeleton):
     for i in range(12):
         at[0] = target_at(body, -35 + 6.0 * i, 0)
         (shown,) = after(looking, looks, body, 1, 0.2 + i * FRAME)
-        misses.append(miss(shown, EYE_JOINTS[0], at[0]))
+        misses.append(miss(shown, EYES[0], at[0]))
     assert 1 < max(misses) < 7
     assert sum(each < 0.01 for each in misses) > 3
 
@@ -157,20 +158,20 @@ def test_a_gaze_of_little_weight_lies_over_the_one_below(skeleton):
 def test_something_at_the_eyes_themselves_does_them_no_harm(skeleton, far):
     body = Body(skeleton)
     for shown in after(Looking(), [gaze(body, target_at(body, 0, 0, far), Influence.EYES)], body, 5):
-        assert all(math.isfinite(part) for eye in EYE_JOINTS for part in shown.rotation(eye))
+        assert all(math.isfinite(part) for eye in EYES for part in shown.rotation(eye))
 
 
 def test_they_rest_as_they_are_told(skeleton):
     body = Body(skeleton)
-    aside = dict.fromkeys(EYE_JOINTS, from_euler(0.01, 0.02, 0.0))
+    aside = dict.fromkeys(EYES, from_euler(0.01, 0.02, 0.0))
     shown = Looking().eyes(0.0, [], body, aside)
-    assert all(between(rotate(shown[eye], FORWARD), rotate(aside[eye], FORWARD)) < 1e-4 for eye in EYE_JOINTS)
+    assert all(between(rotate(shown[eye], FORWARD), rotate(aside[eye], FORWARD)) < 1e-4 for eye in EYES)
 
 
 @pytest.mark.parametrize("closed", [0.0, 0.4])
 def test_a_lid_goes_with_its_eye_as_far_as_it_is_open(closed):
     down, up = from_euler(EYE_RANGE, 0.0, 0.0), from_euler(-0.2, 0.0, 0.0)
-    weights = with_lids(dict(zip(EYE_JOINTS, (down, up), strict=True)), {"eyeBlinkLeft": closed})
+    weights = with_lids(dict(zip(EYES, (down, up), strict=True)), {"eyeBlinkLeft": closed})
     assert weights["eyeBlinkLeft"] == closed
     assert weights["eyeLookDownLeft"] == pytest.approx((1 - closed) * math.sin(EYE_RANGE) / EYE_RANGE)
     assert weights["eyeLookUpRight"] == pytest.approx(math.sin(0.2) / EYE_RANGE)

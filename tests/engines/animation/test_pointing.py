@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.quaternion import angle, from_euler
+from reactive_realizer.embodiment.skeleton import Skeleton
 from reactive_realizer.embodiment.vector import add, distance, dot, scale, subtract, unit
 from reactive_realizer.engines.animation.arms.pointing_arm import PointingArm
 from reactive_realizer.engines.animation.arms.pointing_motion_unit import ASYMMETRY, DEFAULTS, PointingMotionUnit
@@ -50,6 +51,18 @@ def test_the_finger_meets_every_target_that_the_arm_can_point_at_however_the_tru
         aim = PointingArm(skeleton, side).aim(body, target)
         if aim.fault is None:
             assert miss(body.posed(aim.rotations), side, target) < 2.0
+
+
+@given(target=st.one_of(PLACES, NEAR), length=st.sampled_from([0.001, 0.01, 0.05, 0.6]))
+def test_an_arm_of_odd_proportions_points_as_well_as_it_can(skeleton, target, length):
+    offsets = [
+        scale(unit(offset), length) if joint.endswith("_wrist") else offset
+        for joint, offset in zip(skeleton.joints, skeleton.offsets, strict=True)
+    ]
+    odd = Skeleton(skeleton.joints, skeleton.parents, tuple(offsets))
+    for side in SIDES:
+        rotations = PointingArm(odd, side).aim(Body(odd), target).rotations
+        assert all(sum(part * part for part in turn) == pytest.approx(1.0) for turn in rotations.values())
 
 
 @given(target=st.one_of(PLACES, NEAR))

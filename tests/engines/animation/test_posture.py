@@ -2,6 +2,7 @@
 
 import math
 import shutil
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -10,17 +11,18 @@ from reactive_realizer.assembly.assets import Assets
 from reactive_realizer.bml.words import PosePart, StanceType
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.pose import Layer, LayerKind, compose
-from reactive_realizer.embodiment.quaternion import angle, conjugate, multiply, rotate
+from reactive_realizer.embodiment.quaternion import angle, difference, rotate
 from reactive_realizer.embodiment.skeleton import Skeleton
 from reactive_realizer.embodiment.vector import UP, distance, subtract, unit
 from reactive_realizer.engines.animation.motion_unit import Moment, Posed
 from reactive_realizer.engines.animation.posture.body_posture import BodyPosture
+from reactive_realizer.engines.animation.posture.expectation import posture_after
 from reactive_realizer.engines.animation.posture.footing import Footing
 from reactive_realizer.engines.animation.posture.parts import JOINTS
 from reactive_realizer.engines.animation.posture.posture_library import LEXEMES, PostureLibrary
 from reactive_realizer.engines.animation.posture.posture_motion_unit import PostureMotionUnit
 from reactive_realizer.engines.animation.posture.rest import Rest
-from reactive_realizer.errors import RealizerError
+from reactive_realizer.errors import RealizerError, error
 
 from .resting import ASSET, body_in, pose, posture
 
@@ -36,7 +38,7 @@ def part_of(lexeme: str) -> str:
 
 def apart(a: Body, b: Body, joint: str) -> float:
     """The angle between two bodies' rotations of a joint, rad."""
-    return angle(multiply(conjugate(a.rotation(joint)), b.rotation(joint)))
+    return angle(difference(a.rotation(joint), b.rotation(joint)))
 
 
 def height(body: Body, joint: str) -> float:
@@ -188,15 +190,36 @@ def test_a_word_without_a_file_is_refused_by_naming_the_known_ones(skeleton):
 
 
 def test_a_pose_that_a_stance_does_not_know_is_refused_in_it(skeleton):
-    with pytest.raises(RealizerError, match="no pose 'LEGS_CROSSED' of the LEGS for one who is CROUCHING"):
+    with pytest.raises(RealizerError, match="no pose 'LEGS_CROSSED' of the LEGS for one who is CROUCHING") as refused:
         body_in(skeleton, "CROUCHING", LEGS="LEGS_CROSSED")
+    _, _, known = refused.value.fault.sentence.partition("there are ")
+    assert "LEGS_OPEN" in known
+    assert "LEGS_CROSSED" not in known
+    assert "ARMS_CROSSED" not in known
 
 
-@pytest.mark.parametrize("lexeme", ["../humans/default", "/etc/passwd", "", "a/b", "\x00"])
-def test_no_word_leads_out_of_the_assets(skeleton, lexeme):
+@pytest.mark.parametrize("lexeme", ["/etc/passwd", "", "a/b", "\x00"])
+def test_what_is_no_word_has_no_file(skeleton, lexeme):
     with pytest.raises(RealizerError) as refused:
         body_in(skeleton, ARMS=lexeme)
     assert refused.value.fault.code == "no-posture"
+
+
+def test_no_word_leads_out_of_the_assets(skeleton):
+    with pytest.raises(RealizerError, match="it may not leave the folders"):
+        body_in(skeleton, ARMS="../humans/default")
+
+
+def test_only_where_there_is_no_file_for_a_stance_the_file_for_all_is_taken(skeleton):
+    def asset(name: str) -> Path:
+        if name == "postures/sitting/arms_crossed.xml":
+            raise error("two-assets", name=name, known="this, that")
+        return ASSET(name)
+
+    library = PostureLibrary(skeleton, asset)
+    assert library.body(posture(ARMS="ARMS_CROSSED"))
+    with pytest.raises(RealizerError, match="this, that"):
+        library.body(posture("SITTING", ARMS="ARMS_CROSSED"))
 
 
 def test_a_word_that_says_nothing_about_a_part_is_refused_for_it(skeleton):
@@ -270,9 +293,11 @@ def test_a_binding_may_say_how_a_stance_rests_and_the_feet_stay_on_the_ground(sk
 
 
 def test_a_rest_pose_that_is_not_there_is_logged_and_ours_is_taken(skeleton, caplog):
-    body = PostureLibrary(skeleton, ASSET, {"SITTING": "nowhere.xml"}).body(posture("SITTING"))
-    assert body.pose == body_in(skeleton, "SITTING").pose
-    assert "nowhere.xml" in caplog.text
+    library = PostureLibrary(skeleton, ASSET, {"SITTING": "nowhere.xml"})
+    said = ["the rest pose of SITTING is our own: no file 'nowhere.xml' among the assets"]
+    assert [record.getMessage() for record in caplog.records] == said, "before anybody sits"
+    assert library.body(posture("SITTING")).pose == body_in(skeleton, "SITTING").pose
+    assert len(caplog.records) == 1
 
 
 # --- words joined
@@ -336,6 +361,7 @@ def test_how_long_it_takes_follows_from_how_far_it_is(rest):
 
 def test_getting_up_takes_as_long_as_sitting_down_even_if_both_are_planned_at_once(rest):
     down = PostureMotionUnit(rest, StanceType.SITTING, [], shift=True)
+    rest.expected = posture_after(rest.posture, [down])
     up = PostureMotionUnit(rest, StanceType.STANDING, [], shift=True)
     assert up.preferred_duration == pytest.approx(down.preferred_duration)
 
@@ -406,3 +432,48 @@ def test_legs_of_no_length_are_left_alone(skeleton):
     body = body_in(flat, "SITTING")
     layers = (Layer(LayerKind.BASE, {}), Layer(LayerKind.POSTURE, body.pose, 0.5, root=body.root))
     assert Footing(flat).layers(layers) == ()
+
+
+# --- feet
+
+
+def walking(skeleton: Skeleton, way: float, share: float) -> Body:
+    """A figure that has gone a share of a way straight ahead, m."""
+    below, goal = Layer(LayerKind.BASE, {}), Layer(LayerKind.POSTURE, {}, share, root=(0.0, 0.0, way))
+    return compose(skeleton, (below, goal, *Footing(skeleton).layers((below, goal)))).shown
+
+
+def test_who_goes_far_sets_one_foot_before_the_other_and_keeps_the_pelvis_up_between_them(skeleton):
+    bodies = [walking(skeleton, 3.0, i / 300) for i in range(301)]
+    leads = [
+        [body.place(ankle).position[2] - body.place("l_hip").position[2] for ankle in ("l_ankle", "r_ankle")]
+        for body in bodies
+    ]
+    assert max(abs(lead) for pair in leads for lead in pair) < 0.4
+    assert sum((a[0] > a[1]) != (b[0] > b[1]) for a, b in pairwise(leads)) >= 4, "one passes the other"
+    assert min(body.root[1] for body in bodies) > -0.08
+    assert height(bodies[-1], "l_ankle") == pytest.approx(height(bodies[0], "l_ankle"), abs=1e-6)
+
+
+def test_a_foot_is_in_the_air_or_does_not_slide(skeleton):
+    bodies = [walking(skeleton, 3.0, i / 300) for i in range(301)]
+    for ankle in ("l_ankle", "r_ankle"):
+        ground = height(bodies[0], ankle)
+        for a, b in pairwise(bodies):
+            if max(height(a, ankle), height(b, ankle)) < ground + 1e-3:
+                assert distance(a.place(ankle).position, b.place(ankle).position) < 0.03
+
+
+def test_for_feet_that_it_has_left_behind_the_pelvis_does_not_sink_far(skeleton):
+    pushed = Layer(LayerKind.ADDITIVE, {}, root=(1.5, 0.0, 0.0))
+    lowered, _ = Footing(skeleton).layers((Layer(LayerKind.BASE, {}), pushed))
+    assert lowered.root == pytest.approx((0.0, -0.25, 0.0))
+
+
+def test_a_file_that_takes_the_root_out_of_sight_is_no_posture(skeleton, own):
+    (own / "postures" / "arms_up.xml").write_text(
+        '<ProcAnimation prefDuration="1"><EndEffector target="HumanoidRoot" local="true" translation="0;0;1e300"/>'
+        '<Rotation target="l_elbow" rotation="1;0;0"/></ProcAnimation>'
+    )
+    with pytest.raises(RealizerError, match="HumanoidRoot's place"):
+        PostureLibrary(skeleton, Assets((own,))).body(posture(WHOLEBODY="ARMS_UP"))

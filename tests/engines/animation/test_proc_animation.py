@@ -127,7 +127,7 @@ def test_hands_are_turned_after_the_trunk_and_arms_that_carry_them_whatever_the_
 
 def test_joints_that_a_figure_lacks_are_left_out_and_noted_once(read, skeleton, caplog):
     animation = read('<Rotation target="vc7" rotation="1;0;0"/><Rotation target="vc4" rotation="t;0;0"/>')
-    with caplog.at_level("INFO"):
+    with caplog.at_level("WARNING"):
         fitted = animation.on(skeleton)
         for phase in (0.0, 0.5, 1.0):
             assert fitted.sample(phase, {}, Body(skeleton)).rotations == {"vc4": from_euler(phase, 0.0, 0.0)}
@@ -190,6 +190,7 @@ def test_in_the_mirror_the_left_arm_does_what_the_right_arm_did(skeleton, animat
         ('\n<Parameter sid="a" value="much"/>', r"line 3, <Parameter>: value='much' is no number"),
         ('<Parameter sid="a" value="nan"/>', r"<Parameter>: value='nan' is no number"),
         ('<Parameter sid="t" value="1"/>', r"a parameter may not be called t"),
+        ('<KeyPosition id="a:b" time="0"/>', r"line 2, <KeyPosition>: id='a:b' cannot name a sync point"),
         ('<KeyPosition id="stroke" time="t"/>', r"a duration or key time depends on t"),
         (
             '<Keyframes target="vc4" encoding="polar"/>',
@@ -235,8 +236,9 @@ def test_where_a_formula_has_no_value_there_is_no_motion_and_the_phase_is_named(
         animation.sample(0.5, {}, Body(skeleton))
 
 
-def test_a_keyframe_that_is_no_rotation_is_no_motion(read, skeleton):
-    keyframe = '<Keyframe time="0" local="true" value="t;0;0;0"/>'
+@pytest.mark.parametrize("value", ["t;0;0;0", "1e200;0;1e200;0"])
+def test_a_keyframe_that_is_no_rotation_is_no_motion(read, skeleton, value):
+    keyframe = f'<Keyframe time="0" local="true" value="{value}"/>'
     animation = read(f'<Keyframes target="vc4" encoding="quaternion">{keyframe}</Keyframes>')
     with pytest.raises(RealizerError, match=r"gives no pose at phase 0: what is asked of vc4 is no rotation"):
         animation.sample(0.0, {}, Body(skeleton))
@@ -244,11 +246,24 @@ def test_a_keyframe_that_is_no_rotation_is_no_motion(read, skeleton):
 
 @pytest.mark.parametrize(
     ("content", "durations"),
-    [("", 'prefDuration="r"'), ('<KeyPosition id="stroke" time="1.5"/>', 'prefDuration="1"')],
+    [
+        ("", 'prefDuration="r"'),
+        ('<KeyPosition id="stroke" time="1.5"/>', 'prefDuration="1"'),
+        ('<KeyPosition id="start" time="0.5"/>', 'prefDuration="1"'),
+        ('<KeyPosition id="end" time="0.5"/>', 'prefDuration="1"'),
+    ],
 )
 def test_a_motion_of_no_duration_or_with_points_outside_it_cannot_be_planned(read, content, durations):
-    with pytest.raises(RealizerError, match="gives no pose"):
+    with pytest.raises(
+        RealizerError, match=r"it would last 0 s|key positions lie from 0 to 1, start at 0 and end at 1"
+    ):
         ProcMotionUnit(read(content, durations), {}, LayerKind.ADDITIVE)
+
+
+def test_files_may_say_where_start_and_end_are(read):
+    points = '<KeyPosition id="start" time="0"/><KeyPosition id="stroke" time="0.5"/><KeyPosition id="end" time="1"/>'
+    motion = ProcMotionUnit(read(points), {}, LayerKind.ADDITIVE)
+    assert motion.key_positions == {"start": 0.0, "stroke": 0.5, "end": 1.0}
 
 
 def test_of_what_turns_one_joint_formulas_prevail_over_keyframes_and_these_over_keyed_motion(read, skeleton):
@@ -304,5 +319,7 @@ def test_every_animation_of_the_peer_has_a_pose_at_every_phase_and_hands_where_i
 
 
 def test_every_animation_of_ours_has_a_pose_at_every_phase_and_hands_where_it_says(animations, skeleton):
-    for path in sorted(animations.rglob("*.xml")):
+    files = sorted(animations.rglob("*.xml"))
+    assert len(files) == 54
+    for path in files:
         look_through(path, skeleton)

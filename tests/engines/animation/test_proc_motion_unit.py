@@ -5,9 +5,10 @@ import pytest
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.pose import LayerKind
-from reactive_realizer.embodiment.quaternion import angle, conjugate, from_euler, multiply
+from reactive_realizer.embodiment.quaternion import angle, difference, from_euler
 from reactive_realizer.engines.animation.motion_unit import Moment, Resource
 from reactive_realizer.engines.animation.procedural.proc_motion_unit import ProcMotionUnit, kind_of
+from reactive_realizer.errors import RealizerError
 
 RISING = '<Rotation target="r_elbow" rotation="0-0.5-t;0;0"/>'
 
@@ -19,7 +20,7 @@ def rotation(unit, phase, body, joint="r_elbow"):
 
 
 def gap(a, b):
-    return angle(multiply(conjugate(a), b))
+    return angle(difference(a, b))
 
 
 @pytest.mark.parametrize(("duration", "arrived"), [(3.0, 0.1), (0.4, 0.25)])
@@ -98,3 +99,13 @@ def test_a_parameter_that_changes_while_it_plays_changes_the_motion_and_not_its_
     unit.parameters["a"] = 3.0
     assert rotation(unit, 0.5, Body(skeleton), "vc4") == pytest.approx(from_euler(1.5, 0.0, 0.0))
     assert (unit.preferred_duration, unit.key_positions["stroke"]) == (2.0, 0.25)
+
+
+@pytest.mark.parametrize("times", [100.0, 101.0, -1.0, 1e9])
+def test_nothing_repeats_its_stroke_more_than_a_hundred_times(read, times):
+    animation = read('<KeyPosition id="stroke" time="0.5/r"/><Parameter sid="r" value="1"/>')
+    if times <= 100.0 and times > 0.0:
+        assert "stroke:100" in ProcMotionUnit(animation, {"r": times}, LayerKind.ADDITIVE).key_positions
+    else:
+        with pytest.raises(RealizerError, match="the parameter r is a number from 0 to 100, which"):
+            ProcMotionUnit(animation, {"r": times}, LayerKind.ADDITIVE)

@@ -44,7 +44,7 @@ def shown(skeleton):
     """The angle of a joint, rad, at a time, s, of parts over a body whose joints are turned by 0.4 rad."""
 
     def angle_of(parts, time, joint="skullbase"):
-        return angle(composed(parts, time).pose[joint])
+        return angle(composed(parts, time).shown.pose[joint])
 
     def composed(parts, time):
         whole = SequenceMotionUnit(parts, {})
@@ -103,7 +103,7 @@ def test_the_root_comes_with_the_part_that_moves_it(shown):
         Part(Turning(0.0, "skullbase"), 0.0, 1.0),
         Part(Turning(0.0, root=(0.0, -0.2, 0.0)), 0.0, 1.0, ease_in=1.0),
     ]
-    assert shown.composed(parts, 0.5).root == pytest.approx((0.0, -0.1, 0.0))
+    assert shown.composed(parts, 0.5).shown.root == pytest.approx((0.0, -0.1, 0.0))
 
 
 def test_each_part_begins_once_from_where_the_body_is_when_its_time_has_come(skeleton):
@@ -126,6 +126,11 @@ def test_a_parameter_on_which_the_parts_agree_is_one_of_the_whole_and_reaches_th
     whole.pose(Moment(0.5, 0.5, Body(skeleton)))
     assert first.parameters == {"amount": 0.5, "a": 0.2}
     assert second.parameters == {"amount": 0.5, "a": 0.3}
+
+
+def test_it_has_the_points_that_are_named_in_order_and_no_others():
+    keys = SequenceMotionUnit([Part(Turning(1.0, "vc4"), 0.0, 4.0)], {"late": 3.0, "early": 1.0}).key_positions
+    assert list(keys.items()) == [("start", 0.0), ("early", 0.25), ("late", 0.75), ("end", 1.0)]
 
 
 # --- files
@@ -177,7 +182,9 @@ async def test_a_sequence_of_a_file_plays_as_one_behavior_with_its_parts_points(
     ("sequence", "said"),
     [
         ("<Sequence/>", "one or more, all of one kind"),
-        ('<Sequence><Motion type="Dance" file="lift.xml" start="0"/></Sequence>', "no motion unit 'Dance'"),
+        ('<Sequence><Motion type="Dance" file="lift.xml" start="0"/></Sequence>', "type='Dance': a part may be"),
+        ('<Sequence><Motion type="gaze" start="0"/></Sequence>', "type='gaze': a part may be"),
+        ('<Sequence><Motion type="transition" start="0"/></Sequence>', "type='transition': a part may be"),
         ('<Sequence><Motion type="ProcAnimation" file="lift.xml" start="2" end="1"/></Sequence>', "start < end"),
         ('<Sequence><Motion type="ProcAnimation" file="lift.xml" start="0" easeIn="9"/></Sequence>', "between them"),
         ('<Sequence><Motion type="ProcAnimation" file="lift.xml" start="now"/></Sequence>', "is no number"),
@@ -185,6 +192,7 @@ async def test_a_sequence_of_a_file_plays_as_one_behavior_with_its_parts_points(
         ('<Sequence><Motion type="Sequence" file="two.xml" start="0"/></Sequence>', "a part of itself"),
         (TWO.replace("low:end", "high:end"), "no point 'high:end'"),
         (TWO.replace('id="lifted"', 'id="end"'), "those of the whole"),
+        (TWO.replace('id="lifted"', 'id="lifted up"'), "cannot name a sync point"),
         (TWO.replace("KeyPosition", "Point"), "known are Motion, KeyPosition"),
     ],
 )
@@ -192,3 +200,15 @@ async def test_a_file_that_makes_no_sense_is_refused_with_the_reason(sequence, s
     pilot = await perform(tmp_path, sequence)
     assert [warning for _, warning in pilot.feedback.warnings] == ["CANNOT_CREATE_BEHAVIOR"]
     assert said in pilot.feedback.of("warningFeedback")[0].element.text
+
+
+async def test_files_that_double_at_each_level_are_refused(tmp_path) -> None:
+    for i in range(12):
+        inner = f'type="Sequence" file="s{i + 1}.xml"' if i < 11 else 'type="ProcAnimation" file="lift.xml"'
+        part = f'<Motion {inner} start="0"/>'
+        (tmp_path / f"s{i}.xml").write_text(f"<Sequence>{part}{part}</Sequence>")
+    outer = '<Sequence><Motion type="Sequence" file="s0.xml" start="0"/></Sequence>'
+    pilot = await perform(tmp_path, outer)
+    assert "with those of its parts a sequence has more than 100 parts" in str(
+        pilot.feedback.of("warningFeedback")[0].element.text
+    )

@@ -1,10 +1,19 @@
 """From a binding to a gesture."""
 
+from functools import lru_cache
+
 from reactive_realizer.binding.gesture_binding import numbers
 from reactive_realizer.engines.animation.actor import Actor, Wanted
-from reactive_realizer.engines.animation.arms.gesture_motion_unit import GestureMotionUnit
+from reactive_realizer.engines.animation.arms.gesture_motion_unit import HOLD, HOLD_RANGE, GestureMotionUnit
+from reactive_realizer.engines.animation.motion_unit import AMOUNT, AMOUNT_RANGE
 from reactive_realizer.engines.animation.procedural.animation_files import wanted_animation
 from reactive_realizer.engines.animation.procedural.proc_animation import ProcAnimation
+from reactive_realizer.engines.animation.values import values_of
+
+_RANGES = {AMOUNT: AMOUNT_RANGE, HOLD: HOLD_RANGE}
+
+_MOST = 128
+"""Gestures that are kept to be made again; a planner may ask for any number of sizes of one."""
 
 
 class GestureMaker:
@@ -16,16 +25,17 @@ class GestureMaker:
 
     def __init__(self, actor: Actor) -> None:
         self._actor = actor
-        self._made: dict[tuple[ProcAnimation, tuple[tuple[str, float], ...]], GestureMotionUnit] = {}
         self._rest = actor.rest.body
+        self._gesture = lru_cache(_MOST)(self._made)
 
     def __call__(self, wanted: Wanted) -> GestureMotionUnit:
         """As every maker."""
-        animation, parameters = wanted_animation(self._actor, wanted), numbers(wanted.parameters)
+        animation = wanted_animation(self._actor, wanted)
+        parameters = numbers(wanted.parameters) | values_of(wanted.parameters, _RANGES)
         if self._rest is not self._actor.rest.body:
             self._rest = self._actor.rest.body
-            self._made.clear()
-        alike = animation, tuple(parameters.items())
-        if alike not in self._made:
-            self._made[alike] = GestureMotionUnit(animation, parameters, self._rest.pose, self._rest)
-        return self._made[alike].another()
+            self._gesture.cache_clear()
+        return self._gesture(animation, tuple(parameters.items())).another()
+
+    def _made(self, animation: ProcAnimation, parameters: tuple[tuple[str, float], ...]) -> GestureMotionUnit:
+        return GestureMotionUnit(animation, dict(parameters), self._rest)

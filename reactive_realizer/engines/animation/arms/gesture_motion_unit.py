@@ -7,8 +7,7 @@ from typing import Self
 
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.pose import LayerKind
-from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, slerp
-from reactive_realizer.embodiment.skeleton import Pose
+from reactive_realizer.embodiment.quaternion import Quat, slerp
 from reactive_realizer.engines.animation.arms.pace import comfortable, seven_points
 from reactive_realizer.engines.animation.easing import minimum_jerk, share
 from reactive_realizer.engines.animation.motion_unit import (
@@ -16,7 +15,9 @@ from reactive_realizer.engines.animation.motion_unit import (
     AMOUNT_RANGE,
     ANY_VALUE,
     GESTURE_POINTS,
+    Foreseen,
     Moment,
+    MotionUnit,
     Posed,
     arms_of,
     completed,
@@ -27,10 +28,12 @@ from reactive_realizer.planunit.parameter import Range
 HOLD = "postStrokeHoldDuration"
 """The parameter of a binding that says how long the hands stay after the stroke, s."""
 
+HOLD_RANGE = Range(0.0, 600.0)
+
 _INNER = GESTURE_POINTS[1:-1]
 
 
-class GestureMotionUnit:
+class GestureMotionUnit(MotionUnit):
     """Prepares from wherever the arms are, makes the stroke, holds, and retracts to the rest pose.
 
     The animation is played from its `ready` to its `relax`; what it has before and after is left out, for how the hands
@@ -42,62 +45,44 @@ class GestureMotionUnit:
     high as ever for a smaller stroke would not look like a smaller gesture.
     """
 
-    kind: LayerKind = LayerKind.GESTURE
-    group: str | None = None
-    lasts: str | None = None
-    limits: tuple[float, float] | None = None
+    kind = LayerKind.GESTURE
+    foreseen = Foreseen.ONCE_BEGUN
 
-    def __init__(self, animation: ProcAnimation, parameters: Mapping[str, float], rest: Pose, body: Body) -> None:
+    def __init__(self, animation: ProcAnimation, parameters: Mapping[str, float], rest: Body) -> None:
         """Plans a gesture.
 
         Args:
             animation: the stroke.
             parameters: values for some of the animation's parameters, and `HOLD`.
-            rest: where the retraction ends; joints it leaves out end in the default pose.
-            body: as it is expected to be at the start: from its hands' way to the stroke follow the preferred durations
-                of preparation and retraction.
+            rest: where the hands are expected to set out, and return to: from their way to the stroke follow the
+                preferred durations of preparation and retraction.
 
         Raises:
             RealizerError: "no-motion": the animation has no pose at its ready or relax.
         """
-        self.parameters = {AMOUNT: 1.0, **animation.values(parameters)}
-        self.ranges: Mapping[str, Range] = {**dict.fromkeys(self.parameters, ANY_VALUE), AMOUNT: AMOUNT_RANGE}
+        self.parameters = {AMOUNT: parameters.get(AMOUNT, 1.0), **animation.values(parameters)}
+        self.ranges = {**dict.fromkeys(self.parameters, ANY_VALUE), AMOUNT: AMOUNT_RANGE}
+        self.joints = animation.joints
         self.resources = arms_of(animation.joints)
         self._animation = animation
         self._rest = rest
-        self._begin = {joint: body.rotation(joint) for joint in animation.joints}
+        self._begin = {joint: rest.rotation(joint) for joint in animation.joints}
         self._asked: tuple[float, ...] = ()
         self._found: Mapping[str, Quat] = {}
         timing = animation.timing(self.parameters)
         keys = completed(timing.key_positions)
         self._inner = [keys[point] for point in _INNER]
-        durations = self._durations(body, timing.duration, max(0.0, parameters.get(HOLD, 0.0)))
-        self._duration = sum(durations)
-        self._key_positions = seven_points(durations)
+        durations = self._durations(timing.duration, parameters.get(HOLD, 0.0))
+        self.preferred_duration = sum(durations)
+        self.key_positions = seven_points(durations)
 
-    def _durations(self, body: Body, whole: float, hold: float) -> list[float]:
+    def _durations(self, whole: float, hold: float) -> list[float]:
         """Of the six phases between the seven points, s."""
-        ready = body.posed(self._animation.sample(self._inner[0], self.parameters, body).rotations)
-        relax = body.posed(self._animation.sample(self._inner[-1], self.parameters, body).rotations)
-        rest = body.posed({joint: self._rest.get(joint, IDENTITY) for joint in self.joints})
+        rest = self._rest
+        relax = rest.posed(self._animation.sample(self._inner[-1], self.parameters, rest).rotations)
         stroke = [whole * (after - before) for before, after in pairwise(self._inner)]
         stroke[-1] += hold
-        return [comfortable(body, ready, self.joints), *stroke, comfortable(relax, rest, self.joints)]
-
-    @property
-    def joints(self) -> frozenset[str]:
-        """The joints that the animation turns."""
-        return self._animation.joints
-
-    @property
-    def key_positions(self) -> Mapping[str, float]:
-        """The seven points of a gesture, each where its preferred duration puts it."""
-        return self._key_positions
-
-    @property
-    def preferred_duration(self) -> float:
-        """From start to end, s."""
-        return self._duration
+        return [self.preparation(rest), *stroke, comfortable(relax, rest, self.joints)]
 
     def another(self) -> Self:
         """The same gesture once more, not begun: how long it would like to take need not be found out again."""
@@ -111,8 +96,8 @@ class GestureMotionUnit:
 
     def pose(self, moment: Moment) -> Posed:
         """Rotations of arms and fingers; they leave for whatever lies below."""
-        keys, phase = self._key_positions, moment.phase
-        stroke = self._stroke(phase, moment.body)
+        keys, phase = self.key_positions, moment.phase
+        stroke = self._stroke(moment)
         if phase < keys["ready"]:
             done = minimum_jerk(share(phase, 0.0, keys["ready"]))
             return Posed({joint: slerp(self._begin[joint], goal, done) for joint, goal in stroke.items()})
@@ -123,23 +108,23 @@ class GestureMotionUnit:
         ready = body.posed(self._animation.sample(self._inner[0], self.parameters, body).rotations)
         return comfortable(body, ready, self.joints)
 
-    def _stroke(self, phase: float, body: Body) -> Mapping[str, Quat]:
+    def _stroke(self, moment: Moment) -> Mapping[str, Quat]:
         """The animation's pose at a phase, as much of it as is to be shown; while the hands come and go, the same."""
-        asked = (self._animation_phase(phase), *self.parameters.values())
+        asked = (self._animation_phase(moment.phase), *self.parameters.values())
         if asked != self._asked or not self._animation.alone:
-            self._asked, self._found = asked, self._sampled(asked[0], body)
+            self._asked, self._found = asked, self._sampled(asked[0], moment)
         return self._found
 
-    def _sampled(self, phase: float, body: Body) -> Mapping[str, Quat]:
-        pose = self._animation.sample(phase, self.parameters, body).rotations
+    def _sampled(self, phase: float, moment: Moment) -> Mapping[str, Quat]:
+        pose = self._animation.sample(phase, self.parameters, moment.body, moment.shown).rotations
         amount = self.parameters[AMOUNT]
         if amount == 1.0:
             return pose
-        return {joint: slerp(self._rest.get(joint, IDENTITY), goal, amount) for joint, goal in pose.items()}
+        return {joint: slerp(self._rest.rotation(joint), goal, amount) for joint, goal in pose.items()}
 
     def _animation_phase(self, phase: float) -> float:
         """The animation's own phase: its ready until the hands are there, its relax from when they leave."""
-        positions = [self._key_positions[point] for point in _INNER]
+        positions = [self.key_positions[point] for point in _INNER]
         for (left, right), (begin, end) in zip(pairwise(positions), pairwise(self._inner), strict=True):
             if phase < right:
                 return begin + (end - begin) * share(phase, left, right) if phase > left else begin

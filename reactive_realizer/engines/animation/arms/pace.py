@@ -1,12 +1,13 @@
 """How long hands would like to take from one place to another, and the phases that follow from it."""
 
 from collections.abc import Sequence
-from itertools import accumulate, pairwise
+from itertools import accumulate
 
 from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.joints import SIDES
 from reactive_realizer.embodiment.quaternion import slerp
-from reactive_realizer.embodiment.vector import distance
 from reactive_realizer.engines.animation.motion_unit import GESTURE_POINTS
+from reactive_realizer.engines.animation.ways import furthest
 
 
 def comfortable(start: Body, goal: Body, joints: frozenset[str]) -> float:
@@ -22,15 +23,8 @@ def comfortable(start: Body, goal: Body, joints: frozenset[str]) -> float:
     """
     between = {joint: slerp(start.rotation(joint), goal.rotation(joint), 0.5) for joint in joints}
     bodies = (start, start.posed(between), goal)
-    sides = [side for side in ("l", "r") if f"{side}_shoulder" in joints]
-    return max(0.25 + 0.75 * _furthest("wrist", sides, bodies), 0.84 * _furthest("middle3", sides, bodies))
-
-
-def _furthest(joint: str, sides: Sequence[str], bodies: Sequence[Body]) -> float:
-    """The longer of the ways of a joint of the left and of the right arm, m; 0 where there is none."""
-    names = [name for side in sides if (name := f"{side}_{joint}") in bodies[0].skeleton]
-    paths = [[body.place(name).position for body in bodies] for name in names]
-    return max((sum(distance(a, b) for a, b in pairwise(path)) for path in paths), default=0.0)
+    sides = [side for side in SIDES if f"{side}_shoulder" in joints]
+    return max(0.25 + 0.75 * furthest("wrist", sides, bodies), 0.84 * furthest("middle3", sides, bodies))
 
 
 def seven_points(durations: Sequence[float]) -> dict[str, float]:

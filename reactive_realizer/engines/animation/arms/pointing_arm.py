@@ -64,7 +64,7 @@ _NEEDED = ("shoulder", "elbow", "wrist", "index1", "index2", "index3")
 _TOO_NEAR, _BEHIND = "it is too near", "it is behind the arm"
 
 
-class Aim(NamedTuple):
+class ArmPose(NamedTuple):
     """How an arm points.
 
     Attributes:
@@ -103,7 +103,7 @@ class PointingArm:
         """The joints that it turns."""
         return frozenset((*map(self._joint, _NEEDED[:3]), *self._fingers))
 
-    def aim(self, body: Body, target: Vec3) -> Aim:
+    def aim(self, body: Body, target: Vec3) -> ArmPose:
         """Points at a target, or as nearly as is natural.
 
         Args:
@@ -122,7 +122,7 @@ class PointingArm:
         elbow = multiply(elbow, self._pronation(self._arm.lower))
         hand = self._hand(multiply(shoulder, elbow), subtract(goal, wrist))
         arm = {"shoulder": shoulder, "elbow": elbow, "wrist": hand}
-        return Aim({self._joint(name): turn for name, turn in arm.items()} | self._fingers, fault)
+        return ArmPose({self._joint(name): turn for name, turn in arm.items()} | self._fingers, fault)
 
     def _joint(self, name: str) -> str:
         return f"{self.side}_{name}"
@@ -157,9 +157,9 @@ class PointingArm:
         """The way from the shoulder to a target, in the axes of the shoulder's parent, as far as an arm can point."""
         far, upper = length(way), length(self._arm.upper)
         direction = scale(way, 1.0 / far) if far > 0.0 else FORWARD
-        # Of the triangle of upper arm, stick and way with the greatest bend.
+        # Of the triangle of upper arm, stick and way with the greatest bend, or as great as a short stick allows.
         along = upper * math.cos(_MOST_BEND)
-        nearest = along + math.sqrt(along * along + self._stick * self._stick - upper * upper)
+        nearest = along + math.sqrt(max(0.0, along * along + self._stick * self._stick - upper * upper))
         fault = _TOO_NEAR if far < nearest else None
         ahead = rotate(from_euler(-_ELEVATION, self._outward * _AZIMUTH, 0.0), FORWARD)
         turn = between(ahead, direction)

@@ -3,14 +3,15 @@
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 
-from reactive_realizer.binding.gesture_binding import numbers
 from reactive_realizer.bml.behaviors import Pointing
 from reactive_realizer.bml.words import Mode
+from reactive_realizer.embodiment.joints import SIDES
 from reactive_realizer.embodiment.vector import Vec3
 from reactive_realizer.engines.animation.actor import Actor, Wanted
 from reactive_realizer.engines.animation.arms.pointing_arm import PointingArm
 from reactive_realizer.engines.animation.arms.pointing_motion_unit import DEFAULTS, RANGES, PointingMotionUnit
 from reactive_realizer.engines.animation.sight import sight_of
+from reactive_realizer.engines.animation.values import values_of
 from reactive_realizer.errors import RealizerError, error
 
 _SIDES: Mapping[str, str] = {Mode.LEFT_HAND: "l", Mode.RIGHT_HAND: "r", Mode.BOTH_HANDS: "lr"}
@@ -25,18 +26,19 @@ class PointingMaker:
 
     def __init__(self, actor: Actor) -> None:
         self._actor = actor
-        self._arm = {side: PointingArm(actor.humanoid.avatar.skeleton, side) for side in "lr"}
+        self._arm = {side: PointingArm(actor.humanoid.avatar.skeleton, side) for side in SIDES}
 
     def __call__(self, wanted: Wanted) -> PointingMotionUnit:
         """As every maker."""
         behavior = wanted.behavior
         if not isinstance(behavior, Pointing):
-            raise error("no-unit", unit=f"pointing for {behavior.name}")
+            raise error("wrong-element", unit="pointing", element=behavior.name)
         target = sight_of(self._actor, behavior.target, follow=True)
         sides = _SIDES.get(behavior.mode or wanted.parameters.get("hand", ""))
         arms = self._arms(sides, behavior, target) if sides else self._free(behavior, target)
+        parameters = {**DEFAULTS, **values_of(wanted.parameters, RANGES)}
         humanoid, rest = self._actor.humanoid, self._actor.rest.body
-        return PointingMotionUnit(behavior.target, arms, target, lambda: humanoid.shown, rest, _parameters(wanted))
+        return PointingMotionUnit(behavior.target, arms, target, lambda: humanoid.shown, rest, parameters)
 
     def _free(self, behavior: Pointing, target: Callable[[], Vec3]) -> Sequence[PointingArm]:
         """The arm on the side of the target, or the other if that one cannot."""
@@ -57,11 +59,3 @@ class PointingMaker:
             if (fault := arm.aim(body, target()).fault) is not None:
                 raise error("not-pointable", target=behavior.target, hand=arm.hand, reason=fault)
         return arms
-
-
-def _parameters(wanted: Wanted) -> Mapping[str, float]:
-    said = {**DEFAULTS, **numbers(wanted.parameters)}
-    for name, (low, high) in RANGES.items():
-        if not low <= said[name] <= high:
-            raise error("bad-parameter", name=name, value=said[name], low=low, high=high)
-    return {name: said[name] for name in RANGES}

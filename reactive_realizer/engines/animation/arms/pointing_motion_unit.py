@@ -7,12 +7,12 @@ from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.pose import LayerKind
 from reactive_realizer.embodiment.quaternion import Quat, slerp
 from reactive_realizer.embodiment.vector import Vec3
-from reactive_realizer.engines.animation.arms.gesture_motion_unit import HOLD
+from reactive_realizer.engines.animation.arms.gesture_motion_unit import HOLD, HOLD_RANGE
 from reactive_realizer.engines.animation.arms.pace import comfortable, seven_points
-from reactive_realizer.engines.animation.arms.pointing_arm import Aim, PointingArm
+from reactive_realizer.engines.animation.arms.pointing_arm import ArmPose, PointingArm
 from reactive_realizer.engines.animation.arms.sigmoid import sigmoid
 from reactive_realizer.engines.animation.easing import share
-from reactive_realizer.engines.animation.motion_unit import Moment, Posed, arms_of
+from reactive_realizer.engines.animation.motion_unit import Moment, MotionUnit, Posed, arms_of
 from reactive_realizer.errors import Fault
 from reactive_realizer.planunit.parameter import Range
 
@@ -22,12 +22,12 @@ STEEPNESS, ASYMMETRY = "steepness", "asymmetry"
 DEFAULTS: Mapping[str, float] = MappingProxyType({STEEPNESS: 2.0, ASYMMETRY: -0.1, HOLD: 0.8})
 
 RANGES: Mapping[str, Range] = MappingProxyType(
-    {STEEPNESS: Range(1.5, 4.0), ASYMMETRY: Range(-0.6, 0.6), HOLD: Range(0.0, 600.0)}
+    {STEEPNESS: Range(1.5, 4.0), ASYMMETRY: Range(-0.6, 0.6), HOLD: HOLD_RANGE}
 )
 """The values of these parameters that mean something."""
 
 
-class PointingMotionUnit:
+class PointingMotionUnit(MotionUnit):
     """Brings the line of one index finger or of both to the target and back.
 
     It sets out from where the arms are and keeps the line on the target from ready to relax, wherever target and trunk
@@ -36,11 +36,7 @@ class PointingMotionUnit:
     of the arm has it stay where it came nearest.
     """
 
-    kind: LayerKind = LayerKind.GESTURE
-    group: str | None = None
-    lasts: str | None = None
-    limits: tuple[float, float] | None = None
-    ranges: Mapping[str, Range] = MappingProxyType({})
+    kind = LayerKind.GESTURE
 
     def __init__(
         self,
@@ -70,8 +66,6 @@ class PointingMotionUnit:
         way = self.preparation(rest)
         self.preferred_duration = 2.0 * way + self.parameters[HOLD]
         self.key_positions = seven_points([way, 0.0, 0.0, self.parameters[HOLD], 0.0, way])
-        self.fault: Fault | None = None
-        """Why the finger did not stay on its target, if it did not."""
 
     def preparation(self, body: Body) -> float:
         """How long the hands would like to take to point from where a body has them, s."""
@@ -97,16 +91,16 @@ class PointingMotionUnit:
     def _gone(self, progress: float) -> float:
         return sigmoid(progress, self.parameters[STEEPNESS], self.parameters[ASYMMETRY])
 
-    def _aim(self, body: Body) -> list[Aim]:
+    def _aim(self, body: Body) -> list[ArmPose]:
         target = self._target()
         return [arm.aim(body, target) for arm in self._arms]
 
-    def _missed(self, aims: Sequence[Aim]) -> Fault | None:
+    def _missed(self, aims: Sequence[ArmPose]) -> Fault | None:
         for arm, aim in zip(self._arms, aims, strict=True):
             if aim.fault is not None:
                 return Fault("target-lost", {"hand": arm.hand, "target": self._name, "reason": aim.fault})
         return None
 
 
-def _turns(aims: Sequence[Aim]) -> dict[str, Quat]:
+def _turns(aims: Sequence[ArmPose]) -> dict[str, Quat]:
     return {joint: rotation for aim in aims for joint, rotation in aim.rotations.items()}

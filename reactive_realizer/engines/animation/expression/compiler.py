@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from reactive_realizer.engines.animation.expression.nodes import (
     Call,
-    Choice,
+    Conditional,
     Negation,
     Node,
     Number,
@@ -67,8 +67,8 @@ def fold(node: Node) -> Node:
             node = Negation(fold(operand))
         case Operation(operator, left, right):
             node = Operation(operator, fold(left), fold(right))
-        case Choice(condition, yes, no):
-            node = Choice(fold(condition), fold(yes), fold(no))
+        case Conditional(condition, yes, no):
+            node = Conditional(fold(condition), fold(yes), fold(no))
         case Call(name, function, arguments):
             node = Call(name, function, tuple(map(fold, arguments)))
     if all(isinstance(child, Number) for child in children(node)):
@@ -94,7 +94,7 @@ def _source(node: Node, arguments: Mapping[str, str]) -> str:
         case Operation(operator, left, right):
             parts = (_source(part, arguments) for part in (left, right))
             return _OPERATIONS.get(operator, f"({{}} {operator} {{}})").format(*parts)
-        case Choice(condition, yes, no):
+        case Conditional(condition, yes, no):
             parts = (_source(part, arguments) for part in (yes, condition, no))
             return "({} if {} > 0 else {})".format(*parts)
         case Call(name, _, given):

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from random import Random
 from types import MappingProxyType
 
+from reactive_realizer.engines.animation.expression.noise import PerlinNoise
 from reactive_realizer.engines.animation.expression.splines import hermite, tcbspline
-from reactive_realizer.engines.animation.noise import PerlinNoise
 from reactive_realizer.errors import error
 
 

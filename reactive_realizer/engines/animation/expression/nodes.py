@@ -37,7 +37,7 @@ class Operation:
 
 
 @dataclass(frozen=True, slots=True)
-class Choice:
+class Conditional:
     """if(condition, yes, no): yes where the condition is above 0; the other is not looked at."""
 
     condition: "Node"
@@ -60,7 +60,7 @@ class Call:
     arguments: tuple["Node", ...]
 
 
-Node = Number | Variable | Negation | Operation | Choice | Call
+Node = Number | Variable | Negation | Operation | Conditional | Call
 
 
 def children(node: Node) -> tuple[Node, ...]:
@@ -72,7 +72,7 @@ def children(node: Node) -> tuple[Node, ...]:
             return (operand,)
         case Operation(_, left, right):
             return (left, right)
-        case Choice(condition, yes, no):
+        case Conditional(condition, yes, no):
             return (condition, yes, no)
         case Call(_, _, arguments):
             return arguments

@@ -8,7 +8,7 @@ from typing import NoReturn
 from reactive_realizer.engines.animation.expression.functions import CONSTANTS, FUNCTIONS, Function
 from reactive_realizer.engines.animation.expression.nodes import (
     Call,
-    Choice,
+    Conditional,
     Negation,
     Node,
     Number,
@@ -116,7 +116,7 @@ class _Parser:
         if token.text == "if":
             if len(arguments) != 3:
                 self._fail("if takes 3 arguments, a condition and two values", token.at)
-            return Choice(*arguments), height + 1
+            return Conditional(*arguments), height + 1
         function = self._functions.get(token.text)
         if function is None:
             self._fail(f"unknown function '{token.text}'; known are if, {', '.join(sorted(self._functions))}", token.at)

@@ -5,10 +5,10 @@ from dataclasses import dataclass
 from typing import Self
 
 from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.humanoid import between_eyes
+from reactive_realizer.embodiment.joints import EYES
 from reactive_realizer.embodiment.quaternion import Quat, angle, between, conjugate, power, rotate
-from reactive_realizer.embodiment.vector import FORWARD, Vec3, add, length, scale, subtract
-
-EYE_JOINTS = ("l_eyeball_joint", "r_eyeball_joint")
+from reactive_realizer.embodiment.vector import FORWARD, Vec3, length, scale, subtract
 
 EYE_RANGE = 2.0 * math.asin(math.sqrt(0.12))
 """How far an eye turns from straight ahead, rad (40.5 degrees).
@@ -38,15 +38,8 @@ class Sockets:
     @classmethod
     def of(cls, body: Body) -> Self:
         """Those of a body."""
-        head, skeleton = body.place("skullbase"), body.skeleton
-        places = {
-            eye: add(head.position, rotate(head.rotation, skeleton.offset(eye)))
-            for eye in EYE_JOINTS
-            if eye in skeleton
-        }
-        if len(places) < len(EYE_JOINTS):
-            return cls(head.rotation, places, head.position)
-        return cls(head.rotation, places, scale(add(*places.values()), 0.5))
+        places = {eye: body.place(eye).position for eye in EYES if eye in body.skeleton}
+        return cls(body.place("skullbase").rotation, places, between_eyes(body))
 
 
 def direction(origin: Vec3, target: Vec3) -> Vec3 | None:

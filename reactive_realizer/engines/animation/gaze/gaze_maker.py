@@ -1,8 +1,6 @@
 """From a behavior to a gaze."""
 
-from collections.abc import Mapping
-
-from reactive_realizer.binding.gesture_binding import numbers
+from reactive_realizer.binding.flag import flag
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.behaviors import Gaze, GazeShift, HeadDirectionShift
 from reactive_realizer.bml.names import BMLT
@@ -12,6 +10,7 @@ from reactive_realizer.engines.animation.gaze.aim import Aim
 from reactive_realizer.engines.animation.gaze.gaze_motion_unit import GAZE_SHIFT, HEAD_SHIFT, LOOK, GazeMotionUnit
 from reactive_realizer.engines.animation.gaze.influence import EYES, WEIGHTS, usual_weights
 from reactive_realizer.engines.animation.sight import sight_of
+from reactive_realizer.engines.animation.values import values_of
 from reactive_realizer.errors import error
 
 DYNAMIC = (BMLT, "dynamic")
@@ -36,10 +35,10 @@ class GazeMaker:
         """As every maker."""
         gaze = wanted.behavior
         if not isinstance(gaze, Gaze):
-            raise error("no-unit", unit=f"gaze for {gaze.name}")
+            raise error("wrong-element", unit="gaze", element=gaze.name)
         follow = self._follow or _follows(gaze)
         aim = Aim(sight_of(self._actor, gaze.target, follow=follow), gaze.offset_angle, gaze.offset_direction)
-        weights = usual_weights(gaze.influence or self._influence) | _said(wanted.parameters)
+        weights = usual_weights(gaze.influence or self._influence) | values_of(wanted.parameters, WEIGHTS)
         return GazeMotionUnit(aim, weights, self._actor.rest, GAZE_SHIFT if isinstance(gaze, GazeShift) else LOOK)
 
 
@@ -53,18 +52,12 @@ class HeadDirectionMaker:
         """As every maker."""
         shift = wanted.behavior
         if not isinstance(shift, HeadDirectionShift):
-            raise error("no-unit", unit=f"head-direction for {shift.name}")
+            raise error("wrong-element", unit="head-direction", element=shift.name)
         aim = Aim(sight_of(self._actor, shift.target, follow=_follows(shift)))
-        weights = usual_weights(Influence.HEAD) | _said(wanted.parameters)
+        weights = usual_weights(Influence.HEAD) | values_of(wanted.parameters, WEIGHTS)
         del weights[EYES]
         return GazeMotionUnit(aim, weights, self._actor.rest, HEAD_SHIFT)
 
 
 def _follows(behavior: Behavior) -> bool:
-    return behavior.extensions.get(DYNAMIC) == "true"
-
-
-def _said(parameters: Mapping[str, str]) -> dict[str, float]:
-    """The weights that a behavior or its binding says, each within what it may be."""
-    said = numbers(parameters)
-    return {group: min(high, max(low, said[group])) for group, (low, high) in WEIGHTS.items() if group in said}
+    return flag(DYNAMIC[1], behavior.extensions.get(DYNAMIC, "false"))

@@ -4,6 +4,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
+from typing import Self
 
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.pose import LayerKind
@@ -14,9 +15,8 @@ from reactive_realizer.engines.animation.gaze.aim import Aim
 from reactive_realizer.engines.animation.gaze.influence import EYES, JOINTS, WEIGHTS
 from reactive_realizer.engines.animation.gaze.settling import Settling
 from reactive_realizer.engines.animation.gaze.turning import turn_toward
-from reactive_realizer.engines.animation.motion_unit import Moment, Posed, Resource
+from reactive_realizer.engines.animation.motion_unit import START_TO_END, Moment, MotionUnit, Posed, Resource
 from reactive_realizer.engines.animation.posture.rest import Rest
-from reactive_realizer.planunit.parameter import Range
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,8 +38,6 @@ class Course:
     resources: frozenset[str] = frozenset()
 
 
-_SHIFT = MappingProxyType({"start": 0.0, "end": 1.0})
-
 LOOK = Course(
     MappingProxyType({"start": 0.0, "ready": 0.25, "relax": 0.75, "end": 1.0}),
     2.0,
@@ -48,22 +46,22 @@ LOOK = Course(
 )
 """A gaze: a quarter to turn, half to look, a quarter to turn back."""
 
-GAZE_SHIFT = Course(_SHIFT, 0.5, "gaze", lasts="gaze", resources=frozenset({Resource.HEAD}))
+GAZE_SHIFT = Course(START_TO_END, 0.5, "gaze", lasts="gaze", resources=frozenset({Resource.HEAD}))
 """A gaze that stays, until another one does."""
 
-HEAD_SHIFT = Course(_SHIFT, 0.5, "head direction", lasts="head direction")
+HEAD_SHIFT = Course(START_TO_END, 0.5, "head direction", lasts="head direction")
 """A head that is turned, and stays so; it may be turned elsewhere than the eyes look."""
 
 
-class GazeMotionUnit:
+class GazeMotionUnit(MotionUnit):
     """Turns trunk, neck and head toward what is looked at, and stays turned to it until it relaxes.
 
     The eyes are not among its joints: they look from the head as it is shown in the end, nods and breath included. What
     they do with all gazes of a figure is up to `Looking`.
     """
 
-    kind: LayerKind = LayerKind.GAZE
-    limits: tuple[float, float] | None = None
+    kind = LayerKind.GAZE
+    joints = frozenset(joint for joints in JOINTS.values() for joint in joints)
 
     def __init__(self, aim: Aim, weights: Mapping[str, float], rest: Rest, course: Course = LOOK) -> None:
         """Plans a gaze.
@@ -75,32 +73,18 @@ class GazeMotionUnit:
             course: how it comes and goes.
         """
         self.parameters = dict(weights)
-        self.ranges: Mapping[str, Range] = {group: WEIGHTS[group] for group in weights}
-        self.group: str | None = course.group
+        self.ranges = {group: WEIGHTS[group] for group in weights}
+        self.group = course.group
         self.lasts = course.lasts
         self.resources = course.resources
         self._aim = aim
         self._rest = rest
-        self._course = course
+        self.key_positions = course.key_positions
+        self.preferred_duration = course.duration
         self._ready = course.key_positions.get("ready", 1.0)
         self._relax = course.key_positions.get("relax", math.inf)
         self._settling = Settling()
         self._begin = rest.body
-
-    @property
-    def joints(self) -> frozenset[str]:
-        """Of trunk, neck and head; which of them turn is a matter of weights."""
-        return frozenset(joint for joints in JOINTS.values() for joint in joints)
-
-    @property
-    def key_positions(self) -> Mapping[str, float]:
-        """As its course has them."""
-        return self._course.key_positions
-
-    @property
-    def preferred_duration(self) -> float:
-        """As its course has it, s."""
-        return self._course.duration
 
     def start(self, body: Body) -> None:
         """The head turns from where it is now, which may be another gaze."""
@@ -114,6 +98,10 @@ class GazeMotionUnit:
         if done < 1.0:
             there = {joint: slerp(self._begin.rotation(joint), turn, done) for joint, turn in there.items()}
         return Posed(there, 1.0 - minimum_jerk(share(phase, self._relax, 1.0)) if phase > self._relax else 1.0)
+
+    def gaze(self, phase: float) -> Self | None:
+        """Itself, as long as the eyes are its own."""
+        return self if self.looks(phase) else None
 
     @property
     def eyes(self) -> float:

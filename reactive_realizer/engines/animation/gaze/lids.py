@@ -2,11 +2,12 @@
 
 from collections.abc import Mapping
 
+from reactive_realizer.embodiment.joints import EYES
 from reactive_realizer.embodiment.quaternion import Quat, rotate
 from reactive_realizer.embodiment.vector import FORWARD
-from reactive_realizer.engines.animation.gaze.eyes import EYE_JOINTS, EYE_RANGE
+from reactive_realizer.engines.animation.gaze.eyes import EYE_RANGE
 
-_SIDES = dict(zip(EYE_JOINTS, ("Left", "Right"), strict=True))
+_SIDES = dict(zip(EYES, ("Left", "Right"), strict=True))
 
 
 def with_lids(turns: Mapping[str, Quat], blinks: Mapping[str, float]) -> dict[str, float]:

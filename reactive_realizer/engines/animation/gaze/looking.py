@@ -9,8 +9,8 @@ from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, angle, between, multiply, rotate
 from reactive_realizer.embodiment.vector import FORWARD, Vec3
 from reactive_realizer.engines.animation.gaze.eyes import Sockets, direction, listing, turned
-from reactive_realizer.engines.animation.gaze.gaze_motion_unit import GazeMotionUnit
 from reactive_realizer.engines.animation.gaze.saccade import PEAK_VELOCITY, saccade_progress
+from reactive_realizer.engines.animation.motion_unit import Gazing
 
 Sights = Mapping[str, Vec3]
 """Eye joint -> where it looks, a unit vector of the figure's frame."""
@@ -42,13 +42,13 @@ class Looking:
     def __init__(self, large: Callable[[GlobalTime], None] = lambda _: None) -> None:
         self._large = large
         self._time = GlobalTime(0.0)
-        self._points: dict[GazeMotionUnit, Vec3] = {}
+        self._points: dict[Gazing, Vec3] = {}
         self._head = IDENTITY
         self.turns: Mapping[str, Quat] = {}
         self._saccade: _Saccade | None = None
 
     def eyes(
-        self, now: GlobalTime, gazes: Sequence[GazeMotionUnit], body: Body, resting: Mapping[str, Quat]
+        self, now: GlobalTime, gazes: Sequence[Gazing], body: Body, resting: Mapping[str, Quat]
     ) -> Mapping[str, Quat]:
         """Rotations of the eyes in the frame of a time.
 
@@ -68,7 +68,7 @@ class Looking:
         self.turns = {eye: listing(sockets.rotation, sight) for eye, sight in self._moved(goal, now).items()}
         return self.turns
 
-    def _elsewhere(self, points: Mapping[GazeMotionUnit, Vec3], eyes: Vec3, now: GlobalTime) -> bool:
+    def _elsewhere(self, points: Mapping[Gazing, Vec3], eyes: Vec3, now: GlobalTime) -> bool:
         """Whether there is something else to look at than in the last frame."""
         if list(points) != list(self._points):
             return True
@@ -98,7 +98,7 @@ class Looking:
         return {eye: turned(saccade.sights[eye], sight, done) for eye, sight in goal.items()}
 
 
-def _sight(eye: str, sockets: Sockets, points: Mapping[GazeMotionUnit, Vec3], resting: Mapping[str, Quat]) -> Vec3:
+def _sight(eye: str, sockets: Sockets, points: Mapping[Gazing, Vec3], resting: Mapping[str, Quat]) -> Vec3:
     """Where an eye is to look: each gaze goes as far as its weight from what those before it look at."""
     sight = _ahead(multiply(sockets.rotation, resting.get(eye, IDENTITY)))
     for gaze, point in points.items():

@@ -3,8 +3,9 @@
 from collections.abc import Mapping
 
 from reactive_realizer.clock.units import GlobalTime
-from reactive_realizer.embodiment.quaternion import Quat, angle, conjugate, multiply, power
+from reactive_realizer.embodiment.quaternion import Quat, angle, difference
 from reactive_realizer.engines.animation.easing import minimum_jerk, share
+from reactive_realizer.engines.animation.inertia import faded
 
 _DURATION = 0.5
 """s, as long as a gaze takes to turn there at first."""
@@ -17,10 +18,7 @@ _GAP = 0.1
 
 
 class Settling:
-    """Takes the jumps out of goals: what a jump leaves between shown and wanted goes to 0.
-
-    D. Bollo, "Inertialization: high-performance animation transitions in Gears of War" (2018).
-    """
+    """Takes the jumps out of goals: what a jump leaves between shown and wanted fades (`faded`)."""
 
     def __init__(self) -> None:
         self._time = GlobalTime(0.0)
@@ -36,7 +34,7 @@ class Settling:
             self._left = {}
         elif self._jumps(goal, passed):
             self._since = self._time
-            self._left = {joint: _from(turn, self._shown.get(joint, turn)) for joint, turn in goal.items()}
+            self._left = {joint: difference(turn, self._shown.get(joint, turn)) for joint, turn in goal.items()}
         self._time, self._goal = now, goal
         self._shown = self._settled(goal, now)
         return self._shown
@@ -44,18 +42,11 @@ class Settling:
     def _jumps(self, goal: Mapping[str, Quat], passed: float) -> bool:
         if goal == self._goal:
             return False
-        ways = (angle(_from(self._goal.get(joint, turn), turn)) for joint, turn in goal.items())
+        ways = (angle(difference(self._goal.get(joint, turn), turn)) for joint, turn in goal.items())
         return max(ways, default=0.0) > _FOLLOWED * passed
 
     def _settled(self, goal: Mapping[str, Quat], now: GlobalTime) -> Mapping[str, Quat]:
         rest = 1.0 - minimum_jerk(share(now, self._since, self._since + _DURATION))
         if rest == 0.0 or not self._left:
             return goal
-        return {
-            joint: multiply(turn, power(self._left[joint], rest)) if joint in self._left else turn
-            for joint, turn in goal.items()
-        }
-
-
-def _from(a: Quat, b: Quat) -> Quat:
-    return multiply(conjugate(a), b)
+        return faded(goal, self._left, rest)

@@ -1,1 +1,4 @@
-"""What a living figure does when it does nothing."""
+"""What a living figure does when it does nothing.
+
+It knows times and chance; of behaviors, and of what else moves the body, it knows nothing.
+"""

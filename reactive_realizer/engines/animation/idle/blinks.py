@@ -2,7 +2,7 @@
 
 from random import Random
 
-from reactive_realizer.engines.animation.easing import share
+from reactive_realizer.engines.animation.easing import share, smoothstep
 from reactive_realizer.engines.animation.idle.episodes import Episodes
 
 _BLINK = 0.15
@@ -45,4 +45,4 @@ def _shut(passed: float) -> float:
     if not 0.0 < done < 1.0:
         return 0.0
     part = share(done, 0.0, _CLOSING) if done < _CLOSING else share(1.0 - done, 0.0, 1.0 - _CLOSING)
-    return part * part * (3.0 - 2.0 * part)
+    return smoothstep(part)

@@ -1,7 +1,9 @@
 """What happens again and again at times that chance gives."""
 
 from bisect import bisect_right
+from collections import deque
 from collections.abc import Callable
+from operator import attrgetter
 from typing import Generic, NamedTuple, TypeVar
 
 T = TypeVar("T")
@@ -17,24 +19,23 @@ class Episode(NamedTuple, Generic[T]):
 class Episodes(Generic[T]):
     """Episodes one after the other, from time 0 on; each is drawn when it is first looked at, in order.
 
-    So they are the same whoever asks for which time first.
+    So they are the same whoever asks for which time first, as far back as the last `KEPT` of them reach.
 
     Args:
         first: what is so at first.
         draw: how long the last episode lasts, s, and what follows; from a generator that nobody else draws from.
     """
 
+    KEPT = 64
+
     def __init__(self, first: T, draw: Callable[[], tuple[float, T]]) -> None:
         self._draw = draw
-        self._starts = [0.0]
-        self._whats = [first]
+        self._drawn = deque([Episode(0.0, first)], self.KEPT)
 
     def at(self, time: float) -> tuple[Episode[T], Episode[T]]:
         """The episode of a time, and the one before it; the first one is its own predecessor."""
-        while self._starts[-1] <= time:
+        while (last := self._drawn[-1].since) <= time:
             lasts, what = self._draw()
-            self._starts.append(self._starts[-1] + lasts)
-            self._whats.append(what)
-        now = max(0, bisect_right(self._starts, time) - 1)
-        before = max(0, now - 1)
-        return Episode(self._starts[now], self._whats[now]), Episode(self._starts[before], self._whats[before])
+            self._drawn.append(Episode(last + lasts, what))
+        now = max(0, bisect_right(self._drawn, time, key=attrgetter("since")) - 1)
+        return self._drawn[now], self._drawn[max(0, now - 1)]

@@ -6,6 +6,7 @@ A figure without it looks crashed.
 import math
 from random import Random
 
+from reactive_realizer.embodiment.joints import EYES
 from reactive_realizer.embodiment.pose import Layer, LayerKind
 from reactive_realizer.embodiment.quaternion import Quat, from_euler, multiply
 from reactive_realizer.engines.animation.idle.blinks import Blinks
@@ -68,7 +69,7 @@ class Idle:
         """Rotations of eyes that look at nothing in particular."""
         yaw, pitch = self._glances.at(time)
         turn = from_euler(-pitch, yaw, 0.0)
-        return {"l_eyeball_joint": turn, "r_eyeball_joint": turn}
+        return dict.fromkeys(EYES, turn)
 
     def blink(self, time: float) -> None:
         """Blink at a time, s, as with a large turn of gaze."""

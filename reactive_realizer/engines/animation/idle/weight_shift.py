@@ -2,6 +2,7 @@
 
 from random import Random
 
+from reactive_realizer.embodiment.joints import ROOT
 from reactive_realizer.embodiment.quaternion import Quat, from_euler
 from reactive_realizer.embodiment.vector import Vec3
 from reactive_realizer.engines.animation.easing import minimum_jerk
@@ -48,7 +49,7 @@ class WeightShift:
 def leaning(side: float) -> tuple[dict[str, Quat], Vec3]:
     """What pelvis, trunk and neck do, and where the pelvis goes, m; the foot that carries is -1 (right) to 1 (left)."""
     turns = {
-        "HumanoidRoot": from_euler(0.0, -0.04 * side, 0.050 * side),
+        ROOT: from_euler(0.0, -0.04 * side, 0.050 * side),
         "vl5": from_euler(0.0, 0.03 * side, -0.075 * side),
         "vc4": from_euler(0.0, 0.01 * side, 0.025 * side),
     }

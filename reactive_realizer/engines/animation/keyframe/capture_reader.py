@@ -18,8 +18,11 @@ from reactive_realizer.errors import RealizerError, error
 
 _CHANNELS = frozenset(f"{axis}{what}" for axis in "XYZ" for what in ("position", "rotation"))
 _MOST_DIGITS = 9
+_LARGEST = 1e9
+"""No length in any unit and no angle is larger."""
 _MOST_TURNS = 1_000_000
 """Joints times frames: more than a file of the allowed size says of joints that turn."""
+_PIECE = 5000
 _END = "End"
 """An end site has a length and no name: nothing that would turn."""
 
@@ -89,17 +92,17 @@ class _CaptureReader:
         return _END
 
     def _motion(self, width: int) -> tuple[float, NDArray[np.float64]]:
-        words = self._numbers.split()
+        words = [word for line in self._numbers.splitlines() for word in line.split()]
         self._row = self._motion_row
         if words[:1] != ["Frames:"] or words[2:4] != ["Frame", "Time:"] or len(words) < 5:
             raise self._bad("after MOTION should come 'Frames: N' and 'Frame Time: s'")
         count, step = self._whole(words[1]), self._finite(words[4])
         try:
-            values = np.array(words[5:], dtype=np.float64)
+            values = _values(words[5:])
         except ValueError as problem:
             raise self._bad(str(problem)) from problem
-        if count < 2 or step <= 0.0 or values.size != count * width or not np.isfinite(values).all():
-            wanted = f"{count} frames of {width} finite numbers, {step:g} s apart"
+        if count < 2 or step <= 0.0 or values.size != count * width or not (np.abs(values) <= _LARGEST).all():
+            wanted = f"{count} frames of {width} numbers up to {_LARGEST:g}, {step:g} s apart"
             raise self._bad(f"the {values.size} numbers are not {wanted}, or there are not two")
         return step, values.reshape(count, width)
 
@@ -132,8 +135,8 @@ class _CaptureReader:
             value = float(word)
         except ValueError:
             value = math.nan
-        if not math.isfinite(value):
-            raise self._bad(f"'{word}' is no number")
+        if not abs(value) <= _LARGEST:
+            raise self._bad(f"'{word}' is no number up to {_LARGEST:g}")
         return value
 
     def _expect(self, wanted: str) -> None:
@@ -149,6 +152,12 @@ class _CaptureReader:
 
     def _bad(self, reason: str) -> RealizerError:
         return error("bad-capture", file=self._name, row=self._row, reason=reason)
+
+
+def _values(words: list[str]) -> NDArray[np.float64]:
+    """The numbers of words, piece by piece: figures move in another thread meanwhile, and have to get their turns."""
+    starts = range(0, len(words) or 1, _PIECE)
+    return np.concatenate([np.array(words[start : start + _PIECE], dtype=np.float64) for start in starts])
 
 
 def _words(text: str) -> Iterator[tuple[int, str]]:

@@ -7,11 +7,10 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from reactive_realizer.embodiment.joints import ROOT, other_side
 from reactive_realizer.embodiment.quaternion import Quat, slerp
 from reactive_realizer.embodiment.vector import Vec3
 from reactive_realizer.engines.animation.keyframe.low_pass import low_pass
-
-ROOT = "HumanoidRoot"
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,8 +67,7 @@ class Clip:
 
     def mirrored(self) -> "Clip":
         """The same in a mirror: left is right."""
-        other = {"l_": "r_", "r_": "l_"}
-        joints = tuple(other.get(joint[:2], joint[:2]) + joint[2:] for joint in self.joints)
+        joints = tuple(map(other_side, self.joints))
         roots = None if self.roots is None else self.roots * (-1.0, 1.0, 1.0)
         return replace(self, joints=joints, rotations=self.rotations * (1.0, 1.0, -1.0, -1.0), roots=roots)
 
@@ -85,9 +83,9 @@ class Clip:
         """Without what is faster than a frequency, Hz: the noise of a capture (thesis 3.2.2.2); 0 takes nothing away.
 
         Raises:
-            RealizerError: "bad-keys": its keys are not evenly spaced.
+            RealizerError: "bad-keys": its keys are not evenly spaced, or the frequency is too low for a motion.
         """
-        if cutoff <= 0.0:
+        if not cutoff:
             return self
         smooth = low_pass(self.rotations, self.times, cutoff, self.name)
         roots = None if self.roots is None else low_pass(self.roots, self.times, cutoff, self.name)

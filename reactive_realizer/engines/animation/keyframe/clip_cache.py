@@ -9,6 +9,7 @@ from reactive_realizer.engines.animation.keyframe.capture_reader import read_cap
 from reactive_realizer.engines.animation.keyframe.clip import Clip
 from reactive_realizer.engines.animation.keyframe.retarget import retargeted
 from reactive_realizer.engines.animation.keyframe.skeleton_interpolator import read_interpolator_file
+from reactive_realizer.errors import Fault, RealizerError
 
 _CAPTURE_CUTOFF = 20.0
 """Hz; of 15 to 25 Hz the thesis says that they work well (3.2.2.2)."""
@@ -26,10 +27,25 @@ def clip_in(path: Path, skeleton: Skeleton, cutoff: float | None) -> Clip:
     Raises:
         RealizerError: it cannot be read, or does not fit the figure.
     """
-    return _clip(path, path.stat().st_mtime_ns, skeleton, cutoff)
+    clip = read_ahead(path, skeleton, cutoff)
+    if isinstance(clip, Fault):
+        raise RealizerError(clip)
+    return clip
+
+
+def read_ahead(path: Path, skeleton: Skeleton, cutoff: float | None) -> Clip | Fault:
+    """What `clip_in` will find, or what it will raise: to read and to filter a capture may take seconds."""
+    return _read(path, path.stat().st_mtime_ns, skeleton, cutoff)
 
 
 @lru_cache(32)
+def _read(path: Path, changed: int, skeleton: Skeleton, cutoff: float | None) -> Clip | Fault:
+    try:
+        return _clip(path, changed, skeleton, cutoff)
+    except RealizerError as problem:
+        return problem.fault
+
+
 def _clip(path: Path, changed: int, skeleton: Skeleton, cutoff: float | None) -> Clip:
     captured = path.suffix.lower() == ".bvh"
     clip = retargeted(_capture(path, changed), skeleton) if captured else read_interpolator_file(path)

@@ -1,17 +1,24 @@
 """From a binding, or from BML itself, to a keyframe animation or a capture."""
 
 import logging
+from collections.abc import Callable
+from functools import lru_cache, partial
+from pathlib import Path
 
-from reactive_realizer.binding.gesture_binding import numbers
 from reactive_realizer.bml.twente import Keyframe
 from reactive_realizer.engines.animation.actor import Actor, Wanted
 from reactive_realizer.engines.animation.keyframe.clip import Clip
-from reactive_realizer.engines.animation.keyframe.clip_cache import clip_in
+from reactive_realizer.engines.animation.keyframe.clip_cache import clip_in, read_ahead
 from reactive_realizer.engines.animation.keyframe.keyframe_motion_unit import KeyframeMotionUnit
 from reactive_realizer.engines.animation.keyframe.skeleton_interpolator import read_interpolator_text
+from reactive_realizer.engines.animation.values import values_of
 from reactive_realizer.errors import error
+from reactive_realizer.planunit.parameter import Range
 
 _log = logging.getLogger(__name__)
+
+_FILTER = "filter"
+_RANGES = {_FILTER: Range(0.0, 1e6)}
 
 
 class KeyframeMaker:
@@ -29,12 +36,17 @@ class KeyframeMaker:
         clip = self._clip(wanted)
         return KeyframeMotionUnit(self._of_figure(clip.mirrored() if wanted.mirror else clip, wanted), self._skeleton)
 
+    def reading(self, wanted: Wanted) -> Callable[[], object] | None:
+        """As `SlowMaker`; what stands in BML is short."""
+        return None if _said(wanted) else partial(read_ahead, self._file(wanted), self._skeleton, _cutoff(wanted))
+
     def _clip(self, wanted: Wanted) -> Clip:
-        cutoff = numbers(wanted.parameters).get("filter")
-        behavior = wanted.behavior
-        if isinstance(behavior, Keyframe) and behavior.interpolator is not None:
-            return read_interpolator_text(behavior.interpolator, behavior.id).filtered(cutoff or 0.0)
-        return clip_in(self._actor.file_of(wanted, "xml", "bvh"), self._skeleton, cutoff)
+        if said := _said(wanted):
+            return read_interpolator_text(said, wanted.behavior.id).filtered(_cutoff(wanted) or 0.0)
+        return clip_in(self._file(wanted), self._skeleton, _cutoff(wanted))
+
+    def _file(self, wanted: Wanted) -> Path:
+        return self._actor.file_of(wanted, "xml", "bvh")
 
     def _of_figure(self, clip: Clip, wanted: Wanted) -> Clip:
         """What of it moves joints that are wanted and that the figure has."""
@@ -44,5 +56,20 @@ class KeyframeMaker:
         if not there:
             raise error("no-joints", joints=", ".join(missing), element=wanted.behavior.name)
         if missing:
-            _log.info("%s leaves out what it has not, or the figure has not: %s", clip.name, ", ".join(missing))
+            _tell(clip.name, ", ".join(missing))
         return clip.only(there)
+
+
+@lru_cache
+def _tell(clip: str, missing: str) -> None:
+    """Once, however often it is played."""
+    _log.warning("%s leaves out what it has not, or the figure has not: %s", clip, missing)
+
+
+def _said(wanted: Wanted) -> str | None:
+    """The animation that stands in the behavior itself."""
+    return wanted.behavior.interpolator if isinstance(wanted.behavior, Keyframe) else None
+
+
+def _cutoff(wanted: Wanted) -> float | None:
+    return values_of(wanted.parameters, _RANGES).get(_FILTER)

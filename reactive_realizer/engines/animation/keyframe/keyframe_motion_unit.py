@@ -3,17 +3,16 @@
 from collections.abc import Mapping
 
 from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.ground import grounded
 from reactive_realizer.embodiment.pose import LayerKind
 from reactive_realizer.embodiment.skeleton import Skeleton
 from reactive_realizer.embodiment.vector import add
 from reactive_realizer.engines.animation.arrival import Arrival
 from reactive_realizer.engines.animation.keyframe.clip import Clip
-from reactive_realizer.engines.animation.motion_unit import Moment, Posed, owned
-from reactive_realizer.engines.animation.posture.ground import grounded
-from reactive_realizer.planunit.parameter import Range
+from reactive_realizer.engines.animation.motion_unit import Foreseen, Moment, MotionUnit, Posed, in_order, owned
 
 
-class KeyframeMotionUnit:
+class KeyframeMotionUnit(MotionUnit):
     """Plays a clip: in the time that it took when it was made, if nothing else is asked for.
 
     A clip that moves the root moves it from where the figure stands: in its first key whatever of the figure is lowest
@@ -21,9 +20,7 @@ class KeyframeMotionUnit:
     """
 
     kind = LayerKind.FULL_BODY
-    group: str | None = None
-    lasts: str | None = None
-    limits: tuple[float, float] | None = None
+    foreseen = Foreseen.ALWAYS
 
     def __init__(self, clip: Clip, skeleton: Skeleton) -> None:
         """Prepares a motion.
@@ -32,30 +29,20 @@ class KeyframeMotionUnit:
             clip: of joints that the figure has.
             skeleton: the figure's.
         """
-        self.parameters: dict[str, float] = {}
-        self.ranges: Mapping[str, Range] = {}
+        self.parameters = {}
         self.joints = frozenset(clip.joints)
         self.resources = owned(self.joints)
+        self.preferred_duration = clip.duration
         self._clip = clip
+        self.key_positions = self._keys()
+        self.exits = tuple(sync for sync in self.key_positions if sync in clip.points and clip.points[sync].leave)
         first = clip.rotations_at(clip.times[0])
         self._stand = None if clip.roots is None else grounded(Body(skeleton, first)).root
         self._arrival: Arrival | None = None
 
-    @property
-    def key_positions(self) -> Mapping[str, float]:
+    def _keys(self) -> Mapping[str, float]:
         """Start and end, and the points that the clip names."""
-        points = sorted((self._phase(point.time), sync) for sync, point in self._clip.points.items())
-        return {"start": 0.0, **{sync: phase for phase, sync in points}, "end": 1.0}
-
-    @property
-    def exits(self) -> tuple[str, ...]:
-        """The sync ids of the points where it may well be left, in order."""
-        return tuple(sync for sync in self.key_positions if sync in self._clip.points and self._clip.points[sync].leave)
-
-    @property
-    def preferred_duration(self) -> float:
-        """As it was made, s."""
-        return self._clip.duration
+        return in_order({sync: self._phase(point.time) for sync, point in self._clip.points.items()})
 
     def start(self, body: Body) -> None:
         """It sets in from where the body is."""

@@ -8,6 +8,8 @@ from numpy.typing import NDArray
 from reactive_realizer.errors import error
 
 _PASSES = 2
+_SLOWEST = 0.1
+"""Hz; people hardly move as slowly."""
 _EVEN = 0.01
 """How much of a step the distances of even keys may differ, as files write times with few digits."""
 
@@ -26,8 +28,10 @@ def low_pass(values: NDArray[np.float64], times: tuple[float, ...], cutoff: floa
         name: of what is filtered, for messages.
 
     Raises:
-        RealizerError: "bad-keys": the times are not evenly spaced.
+        RealizerError: "bad-keys": the times are not evenly spaced, or the filter would leave no motion.
     """
+    if cutoff < _SLOWEST:
+        raise error("bad-keys", animation=name, reason=f"a filter has {_SLOWEST:g} Hz or more, not {cutoff:g}")
     steps = np.diff(times)
     if np.ptp(steps) > _EVEN * np.mean(steps):
         raise error("bad-keys", animation=name, reason="only keys at even distances in time can be filtered")

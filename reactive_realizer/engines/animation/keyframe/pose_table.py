@@ -18,7 +18,8 @@ _PLACED = "T1"
 """Begins the encoding where the place of the first part comes before the rotations."""
 
 _NEARLY_ZERO = 1e-6
-_FARTHEST = 1e4
+_LARGEST = 1e100
+"""Squares of larger numbers would be infinite."""
 
 
 class PoseTable(NamedTuple):
@@ -44,6 +45,8 @@ def read_pose_table(element: Element, *, timed: bool) -> PoseTable:
         RealizerError: "bad-asset", with file, line and what is wrong.
     """
     joints = tuple(attribute(element, "parts").split())
+    if not joints:
+        raise bad(element, "parts names no joint")
     if len(set(joints)) != len(joints):
         raise bad(element, "a part stands twice in parts")
     encoding = attribute(element, "encoding")
@@ -52,8 +55,6 @@ def read_pose_table(element: Element, *, timed: bool) -> PoseTable:
     placed = encoding.startswith(_PLACED)
     rows = _rows(element, timed + 3 * placed + 4 * len(joints))
     roots = rows[:, timed : timed + 3] if placed else None
-    if roots is not None and np.abs(roots).max() > _FARTHEST:
-        raise bad(element, f"a place is more than {_FARTHEST:g} m away")
     values = rows[:, timed + 3 * placed :].reshape(len(rows), len(joints), 4)
     return PoseTable(rows[:, :timed].ravel(), joints, _quaternions(element, values), roots)
 
@@ -64,11 +65,13 @@ def _rows(element: Element, width: int) -> NDArray[np.float64]:
         numbers = np.array(" ".join(filter(None, texts)).split(), dtype=np.float64)
     except ValueError as problem:
         raise bad(element, str(problem)) from problem
-    if not np.isfinite(numbers).all():
-        raise bad(element, "a number is infinite or undefined")
     if not numbers.size or numbers.size % width:
         raise bad(element, f"{numbers.size} numbers are no rows of {width}")
-    return numbers.reshape(-1, width)
+    rows = numbers.reshape(-1, width)
+    beyond = np.argwhere(~(np.abs(rows) <= _LARGEST))
+    if beyond.size:
+        raise bad(element, f"a number in row {beyond[0][0] + 1} is beyond {_LARGEST:g}, or undefined")
+    return rows
 
 
 def _quaternions(element: Element, values: NDArray[np.float64]) -> NDArray[np.float64]:

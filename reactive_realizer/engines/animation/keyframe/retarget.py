@@ -6,19 +6,20 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.joints import FINGERS, ROOT
+from reactive_realizer.embodiment.pose import FARTHEST
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, between, from_axis_angle, multiply, rotate
 from reactive_realizer.embodiment.skeleton import Skeleton
 from reactive_realizer.embodiment.vector import UP, Vec3, distance, length, subtract, unit
 from reactive_realizer.engines.animation.keyframe.capture import Capture
 from reactive_realizer.engines.animation.keyframe.captured_names import joints_of
-from reactive_realizer.engines.animation.keyframe.clip import ROOT, Clip, continuous
+from reactive_realizer.engines.animation.keyframe.clip import Clip, continuous
 from reactive_realizer.engines.animation.keyframe.quaternions import Array, inverse, product
 from reactive_realizer.errors import RealizerError, error
 
 _NEEDED = (ROOT, "l_hip", "r_hip", "l_knee", "r_knee", "skullbase")
 _UPRIGHT = math.cos(math.radians(30.0))
 _CHILD = {"sternoclavicular": "shoulder", "shoulder": "elbow", "elbow": "wrist", "hip": "knee", "knee": "ankle"}
-_FINGERS = ("thumb", "index", "middle", "ring", "pinky")
 
 
 def retargeted(capture: Capture, skeleton: Skeleton) -> Clip:
@@ -30,7 +31,7 @@ def retargeted(capture: Capture, skeleton: Skeleton) -> Clip:
     faces, wherever and however the captured one began.
 
     Raises:
-        RealizerError: "bad-capture": its joints are not known, or it does not rest upright.
+        RealizerError: "bad-capture": its joints are not known, it does not rest upright, or it goes too far.
     """
     source = _Source(capture, skeleton)
     rotations, joints = source.rotations(), tuple(source.joints)
@@ -75,6 +76,8 @@ class _Source:
         turn = product(self._ahead, np.array(self._axes_of_file))
         ways = np.concatenate([np.zeros((len(places), 1)), scale * (places - places[0])], axis=1)
         turned: Array = product(product(turn, ways), inverse(turn))[:, 1:]
+        if not (np.linalg.norm(turned, axis=-1) <= FARTHEST).all():
+            raise self._bad(f"it goes further than {FARTHEST:g} m, by the length of its thighs")
         return turned
 
     def _axes(self) -> Quat:
@@ -118,7 +121,7 @@ def _children(joint: str) -> Iterator[str]:
     side, _, part = joint.partition("_")
     if part in _CHILD:
         yield f"{side}_{_CHILD[part]}"
-    if part.rstrip("123") in _FINGERS and part[-1] in "12":
+    if part.rstrip("123") in FINGERS and part[-1] in "12":
         yield f"{side}_{part[:-1]}{int(part[-1]) + 1}"
 
 

@@ -4,13 +4,15 @@ More general here: `<KeyPosition id="catch" time="0.8"/>` elements inside name t
 with `leave="true"`, as points where the motion may well be left.
 """
 
-from collections.abc import Iterator
 from itertools import pairwise
 from pathlib import Path
 
+import numpy as np
 from lxml import etree
 
-from reactive_realizer.binding.xml_file import Element, attribute, bad, number, read_xml
+from reactive_realizer.binding.sync_id import ENDS, is_placed, sync_id
+from reactive_realizer.binding.xml_file import Element, bad, boolean, number, read_xml
+from reactive_realizer.embodiment.pose import FARTHEST
 from reactive_realizer.engines.animation.keyframe.clip import Clip, KeyPoint, continuous
 from reactive_realizer.engines.animation.keyframe.pose_table import read_pose_table
 from reactive_realizer.limits import Limits
@@ -63,16 +65,21 @@ def read_interpolator(element: Element) -> Clip:
     if times[-1] - times[0] > _LONGEST:
         raise bad(element, f"it would last longer than {_LONGEST:g} s")
     roots = None if table.roots is None else table.roots - table.roots[0]
-    points = dict(_points(element, times[0], times[-1]))
+    if roots is not None and not (np.linalg.norm(roots, axis=-1) <= FARTHEST).all():
+        raise bad(element, f"it goes further than {FARTHEST:g} m")
+    points = _points(element, times[0], times[-1])
     name = Path(element.base or "").name
     return Clip(name, times, table.joints, continuous(table.rotations), roots, points)
 
 
-def _points(element: Element, first: float, last: float) -> Iterator[tuple[str, KeyPoint]]:
+def _points(element: Element, first: float, last: float) -> dict[str, KeyPoint]:
+    points: dict[str, KeyPoint] = {}
     for child in element:
         if child.tag != _POINT:
             raise bad(child, f"only {_POINT} may stand in {_TAG}")
-        time = number(child, "time")
-        if not first <= time <= last:
-            raise bad(child, f"the time {time:g} is not within {first:g} and {last:g}")
-        yield attribute(child, "id"), KeyPoint(time, leave=child.get("leave") == "true")
+        sync, time = sync_id(child), number(child, "time")
+        if not is_placed(sync, (time - first) / (last - first)):
+            raise bad(child, f"{sync} at {time:g} s: it lasts from its start at {first:g} s to its end at {last:g} s")
+        if sync not in ENDS:
+            points[sync] = KeyPoint(time, leave=boolean(child, "leave", False))
+    return points

@@ -4,14 +4,13 @@ from pathlib import Path
 
 from reactive_realizer.binding.xml_file import bad, read_xml
 from reactive_realizer.embodiment.quaternion import Quat
-from reactive_realizer.embodiment.vector import Vec3
 from reactive_realizer.engines.animation.keyframe.pose_table import read_pose_table
 
 
-def read_skeleton_pose(path: Path) -> tuple[dict[str, Quat], Vec3 | None]:
-    """The rotations of joints, local to their parents, and where HumanoidRoot is, m, if the file says it.
+def read_skeleton_pose(path: Path) -> dict[str, Quat]:
+    """The rotations of joints, local to their parents.
 
-    The place is from the ground of the figure for which the file was made, and no use to others: see `grounded`.
+    Where it may say that HumanoidRoot is does not count: that is a place of the figure for which the file was made.
 
     Raises:
         RealizerError: "bad-asset", with file, line and what is wrong; or the file is too big.
@@ -21,11 +20,7 @@ def read_skeleton_pose(path: Path) -> tuple[dict[str, Quat], Vec3 | None]:
     table = read_pose_table(element, timed=False)
     if len(table.rotations) != 1:
         raise bad(element, f"{len(table.rotations)} rows; a pose has one")
-    rotations = dict(zip(table.joints, map(_quat, table.rotations[0].tolist()), strict=True))
-    if table.roots is None:
-        return rotations, None
-    x, y, z = table.roots[0].tolist()
-    return rotations, (x, y, z)
+    return dict(zip(table.joints, map(_quat, table.rotations[0].tolist()), strict=True))
 
 
 def _quat(values: list[float]) -> Quat:

@@ -2,26 +2,33 @@
 
 import math
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from functools import reduce
 from typing import NamedTuple
 
 from reactive_realizer.embodiment.body import Body
-from reactive_realizer.embodiment.pose import Layer, LayerKind
-from reactive_realizer.embodiment.quaternion import Quat, between, conjugate, multiply, power, rotate, slerp
+from reactive_realizer.embodiment.joints import ROOT, SIDES
+from reactive_realizer.embodiment.pose import Layer, LayerKind, checked, over, turned_further
+from reactive_realizer.embodiment.quaternion import Quat, between, conjugate, multiply, rotate, slerp
 from reactive_realizer.embodiment.skeleton import Place, Skeleton
 from reactive_realizer.embodiment.two_bone_ik import Leg
 from reactive_realizer.embodiment.vector import UP, add, distance, length, scale, subtract, unit
+from reactive_realizer.engines.animation.easing import smoothstep
 
-_SIDES = ("l", "r")
-_ROOT = "HumanoidRoot"
-_LEGS = frozenset(f"{side}_{joint}" for side in _SIDES for joint in ("hip", "knee", "ankle"))
-_MOVING = _LEGS | {_ROOT}
+_LEGS = frozenset(f"{side}_{joint}" for side in SIDES for joint in Leg.JOINTS)
+_MOVING = _LEGS | {ROOT}
+
+_STRIDE = 0.6
+"""m from foot to foot of who walks, at most."""
 
 _LIFT = 0.25
-"""A foot that goes elsewhere is lifted by this part of its way, at most `_HIGHEST`."""
+"""A foot that goes elsewhere is lifted by this part of its step, at most `_HIGHEST`."""
 
 _HIGHEST = 0.08
 """m"""
+
+_DEEPEST = 0.25
+"""m that the pelvis sinks for feet that it has left behind, at most: then they are dragged along."""
 
 _NOTHING = 1e-6
 """m"""
@@ -59,68 +66,83 @@ class Footing:
         asked = [_asked(layer) for layer in concerned]
         # Most of the time the pelvis rests, and the answer is the one of the last frame.
         if asked != self._asked:
-            self._asked, self._layers = asked, tuple(self._planted(concerned)) if self._legs else ()
+            self._asked, self._layers = asked, tuple(map(checked, self._planted(concerned))) if self._legs else ()
         return self._layers
 
     def _planted(self, layers: Iterable[Layer]) -> Iterator[Layer]:
         ordered = sorted(layers, key=lambda layer: (layer.kind, layer.priority))
         lower = [layer for layer in ordered if layer.kind is not LayerKind.ADDITIVE]
         added = [layer for layer in ordered if layer.kind is LayerKind.ADDITIVE]
-        if not added and all(layer.weight_of(_ROOT) == 1.0 for layer in lower):
+        if not added and all(layer.weight_of(ROOT) == 1.0 for layer in lower):
             return
         if any(not _LEGS.isdisjoint(layer.rotations) for layer in added):
             return
         body, feet = reduce(_over, lower, _Stand(self._start, _feet(self._start)))
         body = reduce(_pushed, added, body)
-        sinking = max(_sinking(body, side, foot) for side, foot in zip(_SIDES, feet, strict=True))
+        sinking = min(_DEEPEST, max(_sinking(body, side, foot) for side, foot in zip(SIDES, feet, strict=True)))
         if sinking > _NOTHING:
             lowered = Layer(LayerKind.ADDITIVE, {}, root=(0.0, -sinking, 0.0))
             body = _pushed(body, lowered)
             yield lowered
-        left, right = (_leg(body, side, foot) for side, foot in zip(_SIDES, feet, strict=True))
+        left, right = (_leg(body, side, foot) for side, foot in zip(SIDES, feet, strict=True))
         yield Layer(LayerKind.END_EFFECTOR, left | right)
 
 
 def _asked(layer: Layer) -> object:
     """What of a layer matters here."""
-    rotations = layer.rotations.get(_ROOT) if layer.kind is LayerKind.ADDITIVE else layer.rotations
+    rotations = layer.rotations.get(ROOT) if layer.kind is LayerKind.ADDITIVE else layer.rotations
     return rotations, layer.weight, layer.weights, layer.root
 
 
 def _feet(body: Body) -> Feet:
-    return tuple(body.place(f"{side}_ankle") for side in _SIDES)
+    return tuple(body.place(f"{side}_ankle") for side in SIDES)
 
 
 def _over(below: _Stand, layer: Layer) -> _Stand:
     rotations = {joint: layer.rotations[joint] for joint in _MOVING & layer.rotations.keys()}
     goal = below.body.posed(rotations, layer.root)
-    weight = layer.weight_of(_ROOT)
+    weight = layer.weight_of(ROOT)
     if weight == 1.0:
         return _Stand(goal, _feet(goal))
-    pose = {joint: slerp(below.body.rotation(joint), turn, layer.weight_of(joint)) for joint, turn in rotations.items()}
-    root = add(below.body.root, scale(subtract(goal.root, below.body.root), weight))
-    return _Stand(below.body.posed(pose, root), _stepped(below.feet, _feet(goal), weight))
+    body = over(below.body, replace(layer, rotations=rotations))
+    return _Stand(body, _stepped(below.feet, _feet(goal), weight))
 
 
 def _pushed(body: Body, layer: Layer) -> Body:
     """A body with an additive layer's turn and way of the pelvis."""
-    root = body.root if layer.root is None else add(body.root, scale(layer.root, layer.weight_of(_ROOT)))
-    turn = layer.rotations.get(_ROOT)
-    turned = {} if turn is None else {_ROOT: multiply(body.rotation(_ROOT), power(turn, layer.weight_of(_ROOT)))}
-    return body.posed(turned, root)
+    turns = {joint: turn for joint, turn in layer.rotations.items() if joint == ROOT}
+    return turned_further(body, replace(layer, rotations=turns))
 
 
 def _stepped(before: Feet, after: Feet, weight: float) -> Feet:
-    """The feet on their way from place to place: the left one in the first half, the right one in the second."""
-    shares = (min(1.0, 2.0 * weight), max(0.0, 2.0 * weight - 1.0))
-    return tuple(_step(a, b, share) for a, b, share in zip(before, after, shares, strict=True))
+    """The feet on their way from place to place: the left one goes first, and if that is far they go on in turn.
+
+    As in walking each comes down a stride ahead of the other, and the pelvis is half a stride behind by then: so the
+    first step and the last are half as long as the others.
+    """
+    far = max(distance(a.position, b.position) for a, b in zip(before, after, strict=True))
+    strides = max(1, math.ceil(far / _STRIDE))
+    return tuple(
+        _step(a, b, foot, weight * strides, strides) for foot, (a, b) in enumerate(zip(before, after, strict=True))
+    )
 
 
-def _step(before: Place, after: Place, share: float) -> Place:
-    done = share * share * (3.0 - 2.0 * share)
-    high = min(_HIGHEST, _LIFT * distance(before.position, after.position)) * 4.0 * done * (1.0 - done)
-    way = add(before.position, scale(subtract(after.position, before.position), done))
-    return Place(add(way, scale(UP, high)), slerp(before.rotation, after.rotation, done))
+def _step(before: Place, after: Place, foot: int, gone: float, strides: int) -> Place:
+    """Where a foot (0 the left, 1 the right) is when the pelvis has gone so many of the strides."""
+    number = min(int(gone + 0.5), strides)
+    if number % 2 != foot:
+        return _along(before, after, number / strides)
+    begin, end = max(0.0, number - 0.5), min(number + 0.5, strides)
+    done = smoothstep((gone - begin) / (end - begin))
+    start, goal = max(0, number - 1) / strides, min(number + 1, strides) / strides
+    swinging = _along(before, after, start + done * (goal - start))
+    high = min(_HIGHEST, _LIFT * (goal - start) * distance(before.position, after.position)) * 4.0 * done * (1.0 - done)
+    return Place(add(swinging.position, scale(UP, high)), swinging.rotation)
+
+
+def _along(before: Place, after: Place, share: float) -> Place:
+    way = subtract(after.position, before.position)
+    return Place(add(before.position, scale(way, share)), slerp(before.rotation, after.rotation, share))
 
 
 def _sinking(body: Body, side: str, foot: Place) -> float:
@@ -140,7 +162,7 @@ def _leg(body: Body, side: str, foot: Place) -> dict[str, Quat]:
     ankle turns the foot back.
     """
     hip, knee, ankle = (f"{side}_{joint}" for joint in ("hip", "knee", "ankle"))
-    pelvis = body.place(_ROOT).rotation
+    pelvis = body.place(ROOT).rotation
     way = rotate(conjugate(pelvis), subtract(foot.position, body.place(hip).position))
     shank = rotate(body.rotation(knee), body.skeleton.offset(ankle))
     bend, end = Leg(body.skeleton.offset(knee), shank).bent(Leg.HINGE, length(way))

@@ -16,6 +16,6 @@ class PostureMaker:
         """As every maker."""
         behavior = wanted.behavior
         if not isinstance(behavior, Posture):
-            raise error("no-unit", unit=f"posture for {behavior.name}")
+            raise error("wrong-element", unit="posture", element=behavior.name)
         shift = isinstance(behavior, PostureShift)
         return PostureMotionUnit(self._rest, behavior.stance, behavior.poses, shift=shift)

@@ -11,7 +11,8 @@ class Rest:
 
     Attributes:
         posture: as words.
-        expected: the posture after all shifts that are planned; how long later ones take follows from it.
+        expected: the posture after all shifts that come before what is being planned, for whoever plans: how long a
+            posture takes follows from it.
         body: in the posture. Preferred durations follow from it, whatever is shown: a plan does not depend on who is
             looking.
     """
@@ -37,16 +38,24 @@ class Rest:
 
     def reset(self) -> bool:
         """It stands as at first; whether it did not before."""
-        self.expected = BodyPosture()
-        if self.posture == self.expected:
+        first = BodyPosture()
+        if self.posture == first:
             return False
-        self.take(self.expected, self._library.body(self.expected))
+        self.take(first, self._library.body(first))
         return True
 
-    def in_posture(self, posture: BodyPosture) -> Body:
-        """The body in a posture.
+    def check(self, posture: BodyPosture) -> None:
+        """Whether there is such a posture.
 
         Raises:
-            RealizerError: there is no such posture.
+            RealizerError: there is not.
         """
-        return self.body if posture == self.posture else self._library.body(posture)
+        self._library.check(posture)
+
+    def in_posture(self, posture: BodyPosture) -> Body:
+        """The body in a posture, without the poses that are not there in its stance: who crouches crosses no legs.
+
+        Raises:
+            RealizerError: a file is not usable.
+        """
+        return self.body if posture == self.posture else self._library.body(self._library.possible(posture))

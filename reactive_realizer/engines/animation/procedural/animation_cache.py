@@ -3,13 +3,14 @@
 from collections.abc import Mapping
 from functools import lru_cache
 from pathlib import Path
+from types import MappingProxyType
 
 from reactive_realizer.embodiment.skeleton import Skeleton
 from reactive_realizer.engines.animation.expression.functions import FUNCTIONS, Function
 from reactive_realizer.engines.animation.procedural.proc_animation import ProcAnimation
 from reactive_realizer.engines.animation.procedural.proc_animation_reader import read_proc_animation
 
-NO_MORE: Mapping[str, Function] = {}
+NO_MORE: Mapping[str, Function] = MappingProxyType({})
 
 
 def animation_in(

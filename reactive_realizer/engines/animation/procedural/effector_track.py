@@ -5,9 +5,11 @@ from dataclasses import dataclass
 from math import atan2
 
 from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.joints import SIDES, TRUNK, other_side
 from reactive_realizer.embodiment.quaternion import (
     Quat,
     conjugate,
+    difference,
     from_axis_angle,
     multiply,
     power,
@@ -16,7 +18,7 @@ from reactive_realizer.embodiment.quaternion import (
 )
 from reactive_realizer.embodiment.skeleton import Skeleton
 from reactive_realizer.embodiment.two_bone_ik import Arm, Leg
-from reactive_realizer.embodiment.vector import UP, Vec3, length, subtract, unit
+from reactive_realizer.embodiment.vector import UP, Vec3, add, length, subtract, unit
 from reactive_realizer.engines.animation.procedural.tracks import Formulas, above, negated
 
 EFFECTORS: Mapping[str, tuple[type[Arm] | type[Leg], str]] = {
@@ -26,6 +28,8 @@ EFFECTORS: Mapping[str, tuple[type[Arm] | type[Leg], str]] = {
     "r_ankle": (Leg, "r"),
 }
 """Joint -> the limb that ends in it, and its side."""
+
+_CARRYING = (*TRUNK, *(f"{side}_sternoclavicular" for side in SIDES))
 
 # A bone as short as this, m, has no direction.
 _NO_BONE = 1e-4
@@ -57,6 +61,11 @@ class EffectorTrack:
         return f"{self.side}_{first}", f"{self.side}_{middle}", f"{self.side}_{end}"
 
     @property
+    def reaches(self) -> bool:
+        """Whether it brings a hand to a place that does not move with the trunk."""
+        return self.limb is Arm and not self.local
+
+    @property
     def led(self) -> frozenset[str]:
         """The joints that nothing else may turn."""
         return frozenset(self.chain[:2])
@@ -85,7 +94,7 @@ class EffectorTrack:
 
     def mirrored(self) -> "EffectorTrack":
         """As every track."""
-        return EffectorTrack(self.limb, {"l": "r", "r": "l"}[self.side], self.local, negated(self.formulas, 0, 3))
+        return EffectorTrack(self.limb, other_side(self.side), self.local, negated(self.formulas, 0, 3))
 
     def of(self, joints: frozenset[str]) -> "EffectorTrack | None":
         """As every track; half a limb would reach nothing, so it is all or nothing."""
@@ -101,6 +110,20 @@ class EffectorTrack:
 def _seen_from(joint: str, place: Vec3, body: Body) -> Vec3:
     """A place of the figure's frame from a joint, in the axes of the joint above it."""
     return rotate(conjugate(above(joint, body)), subtract(place, body.place(joint).position))
+
+
+def as_carried(body: Body, steady: Body, shown: Body) -> Body:
+    """A body whose trunk carries the arms where it was shown: what is added to a motion moves hands, too.
+
+    Args:
+        body: as a motion wants it.
+        steady: as shown last, without additive motion.
+        shown: as shown last.
+    """
+    carrying = (joint for joint in _CARRYING if joint in body.skeleton)
+    added = ((joint, difference(steady.rotation(joint), shown.rotation(joint))) for joint in carrying)
+    turned = {joint: multiply(body.rotation(joint), turn) for joint, turn in added}
+    return body.posed(turned, add(body.root, subtract(shown.root, steady.root)))
 
 
 def _flat(shank: Quat) -> Quat:

@@ -15,7 +15,7 @@ class Encoding:
     Attributes:
         size: how many numbers.
         mirrored: which of them change their sign in a mirror.
-        rotation: from the numbers; raises ZeroDivisionError where they name no rotation.
+        rotation: from the numbers; raises ArithmeticError where they name no rotation.
     """
 
     size: int

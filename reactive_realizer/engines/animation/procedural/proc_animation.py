@@ -9,22 +9,24 @@ from functools import cached_property
 from itertools import accumulate, pairwise
 from typing import ClassVar
 
+from reactive_realizer.binding.sync_id import is_placed
 from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.joints import ROOT
 from reactive_realizer.embodiment.quaternion import Quat
 from reactive_realizer.embodiment.skeleton import Skeleton
 from reactive_realizer.embodiment.two_bone_ik import Arm
 from reactive_realizer.engines.animation.expression.compiler import Compiled, compile_formulas
 from reactive_realizer.engines.animation.expression.nodes import Node
 from reactive_realizer.engines.animation.motion_unit import Posed
-from reactive_realizer.engines.animation.procedural.effector_track import EffectorTrack, share_twist
-from reactive_realizer.engines.animation.procedural.tracks import ROOT, Formulas, RootTrack, RotationTrack, Track
+from reactive_realizer.engines.animation.procedural.effector_track import EffectorTrack, as_carried, share_twist
+from reactive_realizer.engines.animation.procedural.tracks import Formulas, RootTrack, RotationTrack, Track
 from reactive_realizer.errors import error
 
 _log = logging.getLogger(__name__)
 
 
 @dataclass(frozen=True, slots=True)
-class Timing:
+class AuthoredTiming:
     """When an animation would like things to happen.
 
     Attributes:
@@ -113,29 +115,31 @@ class ProcAnimation:
         """Values of its parameters: as given, else its own; names that it does not know are of no effect."""
         return {name: parameters.get(name, value) for name, value in self.parameters.items()}
 
-    def timing(self, parameters: Mapping[str, float]) -> Timing:
+    def timing(self, parameters: Mapping[str, float]) -> AuthoredTiming:
         """When things happen, for given values of the parameters.
 
         Raises:
-            RealizerError: "no-motion": a duration is not above 0, or a key position is not within 0 and 1.
+            RealizerError: "no-motion": a duration is not above 0; "bad-keys": a key position is where it cannot be.
         """
         preferred, shortest, longest, *phases = self._values(self._times, 0.0, [parameters[n] for n in self.parameters])
         if preferred <= 0.0:
             raise error("no-motion", animation=self.name, phase=0.0, reason=f"it would last {preferred:g} s")
         keys = dict(zip(self.key_times, phases, strict=True))
-        wrong = [f"{name} at {phase:g}" for name, phase in keys.items() if not 0.0 <= phase <= 1.0]
+        wrong = [f"{name} at {phase:g}" for name, phase in keys.items() if not is_placed(name, phase)]
         if wrong:
-            raise error("no-motion", animation=self.name, phase=0.0, reason=f"not within 0 and 1: {', '.join(wrong)}")
+            reason = f"key positions lie from 0 to 1, start at 0 and end at 1, but not {', '.join(wrong)}"
+            raise error("bad-keys", animation=self.name, reason=reason)
         authored = not shortest == preferred == longest
-        return Timing(preferred, (shortest, longest) if authored else None, keys)
+        return AuthoredTiming(preferred, (shortest, longest) if authored else None, keys)
 
-    def sample(self, phase: float, parameters: Mapping[str, float], body: Body) -> Posed:
+    def sample(self, phase: float, parameters: Mapping[str, float], body: Body, shown: Body | None = None) -> Posed:
         """The pose at a phase: of the joints that this animation turns, and of the root if it moves that.
 
         Args:
             phase: 0 to 1.
             parameters: a value for each of the animation's names.
             body: of a figure that it has been made for (`on`); the pose of the joints above those turned counts.
+            shown: the same with what is added to its motion; None if nothing is. Hands reach their places through it.
 
         Raises:
             RealizerError: "no-motion": a formula has no value there, or names no rotation.
@@ -147,9 +151,13 @@ class ProcAnimation:
         def so_far() -> Body:
             return body.posed(turned, root)
 
+        def carried() -> Body:
+            return so_far() if shown is None else as_carried(so_far(), body, shown)
+
         for track, its in self._parts:
+            reaches = isinstance(track, EffectorTrack) and track.reaches
             try:
-                turned |= track.turned(values[its], phase, so_far)
+                turned |= track.turned(values[its], phase, carried if reaches else so_far)
             except ArithmeticError as problem:
                 what = f"what is asked of {', '.join(sorted(track.joints))} is no rotation"
                 raise error("no-motion", animation=self.name, phase=phase, reason=what) from problem
@@ -192,7 +200,7 @@ class ProcAnimation:
         tracks = [part for track in self.tracks if (part := track.on(skeleton)) is not None]
         missing = self.joints.difference(*(track.joints for track in tracks))
         if missing:
-            _log.info("%s: this figure cannot turn %s; left out", self.name, ", ".join(sorted(missing)))
+            _log.warning("%s: this figure cannot turn %s; left out", self.name, ", ".join(sorted(missing)))
         depth = {joint: len(skeleton.links(joint)) for track in tracks for joint in track.joints}
         tracks.sort(key=lambda track: min(depth[joint] for joint in track.joints))
         return replace(self, root=self.root if ROOT in skeleton else None, tracks=tuple(tracks))

@@ -8,7 +8,9 @@ import logging
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
-from reactive_realizer.binding.xml_file import Element, attribute, bad, number, read_xml
+from reactive_realizer.binding.sync_id import sync_id
+from reactive_realizer.binding.xml_file import Element, attribute, bad, boolean, number, read_xml
+from reactive_realizer.embodiment.joints import ROOT
 from reactive_realizer.engines.animation.expression.functions import FUNCTIONS, Function
 from reactive_realizer.engines.animation.expression.nodes import Node, Number, variables
 from reactive_realizer.engines.animation.expression.parser import parse
@@ -18,7 +20,6 @@ from reactive_realizer.engines.animation.procedural.effector_track import EFFECT
 from reactive_realizer.engines.animation.procedural.encodings import ENCODINGS
 from reactive_realizer.engines.animation.procedural.proc_animation import ProcAnimation
 from reactive_realizer.engines.animation.procedural.tracks import (
-    ROOT,
     Keyframe,
     KeyframeTrack,
     RootTrack,
@@ -66,7 +67,7 @@ class _Reader:
             self._formula(document, limit) if limit in document.attrib else preferred
             for limit in ("minDuration", "maxDuration")
         )
-        key_times = {attribute(key, "id"): self._formula(key, "time") for key in document.iterfind("KeyPosition")}
+        key_times = {sync_id(key): self._formula(key, "time") for key in document.iterfind("KeyPosition")}
         root, tracks = self._root(document), tuple(self._tracks(document))
         motion = [*(root.formulas if root else ()), *(node for track in tracks for node in track.formulas)]
         return ProcAnimation(
@@ -80,7 +81,11 @@ class _Reader:
 
     def _root(self, document: Element) -> RootTrack | None:
         roots = [element for element in document.iterfind("EndEffector") if attribute(element, "target") in _ROOTS]
-        return RootTrack(_flag(roots[-1], False), self._formulas(roots[-1], "translation", 3)) if roots else None
+        return (
+            RootTrack(boolean(roots[-1], "local", False), self._formulas(roots[-1], "translation", 3))
+            if roots
+            else None
+        )
 
     def _tracks(self, document: Element) -> Iterator[Track]:
         limbs = (element for element in document.iterfind("EndEffector") if element.get("target") not in _ROOTS)
@@ -106,7 +111,9 @@ class _Reader:
         return ClipTrack(clip)
 
     def _rotation(self, element: Element) -> RotationTrack:
-        return RotationTrack(attribute(element, "target"), _flag(element, True), self._formulas(element, "rotation", 3))
+        return RotationTrack(
+            attribute(element, "target"), boolean(element, "local", True), self._formulas(element, "rotation", 3)
+        )
 
     def _effector(self, element: Element) -> EffectorTrack:
         target = attribute(element, "target")
@@ -114,14 +121,14 @@ class _Reader:
             raise bad(element, f"no end effector '{target}'; known are {', '.join((*EFFECTORS, *_ROOTS))}")
         swivel = self._formula(element, "swivel") if element.get("swivel", "").strip() else Number(0.0)
         path = (*self._formulas(element, "translation", 3), swivel)
-        return EffectorTrack(*EFFECTORS[target], _flag(element, False), path)
+        return EffectorTrack(*EFFECTORS[target], boolean(element, "local", False), path)
 
     def _keyframes(self, element: Element) -> KeyframeTrack:
         encoding = ENCODINGS.get(attribute(element, "encoding"))
         if encoding is None:
             raise bad(element, f"encoding='{element.get('encoding')}': known are {', '.join(ENCODINGS)}")
         keys = [
-            Keyframe(number(key, "time"), _flag(key, True), self._formulas(key, "value", encoding.size))
+            Keyframe(number(key, "time"), boolean(key, "local", True), self._formulas(key, "value", encoding.size))
             for key in element.iterfind("Keyframe")
         ]
         if not keys:
@@ -145,14 +152,6 @@ class _Reader:
             return parse(text, self._functions)
         except RealizerError as problem:
             raise bad(element, f"{name}: {problem.fault.sentence}") from problem
-
-
-def _flag(element: Element, otherwise: bool) -> bool:
-    """The attribute `local`."""
-    text = element.get("local", str(otherwise)).strip().lower()
-    if text not in ("true", "false"):
-        raise bad(element, f"local='{text}' is neither true nor false")
-    return text == "true"
 
 
 def _parameters(document: Element, times: Iterable[Node], motion: Iterable[Node]) -> dict[str, float]:

@@ -6,6 +6,7 @@ from math import isfinite
 from typing import Protocol, Self
 
 from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.joints import ROOT, other_side
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, conjugate, from_euler, multiply, slerp
 from reactive_realizer.embodiment.skeleton import Skeleton
 from reactive_realizer.embodiment.vector import Vec3, subtract
@@ -14,8 +15,6 @@ from reactive_realizer.engines.animation.expression.nodes import Negation, Node,
 from reactive_realizer.engines.animation.procedural.encodings import Encoding
 
 Formulas = tuple[Node, ...]
-
-ROOT = "HumanoidRoot"
 
 
 class Track(Protocol):
@@ -202,12 +201,6 @@ def above(joint: str, body: Body) -> Quat:
     """The rotation of a joint's parent, from its axes to the figure's."""
     parent = body.skeleton.parent(joint)
     return IDENTITY if parent is None else body.place(parent).rotation
-
-
-def other_side(name: str) -> str:
-    """The joint on the other side; one of the middle itself."""
-    side, underscore, joint = name.partition("_")
-    return {"l": "r", "r": "l"}.get(side, side) + underscore + joint
 
 
 def negated(formulas: Formulas, *which: int) -> Formulas:

@@ -4,11 +4,18 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 
+from reactive_realizer.binding.sync_id import ENDS, sync_id
 from reactive_realizer.binding.xml_file import Element, attribute, bad, number, read_xml
 from reactive_realizer.engines.animation.actor import Actor, Maker, Wanted
 from reactive_realizer.engines.animation.sequence.part import Part
 from reactive_realizer.engines.animation.sequence.sequence_motion_unit import SequenceMotionUnit
 from reactive_realizer.errors import error
+
+_PARTS = ("ProcAnimation", "Gesture", "Keyframe", "noise", "Sequence")
+"""Of the others the engine has to know: where eyes look, where a transition leads, what stays."""
+
+_MOST = 100
+"""Parts of a sequence, those of its parts among them."""
 
 
 class SequenceMaker:
@@ -25,15 +32,17 @@ class SequenceMaker:
         self._actor = actor
         self._makers = makers
         self._making: list[Path] = []
+        self._parts = 0
 
     def __call__(self, wanted: Wanted) -> SequenceMotionUnit:
         """As every maker."""
         if wanted.file is None:
-            raise error("no-unit", unit="a sequence without a file")
+            raise error("no-file", element=wanted.behavior.name)
         path = self._actor.asset(wanted.file)
         root = read_xml(path, "Sequence")
         if path in self._making:
             raise bad(root, "it is a part of itself")
+        self._parts = self._parts if self._making else 0
         self._making.append(path)
         try:
             return self._sequence(root, wanted)
@@ -53,8 +62,11 @@ class SequenceMaker:
 
     def _part(self, element: Element, wanted: Wanted) -> Part:
         unit, own = attribute(element, "type"), dict(_parameters(element))
-        if unit not in self._makers:
-            raise error("no-unit", unit=unit)
+        if unit not in _PARTS:
+            raise bad(element, f"type='{unit}': a part may be of type {', '.join(_PARTS)}")
+        self._parts += 1
+        if self._parts > _MOST:
+            raise bad(element, f"with those of its parts a sequence has more than {_MOST} parts")
         motion = self._makers[unit](replace(wanted, parameters={**own, **wanted.parameters}, file=element.get("file")))
         start = number(element, "start")
         end = start + motion.preferred_duration if element.get("end") is None else number(element, "end")
@@ -71,8 +83,8 @@ def _parameters(element: Element) -> Iterator[tuple[str, str]]:
 
 def _key_position(key: Element, parts: Mapping[str, Part]) -> tuple[str, float]:
     name, _, sync = attribute(key, "ref").partition(":")
-    if attribute(key, "id") in ("start", "end"):
+    if (own := sync_id(key)) in ENDS:
         raise bad(key, "start and end are those of the whole")
     if name not in parts or sync not in parts[name].motion.key_positions:
         raise bad(key, f"there is no point '{key.get('ref')}'")
-    return attribute(key, "id"), parts[name].time(sync)
+    return own, parts[name].time(sync)

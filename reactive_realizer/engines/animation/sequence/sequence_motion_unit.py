@@ -3,23 +3,17 @@
 from collections.abc import Mapping, Sequence
 
 from reactive_realizer.embodiment.body import Body
-from reactive_realizer.embodiment.pose import LayerKind
-from reactive_realizer.engines.animation.motion_unit import Moment, Posed, completed
+from reactive_realizer.engines.animation.motion_unit import Moment, MotionUnit, Posed, in_order
 from reactive_realizer.engines.animation.sequence.part import Part
 from reactive_realizer.engines.animation.sequence.stack import Stack
-from reactive_realizer.planunit.parameter import Range
 
 
-class SequenceMotionUnit:
+class SequenceMotionUnit(MotionUnit):
     """Plays parts at their times, each over those before it, as SmartBody's Schedule does (4.2.2).
 
     As it is a motion itself, it may be a part of another one. It has those parameters on whose values all its parts
     agree that have them.
     """
-
-    group: str | None = None
-    lasts: str | None = None
-    limits: tuple[float, float] | None = None
 
     def __init__(self, parts: Sequence[Part], key_positions: Mapping[str, float]) -> None:
         """Puts motions together.
@@ -30,29 +24,15 @@ class SequenceMotionUnit:
         """
         self._parts = tuple(parts)
         self._begun: set[Part] = set()
-        self._duration = max(part.end for part in parts)
-        self._key_positions = completed({sync: time / self._duration for sync, time in key_positions.items()})
-        self.kind: LayerKind = parts[0].motion.kind
-        self.resources: frozenset[str] = frozenset[str]().union(*(part.motion.resources for part in parts))
-        self.parameters: dict[str, float] = _agreed(parts)
-        self.ranges: Mapping[str, Range] = {
+        self.preferred_duration = max(part.end for part in parts)
+        self.key_positions = in_order({sync: time / self.preferred_duration for sync, time in key_positions.items()})
+        self.kind = parts[0].motion.kind
+        self.joints = frozenset[str]().union(*(part.motion.joints for part in parts))
+        self.resources = frozenset[str]().union(*(part.motion.resources for part in parts))
+        self.parameters = _agreed(parts)
+        self.ranges = {
             name: bounds for part in parts for name, bounds in part.motion.ranges.items() if name in self.parameters
         }
-
-    @property
-    def joints(self) -> frozenset[str]:
-        """Those of all parts."""
-        return frozenset[str]().union(*(part.motion.joints for part in self._parts))
-
-    @property
-    def key_positions(self) -> Mapping[str, float]:
-        """As authored, completed to seven points."""
-        return self._key_positions
-
-    @property
-    def preferred_duration(self) -> float:
-        """Until the last part has ended, s."""
-        return self._duration
 
     def start(self, body: Body) -> None:
         """Each part begins from where the body is when its time has come."""
@@ -60,7 +40,7 @@ class SequenceMotionUnit:
 
     def pose(self, moment: Moment) -> Posed:
         """What the parts that play come to."""
-        time, stack = moment.phase * self._duration, Stack(self.kind)
+        time, stack = moment.phase * self.preferred_duration, Stack(self.kind)
         for part in self._parts:
             if part.plays(time):
                 self._begin(part, moment.body)

@@ -1,11 +1,10 @@
 """Layers of one kind laid over each other, before it is known over what."""
 
+from reactive_realizer.embodiment.joints import ROOT
 from reactive_realizer.embodiment.pose import Layer, LayerKind
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, multiply, power, slerp
 from reactive_realizer.embodiment.vector import ZERO, Vec3, add, scale, subtract
 from reactive_realizer.engines.animation.motion_unit import Posed
-
-_ROOT = "HumanoidRoot"
 
 
 class Stack:
@@ -23,11 +22,11 @@ class Stack:
 
     def lay(self, layer: Layer, weight: float) -> None:
         """Put so much of another layer on top."""
-        below = self._weights.get(_ROOT, 0.0)
+        below = self._weights.get(ROOT, 0.0)
         for joint, turn in layer.rotations.items():
             self._turn(joint, turn, weight * layer.weight_of(joint))
         if layer.root is not None:
-            self._move(layer.root, weight * layer.weight_of(_ROOT), below)
+            self._move(layer.root, weight * layer.weight_of(ROOT), below)
 
     @property
     def posed(self) -> Posed:
@@ -46,7 +45,7 @@ class Stack:
         if self._adds:
             self._root = add(self._root or ZERO, scale(root, weight))
             return
-        self._weights[_ROOT] = together = _together(below, weight)
+        self._weights[ROOT] = together = _together(below, weight)
         under = self._root if self._root is not None and below > 0.0 else root
         self._root = add(under, scale(subtract(root, under), weight / together if together > 0.0 else 0.0))
 

@@ -1,7 +1,15 @@
 """A curve of rotations that leaves and arrives with given velocities."""
 
-from reactive_realizer.embodiment.quaternion import Quat, conjugate, from_rotation_vector, multiply, rotation_vector
+from reactive_realizer.embodiment.quaternion import (
+    Quat,
+    conjugate,
+    difference,
+    from_rotation_vector,
+    multiply,
+    rotation_vector,
+)
 from reactive_realizer.embodiment.vector import Vec3, length, scale
+from reactive_realizer.engines.animation.easing import smoothstep
 
 _MOST = 3.0
 """rad; how far a velocity may carry the curve off its way: faster ones would swing a joint around itself."""
@@ -26,7 +34,7 @@ class HermiteCurve:
         """
         self._start = start
         self._leaving, self._arriving = _third(leaving), _third(arriving)
-        there = multiply(conjugate(from_rotation_vector(self._leaving)), multiply(conjugate(start), goal))
+        there = difference(from_rotation_vector(self._leaving), difference(start, goal))
         self._between = rotation_vector(multiply(there, conjugate(from_rotation_vector(self._arriving))))
 
     def __call__(self, u: float) -> Quat:
@@ -34,7 +42,7 @@ class HermiteCurve:
         left = 1.0 - u
         steps = (
             scale(self._leaving, 1.0 - left * left * left),
-            scale(self._between, u * u * (3.0 - 2.0 * u)),
+            scale(self._between, smoothstep(u)),
             scale(self._arriving, u * u * u),
         )
         rotation = self._start

@@ -1,18 +1,17 @@
 """From a binding to a transition."""
 
+from reactive_realizer.embodiment.joints import EYES
 from reactive_realizer.engines.animation.actor import Actor, Wanted
 from reactive_realizer.engines.animation.transition.curves import CURVES
 from reactive_realizer.engines.animation.transition.transition_motion_unit import TransitionMotionUnit
 from reactive_realizer.errors import error
-
-_EYES = frozenset({"l_eyeball_joint", "r_eyeball_joint"})
 
 
 class TransitionMaker:
     """Makes transitions of the kind that the parameter `class` names, of the `joints`, else of the whole figure."""
 
     def __init__(self, actor: Actor) -> None:
-        self._joints = frozenset(actor.humanoid.avatar.skeleton.joints) - _EYES
+        self._joints = frozenset(actor.humanoid.avatar.skeleton.joints).difference(EYES)
 
     def __call__(self, wanted: Wanted) -> TransitionMotionUnit:
         """As every maker."""

@@ -9,7 +9,6 @@ from reactive_realizer.embodiment.pose import Layer, LayerKind
 from reactive_realizer.engines.animation.animation_unit import AnimationUnit, Stage
 from reactive_realizer.engines.animation.choice import Choice
 from reactive_realizer.engines.animation.moving import Moving
-from reactive_realizer.engines.animation.transition.transition_motion_unit import TransitionMotionUnit
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.timing import Phase, PhaseKind, Timing
 
@@ -25,7 +24,7 @@ class TransitionUnit(AnimationUnit):
     ) -> None:
         """Plans a transition; where it leads to, a prediction says when it begins."""
         super().__init__(block, behavior, choices, stage)
-        if {"start", "end"} <= behavior.syncs.keys():
+        if {"start", "end"} <= behavior.syncs.keys() and self.timing.points == ("start", "end"):
             self.timing = Timing(("start", "end"), (Phase(0.0, PhaseKind.FREE),))
         self._predict = predict
         self._led = False
@@ -49,6 +48,6 @@ class TransitionUnit(AnimationUnit):
 
     def _lead(self, now: GlobalTime) -> None:
         end = self.time("end")
-        if end is not None and end > now and isinstance(self.motion, TransitionMotionUnit):
+        if self.motion.led and end is not None and end > now:
             self.motion.lead(self._stage.moving(now), self._predict(end, self), end - now)
             self._led = True

@@ -1,0 +1,39 @@
+"""Figures without eyes are looked at, and look, as far as they can."""
+
+import pytest
+
+from reactive_realizer.assembly.assets import PACKAGE_ASSETS
+from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.testing.pilot import open_pilot
+
+HUMANS = """
+[character.alice]
+avatar = "avatars/eyeless.glb"
+
+[character.bob]
+avatar = "avatars/male.glb"
+position = [0.0, 0.0, 2.0]
+heading = 180
+"""
+
+
+@pytest.mark.parametrize("eyes", [["LeftEye"], ["LeftEye", "RightEye"]])
+async def test_who_has_no_eyes_is_looked_at_where_the_neck_ends_and_turns_the_head_to_others(tmp_path, eyes) -> None:
+    avatar = (PACKAGE_ASSETS / "avatars" / "female.glb").read_bytes()
+    for eye in eyes:
+        avatar = avatar.replace(f'"{eye}"'.encode(), f'"{eye[:-1]}X"'.encode())
+    (tmp_path / "avatars").mkdir()
+    (tmp_path / "avatars" / "eyeless.glb").write_bytes(avatar)
+    (tmp_path / "two.toml").write_text(HUMANS)
+    options = SceneOptions(human=tmp_path / "two.toml", voice="text", assets=(tmp_path,))
+    async with open_pilot(options) as pilot:
+        pilot.watch()
+        pilot.block("b", '<gaze id="g" target="alice"/>', characterId="bob")
+        pilot.block("a", '<gaze id="g" target="bob:l_wrist" influence="HEAD"/>', characterId="alice")
+        await pilot.advance(3.0)
+        alice = pilot.realizer.characters["alice"].humanoid
+        world = pilot.realizer.world.snapshot()
+        assert "l_eyeball_joint" not in alice.avatar.skeleton
+        assert pilot.feedback.warnings == []
+        assert world["alice"] == pytest.approx(alice.locate("skullbase"))
+        assert {"b:g:end", "a:g:end"} <= set(pilot.feedback.progress)

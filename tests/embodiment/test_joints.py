@@ -1,0 +1,25 @@
+from collections import Counter
+
+import pytest
+
+from reactive_realizer.embodiment.joints import EYES, HEAD, LEFT_ARM, LEFT_LEG, RIGHT_ARM, RIGHT_LEG, TRUNK, other_side
+from reactive_realizer.embodiment.mixamo import JOINTS
+
+PARTS = (TRUNK, HEAD, EYES, LEFT_ARM, RIGHT_ARM, LEFT_LEG, RIGHT_LEG)
+
+
+def test_each_joint_of_an_avatar_belongs_to_one_part_of_the_body():
+    assert Counter(joint for part in PARTS for joint in part) == Counter(JOINTS.values())
+
+
+@pytest.mark.parametrize(
+    ("name", "other"), [("l_wrist", "r_wrist"), ("r_eyeball_joint", "l_eyeball_joint"), ("vl5", "vl5"), ("l", "r")]
+)
+def test_what_is_left_on_one_side_is_right_on_the_other(name, other):
+    assert other_side(name) == other
+    assert other_side(other) == name
+
+
+def test_the_arms_and_legs_of_the_two_sides_are_each_others_mirror():
+    assert set(map(other_side, LEFT_ARM)) == RIGHT_ARM
+    assert set(map(other_side, LEFT_LEG)) == RIGHT_LEG
