@@ -30,6 +30,8 @@ class Assets:
                 raise error("no-folder", folder=folder)
         self._folders = (*(folder.resolve() for folder in folders), PACKAGE_ASSETS)
         self._indices = {folder: AssetIndex(folder) for folder in self._folders}
+        # Names are asked for again and again, and making paths takes longer than looking whether they are there.
+        self._places = lru_cache(1000)(self._all_places)
 
     def __call__(self, name: str) -> Path:
         """The file of a name: as written, then without leading folders one by one; with ``**/`` before it, anywhere.
@@ -37,17 +39,18 @@ class Assets:
         Raises:
             RealizerError: the name leaves the folders, or no file has it, or several in the folders of one root.
         """
-        path = PurePosixPath(name)
-        if path.is_absolute() or ".." in path.parts or "\\" in name or not path.parts:
-            raise error("forbidden-path", name=name)
+        path = _relative(name)
         if path.parts[0] == _ANYWHERE and len(path.parts) > 1:
             return self._anywhere(path.relative_to(_ANYWHERE))
-        for folder in self._folders:
-            for start in range(len(path.parts)):
-                found = _within(folder, folder.joinpath(*path.parts[start:]))
-                if found is not None:
-                    return found
-        raise error("no-asset", name=name)
+        found = next(filter(None, (_within(*place) for place in self._places(path))), None)
+        if found is None:
+            raise error("no-asset", name=name)
+        return found
+
+    def _all_places(self, path: PurePosixPath) -> list[tuple[Path, Path]]:
+        """Where a file may be, as written and without its leading folders, each place with the root that it is in."""
+        ends = [path.parts[start:] for start in range(len(path.parts))]
+        return [(folder, folder.joinpath(*end)) for folder in self._folders for end in ends]
 
     def _anywhere(self, name: PurePosixPath) -> Path:
         for folder, index in self._indices.items():
@@ -59,6 +62,19 @@ class Assets:
             if found:
                 return found[0]
         raise error("no-asset", name=name.name)
+
+
+@lru_cache(1000)
+def _relative(name: str) -> PurePosixPath:
+    """The path of a name.
+
+    Raises:
+        RealizerError: "forbidden-path".
+    """
+    path = PurePosixPath(name)
+    if path.is_absolute() or ".." in path.parts or "\\" in name or not path.parts:
+        raise error("forbidden-path", name=name)
+    return path
 
 
 def _within(folder: Path, file: Path) -> Path | None:

@@ -2,7 +2,7 @@
 
 import logging
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -21,6 +21,12 @@ _log = logging.getLogger(__name__)
 _HANDS = "mode"
 """The attribute that says which hands; a behavior that does not leaves it to the realizer."""
 
+_LEXEME = "lexeme"
+"""The attribute by which most entries are told apart."""
+
+_Asked = tuple[str, str, str | None]
+"""Namespace and name of a behavior's element, and its lexeme if it has one, `comparable`."""
+
 
 @dataclass(frozen=True, slots=True)
 class GestureBinding:
@@ -33,13 +39,10 @@ class GestureBinding:
 
     specs: tuple[UnitSpec, ...]
     rest_poses: Mapping[str, str]
-    _by_element: Mapping[tuple[str, str], list[UnitSpec]] = field(init=False, repr=False)
+    _by_lexeme: Mapping[_Asked, list[UnitSpec]] = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        by_element: dict[tuple[str, str], list[UnitSpec]] = {}
-        for spec in self.specs:
-            by_element.setdefault((spec.namespace, spec.behavior), []).append(spec)
-        object.__setattr__(self, "_by_element", by_element)
+        object.__setattr__(self, "_by_lexeme", _by_lexeme(self.specs))
 
     @classmethod
     def read(cls, *paths: Path) -> "GestureBinding":
@@ -71,11 +74,28 @@ class GestureBinding:
             namespace: of its element.
             attributes: as `seen`.
         """
-        specs, said = self._by_element.get((namespace, behavior), []), comparable(attributes)
+        said = comparable(attributes)
+        others = self._by_lexeme.get((namespace, behavior, None), ())
+        specs = self._by_lexeme.get((namespace, behavior, said.get(_LEXEME)), others)
         exact = [spec for spec in specs if spec.fits(said)]
         if _HANDS in attributes:
             return (*exact[:1], *(spec for spec in exact[1:] if _HANDS in spec.constraints))
         return (*exact, *(spec for spec in specs if _HANDS in spec.constraints and spec.fits(said, _HANDS)))
+
+
+def _by_lexeme(specs: Iterable[UnitSpec]) -> dict[_Asked, list[UnitSpec]]:
+    """For each lexeme the entries that may fit, in order, those for any lexeme too."""
+    asked: dict[_Asked, list[UnitSpec]] = {}
+    for spec in specs:
+        element, lexeme = (spec.namespace, spec.behavior), spec.wanted.get(_LEXEME)
+        general = asked.setdefault((*element, None), [])
+        if lexeme is not None:
+            asked.setdefault((*element, lexeme), [*general]).append(spec)
+            continue
+        for known, entries in asked.items():
+            if known[:2] == element:
+                entries.append(spec)
+    return asked
 
 
 def numbers(parameters: Mapping[str, str]) -> dict[str, float]:

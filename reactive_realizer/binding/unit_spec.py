@@ -22,6 +22,7 @@ class UnitSpec:
         parameter_map: attribute of the behavior -> parameter of the unit.
         defaults: parameter of the unit -> value where the behavior says nothing.
         place: its file and line, for people.
+        wanted: the constraints, `comparable`.
     """
 
     behavior: str
@@ -32,10 +33,10 @@ class UnitSpec:
     parameter_map: Mapping[str, str]
     defaults: Mapping[str, str]
     place: str
-    _wanted: tuple[tuple[str, str], ...] = field(init=False, repr=False)
+    wanted: Mapping[str, str] = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "_wanted", tuple(comparable(self.constraints).items()))
+        object.__setattr__(self, "wanted", comparable(self.constraints))
 
     def fits(self, said: Mapping[str, str], leaving: str | None = None) -> bool:
         """Whether a behavior meets every constraint.
@@ -44,7 +45,7 @@ class UnitSpec:
             said: its attributes, `comparable`.
             leaving: an attribute whose constraint need not be met.
         """
-        return all(said.get(name) == word for name, word in self._wanted if name != leaving)
+        return all(said.get(name) == word for name, word in self.wanted.items() if name != leaving)
 
     def parameters(self, attributes: Mapping[str, str], own: Mapping[str, str] = _NONE) -> dict[str, str]:
         """The unit's parameters for a behavior: what it says, else the defaults.

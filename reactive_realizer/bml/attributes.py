@@ -56,6 +56,10 @@ class Attribute:
         return tuple(f"{{{namespace}}}{self.name}" for namespace in CONTINUOUS) if self.continuous else (self.name,)
 
 
+_FOUND: dict[type, tuple[Attribute, ...]] = {}
+"""Of each dataclass that was asked for; every behavior that is read asks."""
+
+
 def attribute(kind: AttributeType, name: str | None = None, continuous: bool = False) -> Mapping[str, Any]:
     """Metadata of a field that holds an attribute.
 
@@ -69,7 +73,9 @@ def attribute(kind: AttributeType, name: str | None = None, continuous: bool = F
 
 def attributes_of(data: type) -> tuple[Attribute, ...]:
     """The attributes that the fields of a dataclass hold, in their order."""
-    return tuple(_attribute(each) for each in dataclasses.fields(data) if _METADATA in each.metadata)
+    if data not in _FOUND:
+        _FOUND[data] = tuple(_attribute(each) for each in dataclasses.fields(data) if _METADATA in each.metadata)
+    return _FOUND[data]
 
 
 def _attribute(each: "dataclasses.Field[Any]") -> Attribute:

@@ -35,6 +35,7 @@ from reactive_realizer.engines.animation.motion_library import MotionLibrary
 from reactive_realizer.engines.animation.motion_unit import AMOUNT_RANGE, Gazing
 from reactive_realizer.engines.animation.moving import Moving
 from reactive_realizer.engines.animation.net import Net
+from reactive_realizer.engines.animation.posture.body_posture import BodyPosture
 from reactive_realizer.engines.animation.posture.expectation import posture_after
 from reactive_realizer.engines.animation.posture.footing import Footing
 from reactive_realizer.engines.animation.posture.posture_library import PostureLibrary
@@ -67,7 +68,8 @@ class AnimationEngine(DefaultEngine):
         self._humanoid = context.humanoid
         self._world = context.world
         binding = GestureBinding.read(*context.bindings["gesture"])
-        self._rest = Rest(PostureLibrary(context.humanoid.avatar.skeleton, context.asset, binding.rest_poses))
+        library = PostureLibrary(context.humanoid.avatar.skeleton, context.asset, binding.rest_poses)
+        self._rest = Rest(library, self._expected)
         functions = registered(context.functions)
         actor = Actor(context.humanoid, context.world, context.asset, context.seed, self._rest, functions)
         self._library = MotionLibrary(binding, actor)
@@ -106,17 +108,20 @@ class AnimationEngine(DefaultEngine):
         Raises:
             RealizerError: it has none, or the target is not there.
         """
-        self._drafts = [unit for unit in self._drafts if unit.block == block and unit.behavior.order < behavior.order]
-        planned = (unit.motion for unit in (*self.player.units, *self._drafts) if isinstance(unit, AnimationUnit))
-        self._rest.expected = posture_after(self._rest.posture, planned)
+        while self._drafts and not _precedes(self._drafts[-1], block, behavior):
+            self._drafts.pop()
         unit = self._unit(block, behavior)
         self._drafts.append(unit)
         return unit
 
     def add(self, unit: PlanUnit) -> None:
         """As every engine."""
-        self._drafts = [draft for draft in self._drafts if draft is not unit]
+        self._drafts.clear()
         super().add(unit)
+
+    def _expected(self) -> BodyPosture:
+        planned = (unit.motion for unit in (*self.player.units, *self._drafts) if isinstance(unit, AnimationUnit))
+        return posture_after(self._rest.posture, planned)
 
     def _unit(self, block: BlockKey, behavior: Behavior) -> AnimationUnit:
         choices = self._library.choices(behavior)
@@ -207,3 +212,7 @@ class AnimationEngine(DefaultEngine):
 
     def _let_go(self, layer: Layer, time: GlobalTime, started: float = -inf) -> None:
         self._releases.append(Release(layer, time, release_duration(layer, self._rest.body.root), started))
+
+
+def _precedes(unit: AnimationUnit, block: BlockKey, behavior: Behavior) -> bool:
+    return unit.block == block and unit.behavior.order < behavior.order

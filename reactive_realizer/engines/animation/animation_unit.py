@@ -86,7 +86,7 @@ class AnimationUnit(PlanUnit):
             self.parameters[name] = Parameter(self, cell, planned.range(name))
         self.started = GlobalTime(-inf)
         self._complained = False
-        self._choices = [choice for choice in choices if self._stands_in(choice)]
+        self._choices = choices
 
     @property
     def phase(self) -> float:
@@ -101,7 +101,7 @@ class AnimationUnit(PlanUnit):
         self.yields = choice.yields
         self.shown = Layer(motion.kind, {})
         self.keys = _keys(self.behavior, motion)
-        self._clock = PhaseClock({sync: self.keys[sync] for sync in self.timing.points})
+        self._clock = PhaseClock(self.keys)
         self._names = choice.names
 
     def _stands_in(self, choice: Choice) -> bool:
@@ -112,7 +112,9 @@ class AnimationUnit(PlanUnit):
     def settle(self, taken: frozenset[str]) -> None:
         """The other hand plays if one is busy, and what is short if there is little time (thesis 8.17)."""
         start, end = self.times_around
-        chosen = choose(self._choices, taken, None if start is None or end is None else end - start)
+        planned, *others = self._choices
+        choices = [planned, *(choice for choice in others if self._stands_in(choice))]
+        chosen = choose(choices, taken, None if start is None or end is None else end - start)
         if chosen.motion is not self.motion:
             self._play(chosen)
 

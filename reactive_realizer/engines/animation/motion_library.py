@@ -36,6 +36,8 @@ class MotionLibrary:
     def __init__(self, binding: GestureBinding, actor: Actor) -> None:
         self.binding = binding
         self._makers = makers_of(actor)
+        makers: Mapping[str, object] = self._makers
+        self._slow = {unit: maker for unit, maker in makers.items() if isinstance(maker, SlowMaker)}
         self._noted: set[UnitSpec] = set()
 
     def choices(self, behavior: Behavior) -> tuple[Choice, ...]:
@@ -70,10 +72,9 @@ class MotionLibrary:
         attributes = seen(behavior)
         works: list[Callable[[], object] | None] = []
         for spec in self.binding.match(behavior.name, behavior.namespace, attributes):
-            maker: object = self._makers.get(spec.unit)
-            if isinstance(maker, SlowMaker):
+            if spec.unit in self._slow:
                 with suppress(RealizerError):
-                    works.append(maker.reading(_wanted(spec, behavior, attributes)))
+                    works.append(self._slow[spec.unit].reading(_wanted(spec, behavior, attributes)))
         return [work for work in works if work is not None]
 
     def _note(self, refused: Mapping[UnitSpec, RealizerError]) -> None:

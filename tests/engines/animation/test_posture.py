@@ -359,9 +359,11 @@ def test_how_long_it_takes_follows_from_how_far_it_is(rest):
     assert sitting > 1.4
 
 
-def test_getting_up_takes_as_long_as_sitting_down_even_if_both_are_planned_at_once(rest):
+def test_getting_up_takes_as_long_as_sitting_down_even_if_both_are_planned_at_once(skeleton):
+    planned: list[PostureMotionUnit] = []
+    rest = Rest(PostureLibrary(skeleton, ASSET), lambda: posture_after(BodyPosture(), planned))
     down = PostureMotionUnit(rest, StanceType.SITTING, [], shift=True)
-    rest.expected = posture_after(rest.posture, [down])
+    planned.append(down)
     up = PostureMotionUnit(rest, StanceType.STANDING, [], shift=True)
     assert up.preferred_duration == pytest.approx(down.preferred_duration)
 

@@ -1,5 +1,7 @@
 """How one figure holds itself when it does nothing."""
 
+from collections.abc import Callable
+
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.skeleton import Pose
 from reactive_realizer.engines.animation.posture.body_posture import BodyPosture
@@ -11,21 +13,31 @@ class Rest:
 
     Attributes:
         posture: as words.
-        expected: the posture after all shifts that come before what is being planned, for whoever plans: how long a
-            posture takes follows from it.
         body: in the posture. Preferred durations follow from it, whatever is shown: a plan does not depend on who is
             looking.
     """
 
-    def __init__(self, library: PostureLibrary) -> None:
+    def __init__(self, library: PostureLibrary, expected: Callable[[], BodyPosture] = BodyPosture) -> None:
+        """Standing, as at first.
+
+        Args:
+            library: of postures.
+            expected: the posture after all shifts that come before what is being planned.
+        """
         self._library = library
-        self.posture = self.expected = BodyPosture()
+        self._expected = expected
+        self.posture = BodyPosture()
         self.body = library.body(self.posture)
 
     @property
     def pose(self) -> Pose:
         """Of its joints; those left out are in the default pose."""
         return self.body.pose
+
+    @property
+    def expected(self) -> BodyPosture:
+        """The posture in which what is being planned will begin: how long a shift takes follows from it."""
+        return self._expected()
 
     def take(self, posture: BodyPosture, body: Body) -> None:
         """From now on the figure rests in a posture.
