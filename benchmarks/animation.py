@@ -1,7 +1,6 @@
 """What a moving figure costs in each frame: from its engine's play to rotations that are ready to be sent."""
 
 import asyncio
-import gc
 from collections.abc import Sequence
 from pathlib import Path
 from statistics import median
@@ -12,6 +11,7 @@ from reactive_realizer.assembly.scene import SceneOptions, open_scene
 from reactive_realizer.clock.ticker import FRAME_EVERY, RATE, Tick, tick_time
 from reactive_realizer.engine.engine import Engine
 from reactive_realizer.realizer.character import Character
+from reactive_realizer.server.garbage import keep_from_ticks
 from reactive_realizer.testing.pilot import RealizerPilot, block
 
 AIMS = {"us_per_character_frame.1": 400, "us_per_character_frame.50": 250}
@@ -58,8 +58,7 @@ async def _perform(human: Path) -> float:
             pilot.perform(block(f"b-{character.id}", _INSIDE, characterId=character.id))
         begin, end = _ALL_MOVE
         await pilot.advance(begin)
-        gc.collect()
-        gc.freeze()  # as a server does
+        keep_from_ticks()  # as a server does
         return median([await _frame(pilot, crowd) for _ in range(round((end - begin) * RATE / FRAME_EVERY))])
 
 

@@ -1,11 +1,11 @@
 """What it costs to plan a block: from its text to its pegs on the board, with the silent text voice."""
 
 import asyncio
-import gc
 from statistics import median, quantiles
 from time import perf_counter
 
 from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.server.garbage import keep_from_ticks
 from reactive_realizer.testing.pilot import RealizerPilot, block, open_pilot
 
 AIMS = {
@@ -77,8 +77,7 @@ async def _chain_ms(number: int, runs: int) -> float:
 async def _times(strategy: str, inside: str, number: int, runs: int) -> list[float]:
     async with open_pilot(SceneOptions(voice="text", strategy=strategy)) as pilot:
         await pilot.advance(0.1)
-        gc.collect()
-        gc.freeze()  # as a server does
+        keep_from_ticks()  # as a server does
         return [await _plan(pilot, inside, number) for _ in range(runs + 1)][1:]
 
 

@@ -1,6 +1,7 @@
 """Namespaces, reserved ids, and places in a document."""
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Final
 
 from lxml import etree
@@ -26,6 +27,7 @@ ANTICIPATORS: Final = "anticipators"
 _NO_SYNC_IDS: Final = frozenset({"id", "xmlns"})
 
 
+@lru_cache(1000)
 def is_sync_id(name: str) -> bool:
     """Whether an element can tell a sync point by an attribute of its name: an NCName (Namespaces in XML 1.0, 7).
 

@@ -64,6 +64,8 @@ class _Reading:
             self._parser.Parse(_ROOT_END, True)
         except expat.ExpatError as stopped:
             return self._recover(stopped)
+        finally:
+            del self._parser  # it leads back here: only the garbage collector would find the two
         return len(self._data)
 
     def _make_parser(self) -> expat.XMLParserType:

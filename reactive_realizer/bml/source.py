@@ -96,7 +96,8 @@ class Source:
         Raises:
             RealizerError: ``missing-attribute`` or ``bad-attribute``.
         """
-        texts = [(each, _text_of(tree, each)) for each in attributes]
+        continuous = is_continuous(tree)
+        texts = [(each, _text_of(tree, each, continuous)) for each in attributes]
         missing = [each.name for each, text in texts if each.required and text is None]
         if missing:
             raise RealizerError(self.fault(tree, "missing-attribute", attribute=missing[0]))
@@ -175,7 +176,7 @@ class Source:
             raise self.bad(tree, attribute.name, text, refused) from None
 
 
-def _text_of(tree: Tree, attribute: Attribute) -> str | None:
+def _text_of(tree: Tree, attribute: Attribute, continuous: bool) -> str | None:
     # An element of continuous interaction has the attributes of its own namespace without a prefix too.
-    names = (*attribute.spellings, attribute.name) if is_continuous(tree) else attribute.spellings
-    return next((str(tree.attrib[name]) for name in names if name in tree.attrib), None)
+    names = (*attribute.spellings, attribute.name) if continuous else attribute.spellings
+    return next((text for name in names if (text := tree.get(name)) is not None), None)

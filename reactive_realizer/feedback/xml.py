@@ -108,7 +108,7 @@ def _predicted(block: str, prediction: BehaviorPrediction) -> etree._Element:
     for sync in behavior.syncs:
         if sync in element.attrib:  # not every one was written: a stroke may follow from an end
             del element.attrib[sync]
-    inline = {sync.get("id"): sync for sync in element.iter(f"{{{BML}}}sync", "sync")}
+    inline = {sync.get("id"): sync for sync in element.iter(f"{{{BML}}}sync", "sync")} if len(element) else {}
     for sync, time in prediction.times.items():
         if sync in inline:
             inline[sync].set(_OWN_TIME, seconds(time))

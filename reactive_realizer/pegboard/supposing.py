@@ -18,19 +18,19 @@ class Supposed:
 
     def __call__(self, peg: TimeCell) -> Time:
         """The time that a peg would have; a long chain is no deeper a call than a short one."""
+        known = self._known
         path = [peg]
         while path:
             last = path[-1]
-            missing = [cell for cell in last.dependencies if cell not in self._known]
-            if last in self._known or not missing:
-                path.pop()
-                self._known.setdefault(last, self._time(last))
-            else:
+            missing = [] if last in known else [cell for cell in last.dependencies if cell not in known]
+            if missing:
                 path += missing
-        return self._known[peg]
+            elif path.pop() not in known:
+                known[last] = self._time(last)
+        return known[peg]
 
     def _time(self, peg: TimeCell) -> Time:
-        if isinstance(peg, TimePeg) and peg.dependencies:
-            time: Time = peg.formula(*(self._known[cell] for cell in peg.dependencies))
+        if peg.dependencies and isinstance(peg, TimePeg):
+            time: Time = peg.formula(*[self._known[cell] for cell in peg.dependencies])
             return time
         return peg.value

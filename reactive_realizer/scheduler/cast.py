@@ -61,6 +61,7 @@ class Cast:
             self._units[engine] -= 1
             self._stirred.add(engine)
             engine.remove(unit)
+            unit.parameters.clear()  # they lead back to it: only the garbage collector would find them
 
     def awake(self, engine: Engine) -> bool:
         """Whether an engine is to play now, frames aside: it has units, or something was taken from it meanwhile.

@@ -1,6 +1,5 @@
 """A scene on the air: what its realizer tells, for whoever connects."""
 
-import gc
 import uuid
 from collections.abc import Mapping
 
@@ -16,6 +15,7 @@ from reactive_realizer.server.capabilities import lexemes_of
 from reactive_realizer.server.client_count import ClientCount
 from reactive_realizer.server.feedback_log import FeedbackLog
 from reactive_realizer.server.frame_stream import FrameStream
+from reactive_realizer.server.garbage import keep_from_ticks
 from reactive_realizer.server.protocol import VERSION, Message
 from reactive_realizer.server.sound_shelf import SoundShelf
 
@@ -70,8 +70,7 @@ class Live:
 
     async def run(self) -> None:
         """Tick for ever."""
-        gc.collect()
-        gc.freeze()  # it stays as long as the scene does, and to look through it for garbage takes most of a tick
+        keep_from_ticks()
         async for tick in self.ticker.ticks():
             await self.step(tick)
 

@@ -67,3 +67,41 @@ async def test_a_gesture_that_was_asked_for_in_all_sizes_is_not_kept_in_all_of_t
         assert pilot.feedback.warnings == []
     gc.collect()
     assert sum(isinstance(thing, GestureMotionUnit) for thing in gc.get_objects()) < 140
+
+
+_PERFORMED = """
+    <speech id="s"><text>one <sync id="m"/>two three four five</text></speech>
+    <gesture id="g" lexeme="BEAT" stroke="s:m"/>
+    <head id="h" lexeme="NOD" start="s:start" end="s:end"/>
+    <gaze id="z" target="camera" start="s:start" end="s:end+0.5"/>
+    <pointing id="p" target="bluebox" start="s:end"/>
+    <faceLexeme id="f" lexeme="RAISE_BROWS" start="s:start" end="s:end"/>
+    <wait id="w" duration="0.2" start="s:end"/>
+    <bmlt:parametervaluechange id="v" target="{0}:s" paramId="volume" start="s:start+0.1" end="s:start+0.3">
+      <bmlt:trajectory type="linear" targetValue="20"/>
+    </bmlt:parametervaluechange>
+    <bmla:interrupt id="i" target="other" start="s:m"/>
+    <wait id="k" duration="0.1"/><constraint id="c"><after ref="h:end"><sync ref="k:start"/></after></constraint>
+"""
+
+
+async def test_what_has_ended_frees_itself_without_a_search_for_garbage(pilot) -> None:
+    async def perform(block: str) -> None:
+        pilot.block(block, _PERFORMED.format(block))
+        pilot.block("other", '<gazeShift id="z" target="bluebox"/><speech id="s"><text>and so on</text></speech>')
+        await pilot.advance(6.0)
+
+    await perform("first")
+    assert pilot.feedback.warnings == []
+    gc.collect()
+    gc.disable()
+    gc.set_debug(gc.DEBUG_SAVEALL)
+    try:
+        await perform("second")
+        gc.collect()
+        ours = {type(thing).__name__ for thing in gc.garbage if type(thing).__module__.startswith("reactive_realizer")}
+    finally:
+        gc.set_debug(0)
+        gc.garbage.clear()
+        gc.enable()
+    assert ours == set()

@@ -125,7 +125,7 @@ class AnimationEngine(DefaultEngine):
 
     def _unit(self, block: BlockKey, behavior: Behavior) -> AnimationUnit:
         choices = self._library.choices(behavior)
-        if choices[0].motion.led:
+        if choices.planned.motion.led:
             return TransitionUnit(block, behavior, choices, self._stage, self._predictor.moving)
         return AnimationUnit(block, behavior, choices, self._stage)
 

@@ -1,6 +1,6 @@
 """Motions in a plan."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import inf
@@ -10,7 +10,7 @@ from reactive_realizer.bml.behaviors import Pointing
 from reactive_realizer.clock.units import RESOLUTION, GlobalTime
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.pose import Layer, LayerKind
-from reactive_realizer.engines.animation.choice import Choice, choose
+from reactive_realizer.engines.animation.choice import Choice, Choices, choose
 from reactive_realizer.engines.animation.easing import share
 from reactive_realizer.engines.animation.motion_unit import (
     Moment,
@@ -67,16 +67,16 @@ class AnimationUnit(PlanUnit):
         started: when it started, s; before that it lies below all others.
     """
 
-    def __init__(self, block: BlockKey, behavior: Behavior, choices: Sequence[Choice], stage: Stage) -> None:
+    def __init__(self, block: BlockKey, behavior: Behavior, choices: Choices, stage: Stage) -> None:
         """Plans a motion.
 
         Args:
             block: of which block.
             behavior: what is asked for.
-            choices: the motions that could play it, the best first: this one is planned.
+            choices: the motions that could play it, the best of which is planned.
             stage: where it plays.
         """
-        planned = choices[0]
+        planned = choices.planned
         motion = planned.motion
         super().__init__(block, behavior, motion_timing(behavior, motion))
         self._stage = stage
@@ -112,9 +112,9 @@ class AnimationUnit(PlanUnit):
     def settle(self, taken: frozenset[str]) -> None:
         """The other hand plays if one is busy, and what is short if there is little time (thesis 8.17)."""
         start, end = self.times_around
-        planned, *others = self._choices
-        choices = [planned, *(choice for choice in others if self._stands_in(choice))]
-        chosen = choose(choices, taken, None if start is None or end is None else end - start)
+        planned = self._choices.planned
+        usable = (choice for choice in self._choices if choice is planned or self._stands_in(choice))
+        chosen = choose(usable, taken, None if start is None or end is None else end - start)
         if chosen.motion is not self.motion:
             self._play(chosen)
 

@@ -1,6 +1,6 @@
 """The motions that could play a behavior, and which of them does."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from math import inf
 
@@ -32,7 +32,32 @@ class Choice:
         return AMOUNT_RANGE if name == AMOUNT else self.motion.ranges[self.names[name]]
 
 
-def choose(choices: Sequence[Choice], taken: frozenset[str], time: float | None) -> Choice:
+class Choices:
+    """The motions that could play a behavior, the best first; each is made when it is first asked for.
+
+    Args:
+        made: one or more.
+
+    Attributes:
+        planned: the best one.
+
+    Raises:
+        RealizerError: whatever making the best one raises.
+    """
+
+    def __init__(self, made: Iterator[Choice]) -> None:
+        self.planned = next(made)
+        self._known = [self.planned]
+        self._others = made
+
+    def __iter__(self) -> Iterator[Choice]:
+        yield from self._known
+        for choice in self._others:
+            self._known.append(choice)
+            yield choice
+
+
+def choose(choices: Iterable[Choice], taken: frozenset[str], time: float | None) -> Choice:
     """The choice that is to be played: of those that are free the first that has time enough, else the shortest.
 
     Thesis 8.17 names both as what a binding with several motions for one behavior is good for.
@@ -42,11 +67,13 @@ def choose(choices: Sequence[Choice], taken: frozenset[str], time: float | None)
         taken: resources that others own; where no choice is free it is the first, whose conflict is then told.
         time: from start to end, s; None where that is unknown.
     """
-    free = [choice for choice in choices if not choice.motion.resources & taken]
-    if not free:
-        return choices[0]
-    unhurried = (choice for choice in free if time is None or not _hurried(choice.motion, time))
-    return next(unhurried, min(free, key=lambda choice: choice.motion.preferred_duration))
+    tried: list[Choice] = []
+    for choice in choices:
+        tried.append(choice)
+        if not choice.motion.resources & taken and (time is None or not _hurried(choice.motion, time)):
+            return choice
+    free = [choice for choice in tried if not choice.motion.resources & taken]
+    return min(free, key=lambda choice: choice.motion.preferred_duration) if free else tried[0]
 
 
 def _hurried(motion: MotionUnit, time: float) -> bool:

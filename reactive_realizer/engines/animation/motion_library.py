@@ -1,7 +1,7 @@
 """From a behavior to the motions that could play it: the gesture binding, and who makes what it names."""
 
 import logging
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
 
 from reactive_realizer.binding.gesture_binding import GestureBinding
@@ -10,12 +10,12 @@ from reactive_realizer.binding.unit_spec import UnitSpec
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.behaviors import Head
 from reactive_realizer.engines.animation.actor import Actor, SlowMaker, Wanted
-from reactive_realizer.engines.animation.choice import Choice
+from reactive_realizer.engines.animation.choice import Choice, Choices
 from reactive_realizer.engines.animation.gaze.gaze_maker import DYNAMIC
 from reactive_realizer.engines.animation.makers import makers_of
 from reactive_realizer.engines.animation.motion_unit import MotionUnit
 from reactive_realizer.engines.animation.values import values_of
-from reactive_realizer.errors import RealizerError, error
+from reactive_realizer.errors import Fault, RealizerError, error
 
 _log = logging.getLogger(__name__)
 
@@ -40,8 +40,8 @@ class MotionLibrary:
         self._slow = {unit: maker for unit, maker in makers.items() if isinstance(maker, SlowMaker)}
         self._noted: set[UnitSpec] = set()
 
-    def choices(self, behavior: Behavior) -> tuple[Choice, ...]:
-        """The motions that could play a behavior, the best first: one or more.
+    def choices(self, behavior: Behavior) -> Choices:
+        """The motions that could play a behavior.
 
         An entry of the binding whose file or unit is not there is passed over; one without constraints is for what no
         entry before it plays.
@@ -53,19 +53,25 @@ class MotionLibrary:
         specs = self.binding.match(behavior.name, behavior.namespace, attributes)
         if not specs:
             raise error("no-motion-for", element=behavior.name, lexeme=attributes.get("lexeme", ""))
-        choices: list[Choice] = []
-        refused: dict[UnitSpec, RealizerError] = {}
+        return Choices(self._made(specs, behavior, attributes))
+
+    def _made(self, specs: Iterable[UnitSpec], behavior: Behavior, attributes: Mapping[str, str]) -> Iterator[Choice]:
+        refused: dict[UnitSpec, Fault] = {}
+        some = False
         for spec in specs:
+            if some and not spec.constraints:
+                continue
             try:
-                if spec.constraints or not choices:
-                    choices.append(self.choice(spec, behavior, attributes))
+                choice = self.choice(spec, behavior, attributes)
             except RealizerError as problem:
-                refused[spec] = problem
-        if not choices:
-            raise next(iter(refused.values()))
-        # One without constraints promises nothing: that it has nothing for this behavior is no fault of it.
-        self._note({spec: problem for spec, problem in refused.items() if spec.constraints})
-        return tuple(choices)
+                refused[spec] = problem.fault
+            else:
+                some = True
+                self._note(refused)
+                yield choice
+        if not some:
+            raise RealizerError(next(iter(refused.values())))
+        self._note(refused)
 
     def readings(self, behavior: Behavior) -> list[Callable[[], object]]:
         """The work of `SlowMaker`s for a behavior; what they cannot make is told when it is made."""
@@ -77,11 +83,13 @@ class MotionLibrary:
                     works.append(self._slow[spec.unit].reading(_wanted(spec, behavior, attributes)))
         return [work for work in works if work is not None]
 
-    def _note(self, refused: Mapping[UnitSpec, RealizerError]) -> None:
+    def _note(self, refused: Mapping[UnitSpec, Fault]) -> None:
         """Log entries that are passed over, each once."""
-        for spec in refused.keys() - self._noted:
-            _log.warning("%s: this entry does not play: %s", spec.place, refused[spec].fault.sentence)
-        self._noted |= refused.keys()
+        # One without constraints promises nothing: that it has nothing for this behavior is no fault of it.
+        new = [spec for spec in refused if spec.constraints and spec not in self._noted]
+        for spec in new:
+            _log.warning("%s: this entry does not play: %s", spec.place, refused[spec].sentence)
+        self._noted.update(new)
 
     def choice(self, spec: UnitSpec, behavior: Behavior, attributes: Mapping[str, str]) -> Choice:
         """The motion that an entry of the binding has for a behavior with these attributes.

@@ -70,6 +70,10 @@ class ParameterValueChangeUnit(ParameterUser):
         if sync != "start":
             self._give(self.change.trajectory.target_value)
 
+    def on_finish(self, time: GlobalTime) -> None:
+        """Let go of the parameter."""
+        self._parameter = None
+
     def follow(self, now: GlobalTime) -> None:
         """Give the parameter its value of now, or end with the target."""
         if self._parameter is None:

@@ -35,8 +35,8 @@ class SpeechUnit(PlanUnit):
         self.utterance = utterance
         self.started: GlobalTime | None = None
         self.cut: GlobalTime | None = None
-        self._volume = Parameter(self, Source(graph, str(self.key("volume")), _AS_RECORDED), VOLUME_RANGE)
-        self.parameters["volume"] = self._volume
+        self._volume = Source(graph, str(self.key("volume")), _AS_RECORDED)
+        self.parameters["volume"] = Parameter(self, self._volume, VOLUME_RANGE)
 
     @property
     def gain(self) -> float:

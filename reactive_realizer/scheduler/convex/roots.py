@@ -33,6 +33,9 @@ class Roots:
 
     def find(self, node: int) -> tuple[int, float]:
         """The root of a node, and how much later (s) than that the node is."""
+        parent = self._parents[node]
+        if self._parents[parent] == parent:  # as almost always
+            return parent, self._distances[node]
         path = []
         while self._parents[node] != node:
             path.append(node)

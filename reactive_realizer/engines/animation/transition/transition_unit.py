@@ -1,13 +1,13 @@
 """A transition in a plan."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import replace
 
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.pose import Layer, LayerKind
 from reactive_realizer.engines.animation.animation_unit import AnimationUnit, Stage
-from reactive_realizer.engines.animation.choice import Choice
+from reactive_realizer.engines.animation.choice import Choices
 from reactive_realizer.engines.animation.moving import Moving
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.timing import Phase, PhaseKind, Timing
@@ -19,9 +19,7 @@ Predict = Callable[[GlobalTime, AnimationUnit], Moving]
 class TransitionUnit(AnimationUnit):
     """A transition between pegs."""
 
-    def __init__(
-        self, block: BlockKey, behavior: Behavior, choices: Sequence[Choice], stage: Stage, predict: Predict
-    ) -> None:
+    def __init__(self, block: BlockKey, behavior: Behavior, choices: Choices, stage: Stage, predict: Predict) -> None:
         """Plans a transition; where it leads to, a prediction says when it begins."""
         super().__init__(block, behavior, choices, stage)
         if {"start", "end"} <= behavior.syncs.keys() and self.timing.points == ("start", "end"):
