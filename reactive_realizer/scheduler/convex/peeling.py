@@ -3,6 +3,7 @@
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 
+from reactive_realizer.scheduler.convex.circles import solve_circles
 from reactive_realizer.scheduler.convex.longest_path import TOLERANCE, Arc, longest_path
 from reactive_realizer.scheduler.convex.model import START
 from reactive_realizer.scheduler.convex.newton import least_cost
@@ -59,7 +60,7 @@ def _peel(spans: Sequence[Span], bounds: Sequence[Bound]) -> tuple[list[Span], l
 
 
 def _solve_core(spans: Sequence[Span], bounds: Sequence[Bound]) -> dict[int, float]:
-    times = _as_preferred(spans, bounds)
+    times = _as_preferred(spans, bounds) or solve_circles(spans, bounds)
     if times is None:
         variables = _variables(spans, bounds)
         numbers = {variable: number for number, variable in enumerate(variables)}
