@@ -58,7 +58,6 @@ docs: $(INSTALLED) ## Write the pages of docs/ that are made from the code
 	$(BIN)/python docs/make_drawings.py
 
 gallery: $(INSTALLED) $(PAGE) ## Make the pictures of docs/gallery (COMPARE=1: say which would be others)
-	$(PIP) install --quiet --constraint constraints.txt --group gallery
 	$(BIN)/python docs/make_gallery.py $(if $(COMPARE),--compare)
 
 wheel: $(INSTALLED) $(PAGE) ## Build the wheel, page included, into dist/

@@ -98,6 +98,7 @@ _UNITS = (
         '<gesture id="g" lexeme="BEAT" mode="RIGHT_HAND" start="p:end+0.3"/>',
         whole_body=True,
     ),
+    Entry("procanimationgesture", '<bmlt:procanimationgesture id="a" name="offer_both" stroke="1.5"/>'),
     Entry("keyframe", f'<bmlt:keyframe id="k">{_CLIP}</bmlt:keyframe>'),
     Entry(
         "noise",

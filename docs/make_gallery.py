@@ -181,16 +181,17 @@ def _told(share: float | None) -> str:
     return f"{share:.1%} differs" if share else "same"
 
 
-def write_index(all_entries: Iterable[Entry]) -> None:
+def index(all_entries: Iterable[Entry]) -> str:
     """The page that shows all strips."""
     lines = ["# Gallery", "", "Every lexeme and unit at seven moments from start to end; made by `make gallery`.", ""]
     for entry in all_entries:
         picture = f"![{entry.name}]({entry.name}.webp)"
         lines += [f"### {entry.name}", "", picture, "", "```xml", entry.behaviors, "```", ""]
-    (GALLERY / "README.md").write_text("\n".join(lines), encoding="utf-8")
+    return "\n".join(lines)
 
 
-async def _known(options: SceneOptions) -> list[Entry]:
+async def known(options: SceneOptions) -> list[Entry]:
+    """An entry for each word and unit of a scene."""
     async with open_scene(options) as scene:
         engines = next(iter(scene.realizer.characters.values())).engines
         return entries(words_of(engines))
@@ -209,12 +210,14 @@ def main() -> None:
     if browser is None:
         parser.error(f"no program {options.browser}: --browser names a Chromium")
     scene = SceneOptions(voice="text", assets=tuple(options.assets))
-    known = asyncio.run(_known(scene))
-    wanted = [entry for entry in known if not options.names or entry.name in options.names]
+    all_entries = asyncio.run(known(scene))
+    wanted = [entry for entry in all_entries if not options.names or entry.name in options.names]
+    if missing := set(options.names).difference(entry.name for entry in wanted):
+        parser.error(f"nothing is called {', '.join(sorted(missing))}: names are those of the files in {GALLERY.name}")
     options.into.mkdir(exist_ok=True)
     differing = asyncio.run(make(wanted, scene, options.into, browser, options.compare))
     if not options.compare and options.into == GALLERY:
-        write_index(known)
+        (GALLERY / "README.md").write_text(index(all_entries), encoding="utf-8")
     raise SystemExit(1 if differing else 0)
 
 

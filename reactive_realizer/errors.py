@@ -104,7 +104,7 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
         ),
         "contradictory-tie": ErrorKind("{tie} contradicts other constraints by {gap:g} s; it is dropped", _SCHEDULE),
         "outer-tie": ErrorKind("{tie} ties two times that both come from elsewhere; it is dropped", _SCHEDULE),
-        "rigid": ErrorKind("{point} cannot be where it is tied to, {gap:g} s away; that tie is dropped", _SCHEDULE),
+        "rigid": ErrorKind("{point} cannot be where {tie} wants it, {gap:g} s away; that tie is dropped", _SCHEDULE),
         "cyclic-reference": ErrorKind("{reference} hangs on the block '{block}' itself", _SCHEDULE),
         "unknown-target-block": ErrorKind("{attribute}: there never was a block '{block}'", _SCHEDULE),
         "not-awaited": ErrorKind(
@@ -161,6 +161,13 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
         "target-lost": ErrorKind(
             "the {hand} hand cannot follow '{target}' any further and stays where it is: {reason}", _PLAYING
         ),
+        "gaze-short": ErrorKind(
+            "it stays {angle:.0f} degrees beside its target: that is too far aside for what takes part in it", _PLAYING
+        ),
+        "not-reachable": ErrorKind(
+            "{joint} does not reach where {animation} wants it at phase {phase:.2f}: {distance:.2f} m are missing",
+            _PLAYING,
+        ),
         "unit-failed": ErrorKind("it failed while playing: {reason}", _PLAYING),
         "engine-failed": ErrorKind("the engine {engine} failed: {reason}", _PLAYING),
         "constraint-broken": ErrorKind("'{text}' is missed by {amount:g} s ({points}; thesis {equation})", _SCHEDULE),
@@ -194,6 +201,10 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
         "no-target": ErrorKind("no target '{target}' in the world; there are {known}", WarningType.NO_SUCH_TARGET),
         "bad-parameter": ErrorKind(
             "the parameter {name} is a number from {low:g} to {high:g}, which '{value}' is not", _CREATE
+        ),
+        "unknown-parameter": ErrorKind(
+            "unknown parameter {names} of <{element}>; what plays it knows {known}",
+            WarningType.CUSTOM_ATTRIBUTE_NOT_SUPPORTED,
         ),
         "not-pointable": ErrorKind("the {hand} hand cannot point at '{target}': {reason}", _CREATE),
         "no-joints": ErrorKind("this figure has no {joints}, which <{element}> needs", _CREATE),

@@ -24,6 +24,9 @@ CLASS_NAMES: Mapping[str, str] = MappingProxyType(
 )
 """Name of a class of AsapRealizer -> id of a unit."""
 
+ASKED_OF_BEHAVIOR = frozenset({"target", "influence", "offsetangle", "offsetdirection"})
+"""Parameters of these classes that bindings hand on to them; the units here ask the behavior itself."""
+
 
 def unit_id(name: str) -> str:
     """The unit that a class or an id names; ids stand for themselves."""

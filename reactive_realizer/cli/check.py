@@ -12,6 +12,7 @@ from reactive_realizer.bml.attribute_types import Names, Target
 from reactive_realizer.bml.attributes import attributes_of
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.block import BehaviorBlock
+from reactive_realizer.bml.continuous import ParameterValueChange
 from reactive_realizer.bml.document import parse
 from reactive_realizer.bml.names import ANTICIPATORS
 from reactive_realizer.bml.procedure import DefineProc
@@ -83,6 +84,8 @@ class _Checker:
         yield from (problem.fault for problem in check_references(block, self._points))
         yield from self._unknown_blocks(block)
         yield from _unknown_targets(block, self._realizer.world)
+        yield from _unknown_behaviors(block)
+        yield from self._unknown_points(block)
 
     def _points(self, behavior: Behavior) -> Collection[str] | None:
         """Its sync points, those of what would play it among them; None where nothing would."""
@@ -93,6 +96,15 @@ class _Checker:
             with suppress(RealizerError):
                 known = engine.plan(_NOWHERE, behavior, None).timing.points
         return known
+
+    def _unknown_points(self, block: BehaviorBlock | DefineProc) -> Iterator[Fault]:
+        """Attributes that tie points which what plays their behavior has not."""
+        for behavior in block.behaviors:
+            known = self._points(behavior) if behavior.OPEN_POINTS else None
+            for sync, ref in behavior.syncs.items():
+                if known is not None and sync not in known:
+                    details = {"behavior": behavior.id, "sync": sync, "reference": str(ref), "known": ", ".join(known)}
+                    yield Fault("unknown-sync", details, behavior.location.line, behavior.location.column)
 
     def _unknown_procedure(self, block: BehaviorBlock) -> Iterator[Fault]:
         if block.procedure not in {None, *self._procedures}:
@@ -121,6 +133,16 @@ def _unknown_targets(block: BehaviorBlock | DefineProc, world: World) -> Iterato
             if world.position(target) is None:
                 details = {"target": target, "known": ", ".join(world.targets)}
                 yield Fault("no-target", details, behavior.location.line, behavior.location.column)
+
+
+def _unknown_behaviors(block: BehaviorBlock | DefineProc) -> Iterator[Fault]:
+    """Behaviors of the block itself of which something is to be changed."""
+    known = {behavior.id for behavior in block.behaviors}
+    changes = (each for each in block.behaviors if isinstance(each, ParameterValueChange))
+    for change in changes:
+        if change.target_block in {None, block.id} and change.target_behavior not in known:
+            details = {"block": block.id, "behavior": change.target_behavior}
+            yield Fault("no-such-behavior", details, change.location.line, change.location.column)
 
 
 def _targets(behavior: Behavior) -> Iterator[str]:

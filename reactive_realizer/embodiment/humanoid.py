@@ -1,6 +1,7 @@
 """A character as it can be seen: its avatar, where it stands, and the pose it is in."""
 
 from collections.abc import Callable, Iterable, Mapping
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,11 +13,25 @@ from reactive_realizer.embodiment.frame import Frame, rotation_array
 from reactive_realizer.embodiment.joints import EYES, ROOT
 from reactive_realizer.embodiment.pose import Layer, compose
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, conjugate, from_axis_angle, multiply, rotate
+from reactive_realizer.embodiment.skeleton import Pose
 from reactive_realizer.embodiment.speed_limit import SpeedLimit, slowed
 from reactive_realizer.embodiment.vector import UP, ZERO, Vec3, add, scale, subtract
 
-Eyes = Callable[[Body], Mapping[str, Quat]]
-"""What the eyes and lids do, from the composed head: they come last."""
+
+class Look(NamedTuple):
+    """What eyes do in a frame.
+
+    Attributes:
+        turns: eye joint -> rotation in the head.
+        lids: weights of the morphs around the eyes, which are added to the face.
+    """
+
+    turns: Mapping[str, Quat]
+    lids: Mapping[str, float]
+
+
+Eyes = Callable[[Body], Look]
+"""What the eyes do with the head as it is shown: they come last, when all figures have moved."""
 
 
 class Humanoid:
@@ -35,17 +50,42 @@ class Humanoid:
         self._morphs = {morph: i for i, morph in enumerate(avatar.morphs)}
         self._limit: SpeedLimit | None = None
         self._shown = Body(avatar.skeleton)
-        self._shown_at = GlobalTime(0.0)
+        self._time = GlobalTime(0.0)
+        self._passed = 0.0
+        self._looked: Pose | None = None
         self.body = Body(avatar.skeleton)
         """The figure without additive motion, in its own frame: where a motion that begins finds it."""
 
-    def compose(self, time: GlobalTime, layers: Iterable[Layer], face: Mapping[str, float], eyes: Eyes | None) -> Frame:
-        """The frame of a time; later ones follow from it without a jump."""
+    def move(self, time: GlobalTime, layers: Iterable[Layer]) -> None:
+        """Come to what layers make of the figure at a time, without a jump.
+
+        Where it looks from there is the second step (`look`): others may look at it, and it at them and at itself.
+        """
         composed = compose(self.avatar.skeleton, layers)
-        self._shown = self._within_limits(composed.shown, eyes, time - self._shown_at)
-        self._shown_at = time
+        self._passed, self._time = time - self._time, time
+        if self._limit is None:
+            self._limit = SpeedLimit(composed.shown)
+            self._shown = composed.shown
+        else:
+            self._looked = self._shown.pose
+            self._shown = self._limit(composed.shown, self._passed)
         self.body = composed.steady
-        return Frame(time, self._root(self._shown.root), self._rotations(self._shown.pose), self._weights(face))
+
+    def look(self, eyes: Eyes | None, faces: Iterable[Mapping[str, float]]) -> Frame:
+        """The frame of the time to which it has moved: the eyes look from where the head really came to be.
+
+        Args:
+            eyes: None leaves them as the layers have them.
+            faces: weights of morphs, which add up.
+        """
+        body = self._shown
+        turns, lids = ({}, {}) if eyes is None else eyes(body)
+        looking = {**{eye: body.rotation(eye) for eye in EYES if eye in body.skeleton}, **turns}
+        if self._looked is not None:
+            looking = slowed(self._looked, looking, self._passed)
+        self._shown = body.posed(looking)
+        weights = self._weights((*faces, lids))
+        return Frame(self._time, self._root(self._shown.root), self._rotations(self._shown.pose), weights)
 
     @property
     def shown(self) -> Body:
@@ -64,15 +104,6 @@ class Humanoid:
         point = self._shown.place(name).position if joint else between_eyes(self._shown)
         return add(self._position, rotate(self._turn, point))
 
-    def _within_limits(self, wanted: Body, eyes: Eyes | None, duration: float) -> Body:
-        """What is shown: the eyes look from where the head really comes to be."""
-        if self._limit is None:
-            self._limit = SpeedLimit(wanted)
-            return wanted if eyes is None else wanted.posed(eyes(wanted))
-        body = self._limit(wanted, duration)
-        looking = {eye: body.rotation(eye) for eye in EYES if eye in body.skeleton}
-        return body.posed(slowed(self._shown.pose, looking if eyes is None else {**looking, **eyes(body)}, duration))
-
     def _root(self, moved: Vec3) -> NDArray[np.float64]:
         place = add(self.avatar.skeleton.offset(ROOT), moved)
         return np.array(add(self._position, rotate(self._turn, place)))
@@ -81,11 +112,12 @@ class Humanoid:
         root = multiply(self._turn, pose.get(ROOT, IDENTITY))
         return rotation_array(self.avatar.skeleton, {**pose, ROOT: root})
 
-    def _weights(self, face: Mapping[str, float]) -> NDArray[np.float64]:
+    def _weights(self, faces: Iterable[Mapping[str, float]]) -> NDArray[np.float64]:
         weights = np.zeros(len(self._morphs))
-        for morph in face.keys() & self._morphs.keys():
-            weights[self._morphs[morph]] = min(1.0, max(0.0, face[morph]))
-        return weights
+        for face in faces:
+            for morph in face.keys() & self._morphs.keys():
+                weights[self._morphs[morph]] += face[morph]
+        return weights.clip(0.0, 1.0)
 
 
 def between_eyes(body: Body) -> Vec3:

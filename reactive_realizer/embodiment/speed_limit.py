@@ -3,8 +3,9 @@
 import math
 
 from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.feet import drawn, feet, leg, walks
 from reactive_realizer.embodiment.ground import depth, soles
-from reactive_realizer.embodiment.joints import EYES, HEAD, LOWER_BODY, TRUNK
+from reactive_realizer.embodiment.joints import EYES, HEAD, LOWER_BODY, ROOT, SIDES, TRUNK
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, angle, difference, slerp
 from reactive_realizer.embodiment.skeleton import Pose
 from reactive_realizer.embodiment.vector import UP, ZERO, Vec3, add, dot, length, scale, subtract
@@ -63,7 +64,8 @@ class SpeedLimit:
     and the root no faster than `ROOT_SPEED`. A pose that asks for more is followed as fast as that allows, which
     ordinary motion never notices. How soon a wrist stops is not limited: so it never goes past where it is wanted.
 
-    Legs and root, each held back for itself, would take the feet into the ground: so much the figure is raised.
+    Legs and root, each held back for itself, would take the feet elsewhere, and into the ground. So knees bend, or
+    stretch, for a root that is late; what legs cannot make up for either raises the figure, within the root's limit.
     """
 
     def __init__(self, shown: Body) -> None:
@@ -74,6 +76,7 @@ class SpeedLimit:
         self._places = {wrist: _from_root(wrist, shown) for wrist in _WRISTS}
         self._velocities: dict[str, Vec3] = dict.fromkeys(_WRISTS, ZERO)
         self._soles = soles(shown.skeleton)
+        self._walks = walks(shown.skeleton)
 
     def __call__(self, wanted: Body, duration: float) -> Body:
         """The body to show now.
@@ -83,14 +86,14 @@ class SpeedLimit:
             duration: since the last one was shown, s, more than 0.
         """
         pose = slowed(self._shown.pose, {**self._default, **wanted.pose}, duration)
-        body = Body(wanted.skeleton, pose, self._root(wanted.root, ROOT_SPEED * duration))
+        body = Body(wanted.skeleton, pose, self._root(wanted.root, duration))
         # The wrists share the trunk: holding one back may set the other free, so it goes on until both are content.
         while (hasty := self._hasty(body, duration)) is not None:
             wrist, fraction = hasty
             body = body.posed(
                 {j: slerp(self._shown.rotation(j), body.rotation(j), fraction) for j in self._arms[wrist]}
             )
-        body = self._raised(body, wanted)
+        body = self._on_its_feet(body, wanted, duration)
         places = {wrist: _from_root(wrist, body) for wrist in _WRISTS}
         self._velocities = {w: scale(subtract(at, self._places[w]), 1.0 / duration) for w, at in places.items()}
         self._places, self._shown = places, body
@@ -114,15 +117,34 @@ class SpeedLimit:
         before = max(0.0, dot(self._velocities[wrist], direction))
         return min(WRIST_SPEED, before + WRIST_ACCELERATION * duration)
 
-    def _raised(self, body: Body, wanted: Body) -> Body:
-        """The body with its feet no further under the ground than they are wanted."""
+    def _on_its_feet(self, body: Body, wanted: Body, duration: float) -> Body:
+        """The body with its feet where they are wanted, as far as that can be, and no further under the ground."""
         if body.root is wanted.root and all(body.rotation(joint) is wanted.rotation(joint) for joint in LOWER_BODY):
             return body
+        if self._walks:
+            body = body.posed(self._legs(body, wanted, duration))
         sunk = depth(body, self._soles) - depth(wanted, self._soles)
-        return body.posed({}, add(body.root, scale(UP, sunk))) if sunk > 0.0 else body
+        return body.posed({}, self._root(add(body.root, scale(UP, sunk)), duration)) if sunk > 0.0 else body
 
-    def _root(self, wanted: Vec3, furthest: float) -> Vec3:
-        way = subtract(wanted, self._shown.root)
+    def _legs(self, body: Body, wanted: Body, duration: float) -> dict[str, Quat]:
+        """Rotations of both legs, which make up for a pelvis that has been held back."""
+        carried = wanted.posed({ROOT: body.rotation(ROOT)}, body.root)
+        places = drawn(carried, feet(wanted), subtract(body.root, wanted.root))
+        left, right = (
+            self._as_one(leg(carried, side, foot), duration) for side, foot in zip(SIDES, places, strict=True)
+        )
+        return left | right
+
+    def _as_one(self, goals: dict[str, Quat], duration: float) -> dict[str, Quat]:
+        """Rotations of a leg that is slowed down as a whole: a foot would swing if only its knee were late."""
+        furthest = max(angle(difference(self._shown.rotation(joint), goal)) for joint, goal in goals.items())
+        reach = _LIMB * duration
+        if furthest <= reach:
+            return goals
+        return {joint: slerp(self._shown.rotation(joint), goal, reach / furthest) for joint, goal in goals.items()}
+
+    def _root(self, wanted: Vec3, duration: float) -> Vec3:
+        way, furthest = subtract(wanted, self._shown.root), ROOT_SPEED * duration
         moved = length(way)
         return wanted if moved <= furthest else add(self._shown.root, scale(way, furthest / moved))
 

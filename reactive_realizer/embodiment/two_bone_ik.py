@@ -119,6 +119,11 @@ class Limb:
         side = unit(rejected(cross(self.upper, self._circle.axis), straight))
         return from_frames(straight, side, way, self._middle_side(way, swivel)), middle
 
+    def missed(self, goal: Vec3) -> float:
+        """How far from a goal the end stays, m; both as `solve` has them."""
+        far = length(goal)
+        return abs(self._reachable(far) - far)
+
     @cached_property
     def _length(self) -> float:
         return length(self.upper) + length(self.lower)

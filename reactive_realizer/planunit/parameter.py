@@ -1,5 +1,6 @@
 """What of a behavior may be changed while it plays (thesis 6.6.6)."""
 
+from collections.abc import Collection
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -17,6 +18,20 @@ class Range(NamedTuple):
 
     def __contains__(self, value: object) -> bool:
         return isinstance(value, int | float) and self.low <= value <= self.high
+
+
+def spelled(word: str, known: Collection[str]) -> str:
+    """A name or another word as those spell it who know it: it may be said in any case, `_` like `-`.
+
+    What nobody knows stays as it is said. Of names that are the same word, as of formulas, each keeps its own.
+    """
+    if word in known:
+        return word
+    return next((each for each in known if _folded(each) == _folded(word)), word)
+
+
+def _folded(word: str) -> str:
+    return word.strip().casefold().replace("_", "-")
 
 
 @dataclass(slots=True, eq=False)

@@ -18,12 +18,11 @@ class Character:
     humanoid: Humanoid
     engines: tuple[Engine, ...]
 
-    def compose(self, time: GlobalTime, plays: Sequence[Play]) -> Frame:
-        """One frame of what its engines ask for."""
-        layers = [layer for play in plays for layer in play.layers]
-        face: dict[str, float] = {}
-        for play in plays:
-            for morph, weight in play.face.items():
-                face[morph] = face.get(morph, 0.0) + weight
+    def move(self, time: GlobalTime, plays: Sequence[Play]) -> None:
+        """Come to what its engines ask for at a time; then it looks (`look`)."""
+        self.humanoid.move(time, [layer for play in plays for layer in play.layers])
+
+    def look(self, plays: Sequence[Play]) -> Frame:
+        """The frame of the time to which it has moved, eyes and face as its engines ask for."""
         eyes = next((play.eyes for play in plays if play.eyes is not None), None)
-        return self.humanoid.compose(time, layers, face, eyes)
+        return self.humanoid.look(eyes, [play.face for play in plays])

@@ -242,8 +242,15 @@ class Realizer:
 
     def _publish_frames(self, time: GlobalTime, plays: Sequence[Play]) -> None:
         by_engine = dict(zip((task.engine for task in self._following), plays, strict=True))
-        for character in self.characters.values():
-            frame = character.compose(time, [by_engine[engine] for engine in character.engines if engine in by_engine])
+        shown = [
+            (character, [by_engine[engine] for engine in character.engines if engine in by_engine])
+            for character in self.characters.values()
+        ]
+        for character, its in shown:
+            character.move(time, its)
+        # Who looks at another one, or at his own hand, sees where that is in this frame.
+        for character, its in shown:
+            frame = character.look(its)
             for listener in tuple(self._frame_listeners):
                 listener(character, frame)
 

@@ -167,7 +167,8 @@ class EngineStand:
         else:
             raise AssertionError(f"{self.engine.name} asks for something in each of {_MOST_ROUNDS} rounds")
         if tick.frame:
-            self.frames.append(self._character.compose(self.now, [self.played]))
+            self._character.move(self.now, [self.played])
+            self.frames.append(self._character.look([self.played]))
 
     def play(self, tick: Tick) -> None:
         """Have the engine play one round of a tick, and keep what it says."""

@@ -1,25 +1,13 @@
 """Conducting figures: where the hand is at each beat, as a conductor's textbook draws them."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
-from reactive_realizer.assembly.scene import SceneOptions
-from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
+from reactive_realizer.testing.pilot import RealizerPilot
 
 UP = 1
 SIDES = {"LEFT_HAND": ("l_wrist", 1.0), "RIGHT_HAND": ("r_wrist", -1.0)}
 """Wrist, and the sign of x away from the body's middle."""
-
-
-@pytest.fixture
-async def pilot(tmp_path: Path):
-    """Of a figure that does nothing of itself."""
-    (tmp_path / "still.toml").write_text("[character.alice]\nidle = false")
-    async with open_pilot(SceneOptions(tmp_path / "still.toml", "text")) as pilot:
-        pilot.watch()
-        yield pilot
 
 
 async def conduct(pilot: RealizerPilot, beats: int, mode: str, bars: int = 2) -> tuple[np.ndarray, np.ndarray]:
@@ -34,10 +22,10 @@ async def conduct(pilot: RealizerPilot, beats: int, mode: str, bars: int = 2) ->
 
 @pytest.mark.parametrize("mode", SIDES)
 @pytest.mark.parametrize("beats", [1, 2, 3, 4])
-async def test_each_beat_is_where_the_hand_comes_down_and_turns(pilot, beats, mode):
-    times, path = await conduct(pilot, beats, mode)
+async def test_each_beat_is_where_the_hand_comes_down_and_turns(still, beats, mode):
+    times, path = await conduct(still, beats, mode)
     for beat in range(1, beats + 1):
-        time = pilot.feedback.time(f"c:b1:beat{beat}")
+        time = still.feedback.time(f"c:b1:beat{beat}")
         assert time == pytest.approx(2.0 + 2.0 * (beat - 1) / beats, abs=0.001)
         at, before, after = (path[np.searchsorted(times, t)][UP] for t in (time, time - 0.14, time + 0.14))
         assert at < before, f"beat {beat}"
@@ -45,40 +33,40 @@ async def test_each_beat_is_where_the_hand_comes_down_and_turns(pilot, beats, mo
 
 
 @pytest.mark.parametrize("mode", SIDES)
-async def test_four_beats_go_down_in_out_and_back_to_the_middle(pilot, mode):
-    times, path = await conduct(pilot, 4, mode)
-    out = [path[np.searchsorted(times, pilot.feedback.time(f"c:b1:beat{i}"))][0] for i in (1, 2, 3, 4)]
+async def test_four_beats_go_down_in_out_and_back_to_the_middle(still, mode):
+    times, path = await conduct(still, 4, mode)
+    out = [path[np.searchsorted(times, still.feedback.time(f"c:b1:beat{i}"))][0] for i in (1, 2, 3, 4)]
     assert out[1] < out[0] - 0.05
     assert out[2] > out[0] + 0.08
     assert out[0] < out[3] < out[2]
 
 
-async def test_the_highest_point_is_before_the_first_beat(pilot):
-    times, path = await conduct(pilot, 3, "RIGHT_HAND")
+async def test_the_highest_point_is_before_the_first_beat(still):
+    times, path = await conduct(still, 3, "RIGHT_HAND")
     second = (times > 2.0) & (times < 4.0)
     assert 3.5 < times[second][path[second][:, UP].argmax()] < 3.85
 
 
-async def test_bars_follow_each_other_without_a_pause_or_a_jump(pilot):
-    times, path = await conduct(pilot, 3, "RIGHT_HAND", bars=3)
+async def test_bars_follow_each_other_without_a_pause_or_a_jump(still):
+    times, path = await conduct(still, 3, "RIGHT_HAND", bars=3)
     first, second = (path[(times >= start) & (times < start + 1.99)] for start in (2.0, 4.0))
     np.testing.assert_allclose(first[10:-10], second[10:-10], atol=0.01)
 
 
-async def test_size_and_place_are_parameters(pilot):
+async def test_size_and_place_are_parameters(still):
     behavior = """<bmlt:procanimation id="{id}" name="conduct-1-beat" mode="RIGHT_HAND" start="{start}" end="{end}">
       <bmlt:parameter name="a" value="{a}"/><bmlt:parameter name="yoff" value="{yoff}"/></bmlt:procanimation>"""
     variants = {"small": (0.35, 0.0), "big": (0.7, 0.0), "high": (0.35, 0.08)}
-    pilot.block(
+    still.block(
         "c",
         "".join(
             behavior.format(id=id_, start=3 * i, end=3 * i + 2, a=a, yoff=yoff)
             for i, (id_, (a, yoff)) in enumerate(variants.items())
         ),
     )
-    await pilot.advance(10)
-    assert pilot.feedback.warnings == []
-    times, heights = np.array([frame.time for frame in pilot.frames["alice"]]), pilot.path("r_wrist")[:, UP]
+    await still.advance(10)
+    assert still.feedback.warnings == []
+    times, heights = np.array([frame.time for frame in still.frames["alice"]]), still.path("r_wrist")[:, UP]
     small, big, high = (heights[(times > 3 * i + 0.7) & (times < 3 * i + 1.5)] for i in range(3))
     assert np.ptp(big) == pytest.approx(2 * np.ptp(small), rel=0.15)
     assert high.max() - small.max() == pytest.approx(0.08, abs=0.01)

@@ -1,25 +1,13 @@
 """Which way the head goes: each word from the frames it makes."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
-from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.embodiment.quaternion import Quat, multiply
-from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
+from reactive_realizer.testing.pilot import RealizerPilot
 
 PITCH, YAW, ROLL = 0, 1, 2
 """Components of a turn: positive is down, to the figure's left, and toward its right shoulder."""
-
-
-@pytest.fixture
-async def pilot(tmp_path: Path):
-    """Of a figure that does nothing of itself."""
-    (tmp_path / "still.toml").write_text("[character.alice]\nidle = false\n[target.floor]\nposition = [0, 0.2, 0.8]")
-    async with open_pilot(SceneOptions(tmp_path / "still.toml", "text")) as pilot:
-        pilot.watch()
-        yield pilot
 
 
 async def nod(pilot: RealizerPilot, behavior: str) -> tuple[np.ndarray, np.ndarray]:
@@ -60,13 +48,13 @@ def turn(rotation: Quat) -> np.ndarray:
         "TILT_BACKWARD": {PITCH: -1},
     }.items(),
 )
-async def test_the_head_goes_where_the_word_says_stays_there_and_comes_back(pilot, lexeme, way):
-    times, turns = await nod(pilot, f'<head id="h" lexeme="{lexeme}" amount="1"/>')
-    there = turns[np.searchsorted(times, pilot.feedback.time("b:h:stroke"))]
+async def test_the_head_goes_where_the_word_says_stays_there_and_comes_back(still, lexeme, way):
+    times, turns = await nod(still, f'<head id="h" lexeme="{lexeme}" amount="1"/>')
+    there = turns[np.searchsorted(times, still.feedback.time("b:h:stroke"))]
     for axis in (PITCH, YAW, ROLL):
         assert np.sign(there[axis]) == way[axis] if axis in way else abs(there[axis]) < 0.1
         assert axis not in way or abs(there[axis]) > np.radians(5)
-    ready, relax = (pilot.feedback.time(f"b:h:{sync}") for sync in ("ready", "relax"))
+    ready, relax = (still.feedback.time(f"b:h:{sync}") for sync in ("ready", "relax"))
     held = turns[(times > ready) & (times < relax)]
     np.testing.assert_allclose(held, np.broadcast_to(there, held.shape), atol=0.02)
     np.testing.assert_allclose(turns[-1], turns[0], atol=1e-6)
@@ -75,29 +63,28 @@ async def test_the_head_goes_where_the_word_says_stays_there_and_comes_back(pilo
 @pytest.mark.parametrize(
     ("lexeme", "axis"), [("NOD", PITCH), ("SHAKE", YAW), ("TILT", ROLL), ("TOSS", PITCH), ("UP", PITCH)]
 )
-async def test_it_does_so_as_often_as_it_is_told(pilot, lexeme, axis):
-    times, turns = await nod(pilot, f'<head id="h" lexeme="{lexeme}" repetition="3" amount="1"/>')
-    strokes = [pilot.feedback.time(f"b:h:stroke:{i}") for i in (1, 2, 3)]
+async def test_it_does_so_as_often_as_it_is_told(still, lexeme, axis):
+    times, turns = await nod(still, f'<head id="h" lexeme="{lexeme}" repetition="3" amount="1"/>')
+    strokes = [still.feedback.time(f"b:h:stroke:{i}") for i in (1, 2, 3)]
     assert np.ptp(np.diff(strokes)) < 1e-6, "evenly"
     peaks = [turns[np.searchsorted(times, stroke), axis] for stroke in strokes]
     assert min(np.abs(peaks)) > 0.9 * np.abs(turns[:, axis]).max()
 
 
-async def test_half_the_amount_goes_half_the_way(tmp_path):
+async def test_half_the_amount_goes_half_the_way(open_still):
     ways = []
     for amount in (0.4, 0.8):
-        async with open_pilot(SceneOptions(voice="text")) as pilot:
-            pilot.watch()
+        async with open_still() as pilot:
             _, turns = await nod(pilot, f'<head id="h" lexeme="LEFT" amount="{amount}"/>')
             ways.append(turns[:, YAW].max())
     assert ways[0] / ways[1] == pytest.approx(0.5, abs=0.02)
 
 
-async def test_it_adds_to_where_the_head_looks(pilot):
+async def test_it_adds_to_where_the_head_looks(still):
     times, turns = await nod(
-        pilot, '<gaze id="g" target="floor" start="0" end="6"/><head id="h" lexeme="TILT_RIGHT" amount="1" start="2"/>'
+        still, '<gaze id="g" target="floor" start="0" end="6"/><head id="h" lexeme="TILT_RIGHT" amount="1" start="2"/>'
     )
-    before, there = (turns[np.searchsorted(times, time)] for time in (1.9, pilot.feedback.time("b:h:stroke")))
+    before, there = (turns[np.searchsorted(times, time)] for time in (1.9, still.feedback.time("b:h:stroke")))
     assert before[PITCH] > 0.1, "it looks down"
     assert there[PITCH] == pytest.approx(before[PITCH], abs=0.1)
     assert there[ROLL] - before[ROLL] > 0.2

@@ -1,7 +1,6 @@
 """Every word of a binding plays: it ends without a warning, and something of the figure moves."""
 
-from collections.abc import AsyncIterator, Sequence
-from contextlib import asynccontextmanager
+from collections.abc import Sequence
 from itertools import groupby
 from pathlib import Path
 from shutil import copy
@@ -17,8 +16,7 @@ from reactive_realizer.bml.names import BMLT
 from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 DATA = Path(__file__).parent.parent / "data"
-HUMAN = "[character.alice]\nidle = false\n[target.bluebox]\nposition = [1.2, 1.1, 1.5]"
-"""Whatever moves then moves because it was asked to."""
+BOX = "[target.bluebox]\nposition = [1.2, 1.1, 1.5]"
 
 NOISE = f"""<b:noise xmlns:b="{BMLT}" id="word" type="perlin" joint="vl5" start="0" end="2">
   <b:parameter name="basefreqx" value="2"/><b:parameter name="baseamplitudex" value="0.1"/></b:noise>"""
@@ -45,17 +43,9 @@ OURS = {
 
 
 @pytest.fixture
-def play(tmp_path: Path):
-    @asynccontextmanager
-    async def stage(*assets: Path) -> AsyncIterator[RealizerPilot]:
-        human = tmp_path / "human.toml"
-        human.write_text(HUMAN)
-        async with open_pilot(SceneOptions(human, "text", assets)) as pilot:
-            pilot.watch()
-            yield pilot
-
+def play(open_still):
     async def play(behaviors: Sequence[str], *assets: Path) -> None:
-        async with stage(*assets) as pilot:
+        async with open_still(*assets, scene=BOX) as pilot:
             for i, behavior in enumerate(behaviors):
                 turned = await played(pilot, f"b{i}", behavior)
                 assert turned > 0.02 or is_still(behavior), behavior

@@ -9,19 +9,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.quaternion import angle, difference, from_euler
-from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
+from reactive_realizer.testing.pilot import RealizerPilot
 
 PACKAGE = Path(__file__).parents[2] / "reactive_realizer" / "assets" / "procanimation"
 PEER = Path(__file__).parents[3] / "shared" / "cases" / "asap" / "procanimation"
-
-HUMAN = """
-[character.alice]
-avatar = "avatars/{avatar}.glb"
-idle = false
-"""
 
 ENTRY = """
 <MotionUnitSpec type="gesture">
@@ -46,17 +39,15 @@ Open = Callable[..., AbstractAsyncContextManager[RealizerPilot]]
 
 
 @pytest.fixture
-def opened(tmp_path: Path) -> Open:
-    """Opens a pilot with alice, who does nothing by herself, entries of a binding and files of one's own."""
+def opened(tmp_path: Path, open_still: Open) -> Open:
+    """Opens a pilot with alice, who does nothing of herself, entries of a binding and files of one's own."""
 
     @asynccontextmanager
     async def opened_with(*entries: str, avatar: str = "female", **files: str) -> AsyncIterator[RealizerPilot]:
-        (tmp_path / "human.toml").write_text(HUMAN.format(avatar=avatar))
         (tmp_path / "gesturebinding.xml").write_text(f"<gesturebinding>{''.join(entries)}</gesturebinding>")
         for name, text in files.items():
             (tmp_path / f"{name}.xml").write_text(text)
-        async with open_pilot(SceneOptions(tmp_path / "human.toml", "text", (tmp_path,))) as pilot:
-            pilot.watch()
+        async with open_still(tmp_path, avatar=avatar) as pilot:
             yield pilot
 
     return opened_with

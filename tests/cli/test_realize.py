@@ -261,6 +261,40 @@ def test_a_sync_point_that_what_plays_a_behavior_does_not_know_is_a_problem(bml,
     assert "'h' has no sync point 'apex' for h:apex; it has start, ready" in line
 
 
+def test_an_attribute_that_ties_a_point_which_its_motion_has_not_is_a_problem(bml, capsys) -> None:
+    conduct = f'<x:procanimation {BMLT} id="p" name="conduct-3-beat" {{}}="2"/>'
+    assert check(capsys, bml(block("b", conduct.format("beat2")))) == (0, [])
+    status, (line,) = check(capsys, bml(block("b", conduct.format("beat9"))))
+    assert status == 1
+    assert "'p' has no sync point 'beat9' for 2; it has start, beat1, beat2, beat3, end" in line
+
+
+def test_a_change_of_a_behavior_that_its_block_has_not_is_a_problem(bml, capsys) -> None:
+    change = (
+        f'<head id="h" lexeme="NOD"/><x:parametervaluechange {BMLT} id="c" target="{{}}" paramId="amount">'
+        '<x:trajectory type="linear" targetValue="1"/></x:parametervaluechange>'
+    )
+    assert check(capsys, bml(block("b", change.format("h")))) == (0, [])
+    status, (line,) = check(capsys, bml(block("b", change.format("b:j"))))
+    assert status == 1
+    assert "the block 'b' has no behavior 'j'" in line
+
+
+@pytest.mark.parametrize(
+    ("parameter", "problem"),
+    [
+        ('name="amount"', "<parameter> needs the attribute 'value'"),
+        ('name="amount" value="1" unit="m"', "unknown attribute unit of <parameter>; known are name, value"),
+        ('name="amount" value="7"', None),
+        ('name="amuont" value="1"', None),
+    ],
+)
+def test_of_a_parameter_it_is_judged_how_it_is_written_not_what_it_says(bml, capsys, parameter, problem) -> None:
+    inside = f'<head id="h" lexeme="NOD"><x:parameter {BMLT} {parameter}/></head>'
+    _, lines = check(capsys, bml(block("b", inside)))
+    assert [line.partition(": ")[2] for line in lines] == [problem] * (problem is not None)
+
+
 def test_blocks_that_are_activated_and_interrupted_are_no_targets_of_the_world(bml, capsys) -> None:
     inside = f'<x:activate {BMLT} id="a" target="later"/><x:interrupt {BMLT} id="i" target="later"/>'
     assert check(capsys, bml(block("b", inside))) == (0, [])

@@ -5,11 +5,10 @@ from importlib.resources import files
 from itertools import pairwise
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 from reactive_realizer.embodiment.avatar import Avatar
-from reactive_realizer.embodiment.humanoid import Humanoid
+from reactive_realizer.embodiment.humanoid import Humanoid, Look
 from reactive_realizer.embodiment.joints import EYES
 from reactive_realizer.embodiment.pose import Layer, LayerKind
 from reactive_realizer.embodiment.quaternion import angle, conjugate, difference, from_axis_angle
@@ -19,19 +18,25 @@ AVATAR = Avatar.read(Path(str(files("reactive_realizer"))) / "assets" / "avatars
 FRAME = 0.02
 
 
+def frame(figure, time, layers, eyes=None, *faces):
+    """The frame of a time."""
+    figure.move(time, layers)
+    return figure.look(eyes, faces)
+
+
 def frames(layers, eyes=None, count=30, **place):
     """A figure in the default pose for one frame, then with these layers; its bodies as shown."""
     figure = Humanoid(AVATAR, **place)
     shown = []
     for i in range(count):
-        figure.compose(i * FRAME, layers if i else [], {}, eyes if i else None)
+        frame(figure, i * FRAME, layers if i else [], eyes if i else None)
         shown.append(figure.shown)
     return shown
 
 
 def looking_ahead(body):
     """Eyes that look to +z whatever the head does."""
-    return dict.fromkeys(EYES, conjugate(body.place("skullbase").rotation))
+    return Look(dict.fromkeys(EYES, conjugate(body.place("skullbase").rotation)), {})
 
 
 def test_the_eyes_look_from_where_the_head_is_held_back_to_and_not_from_where_it_is_wanted():
@@ -45,10 +50,10 @@ def test_the_eyes_look_from_where_the_head_is_held_back_to_and_not_from_where_it
 
 
 def test_an_eye_turns_no_faster_than_in_a_saccade_also_back_when_nobody_looks_any_more():
-    figure, aside = Humanoid(AVATAR), dict.fromkeys(EYES, from_axis_angle(UP, 0.6))
+    figure, aside = Humanoid(AVATAR), Look(dict.fromkeys(EYES, from_axis_angle(UP, 0.6)), {})
     eyes = []
     for i in range(20):
-        figure.compose(i * FRAME, [], {}, (lambda body: aside) if 1 <= i < 10 else None)
+        frame(figure, i * FRAME, [], (lambda body: aside) if 1 <= i < 10 else None)
         eyes.append(figure.shown.rotation(EYES[0]))
     steps = [angle(difference(a, b)) for a, b in pairwise(eyes)]
     assert max(steps) == pytest.approx(16.0 * FRAME)
@@ -58,7 +63,7 @@ def test_an_eye_turns_no_faster_than_in_a_saccade_also_back_when_nobody_looks_an
 
 def test_the_first_frame_is_as_it_is_asked_for():
     figure = Humanoid(AVATAR)
-    figure.compose(3.0, [Layer(LayerKind.BASE, {"r_elbow": from_axis_angle(UP, 1.5)}, root=(0.0, -0.4, 0.0))], {}, None)
+    frame(figure, 3.0, [Layer(LayerKind.BASE, {"r_elbow": from_axis_angle(UP, 1.5)}, root=(0.0, -0.4, 0.0))])
     assert angle(figure.shown.rotation("r_elbow")) == pytest.approx(1.5)
     assert figure.shown.root == (0.0, -0.4, 0.0)
 
@@ -67,11 +72,29 @@ def test_a_frame_has_the_root_in_the_world_and_the_pose_in_the_order_of_the_skel
     figure = Humanoid(AVATAR, position=(1.0, 0.0, 2.0), heading=0.5 * math.pi)
     elbow = from_axis_angle((1.0, 0.0, 0.0), -1.0)
     layer = Layer(LayerKind.BASE, {"r_elbow": elbow, "l_no_such": elbow}, root=(0.0, 0.0, 0.1))
-    frame = figure.compose(0.0, [layer], {"jawOpen": 2.0, "noSuchMorph": 1.0}, None)
+    shown = frame(figure, 0.0, [layer])
     joints = AVATAR.skeleton.joints
-    assert tuple(frame.rotations[joints.index("r_elbow")]) == elbow
-    assert frame.rotations[joints.index("HumanoidRoot")] == pytest.approx(from_axis_angle(UP, 0.5 * math.pi))
+    assert tuple(shown.rotations[joints.index("r_elbow")]) == elbow
+    assert shown.rotations[joints.index("HumanoidRoot")] == pytest.approx(from_axis_angle(UP, 0.5 * math.pi))
     x, y, z = AVATAR.skeleton.offset("HumanoidRoot")
-    assert frame.root == pytest.approx((1.1 + z, y, 2.0 - x))
-    assert frame.weights[AVATAR.morphs.index("jawOpen")] == 1.0
-    assert np.count_nonzero(frame.weights) == 1
+    assert shown.root == pytest.approx((1.1 + z, y, 2.0 - x))
+
+
+def test_faces_and_lids_add_up_to_what_a_morph_can_show():
+    figure, lids = Humanoid(AVATAR), Look({}, {"eyeBlinkLeft": 0.25, "jawOpen": -0.5})
+    faces = {"jawOpen": 0.75, "noSuchMorph": 1.0}, {"jawOpen": 0.5, "mouthSmileLeft": 2.0}
+    shown = frame(figure, 0.0, [], lambda body: lids, *faces)
+    weights = {morph: shown.weights[i] for i, morph in enumerate(AVATAR.morphs) if shown.weights[i] != 0.0}
+    assert weights == {"jawOpen": 0.75, "eyeBlinkLeft": 0.25, "mouthSmileLeft": 1.0}
+
+
+def test_a_figure_that_has_moved_is_there_for_who_looks_at_it_before_it_looks_itself():
+    figure = Humanoid(AVATAR)
+    frame(figure, 0.0, [])
+    before = figure.locate("r_wrist")
+    figure.move(FRAME, [Layer(LayerKind.BASE, {"r_elbow": from_axis_angle((1.0, 0.0, 0.0), -0.1)})])
+    moved = figure.locate("r_wrist")
+    seen = []
+    figure.look(lambda body: seen.append(body.place("r_wrist").position) or Look({}, {}), ())
+    assert moved != before
+    assert seen == [moved] == [figure.locate("r_wrist")]

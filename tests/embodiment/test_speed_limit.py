@@ -11,15 +11,18 @@ from hypothesis import strategies as st
 from reactive_realizer.embodiment.avatar import Avatar
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.ground import depth, grounded, soles
+from reactive_realizer.embodiment.joints import LEGS
 from reactive_realizer.embodiment.quaternion import (
     IDENTITY,
     angle,
     difference,
     from_axis_angle,
     from_euler,
+    rotate,
 )
+from reactive_realizer.embodiment.skeleton import Skeleton
 from reactive_realizer.embodiment.speed_limit import SpeedLimit, slowed
-from reactive_realizer.embodiment.vector import distance, length
+from reactive_realizer.embodiment.vector import UP, distance, length
 
 SKELETON = Avatar.read(Path(str(files("reactive_realizer"))) / "assets" / "avatars" / "male.glb").skeleton
 FRAME = 0.02
@@ -142,3 +145,62 @@ def test_feet_that_are_wanted_under_the_ground_come_there():
     shown = followed(body(), (bent(0.0, -0.3), 40))
     assert sunk(shown[-1]) == pytest.approx(0.3)
     assert steps(shown, "HumanoidRoot")[0] == pytest.approx(0.04)
+
+
+def squat(knees):
+    return grounded(bent(knees, 0.0))
+
+
+def slid(shown):
+    """The furthest that an ankle was from where it stood at first, m."""
+    ankles = ("l_ankle", "r_ankle")
+    return max(distance(b.place(j).position, shown[0].place(j).position) for b in shown for j in ankles)
+
+
+def test_knees_make_up_for_a_root_that_is_late_and_the_feet_stay():
+    low, high = squat(2.0), squat(0.3)
+    for begin, end in ((low, high), (high, low)):
+        shown = followed(begin, (end, 40))
+        assert slid(shown) < 0.001
+        assert max(map(sunk, shown)) < 0.001
+        assert max(steps(shown, "HumanoidRoot")) < 1.001 * 2.0 * FRAME
+        assert shown[-1].root == end.root
+
+
+def test_a_leg_that_is_late_goes_as_one_so_that_its_sole_stays_level():
+    kneeling = bent(2.4, 0.0)
+    shown = followed(body(), (kneeling, 3))
+    for each in shown:
+        assert rotate(each.place("l_ankle").rotation, UP)[1] > 0.9999
+    assert (
+        max(angle(difference(a.rotation("l_knee"), b.rotation("l_knee"))) for a, b in pairwise(shown)) < 15.01 * FRAME
+    )
+
+
+def test_whose_feet_are_wanted_farther_ahead_than_the_legs_reach_keeps_them_below_the_pelvis():
+    ahead = followed(body(), (body(root=(0.0, 0.0, 5.0)), 30))
+    assert max(abs(b.place("l_ankle").position[2] - b.place("l_hip").position[2]) for b in ahead) < 0.15
+    assert max(map(sunk, ahead)) < 0.001
+
+
+def test_a_figure_without_legs_is_held_back_as_it_is():
+    kept = [joint for joint in SKELETON.joints if joint not in LEGS]
+    parents = [-1 if (above := SKELETON.parent(joint)) is None else kept.index(above) for joint in kept]
+    bust = Skeleton(tuple(kept), tuple(parents), tuple(map(SKELETON.offset, kept)))
+    assert SpeedLimit(Body(bust))(Body(bust, {}, (0.3, 0.0, 0.0)), FRAME).root == pytest.approx((0.04, 0.0, 0.0))
+
+
+lower = st.fixed_dictionaries(
+    {joint: st.builds(from_euler, *[st.floats(-1.5, 1.5)] * 3) for joint in ("HumanoidRoot", *sorted(LEGS))}
+)
+places = st.tuples(*[st.floats(-0.5, 0.5)] * 3)
+
+
+@settings(max_examples=50)
+@given(st.lists(st.tuples(lower, places, st.integers(1, 10)), min_size=2, max_size=4))
+def test_the_root_keeps_its_limit_whatever_legs_and_root_are_asked_for(calls):
+    shown = followed(body(), *((body(pose, root), frames) for pose, root, frames in calls))
+    assert max(steps(shown, "HumanoidRoot")) < 1.001 * 2.0 * FRAME
+    for joint, most in {"HumanoidRoot": 4.0, **dict.fromkeys(LEGS, 15.0)}.items():
+        turned = (angle(difference(a.rotation(joint), b.rotation(joint))) for a, b in pairwise(shown))
+        assert max(turned) < 1.001 * most * FRAME

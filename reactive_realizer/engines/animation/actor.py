@@ -12,12 +12,9 @@ from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.embodiment.humanoid import Humanoid
 from reactive_realizer.embodiment.world import World
 from reactive_realizer.engines.animation.expression.functions import Function
-from reactive_realizer.engines.animation.motion_unit import MotionUnit
+from reactive_realizer.engines.animation.motion_unit import JOINTS, MIRROR, NAME, MotionUnit
 from reactive_realizer.engines.animation.posture.rest import Rest
 from reactive_realizer.errors import error
-
-_NAME, _MIRROR, _JOINTS = "name", "mirror", "joints"
-"""Parameters that belong to every animation."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -48,7 +45,7 @@ class Actor:
         """
         if wanted.file is not None:
             return self.asset(wanted.file)
-        name = wanted.parameters.get(_NAME)
+        name = wanted.parameters.get(NAME)
         if name is None:
             raise error("no-file", element=wanted.behavior.name)
         return first_asset(self.asset, *(f"**/{name}.{suffix}" for suffix in suffixes))
@@ -77,12 +74,12 @@ class Wanted:
         Raises:
             RealizerError: "not-a-flag": it says neither yes nor no.
         """
-        return flag(_MIRROR, self.parameters.get(_MIRROR, "false"))
+        return flag(MIRROR, self.parameters.get(MIRROR, "false"))
 
     @property
     def joints(self) -> frozenset[str]:
         """The joints to which it is confined, as they are called in the mirror (C.1.2); none: all that it turns."""
-        return frozenset(re.findall(r"[^\s,]+", self.parameters.get(_JOINTS, "")))
+        return frozenset(re.findall(r"[^\s,]+", self.parameters.get(JOINTS, "")))
 
 
 @runtime_checkable

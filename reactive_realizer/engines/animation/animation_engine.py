@@ -1,7 +1,7 @@
 """The engine of body animation (thesis 8.7): gestures, head movements, gaze, posture, and idle life."""
 
 import asyncio
-from collections.abc import Awaitable, Callable, Iterator, Mapping
+from collections.abc import Awaitable, Callable, Iterator, Mapping, Sequence
 from math import inf
 from random import Random
 from types import MappingProxyType
@@ -15,7 +15,7 @@ from reactive_realizer.bml.twente import BEHAVIORS as TWENTE
 from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body
-from reactive_realizer.embodiment.humanoid import Eyes
+from reactive_realizer.embodiment.humanoid import Eyes, Look
 from reactive_realizer.embodiment.pose import Layer, LayerKind, checked, over
 from reactive_realizer.embodiment.quaternion import Quat
 from reactive_realizer.engine.context import EngineContext
@@ -33,7 +33,6 @@ from reactive_realizer.engines.animation.lasting import Lasting
 from reactive_realizer.engines.animation.lexicon import binding_words
 from reactive_realizer.engines.animation.motion_library import MotionLibrary
 from reactive_realizer.engines.animation.motion_unit import AMOUNT_RANGE, Gazing
-from reactive_realizer.engines.animation.moving import Moving
 from reactive_realizer.engines.animation.net import Net
 from reactive_realizer.engines.animation.posture.body_posture import BodyPosture
 from reactive_realizer.engines.animation.posture.expectation import posture_after
@@ -80,17 +79,22 @@ class AnimationEngine(DefaultEngine):
         self._releases: list[Release] = []
         # Of the block that is being planned: they are not in the plan yet.
         self._drafts: list[AnimationUnit] = []
-        self._trail = Trail()
+        # Of those that have come into the plan, and nobody has been told.
+        self._notes: list[Warn] = []
+        self._trail = Trail(lambda: self._humanoid.body)
         self._net = Net(self.name)
+        self._predictor = AnimationPredictor(
+            context.humanoid.avatar.skeleton, self._base, lambda: self.player.units, self._trail
+        )
         self._stage = Stage(
             lambda: self._humanoid.body,
             lambda: self._humanoid.shown,
-            self._moving,
+            self._predictor.moved,
             self._hands,
+            self._notice,
             self._release,
             context.graph,
         )
-        self._predictor = AnimationPredictor(context.humanoid.avatar.skeleton, self._base, lambda: self.player.units)
         self.extensions = self._library.extensions
 
     def words(self) -> Iterator[Word]:
@@ -117,6 +121,8 @@ class AnimationEngine(DefaultEngine):
     def add(self, unit: PlanUnit) -> None:
         """As every engine."""
         self._drafts.clear()
+        if isinstance(unit, AnimationUnit) and unit.note is not None:
+            self._notes.append(Warn(unit, unit.note))
         super().add(unit)
 
     def _expected(self) -> BodyPosture:
@@ -134,13 +140,14 @@ class AnimationEngine(DefaultEngine):
         for layer in self._lasting.layers(time, self._humanoid.body):
             self._releases.append(Release(layer, time))
         self._lasting.clear()
+        self._looking.notice(time)
         base = self._base()
         if self._rest.reset():
             self._let_go(base, time)
 
     def layers(self, tick: Tick) -> tuple[Layer, ...]:
         """Rest pose and idle life, what has stayed, what is on its way back, what plays, and where the feet stay."""
-        self._trail.frame(tick.time, self._humanoid.body)
+        self._trail.frame(tick.time)
         self._releases = [release for release in self._releases if not release.over(tick.time)]
         layers = (
             self._base(),
@@ -167,20 +174,22 @@ class AnimationEngine(DefaultEngine):
     def _playing(self, now: GlobalTime) -> list[tuple[float, Layer]]:
         return self.player.show(AnimationUnit, lambda unit: (unit.started, unit.layer(now)), now)
 
-    def face(self, tick: Tick) -> Mapping[str, float]:
-        """Lids: they blink, and follow the eyes a frame later."""
-        return with_lids(self._looking.turns, self._alive(lambda idle: idle.weights(tick.time), {}))
-
     def eyes(self, tick: Tick) -> Eyes:
-        """What the eyes of all gazes make of it, from the head as it is shown."""
+        """What the eyes of all gazes make of it, from the head as it is shown; lids go with them."""
         gazes = list(self._gazes())
-        resting: Mapping[str, Quat] = self._alive(lambda idle: idle.eyes(tick.time), {})
-        return lambda body: self._net("its gaze", lambda: self._looking.eyes(tick.time, gazes, body, resting), resting)
+        return lambda body: self._look(tick.time, gazes, body)
+
+    def _look(self, now: GlobalTime, gazes: Sequence[Gazing], body: Body) -> Look:
+        resting: Mapping[str, Quat] = self._alive(lambda idle: idle.eyes(now), {})
+        turns = self._net("its gaze", lambda: self._looking.eyes(now, gazes, body, resting), resting)
+        blinks: Mapping[str, float] = self._alive(lambda idle: idle.weights(now), {})
+        return Look(turns, with_lids(turns, blinks))
 
     def requests(self, tick: Tick) -> tuple[Request, ...]:
-        """What is wrong with a unit that plays on is told."""
+        """What is wrong with a unit that is new, or plays on, is told."""
+        notes, self._notes = self._notes, []
         units = [unit for unit in self.player.playing if isinstance(unit, AnimationUnit)]
-        return tuple(Warn(unit, fault) for unit in units if (fault := unit.complaint()) is not None)
+        return (*notes, *(Warn(unit, fault) for unit in units if (fault := unit.complaint()) is not None))
 
     def _gazes(self) -> Iterator[Gazing]:
         """What looks now: what has stayed, then what plays, the one that started last at the end."""
@@ -188,8 +197,10 @@ class AnimationEngine(DefaultEngine):
         playing = (unit.motion.gaze(unit.phase) for unit in self.player.stacked(AnimationUnit))
         return (gaze for gaze in (*lasting, *playing) if gaze is not None)
 
-    def _moving(self, time: GlobalTime) -> Moving:
-        return self._trail.at(time, self._humanoid.body)
+    def _notice(self, unit: AnimationUnit, time: GlobalTime) -> None:
+        gaze = unit.motion.gaze(0.0)
+        if gaze is not None and gaze.eyes > 0.0:
+            self._looking.notice(time)
 
     def _hands(self, now: GlobalTime) -> Body | None:
         rest = hands = self._rest.body
@@ -200,6 +211,7 @@ class AnimationEngine(DefaultEngine):
 
     def _release(self, unit: AnimationUnit, time: GlobalTime) -> None:
         """Take over the joints of a unit that plays no more."""
+        self._notice(unit, time)
         stays = unit.state is UnitState.DONE and unit.motion.lasts is not None and not unit.was_cut("end")
         if stays:
             if not unit.motion.becomes_rest():

@@ -45,6 +45,7 @@ class Stage:
         moving: the same body as it has moved on by a time, and how it moves then.
         hands: the body with its hands where they are at a time on their way back to rest, whether anybody looks or
             not; None where they are at rest.
+        passed: learns when a unit passes a point.
         released: takes the joints of a unit that has ended.
         graph: where parameters are cells.
     """
@@ -53,6 +54,7 @@ class Stage:
     shown: Callable[[], Body]
     moving: Callable[[GlobalTime], Moving]
     hands: Callable[[GlobalTime], Body | None]
+    passed: Callable[["AnimationUnit", GlobalTime], None]
     released: Callable[["AnimationUnit", GlobalTime], None]
     graph: Graph
 
@@ -65,6 +67,7 @@ class AnimationUnit(PlanUnit):
         keys: sync id -> phase of the motion, 0 to 1.
         shown: what it showed last.
         started: when it started, s; before that it lies below all others.
+        note: what is wrong with what is said to it though it is played, None if nothing is.
     """
 
     def __init__(self, block: BlockKey, behavior: Behavior, choices: Choices, stage: Stage) -> None:
@@ -84,6 +87,7 @@ class AnimationUnit(PlanUnit):
         for name, own in planned.names.items():
             cell = Source(stage.graph, str(self.key(name)), motion.parameters[own])
             self.parameters[name] = Parameter(self, cell, planned.range(name))
+        self.note = planned.note
         self.started = GlobalTime(-inf)
         self._complained = False
         self._choices = choices
@@ -141,9 +145,14 @@ class AnimationUnit(PlanUnit):
         return [point for point in self.points if point.id in self.motion.exits]
 
     def on_start(self, time: GlobalTime) -> None:
-        """The motion begins from where the body is."""
+        """The motion begins from where the body is; what is added to it comes from nowhere."""
         self.started = time
-        self.motion.start(self._stage.moving(time).body)
+        added = self.motion.kind is LayerKind.ADDITIVE
+        self.motion.start(self._stage.body() if added else self._stage.moving(time).body)
+
+    def on_sync(self, sync: str, time: GlobalTime) -> None:
+        """Eyes that it leads may come or go here."""
+        self._stage.passed(self, time)
 
     def on_finish(self, time: GlobalTime) -> None:
         """Give the joints back."""

@@ -12,6 +12,9 @@ from reactive_realizer.engines.animation.motion_unit import Posed
 _DURATION, _MOST = 0.3, 0.25
 """s, but at most this part of the motion."""
 
+_LATE = 0.05
+"""s; what is asked for later than this for the first time was not begun at its beginning."""
+
 
 class Arrival:
     """What the body lacks of the first pose of a motion; it fades away while the motion plays in full.
@@ -20,24 +23,26 @@ class Arrival:
     changed (`faded`).
     """
 
-    def __init__(self, body: Body, duration: float) -> None:
+    def __init__(self, body: Body, first: Posed, duration: float) -> None:
         """Begins.
 
         Args:
             body: where the motion sets out from.
-            duration: how long the motion would like to take, s.
+            first: what it asks for when it sets out.
+            duration: how long it would like to take, s.
         """
-        self._body = body
-        self._over = min(_MOST, _DURATION / duration)
+        self._body, self._first = body, first
+        self._over, self._late = min(_MOST, _DURATION / duration), _LATE / duration
         self._entered: float | None = None
         self._turns: Mapping[str, Quat] = {}
         self._way = ZERO
 
     def __call__(self, posed: Posed, phase: float) -> Posed:
-        """What the motion asks for at a phase as it is shown; the first time says with what it begins."""
+        """What the motion asks for at a phase as it is shown; the first time says whether it joins late."""
         if self._entered is None:
-            self._entered = phase
-            self._begin(posed)
+            late = phase > self._late
+            self._entered = phase if late else 0.0
+            self._begin(posed if late else self._first)
         left = 1.0 - minimum_jerk(share(phase, self._entered, self._entered + self._over))
         if left == 0.0:
             return posed

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from math import inf
 
 from reactive_realizer.engines.animation.motion_unit import AMOUNT, AMOUNT_RANGE, MotionUnit
+from reactive_realizer.errors import Fault
 from reactive_realizer.planunit.parameter import Range
 
 _SHORT = 0.6
@@ -20,12 +21,14 @@ class Choice:
         names: name of a parameter in BML -> the motion's own, of those that may be changed.
         group: the replacement group that the behavior or the binding names, None for the motion's own.
         yields: whether others of its group may take its place while it plays.
+        note: what is wrong with what the behavior says, though it is played; None if nothing is.
     """
 
     motion: MotionUnit
     names: Mapping[str, str] = field(default_factory=dict)
     group: str | None = None
     yields: bool = False
+    note: Fault | None = None
 
     def range(self, name: str) -> Range:
         """The values that mean something of a parameter, by its name in BML: an amount is one, whatever it scales."""

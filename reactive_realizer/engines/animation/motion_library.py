@@ -1,8 +1,9 @@
 """From a behavior to the motions that could play it: the gesture binding, and who makes what it names."""
 
 import logging
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import suppress
+from dataclasses import replace
 
 from reactive_realizer.binding.gesture_binding import GestureBinding
 from reactive_realizer.binding.seen import seen
@@ -12,15 +13,14 @@ from reactive_realizer.bml.behaviors import Head
 from reactive_realizer.engines.animation.actor import Actor, SlowMaker, Wanted
 from reactive_realizer.engines.animation.choice import Choice, Choices
 from reactive_realizer.engines.animation.gaze.gaze_maker import DYNAMIC
+from reactive_realizer.engines.animation.in_vain import GROUP, listed, named_in_vain, said_in_vain
 from reactive_realizer.engines.animation.makers import makers_of
-from reactive_realizer.engines.animation.motion_unit import MotionUnit
+from reactive_realizer.engines.animation.motion_unit import FILE, MotionUnit
 from reactive_realizer.engines.animation.values import values_of
 from reactive_realizer.errors import Fault, RealizerError, error
+from reactive_realizer.planunit.parameter import spelled
 
 _log = logging.getLogger(__name__)
-
-_FILE = "file"
-"""The parameter by which a behavior names the file of what plays it, where the binding lets it."""
 
 
 class MotionLibrary:
@@ -39,6 +39,7 @@ class MotionLibrary:
         makers: Mapping[str, object] = self._makers
         self._slow = {unit: maker for unit, maker in makers.items() if isinstance(maker, SlowMaker)}
         self._noted: set[UnitSpec] = set()
+        self._judged: set[UnitSpec] = set()
 
     def choices(self, behavior: Behavior) -> Choices:
         """The motions that could play a behavior.
@@ -91,6 +92,13 @@ class MotionLibrary:
             _log.warning("%s: this entry does not play: %s", spec.place, refused[spec].sentence)
         self._noted.update(new)
 
+    def _judge(self, spec: UnitSpec, motion: MotionUnit) -> None:
+        """Log what an entry says in vain, once."""
+        self._judged.add(spec)
+        if names := named_in_vain(spec, motion):
+            lacks, has = listed(names), listed(motion.known)
+            _log.warning("%s: the motion of this entry has no parameter %s; it has %s", spec.place, lacks, has)
+
     def choice(self, spec: UnitSpec, behavior: Behavior, attributes: Mapping[str, str]) -> Choice:
         """The motion that an entry of the binding has for a behavior with these attributes.
 
@@ -102,9 +110,15 @@ class MotionLibrary:
             raise error("no-unit", unit=spec.unit)
         wanted = _wanted(spec, behavior, attributes)
         motion, parameters = maker(wanted), wanted.parameters
-        group = parameters.get("replacementgroup")
+        own = _spelled(behavior.parameters, motion.known | {GROUP} | spec.parameter_map.keys())
+        if own != behavior.parameters:
+            renamed = replace(behavior, parameters=own)
+            return self.choice(spec, renamed, seen(renamed))
+        if spec not in self._judged and wanted.file == spec.file:
+            self._judge(spec, motion)
+        group = parameters.get(GROUP)
         yields = group is not None or motion.lasts is not None or behavior.persistent
-        choice = Choice(motion, _names(spec, motion), group, yields)
+        choice = Choice(motion, _names(spec, motion), group, yields, said_in_vain(spec, behavior, motion))
         said = {name: parameters[own] for name, own in choice.names.items() if own in parameters}
         values_of(said, {name: choice.range(name) for name in said})
         return choice
@@ -112,9 +126,14 @@ class MotionLibrary:
 
 def _wanted(spec: UnitSpec, behavior: Behavior, attributes: Mapping[str, str]) -> Wanted:
     parameters = spec.parameters(attributes, behavior.parameters)
-    file = parameters.get(_FILE, spec.file)
+    file = parameters.get(FILE, spec.file)
     # Nodding adds to whatever the head does.
     return Wanted(behavior, parameters, file, added=isinstance(behavior, Head))
+
+
+def _spelled(said: Mapping[str, str], known: Collection[str]) -> Mapping[str, str]:
+    """What is said, by names as those spell them who know them."""
+    return {spelled(name, known): value for name, value in said.items()}
 
 
 def _names(spec: UnitSpec, motion: MotionUnit) -> Mapping[str, str]:

@@ -32,6 +32,12 @@ AMOUNT_RANGE = Range(0.0, 1.0)
 ANY_VALUE = Range(-inf, inf)
 """Of parameters whose meaning an animation's author knows."""
 
+FILE, NAME, MIRROR, JOINTS = "file", "name", "mirror", "joints"
+"""Parameters of what is made of a file: which file, or one of which name; whether left is to be right; to which joints
+it is confined, as they are called in the mirror (thesis C.1.2, C.1.5)."""
+
+OF_FILES = frozenset({FILE, NAME, MIRROR, JOINTS})
+
 
 class Moment(NamedTuple):
     """When a motion is asked for its pose.
@@ -57,12 +63,14 @@ class Posed(NamedTuple):
         weight: how much of it is shown, 0 to 1: motions come and go by it, over whatever lies below them.
         root: how far HumanoidRoot is moved from its place in the default pose, m; None leaves it where it is.
         weights: of joints that come and go for themselves, the share of the weight; HumanoidRoot's is the root's too.
+        fault: what it should do and cannot, though this is as near as it comes.
     """
 
     rotations: Mapping[str, Quat]
     weight: float = 1.0
     root: Vec3 | None = None
     weights: Mapping[str, float] | None = None
+    fault: Fault | None = None
 
 
 class Foreseen(Enum):
@@ -101,6 +109,7 @@ class MotionUnit(ABC):
             everything is replaced; None for what goes when it ends.
         parameters: name -> value; a value may be changed while the motion plays.
         ranges: the parameters that may be changed, with the values that mean something.
+        fixed: the names of the parameters that are read when it is made, and stay as they were said.
         key_positions: sync id -> phase, 0 to 1; "start" is 0 and "end" is 1, and later points never lie at earlier
             phases.
         exits: the sync ids of the points where it may well be left, in order.
@@ -118,6 +127,7 @@ class MotionUnit(ABC):
     lasts: str | None = None
     parameters: dict[str, float]
     ranges: Mapping[str, Range] = MappingProxyType({})
+    fixed: frozenset[str] = frozenset()
     key_positions: Mapping[str, float] = START_TO_END
     exits: tuple[str, ...] = ()
     preferred_duration: float
@@ -125,6 +135,11 @@ class MotionUnit(ABC):
     foreseen: Foreseen = Foreseen.NEVER
     led: bool = False
     fault: Fault | None = None
+
+    @property
+    def known(self) -> frozenset[str]:
+        """The names of all parameters that mean something to it."""
+        return self.fixed.union(self.ranges)
 
     @abstractmethod
     def start(self, body: Body) -> None:

@@ -13,6 +13,9 @@ from reactive_realizer.engines.animation.expression.noise import PerlinNoise
 from reactive_realizer.engines.animation.motion_unit import Moment, MotionUnit, Posed
 from reactive_realizer.planunit.parameter import Range
 
+JOINT = "joint"
+"""The parameter that says which joint stirs."""
+
 _AXES = "xyz"
 _OCTAVES = 4
 _PERIOD = 256.0
@@ -44,6 +47,7 @@ class NoiseMotionUnit(MotionUnit):
     """
 
     kind = LayerKind.ADDITIVE
+    fixed = frozenset({JOINT})
     preferred_duration = 1.0
 
     def __init__(self, joint: str, parameters: Mapping[str, float], seed: int) -> None:

@@ -2,7 +2,9 @@
 
 import pytest
 
+from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.pose import LayerKind
 from reactive_realizer.embodiment.quaternion import (
     IDENTITY,
     angle,
@@ -10,7 +12,11 @@ from reactive_realizer.embodiment.quaternion import (
     from_euler,
     rotate,
 )
-from reactive_realizer.embodiment.vector import dot, subtract
+from reactive_realizer.embodiment.two_bone_ik import Arm
+from reactive_realizer.embodiment.vector import add, dot, subtract
+from reactive_realizer.engines.animation.arms.gesture_motion_unit import GestureMotionUnit
+from reactive_realizer.engines.animation.motion_unit import Moment
+from reactive_realizer.engines.animation.procedural.proc_motion_unit import ProcMotionUnit
 
 
 @pytest.mark.parametrize("side", ["l", "r"])
@@ -141,3 +147,54 @@ def test_of_an_animation_confined_to_the_neck_the_root_stays(read, skeleton):
     root = '<EndEffector target="root" local="true" translation="0.1;-0.2;0.05"/>'
     animation = read(root + '<Rotation target="vc4" rotation="1;0;0"/>').of(frozenset({"vc4"})).on(skeleton)
     assert animation.sample(0.0, {}, Body(skeleton)).root is None
+
+
+@pytest.mark.parametrize("side", ["l", "r"])
+@pytest.mark.parametrize(("above", "missing"), [(-0.005, None), (0.1, 0.1), (1.0, 1.0)])
+def test_what_is_missing_to_a_place_in_the_figures_frame_is_told_from_a_centimeter_on(
+    read, skeleton, side, above, missing
+):
+    limb, shoulder = Arm.of(skeleton, side), Body(skeleton).place(f"{side}_shoulder").position
+    x, y, z = add(shoulder, (0.0, 0.0, limb.reach + above))
+    fault = (
+        read(f'<EndEffector target="{side}_wrist" translation="{x};{y};{z}"/>').sample(0.3, {}, Body(skeleton)).fault
+    )
+    if missing is None:
+        assert fault is None
+    else:
+        assert fault.code == "not-reachable"
+        assert fault.details["joint"] == f"{side}_wrist"
+        assert fault.details["phase"] == 0.3
+        assert fault.details["distance"] == pytest.approx(missing, abs=0.012)
+
+
+@pytest.mark.parametrize("side", ["l", "r"])
+def test_nor_is_a_foot_in_the_air_where_the_leg_is_too_short_without_a_word(read, skeleton, side):
+    animation = read(f'<EndEffector target="{side}_ankle" translation="0;-0.3;0"/>').on(skeleton)
+    assert animation.sample(0.0, {}, Body(skeleton)).fault.details["joint"] == f"{side}_ankle"
+
+
+@pytest.mark.parametrize(("stretch", "told"), [(1.0, False), (1.45, False), (1.6, True)])
+def test_a_place_seen_from_the_shoulder_may_be_that_of_an_arm_half_as_long_again(read, skeleton, stretch, told):
+    far = stretch * Arm.of(skeleton, "l").reach
+    posed = read(f'<EndEffector target="l_wrist" local="true" translation="0;0;{far}"/>').sample(
+        0.0, {}, Body(skeleton)
+    )
+    assert (posed.fault is not None) is told
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda file, _: ProcMotionUnit(file, {}, LayerKind.GESTURE),
+        lambda file, rest: GestureMotionUnit(file, {}, rest),
+    ],
+)
+def test_a_motion_complains_of_what_it_shows_not_of_what_it_is_asked_that_it_would_show(read, skeleton, make):
+    body = Body(skeleton)
+    motion = make(read('<EndEffector target="l_wrist" translation="0;3;0"/>').on(skeleton), body)
+    motion.pose(Moment(0.5, GlobalTime(0.0), body))
+    assert motion.fault is None
+    for phase in (0.5, 0.6):
+        motion.pose(Moment(phase, GlobalTime(0.0), body, body))
+    assert motion.fault.code == "not-reachable"

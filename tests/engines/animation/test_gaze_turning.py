@@ -37,7 +37,7 @@ equation = settings(
 
 def turn_toward(body: Body, rest, target, weights) -> dict:
     """Toward a point, whatever the eyes."""
-    return turned_toward(body, rest, lambda _: target, weights)
+    return turned_toward(body, rest, lambda _: target, weights).rotations
 
 
 def head_of(body: Body, rotations) -> tuple:

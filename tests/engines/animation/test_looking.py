@@ -186,3 +186,26 @@ def test_with_a_large_turn_of_gaze_people_blink(skeleton):
         after(looking, [], body, 2)
         after(looking, [gaze(body, target_at(body, degrees, 0, 1000.0))], body, 20, 2 * FRAME)
         assert large == blinks
+
+
+def test_saccades_and_blinks_begin_when_a_gaze_did_and_not_with_the_next_frame(skeleton):
+    body, begun = Body(skeleton), 0.033
+    target = target_at(body, 36, 0, 1000.0)
+    large: list[float] = []
+    looking = Looking(large.append)
+    after(looking, [], body, 2)
+    looking.notice(begun)
+    looking.notice(0.01)
+    angles = [miss(shown, EYES[0], target) for shown in after(looking, [gaze(body, target)], body, 4, 2 * FRAME)]
+    done = [saccade_progress(math.radians(36), (2 + frame) * FRAME - begun) for frame in range(4)]
+    assert angles == pytest.approx([36 * (1 - part) for part in done], abs=0.01)
+    assert large == [begun]
+
+
+def test_what_nobody_noticed_begins_with_its_frame(skeleton):
+    body = Body(skeleton)
+    looking, looks = Looking(), [gaze(body, target_at(body, 20, 0, 1000.0))]
+    looking.notice(0.01)
+    after(looking, [], body, 2)
+    (first,) = after(looking, looks, body, 1, 2 * FRAME)
+    assert between(looked(first), FORWARD) < 1e-4

@@ -46,6 +46,13 @@ def test_what_begins_where_the_body_is_plays_as_the_file_says_from_the_first_fra
         assert rotation(unit, phase, body) == pytest.approx(from_euler(-0.5 - phase, 0.0, 0.0))
 
 
+def test_at_its_first_frame_it_is_as_far_as_the_time_since_its_start(read, skeleton):
+    unit = ProcMotionUnit(read(RISING), {}, LayerKind.GESTURE)
+    body = Body(skeleton, {"r_elbow": from_euler(-0.5, 0.0, 0.0)})
+    unit.start(body)
+    assert rotation(unit, 0.013, body) == pytest.approx(from_euler(-0.513, 0.0, 0.0))
+
+
 def test_one_that_joins_late_sets_out_from_where_the_body_is_too(read, skeleton):
     unit = ProcMotionUnit(read(RISING), {}, LayerKind.GESTURE)
     body = Body(skeleton, {"r_elbow": from_euler(0.0, 0.0, 0.0)})

@@ -1,5 +1,6 @@
 """Several motions as one: shifted, stretched, weighed in and out, one on top of the other."""
 
+import threading
 from pathlib import Path
 
 import numpy as np
@@ -10,17 +11,19 @@ from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.pose import Layer, LayerKind, compose
 from reactive_realizer.embodiment.quaternion import angle, from_axis_angle
 from reactive_realizer.embodiment.vector import UP
-from reactive_realizer.engines.animation.motion_unit import Moment, Posed, layer_of
+from reactive_realizer.engines.animation.keyframe import capture_reader
+from reactive_realizer.engines.animation.motion_unit import Moment, MotionUnit, Posed, layer_of
 from reactive_realizer.engines.animation.sequence.part import Part
 from reactive_realizer.engines.animation.sequence.sequence_motion_unit import SequenceMotionUnit
 from reactive_realizer.planunit.parameter import Range
 from reactive_realizer.testing.pilot import open_pilot
 
+from .capturing import bvh
 
-class Turning:
+
+class Turning(MotionUnit):
     """Turns joints to the left, evenly from 0 to so much; begins where it is told to."""
 
-    resources = frozenset()
     preferred_duration = 1.0
     key_positions = {"start": 0.0, "stroke": 0.5, "end": 1.0}  # noqa: RUF012
 
@@ -200,6 +203,22 @@ async def test_a_file_that_makes_no_sense_is_refused_with_the_reason(sequence, s
     pilot = await perform(tmp_path, sequence)
     assert [warning for _, warning in pilot.feedback.warnings] == ["CANNOT_CREATE_BEHAVIOR"]
     assert said in pilot.feedback.of("warningFeedback")[0].element.text
+
+
+async def test_a_capture_in_a_sequence_is_read_aside_of_the_ticks(tmp_path, monkeypatch) -> None:
+    reads = []
+
+    def read_bytes(path: Path) -> bytes:
+        reads.append(threading.current_thread())
+        return path.read_bytes()
+
+    monkeypatch.setattr(capture_reader, "read_bytes", read_bytes)
+    (tmp_path / "step.bvh").write_text(bvh({}, {"LeftArm": (0.0, 0.0, 60.0)}, step=1.0))
+    inner = '<Sequence><Motion type="Keyframe" file="step.bvh" start="0"/></Sequence>'
+    (tmp_path / "inner.xml").write_text(inner)
+    pilot = await perform(tmp_path, '<Sequence><Motion type="Sequence" file="inner.xml" start="0.5"/></Sequence>')
+    assert pilot.feedback.time("b:g:end") - pilot.feedback.time("b:g:start") == pytest.approx(1.5)
+    assert [thread is threading.main_thread() for thread in reads] == [False]
 
 
 async def test_files_that_double_at_each_level_are_refused(tmp_path) -> None:

@@ -15,6 +15,7 @@ from reactive_realizer.engines.animation.motion_unit import (
     AMOUNT_RANGE,
     ANY_VALUE,
     GESTURE_POINTS,
+    OF_FILES,
     Foreseen,
     Moment,
     MotionUnit,
@@ -46,6 +47,7 @@ class GestureMotionUnit(MotionUnit):
     """
 
     kind = LayerKind.GESTURE
+    fixed = OF_FILES | {HOLD}
     foreseen = Foreseen.ONCE_BEGUN
 
     def __init__(self, animation: ProcAnimation, parameters: Mapping[str, float], rest: Body) -> None:
@@ -116,11 +118,13 @@ class GestureMotionUnit(MotionUnit):
         return self._found
 
     def _sampled(self, phase: float, moment: Moment) -> Mapping[str, Quat]:
-        pose = self._animation.sample(phase, self.parameters, moment.body, moment.shown).rotations
+        posed = self._animation.sample(phase, self.parameters, moment.body, moment.shown)
+        if moment.shown is not None:
+            self.fault = self.fault or posed.fault
         amount = self.parameters[AMOUNT]
         if amount == 1.0:
-            return pose
-        return {joint: slerp(self._rest.rotation(joint), goal, amount) for joint, goal in pose.items()}
+            return posed.rotations
+        return {joint: slerp(self._rest.rotation(joint), goal, amount) for joint, goal in posed.rotations.items()}
 
     def _animation_phase(self, phase: float) -> float:
         """The animation's own phase: its ready until the hands are there, its relax from when they leave."""

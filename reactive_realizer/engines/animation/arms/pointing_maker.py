@@ -9,10 +9,11 @@ from reactive_realizer.embodiment.joints import SIDES
 from reactive_realizer.embodiment.vector import Vec3
 from reactive_realizer.engines.animation.actor import Actor, Wanted
 from reactive_realizer.engines.animation.arms.pointing_arm import PointingArm
-from reactive_realizer.engines.animation.arms.pointing_motion_unit import DEFAULTS, RANGES, PointingMotionUnit
+from reactive_realizer.engines.animation.arms.pointing_motion_unit import DEFAULTS, HAND, RANGES, PointingMotionUnit
 from reactive_realizer.engines.animation.sight import sight_of
 from reactive_realizer.engines.animation.values import values_of
 from reactive_realizer.errors import RealizerError, error
+from reactive_realizer.planunit.parameter import spelled
 
 _SIDES: Mapping[str, str] = {Mode.LEFT_HAND: "l", Mode.RIGHT_HAND: "r", Mode.BOTH_HANDS: "lr"}
 
@@ -34,7 +35,7 @@ class PointingMaker:
         if not isinstance(behavior, Pointing):
             raise error("wrong-element", unit="pointing", element=behavior.name)
         target = sight_of(self._actor, behavior.target, follow=True)
-        sides = _SIDES.get(behavior.mode or wanted.parameters.get("hand", ""))
+        sides = _SIDES.get(behavior.mode or spelled(wanted.parameters.get(HAND, ""), _SIDES))
         arms = self._arms(sides, behavior, target) if sides else self._free(behavior, target)
         parameters = {**DEFAULTS, **values_of(wanted.parameters, RANGES)}
         humanoid, rest = self._actor.humanoid, self._actor.rest.body

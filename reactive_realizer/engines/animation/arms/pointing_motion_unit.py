@@ -16,6 +16,9 @@ from reactive_realizer.engines.animation.motion_unit import Moment, MotionUnit, 
 from reactive_realizer.errors import Fault
 from reactive_realizer.planunit.parameter import Range
 
+HAND = "hand"
+"""The parameter that says which hand points, where the behavior does not."""
+
 STEEPNESS, ASYMMETRY = "steepness", "asymmetry"
 """Parameters of the `sigmoid` of way by time; `HOLD` is how long the finger stays on its target, s."""
 
@@ -37,6 +40,7 @@ class PointingMotionUnit(MotionUnit):
     """
 
     kind = LayerKind.GESTURE
+    fixed = frozenset({HAND, *RANGES})
 
     def __init__(
         self,

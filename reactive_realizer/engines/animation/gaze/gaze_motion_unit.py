@@ -14,9 +14,10 @@ from reactive_realizer.engines.animation.easing import minimum_jerk, share
 from reactive_realizer.engines.animation.gaze.aim import Aim
 from reactive_realizer.engines.animation.gaze.influence import EYES, JOINTS, WEIGHTS
 from reactive_realizer.engines.animation.gaze.settling import Settling
-from reactive_realizer.engines.animation.gaze.turning import turn_toward
+from reactive_realizer.engines.animation.gaze.turning import Turn, turn_toward
 from reactive_realizer.engines.animation.motion_unit import START_TO_END, Moment, MotionUnit, Posed, Resource
 from reactive_realizer.engines.animation.posture.rest import Rest
+from reactive_realizer.errors import Fault
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,6 +52,14 @@ GAZE_SHIFT = Course(START_TO_END, 0.5, "gaze", lasts="gaze", resources=frozenset
 
 HEAD_SHIFT = Course(START_TO_END, 0.5, "head direction", lasts="head direction")
 """A head that is turned, and stays so; it may be turned elsewhere than the eyes look."""
+
+_NEARLY = 0.8
+"""The share of the time to its ready from which on it is judged whether it gets there: at first the trunk may still be
+turned elsewhere."""
+
+_NOTICED = math.radians(3.0)
+"""What nobody sees who is looked at: J. J. Gibson and A. D. Pick, "Perception of another person's looking behavior"
+(American Journal of Psychology 76, 1963)."""
 
 
 class GazeMotionUnit(MotionUnit):
@@ -93,11 +102,25 @@ class GazeMotionUnit(MotionUnit):
     def pose(self, moment: Moment) -> Posed:
         """Rotations of trunk, neck and head; they leave for whatever lies below."""
         body, phase = moment.body, moment.phase
-        there = self._settling(turn_toward(body, self._rest.pose, self.point, self.parameters), moment.time)
+        turn = self._turn(body)
+        if self.fault is None and _NEARLY * self._ready <= phase <= self._relax:
+            self._judge(turn, body)
+        there = self._settling(turn.rotations, moment.time)
         done = minimum_jerk(share(phase, 0.0, self._ready))
         if done < 1.0:
             there = {joint: slerp(self._begin.rotation(joint), turn, done) for joint, turn in there.items()}
         return Posed(there, 1.0 - minimum_jerk(share(phase, self._relax, 1.0)) if phase > self._relax else 1.0)
+
+    def _turn(self, body: Body) -> Turn:
+        return turn_toward(body, self._rest.pose, self.point, self.parameters)
+
+    def _judge(self, turn: Turn, body: Body) -> None:
+        """Whether it gets there."""
+        if self.lasts is not None:
+            # The shift in whose place it comes goes when this one has ended, with what that does to the trunk.
+            turn = self._turn(body.posed({joint: self._rest.body.rotation(joint) for joint in self.joints}))
+        if turn.missing > _NOTICED:
+            self.fault = Fault("gaze-short", {"angle": math.degrees(turn.missing)})
 
     def gaze(self, phase: float) -> Self | None:
         """Itself, as long as the eyes are its own."""

@@ -42,10 +42,15 @@ class Looking:
     def __init__(self, large: Callable[[GlobalTime], None] = lambda _: None) -> None:
         self._large = large
         self._time = GlobalTime(0.0)
+        self._noticed = GlobalTime(0.0)
         self._points: dict[Gazing, Vec3] = {}
         self._head = IDENTITY
-        self.turns: Mapping[str, Quat] = {}
+        self._goal: Sights = {}
         self._saccade: _Saccade | None = None
+
+    def notice(self, time: GlobalTime) -> None:
+        """At a time, which need not be that of a frame, something leads the eyes that did not before, or no more."""
+        self._noticed = max(self._noticed, time)
 
     def eyes(
         self, now: GlobalTime, gazes: Sequence[Gazing], body: Body, resting: Mapping[str, Quat]
@@ -62,30 +67,31 @@ class Looking:
         resting = {eye: multiply(body.rotation(eye), resting.get(eye, IDENTITY)) for eye in sockets.places}
         points = {gaze: gaze.point(sockets.middle) for gaze in gazes if gaze.eyes > 0.0}
         goal = {eye: _sight(eye, sockets, points, resting) for eye in sockets.places}
-        if self.turns and self._elsewhere(points, sockets.middle, now):
-            self._saccade = self._from_here(goal, now)
-        self._time, self._points, self._head = now, points, sockets.rotation
-        self.turns = {eye: listing(sockets.rotation, sight) for eye, sight in self._moved(goal, now).items()}
-        return self.turns
+        since = self._elsewhere(points, sockets.middle, now) if self._goal else None
+        if since is not None:
+            self._saccade = self._from_here(goal, since)
+        self._time, self._points, self._head, self._goal = now, points, sockets.rotation, goal
+        return {eye: listing(sockets.rotation, sight) for eye, sight in self._moved(goal, now).items()}
 
-    def _elsewhere(self, points: Mapping[Gazing, Vec3], eyes: Vec3, now: GlobalTime) -> bool:
-        """Whether there is something else to look at than in the last frame."""
+    def _elsewhere(self, points: Mapping[Gazing, Vec3], eyes: Vec3, now: GlobalTime) -> GlobalTime | None:
+        """Since when there is something else to look at than in the last frame; None: there is not."""
         if list(points) != list(self._points):
-            return True
+            return self._noticed if self._noticed > self._time else now
         if points == self._points:
-            return False
+            return None
         pairs = ((direction(eyes, self._points[gaze]), direction(eyes, point)) for gaze, point in points.items())
         ways = [angle(between(before, after)) for before, after in pairs if before and after]
         fastest = _FOLLOWED if self._saccade is None else PEAK_VELOCITY
-        return max(ways, default=0.0) > fastest * (now - self._time)
+        return now if max(ways, default=0.0) > fastest * (now - self._time) else None
 
-    def _from_here(self, goal: Sights, now: GlobalTime) -> _Saccade:
-        """The eyes leave from where they were shown last."""
-        sights = {eye: _ahead(multiply(self._head, turn)) for eye, turn in self.turns.items()}
+    def _from_here(self, goal: Sights, since: GlobalTime) -> _Saccade:
+        """The eyes leave from where they had come to."""
+        there = self._moved(self._goal, since)
+        sights = {eye: _ahead(multiply(self._head, listing(self._head, sight))) for eye, sight in there.items()}
         amplitude = max(angle(between(sight, goal[eye])) for eye, sight in sights.items())
         if amplitude > _LARGE:
-            self._large(now)
-        return _Saccade(now, amplitude, sights)
+            self._large(since)
+        return _Saccade(since, amplitude, sights)
 
     def _moved(self, goal: Sights, now: GlobalTime) -> Sights:
         """Where the eyes are on their way."""

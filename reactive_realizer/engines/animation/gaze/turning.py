@@ -5,6 +5,7 @@ All functions are pure.
 
 import math
 from collections.abc import Callable, Mapping
+from typing import NamedTuple
 
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.quaternion import (
@@ -45,8 +46,20 @@ _FURTHEST = {
 _SIDEWAYS = sum(side for _, side in _FURTHEST.values())
 
 
-def turn_toward(body: Body, rest: Pose, point: Callable[[Vec3], Vec3], weights: Mapping[str, float]) -> dict[str, Quat]:
-    """Rotations of trunk, neck and head toward a point, as far as they take part.
+class Turn(NamedTuple):
+    """A turn toward a point.
+
+    Attributes:
+        rotations: of the joints of trunk, neck and head that take part, local to their parents.
+        missing: how far beyond the point is of what they and the eyes turn to, rad; 0 where they get there.
+    """
+
+    rotations: Mapping[str, Quat]
+    missing: float
+
+
+def turn_toward(body: Body, rest: Pose, point: Callable[[Vec3], Vec3], weights: Mapping[str, float]) -> Turn:
+    """The turn of trunk, neck and head toward a point, as far as they take part.
 
     All of them turn about one axis, so the head does too while they come from rest: "Listing's law for gaze-directing
     head movements" (D. Tweed and T. Vilis, 1992).
@@ -58,15 +71,17 @@ def turn_toward(body: Body, rest: Pose, point: Callable[[Vec3], Vec3], weights: 
         weights: of each group of joints.
     """
     parts = {joint: part for joint, part in joint_weights(weights).items() if joint in body.skeleton}
-    if not parts:
-        return {}
     chain = body.skeleton.chain("skullbase")
     ahead = {joint: rest.get(joint, IDENTITY) if joint in parts else body.rotation(joint) for joint in chain}
     sockets = Sockets.of(Body(body.skeleton, ahead, body.root))
     way = direction(sockets.middle, point(sockets.middle))
-    sight = FORWARD if way is None else _reachable(rotate(conjugate(sockets.rotation), way))
-    turn = head_turn(sight, min(1.0, sum(parts.values())), weights.get(EYES, 0.0) * _COMFORT * EYE_RANGE)
-    return _spread(turn, parts, ahead)
+    sight = FORWARD if way is None else rotate(conjugate(sockets.rotation), way)
+    eyes = weights.get(EYES, 0.0)
+    turn = head_turn(_reachable(sight), min(1.0, sum(parts.values())), eyes * _COMFORT * EYE_RANGE)
+    rotations, done = _spread(turn, parts, ahead)
+    # Eyes that go a part of the way leave the rest of it willingly.
+    left = EYE_RANGE / eyes if eyes > 0.0 else 0.0
+    return Turn(rotations, max(0.0, angle(between(rotate(done, FORWARD), sight)) - left))
 
 
 def head_turn(sight: Vec3, part: float, left: float) -> Quat:
@@ -99,26 +114,30 @@ def _reachable(sight: Vec3) -> Vec3:
     return (level * math.sin(side), y, level * math.cos(side))
 
 
-def _spread(turn: Quat, parts: Mapping[str, float], ahead: dict[str, Quat]) -> dict[str, Quat]:
+def _spread(turn: Quat, parts: Mapping[str, float], ahead: dict[str, Quat]) -> tuple[dict[str, Quat], Quat]:
     """The head's turn as turns of the joints below it, each about the same axis in space.
 
     Args:
         turn: in the axes of the head as it is ahead.
         parts: joint -> its part.
         ahead: the joints from the root to the head as they are without a turn, in order.
+
+    Returns:
+        The rotations of these joints, and how much of the turn they make together.
     """
     far = angle(turn)
     if far == 0.0:
-        return {joint: ahead[joint] for joint in parts}
+        return {joint: ahead[joint] for joint in parts}, turn
     axis = unit((turn[1], turn[2], turn[3]))
     turns = _shared(far, parts, {joint: _furthest(joint, axis) for joint in parts})
+    done = from_axis_angle(axis, sum(turns.values()))
     rotations = dict[str, Quat]()
     for joint, local in reversed(ahead.items()):
         if joint in turns:
             rotations[joint] = multiply(local, from_axis_angle(axis, turns[joint]))
         # As its parent sees it.
         axis = rotate(local, axis)
-    return rotations
+    return rotations, done
 
 
 def _shared(far: float, parts: Mapping[str, float], furthest: Mapping[str, float]) -> dict[str, float]:

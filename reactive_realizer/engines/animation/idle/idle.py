@@ -10,11 +10,15 @@ from reactive_realizer.embodiment.joints import EYES
 from reactive_realizer.embodiment.pose import Layer, LayerKind
 from reactive_realizer.embodiment.quaternion import Quat, from_euler, multiply
 from reactive_realizer.engines.animation.idle.blinks import Blinks
+from reactive_realizer.engines.animation.idle.breath import Breath
 from reactive_realizer.engines.animation.idle.glances import Glances
 from reactive_realizer.engines.animation.idle.weight_shift import WeightShift, leaning
 
-_BREATHS = 0.25
-"""Hz, of a person at rest."""
+_WAVES = ((0.43, 1.9, 0.0), (0.31, 2.3, 1.0), (0.23, 1.3, 2.0))
+"""Sway to the side, forth and about: of each a slow wave and a quicker one, rad a second, and where both begin, rad."""
+
+_QUICKER = 0.25
+"""The share of a sway that is in its quicker wave."""
 
 _UPRIGHT = 0.1
 """m that the pelvis is lower than in standing when there is no weight to shift any more."""
@@ -25,7 +29,7 @@ class Idle:
 
     def __init__(self, random: Random) -> None:
         """Draws all that chance decides from a generator that nobody else draws from."""
-        self._breath = random.random()
+        self._breath = Breath(Random(random.getrandbits(64)))
         self._sway = random.uniform(0.0, 100.0)
         self._blinks = Blinks(Random(random.getrandbits(64)))
         self._shift = WeightShift(Random(random.getrandbits(64)))
@@ -46,11 +50,8 @@ class Idle:
 
     def rotations(self, time: float) -> dict[str, Quat]:
         """Breath and sway: the chest rises, the head stays level, the trunk is never quite still."""
-        air = self._air(time)
-        # Three slow waves without a common period, each well below a degree.
-        side = math.sin(0.43 * (time + self._sway))
-        forth = math.sin(0.31 * (time + self._sway) + 1.0)
-        turn = math.sin(0.23 * (time + self._sway) + 2.0)
+        air = self._breath.air(time)
+        side, forth, turn = (_wave(time + self._sway, *wave) for wave in _WAVES)
         return {
             "vl5": from_euler(0.006 * forth, 0.008 * turn, 0.006 * side),
             "vt6": from_euler(-0.016 * air, 0.0, 0.0),
@@ -59,11 +60,6 @@ class Idle:
             "vc4": from_euler(0.012 * air - 0.006 * forth, 0.0, -0.006 * side),
             "skullbase": from_euler(0.006 * forth, 0.010 * turn, 0.004 * side),
         }
-
-    def _air(self, time: float) -> float:
-        """How full the lungs are, 0..1; breathing in is the quicker half."""
-        turn = 2.0 * math.pi * (_BREATHS * time + self._breath)
-        return 0.5 - 0.5 * math.cos(turn + 0.4 * math.sin(turn))
 
     def eyes(self, time: float) -> dict[str, Quat]:
         """Rotations of eyes that look at nothing in particular."""
@@ -79,3 +75,8 @@ class Idle:
         """Morph weights at a time, s."""
         closed = self._blinks.closed(time)
         return {"eyeBlinkLeft": closed, "eyeBlinkRight": closed}
+
+
+def _wave(time: float, slow: float, quick: float, begin: float) -> float:
+    """A sway at a time, -1 to 1: nearly all of it is below half a cycle a second, and it has no period that is seen."""
+    return (1.0 - _QUICKER) * math.sin(slow * time + begin) + _QUICKER * math.sin(quick * time + begin)

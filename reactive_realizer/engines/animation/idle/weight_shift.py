@@ -8,7 +8,7 @@ from reactive_realizer.embodiment.vector import Vec3
 from reactive_realizer.engines.animation.easing import minimum_jerk
 from reactive_realizer.engines.animation.idle.episodes import Episodes
 
-_PAUSE = (6.0, 18.0)
+_PAUSE = (10.0, 30.0)
 """s, shortest and longest that a figure stays as it is."""
 
 _TAKES = 1.8

@@ -6,12 +6,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reactive_realizer.embodiment.vector import Vec3
-from reactive_realizer.engines.animation.keyframe.quaternions import about, product
+from reactive_realizer.engines.animation.keyframe.quaternions import about, product, rotated
 
 
 @dataclass(frozen=True, slots=True)
 class CapturedJoint:
-    """A joint of the captured figure, which rests without rotations.
+    """A joint of the captured figure.
 
     Attributes:
         name: as in the file.
@@ -60,10 +60,24 @@ class Capture:
             first += len(joint.channels)
         return out
 
-    def root_places(self) -> NDArray[np.float64]:
-        """Where the first joint is in each frame, (F, 3), in the axes and the unit of the file."""
-        out = np.zeros((len(self.frames), 3))
-        for column, channel in enumerate(self.joints[0].channels):
+    def places(self, index: int, turned: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Where a joint is in frames, (F, 3), from the origin, in the axes and the unit of the file.
+
+        Args:
+            index: of the joint.
+            turned: the `rotations` of all frames, or of the first ones.
+        """
+        out = np.zeros((len(turned), 3))
+        while (above := self.joints[index].parent) >= 0:
+            out += rotated(turned[:, above], self._ways(index)[: len(turned)])
+            index = above
+        return out + self._ways(index)[: len(turned)]
+
+    def _ways(self, index: int) -> NDArray[np.float64]:
+        """From the joint above to a joint in each frame, (F, 3): its offset, if channels do not say another."""
+        out = np.tile(self.joints[index].offset, (len(self.frames), 1))
+        first = sum(len(joint.channels) for joint in self.joints[:index])
+        for column, channel in enumerate(self.joints[index].channels, first):
             if channel.endswith("position"):
                 out[:, "XYZ".index(channel[0])] = self.frames[:, column]
         return out

@@ -20,6 +20,7 @@ _CHANNELS = frozenset(f"{axis}{what}" for axis in "XYZ" for what in ("position",
 _MOST_DIGITS = 9
 _LARGEST = 1e9
 """No length in any unit and no angle is larger."""
+_MOST_JOINTS = 1000
 _MOST_TURNS = 1_000_000
 """Joints times frames: more than a file of the allowed size says of joints that turn."""
 _PIECE = 5000
@@ -34,7 +35,8 @@ def read_capture(path: Path) -> Capture:
         RealizerError: "bad-capture", with file, line and what is wrong; or the file is too big.
         OSError: the file cannot be read.
     """
-    return _CaptureReader(path.name, read_bytes(path).decode("utf-8", errors="replace")).read()
+    text = read_bytes(path).decode("utf-8-sig", errors="replace")
+    return _CaptureReader(path.name, text.replace("\r\n", "\n").replace("\r", "\n")).read()
 
 
 class _CaptureReader:
@@ -54,6 +56,8 @@ class _CaptureReader:
         self._expect("HIERARCHY")
         self._expect("ROOT")
         joints = self._joints()
+        if len(joints) > _MOST_JOINTS:
+            raise self._bad(f"{len(joints)} joints are more than {_MOST_JOINTS}")
         step, frames = self._motion(sum(len(joint.channels) for joint in joints))
         if len(frames) * len(joints) > _MOST_TURNS:
             raise self._bad(f"{len(frames)} frames of {len(joints)} joints are more than {_MOST_TURNS} rotations")

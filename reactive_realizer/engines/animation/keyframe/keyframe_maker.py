@@ -9,7 +9,7 @@ from reactive_realizer.bml.twente import Keyframe
 from reactive_realizer.engines.animation.actor import Actor, Wanted
 from reactive_realizer.engines.animation.keyframe.clip import Clip
 from reactive_realizer.engines.animation.keyframe.clip_cache import clip_in, read_ahead
-from reactive_realizer.engines.animation.keyframe.keyframe_motion_unit import KeyframeMotionUnit
+from reactive_realizer.engines.animation.keyframe.keyframe_motion_unit import FILTER, KeyframeMotionUnit
 from reactive_realizer.engines.animation.keyframe.skeleton_interpolator import read_interpolator_text
 from reactive_realizer.engines.animation.values import values_of
 from reactive_realizer.errors import error
@@ -17,8 +17,7 @@ from reactive_realizer.planunit.parameter import Range
 
 _log = logging.getLogger(__name__)
 
-_FILTER = "filter"
-_RANGES = {_FILTER: Range(0.0, 1e6)}
+_RANGES = {FILTER: Range(0.0, 1e6)}
 
 
 class KeyframeMaker:
@@ -72,4 +71,4 @@ def _said(wanted: Wanted) -> str | None:
 
 
 def _cutoff(wanted: Wanted) -> float | None:
-    return values_of(wanted.parameters, _RANGES).get(_FILTER)
+    return values_of(wanted.parameters, _RANGES).get(FILTER)

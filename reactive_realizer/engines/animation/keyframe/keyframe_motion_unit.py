@@ -9,7 +9,18 @@ from reactive_realizer.embodiment.skeleton import Skeleton
 from reactive_realizer.embodiment.vector import add
 from reactive_realizer.engines.animation.arrival import Arrival
 from reactive_realizer.engines.animation.keyframe.clip import Clip
-from reactive_realizer.engines.animation.motion_unit import Foreseen, Moment, MotionUnit, Posed, in_order, owned
+from reactive_realizer.engines.animation.motion_unit import (
+    OF_FILES,
+    Foreseen,
+    Moment,
+    MotionUnit,
+    Posed,
+    in_order,
+    owned,
+)
+
+FILTER = "filter"
+"""The parameter that says what is filtered out: what is faster than so many Hz."""
 
 
 class KeyframeMotionUnit(MotionUnit):
@@ -20,6 +31,7 @@ class KeyframeMotionUnit(MotionUnit):
     """
 
     kind = LayerKind.FULL_BODY
+    fixed = OF_FILES | {FILTER}
     foreseen = Foreseen.ALWAYS
 
     def __init__(self, clip: Clip, skeleton: Skeleton) -> None:
@@ -46,7 +58,7 @@ class KeyframeMotionUnit(MotionUnit):
 
     def start(self, body: Body) -> None:
         """It sets in from where the body is."""
-        self._arrival = Arrival(body, self._clip.duration)
+        self._arrival = Arrival(body, self._posed(0.0), self._clip.duration)
 
     def pose(self, moment: Moment) -> Posed:
         """The clip's rotations, and its root."""

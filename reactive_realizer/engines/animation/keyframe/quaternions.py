@@ -21,6 +21,13 @@ def product(a: Array, b: Array) -> Array:
     )
 
 
+def rotated(turns: Array, vectors: Array) -> Array:
+    """Vectors, (..., 3), after turns."""
+    pure = np.concatenate([np.zeros((*vectors.shape[:-1], 1)), vectors], axis=-1)
+    out: Array = product(product(turns, pure), inverse(turns))[..., 1:]
+    return out
+
+
 def inverse(q: Array) -> Array:
     """The rotations back."""
     back: Array = q * (1.0, -1.0, -1.0, -1.0)

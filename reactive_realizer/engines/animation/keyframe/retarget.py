@@ -14,11 +14,11 @@ from reactive_realizer.embodiment.vector import UP, Vec3, distance, length, subt
 from reactive_realizer.engines.animation.keyframe.capture import Capture
 from reactive_realizer.engines.animation.keyframe.captured_names import joints_of
 from reactive_realizer.engines.animation.keyframe.clip import Clip, continuous
-from reactive_realizer.engines.animation.keyframe.quaternions import Array, inverse, product
+from reactive_realizer.engines.animation.keyframe.quaternions import Array, inverse, product, rotated
+from reactive_realizer.engines.animation.keyframe.stance import stance_of
 from reactive_realizer.errors import RealizerError, error
 
 _NEEDED = (ROOT, "l_hip", "r_hip", "l_knee", "r_knee", "skullbase")
-_UPRIGHT = math.cos(math.radians(30.0))
 _CHILD = {"sternoclavicular": "shoulder", "shoulder": "elbow", "elbow": "wrist", "hip": "knee", "knee": "ankle"}
 
 
@@ -26,12 +26,12 @@ def retargeted(capture: Capture, skeleton: Skeleton) -> Clip:
     """The motion of a capture for a figure.
 
     A bone of ours is turned as the captured one is, after the turn from its direction in the default pose to that of
-    the captured one at rest: a T-pose serves as well as hanging arms. Joints that only one of the two has are left out.
-    The way of the root is taken to scale, by the lengths of the thighs. The figure begins where it stands and as it
-    faces, wherever and however the captured one began.
+    the captured one as it stands: a T-pose serves as well as hanging arms. Joints that only one of the two has are left
+    out. The way of the root is taken to scale, by the lengths of the thighs. The figure begins where it stands and as
+    it faces, wherever and however the captured one began.
 
     Raises:
-        RealizerError: "bad-capture": its joints are not known, it does not rest upright, or it goes too far.
+        RealizerError: "bad-capture": its joints are not known, it does not stand upright, or it goes too far.
     """
     source = _Source(capture, skeleton)
     rotations, joints = source.rotations(), tuple(source.joints)
@@ -40,7 +40,7 @@ def retargeted(capture: Capture, skeleton: Skeleton) -> Clip:
 
 
 class _Source:
-    """A capture in the axes of the figure: y up, facing +z at rest, and so in its first frame.
+    """A capture in the axes of the figure: y up, facing +z as it stands, and so in its first frame.
 
     Attributes:
         joints: H-Anim name -> index in the capture, in the order of the skeleton.
@@ -49,19 +49,21 @@ class _Source:
     def __init__(self, capture: Capture, skeleton: Skeleton) -> None:
         self._capture = capture
         self._skeleton = skeleton
-        names = joints_of((joint.name for joint in capture.joints), skeleton.joints)
-        index = {names[joint.name]: i for i, joint in enumerate(capture.joints) if joint.name in names}
+        index = joints_of(capture.joints, skeleton.joints)
         self.joints = {joint: index[joint] for joint in skeleton.joints if joint in index}
         missing = [joint for joint in _NEEDED if joint not in self.joints]
         if missing:
             raise self._bad(f"no joint is called in a way that is known for {', '.join(missing)}")
-        axes = self._axes()
-        self._places = {joint: rotate(axes, capture.rest_place(i)) for joint, i in self.joints.items()}
-        turn = np.array(axes)
-        turned = product(product(turn, capture.rotations()), inverse(turn))
-        self._ahead = np.array(_facing(turned[0, self.joints[ROOT]]))
-        self._turned = product(self._ahead, turned)
-        self._axes_of_file = axes
+        self._rotations = capture.rotations()
+        stance = stance_of(capture, self.joints, self._rotations)
+        if stance is None:
+            raise self._bad("the figure stands upright neither without rotations nor in its first frame")
+        self._places = stance.places
+        turn = np.array(stance.axes)
+        turned = product(product(turn, product(self._rotations, inverse(stance.pose))), inverse(turn))
+        ahead = np.array(_facing(turned[0, self.joints[ROOT]]))
+        self._turned = product(ahead, turned)
+        self._axes = product(ahead, turn)
 
     def rotations(self) -> Array:
         """(F, J, 4), local to the joints above in the skeleton."""
@@ -70,27 +72,15 @@ class _Source:
 
     def roots(self) -> Array:
         """How far the root has moved since the first frame, (F, 3), m."""
-        places = self._capture.root_places()
-        thigh = distance(self._places["l_knee"], self._places["l_hip"])
-        scale = length(self._skeleton.offset("l_knee")) / thigh
-        turn = product(self._ahead, np.array(self._axes_of_file))
-        ways = np.concatenate([np.zeros((len(places), 1)), scale * (places - places[0])], axis=1)
-        turned: Array = product(product(turn, ways), inverse(turn))[:, 1:]
+        places = self._capture.places(self.joints[ROOT], self._rotations)
+        scale = length(self._skeleton.offset("l_knee")) / distance(self._places["l_knee"], self._places["l_hip"])
+        turned = rotated(self._axes, scale * (places - places[0]))
         if not (np.linalg.norm(turned, axis=-1) <= FARTHEST).all():
             raise self._bad(f"it goes further than {FARTHEST:g} m, by the length of its thighs")
         return turned
 
-    def _axes(self) -> Quat:
-        """The turn about y after which the captured figure faces +z at rest."""
-        place = {joint: self._capture.rest_place(self.joints[joint]) for joint in _NEEDED}
-        spine = subtract(place["skullbase"], place[ROOT])
-        if length(spine) == 0.0 or spine[1] / length(spine) < _UPRIGHT or place["l_hip"] == place["l_knee"]:
-            raise self._bad("the figure does not rest upright, with y up")
-        x, _, z = subtract(place["l_hip"], place["r_hip"])
-        return from_axis_angle(UP, math.atan2(z, x))
-
     def _alignment(self, joint: str) -> Quat:
-        """The turn from our bone in the default pose to the captured one at rest: the smallest after its parent's."""
+        """The turn from our bone in the default pose to the captured one: the smallest after its parent's."""
         above = self._skeleton.parent(joint)
         if above is None or joint.endswith("_ankle"):  # a foot is level in either
             return IDENTITY

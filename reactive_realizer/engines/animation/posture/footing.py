@@ -7,25 +7,15 @@ from functools import reduce
 from typing import NamedTuple
 
 from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.feet import LEG_JOINTS, feet, legs, reach, walks
 from reactive_realizer.embodiment.joints import ROOT, SIDES
 from reactive_realizer.embodiment.pose import Layer, LayerKind, checked, over, turned_further
-from reactive_realizer.embodiment.quaternion import Quat, between, conjugate, multiply, rotate, slerp
+from reactive_realizer.embodiment.quaternion import Quat
 from reactive_realizer.embodiment.skeleton import Place, Skeleton
-from reactive_realizer.embodiment.two_bone_ik import Leg
-from reactive_realizer.embodiment.vector import UP, add, distance, length, scale, subtract, unit
-from reactive_realizer.engines.animation.easing import smoothstep
+from reactive_realizer.embodiment.vector import subtract
+from reactive_realizer.engines.animation.posture.steps import leading, stepped
 
-_LEGS = frozenset(f"{side}_{joint}" for side in SIDES for joint in Leg.JOINTS)
-_MOVING = _LEGS | {ROOT}
-
-_STRIDE = 0.6
-"""m from foot to foot of who walks, at most."""
-
-_LIFT = 0.25
-"""A foot that goes elsewhere is lifted by this part of its step, at most `_HIGHEST`."""
-
-_HIGHEST = 0.08
-"""m"""
+_MOVING = LEG_JOINTS | {ROOT}
 
 _DEEPEST = 0.25
 """m that the pelvis sinks for feet that it has left behind, at most: then they are dragged along."""
@@ -33,14 +23,19 @@ _DEEPEST = 0.25
 _NOTHING = 1e-6
 """m"""
 
-Feet = tuple[Place, ...]
-
 
 class _Stand(NamedTuple):
-    """What some layers come to, below the waist: the body, and where its ankles are to be."""
+    """What some layers come to, below the waist.
+
+    Attributes:
+        body: as they pose it.
+        feet: where its ankles are to be, the left one first.
+        ground: where they are in the uppermost of the layers that are there in full.
+    """
 
     body: Body
-    feet: Feet
+    feet: tuple[Place, ...]
+    ground: tuple[Place, ...]
 
 
 class Footing:
@@ -49,14 +44,14 @@ class Footing:
     Blending two postures joint by joint would let the feet swim: where the pelvis is lowered by half, half-bent knees
     do not reach the ground. So the layers are asked where they want the *feet*, each by its own legs and root; between
     these places the feet step, and hips, knees and ankles follow from there and from the pelvis, which sinks where a
-    leg would be too short. Additive motion of the pelvis, as of one who shifts his weight, leaves the feet where they
-    are.
+    leg would be too short. What adds to pelvis and legs owns nothing: who shifts his weight, or whose knee stirs, has
+    the feet where they were without it.
     """
 
     def __init__(self, skeleton: Skeleton) -> None:
         """Of a skeleton; one whose legs have no length is left alone."""
         self._start = Body(skeleton)
-        self._legs = all(joint in skeleton and length(skeleton.offset(joint)) > 0.0 for joint in _LEGS)
+        self._legs = walks(skeleton)
         self._asked: object = None
         self._layers: tuple[Layer, ...] = ()
 
@@ -75,99 +70,47 @@ class Footing:
         added = [layer for layer in ordered if layer.kind is LayerKind.ADDITIVE]
         if not added and all(layer.weight_of(ROOT) == 1.0 for layer in lower):
             return
-        if any(not _LEGS.isdisjoint(layer.rotations) for layer in added):
-            return
-        body, feet = reduce(_over, lower, _Stand(self._start, _feet(self._start)))
-        body = reduce(_pushed, added, body)
-        sinking = min(_DEEPEST, max(_sinking(body, side, foot) for side, foot in zip(SIDES, feet, strict=True)))
+        below, places, _ = reduce(_over, lower, _stand(self._start))
+        body = reduce(_pushed, added, below)
+        sinking = min(_DEEPEST, max(_sinking(body, side, foot) for side, foot in zip(SIDES, places, strict=True)))
         if sinking > _NOTHING:
             lowered = Layer(LayerKind.ADDITIVE, {}, root=(0.0, -sinking, 0.0))
             body = _pushed(body, lowered)
             yield lowered
-        left, right = (_leg(body, side, foot) for side, foot in zip(SIDES, feet, strict=True))
-        yield Layer(LayerKind.END_EFFECTOR, left | right)
+        yield Layer(LayerKind.END_EFFECTOR, legs(body, places))
+
+
+def _stand(body: Body) -> _Stand:
+    places = feet(body)
+    return _Stand(body, places, places)
 
 
 def _asked(layer: Layer) -> object:
     """What of a layer matters here."""
-    rotations = layer.rotations.get(ROOT) if layer.kind is LayerKind.ADDITIVE else layer.rotations
+    rotations = _moving(layer) if layer.kind is LayerKind.ADDITIVE else layer.rotations
     return rotations, layer.weight, layer.weights, layer.root
 
 
-def _feet(body: Body) -> Feet:
-    return tuple(body.place(f"{side}_ankle") for side in SIDES)
+def _moving(layer: Layer) -> dict[str, Quat]:
+    return {joint: layer.rotations[joint] for joint in _MOVING & layer.rotations.keys()}
 
 
 def _over(below: _Stand, layer: Layer) -> _Stand:
-    rotations = {joint: layer.rotations[joint] for joint in _MOVING & layer.rotations.keys()}
+    rotations = _moving(layer)
     goal = below.body.posed(rotations, layer.root)
     weight = layer.weight_of(ROOT)
     if weight == 1.0:
-        return _Stand(goal, _feet(goal))
-    body = over(below.body, replace(layer, rotations=rotations))
-    return _Stand(body, _stepped(below.feet, _feet(goal), weight))
+        return _stand(goal)
+    body, places = over(below.body, replace(layer, rotations=rotations)), feet(goal)
+    return below._replace(body=body, feet=stepped(below.feet, places, weight, leading(below.ground, places)))
 
 
 def _pushed(body: Body, layer: Layer) -> Body:
-    """A body with an additive layer's turn and way of the pelvis."""
-    turns = {joint: turn for joint, turn in layer.rotations.items() if joint == ROOT}
-    return turned_further(body, replace(layer, rotations=turns))
-
-
-def _stepped(before: Feet, after: Feet, weight: float) -> Feet:
-    """The feet on their way from place to place: the left one goes first, and if that is far they go on in turn.
-
-    As in walking each comes down a stride ahead of the other, and the pelvis is half a stride behind by then: so the
-    first step and the last are half as long as the others.
-    """
-    far = max(distance(a.position, b.position) for a, b in zip(before, after, strict=True))
-    strides = max(1, math.ceil(far / _STRIDE))
-    return tuple(
-        _step(a, b, foot, weight * strides, strides) for foot, (a, b) in enumerate(zip(before, after, strict=True))
-    )
-
-
-def _step(before: Place, after: Place, foot: int, gone: float, strides: int) -> Place:
-    """Where a foot (0 the left, 1 the right) is when the pelvis has gone so many of the strides."""
-    number = min(int(gone + 0.5), strides)
-    if number % 2 != foot:
-        return _along(before, after, number / strides)
-    begin, end = max(0.0, number - 0.5), min(number + 0.5, strides)
-    done = smoothstep((gone - begin) / (end - begin))
-    start, goal = max(0, number - 1) / strides, min(number + 1, strides) / strides
-    swinging = _along(before, after, start + done * (goal - start))
-    high = min(_HIGHEST, _LIFT * (goal - start) * distance(before.position, after.position)) * 4.0 * done * (1.0 - done)
-    return Place(add(swinging.position, scale(UP, high)), swinging.rotation)
-
-
-def _along(before: Place, after: Place, share: float) -> Place:
-    way = subtract(after.position, before.position)
-    return Place(add(before.position, scale(way, share)), slerp(before.rotation, after.rotation, share))
+    """A body with what an additive layer does to pelvis and legs."""
+    return turned_further(body, replace(layer, rotations=_moving(layer)))
 
 
 def _sinking(body: Body, side: str, foot: Place) -> float:
-    """How much lower the pelvis has to be for a leg to reach the place of its foot, m; 0 where it does.
-
-    A leg is as long as in the default pose, where its knee is not quite straight.
-    """
-    knee, ankle = (body.skeleton.offset(f"{side}_{joint}") for joint in ("knee", "ankle"))
+    """How much lower the pelvis has to be for a leg to reach the place of its foot, m; 0 where it does."""
     x, y, z = subtract(body.place(f"{side}_hip").position, foot.position)
-    return max(0.0, y - math.sqrt(max(0.0, length(add(knee, ankle)) ** 2 - x * x - z * z)))
-
-
-def _leg(body: Body, side: str, foot: Place) -> dict[str, Quat]:
-    """Rotations of hip, knee and ankle that bring a foot to its place, the knee turned as it was.
-
-    The knee bends until the leg is as long as the way; then the hip turns the leg there by the smallest turn, and the
-    ankle turns the foot back.
-    """
-    hip, knee, ankle = (f"{side}_{joint}" for joint in ("hip", "knee", "ankle"))
-    pelvis = body.place(ROOT).rotation
-    way = rotate(conjugate(pelvis), subtract(foot.position, body.place(hip).position))
-    shank = rotate(body.rotation(knee), body.skeleton.offset(ankle))
-    bend, end = Leg(body.skeleton.offset(knee), shank).bent(Leg.HINGE, length(way))
-    leg = rotate(body.rotation(hip), end)
-    hip_turn = multiply(between(unit(leg), unit(way)), body.rotation(hip))
-    knee_turn = multiply(bend, body.rotation(knee))
-    above = multiply(multiply(pelvis, hip_turn), knee_turn)
-    return {hip: hip_turn, knee: knee_turn, ankle: multiply(conjugate(above), foot.rotation)}
+    return max(0.0, y - math.sqrt(max(0.0, reach(body.skeleton, side) ** 2 - x * x - z * z)))

@@ -1,13 +1,12 @@
 """Keyed motion inside of a procedural animation."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from reactive_realizer.embodiment.body import Body
-from reactive_realizer.embodiment.quaternion import Quat
 from reactive_realizer.embodiment.skeleton import Skeleton
 from reactive_realizer.engines.animation.keyframe.clip import Clip
-from reactive_realizer.engines.animation.procedural.tracks import Formulas
+from reactive_realizer.engines.animation.procedural.tracks import Formulas, Turned
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,9 +30,9 @@ class ClipTrack:
         """As every track."""
         return True
 
-    def turned(self, values: Sequence[float], phase: float, body: Callable[[], Body]) -> Mapping[str, Quat]:
+    def turned(self, values: Sequence[float], phase: float, body: Callable[[], Body]) -> Turned:
         """As every track."""
-        return self.clip.rotations_at(self.clip.times[0] + phase * self.clip.duration)
+        return Turned(self.clip.rotations_at(self.clip.times[0] + phase * self.clip.duration))
 
     def mirrored(self) -> "ClipTrack":
         """As every track."""

@@ -19,7 +19,7 @@ from reactive_realizer.embodiment.quaternion import (
 from reactive_realizer.embodiment.skeleton import Skeleton
 from reactive_realizer.embodiment.two_bone_ik import Arm, Leg
 from reactive_realizer.embodiment.vector import UP, Vec3, add, length, subtract, unit
-from reactive_realizer.engines.animation.procedural.tracks import Formulas, above, negated
+from reactive_realizer.engines.animation.procedural.tracks import Formulas, Turned, above, negated
 
 EFFECTORS: Mapping[str, tuple[type[Arm] | type[Leg], str]] = {
     "l_wrist": (Arm, "l"),
@@ -30,6 +30,13 @@ EFFECTORS: Mapping[str, tuple[type[Arm] | type[Leg], str]] = {
 """Joint -> the limb that ends in it, and its side."""
 
 _CARRYING = (*TRUNK, *(f"{side}_sternoclavicular" for side in SIDES))
+
+# m; a hand that is so far from its place in the figure's frame does not seem to be there.
+_MISSED = 0.01
+
+# Places seen from a shoulder were measured on another arm; however long that is, this one makes the same motion at its
+# own size. The published files are for arms up to half as long again.
+_STRETCHED = 0.5
 
 # A bone as short as this, m, has no direction.
 _NO_BONE = 1e-4
@@ -80,17 +87,20 @@ class EffectorTrack:
         """As every track; a foot is kept parallel to the ground."""
         return self.local and self.limb is Arm
 
-    def turned(self, values: Sequence[float], phase: float, body: Callable[[], Body]) -> Mapping[str, Quat]:
+    def turned(self, values: Sequence[float], phase: float, body: Callable[[], Body]) -> Turned:
         """As every track."""
         first, middle, end = self.chain
         now = body()
         x, y, z, swivel = values
         goal = (x, y, z) if self.local else _seen_from(first, (x, y, z), now)
-        upper, lower = self.limb.of(now.skeleton, self.side).solve(goal, swivel)
+        limb = self.limb.of(now.skeleton, self.side)
+        upper, lower = limb.solve(goal, swivel)
+        missing = limb.missed(goal)
+        missed = (end, missing) if missing > (_STRETCHED * limb.reach if self.local else _MISSED) else None
         if self.limb is Arm:
-            return {first: upper, middle: lower}
+            return Turned({first: upper, middle: lower}, missed)
         shank = multiply(above(first, now), multiply(upper, lower))
-        return {first: upper, middle: lower, end: _flat(shank)}
+        return Turned({first: upper, middle: lower, end: _flat(shank)}, missed)
 
     def mirrored(self) -> "EffectorTrack":
         """As every track."""

@@ -20,7 +20,7 @@ from reactive_realizer.engines.animation.expression.nodes import Node
 from reactive_realizer.engines.animation.motion_unit import Posed
 from reactive_realizer.engines.animation.procedural.effector_track import EffectorTrack, as_carried, share_twist
 from reactive_realizer.engines.animation.procedural.tracks import Formulas, RootTrack, RotationTrack, Track
-from reactive_realizer.errors import error
+from reactive_realizer.errors import Fault, error
 
 _log = logging.getLogger(__name__)
 
@@ -147,6 +147,7 @@ class ProcAnimation:
         values = self._values(self._motion, phase, [phase, *(parameters[name] for name in self.parameters)])
         root = None if self.root is None else self.root.moved(values[:3], body.skeleton)
         turned = dict(self._held)
+        fault: Fault | None = None
 
         def so_far() -> Body:
             return body.posed(turned, root)
@@ -157,13 +158,19 @@ class ProcAnimation:
         for track, its in self._parts:
             reaches = isinstance(track, EffectorTrack) and track.reaches
             try:
-                turned |= track.turned(values[its], phase, carried if reaches else so_far)
+                rotations, missed = track.turned(values[its], phase, carried if reaches else so_far)
             except ArithmeticError as problem:
                 what = f"what is asked of {', '.join(sorted(track.joints))} is no rotation"
                 raise error("no-motion", animation=self.name, phase=phase, reason=what) from problem
+            turned |= rotations
+            if missed is not None:
+                fault = self._missed(phase, *missed)
         for side in self._wrung:
             turned |= share_twist(side, turned, body.skeleton)
-        return Posed(turned, root=root)
+        return Posed(turned, root=root, fault=fault)
+
+    def _missed(self, phase: float, joint: str, distance: float) -> Fault:
+        return Fault("not-reachable", {"joint": joint, "animation": self.name, "phase": phase, "distance": distance})
 
     def _values(self, formulas: Compiled, phase: float, arguments: Sequence[float]) -> tuple[float, ...]:
         try:

@@ -9,6 +9,7 @@ from reactive_realizer.embodiment.pose import LayerKind
 from reactive_realizer.engines.animation.arrival import Arrival
 from reactive_realizer.engines.animation.motion_unit import (
     ANY_VALUE,
+    OF_FILES,
     Foreseen,
     Moment,
     MotionUnit,
@@ -37,6 +38,7 @@ class ProcMotionUnit(MotionUnit):
     With r repeats the stroke comes r times, a period of 1/r of the whole apart: stroke:1 to stroke:r.
     """
 
+    fixed = OF_FILES
     foreseen = Foreseen.ALWAYS
 
     def __init__(self, animation: ProcAnimation, parameters: Mapping[str, float], kind: LayerKind) -> None:
@@ -67,11 +69,14 @@ class ProcMotionUnit(MotionUnit):
     def start(self, body: Body) -> None:
         """What is added does not care; else the first pose is reached from here."""
         if self.kind is not LayerKind.ADDITIVE:
-            self._arrival = Arrival(body, self.preferred_duration)
+            first = self._animation.sample(0.0, self.parameters, body)
+            self._arrival = Arrival(body, first, self.preferred_duration)
 
     def pose(self, moment: Moment) -> Posed:
         """The animation's rotations, and what is left of the way to them."""
         posed = self._animation.sample(moment.phase, self.parameters, moment.body, moment.shown)
+        if moment.shown is not None:
+            self.fault = self.fault or posed.fault
         return posed if self._arrival is None else self._arrival(posed, moment.phase)
 
 

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import isfinite
-from typing import Protocol, Self
+from typing import NamedTuple, Protocol, Self
 
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.joints import ROOT, other_side
@@ -15,6 +15,19 @@ from reactive_realizer.engines.animation.expression.nodes import Negation, Node,
 from reactive_realizer.engines.animation.procedural.encodings import Encoding
 
 Formulas = tuple[Node, ...]
+
+
+class Turned(NamedTuple):
+    """What a track does at a moment.
+
+    Attributes:
+        rotations: of its joints, local to their parents.
+        missed: the joint that does not come to where it is wanted, and how far from there it stays, m; None where
+            that is nothing to see.
+    """
+
+    rotations: Mapping[str, Quat]
+    missed: tuple[str, float] | None = None
 
 
 class Track(Protocol):
@@ -32,8 +45,8 @@ class Track(Protocol):
     def alone(self) -> bool:
         """Whether it does so in the same way whatever the rest of the body does."""
 
-    def turned(self, values: Sequence[float], phase: float, body: Callable[[], Body]) -> Mapping[str, Quat]:
-        """The rotations of its joints, local to their parents.
+    def turned(self, values: Sequence[float], phase: float, body: Callable[[], Body]) -> Turned:
+        """What it does, as nearly as it can.
 
         Args:
             values: of its formulas.
@@ -103,11 +116,12 @@ class RotationTrack(JointTrack):
                 return from_euler(x, y, z)
         return None
 
-    def turned(self, values: Sequence[float], phase: float, body: Callable[[], Body]) -> Mapping[str, Quat]:
+    def turned(self, values: Sequence[float], phase: float, body: Callable[[], Body]) -> Turned:
         """As every track."""
         x, y, z = values
         rotation = from_euler(x, y, z)
-        return {self.joint: rotation if self.local else multiply(conjugate(above(self.joint, body())), rotation)}
+        local = rotation if self.local else multiply(conjugate(above(self.joint, body())), rotation)
+        return Turned({self.joint: local})
 
     def mirrored(self) -> "RotationTrack":
         """As every track."""
@@ -151,16 +165,16 @@ class KeyframeTrack(JointTrack):
         """As every track."""
         return all(key.local for key in self.keyframes)
 
-    def turned(self, values: Sequence[float], phase: float, body: Callable[[], Body]) -> Mapping[str, Quat]:
+    def turned(self, values: Sequence[float], phase: float, body: Callable[[], Body]) -> Turned:
         """As every track."""
         after = next((i for i, key in enumerate(self.keyframes) if key.phase >= phase), len(self.keyframes) - 1)
         before = max(0, after - 1)
         begin, end = self.keyframes[before].phase, self.keyframes[after].phase
         goal = self._rotation(after, values, body)
         if end <= begin or phase >= end:
-            return {self.joint: goal}
+            return Turned({self.joint: goal})
         start = self._rotation(before, values, body)
-        return {self.joint: slerp(start, goal, max(0.0, phase - begin) / (end - begin))}
+        return Turned({self.joint: slerp(start, goal, max(0.0, phase - begin) / (end - begin))})
 
     def _rotation(self, i: int, values: Sequence[float], body: Callable[[], Body]) -> Quat:
         size = self.encoding.size

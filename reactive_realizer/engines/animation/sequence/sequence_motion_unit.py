@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 
 from reactive_realizer.embodiment.body import Body
-from reactive_realizer.engines.animation.motion_unit import Moment, MotionUnit, Posed, in_order
+from reactive_realizer.engines.animation.motion_unit import FILE, Moment, MotionUnit, Posed, in_order
 from reactive_realizer.engines.animation.sequence.part import Part
 from reactive_realizer.engines.animation.sequence.stack import Stack
 
@@ -30,6 +30,8 @@ class SequenceMotionUnit(MotionUnit):
         self.joints = frozenset[str]().union(*(part.motion.joints for part in parts))
         self.resources = frozenset[str]().union(*(part.motion.resources for part in parts))
         self.parameters = _agreed(parts)
+        # Where parts have other values than others, what is said when it is made is the same for all of them.
+        self.fixed = frozenset({FILE}).union(*(part.motion.known for part in parts))
         self.ranges = {
             name: bounds for part in parts for name, bounds in part.motion.ranges.items() if name in self.parameters
         }
@@ -45,6 +47,7 @@ class SequenceMotionUnit(MotionUnit):
             if part.plays(time):
                 self._begin(part, moment.body)
                 stack.lay(part.layer(time, moment), part.weight(time))
+                self.fault = self.fault or part.motion.fault
         return stack.posed
 
     def _begin(self, part: Part, body: Body) -> None:

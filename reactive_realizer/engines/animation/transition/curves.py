@@ -4,20 +4,19 @@ from collections.abc import Callable, Mapping
 from types import MappingProxyType
 
 from reactive_realizer.embodiment.quaternion import Quat, slerp
-from reactive_realizer.embodiment.vector import Vec3
 from reactive_realizer.engines.animation.easing import minimum_jerk
-from reactive_realizer.engines.animation.transition.hermite_curve import HermiteCurve
+from reactive_realizer.engines.animation.transition.hermite_curve import End, HermiteCurve
 
 Curve = Callable[[float], Quat]
 """The rotation at a phase, 0 to 1."""
 
-CurveKind = Callable[[Quat, Quat, Vec3, Vec3], Curve]
-"""A curve from a rotation to another, with the velocities at its ends, rad per unit of phase, in the joint's axes."""
+CurveKind = Callable[[End, End], Curve]
+"""A curve from one end to another."""
 
 
-def slerped(start: Quat, goal: Quat, leaving: Vec3, arriving: Vec3) -> Curve:
-    """Along the shortest arc, from rest to rest: the velocities at the ends do not count."""
-    return lambda phase: slerp(start, goal, minimum_jerk(phase))
+def slerped(start: End, goal: End) -> Curve:
+    """Along the shortest arc, from rest to rest: how the joint moves at the ends does not count."""
+    return lambda phase: slerp(start.rotation, goal.rotation, minimum_jerk(phase))
 
 
 CURVES: Mapping[str, CurveKind] = MappingProxyType(

@@ -1,56 +1,81 @@
-"""A curve of rotations that leaves and arrives with given velocities."""
+"""A curve of rotations that leaves and arrives as other motions go on there."""
 
-from reactive_realizer.embodiment.quaternion import (
-    Quat,
-    conjugate,
-    difference,
-    from_rotation_vector,
-    multiply,
-    rotation_vector,
-)
-from reactive_realizer.embodiment.vector import Vec3, length, scale
-from reactive_realizer.engines.animation.easing import smoothstep
+import math
+from typing import NamedTuple
 
-_MOST = 3.0
-"""rad; how far a velocity may carry the curve off its way: faster ones would swing a joint around itself."""
+from reactive_realizer.embodiment.quaternion import Quat, difference, from_rotation_vector, multiply, power
+from reactive_realizer.embodiment.vector import ZERO, Vec3, add, length, scale
+from reactive_realizer.engines.animation.easing import minimum_jerk
+
+_AFIELD = 0.5
+"""rad; how far a velocity may carry a joint off its way, and an acceleration: else it would swing around itself."""
+
+# The most of the polynomials by which they do.
+_OF_VELOCITY = 0.1973
+_OF_ACCELERATION = 0.01728
+
+
+class End(NamedTuple):
+    """One end of a curve over u from 0 to 1.
+
+    Attributes:
+        rotation: there.
+        velocity: in the axes of the joint, rad per unit of u.
+        acceleration: rad per unit of u, squared.
+    """
+
+    rotation: Quat
+    velocity: Vec3 = ZERO
+    acceleration: Vec3 = ZERO
 
 
 class HermiteCurve:
-    """The Hermite quaternion curve of M.-J. Kim, M.-S. Kim and S. Y. Shin (SIGGRAPH 1995, section 4.2).
+    """A Hermite curve of rotations, of degree 5: it has rotation, velocity and acceleration of both its ends.
 
-    q(u) = q0 exp(w1 b1(u)) exp(w2 b2(u)) exp(w3 b3(u)) with the cumulative cubic Bernstein polynomials
-    b1 = 1 - (1-u)^3, b2 = 3u^2 - 2u^3, b3 = u^3: a cubic Bezier curve of rotations, smooth to any order between its
-    ends. A third of the velocity at an end is the step of the curve there; w2 is what is left between the two.
+        q(u) = q0 exp(v0 H1(u) + a0 H2(u)) exp(w H3(u)) exp(a1 H2(1-u) - v1 H1(1-u)), exp(w) = q0^-1 q1
+
+    with the quintic Hermite polynomials H1 = u (1-u)^3 (1 + 3u), H2 = u^2 (1-u)^3 / 2, and H3 minimum jerk. So curves
+    of rotations are made of those of numbers, and keep their derivatives at the ends: M.-J. Kim, M.-S. Kim and S. Y.
+    Shin, "A general construction scheme for unit quaternion curves with simple high order derivatives" (SIGGRAPH 1995).
+    The curve of the thesis (4.2.4) is C2 between its ends and has their velocities; this one is C2 across them.
+
+    Where there is much time, what a joint brings along is over before (`_lasts`): H1 and H2 are C2 there, too.
     """
 
-    def __init__(self, start: Quat, goal: Quat, leaving: Vec3, arriving: Vec3) -> None:
-        """A curve over u from 0 to 1.
-
-        Args:
-            start: at 0.
-            goal: at 1.
-            leaving: velocity at 0, rad per unit of u, in the axes of the joint.
-            arriving: velocity at 1.
-        """
-        self._start = start
-        self._leaving, self._arriving = _third(leaving), _third(arriving)
-        there = difference(from_rotation_vector(self._leaving), difference(start, goal))
-        self._between = rotation_vector(multiply(there, conjugate(from_rotation_vector(self._arriving))))
+    def __init__(self, start: End, goal: End) -> None:
+        """A curve over u from 0 to 1."""
+        self._start, self._goal = start, goal
+        self._way = difference(start.rotation, goal.rotation)
+        self._leaving, self._arriving = _lasts(start), _lasts(goal)
 
     def __call__(self, u: float) -> Quat:
         """The rotation at u."""
-        left = 1.0 - u
-        steps = (
-            scale(self._leaving, 1.0 - left * left * left),
-            scale(self._between, smoothstep(u)),
-            scale(self._arriving, u * u * u),
-        )
-        rotation = self._start
-        for step in steps:
-            rotation = multiply(rotation, from_rotation_vector(step))
-        return rotation
+        leaving = from_rotation_vector(_carried(self._start, u, self._leaving, 1.0))
+        arriving = from_rotation_vector(_carried(self._goal, 1.0 - u, self._arriving, -1.0))
+        there = multiply(power(self._way, minimum_jerk(u)), arriving)
+        return multiply(self._start.rotation, multiply(leaving, there))
 
 
-def _third(velocity: Vec3) -> Vec3:
-    far = length(velocity)
-    return scale(velocity, min(1.0, _MOST / far) / 3.0) if far > 0.0 else velocity
+def _lasts(end: End) -> float:
+    """For how much of the curve its motion at an end counts."""
+    velocity, acceleration = length(end.velocity), length(end.acceleration)
+    by_velocity = _AFIELD / (_OF_VELOCITY * velocity) if velocity > 0.0 else 1.0
+    by_acceleration = math.sqrt(_AFIELD / (_OF_ACCELERATION * acceleration)) if acceleration > 0.0 else 1.0
+    return min(1.0, by_velocity, by_acceleration)
+
+
+def _carried(end: End, distance: float, lasts: float, direction: float) -> Vec3:
+    """How far off its way its motion at an end carries a joint.
+
+    Args:
+        end: which.
+        distance: from there, u.
+        lasts: for how much of u it does.
+        direction: 1 away from the end, -1 toward it.
+    """
+    if distance >= lasts:
+        return ZERO
+    u = distance / lasts
+    left = (1.0 - u) ** 3
+    way = scale(end.velocity, direction * lasts * u * left * (1.0 + 3.0 * u))
+    return add(way, scale(end.acceleration, 0.5 * lasts * lasts * u * u * left))

@@ -3,8 +3,9 @@
 from reactive_realizer.embodiment.joints import EYES
 from reactive_realizer.engines.animation.actor import Actor, Wanted
 from reactive_realizer.engines.animation.transition.curves import CURVES
-from reactive_realizer.engines.animation.transition.transition_motion_unit import TransitionMotionUnit
+from reactive_realizer.engines.animation.transition.transition_motion_unit import CLASS, TransitionMotionUnit
 from reactive_realizer.errors import error
+from reactive_realizer.planunit.parameter import spelled
 
 
 class TransitionMaker:
@@ -15,7 +16,7 @@ class TransitionMaker:
 
     def __call__(self, wanted: Wanted) -> TransitionMotionUnit:
         """As every maker."""
-        kind = wanted.parameters.get("class", "").rpartition(".")[2]
+        kind = spelled(wanted.parameters.get(CLASS, "").rpartition(".")[2], CURVES)
         if kind not in CURVES:
             raise error("no-transition", kind=kind, known=", ".join(CURVES))
         joints = self._joints & wanted.joints if wanted.joints else self._joints

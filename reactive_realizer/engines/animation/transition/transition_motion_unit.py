@@ -5,9 +5,13 @@ from collections.abc import Mapping
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.pose import LayerKind
 from reactive_realizer.embodiment.vector import scale
-from reactive_realizer.engines.animation.motion_unit import Moment, MotionUnit, Posed, owned
+from reactive_realizer.engines.animation.motion_unit import JOINTS, Foreseen, Moment, MotionUnit, Posed, owned
 from reactive_realizer.engines.animation.moving import Moving
 from reactive_realizer.engines.animation.transition.curves import Curve, CurveKind
+from reactive_realizer.engines.animation.transition.hermite_curve import End
+
+CLASS = "class"
+"""The parameter that says along which curve."""
 
 
 class TransitionMotionUnit(MotionUnit):
@@ -17,7 +21,9 @@ class TransitionMotionUnit(MotionUnit):
     """
 
     kind = LayerKind.GESTURE
+    fixed = frozenset({CLASS, JOINTS})
     preferred_duration = 0.6
+    foreseen = Foreseen.ONCE_BEGUN
     led = True
 
     def __init__(self, joints: frozenset[str], curve: CurveKind) -> None:
@@ -36,13 +42,7 @@ class TransitionMotionUnit(MotionUnit):
     def lead(self, begin: Moving, goal: Moving, duration: float) -> None:
         """Each joint leaves as it moves, and arrives as it will move."""
         self._curves = {
-            joint: self._kind(
-                begin.body.rotation(joint),
-                goal.body.rotation(joint),
-                scale(begin.velocity(joint), duration),
-                scale(goal.velocity(joint), duration),
-            )
-            for joint in self.joints
+            joint: self._kind(_end(begin, joint, duration), _end(goal, joint, duration)) for joint in self.joints
         }
 
     def pose(self, moment: Moment) -> Posed:
@@ -50,3 +50,9 @@ class TransitionMotionUnit(MotionUnit):
         body = self._body or moment.body
         here = {joint: body.rotation(joint) for joint in self.joints}
         return Posed({**here, **{joint: curve(moment.phase) for joint, curve in self._curves.items()}})
+
+
+def _end(moving: Moving, joint: str, duration: float) -> End:
+    """How a joint is at an end of a curve that takes so many seconds."""
+    velocity, acceleration = moving.velocity(joint), moving.acceleration(joint)
+    return End(moving.body.rotation(joint), scale(velocity, duration), scale(acceleration, duration * duration))

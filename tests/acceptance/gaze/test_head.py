@@ -1,0 +1,115 @@
+"""What trunk, neck and head have in a gaze (D. Tweed's model; thesis 4.2.2), seen in frames."""
+
+import math
+from itertools import pairwise
+
+import pytest
+
+from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.embodiment.quaternion import angle, conjugate, difference, multiply
+from reactive_realizer.embodiment.quaternion import between as shortest
+from reactive_realizer.embodiment.vector import FORWARD, subtract, unit
+from reactive_realizer.testing.pilot import open_pilot
+
+from .seen import FAR, at, between, miss, place, put, speeds
+
+
+@pytest.mark.parametrize(("yaw", "pitch"), [(40, 0), (-40, 0), (0, 30), (0, -30), (40, 25), (-40, 25)])
+async def test_the_head_turns_by_nine_tenths_to_the_side_by_three_tenths_up_and_rolls_by_donders_law(
+    pilot, yaw, pitch
+) -> None:
+    put(pilot, "t", yaw, pitch, FAR)
+    pilot.block("b", '<gaze id="g" target="t" start="0" end="4"/>')
+    await pilot.advance(2)
+    first, last = (body.place("skullbase").rotation for body in (pilot.bodies()[4], pilot.bodies()[-1]))
+    _, x, y, z = multiply(last, conjugate(first))
+    whole = shortest(FORWARD, unit(subtract(place(pilot, yaw, pitch, FAR), place(pilot, 0, 0, 0.0))))
+    # A figure that breathes is never quite still.
+    assert (x, y, z) == pytest.approx((0.3 * whole[1], 0.9 * whole[2], -0.15 * whole[1] * whole[2]), abs=0.012)
+
+
+async def test_where_the_head_ends_does_not_depend_on_where_it_came_from(pilot) -> None:
+    put(pilot, "first", -40, 25)
+    put(pilot, "second", 35, 20)
+    gazes = '<gaze id="a" target="first" start="0" end="3"/><gaze id="b" target="second" start="{}" end="{}"/>'
+    pilot.block("b", gazes.format(3.0, 6.0))
+    await pilot.advance(5)
+    around = pilot.bodies()[-1].place("skullbase").rotation
+    async with open_pilot(SceneOptions(voice="text")) as other:
+        other.watch()
+        await other.advance(0.1)
+        put(other, "second", 35, 20)
+        other.block("b", '<gaze id="b" target="second" start="3" end="6"/>')
+        await other.advance(5)
+        straight = other.bodies()[-1].place("skullbase").rotation
+    assert math.degrees(angle(difference(around, straight))) < 0.1
+
+
+async def test_the_head_turns_about_one_axis_and_fastest_half_way(pilot) -> None:
+    put(pilot, "t", 50, 20)
+    pilot.block("b", '<gaze id="g" target="t" start="0" ready="1" end="4"/>')
+    await pilot.advance(1.2)
+    shown = pilot.bodies()
+    start, ready = (at(pilot, pilot.feedback.time(f"b:g:{sync}")) for sync in ("start", "ready"))
+    first = shown[start].place("skullbase").rotation
+    turns = [difference(first, body.place("skullbase").rotation) for body in shown[start : ready + 1]]
+    axes = [unit(turn[1:]) for turn in turns[15:]]
+    assert max(between(axis, axes[-1]) for axis in axes) < 4
+    steps = [angle(b) - angle(a) for a, b in pairwise(turns)]
+    assert abs(steps.index(max(steps)) - len(steps) / 2) <= 2
+    assert max(steps) == pytest.approx(1.875 * angle(turns[-1]) / len(steps), rel=0.1)
+
+
+@pytest.mark.parametrize(
+    ("influence", "joints"),
+    [
+        ("EYES", set()),
+        ("HEAD", {"vc4", "skullbase"}),
+        ("SHOULDER", {"vt10", "vt6", "vc4", "skullbase"}),
+        ("WAIST", {"vl5", "vt10", "vt6", "vc4", "skullbase"}),
+        ("WHOLE", {"vl5", "vt10", "vt6", "vc4", "skullbase"}),
+    ],
+)
+async def test_an_influence_turns_its_joints_and_no_others(pilot, influence, joints) -> None:
+    put(pilot, "t", 60 if joints else 20, 0)
+    pilot.block("b", f'<gaze id="g" target="t" influence="{influence}" start="0" end="4"/>')
+    await pilot.advance(2)
+    first, last = pilot.bodies()[4], pilot.bodies()[-1]
+    spine = ("vl5", "vt10", "vt6", "vc4", "skullbase", "l_hip", "r_hip", "HumanoidRoot")
+    turned = {joint for joint in spine if angle(difference(first.rotation(joint), last.rotation(joint))) > 0.05}
+    assert turned == joints
+
+
+@pytest.mark.parametrize("written", [str.lower, str.upper])
+async def test_a_behavior_may_say_how_much_each_group_of_joints_does(pilot, written) -> None:
+    """By the names that SmartBody has for them, in any case."""
+    put(pilot, "t", 40, 0)
+    weights = {"back": 0.5, "chest": 0, "neck": 0.25, "head": 0.25, "eyes": 1}
+    said = "".join(f'<bmlt:parameter name="{written(name)}" value="{weight}"/>' for name, weight in weights.items())
+    pilot.block("b", f'<gaze id="g" target="t" start="0" end="4">{said}</gaze>')
+    await pilot.advance(2)
+    assert not pilot.feedback.warnings
+    first, last = pilot.bodies()[4], pilot.bodies()[-1]
+    turns = {
+        joint: math.degrees(angle(difference(first.rotation(joint), last.rotation(joint))))
+        for joint in ("vl5", "vt10", "vt6", "vc4", "skullbase")
+    }
+    assert turns == pytest.approx({"vl5": 18, "vt10": 0, "vt6": 0, "vc4": 9, "skullbase": 9}, abs=1.0)
+
+
+@pytest.mark.parametrize("name", ["head", "HEAD"])
+async def test_the_weights_of_a_gaze_are_changed_while_it_plays(pilot, name) -> None:
+    target = put(pilot, "t", 30, 0)
+    pilot.block(
+        "b",
+        '<gaze id="g" target="t" start="0" end="6"/>'
+        f'<bmla:parametervaluechange id="p" target="b:g" paramId="{name}" start="2" end="3">'
+        '<bmla:trajectory type="linear" targetValue="0"/></bmla:parametervaluechange>',
+    )
+    await pilot.advance(4)
+    shown = pilot.bodies()
+    assert not pilot.feedback.warnings
+    assert math.degrees(angle(shown[at(pilot, 1.9)].rotation("skullbase"))) > 10
+    assert math.degrees(angle(shown[-1].rotation("skullbase"))) < 2
+    assert max(speeds(shown[at(pilot, 1.9) :], "skullbase")) < 0.6
+    assert max(miss(body, target) for body in shown[at(pilot, 1.9) :]) < 0.5

@@ -1,0 +1,23 @@
+"""A figure that is watched."""
+
+import pytest
+
+from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.testing.pilot import open_pilot
+
+
+@pytest.fixture
+async def pilot():
+    async with open_pilot(SceneOptions(voice="text", verify=True)) as pilot:
+        pilot.watch()
+        yield pilot
+
+
+@pytest.fixture(params=["female", "male"])
+async def either(request, tmp_path):
+    """A pilot of the one avatar, and of the other."""
+    human = tmp_path / "human.toml"
+    human.write_text(f'[character.alice]\navatar = "avatars/{request.param}.glb"')
+    async with open_pilot(SceneOptions(human, voice="text", verify=True)) as pilot:
+        pilot.watch()
+        yield pilot

@@ -1,0 +1,128 @@
+"""Feet in exported frames: they stay where they stand, or step."""
+
+import numpy as np
+import pytest
+
+from .soles import FRAME, flat, heights, planted, slides
+from .standing import FEET, SIT, sits
+
+STANCES = {
+    "STANDING": '<stance type="STANDING"/><pose part="LEGS" lexeme="LEGS_NEUTRAL"/>',
+    "SITTING": '<stance type="SITTING"/><pose part="LEGS" lexeme="LEGS_NEUTRAL"/>',
+    "CROUCHING": '<stance type="CROUCHING"/>',
+    "LYING": '<stance type="LYING"/>',
+    "STANDING OPEN": '<stance type="STANDING"/><pose part="LEGS" lexeme="LEGS_OPEN"/>',
+    "STANDING CROSSED": '<stance type="STANDING"/><pose part="LEGS" lexeme="LEGS_CROSSED"/>',
+    "SITTING CROSSED": '<stance type="SITTING"/><pose part="LEGS" lexeme="LEGS_CROSSED"/>',
+}
+
+
+def shift(stance: str) -> str:
+    return f'<postureShift id="s">{STANCES[stance]}</postureShift>'
+
+
+# --- they stay
+
+
+async def test_the_feet_stay_where_they_are_while_a_figure_sits_down_and_gets_up(either) -> None:
+    either.block("b", f'<posture id="p" start="0.5">{SIT}</posture>')
+    await either.advance(10)
+    assert any(map(sits, either.bodies()))
+    assert planted(either.bodies()) < 0.003
+    assert flat(either.bodies()) < 0.5
+
+
+async def test_the_feet_stay_where_they_are_when_sitting_down_is_cut_short(either) -> None:
+    either.block("a", f'<postureShift id="s">{SIT}</postureShift>')
+    await either.advance(0.9)
+    either.block("b", composition="REPLACE")
+    await either.advance(3)
+    assert planted(either.bodies()) < 0.003
+
+
+async def test_the_feet_stay_where_they_are_while_the_weight_goes_from_one_to_the_other(either) -> None:
+    await either.advance(90)
+    pelvis = [body.root[0] for body in either.bodies()]
+    assert max(pelvis) - min(pelvis) > 0.025
+    assert planted(either.bodies()) < 0.003
+    assert flat(either.bodies()) < 0.5
+
+
+def stir(joint: str) -> str:
+    """Noise about every axis of a joint."""
+    values = "".join(f'<bmlt:parameter name="baseamplitude{axis}" value="0.15"/>' for axis in "xyz")
+    return f'<bmlt:noise id="n" type="perlin" joint="{joint}" start="0" end="6">{values}</bmlt:noise>'
+
+
+@pytest.mark.parametrize("joint", ["HumanoidRoot", "l_hip", "l_knee", "l_ankle"])
+@pytest.mark.parametrize("stance", ["STANDING", "SITTING", "SITTING CROSSED"])
+async def test_the_feet_stay_where_they_are_whatever_is_added_to_pelvis_and_legs(either, stance, joint) -> None:
+    either.block("a", shift(stance))
+    await either.advance(3)
+    either.block("b", stir(joint))
+    await either.advance(7)
+    shown = either.bodies()[145:]
+    assert planted(shown) < 0.003
+    assert np.ptp([body.rotation("l_ankle") for body in shown], axis=0).max() < 0.3
+
+
+async def test_what_is_added_to_a_leg_is_seen_at_its_knee(either) -> None:
+    await either.advance(3)
+    either.block("b", stir("l_knee"))
+    await either.advance(7)
+    left, right = (np.ptp(either.path(f"{side}_knee")[:700], axis=0).max() for side in "lr")
+    assert left > right + 0.01
+
+
+# --- they step
+
+
+CHANGES = [
+    ("STANDING", "STANDING OPEN"),
+    ("STANDING", "STANDING CROSSED"),
+    ("STANDING CROSSED", "STANDING OPEN"),
+    ("STANDING", "CROUCHING"),
+    ("SITTING", "CROUCHING"),
+    ("SITTING", "SITTING CROSSED"),
+    ("SITTING CROSSED", "STANDING"),
+    ("STANDING OPEN", "SITTING"),
+    ("STANDING", "LYING"),
+    ("LYING", "SITTING"),
+]
+
+
+@pytest.mark.parametrize(("before", "after"), CHANGES)
+async def test_a_foot_that_comes_to_stand_elsewhere_goes_there_through_the_air(either, before, after) -> None:
+    """No law of others: how it is done, `engines/animation/posture/steps.py` says."""
+    either.block("a", shift(before))
+    await either.advance(4)
+    either.block("b", shift(after))
+    await either.advance(5)
+    shown = either.bodies()[195:]
+    assert slides(shown).max() < 0.03
+    assert slides(shown).sum(axis=0).max() * FRAME < 0.002
+    high = heights(shown)
+    assert high.min() > -0.001
+    assert high.min(axis=1).max() < 0.001 or "LYING" in (before, after), "one foot at a time"
+    for foot, name in enumerate(FEET):
+        x, _, z = np.subtract(shown[-1].place(name).position, shown[0].place(name).position)
+        lifted = high[:, foot].max() - max(high[0, foot], high[-1, foot])
+        assert lifted > 0.03 or np.hypot(x, z) < 0.01 or "SITTING CROSSED" in (before, after)
+
+
+async def test_a_foot_leaves_the_ground_and_comes_back_to_it_gently(either) -> None:
+    either.block("b", shift("STANDING CROSSED"))
+    await either.advance(3)
+    climbs = np.abs(np.diff(heights(either.bodies()), axis=0)) / FRAME
+    setting_out = [next(speed for speed in foot if speed > 0.01) for foot in (*climbs.T, *climbs[::-1].T)]
+    assert max(setting_out) < 0.4 * climbs.max()
+    assert climbs.max() < 0.8
+
+
+async def test_who_changes_the_stance_while_changing_it_does_not_slide_either(either) -> None:
+    for after in ("STANDING OPEN", "STANDING CROSSED", "CROUCHING", "STANDING"):
+        either.block(after.lower().replace(" ", ""), shift(after), composition="REPLACE")
+        await either.advance(0.6)
+    await either.advance(4)
+    assert slides(either.bodies()).max() < 0.05
+    assert heights(either.bodies()).min() > -0.001

@@ -1,0 +1,127 @@
+"""`posture` (BML 1.0), from BML to feedback and frames."""
+
+import pytest
+
+from reactive_realizer.embodiment.vector import distance, subtract
+
+from .standing import CROSSED, SIT, STAND, apart, body, crossed, sits
+
+
+async def test_a_posture_comes_holds_and_goes_back(pilot) -> None:
+    pilot.block("b", f'<posture id="p" start="1" ready="2" relax="4" end="5">{CROSSED}</posture>')
+    await pilot.advance(6)
+    assert pilot.feedback.progress == ["b:start", "b:p:start", "b:p:ready", "b:p:relax", "b:relax", "b:p:end", "b:end"]
+    assert [crossed(body(pilot, time)) for time in (0.9, 2.1, 3.9, 5.1)] == [False, True, True, False]
+    assert apart(body(pilot, 5.5), body(pilot, 0.5), "l_shoulder") < 2.0
+
+
+async def test_a_posture_without_times_takes_its_own(pilot) -> None:
+    pilot.block("b", f'<posture id="p">{CROSSED}</posture>')
+    await pilot.advance(8)
+    start, ready, relax, end = (pilot.feedback.time(f"b:p:{sync}") for sync in ("start", "ready", "relax", "end"))
+    assert 0.6 < ready - start < 1.1
+    assert relax - ready == pytest.approx(2 * (ready - start))
+    assert end - relax == pytest.approx(ready - start)
+
+
+async def test_one_stance_has_one_owner(pilot) -> None:
+    pilot.block("a", f'<posture id="p" start="0" end="4">{CROSSED}</posture>')
+    await pilot.advance(0.5)
+    pilot.block("b", f'<posture id="p">{SIT}</posture>')
+    await pilot.advance(6)
+    ((about, _),) = pilot.feedback.warnings
+    assert about == "b:p"
+    assert not any(map(sits, pilot.bodies()))
+
+
+async def test_a_posture_of_a_draft_without_an_end_goes_on_and_gives_way_to_the_next(pilot) -> None:
+    pilot.perform(f'<bml id="a"><posture id="p">{SIT}</posture></bml>')
+    await pilot.advance(20)
+    assert not pilot.feedback.reached("a:p:end")
+    assert sits(body(pilot, 19.9))
+    pilot.block("b", f'<posture id="p" start="0" end="4">{STAND}</posture>')
+    await pilot.advance(7)
+    assert body(pilot, 22.0).root[1] == pytest.approx(0.0, abs=0.03)
+    assert sits(body(pilot, 26.9))
+
+
+@pytest.mark.parametrize(
+    ("children", "says"),
+    [
+        ('<pose part="ARMS" lexeme="ARMS_WINGED"/>', "ARMS_AKIMBO, ARMS_CROSSED"),
+        ('<stance type="CROUCHING"/><pose part="LEGS" lexeme="LEGS_CROSSED"/>', "CROUCHING"),
+        ('<pose part="LEGS" lexeme="ARMS_CROSSED"/>', "arms_crossed"),
+    ],
+)
+async def test_a_posture_that_cannot_be_is_dropped_and_says_why(pilot, children, says) -> None:
+    pilot.block("b", f'<posture id="p">{children}</posture><head id="n" lexeme="NOD"/>')
+    await pilot.advance(3)
+    (line,) = pilot.feedback.of("warningFeedback")
+    assert (line.id, line.element.get("type")) == ("b:p", "CANNOT_CREATE_BEHAVIOR")
+    assert says in line.element.text
+    assert pilot.feedback.reached("b:n:end")
+
+
+DRAFT = '<bml id="a"><posture id="p" stance="sitting" shape="crossed" part="arms" end="4"/></bml>'
+
+
+async def test_a_posture_of_a_draft_says_its_shape_and_part(pilot) -> None:
+    pilot.perform(DRAFT)
+    await pilot.advance(6)
+    assert pilot.feedback.warnings == []
+    assert any(crossed(shown) and sits(shown) for shown in pilot.bodies())
+
+
+CROSSED_LEGS = '<pose part="LEGS" lexeme="LEGS_CROSSED"/>'
+CROUCH = '<stance type="CROUCHING"/>'
+
+
+async def test_what_cannot_be_kept_in_another_stance_is_left_out_and_is_there_again_after_it(pilot) -> None:
+    pilot.block("a", f'<postureShift id="s" end="2">{SIT}{CROSSED_LEGS}{CROSSED}</postureShift>')
+    await pilot.advance(3)
+    pilot.block("b", f'<posture id="p" start="0" ready="2" relax="4" end="6">{CROUCH}</posture>')
+    await pilot.advance(8)
+    assert pilot.feedback.warnings == []
+    assert "b:p:end" in pilot.feedback.progress
+    assert body(pilot, 6.0).root[1] < -0.45, "lower than a seat"
+    assert crossed(body(pilot, 6.0)), "arms can"
+    assert apart(body(pilot, 10.5), body(pilot, 2.9), "r_hip") < 2.0
+
+
+async def test_a_pose_whose_stance_never_comes_is_left_out(pilot) -> None:
+    pilot.block("a", f'<postureShift id="s" end="2">{CROUCH}</postureShift>')
+    await pilot.advance(3)
+    pilot.block("b", f'<postureShift id="s" start="0" end="3">{SIT}</postureShift>')
+    pilot.block("c", f'<posture id="p">{CROSSED_LEGS}</posture>', composition="APPEND")
+    await pilot.advance(1)
+    pilot.block("d", '<bmla:interrupt id="i" target="b"/>')
+    await pilot.advance(8)
+    assert pilot.feedback.warnings == []
+    assert "c:p:end" in pilot.feedback.progress
+
+
+async def test_a_gesture_goes_out_of_crossed_arms_and_comes_back_to_them(pilot) -> None:
+    pilot.block("a", f'<postureShift id="s">{CROSSED}</postureShift>')
+    await pilot.advance(2)
+    pilot.block("b", '<gesture id="g" lexeme="BEAT" mode="RIGHT_HAND"/>')
+    await pilot.advance(4)
+    stroke = pilot.feedback.time("b:g:stroke")
+    assert not crossed(body(pilot, stroke))
+    assert apart(body(pilot, stroke), body(pilot, 1.9), "l_shoulder") < 2.0
+    assert apart(body(pilot, 5.9), body(pilot, 1.9), "r_shoulder") < 2.0
+    assert crossed(body(pilot, 5.9))
+
+
+async def test_who_sits_gestures_in_front_of_the_same_chest(pilot) -> None:
+    gesture = '<gesture id="g" lexeme="OFFER" mode="RIGHT_HAND"/>'
+    pilot.block("a", gesture)
+    await pilot.advance(5)
+    pilot.block("b", f'<postureShift id="s">{SIT}</postureShift>')
+    await pilot.advance(3)
+    pilot.block("c", gesture)
+    await pilot.advance(5)
+    ways = []
+    for block in "ac":
+        shown = body(pilot, pilot.feedback.time(f"{block}:g:stroke"))
+        ways.append(subtract(shown.place("r_wrist").position, shown.place("r_shoulder").position))
+    assert distance(*ways) < 0.05

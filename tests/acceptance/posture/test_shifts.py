@@ -1,0 +1,115 @@
+"""`postureShift` (BML 1.0), which stays, from BML to feedback and frames."""
+
+import pytest
+
+from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.vector import subtract
+from reactive_realizer.engine.lexicon import words_of
+
+from .standing import CROSSED, SIT, STAND, apart, body, crossed, sits
+
+
+async def test_a_shift_stays_and_a_posture_returns_to_it(pilot) -> None:
+    pilot.block("b", f'<postureShift id="s">{SIT}</postureShift><posture id="p" start="3" end="7">{CROSSED}</posture>')
+    await pilot.advance(20)
+    assert pilot.feedback.progress[-1] == "b:end"
+    for time in (2.9, 5.0, 8.0, 19.9):
+        assert sits(body(pilot, time)), time
+    assert crossed(body(pilot, 5.0))
+    assert not crossed(body(pilot, 8.0))
+
+
+GETTING_UP = 1.61
+"""s that standing up from a chair takes."""
+
+
+async def test_getting_up_takes_its_time_whatever_else_was_tried_out_before(pilot) -> None:
+    pilot.block("a", f'<postureShift id="s">{SIT}</postureShift>')
+    await pilot.advance(3)
+    assert words_of(pilot.realizer.characters["alice"].engines)
+    pilot.block("b", f'<postureShift id="s">{STAND}</postureShift>')
+    await pilot.advance(3)
+    assert pilot.feedback.time("b:s:end") - pilot.feedback.time("b:s:start") == pytest.approx(GETTING_UP, abs=0.02)
+
+
+async def test_getting_up_takes_its_time_also_if_it_is_planned_together_with_sitting_down(pilot) -> None:
+    pilot.block(
+        "b", f'<postureShift id="down">{SIT}</postureShift><postureShift id="up" start="3">{STAND}</postureShift>'
+    )
+    await pilot.advance(6)
+    assert pilot.feedback.time("b:up:end") - pilot.feedback.time("b:up:start") == pytest.approx(GETTING_UP, abs=0.02)
+
+
+async def test_a_shift_of_a_block_that_could_not_be_planned_is_not_expected(pilot) -> None:
+    nobody = '<required><gesture id="g" lexeme="NOBODY_KNOWS"/></required>'
+    pilot.block("a", f'<postureShift id="s">{SIT}</postureShift>{nobody}')
+    await pilot.advance(0.1)
+    assert not pilot.feedback.reached("a:start")
+    pilot.block("b", f'<postureShift id="s">{SIT}</postureShift>')
+    await pilot.advance(3)
+    assert pilot.feedback.time("b:s:end") - pilot.feedback.time("b:s:start") == pytest.approx(GETTING_UP, abs=0.02)
+
+
+async def test_a_later_shift_keeps_what_it_does_not_name(pilot) -> None:
+    pilot.block("a", f'<postureShift id="s">{CROSSED}</postureShift>')
+    await pilot.advance(2)
+    pilot.block("b", f'<postureShift id="s">{SIT}</postureShift>')
+    await pilot.advance(3)
+    assert crossed(body(pilot, 4.9))
+    assert sits(body(pilot, 4.9))
+
+
+async def test_to_replace_everything_is_to_stand_as_at_first(pilot) -> None:
+    pilot.block("a", f'<postureShift id="s">{SIT}{CROSSED}</postureShift>')
+    await pilot.advance(3)
+    pilot.block("b", composition="REPLACE")
+    await pilot.advance(3)
+    first, last = body(pilot, 0.02), body(pilot, 5.9)
+    assert first.root == pytest.approx(last.root, abs=0.05)
+    assert max(apart(first, last, joint) for joint in ("l_shoulder", "r_elbow", "l_wrist")) < 2.0
+
+
+async def test_a_shift_that_is_cut_leaves_the_posture_of_before(pilot) -> None:
+    pilot.block("a", f'<postureShift id="s" end="2">{SIT}</postureShift>')
+    await pilot.advance(1.2)
+    pilot.block("b", '<bmla:interrupt id="i" target="a"/>')
+    await pilot.advance(3)
+    assert body(pilot, 1.1).root[1] < -0.05
+    assert body(pilot, 4.0).root[1] == pytest.approx(0.0, abs=0.03)
+
+
+async def test_sitting_down_takes_longer_than_crossing_the_arms(pilot) -> None:
+    pilot.block("a", f'<postureShift id="s">{SIT}</postureShift>')
+    pilot.block("b", f'<postureShift id="s">{CROSSED}</postureShift>', composition="APPEND")
+    await pilot.advance(6)
+    sitting, crossing = (pilot.feedback.time(f"{b}:s:end") - pilot.feedback.time(f"{b}:s:start") for b in "ab")
+    assert 1.4 < sitting < 2.2
+    assert 0.5 < crossing < 1.1
+
+
+SWITCH = """
+<postureShift id="one" start="1"><stance type="STANDING"/><pose part="ARMS" lexeme="ARMS_FORWARD"/></postureShift>
+<postureShift id="two" start="4"><stance type="STANDING"/><pose part="ARMS" lexeme="ARMS_SPREAD"/></postureShift>
+"""
+
+
+def reach(shown: Body) -> tuple[float, float]:
+    """How far the left wrist is to the side of and in front of the shoulder, m."""
+    x, _, z = subtract(shown.place("l_wrist").position, shown.place("l_shoulder").position)
+    return x, z
+
+
+async def test_arms_go_forward_and_then_apart(pilot) -> None:
+    pilot.block("b", SWITCH)
+    await pilot.advance(8)
+    forward, spread = reach(body(pilot, 3.9)), reach(body(pilot, 7.9))
+    assert forward[1] > 0.35 > 0.1 > abs(forward[0])
+    assert spread[0] > 0.35 > 0.1 > abs(spread[1])
+
+
+async def test_the_peers_switch_of_postures_plays(pilot, shared_cases) -> None:
+    pilot.perform((shared_cases / "asap" / "bml" / "postureshift.xml").read_bytes())
+    await pilot.advance(10)
+    assert pilot.feedback.warnings == []
+    assert reach(body(pilot, 5.9))[1] > 0.35
+    assert reach(body(pilot, 9.9))[0] > 0.35

@@ -1,0 +1,83 @@
+"""The gallery: whatever plays has its strip, and each strip plays."""
+
+import importlib
+from shutil import copy
+from types import ModuleType
+
+import pytest
+from lxml import etree
+
+from reactive_realizer.assembly.scene import SceneOptions, open_scene
+from reactive_realizer.bml.twente import BEHAVIORS
+from reactive_realizer.engine.lexicon import Word, words_of
+from reactive_realizer.testing.pilot import open_pilot
+
+from .conftest import DOCS, page
+
+SCENE = SceneOptions(voice="text")
+
+
+@pytest.fixture
+def gallery(monkeypatch) -> ModuleType:
+    """What makes the gallery."""
+    monkeypatch.syspath_prepend(str(DOCS))
+    return importlib.import_module("make_gallery")
+
+
+@pytest.fixture
+async def entries(gallery):
+    return await gallery.known(SCENE)
+
+
+async def words() -> list[Word]:
+    async with open_scene(SCENE) as scene:
+        return [word for word in words_of(scene.realizer.characters["alice"].engines) if word.problem is None]
+
+
+def shown(entry) -> set[tuple[str, str]]:
+    """Its elements, with the words that they say."""
+    elements = etree.fromstring(entry.block).iter("*")
+    return {(etree.QName(one).localname, one.get("lexeme") or one.get("name") or "") for one in elements}
+
+
+async def test_whatever_plays_has_a_strip(entries):
+    there = {pair for entry in entries for pair in shown(entry)}
+    assert {(word.element, word.lexeme) for word in await words()} <= there
+    assert {behavior.__name__.lower() for behavior in BEHAVIORS} <= {element.lower() for element, _ in there}
+
+
+async def test_strips_have_names_of_their_own_and_all_of_them_are_there(entries):
+    names = [entry.name for entry in entries]
+    assert sorted(names) == sorted(file.stem for file in (DOCS / "gallery").glob("*.webp"))
+
+
+async def test_the_page_of_the_gallery_shows_them_all(gallery, entries):
+    assert page("docs/gallery/README.md") == gallery.index(entries), "run `make gallery`"
+
+
+async def test_each_strip_plays_as_it_is_asked_for(entries):
+    async with open_pilot(SCENE) as pilot:
+        for entry in entries:
+            pilot.perform(entry.block.replace("<bml ", '<bml composition="REPLACE" ', 1))
+            await pilot.advance(0.5)
+        assert pilot.feedback.warnings == []
+
+
+def test_a_strip_that_nobody_knows_is_refused(gallery, monkeypatch, capsys):
+    monkeypatch.setattr("sys.argv", ["make_gallery.py", "--browser", "sh", "head-nod", "head-nood"])
+    with pytest.raises(SystemExit, match="2"):
+        gallery.main()
+    assert "nothing is called head-nood: names are those of the files in gallery" in capsys.readouterr().err
+
+
+@pytest.mark.browser
+@pytest.mark.timeout(120)
+async def test_a_strip_is_the_same_as_itself_and_differs_from_another(gallery, entries, chromium, tmp_path, capsys):
+    nod, shake = (next(entry for entry in entries if entry.name == name) for name in ("head-nod", "head-shake"))
+    assert await gallery.make([nod], SCENE, tmp_path, chromium, compare=False) == 0
+    copy(tmp_path / "head-nod.webp", tmp_path / "head-shake.webp")
+    assert await gallery.make([nod, shake], SCENE, tmp_path, chromium, compare=True) == 1
+    made, same, other = capsys.readouterr().out.splitlines()
+    assert (made, same) == ("head-nod.webp", "head-nod: same")
+    assert other.startswith("head-shake: ")
+    assert other.endswith("% differs")

@@ -1,0 +1,88 @@
+"""Files of stances and poses that a user writes."""
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+from reactive_realizer.assembly.assets import Assets
+from reactive_realizer.embodiment.quaternion import angle
+from reactive_realizer.engines.animation.posture.body_posture import BodyPosture
+from reactive_realizer.engines.animation.posture.posture_library import PostureLibrary
+from reactive_realizer.errors import RealizerError
+
+from .posing import apart
+from .resting import ASSET, body_in, posture
+
+
+@pytest.fixture
+def own(tmp_path) -> Path:
+    """A folder of assets in which a user keeps postures."""
+    (tmp_path / "postures").mkdir()
+    return tmp_path
+
+
+def test_a_file_of_the_user_is_a_new_word(skeleton, own):
+    shutil.copy(ASSET("postures/arms_akimbo.xml"), own / "postures" / "hands_up.xml")
+    library = PostureLibrary(skeleton, Assets((own,)))
+    assert library.body(posture(ARMS="HANDS_UP")).pose == body_in(skeleton, ARMS="ARMS_AKIMBO").pose
+
+
+def test_a_stance_of_the_user_takes_the_place_of_ours_and_may_say_where_the_pelvis_is(skeleton, own):
+    (own / "postures" / "sitting.xml").write_text(
+        '<ProcAnimation prefDuration="1">'
+        '<EndEffector target="HumanoidRoot" local="true" translation="0;-0.2;0.1"/>'
+        '<Rotation target="l_knee" rotation="1;0;0"/></ProcAnimation>'
+    )
+    library = PostureLibrary(skeleton, Assets((own,)))
+    for body in (library.body(posture("SITTING")), library.body(posture("SITTING", ARMS="ARMS_CROSSED"))):
+        assert body.root == pytest.approx((0.0, -0.2, 0.1))
+        assert angle(body.rotation("l_knee")) == pytest.approx(1.0)
+
+
+def test_a_file_that_was_saved_anew_is_read_anew(skeleton, own):
+    file = own / "postures" / "arms_up.xml"
+    text = '<ProcAnimation prefDuration="1"><Rotation target="l_elbow" rotation="{};0;0"/></ProcAnimation>'
+    library = PostureLibrary(skeleton, Assets((own,)))
+    seen = []
+    for bend in (-0.5, -1.5):
+        file.write_text(text.format(bend))
+        seen.append(angle(library.body(posture(ARMS="ARMS_UP")).rotation("l_elbow")))
+    assert seen == pytest.approx([0.5, 1.5])
+
+
+def test_a_file_that_is_broken_is_refused_by_its_line(skeleton, own):
+    (own / "postures" / "arms_up.xml").write_text('<ProcAnimation prefDuration="1">\n<Rotation target="l_elbow"/>')
+    with pytest.raises(RealizerError) as refused:
+        PostureLibrary(skeleton, Assets((own,))).body(posture(ARMS="ARMS_UP"))
+    assert refused.value.fault.code == "bad-asset"
+
+
+REST_POSE = """<SkeletonPose rotationEncoding="axisangles" parts="HumanoidRoot r_shoulder l_shoulder" encoding="T1R">
+0 1.9 0 1 0 0 0 0 0 1 -0.4 0 0 1 0.4</SkeletonPose>"""
+
+
+def test_a_binding_may_say_how_a_stance_rests_and_the_feet_stay_on_the_ground(skeleton, own):
+    (own / "mine.xml").write_text(REST_POSE)
+    library = PostureLibrary(skeleton, Assets((own,)), {"STANDING": "mine.xml"})
+    body = library.body(BodyPosture())
+    assert angle(body.rotation("l_shoulder")) == pytest.approx(0.4)
+    assert body.root == pytest.approx((0.0, 0.0, 0.0), abs=1e-9)
+    assert apart(body, body_in(skeleton), "l_elbow") < 1e-9
+
+
+def test_a_rest_pose_that_is_not_there_is_logged_and_ours_is_taken(skeleton, caplog):
+    library = PostureLibrary(skeleton, ASSET, {"SITTING": "nowhere.xml"})
+    said = ["the rest pose of SITTING is our own: no file 'nowhere.xml' among the assets"]
+    assert [record.getMessage() for record in caplog.records] == said, "before anybody sits"
+    assert library.body(posture("SITTING")).pose == body_in(skeleton, "SITTING").pose
+    assert len(caplog.records) == 1
+
+
+def test_a_file_that_takes_the_root_out_of_sight_is_no_posture(skeleton, own):
+    (own / "postures" / "arms_up.xml").write_text(
+        '<ProcAnimation prefDuration="1"><EndEffector target="HumanoidRoot" local="true" translation="0;0;1e300"/>'
+        '<Rotation target="l_elbow" rotation="1;0;0"/></ProcAnimation>'
+    )
+    with pytest.raises(RealizerError, match="HumanoidRoot's place"):
+        PostureLibrary(skeleton, Assets((own,))).body(posture(WHOLEBODY="ARMS_UP"))
