@@ -111,7 +111,7 @@ _AROUND = """\
 
 | element | realized | |
 |---|---|---|
-| `required` | yes | what is inside must succeed, or the block ends FAILED and nothing of it plays |
+| `required` | yes | what is inside must succeed, or the block ends FAILED and nothing of it plays on |
 | `constraint`, `synchronize` | yes | the points of its `<sync ref="..."/>` are one; an absolute one pins them |
 | `constraint`, `before`, `after` | yes | also while it plays; the strategy `smartbody` keeps none and says so |
 | `description` | yes | the one with the highest priority whose behavior can be made is played |

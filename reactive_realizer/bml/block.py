@@ -7,9 +7,10 @@ from reactive_realizer.bml.attribute_types import Boolean, Name, Names, Text
 from reactive_realizer.bml.attributes import attribute
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.composition import CompositionText
-from reactive_realizer.bml.constraint import Constraint
+from reactive_realizer.bml.constraint import Constraint, Order
 from reactive_realizer.bml.names import Location
 from reactive_realizer.bml.procedure import DefineProc
+from reactive_realizer.bml.sync_ref import SyncRef
 from reactive_realizer.bml.words import Composition
 from reactive_realizer.errors import Fault
 
@@ -53,6 +54,13 @@ class BehaviorBlock:
     constraints: tuple[Constraint, ...] = ()
     extensions: Mapping[tuple[str, str], str] = field(default_factory=dict)
     location: Location
+
+    @property
+    def refs(self) -> tuple[SyncRef, ...]:
+        """All references that stand in it, those of behaviors first."""
+        own = (ref for behavior in self.behaviors for ref in behavior.syncs.values())
+        pivots = (each.ref for each in self.constraints if isinstance(each, Order))
+        return (*own, *pivots, *(ref for each in self.constraints for ref in each.refs))
 
 
 @dataclass(frozen=True, slots=True)

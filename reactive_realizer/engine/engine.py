@@ -106,7 +106,7 @@ class DefaultEngine:
 
     def play(self, tick: Tick) -> Play:
         """Sync points that are due, and, where a frame is, what is seen and heard."""
-        self._reached += self.player.play(tick.time)
+        self._reached += self.player.play(tick)
         return Play(
             layers=self.layers(tick) if tick.frame else (),
             face=self.face(tick) if tick.frame else {},

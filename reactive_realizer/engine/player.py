@@ -5,7 +5,8 @@ from collections.abc import Callable
 from math import inf
 from typing import TypeVar
 
-from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.clock.ticker import Tick
+from reactive_realizer.clock.units import GlobalTime, is_due
 from reactive_realizer.engine.effects import Dropped, EndUnit, Reached
 from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.planunit.plan_unit import PlanUnit, UnitState
@@ -19,14 +20,16 @@ T = TypeVar("T")
 class Player:
     """A unimodal plan and its playing.
 
-    Who owns an arm, the voice, the mouth is judged when a unit starts, not when it is planned: an interrupt may come
-    between. The one that plays keeps it, the newer leaves with one warning (BML: merge keeps what is running). Only the
-    way back to rest may be taken over: the one that plays ends then, and the newer begins (co-articulation; S. Kopp and
-    I. Wachsmuth, "Synthesizing multimodal utterances for conversational agents", 2004; thesis 12.1.3).
+    Who owns an arm, the voice, the mouth is judged for the time at which a unit starts, not when it is planned: an
+    interrupt may come between. The one that plays then keeps it, the newer leaves with one warning (BML: merge keeps
+    what is running). Only the way back to rest may be taken over: the one that plays ends then, and the newer begins
+    (co-articulation; S. Kopp and I. Wachsmuth, "Synthesizing multimodal utterances for conversational agents", 2004;
+    thesis 12.1.3).
     """
 
     def __init__(self) -> None:
         self._units: list[PlanUnit] = []
+        self._ended: list[PlanUnit] = []
         self._dropped: list[Dropped] = []
         self._ending: list[EndUnit] = []
 
@@ -48,15 +51,17 @@ class Player:
         """Forget a unit; one that is not there is no mistake."""
         if unit in self._units:
             self._units.remove(unit)
+            self._note_end(unit)
 
-    def play(self, now: GlobalTime) -> tuple[Reached, ...]:
+    def play(self, tick: Tick) -> tuple[Reached, ...]:
         """Begin what is due, fire what is due, let go of what has ended."""
+        self._ended = [unit for unit in self._ended if not is_due(unit.points[-1].fired, tick.previous)]
         if not self._units:
             return ()
         reached: list[Reached] = []
-        for unit in self._in_turn(now):
-            if not self._held(unit, now):
-                self._fire(unit, now, reached)
+        for unit in self._in_turn(tick.time):
+            if not self._held(unit, tick):
+                self._fire(unit, tick.time, reached)
         self._units = [unit for unit in self._units if unit.live]
         return tuple(reached)
 
@@ -100,23 +105,33 @@ class Player:
         )
         return [*self.playing, *starting]
 
-    def _held(self, unit: PlanUnit, now: GlobalTime) -> bool:
+    def _held(self, unit: PlanUnit, tick: Tick) -> bool:
         """Whether a unit that is due cannot begin: it leaves, or begins next round, without those in its way."""
         start = unit.points[0].peg.value
-        if start is None or not unit.due(now):
+        if start is None or not unit.due(tick.time):
             return False
         if (fault := unit.refusal()) is not None:
-            self._drop(unit, fault, now)
+            self._drop(unit, fault, tick.time)
             return True
-        playing = self.playing
-        unit.settle(frozenset().union(*(other.resources for other in playing if not other.subsiding(start))))
-        owners = [other for other in playing if unit.excludes(other)]
-        staying = [owner for owner in owners if not owner.subsiding(start)]
+        begin = tick.time if is_due(start, tick.previous) else start  # what joins late begins now
+        keeping, giving = self._owners(begin)
+        unit.settle(frozenset().union(*(other.resources for other in keeping)))
+        staying = [owner for owner in keeping if unit.excludes(owner)]
+        leaving = [owner for owner in giving if unit.excludes(owner)]
         if staying:
-            self._drop(unit, _taken(unit, staying[0]), now)
+            self._drop(unit, _taken(unit, staying[0]), tick.time)
         else:
-            self._ending += [EndUnit(owner, start) for owner in owners]
-        return bool(owners)
+            self._ending += [EndUnit(owner, begin) for owner in leaving]
+        return bool(staying or leaving)
+
+    def _owners(self, time: GlobalTime) -> tuple[list[PlanUnit], list[PlanUnit]]:
+        """Who plays and keeps what it has at a time, and who plays and gives it away.
+
+        In a late tick some that played then have ended meanwhile.
+        """
+        ended = [unit for unit in self._ended if not is_due(unit.points[-1].fired, time)]
+        keeping = [unit for unit in (*self.playing, *ended) if not unit.subsiding(time)]
+        return keeping, [unit for unit in self.playing if unit.subsiding(time)]
 
     def _fire(self, unit: PlanUnit, now: GlobalTime, reached: list[Reached]) -> None:
         ahead = unit.ahead()
@@ -127,6 +142,11 @@ class Player:
         except Exception as failure:
             self._fail(unit, failure, now)
         reached.extend(Reached(unit, point, point.fired) for point in ahead if point.fired is not None)
+        self._note_end(unit)
+
+    def _note_end(self, unit: PlanUnit) -> None:
+        if unit.state is UnitState.DONE:
+            self._ended.append(unit)
 
     def _fail(self, unit: PlanUnit, failure: Exception, now: GlobalTime) -> None:
         # What is wrong with somebody's file is said in a sentence; where we failed ourselves, the trace tells more.

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable, Iterator
 from math import inf
 
-from reactive_realizer.clock.units import GlobalTime, Time
+from reactive_realizer.clock.units import RESOLUTION, GlobalTime, Time
 
 
 def shifted_by(offset: float) -> Callable[[Time], Time]:
@@ -26,12 +26,19 @@ def between(ratio: float) -> Callable[[Time, Time], Time]:
     return formula
 
 
-def not_before(distances: tuple[float, ...]) -> Callable[..., Time]:
-    """The first time, or the latest of the others with their distances (s); each of them is waited for."""
+def not_before(bounds: tuple[float, ...], ceilings: tuple[float, ...]) -> Callable[..., Time]:
+    """The first time, or the latest of the bounds, each of which is waited for, that are not after any ceiling.
 
-    def formula(natural: Time, *bounds: Time) -> Time:
-        known = [b + d for b, d in zip(bounds, distances, strict=True) if b is not None]
-        return None if natural is None or len(known) < len(bounds) else GlobalTime(max(natural, *known))
+    Args:
+        bounds: distance (s) from each time after the first that is a bound.
+        ceilings: from each of those that follow.
+    """
+
+    def formula(natural: Time, *others: Time) -> Time:
+        if natural is None or None in others[: len(bounds)]:
+            return None
+        ceiling = min(_known(others[len(bounds) :], ceilings), default=inf) + RESOLUTION
+        return GlobalTime(max([natural, *(t for t in _known(others[: len(bounds)], bounds) if t <= ceiling)]))
 
     return formula
 
@@ -47,8 +54,8 @@ def not_after(bounds: tuple[float, ...], floors: tuple[float, ...]) -> Callable[
     def formula(natural: Time, *others: Time) -> Time:
         if natural is None:
             return None
-        floor = max(_known(others[len(bounds) :], floors), default=-inf)
-        return GlobalTime(min([natural, *(time for time in _known(others[: len(bounds)], bounds) if time >= floor)]))
+        floor = max(_known(others[len(bounds) :], floors), default=-inf) - RESOLUTION
+        return GlobalTime(min([natural, *(t for t in _known(others[: len(bounds)], bounds) if t >= floor)]))
 
     return formula
 

@@ -7,7 +7,6 @@ block is an `OffsetPeg` on the `BMLBlockPeg`: moved with the block, read back as
 import weakref
 from abc import abstractmethod
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from functools import partial
 from typing import ClassVar, NamedTuple
 
 from reactive_realizer.clock.units import GlobalTime, Time
@@ -142,9 +141,12 @@ class RatioPeg(TimePeg):
 
 
 class BoundedPeg(TimePeg):
-    """Where another peg is by nature, as far as its bounds let it, each of which is a peg and a distance (s)."""
+    """Where another peg is by nature, as far as its bounds let it, each of which is a peg and a distance (s).
 
-    __slots__ = ("bounds",)
+    A bound beyond one of its stops binds nothing: it cannot be kept any more.
+    """
+
+    __slots__ = ("bounds", "stops")
 
     def __init__(
         self,
@@ -152,70 +154,69 @@ class BoundedPeg(TimePeg):
         name: str,
         natural: TimeCell,
         bounds: Sequence[Bound],
-        formula: Callable[[tuple[float, ...]], Callable[..., Time]],
-        others: Sequence[Bound] = (),
+        stops: Sequence[Bound],
+        formula: Callable[[tuple[float, ...], tuple[float, ...]], Callable[..., Time]],
     ) -> None:
         self.bounds = tuple(distance for _, distance in bounds)
-        super().__init__(graph, name, (natural, *(cell for cell, _ in (*bounds, *others))), formula(self.bounds))
+        self.stops = tuple(distance for _, distance in stops)
+        cells = (natural, *(cell for cell, _ in (*bounds, *stops)))
+        super().__init__(graph, name, cells, formula(self.bounds, self.stops))
 
     @property
     def parameters(self) -> Mapping[str, object]:
-        """``bounds``, the distance (s) from each peg after the first."""
-        return {"bounds": list(self.bounds)}
+        """``bounds`` and ``stops``, the distance (s) from each peg after the first."""
+        return {"bounds": list(self.bounds), "stops": list(self.stops)}
 
     @property
     def deciding(self) -> tuple[Link, ...]:
         """The natural peg, or the bound that holds it elsewhere."""
         return _reached(self, (0.0, *self.bounds))
 
-    def _bounded(self, side: str) -> str:
+    def _described(self, side: str, beyond: str) -> str:
         natural, *others = self.links
-        return f"{natural.name}, not {side} {_shifted(others[: len(self.bounds)], self.bounds)}"
+        stops = _shifted(others[len(self.bounds) :], self.stops)
+        bounds = _shifted(others[: len(self.bounds)], self.bounds)
+        return f"{natural.name}, not {side} {bounds}" + (f", unless that is {beyond} {stops}" if stops else "")
 
 
 class AfterPeg(BoundedPeg):
     """Where another peg is, but not before any of its bounds: a live `after`.
 
-    A bound that is unknown is waited for. Whoever moves a bound pushes this peg (thesis 7.4.1).
+    A bound that is unknown is waited for. Whoever moves a bound pushes this peg (thesis 7.4.1), but not past a ceiling.
     """
 
     __slots__ = ()
 
     kind = "after"
 
-    def __init__(self, graph: Graph, name: str, natural: TimeCell, bounds: Sequence[Bound]) -> None:
-        super().__init__(graph, name, natural, bounds, not_before)
+    def __init__(
+        self, graph: Graph, name: str, natural: TimeCell, bounds: Sequence[Bound], ceilings: Sequence[Bound] = ()
+    ) -> None:
+        super().__init__(graph, name, natural, bounds, ceilings, not_before)
 
     def describe(self) -> str:
         """``natural, not before ...``."""
-        return self._bounded("before")
+        return self._described("before", "after")
 
 
 class BeforePeg(BoundedPeg):
     """Where another peg is, but not after any of its bounds: a live `before`.
 
-    A bound that is unknown binds nothing, and neither does one in front of a floor: it cannot be kept any more.
+    A bound that is unknown binds nothing, and neither does one in front of a floor.
     """
 
-    __slots__ = ("floors",)
+    __slots__ = ()
 
     kind = "before"
 
     def __init__(
         self, graph: Graph, name: str, natural: TimeCell, bounds: Sequence[Bound], floors: Sequence[Bound] = ()
     ) -> None:
-        self.floors = tuple(distance for _, distance in floors)
-        super().__init__(graph, name, natural, bounds, partial(not_after, floors=self.floors), floors)
-
-    @property
-    def parameters(self) -> Mapping[str, object]:
-        """``bounds`` and ``floors``, the distance (s) from each peg after the first."""
-        return {**super().parameters, "floors": list(self.floors)}
+        super().__init__(graph, name, natural, bounds, floors, not_after)
 
     def describe(self) -> str:
         """``natural, not after ...``."""
-        floors = _shifted(self.links[1 + len(self.bounds) :], self.floors)
-        return self._bounded("after") + (f", unless that is before {floors}" if floors else "")
+        return self._described("after", "before")
 
 
 class LatestPeg(TimePeg):
@@ -315,8 +316,8 @@ def _shifted(links: Iterable[Link], distances: Iterable[float]) -> str:
 
 def _reached(peg: TimePeg, distances: Sequence[float]) -> tuple[Link, ...]:
     """The first link that gives a peg its time at a distance (s) from it; of an unknown time those that are unknown."""
-    time = time_of(peg)
+    time, links = time_of(peg), peg.links[: len(distances)]  # stops decide nothing
     if time is None:
-        return tuple(link for link in peg.links if link.time is None)
-    pairs = zip(peg.links, distances, strict=False)  # floors of a `before` decide nothing
+        return tuple(link for link in links if link.time is None)
+    pairs = zip(links, distances, strict=True)
     return tuple(link for link, distance in pairs if link.time is not None and link.time + distance == time)[:1]

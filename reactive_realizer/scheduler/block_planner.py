@@ -121,13 +121,18 @@ class BlockPlanner:
         for unit in draft.plan.units:
             self._cast.give(unit, draft.engines[unit])
 
-    def renew(self, block: BMLBlock, now: GlobalTime) -> None:
-        """Within a transaction: plan a block anew that starts now, from how its engines prefer it now (thesis 12.1.4).
+    def renew(self, block: BMLBlock, start: GlobalTime, now: GlobalTime) -> None:
+        """Within a transaction: plan a block anew that starts, from how its engines prefer it now (thesis 12.1.4).
 
         The plan that is there stays if the new one would lose anything.
+
+        Args:
+            block: alive.
+            start: of it; in this tick.
+            now: the time of the tick.
         """
         before = {unit: unit.points for unit in block.units}
-        task = self._planning.pose(block, {unit: unit.preference(now) for unit in block.units}, now)
+        task = self._planning.pose(block, {unit: unit.preference(now) for unit in block.units}, start)
         plan = self._planning.solve(task)
         if not plan.losses and len(plan.units) == len(before):
             self._planning.recommit(block, plan)

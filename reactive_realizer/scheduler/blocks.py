@@ -63,9 +63,14 @@ class Blocks:
         return BlockKey(character, block) in self._ended or any(key.block == block for key in self._ended)
 
     def find(self, character: str, block: str) -> BMLBlock | None:
-        """The block alive that a reference names: the character's own, else the first of any other character."""
-        own = self.get(BlockKey(character, block))
-        return own or next((other for other in self._alive.values() if other.key.block == block), None)
+        """The block alive that a reference names: the character's own, else the first of any other character.
+
+        Where the own one has ended, nothing is named: that others use the same id is their affair.
+        """
+        key = BlockKey(character, block)
+        if key in self._alive or key in self._ended:
+            return self._alive.get(key)
+        return next((other for other in self._alive.values() if other.key.block == block), None)
 
     def add(self, block: BMLBlock) -> None:
         """A block was accepted."""

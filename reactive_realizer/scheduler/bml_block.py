@@ -84,6 +84,7 @@ class BMLBlock:
         cancelled: ids of behaviors that were interrupted before the block started.
         kept: the constraints of its plan.
         outside: the pegs of other blocks and of anticipators that these name.
+        failing: whether something required of it was lost: it is to end FAILED.
         settled: those of them that nothing is expected of any more: said to be missed, or met and past.
     """
 
@@ -108,6 +109,7 @@ class BMLBlock:
         self.kept: tuple[Tie | Order, ...] = ()
         self.outside: frozenset[TimeCell] = frozenset()
         self.settled: set[Tie | Order] = set()
+        self.failing = False
         name = key.block
         self.activation = AnticipatorPeg(board.graph, f"{name}:activation", None) if description.preplan else None
         self.start = BMLBlockPeg(board.graph, f"{name}:start", arrived, self._awaited())

@@ -110,8 +110,11 @@ class BMLScheduler:
     # --- what time brings
 
     def advance(self, now: GlobalTime) -> bool:
-        """Plan what is prepared, start and end what is due, in order of time; whether anything started or ended."""
+        """Plan what is prepared, end and start what is due, in order of time; whether anything started or ended."""
         self._plan_prepared(now)
+        failing = [block for block in self.blocks.alive if block.failing]
+        for block in failing:
+            self._endings.fail(block, now)
         cut = self._endings.cut_due(now)
         ending = [block for block in self.blocks.alive if block.state.plays and not block.live_units]
         for block in ending:
@@ -119,7 +122,7 @@ class BMLScheduler:
         starting = [block for block in self.blocks.alive if block.may_start and is_due(block.start.value, now)]
         for block in sorted(starting, key=lambda b: (b.start.value, b.arrival)):
             self._start(block, now)
-        return bool(cut or ending or starting)
+        return bool(failing or cut or ending or starting)
 
     def apply(self, plays: Sequence[Play], now: GlobalTime) -> bool:
         """Do what the playing of engines asks for, in their order; whether anything changed."""
@@ -139,8 +142,8 @@ class BMLScheduler:
         if not units:
             return
         with self._board.graph.transaction("no later than now"):
-            for point in (point for unit in units for point in unit.ahead()):
-                # One that is brought to now may bring those that hang on it.
+            for point in sorted((point for unit in units for point in unit.ahead()), key=lambda p: p.peg.rank):
+                # Upstream first: one that is brought to now may bring those that hang on it.
                 time = point.peg.value
                 if point.peg in moved and time is not None and time < previous:
                     point.peg.pin(now)
@@ -241,7 +244,7 @@ class BMLScheduler:
         with self._board.graph.transaction(f"start {block.key.block}"):
             block.start.pin(time)
             if _wants_renewal(block, time):
-                self._planner.renew(block, now)
+                self._planner.renew(block, time, now)
         block.state = BlockState.IN_EXEC
         block.noticed = now
         for unit in list(block.units):
@@ -250,6 +253,9 @@ class BMLScheduler:
                 self._endings.drop_unit(unit, Fault("all-past", {"late": time - (unit.time("end") or 0.0)}), now)
         self._owe_prediction(block)
         self._reporter.started(block, time)
+        if block.failing:
+            self._endings.fail(block, now)
+            return
         self._reporter.unawaited(block)
         for name in block.description.on_start:
             fault = self._requests.activate(block.key.character, name, time)

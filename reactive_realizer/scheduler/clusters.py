@@ -19,9 +19,11 @@ class Cluster:
     behaviors: frozenset[str]
     ties: tuple[Tie, ...]
 
-    def grounded(self, plan: PlanView) -> bool:
-        """Whether it is tied to the block's start or the outside (7.20, 7.35), or to what is not there any more."""
-        return any(not isinstance(node, Point) or node not in plan.times for tie in self.ties for node in tie.nodes)
+    @property
+    def grounded(self) -> bool:
+        """Whether it is tied to the block's start or the outside (7.20, 7.35), or to what is none of its behaviors."""
+        nodes = (node for tie in self.ties for node in tie.nodes)
+        return any(not isinstance(node, Point) or node.behavior not in self.behaviors for node in nodes)
 
     def joins_late(self, plan: PlanView) -> bool:
         """Whether the outside brings it before the start of its block.

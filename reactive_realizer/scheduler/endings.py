@@ -7,7 +7,7 @@ from reactive_realizer.clock.units import GlobalTime, is_due
 from reactive_realizer.engine.effects import Dropped, Reached
 from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.following import followers_of
-from reactive_realizer.pegboard.peg_key import BlockKey
+from reactive_realizer.pegboard.peg_key import BlockKey, PegKey
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.pegboard.time_peg import OpenPeg, TimePeg
 from reactive_realizer.planunit.plan_unit import PlanUnit, UnitState
@@ -59,18 +59,20 @@ class Endings:
         self._reporter.ended(block, time)
         for listener in self._listeners:
             listener(block.key)
-        self._board.remove_block(block.key)
         self._blocks.end(block, time)
         for unit in block.units:
             self._cast.take(unit)
         self._hand_over_targets(block)
-        self._release_tied({peg: peg.name for peg in cut}, state, time)
+        self._release_tied(block.key, cut, time, began=block.noticed is not None)
+        self._board.remove_block(block.key)
         self.failed += state is BlockState.FAILED
         logger.info("%s/%s %s at %.2f s, %d behaviors", *block.key, state.value, time, len(block.units))
 
     def fail(self, block: BMLBlock, now: GlobalTime) -> None:
-        """A block fails now, and its behaviors vanish."""
-        self._units.leave(block.live_units, now)
+        """A block fails now: what plays of it is broken off, and what has not begun vanishes."""
+        self._units.leave([unit for unit in block.live_units if not unit.begun], now)
+        for unit in block.live_units:
+            self._units.cut(unit, now)
         self.end(block, BlockState.FAILED, now)
 
     def interrupt(self, block: BMLBlock, time: GlobalTime, spared: Collection[str] = (), gently: bool = False) -> None:
@@ -165,17 +167,17 @@ class Endings:
         hanging = hanging_on({point.behavior for point in missed}, block.kept)
         others = [unit for unit in block.live_units if unit.behavior.id not in hanging]
         living = {point.peg for unit in others for point in unit.ahead()}
-        names = {peg: f"{block.key.block}:{point.behavior}:{point.sync}" for point, peg in missed.items()}
-        pegs = {p: n for p, n in names.items() if not p.pinned and living.isdisjoint({p, *followers_of(p)})}
+        old = dict.fromkeys(missed.values())
+        pegs = [peg for peg in old if not peg.pinned and living.isdisjoint({peg, *followers_of(peg)})]
         with self._board.graph.transaction(f"cut a part of {block.key.block}"):
             for peg in pegs:
                 peg.pin(peg.value)
             block.end_again(block.end.floor)
-        told = self._release_tied(pegs, BlockState.INTERRUPTED, time)
+        told = self._release_tied(block.key, pegs, time, began=True)
         for unit in [unit for unit in block.live_units if unit.behavior.id in hanging and unit not in told]:
             point = naming(unit.behavior.id, missed, block.kept)
             if point is not None:
-                self._reporter.warn_of(unit, Fault("cut-tie", {"point": names[missed[point]]}))
+                self._reporter.warn_of(unit, Fault("cut-tie", {"point": PegKey(*block.key, *point)}))
 
     def _cut_later(self, unit: PlanUnit, time: GlobalTime) -> None:
         """It ends at a time ahead, which is known from now on; one that would end by then anyway goes on."""
@@ -196,25 +198,35 @@ class Endings:
                     block.wait_instead(ended)
         ended.waits = ()
 
-    def _release_tied(self, cut: Mapping[TimePeg, str], state: BlockState, now: GlobalTime) -> set[PlanUnit]:
+    def _release_tied(
+        self, owner: BlockKey, cut: Collection[TimePeg], now: GlobalTime, *, began: bool
+    ) -> set[PlanUnit]:
         """Behaviors that hang on points which never come keep the times predicted last, and are told; which these are.
 
-        Without such a time they are lost; also when a block never began and they have not begun either.
+        Without such a time they are lost; also when the block that owns these points never began, nor have they.
         """
         told = set()
-        followers = {follower: name for peg, name in cut.items() for follower in (peg, *followers_of(peg))}
-        alive = self._blocks.alive if followers else ()
+        followed = {follower: peg for peg in cut for follower in (peg, *followers_of(peg))}
+        alive = self._blocks.alive if followed else ()
         for unit in [unit for block in alive for unit in block.live_units]:
-            tied = [point.peg for point in unit.ahead() if point.peg in followers]
+            tied = [point.peg for point in unit.ahead() if point.peg in followed]
             if not tied:
                 continue
             told.add(unit)
-            details = {"point": followers[tied[0]]}
-            if any(peg.value is None for peg in tied) or (state is BlockState.REVOKED and not unit.begun):
+            details = {"point": self._as_written(unit, owner, followed[tied[0]])}
+            if any(peg.value is None for peg in tied) or not (began or unit.begun):
                 self._units.drop_unit(unit, Fault("never-comes", details), now)
             else:
                 self._reporter.warn_of(unit, Fault("cut-tie", details))
         return told
+
+    def _as_written(self, unit: PlanUnit, owner: BlockKey, peg: TimePeg) -> str:
+        """How a behavior, or else its block, names a peg of a block, which may be that of several points."""
+        block = self._blocks.get(unit.block)
+        refs = (*unit.behavior.syncs.values(), *(block.description.refs if block is not None else ()))
+        own = (ref for ref in refs if (ref.block or unit.block.block) == owner.block)
+        keys = (PegKey(*owner, ref.behavior, ref.sync or "start") for ref in own)
+        return next((str(key) for key in keys if self._board.get(key) is peg), peg.name)
 
     def _subside(self, key: BlockKey) -> None:
         block = self._blocks.get(key)

@@ -1,36 +1,58 @@
-"""Ties that meet at a point of a behavior without preferences.
+"""Behaviors without preferences, and what others say of their points.
 
-Such a behavior is timed after all others and moves none of them (docs/semantics.md, scheduling), so what is tied to
-one of its points would be timed before that is. But a point is one time: two that are tied to it are tied together.
+Such a behavior is timed after all others and moves none of them (docs/semantics.md, scheduling), so what hangs on one
+of its points would be timed before that is. But a point is one time: what is tied to it is tied together. And where
+nothing but such a behavior says when one of its points is, who hangs on it has to wait for it: then it is timed with
+the others.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
+from typing import NamedTuple, TypeVar
 
-from reactive_realizer.scheduler.problem import Item, Node, Point, Tie
+from reactive_realizer.planunit.timing import Phase, PhaseKind
+from reactive_realizer.scheduler.problem import Item, Node, Order, Point, Tie
+
+C = TypeVar("C", Tie, Order)
 
 
-def through_free(ties: Iterable[Tie], items: Iterable[Item]) -> list[Tie]:
-    """The same ties, of which all but one that name a free point name what that one ties it to instead.
+class Seen(NamedTuple):
+    """A block in which nothing hangs on a behavior that is timed last."""
+
+    items: tuple[Item, ...]
+    ties: list[Tie]
+    orders: list[Order]
+
+
+def through_free(items: Sequence[Item], ties: Iterable[Tie], orders: Iterable[Order]) -> Seen:
+    """The same block, as behaviors with preferences see it.
+
+    Of the constraints on a point of a behavior without preferences, all but one `at` name what that ties it to instead.
+    If others hang on such a behavior even so, it takes part, with the duration that it has where nothing says another.
 
     Args:
-        ties: `at` constraints of a block.
-        items: its behaviors.
+        items: behaviors of a block.
+        ties: its `at` constraints.
+        orders: its before/after constraints.
     """
     free = {Point(item.behavior.id, sync) for item in items if item.timing.free for sync in item.timing.points}
-    tied = list(ties)
+    tied, ordered = list(ties), list(orders)
     for point in sorted(free):
-        tied = _eliminated(point, tied, free)
-    return tied
+        tied, ordered = _eliminated(point, tied, ordered, free)
+    constraints: list[Tie | Order] = [*tied, *ordered]
+    awaited = {point.behavior for point in free if any(_awaits(each, point) for each in constraints)}
+    return Seen(tuple(_taking_part(item) if item.behavior.id in awaited else item for item in items), tied, ordered)
 
 
-def _eliminated(point: Point, ties: list[Tie], free: set[Point]) -> list[Tie]:
+def _eliminated(point: Point, ties: list[Tie], orders: list[Order], free: set[Point]) -> tuple[list[Tie], list[Order]]:
     own = [tie for tie in ties if point in tie.nodes and tie.left != tie.right]
     anchors = [tie for tie in own if _other(tie, point)[0] not in free]
-    if len(own) < 2 or not anchors:
-        return ties
+    if not anchors:
+        return ties, orders
     anchor = min(anchors, key=lambda tie: (not tie.required, tie.owner != point.behavior, tie.text))
-    return [_moved(tie, point, *_other(anchor, point)) if tie in own and tie is not anchor else tie for tie in ties]
+    node, later = _other(anchor, point)
+    moved = [_moved(tie, point, node, later) if tie in own and tie is not anchor else tie for tie in ties]
+    return moved, [_moved(order, point, node, later) for order in orders]
 
 
 def _other(tie: Tie, point: Point) -> tuple[Node, float]:
@@ -38,10 +60,39 @@ def _other(tie: Tie, point: Point) -> tuple[Node, float]:
     return (tie.right, tie.offset) if tie.left == point else (tie.left, -tie.offset)
 
 
-def _moved(tie: Tie, point: Point, node: Node, later: float) -> Tie:
-    """A tie of a point as one of another node, which the point comes ``later`` than; without two points it stays."""
-    other, distance = _other(tie, point)
-    if other == node or not (isinstance(other, Point) or isinstance(node, Point)):
-        return tie
-    # node + later = point = other + distance
-    return replace(tie, left=other, right=node, offset=later - distance)
+def _moved(constraint: C, point: Point, node: Node, later: float) -> C:
+    """A constraint on a point as one on another node, which the point comes ``later`` than.
+
+    It stays as it is where it would be about no two nodes, or about no point.
+    """
+    one, other = constraint.nodes
+    left, right = (node if each == point else each for each in (one, other))
+    if point not in constraint.nodes or left == right or not (isinstance(left, Point) or isinstance(right, Point)):
+        return constraint
+    offset = constraint.offset + (later if other == point else -later)
+    if isinstance(constraint, Tie):
+        return replace(constraint, left=left, right=right, offset=offset)
+    return replace(constraint, later=left, earlier=right, offset=offset)
+
+
+def _awaits(constraint: Tie | Order, point: Point) -> bool:
+    """Whether another behavior hangs on a point by a constraint; a behavior that names others follows these."""
+    if isinstance(constraint, Order):
+        waiting = [constraint.later] if constraint.earlier == point else []
+    else:
+        waiting = [_other(constraint, point)[0]] if point in constraint.nodes else []
+        waiting = [] if constraint.owner == point.behavior else waiting
+    return any(isinstance(node, Point) and node.behavior != point.behavior for node in waiting)
+
+
+def _taking_part(item: Item) -> Item:
+    """The same behavior with preferences, if it has any: what only fills the time between its ends has none."""
+    timing = item.timing
+    if timing.offsets[-1] == 0 and not timing.instant:
+        return item
+    return replace(item, timing=replace(timing, phases=tuple(_preferred(phase) for phase in timing.phases)))
+
+
+def _preferred(phase: Phase) -> Phase:
+    """What likes to take no time takes none."""
+    return replace(phase, kind=PhaseKind.ELASTIC if phase.duration else PhaseKind.RIGID)

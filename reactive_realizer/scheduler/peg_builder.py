@@ -59,8 +59,8 @@ class PegBuilder:
                 return OffsetPeg(self._graph, name, self._cell(link), offset)
             case AtRatio(before, after, ratio):
                 return RatioPeg(self._graph, name, self._cell(before), self._cell(after), ratio)
-            case AtLeast(natural, bounds):
-                return AfterPeg(self._graph, name, self._cell(natural), self._bounds(bounds))
+            case AtLeast(natural, bounds, ceilings):
+                return AfterPeg(self._graph, name, self._cell(natural), self._bounds(bounds), self._bounds(ceilings))
             case AtMost(natural, bounds, floors):
                 return BeforePeg(self._graph, name, self._cell(natural), self._bounds(bounds), self._bounds(floors))
 

@@ -74,7 +74,7 @@ class Planning:
         Args:
             block: whose.
             timings: its behaviors, with their preferences.
-            now: the time of the tick.
+            now: it starts not before this.
         """
         kept = {unit.behavior.id: unit for unit in timings}
         for unit in kept.values():
@@ -83,8 +83,8 @@ class Planning:
         losses = drop_unplaceable(kept, names.locate)
         ties, lost_ties = ties_of(block.description, kept, names.locate)
         orders, lost_orders = orders_of(block.description, names.locate)
-        items = tuple(Item(unit.behavior, timings[unit].closed) for unit in kept.values())
-        ties = through_free(ties, items)
+        wanted = [Item(unit.behavior, timings[unit].closed) for unit in kept.values()]
+        items, ties, orders = through_free(wanted, ties, orders)
         holds = _holds([*ties, *orders], _predicted_start(block, now))
         ties, orders = [tie for tie in ties if tie not in holds], [order for order in orders if order not in holds]
         start = _held_start(block, holds.values(), now)

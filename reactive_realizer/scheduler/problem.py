@@ -151,10 +151,14 @@ class AtRatio:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class AtLeast:
-    """Where another peg would be, but not before any bound, each a peg and a distance (s): an `after` kept alive."""
+    """Where another peg would be, but not before any bound, each a peg and a distance (s): an `after` kept alive.
+
+    What must come later whatever happens are its ceilings: a bound behind one cannot be kept, and binds nothing.
+    """
 
     natural: "PegSpec | TimeCell"
     bounds: "tuple[tuple[PegSpec | TimeCell, float], ...]"
+    ceilings: "tuple[tuple[PegSpec | TimeCell, float], ...]" = ()
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -182,10 +186,8 @@ def links_of(spec: PegSpec) -> "list[PegSpec | TimeCell]":
             return [link]
         case AtRatio(before, after, _):
             return [before, after]
-        case AtLeast(natural, bounds):
-            return [natural, *(link for link, _ in bounds)]
-        case AtMost(natural, bounds, floors):
-            return [natural, *(link for link, _ in (*bounds, *floors))]
+        case AtLeast(natural, bounds, stops) | AtMost(natural, bounds, stops):
+            return [natural, *(link for link, _ in (*bounds, *stops))]
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,6 +14,7 @@ from reactive_realizer.engine.effects import (
 )
 from reactive_realizer.errors import Fault, RealizerError, error
 from reactive_realizer.pegboard.pegboard import PegBoard
+from reactive_realizer.planunit.parameter import spelled
 from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.scheduler.block_planner import BlockPlanner
 from reactive_realizer.scheduler.blocks import Blocks
@@ -72,8 +73,8 @@ class Requests:
     def _do(self, request: _Timed, now: GlobalTime) -> None:
         character = request.unit.block.character
         match request:
-            case ActivateBlock(_, target, time):
-                self._refuse(request, self.activate(character, target, time))
+            case ActivateBlock():
+                self._activate(request, character)
             case InterruptBlock():
                 self._refuse(request, self._interrupt(request, character))
             case BindParameter(unit):
@@ -83,6 +84,14 @@ class Requests:
                     self._endings.drop_unit(unit, problem.fault, now)
             case EndUnit(unit, time):
                 self._endings.finish(unit, time)
+
+    def _activate(self, request: ActivateBlock, character: str) -> None:
+        """Who finds nothing to activate has done nothing, which fails its block if it is required."""
+        fault = self.activate(character, request.target, request.time)
+        self._refuse(request, fault)
+        block = self._blocks.get(request.unit.block)
+        if block is not None and fault is not None:
+            block.failing |= request.unit.behavior.required
 
     def _refuse(self, request: ActivateBlock | InterruptBlock, fault: Fault | None) -> None:
         if fault is not None:
@@ -99,8 +108,6 @@ class Requests:
         spared = {
             name for name in names if name in request.exclude or (request.include and name not in request.include)
         }
-        if request.unit in block.units:
-            spared.add(request.unit.behavior.id)
         if not spared:
             self._planner.cancel(block)
         if len(spared) < len(names):
@@ -111,11 +118,12 @@ class Requests:
 
     def _bind(self, request: BindParameter, character: str) -> None:
         parameters = self._target(request, character).parameters
-        if request.parameter not in parameters:
+        parameter = parameters.get(spelled(request.parameter, parameters))
+        if parameter is None:
             known = ", ".join(parameters) or "none"
             raise error("no-such-parameter", behavior=request.behavior, parameter=request.parameter, known=known)
-        request.unit.bind(parameters[request.parameter])
-        parameters[request.parameter].owner = request.unit
+        request.unit.bind(parameter)
+        parameter.owner = request.unit
 
     def _target(self, request: BindParameter, character: str) -> PlanUnit:
         block = self._blocks.find(character, request.block)

@@ -4,6 +4,7 @@ from collections.abc import Iterable, Mapping
 from math import isfinite
 
 from reactive_realizer.errors import Fault, RealizerError, error
+from reactive_realizer.pegboard.time_peg import TimeCell
 from reactive_realizer.planunit.timing import SHORTEST
 from reactive_realizer.scheduler.equalities import Equalities
 from reactive_realizer.scheduler.losses import lost_behavior, lost_constraint
@@ -49,6 +50,8 @@ class _Run:
     def __init__(self, problem: Problem) -> None:
         self._problem = problem
         self._ties = Equalities[Node](frozenset([Origin.BLOCK_START, *problem.times]))
+        self._branches = Equalities[Node](frozenset())
+        self._leads: dict[Node, float] = {}
         start = Anchor()
         self._start = Placed(AtBlock(start, 0.0), 0.0, start)
         self._classes: dict[Node, tuple[Placed, float]] = {Origin.BLOCK_START: (self._start, 0.0)}
@@ -60,6 +63,7 @@ class _Run:
     def solve(self) -> Solution:
         for tie in self._problem.ties:
             self._tie(tie)
+        self._branch_off()
         self._losses += [_unkept(order) for order in self._problem.orders]
         for item in sort_items(self._problem, self._ties):
             try:
@@ -74,6 +78,14 @@ class _Run:
         if gap is not None:
             code = "contradictory-tie" if isfinite(gap) else "outer-tie"
             self._losses.append(lost_constraint(tie, Fault(code, {"tie": tie.text, "gap": abs(gap)})))
+        elif all(isinstance(node, Point) for node in tie.nodes):
+            self._branches.tie(tie.left, tie.right, tie.offset)
+
+    def _branch_off(self) -> None:
+        """What hangs on a time from outside hangs there by the first point of what is tied together without that."""
+        for node in (node for tie in self._problem.ties for node in tie.nodes):
+            distance, branch = self._ties.find(node)[1], self._branches.find(node)[0]
+            self._leads[branch] = min(distance, self._leads.get(branch, distance))
 
     def _place(self, item: Item) -> None:
         """Find the peg of every point; those of earlier behaviors stand."""
@@ -84,6 +96,8 @@ class _Run:
         known = self._not_before_the_block(item, {first: tied[first]} if item.timing.rigid else tied)
         check_given(item, known)
         placed = filled(item, known)
+        if item.timing.rigid:  # it stays in one piece when its start has passed
+            placed = filled(item, {0: placed[0]})
         check_playable(item, placed)
         self._join([point.anchor for point in (*tied.values(), *known.values())])
         self._accept(item, placed)
@@ -91,20 +105,27 @@ class _Run:
     def _known(self, item: Item) -> dict[int, Placed]:
         """The points whose class has a peg already, by index."""
         nodes = (Point(item.behavior.id, sync) for sync in item.timing.points)
-        found = ((i, self._at(*self._ties.find(node))) for i, node in enumerate(nodes))
+        found = ((i, self._at(node)) for i, node in enumerate(nodes))
         return {i: placed for i, placed in found if placed is not None}
 
-    def _at(self, root: Node, distance: float) -> Placed | None:
-        """The peg of all points at a distance from the root of their class."""
+    def _at(self, node: Node) -> Placed | None:
+        """The peg of all points at the distance of a node from the root of their class; None while nothing is there."""
+        root, distance = self._ties.find(node)
+        if not isinstance(root, Point | Origin):
+            root = self._on_branch(root, self._branches.find(node)[0])
         key = (root, round(distance, 9))
-        if key not in self._shared:
-            if root in self._classes:
-                placed, at = self._classes[root]
-                self._shared[key] = moved(placed, distance - at)
-            elif not isinstance(root, Point | Origin):
-                time = self._problem.times[root]
-                self._shared[key] = Placed(AtOffset(root, distance), None if time is None else time + distance, None)
+        if key not in self._shared and root in self._classes:
+            placed, at = self._classes[root]
+            self._shared[key] = moved(placed, distance - at)
         return self._shared.get(key)
+
+    def _on_branch(self, cell: TimeCell, branch: Node) -> Node:
+        """What leads a branch on a time from outside, as a class of its own."""
+        if branch not in self._classes:
+            lead, time = self._leads[branch], self._problem.times[cell]
+            placed = Placed(AtOffset(cell, lead), None if time is None else time + lead, None)
+            self._classes[branch] = placed, lead
+        return branch
 
     def _anchor(self, item: Item) -> dict[int, Placed]:
         """A behavior that hangs on nothing yet gets a free cluster, anchored at its first tied point or its start."""
@@ -129,12 +150,9 @@ class _Run:
         """The first point places a rigid behavior; a tie of another one that it cannot meet is lost: rigid wins."""
         met = {}
         for i, placed in sorted(known.items()):
-            point = f"{item.behavior.id}:{item.timing.points[i]}"
             gap = self._gap(item, known, i)
-            if gap is None:
-                self._lose_ties(item, i, Fault("outer-tie", {"tie": point}))
-            elif abs(gap) > _SAME:
-                self._lose_ties(item, i, Fault("rigid", {"point": point, "gap": abs(gap)}))
+            if gap is None or abs(gap) > _SAME:
+                self._lose_ties(item, i, gap)
             else:
                 met[i] = placed
         return met
@@ -207,14 +225,15 @@ class _Run:
         del self._placed[item.behavior.id]
         self._losses.append(lost_behavior(item.behavior, fault))
 
-    def _lose_ties(self, item: Item, index: int, fault: Fault) -> None:
-        """A point of a rigid behavior is not where its ties want it."""
+    def _lose_ties(self, item: Item, index: int, gap: float | None) -> None:
+        """A point of a rigid behavior is not where its ties want it: so far (s) away, or nobody knows how far."""
         point, place = Point(item.behavior.id, item.timing.points[index]), item.behavior.location
-        located = fault.located(place.line, place.column)
+        lost = [loss.constraint for loss in self._losses]
         for tie in self._problem.ties:
-            if point in tie.nodes:
-                loss = Loss(item.behavior.id, located, dropped=False, required=tie.required, constraint=tie)
-                self._losses.append(loss)
+            if point in tie.nodes and tie not in lost:
+                details = {"point": ":".join(point), "tie": tie.text, "gap": abs(gap or 0.0)}
+                fault = Fault("outer-tie" if gap is None else "rigid", details).located(place.line, place.column)
+                self._losses.append(Loss(item.behavior.id, fault, dropped=False, required=tie.required, constraint=tie))
 
     def _kept(self) -> list[Item]:
         return [item for item in self._problem.items if item.behavior.id in self._placed]

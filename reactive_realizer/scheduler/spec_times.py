@@ -50,8 +50,8 @@ class SpecTimes:
             case AtRatio(before, after, ratio):
                 low, high = self._time(before), self._time(after)
                 return None if low is None or high is None else low + ratio * (high - low)
-            case AtLeast(_, bounds):
-                return not_before(_distances(bounds))(*map(self._time, links_of(spec)))
+            case AtLeast(_, bounds, ceilings):
+                return not_before(_distances(bounds), _distances(ceilings))(*map(self._time, links_of(spec)))
             case AtMost(_, bounds, floors):
                 return not_after(_distances(bounds), _distances(floors))(*map(self._time, links_of(spec)))
 

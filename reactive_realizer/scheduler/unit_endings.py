@@ -79,12 +79,13 @@ class UnitEndings:
         self.drop(Dropped(unit, fault), now)
 
     def drop(self, dropped: Dropped, now: GlobalTime) -> None:
-        """Warn of a unit that left the plan; one that had begun ends now."""
+        """Warn of a unit that left the plan; one that had begun ends now, one that is required fails its block."""
         unit = dropped.unit
         block = self._blocks.get(unit.block)
         self._reporter.warn_of(unit, dropped.fault)
         if block is not None and unit in block.units:
             block.units.remove(unit)
+            block.failing |= unit.behavior.required
             with self._board.graph.transaction(f"drop {unit.behavior.id}"):
                 block.end_again(now)
         self._cast.take(unit)

@@ -110,7 +110,7 @@ def _early_clusters(plan: PlanView) -> Iterator[Violation]:
     """7.24, 7.37: a cluster that nothing grounds starts as soon as the block, now and its `after`s let it."""
     for cluster in clusters_of(plan, [id_ for id_, timing in plan.timings.items() if not timing.free]):
         points = [Point(id_, sync) for id_ in sorted(cluster.behaviors) for sync in plan.timings[id_].points]
-        if not cluster.grounded(plan) and all(plan.movable(point) for point in points):
+        if not cluster.grounded and all(plan.movable(point) for point in points):
             starts = _names(*(Point(id_, plan.timings[id_].points[0]) for id_ in sorted(cluster.behaviors)))
             yield Violation("7.24", starts, _could_be_earlier(plan, cluster), f"{', '.join(starts)} as early as can be")
 

@@ -261,14 +261,15 @@ async def test_a_block_that_waits_and_whose_prediction_was_early_for_a_moment_fo
     assert pilot.feedback.time("next:n:start") > 4
 
 
-async def test_what_came_to_lie_before_its_block_is_squeezed_when_the_block_starts(pilot) -> None:
+@pytest.mark.parametrize("start", [2.0, 2.0042])
+async def test_what_came_to_lie_before_its_block_is_squeezed_when_the_block_starts(pilot, start) -> None:
     pilot.predict("t", "hit", 9.0)
-    send(pilot, "first", wait(2))
+    send(pilot, "first", wait(start))
     send(pilot, "next", '<head id="n" lexeme="NOD" end="anticipators:t:hit"/>', 'composition="APPEND"')
     await pilot.tick()
     pilot.predict("t", "hit", 2.3)
     await pilot.advance(4)
-    assert pilot.feedback.time("next:n:start") == pilot.feedback.time("next:start") == 2.0
+    assert pilot.feedback.time("next:n:start") == pilot.feedback.time("next:start") == start
     assert pilot.feedback.time("next:n:end") == 2.3
     assert pilot.feedback.warnings == []
 

@@ -68,3 +68,11 @@ async def test_what_hangs_on_a_chunk_follows_when_it_is_planned_anew(pilot) -> N
     pilot.block("other", '<head id="n" lexeme="NOD" stroke="two:s:m"/>')
     await pilot.advance(6)
     assert pilot.feedback.time("other:n:stroke") == pilot.feedback.time("two:s:m")
+
+
+async def test_an_append_waits_for_a_chunk_and_for_what_that_is_a_chunk_after(pilot) -> None:
+    chunk(pilot, "one")
+    pilot.block("two", '<wait id="w" duration="0.1"/>', **{"bmla:chunkAfter": "one"})
+    pilot.block("next", composition="APPEND")
+    await pilot.advance(6)
+    assert pilot.feedback.time("two:end") < pilot.feedback.time("one:end") == pilot.feedback.time("next:start")

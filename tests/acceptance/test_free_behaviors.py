@@ -33,6 +33,16 @@ async def test_what_starts_at_its_end_starts_when_that_is_said_to_be(pilot, free
 
 
 @pytest.mark.parametrize("free", FREE, ids=["wait", "transition"])
+async def test_what_comes_after_its_end_comes_after_what_that_is_tied_to(pilot, free) -> None:
+    after = '<constraint><after ref="f:end+0.5"><sync ref="n:start"/></after></constraint>'
+    pilot.block("b", free.format(1, 3) + NOD.format("") + after)
+    await pilot.advance(5)
+    assert pilot.feedback.time("b:f:end") == 3
+    assert pilot.feedback.time("b:n:start") == 3.5
+    assert pilot.feedback.warnings == []
+
+
+@pytest.mark.parametrize("free", FREE, ids=["wait", "transition"])
 async def test_two_that_meet_at_one_of_its_points_are_tied_to_each_other(pilot, free) -> None:
     pilot.block("b", SAY + free.format("s:end", "s:end+2") + NOD.format('end="f:start"'))
     await pilot.advance(6)

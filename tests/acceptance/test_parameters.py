@@ -9,24 +9,9 @@ from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.embodiment.audio import AudioGain, AudioStart
 from reactive_realizer.testing.pilot import open_pilot
 
-SPEECH = '<speech id="s"><text>Let me <sync id="m"/>tell you all about it, for it is a long story.</text></speech>'
-HEAD = '<head id="h" lexeme="NOD" repetition="4" start="0" end="4" amount="{}"/>'
+from .parameter_changes import HEAD, SPEECH, change, points
+
 RAISED = '<gesture id="g" lexeme="OFFER" mode="RIGHT_HAND" start="0" ready="0.8" relax="6" end="7"/>'
-
-
-def change(id_, syncs, *, target="b:s", parameter="volume", space="bmla", **trajectory):
-    """A parametervaluechange: linear, to 100, unless said otherwise."""
-    said = {"type": "linear", "targetValue": 100} | trajectory
-    way = " ".join(f'{name}="{value}"' for name, value in said.items())
-    return (
-        f'<{space}:parametervaluechange id="{id_}" target="{target}" paramId="{parameter}" {syncs}>'
-        f"<{space}:trajectory {way}/></{space}:parametervaluechange>"
-    )
-
-
-def points(pilot, behavior):
-    lines = (line for line in pilot.feedback.of("syncPointProgress") if line.id.startswith(f"{behavior}:"))
-    return [(line.id.removeprefix(f"{behavior}:"), line.at) for line in lines]
 
 
 def warned(pilot):
@@ -119,63 +104,6 @@ async def test_a_change_that_begins_where_another_one_ends_sets_out_from_the_tar
     assert told[-1][1] == 0.0
 
 
-# --- when it starts and ends
-
-
-async def test_in_the_older_form_the_end_may_be_tied_in_place_of_the_stroke(pilot) -> None:
-    pilot.block("b", SPEECH + change("p", 'start="s:m" end="s:m+1"', space="bmlt"))
-    await pilot.advance(4)
-    mark = pilot.feedback.time("b:s:m")
-    assert points(pilot, "b:p") == [("start", mark), ("stroke", mark + 1), ("end", mark + 1)]
-
-
-async def test_in_the_older_form_stroke_is_another_name_of_the_end(pilot) -> None:
-    pilot.block("b", SPEECH + change("p", 'start="s:m" stroke="s:m+1"', space="bmlt"))
-    await pilot.advance(4)
-    mark = pilot.feedback.time("b:s:m")
-    assert points(pilot, "b:p") == [("start", mark), ("stroke", mark + 1), ("end", mark + 1)]
-
-
-async def test_in_the_newer_form_there_are_start_and_end(pilot) -> None:
-    pilot.block("b", SPEECH + change("p", 'start="s:start" end="s:end"', initialValue=0))
-    await pilot.advance(6)
-    assert points(pilot, "b:p") == [("start", 0.0), ("end", pilot.feedback.time("b:s:end"))]
-    assert pilot.feedback.warnings == []
-
-
-async def test_a_change_of_which_nobody_says_how_long_it_takes_takes_half_a_second(pilot) -> None:
-    pilot.block("b", SPEECH + change("p", 'start="0.25"'))
-    await pilot.advance(2)
-    assert points(pilot, "b:p") == [("start", 0.25), ("end", 0.75)]
-
-
-async def test_it_moves_nothing(pilot) -> None:
-    pilot.block("b", HEAD.format(0.5) + SPEECH + change("p", 'start="h:stroke:2" end="s:m"', target="s"))
-    await pilot.advance(6)
-    assert pilot.feedback.time("b:h:end") == 4.0
-    assert pilot.feedback.time("b:s:start") == 0.0
-
-
-async def test_a_target_that_ends_first_ends_it_without_a_warning(pilot) -> None:
-    pilot.block("b", SPEECH + change("p", 'start="1" end="60"'))
-    await pilot.advance(6)
-    assert points(pilot, "b:p") == [("start", 1.0), ("end", pilot.feedback.time("b:s:end"))]
-    assert pilot.feedback.time("b:end") == pilot.feedback.time("b:s:end")
-    assert pilot.feedback.status("b") == "DONE"
-    assert pilot.feedback.warnings == []
-
-
-async def test_a_target_that_is_interrupted_ends_it_then(pilot) -> None:
-    pilot.block("b", SPEECH)
-    pilot.block("c", change("p", 'start="0" end="60"'))
-    await pilot.advance(1)
-    pilot.block("i", '<bmla:interrupt id="i" target="b"/>')
-    await pilot.advance(1)
-    assert points(pilot, "c:p")[-1] == ("end", 1.0)
-    assert pilot.feedback.status("c") == "DONE"
-    assert pilot.feedback.warnings == []
-
-
 @pytest.mark.speech
 async def test_a_change_of_what_is_still_being_prepared_waits_for_that(voiced) -> None:
     voiced.block("b", SPEECH)
@@ -183,14 +111,6 @@ async def test_a_change_of_what_is_still_being_prepared_waits_for_that(voiced) -
     await voiced.advance(1)
     assert voiced.feedback.warnings == []
     assert gains(voiced)[-1][1] == 2.0
-
-
-async def test_a_change_may_wait_for_a_prediction(pilot) -> None:
-    pilot.block("b", SPEECH + change("p", 'start="anticipators:user:starts" end="s:end"'))
-    await pilot.advance(1)
-    pilot.predict("user", "starts", 1.5)
-    await pilot.advance(4)
-    assert pilot.feedback.time("b:p:start") == 1.5
 
 
 # --- what is seen

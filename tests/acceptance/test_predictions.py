@@ -92,6 +92,15 @@ async def test_what_changes_in_the_tick_in_which_a_block_starts_is_in_its_predic
     assert [element.get("id") for element in line.element[1:]] == ["b:one"]
 
 
+async def test_a_block_that_waited_is_predicted_again_when_it_starts_though_nothing_moved(pilot) -> None:
+    pilot.block("one", '<wait id="w" duration="0.5"/>')
+    pilot.block("two", '<wait id="w" duration="0.5"/>', composition="APPEND")
+    await pilot.advance(2)
+    assert said_at(pilot, "two") == [0.0, 0.5]
+    assert [status(line) for line in pilot.feedback.predictions("two")] == ["LURKING", "IN_EXEC"]
+    assert {line.element[0].get("globalStart") for line in pilot.feedback.predictions("two")} == {"0.5"}
+
+
 async def test_an_empty_block_is_predicted_too(pilot) -> None:
     pilot.block("b")
     await pilot.tick()

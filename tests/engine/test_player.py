@@ -1,9 +1,13 @@
 """Who may begin: what another one has is taken over only on its way back to rest."""
 
+import weakref
+
 import pytest
 
 from reactive_realizer.bml.behaviors import Wait
 from reactive_realizer.bml.names import BML, Location
+from reactive_realizer.clock.ticker import RATE, Tick
+from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.engine.effects import EndUnit
 from reactive_realizer.engine.player import Player
 from reactive_realizer.pegboard.peg_key import BlockKey
@@ -30,7 +34,8 @@ def player() -> Player:
 
 
 def play(player: Player, now: float) -> list[str]:
-    return [f"{each.unit.behavior.id}:{each.point.id}" for each in player.play(now)]
+    tick = Tick(round(now * RATE), GlobalTime(now - 0.3))
+    return [f"{each.unit.behavior.id}:{each.point.id}" for each in player.play(tick)]
 
 
 def test_one_that_is_past_its_relax_ends_when_the_next_begins_which_waits_a_round_for_that(player) -> None:
@@ -82,3 +87,48 @@ def test_a_relax_that_comes_after_the_start_of_the_next_within_a_tick_is_too_lat
     play(player, 0.0)
     play(player, 1.01)
     assert [each.unit for each in player.take_dropped()] == [second]
+
+
+@pytest.mark.parametrize("interrupted", [None, 1.25])
+def test_one_that_has_ended_by_the_time_of_the_tick_had_it_when_the_next_was_to_begin(player, interrupted) -> None:
+    first, second = arm("first", start=0.0, end=1.25), arm("second", start=1.2, end=3.0)
+    player.add(first)
+    play(player, 1.0)
+    if interrupted is not None:
+        first.interrupt(interrupted)
+        player.remove(first)
+    play(player, 1.3)
+    player.add(second)  # in a later round
+    play(player, 1.3)
+    assert [(each.unit, each.fault.code) for each in player.take_dropped()] == [(second, "resource-taken")]
+
+
+def test_what_it_gave_away_before_it_ended_is_free(player) -> None:
+    first, second = arm("first", start=0.0, relax=1.0, end=1.25), arm("second", start=1.2, end=3.0)
+    player.add(first)
+    player.add(second)
+    play(player, 0.9)
+    assert play(player, 1.3) == ["first:relax", "first:end", "second:start"]
+
+
+def test_what_ended_before_the_last_tick_is_forgotten(player) -> None:
+    unit = arm("first", start=0.0, end=1.0)
+    forgotten = weakref.ref(unit)
+    player.add(unit)
+    for now in (1.0, 1.3, 1.6):
+        play(player, now)
+    del unit
+    assert forgotten() is None
+
+
+def test_who_joins_late_asks_who_has_it_now(player) -> None:
+    first, second = arm("first", start=0.0, end=1.25), arm("second", start=0.5, relax=1.3, end=3.0)
+    third = arm("third", start=0.9, end=3.0)
+    player.add(first)
+    play(player, 1.0)
+    play(player, 1.3)
+    player.add(second)
+    assert play(player, 1.3) == ["second:start", "second:relax"]
+    player.add(third)
+    assert play(player, 1.3) == []
+    assert player.take_ending() == (EndUnit(second, 1.3),)

@@ -106,7 +106,7 @@ def test_a_snapshot_is_complete_and_is_written_as_json(board) -> None:
     assert [(peg["kind"], peg["ties"], peg["parameters"]) for peg in (pegs[0], *pegs[2:])] == [
         ("block", [], {"floor": 0.5}),
         ("ratio", ["b:start", "b:h:end"], {"ratio": 0.25}),
-        ("after", ["b:h:stroke", "b:h:end"], {"bounds": [-1.0]}),
+        ("after", ["b:h:stroke", "b:h:end"], {"bounds": [-1.0], "stops": []}),
     ]
 
 

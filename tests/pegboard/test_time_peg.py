@@ -139,6 +139,22 @@ def test_a_bound_of_a_before_peg_in_front_of_a_floor_binds_nothing(graph) -> Non
         assert peg.value == expected, (cell.name, time)
 
 
+def test_a_bound_of_an_after_peg_behind_a_ceiling_binds_nothing_and_an_unknown_one_is_waited_for(graph) -> None:
+    natural, bound, other, ceiling = (
+        AnticipatorPeg(graph, name, None) for name in ("natural", "bound", "other", "ceiling")
+    )
+    peg = AfterPeg(graph, "after", natural, [(bound, 1.0), (other, 0.0)], [(ceiling, -0.5)])
+    assert peg.describe() == "natural, not before bound +1 s, other +0 s, unless that is after ceiling -0.5 s"
+    assert peg.parameters == {"bounds": [1.0, 0.0], "stops": [-0.5]}
+    for cell, time, expected in [
+        (bound, 4.0, None), (natural, 2.0, None), (other, 3.0, 5.0), (ceiling, 5.0, 3.0),
+        (ceiling, 5.5, 5.0), (other, 5.1, 5.0), (bound, None, None), (ceiling, None, None), (bound, 4.5, 5.5),
+    ]:  # fmt: skip
+        write(cell, time)
+        assert peg.value == expected, (cell.name, time)
+    assert [link.name for link in peg.deciding] == ["bound"]
+
+
 def test_a_bound_that_moves_within_its_distance_wakes_nobody(graph) -> None:
     natural, bound = AnticipatorPeg(graph, "natural", 5.0), AnticipatorPeg(graph, "bound", 1.0)
     told = []

@@ -260,7 +260,7 @@ def test_two_points_of_the_outside_cannot_be_made_one() -> None:
 def test_rigid_wins_and_the_tie_that_it_cannot_meet_is_lost_with_its_amount() -> None:
     plan = Plan([speech()], tie("speech1:start", START, 1.0), tie("speech1:end", START, 4.0))
     assert plan.losses == [("speech1", "rigid", False)]
-    assert plan.solution.losses[0].fault.details == {"point": "speech1:end", "gap": pytest.approx(1.0)}
+    assert plan.solution.losses[0].fault.details["gap"] == pytest.approx(1.0)
     assert plan.times("speech1") == [1.0, 1.5, 3.0]
 
 

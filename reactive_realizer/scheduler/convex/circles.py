@@ -6,6 +6,7 @@ start within its block.
 
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
+from math import inf
 from typing import NamedTuple
 
 from reactive_realizer.scheduler.convex.costs import SLACK, STIFFNESS
@@ -120,8 +121,11 @@ def _force(sides: Sequence[_Side], total: float) -> float | None:
 
 
 def _stiffness(side: _Side) -> float:
+    """The force that would stretch a span without end; one that has a longest length it only brings there."""
     span = side.edge.span
-    return 1.0 if span is None or span.elastic else STIFFNESS
+    if span is None or span.maximum < inf:
+        return _STRONGEST
+    return 1.0 if span.elastic else STIFFNESS
 
 
 def _sum(sides: Sequence[_Side], force: float) -> float:
@@ -137,6 +141,8 @@ def _length(side: _Side, force: float) -> float:
 
 
 def _wish(span: Span, pull: float) -> float:
+    if pull >= (1.0 if span.elastic else STIFFNESS):
+        return inf
     if span.elastic:
         return span.goal / (1.0 - pull)
     return (span.goal + SLACK) / (1.0 - pull / STIFFNESS) - SLACK

@@ -101,7 +101,7 @@ class GivingUp:
         rigid = [item.behavior.id for item in behaviors if item.timing.rigid]
         points = [n for n in constraint.nodes if isinstance(n, Point) and n.behavior in rigid]
         if points and len(rigid) == len(behaviors) and isinstance(constraint, Tie):
-            return Fault("rigid", {"point": ":".join(points[0]), "gap": clash.gap})
+            return Fault("rigid", {"point": ":".join(points[0]), "tie": constraint.text, "gap": clash.gap})
         return self._clash_fault(dropped, clash)
 
     def _clash_fault(self, dropped: Cause, clash: Clash) -> Fault:

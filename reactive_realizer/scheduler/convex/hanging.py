@@ -1,13 +1,13 @@
 """What hangs on what, so that a plan stays one when times from outside move: nothing is solved again."""
 
 from collections import defaultdict, deque
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from graphlib import CycleError
 from itertools import pairwise
 
 from reactive_realizer.scheduler.convex.longest_path import TOLERANCE
 from reactive_realizer.scheduler.convex.model import START
-from reactive_realizer.scheduler.convex.network import Network, Precedence
+from reactive_realizer.scheduler.convex.network import Network, Precedence, Way
 from reactive_realizer.scheduler.convex.recipes import (
     Between,
     First,
@@ -38,18 +38,17 @@ class Hanging:
         self._network = network
         self._orders = network.precedences()
         self._firsts = self._first_roots()
-        given = {*network.roots[: network.fixed], *network.branches, *self._firsts.values()}
+        outside = {*network.roots[: network.fixed], *network.branches}
+        given = {*outside, *self._firsts.values()}
         self.recipes = {root: Recipe(natural) for root, natural in self._naturals(given).items()}
         for order in self._orders:
             self._begin_after(order)
-        bounded = self._keep_orders()
+        bounded = self._keep_orders() | self._keep_between(given)
         if bounded - given:
             # What these hang on themselves stays as it is, so that nothing comes to hang on itself by nature.
-            given |= bounded | {spot.root for root in bounded - given for spot in self.recipes[root].spots}
+            given |= self._with_bases(bounded - given)
             self._hang_on(given)
-        held = [root for root in sorted(bounded) if self.recipes[root].before]
-        for root, floors in network.floors(held, given).items() if held else ():
-            self.recipes[root].floors = floors
+        self._stop_bounds(given, outside)
         self.steps = self._order_steps()
 
     # --- clusters
@@ -102,21 +101,33 @@ class Hanging:
 
     def _hang_rest(self, naturals: dict[int, Natural]) -> None:
         """At a distance from what they are connected with, step by step."""
-        neighbors: defaultdict[int, list[int]] = defaultdict(list)
+        ways: defaultdict[int, list[Way]] = defaultdict(list)
         for way in self._network.ways:
-            neighbors[way.start].append(way.end)
-            neighbors[way.end].append(way.start)
+            ways[way.start].append(way)
+            ways[way.end].append(way.back)
         waiting = deque(sorted(naturals))
         while waiting:
             root = waiting.popleft()
-            for neighbor in neighbors[root]:
-                if neighbor not in naturals:
-                    naturals[neighbor] = self._hung(neighbor, root, naturals[root])
-                    waiting.append(neighbor)
+            for way in ways[root]:
+                if way.end not in naturals:
+                    naturals[way.end] = self._hung(way, naturals[root])
+                    waiting.append(way.end)
 
-    def _hung(self, root: int, neighbor: int, natural: Natural) -> Hung:
-        base = natural.spot.root if isinstance(natural, Hung) else neighbor
-        return Hung(Spot(base, self._network.first_time(root) - self._network.time(base)))
+    def _hung(self, way: Way, natural: Natural) -> Hung:
+        """On what the root before it hangs on, or, where it follows a point that stays when that has begun, on that."""
+        follows = way.leaves > self._network.leads[way.start] + TOLERANCE
+        base = natural.spot.root if isinstance(natural, Hung) and not follows else way.start
+        return Hung(Spot(base, self._network.first_time(way.end) - self._network.time(base)))
+
+    def _with_bases(self, roots: Iterable[int]) -> set[int]:
+        """Some roots, and all that these hang on by nature."""
+        found, waiting = set[int](), list(roots)
+        while waiting:
+            root = waiting.pop()
+            if root not in found:
+                found.add(root)
+                waiting += [spot.root for spot in self.recipes[root].spots]
+        return found
 
     def _hang_on(self, given: Collection[int]) -> None:
         """What is held by a bound, others hang on in their turn."""
@@ -144,6 +155,36 @@ class Hanging:
                 self.recipes[order.later].after.append(Spot(order.earlier, leads[order.later] + order.distance))
                 bounded.add(order.later)
         return bounded
+
+    def _keep_between(self, given: Collection[int]) -> set[int]:
+        """Bounds for the order of what leads from and to several that move against each other; who got some."""
+        ends = {root for way in self._network.ways for root in (way.start, way.end)}
+        if len(ends.intersection(given)) < 2:
+            return set()
+        floors, ceilings = self._network.floors(given), self._network.ceilings(given)
+        bounded = set()
+        for root, recipe in self.recipes.items():
+            hung = {spot.root for spot in recipe.spots}
+            if root not in given and (len(floors[root]) > 1 or len(ceilings[root]) > 1):
+                recipe.after += [spot for spot in floors[root] if spot.root not in hung]
+                recipe.before += [spot for spot in ceilings[root] if spot.root not in hung]
+                bounded.add(root)
+        return bounded
+
+    def _stop_bounds(self, given: Collection[int], outside: Collection[int]) -> None:
+        """What no bound brings a root past: a `before` what leads up to it, an `after` what stays where it is."""
+        recipes = self.recipes.items()
+        floors = self._network.floors(given) if any(recipe.before for _, recipe in recipes) else {}
+        ceilings = self._network.ceilings(outside) if any(recipe.after for _, recipe in recipes) else {}
+        for root, recipe in recipes:
+            if recipe.before:
+                recipe.floors = [*self._block_floor(root), *floors[root]]
+            if recipe.after:
+                recipe.ceilings = [*ceilings[root]]
+
+    def _block_floor(self, root: int) -> list[Spot]:
+        """The start of the block, for what is not before it already (thesis 7.13)."""
+        return [Spot(START, 0.0)] if self._network.first_time(root) >= 0 else []
 
     def _begins_after(self, order: Precedence) -> bool:
         """Whether an order is kept by the beginning of the cluster."""
@@ -175,7 +216,7 @@ class Hanging:
     def _open(self, circle: Sequence[Step]) -> None:
         pairs = [(step, needed) for needed, step in pairwise(circle) if step.bounded]
         bounds = [(step, needed) for step, needed in pairs if needed in self.recipes[step.root].bounds]
-        if self._drop_floors(bounds):
+        if self._drop_stops(bounds):
             return
         step, needed = min(bounds, key=lambda pair: (self._network.first_time(pair[0].root), pair))
         recipe = self.recipes[step.root]
@@ -185,12 +226,13 @@ class Hanging:
         if isinstance(recipe.natural, First) and not within:
             recipe.natural = First(self._network.first_time(step.root))
 
-    def _drop_floors(self, bounds: Sequence[tuple[Step, Step]]) -> bool:
-        """What hangs on a point is no floor of it."""
+    def _drop_stops(self, bounds: Sequence[tuple[Step, Step]]) -> bool:
+        """What hangs on a point does not stop it."""
         found = False
         for step, needed in bounds:
             recipe = self.recipes[step.root]
-            left = [spot for spot in recipe.floors if spot.root != needed.root]
-            found = found or left != recipe.floors
-            recipe.floors = left
+            for stops in (recipe.floors, recipe.ceilings):
+                left = [spot for spot in stops if spot.root != needed.root]
+                found = found or left != stops
+                stops[:] = left
         return found

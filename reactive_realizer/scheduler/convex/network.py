@@ -2,7 +2,6 @@
 
 from collections import defaultdict
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from math import inf
 from typing import NamedTuple
 
 from reactive_realizer.scheduler.convex.longest_path import TOLERANCE, components
@@ -12,13 +11,28 @@ from reactive_realizer.scheduler.convex.span import Span
 from reactive_realizer.scheduler.convex.timetable import Timetable
 from reactive_realizer.scheduler.problem import Point
 
+Stops = Mapping[int, Sequence[Spot]]
+"""By root, what its first point cannot pass in one direction."""
+
 
 class Way(NamedTuple):
-    """A span from root to root; if it lasted no time at all, ``end = start + distance``, s."""
+    """A span from root to root; if it lasted no time at all, ``end = start + distance``, s.
+
+    Attributes:
+        leaves: how much later (s) than its first root the span begins.
+        enters: how much later (s) than the other one it ends.
+    """
 
     start: int
     end: int
     distance: float
+    leaves: float
+    enters: float
+
+    @property
+    def back(self) -> "Way":
+        """The same way in the other direction."""
+        return Way(self.end, self.start, -self.distance, self.enters, self.leaves)
 
 
 class Precedence(NamedTuple):
@@ -106,31 +120,13 @@ class Network:
                 found.append(Precedence(late.root, early.root, distance, own))
         return found
 
-    def floors(self, roots: Iterable[int], given: Collection[int]) -> dict[int, list[Spot]]:
-        """What the first points of some roots cannot come before: given roots that phases lead from, and the block.
+    def floors(self, given: Collection[int]) -> Stops:
+        """What the first points of roots cannot come before: all given roots from which phases lead to them."""
+        return self._stops(given, self._least_ways(), 1.0)
 
-        Phases of no preference count too: thesis 7.13 and 7.15 hold for all.
-        """
-        into: defaultdict[int, list[tuple[int, float]]] = defaultdict(list)
-        for span in self._model.spans:
-            way = self._way(span)
-            into[way.end].append((way.start, way.distance + span.least))
-        return {root: [Spot(*floor) for floor in self._floors(root, given, into).items()] for root in roots}
-
-    def _floors(
-        self, root: int, given: Collection[int], into: Mapping[int, Sequence[tuple[int, float]]]
-    ) -> dict[int, float]:
-        floors = {} if self.first_time(root) < 0 else {START: 0.0}
-        waiting, seen = [(root, self.leads[root])], {root}
-        while waiting:
-            end, distance = waiting.pop()
-            for start, least in into.get(end, ()):
-                if start in given and start != root:
-                    floors[start] = max(distance + least, floors.get(start, -inf))
-                elif start not in seen:
-                    seen.add(start)
-                    waiting.append((start, distance + least))
-        return floors
+    def ceilings(self, given: Collection[int]) -> Stops:
+        """What they cannot come after: all given roots to which phases lead."""
+        return self._stops(given, [way.back for way in reversed(self._least_ways())], -1.0)
 
     def latest_before(self, given: Iterable[int]) -> dict[int, Spot]:
         """For each root that phases lead to from a given one: where it would be if these took no time.
@@ -141,8 +137,28 @@ class Network:
 
     def earliest_after(self, given: Iterable[int]) -> dict[int, Spot]:
         """The same, backwards."""
-        back = [Way(way.end, way.start, -way.distance) for way in reversed(self.ways)]
-        return self._nearest(given, back, -1.0)
+        return self._nearest(given, [way.back for way in reversed(self.ways)], -1.0)
+
+    def _least_ways(self) -> list[Way]:
+        """All spans, also those of no preference, as short as they may be: thesis 7.15 holds for all."""
+        ways = ((self._way(span), span.least) for span in self._model.spans)
+        return sorted((way._replace(distance=way.distance + least) for way, least in ways), key=self._turn)
+
+    def _stops(self, given: Collection[int], ways: Sequence[Way], sign: float) -> Stops:
+        found: defaultdict[int, dict[int, float]] = defaultdict(dict)
+        moved = True
+        while moved:
+            moved = False
+            for way in ways:
+                stops = {way.start: 0.0} if way.start in given else found[way.start]
+                for root, distance in stops.items():
+                    old = found[way.end].get(root)
+                    if root != way.end and (old is None or sign * (distance + way.distance - old) > TOLERANCE):
+                        found[way.end][root], moved = distance + way.distance, True
+        return {
+            root: [Spot(stop, distance + self.leads[root]) for stop, distance in found[root].items()]
+            for root in self.roots
+        }
 
     def _nearest(self, given: Iterable[int], ways: Sequence[Way], sign: float) -> dict[int, Spot]:
         ends = set(given)
@@ -169,7 +185,7 @@ class Network:
 
     def _turn(self, way: Way) -> tuple[float, float, Way]:
         """By start; of those that start together, but for rounding, one that takes no time goes first."""
-        return round(self.time(way.start), 9), round(self.time(way.end), 9), way
+        return round(self._table.time(way.start), 9), round(self._table.time(way.end), 9), way
 
     def _note_branch(self, root: int) -> None:
         fixed, distance = self._model.roots.find(root)
@@ -178,4 +194,4 @@ class Network:
 
     def _way(self, span: Span) -> Way:
         (start, one), (end, two) = self.spot(span.start), self.spot(span.end)
-        return Way(start, end, one + span.rigid - two)
+        return Way(start, end, one + span.rigid - two, one, two)

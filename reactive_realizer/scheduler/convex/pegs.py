@@ -92,7 +92,8 @@ class _Roots:
             floors = self._bounds(recipe.floors, bounded=True)
             peg = AtMost(peg, self._bounds(recipe.before, bounded=False), floors)
         if recipe.after:
-            peg = AtLeast(peg, self._bounds(recipe.after, bounded=True))
+            ceilings = self._bounds(recipe.ceilings, bounded=True)
+            peg = AtLeast(peg, self._bounds(recipe.after, bounded=True), ceilings)
         return peg
 
     def _bounds(self, spots: Sequence[Spot], *, bounded: bool) -> tuple[tuple[PegSpec | TimeCell, float], ...]:

@@ -64,12 +64,14 @@ class Recipe:
         before: spots that it may not come after; they count as they naturally are.
         floors: spots that are not to come after it whatever ``before`` says.
         after: spots that it may not come before.
+        ceilings: spots that are to come after it whatever ``after`` says.
     """
 
     natural: Natural
     before: list[Spot] = field(default_factory=list)
     floors: list[Spot] = field(default_factory=list)
     after: list[Spot] = field(default_factory=list)
+    ceilings: list[Spot] = field(default_factory=list)
 
     @property
     def spots(self) -> list[Spot]:
@@ -85,7 +87,7 @@ class Recipe:
     @property
     def bounds(self) -> list[Step]:
         """What its bounds hang on."""
-        others = (*self.floors, *self.after)
+        others = (*self.floors, *self.after, *self.ceilings)
         return [
             *(Step(spot.root, bounded=False) for spot in self.before),
             *(Step(spot.root, bounded=True) for spot in others),

@@ -22,6 +22,8 @@ class Kept:
         constraints: those that can be met together.
         losses: the others.
         classes: of points that `at` constraints and rigid phases hold together.
+        branches: of points that these hold together even without what is given: what hangs on a time from outside stays
+            in one piece when its first point has passed.
         rows: what all times have to meet beside these; of ``constraints`` the before/after ones.
         late: ids of the behaviors that hang on a given time before the start of the block: they may begin before it.
         least: a solution, the earliest one.
@@ -30,6 +32,7 @@ class Kept:
     constraints: tuple[Tie | Order, ...]
     losses: tuple[Loss, ...]
     classes: Equalities[Node]
+    branches: Equalities[Node]
     rows: tuple[Row[Node], ...]
     late: frozenset[str]
     least: Differences[Node]
@@ -53,6 +56,7 @@ class _Keeping:
         self._case = case
         self._late = late
         self._classes = Equalities[Node](frozenset(case.given))
+        self._branches = Equalities[Node](frozenset())
         self._rows: list[Row[Node]] = []
         self._losses: list[Loss] = []
         known = [node for node, given in case.given.items() if given.time is not None]
@@ -61,7 +65,7 @@ class _Keeping:
     def keep(self) -> Kept:
         for span in self._case.spans:
             if span.rigid:
-                self._classes.tie(span.end, span.start, span.preferred)
+                self._tie(span.end, span.start, span.preferred)
                 self._differences.add(*_equal(span.end, span.start, span.preferred))
             else:
                 self._require(Row(span.end, span.start, 0.0))
@@ -70,8 +74,13 @@ class _Keeping:
                 first, last = (Point(id_, item.timing.points[i]) for i in (0, -1))
                 self._require(Row(last, first, _LEAST))
         constraints = tuple(each for each in self._case.constraints if self._admit(each))
-        losses = tuple(self._losses)
-        return Kept(constraints, losses, self._classes, tuple(self._rows), self._late, self._differences)
+        classes = self._classes, self._branches
+        return Kept(constraints, tuple(self._losses), *classes, tuple(self._rows), self._late, self._differences)
+
+    def _tie(self, left: Node, right: Node, offset: float) -> None:
+        self._classes.tie(left, right, offset)
+        if self._case.given.keys().isdisjoint((left, right)):
+            self._branches.tie(left, right, offset)
 
     def _require(self, row: Row[Node]) -> None:
         self._rows.append(row)
@@ -89,7 +98,7 @@ class _Keeping:
         else:
             gap = self._differences.add(*_equal(constraint.left, constraint.right, constraint.offset))
             if gap is None:
-                self._classes.tie(constraint.left, constraint.right, constraint.offset)
+                self._tie(constraint.left, constraint.right, constraint.offset)
         if gap is not None:
             fault = Fault("contradictory-tie", {"tie": constraint.text, "gap": gap})
             self._losses.append(lost_constraint(constraint, fault))

@@ -1,0 +1,57 @@
+"""Blocks whose start is constrained (thesis, example 34)."""
+
+import pytest
+
+from reactive_realizer.testing.assertions import assert_linked, assert_order, assert_time
+
+from .living_time import GO, HIT, after, before, moves, nod, synchronize, texts, wait
+
+
+@pytest.mark.parametrize("tie", [before("d:start", "a:end", "b:end"), after("b:end", "d:start")])
+async def test_example_34_a_block_waits_for_what_its_start_is_after(pilot, tie) -> None:
+    pilot.block("a", wait("w", 1))
+    pilot.block("b", nod("n", end=HIT))
+    pilot.predict("t", "hit", 2.0)
+    pilot.block("d", f"<required>{tie}</required>" + wait("w", 0.5), composition="MERGE")
+    await moves(pilot, 0.5, ("hit", 1.7), 3)
+    assert_linked(pilot.feedback, "d:start", "b:end")
+    assert_time(pilot.feedback, "d:start", 1.7)
+    assert_order(pilot.feedback, "a:end", "d:start")
+    assert pilot.feedback.warnings == []
+
+
+async def test_a_block_may_start_at_a_point_of_another_one_or_of_an_anticipator(pilot) -> None:
+    pilot.block("a", wait("w", 1))
+    pilot.block("b", wait("w", 0.5) + synchronize("b:start", "a:w:end+0.5"))
+    pilot.block("c", wait("w", 0.5) + after(HIT, "c:start"))
+    await pilot.advance(1)
+    assert not pilot.feedback.reached("c:start")
+    await moves(pilot, ("hit", 2.0), 2)
+    assert_linked(pilot.feedback, "b:start", "a:w:end", 0.5)
+    assert_time(pilot.feedback, "c:start", 2.0)
+    assert pilot.feedback.warnings == []
+
+
+async def test_what_waits_for_itself_by_way_of_others_is_refused(pilot) -> None:
+    pilot.predict("t", "go", 1.0)
+    pilot.block("z", wait("w", 0.5, start=GO))
+    pilot.block("a", wait("w", 1), composition="APPEND")
+    pilot.block("d", wait("w", 0.5, start="a:w:end"))
+    await pilot.advance(0.2)
+    pilot.block("x", **{"bmla:appendAfter": "d", "bmla:prependBefore": "a"})
+    await pilot.advance(4)
+    (said,) = texts(pilot)
+    assert "'x' is to come before 'a' and waits for it too" in said
+    assert pilot.feedback.status("d") == "DONE"
+
+
+async def test_a_block_that_has_ended_leaves_nothing_on_what_it_was_constrained_by(pilot) -> None:
+    pilot.predict("t", "hit", 100.0)
+    pilot.block("keep", wait("w", 1, start=HIT))
+    await pilot.tick()
+    hanging = len(pilot.realizer.board.predicted("t", "hit").dependents)
+    for constraint in (before(HIT, "n:end"), after(f"{HIT}-100", "n:end"), after(f"{HIT}-100", "b:start")):
+        pilot.block("b", nod("n") + constraint)
+        await pilot.advance(1)
+    assert [line.id for line in pilot.feedback.of("blockProgress")].count("b:end") == 3
+    assert len(pilot.realizer.board.predicted("t", "hit").dependents) == hanging

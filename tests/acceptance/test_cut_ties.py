@@ -1,0 +1,59 @@
+"""Who hung on a point that was cut is told which one, as it is written, however many points are one there."""
+
+import pytest
+
+from .living_time import after, nod, synchronize, texts
+
+# Of a nod that nothing stretches strokeEnd, relax and end are one peg.
+LATE = nod("late", start="1")
+
+
+@pytest.mark.parametrize("stop", ["", 'include="late"'])
+@pytest.mark.parametrize("sync", ["strokeEnd", "relax", "end"])
+async def test_of_another_block(pilot, sync, stop) -> None:
+    pilot.block("t", LATE + '<wait id="w" duration="9"/>')
+    pilot.block("b", nod("n", start=f"t:late:{sync}+1"))
+    await pilot.advance(1.1)
+    pilot.block("stop", f'<bmla:interrupt id="i" target="t" {stop}/>')
+    await pilot.tick()
+    assert [f"t:late:{sync} was interrupted" in said for said in texts(pilot)] == [True]
+
+
+@pytest.mark.parametrize("sync", ["strokeEnd", "relax", "end"])
+async def test_of_a_block_that_never_began(pilot, sync) -> None:
+    pilot.block("first", '<wait id="w" duration="9"/>')
+    pilot.block("l", nod("n"), composition="APPEND")
+    pilot.block("b", nod("m", start=f"l:n:{sync}") + nod("o", start="m:end"))
+    await pilot.advance(0.1)
+    pilot.block("stop", **{"bmla:interrupt": "l"})
+    await pilot.tick()
+    assert [f"it hangs on l:n:{sync}, which never comes" in said for said in texts(pilot)] == [True, True]
+
+
+@pytest.mark.parametrize("tied", ["{}", "b:{}"])
+@pytest.mark.parametrize("sync", ["strokeEnd", "relax", "end"])
+async def test_of_its_own_block(pilot, sync, tied) -> None:
+    pilot.block("b", LATE + nod("n", start=tied.format(f"late:{sync}")))
+    await pilot.advance(1.1)
+    pilot.block("stop", '<bmla:interrupt id="i" target="b" include="late"/>')
+    await pilot.tick()
+    assert [f"b:late:{sync} was interrupted" in said for said in texts(pilot)] == [True]
+
+
+async def test_of_its_own_block_though_it_would_have_come_with_what_goes_on(pilot) -> None:
+    speech = '<speech id="s"><text>one two three <sync id="m"/>four</text></speech>'
+    pilot.block("b", speech + nod("n", start="s:m") + nod("o", start="n:start"))
+    await pilot.advance(0.1)
+    pilot.block("stop", '<bmla:interrupt id="i" target="b" include="n"/>')
+    await pilot.tick()
+    assert ["b:n:start was interrupted" in said for said in texts(pilot)] == [True]
+
+
+@pytest.mark.parametrize("constraint", [synchronize("n:start", "t:late:end"), after("t:late:end", "n:start")])
+async def test_in_a_constraint_of_the_block(pilot, constraint) -> None:
+    pilot.block("t", LATE)
+    pilot.block("b", nod("n") + constraint)
+    await pilot.advance(1.1)
+    pilot.block("stop", **{"bmla:interrupt": "t"})
+    await pilot.tick()
+    assert ["t:late:end was interrupted" in said for said in texts(pilot)] == [True]

@@ -1,0 +1,58 @@
+"""Behaviors on what has passed when they are planned, or when their block starts (docs/semantics.md)."""
+
+from reactive_realizer.testing.assertions import assert_not_played, assert_time
+
+from .living_time import GO, HIT, moves, nod, wait
+
+
+async def test_a_behavior_on_a_point_that_has_passed_joins_late_without_a_warning(pilot) -> None:
+    pilot.block("a", wait("w", 3))
+    await pilot.advance(0.5)
+    pilot.block("b", nod("n", start="a:w:start"))
+    await pilot.advance(1)
+    assert_time(pilot.feedback, "b:n:start", 0.0)
+    assert 0.5 < pilot.feedback.time("b:n:end") < 1.0
+    assert pilot.feedback.warnings == []
+
+
+async def test_it_is_dropped_with_a_warning_if_its_end_has_passed_too(pilot) -> None:
+    pilot.block("a", wait("w", 3))
+    await pilot.advance(2)
+    pilot.block("b", nod("n", start="a:w:start"))
+    await pilot.advance(1)
+    assert_not_played(pilot.feedback, "b:n")
+    assert pilot.feedback.warnings == [("b:n", "IMPOSSIBLE_TO_SCHEDULE")]
+    assert pilot.feedback.status("b") == "DONE"
+
+
+async def test_it_is_dropped_also_if_its_end_passes_while_its_block_waits(pilot) -> None:
+    pilot.predict("t", "go", 1.5)
+    pilot.predict("t", "hit", 2.0)
+    pilot.block("a", wait("w", 0.5, start=GO))
+    pilot.block("b", nod("n", start=HIT), composition="APPEND")
+    await moves(pilot, 0.2, ("go", None), 2.2, ("go", 2.4), 3)
+    assert_not_played(pilot.feedback, "b:n")
+    assert [line.id for line in pilot.feedback.of("warningFeedback")] == ["b:n"]
+
+
+async def test_a_block_that_waits_is_not_pinned_by_a_prediction_that_is_early_for_a_moment(pilot) -> None:
+    pilot.predict("t", "go", 1.5)
+    pilot.predict("t", "hit", 3.0)
+    pilot.block("a", wait("w", 0.5, start=GO))
+    pilot.block("b", nod("n", end=HIT), composition="APPEND")
+    await moves(pilot, 0.5, ("hit", 0.6), 0.05, ("hit", 5.0), 0.1)
+    assert pilot.feedback.predicted("b:n:start") > 4.0
+    await pilot.advance(6)
+    assert_time(pilot.feedback, "b:n:end", 5.0)
+    assert pilot.feedback.time("b:n:start") > 4.0
+    assert pilot.feedback.warnings == []
+
+
+async def test_what_would_begin_before_its_block_is_hurried_and_not_begun_before_it(pilot) -> None:
+    pilot.predict("t", "hit", 5.0)
+    pilot.block("a", wait("w", 1))
+    pilot.block("b", nod("n", end=HIT), composition="APPEND")
+    await moves(pilot, 0.5, ("hit", 1.2), 3)
+    assert_time(pilot.feedback, "b:n:start", 1.0)
+    assert_time(pilot.feedback, "b:n:end", 1.2)
+    assert pilot.feedback.warnings == []

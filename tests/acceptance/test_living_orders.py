@@ -1,0 +1,147 @@
+"""After and before with one side on an anticipator push, or are given up, and that is said once (docs/time.md)."""
+
+import pytest
+
+from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.testing.assertions import assert_linked, assert_time
+from reactive_realizer.testing.pilot import open_pilot
+
+from .living_time import BEAT, GO, HIT, LOST, after, before, moves, nod, texts, wait
+
+
+@pytest.mark.parametrize("moved", [0.6, 1.0, 2.5])
+async def test_after_pushes_and_lets_come_back_whatever_the_partner_does_before_either_has_come(pilot, moved) -> None:
+    pilot.predict("t", "hit", 1.5)
+    pilot.block("b", wait("w", 1) + after(HIT, "w:start"))
+    await moves(pilot, 0.4, ("hit", 3.0), 0.1, ("hit", moved), 5)
+    assert_time(pilot.feedback, "b:w:start", moved)
+    assert pilot.feedback.warnings == []
+
+
+async def test_what_may_be_earlier_than_now_is_now(pilot) -> None:
+    pilot.predict("t", "hit", 3.0)
+    pilot.block("b", wait("w", 1) + after(f"{HIT}-1", "w:start"))
+    await moves(pilot, 1, ("hit", 1.2), 3)
+    assert_time(pilot.feedback, "b:w:start", 1.0)
+    assert pilot.feedback.warnings == []
+
+
+async def test_an_after_that_moves_past_a_point_that_has_come_is_lost_and_that_is_said_once(pilot) -> None:
+    pilot.predict("t", "hit", 1.0)
+    pilot.block("b", wait("w", 1) + after(f"{HIT}-0.5", "w:start"))
+    await moves(pilot, 0.7, ("hit", 2.0), 0.1, ("hit", 2.5), 3)
+    assert_time(pilot.feedback, "b:w:start", 0.5)
+    (said,) = texts(pilot)
+    assert f"w:start after {HIT}-0.5 {LOST}: 1 s are missing" in said
+
+
+async def test_an_after_pushes_a_point_of_a_gesture_that_is_on_its_way(pilot) -> None:
+    pilot.predict("t", "hit", 1.0)
+    pilot.block("b", BEAT.format("") + after(HIT, "g:stroke"))
+    await moves(pilot, 0.5, ("hit", 3.0), 4)
+    assert_time(pilot.feedback, "b:g:stroke", 3.0)
+    assert pilot.feedback.time("b:g:start") < 0.5
+    assert pilot.feedback.warnings == []
+
+
+async def test_a_before_pulls_what_is_on_its_way_and_lets_it_go_again(pilot) -> None:
+    pilot.predict("t", "hit", 3.0)
+    pilot.block("b", nod("n") + before(HIT, "n:end"))
+    await moves(pilot, 0.2, ("hit", 0.5), 0.1)
+    assert pilot.feedback.predicted("b:n:end") == pytest.approx(0.5)
+    await moves(pilot, ("hit", 0.6), 2)
+    assert_time(pilot.feedback, "b:n:end", 0.6)
+    assert pilot.feedback.warnings == []
+
+
+@pytest.mark.parametrize("first", [wait("w", 2), wait("w", 2, start=GO), nod("w", start="0", end="2")])
+async def test_a_before_on_what_cannot_go_is_lost_and_nothing_else_is(pilot, first) -> None:
+    pilot.predict("t", "go", 0.2)
+    pilot.predict("t", "hit", 3.0)
+    pilot.block("b", first + before(HIT, "w:end"))
+    await moves(pilot, 0.3, ("hit", 1.0), 0.1, ("hit", 0.9), 3)
+    (said,) = texts(pilot)
+    assert f"w:end before {HIT} {LOST}" in said
+    assert pilot.feedback.time("b:w:end") in (2.0, 2.2)
+
+
+@pytest.mark.parametrize("start", ["1", "anticipators:t:go"])
+@pytest.mark.parametrize("moved", [0.6, -1.0])
+async def test_a_before_that_moves_in_front_of_what_must_come_first_is_given_up_and_nothing_else_is(
+    pilot, start, moved
+) -> None:
+    pilot.predict("t", "go", 1.0)
+    pilot.predict("t", "hit", 3.0)
+    pilot.block("b", nod("n", start=start) + nod("like", start="1") + before(HIT, "n:end"))
+    await moves(pilot, 0.5, ("hit", moved), 0.1, ("hit", moved + 0.01), 3)
+    for sync in ("start", "stroke", "end"):
+        assert_linked(pilot.feedback, f"b:n:{sync}", f"b:like:{sync}")
+    (said,) = texts(pilot)
+    assert f"n:end before {HIT} {LOST}" in said
+
+
+async def test_it_binds_again_when_its_bound_comes_back(pilot) -> None:
+    pilot.predict("t", "hit", 3.0)
+    pilot.block("b", nod("n", start="1") + before(HIT, "n:end"))
+    await moves(pilot, 0.5, ("hit", 0.6), 0.1, ("hit", 1.2), 3)
+    assert_time(pilot.feedback, "b:n:start", 1.0)
+    assert_time(pilot.feedback, "b:n:end", 1.2)
+
+
+@pytest.mark.parametrize("strategy", ["convex", "embr"])
+@pytest.mark.parametrize("end", ["2", GO])
+@pytest.mark.parametrize("moved", [2.0, 2.5])
+async def test_an_after_that_moves_behind_what_must_come_later_is_given_up_and_nothing_else_is(
+    strategy, end, moved
+) -> None:
+    async with open_pilot(SceneOptions(voice="text", verify=True, strategy=strategy)) as pilot:
+        pilot.predict("t", "go", 2.0)
+        pilot.predict("t", "hit", 1.0)
+        pilot.block("b", nod("n", end=end) + nod("like", end="2") + after(HIT, "n:start"))
+        await moves(pilot, 0.5, ("hit", moved), 0.1, ("hit", moved + 0.01), 3)
+        for sync in ("start", "stroke", "end"):
+            assert_linked(pilot.feedback, f"b:n:{sync}", f"b:like:{sync}")
+        (said,) = texts(pilot)
+        assert f"n:start after {HIT} {LOST}" in said
+
+
+async def test_it_binds_again_when_its_bound_comes_back_in_front_of_that(pilot) -> None:
+    pilot.predict("t", "hit", 1.0)
+    pilot.block("b", nod("n", end="2") + after(HIT, "n:start"))
+    await moves(pilot, 0.5, ("hit", 2.4), 0.1, ("hit", 1.6), 3)
+    assert_time(pilot.feedback, "b:n:start", 1.6)
+    assert_time(pilot.feedback, "b:n:end", 2.0)
+
+
+@pytest.mark.parametrize("strategy", ["convex", "embr"])
+async def test_an_after_is_given_up_rather_than_the_tie_of_a_point_behind(strategy) -> None:
+    async with open_pilot(SceneOptions(voice="text", verify=True, strategy=strategy)) as pilot:
+        pilot.predict("t", "go", 1.5)
+        pilot.predict("t", "hit", 0.5)
+        pilot.block("b", BEAT.format(f' stroke="{GO}"') + after(HIT, "g:start"))
+        await moves(pilot, 0.2, ("hit", 1.6), 3)
+        assert_time(pilot.feedback, "b:g:stroke", 1.5)
+        assert [f"g:start after {HIT} {LOST}" in said for said in texts(pilot)] == [True]
+
+
+async def test_a_before_is_given_up_rather_than_the_tie_of_a_point_in_front(pilot) -> None:
+    pilot.predict("t", "go", 1.0)
+    pilot.predict("t", "hit", 3.0)
+    pilot.block("b", BEAT.format(f' stroke="{GO}"') + before(HIT, "g:end"))
+    await moves(pilot, 0.5, ("hit", 0.9), 3)
+    assert_time(pilot.feedback, "b:g:stroke", 1.0)
+    assert [f"g:end before {HIT} {LOST}" in said for said in texts(pilot)] == [True]
+
+
+async def test_after_the_unknown_waits_before_it_nothing_is_bound_and_at_it_a_whole_cluster_waits(pilot) -> None:
+    tied = nod("n", stroke=HIT) + nod("m", start="n:end")
+    pilot.block("b", wait("w", 1) + after(HIT, "w:start") + wait("v", 1) + before(HIT, "v:end") + tied)
+    await pilot.advance(2)
+    assert pilot.feedback.progress == ["b:start", "b:v:start", "b:v:end"]
+    await moves(pilot, ("hit", 3.0), 0.8, ("hit", None), 1)
+    assert len(pilot.feedback.progress) == 6  # n had begun; its stroke, and all the rest, wait again
+    await moves(pilot, ("hit", 4.0), 4)
+    assert_time(pilot.feedback, "b:n:stroke", 4.0)
+    assert_time(pilot.feedback, "b:w:start", 4.0)
+    assert_linked(pilot.feedback, "b:m:start", "b:n:end")
+    assert [said for said in texts(pilot) if "v:end" not in said] == []

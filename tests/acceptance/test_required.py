@@ -1,0 +1,132 @@
+"""What stands in `<required>` and is lost after it was planned fails its block, too."""
+
+from collections import Counter
+
+import pytest
+
+from reactive_realizer.testing.assertions import assert_block_around, assert_ended, assert_time
+
+from .living_time import HIT, nod
+
+TALK = '<speech id="s"{}><text>one two three four five six</text></speech>'
+REQUIRED = "<required>{}</required>"
+SAID = [("new:s", "IMPOSSIBLE_TO_SCHEDULE")]
+
+
+async def test_a_required_speech_that_finds_the_voice_taken_fails_its_block(pilot) -> None:
+    pilot.block("talk", TALK.format(""))
+    await pilot.advance(0.5)
+    pilot.block("new", REQUIRED.format(TALK.format("")) + nod("n"))
+    pilot.block("next", nod("n"), **{"bmla:appendAfter": "new"})
+    await pilot.advance(4)
+    assert pilot.feedback.warnings == SAID
+    assert_ended(pilot.feedback, "new", "FAILED")
+    assert_time(pilot.feedback, "new:end", 0.5)
+    assert_time(pilot.feedback, "next:start", 0.5)
+    assert_ended(pilot.feedback, "talk")
+    assert pilot.realizer.scheduler.failed == 1
+    assert pilot.realizer.scheduler.blocks.alive == ()
+
+
+async def test_what_plays_by_then_is_broken_off_and_what_was_to_come_is_gone(pilot) -> None:
+    pilot.block("talk", TALK.format(""))
+    gesture = '<gesture id="g" lexeme="BEAT" start="0" end="3"/>'
+    pilot.block("new", gesture + nod("late", start="2") + REQUIRED.format(TALK.format(' start="1"')))
+    await pilot.advance(4)
+    assert pilot.feedback.warnings == SAID
+    assert_ended(pilot.feedback, "new", "FAILED")
+    for point in ("new:g:relax", "new:g:end", "new:end"):
+        assert_time(pilot.feedback, point, 1.0)
+    assert_block_around(pilot.feedback, "new")
+    assert not pilot.feedback.reached("new:late:start")
+    assert not pilot.feedback.reached("new:s:start")
+
+
+async def test_a_required_change_of_what_is_over_fails_its_block(pilot) -> None:
+    pilot.block("talk", TALK.format(""))
+    louder = (
+        '<bmla:parametervaluechange id="s" target="talk:s" paramId="volume" start="3">'
+        '<bmla:trajectory type="instant" targetValue="90"/></bmla:parametervaluechange>'
+    )
+    pilot.block("new", nod("n", start="2.8") + REQUIRED.format(louder))
+    await pilot.advance(4)
+    assert pilot.feedback.warnings == SAID
+    assert_ended(pilot.feedback, "new", "FAILED")
+    assert_time(pilot.feedback, "new:n:end", 3.0)
+
+
+@pytest.mark.parametrize("composition", ["MERGE", "APPEND"])
+async def test_a_required_behavior_on_a_point_that_never_comes_fails_its_block_at_once(pilot, composition) -> None:
+    pilot.block("first", '<wait id="w" duration="1"/>')
+    pilot.block("old", nod("n"), composition="APPEND")
+    required = REQUIRED.format(nod("s", start="old:n:end"))
+    pilot.block("new", '<wait id="w" duration="2"/>' + required, composition=composition)
+    pilot.block("third", nod("n", start="new:w:end") + '<wait id="w" duration="1"/>')
+    await pilot.advance(0.5)
+    pilot.block("stop", '<bmla:interrupt id="i" target="old"/>')
+    await pilot.advance(3)
+    assert_ended(pilot.feedback, "new", "FAILED")
+    assert_time(pilot.feedback, "new:end", 0.5)
+    assert pilot.feedback.warnings == [*SAID, ("third:n", "IMPOSSIBLE_TO_SCHEDULE")]
+    # Where it never began, nothing that hung on it has a time.
+    assert pilot.feedback.reached("new:start") == pilot.feedback.reached("third:n:start") == (composition == "MERGE")
+
+
+async def test_a_required_behavior_that_is_past_when_its_block_starts_fails_it_and_nothing_of_it_is_played(
+    pilot,
+) -> None:
+    pilot.predict("t", "hit", 5.0)
+    pilot.block("long", '<wait id="w" duration="3"/>')
+    required = REQUIRED.format(nod("s", end=HIT))
+    pilot.block("new", nod("n") + required, composition="APPEND", **{"bmla:onStart": "asleep"})
+    pilot.block("asleep", **{"bmla:preplan": "true"})
+    await pilot.advance(0.5)
+    pilot.predict("t", "hit", 1.0)
+    await pilot.advance(3)
+    assert pilot.feedback.warnings == SAID
+    assert [id_ for id_ in pilot.feedback.progress if id_.startswith(("new", "asleep"))] == ["new:start", "new:end"]
+    assert_ended(pilot.feedback, "new", "FAILED")
+
+
+async def test_a_required_behavior_that_fails_while_it_plays_fails_its_block(pilot, monkeypatch) -> None:
+    pilot.block("new", REQUIRED.format(TALK.format("")) + '<wait id="n" duration="3"/>')
+    await pilot.advance(0.5)
+    engine = next(each for each in pilot.realizer.characters["alice"].engines if each.player.playing)
+    monkeypatch.setattr(engine, "audio", lambda tick: 1 / 0)
+    await pilot.tick()
+    assert pilot.feedback.warnings == [("new:s", "EXECUTION_FAILURE")]
+    assert_ended(pilot.feedback, "new", "FAILED")
+    ends = Counter(id_ for id_ in pilot.feedback.progress if id_.endswith(":end"))
+    assert ends == {"new:s:end": 1, "new:n:end": 1, "new:end": 1}
+
+
+@pytest.mark.parametrize("required", [True, False])
+async def test_a_required_activation_of_what_is_not_there_fails_its_block(pilot, required) -> None:
+    activate = '<bmla:activate id="s" target="nobody" start="0.5"/>'
+    pilot.block("new", '<wait id="w" duration="2"/>' + (REQUIRED.format(activate) if required else activate))
+    await pilot.advance(3)
+    assert pilot.feedback.warnings == [("new:s", "NO_SUCH_TARGET")]
+    assert_ended(pilot.feedback, "new", "FAILED" if required else "DONE")
+    assert_time(pilot.feedback, "new:w:end", 0.5 if required else 2.0)
+
+
+async def test_blocks_that_fail_each_other_end_once_each(pilot) -> None:
+    pilot.block("old", nod("n", start=HIT))
+    for name, on in (("a", "old"), ("b", "a"), ("c", "b")):
+        pilot.block(name, REQUIRED.format(nod("n", start=f"{on}:n:end")) + '<wait id="w" duration="9"/>')
+    await pilot.advance(0.5)
+    pilot.block("stop", composition="MERGE", **{"bmla:interrupt": "old"})
+    await pilot.tick()
+    assert sorted(pilot.feedback.warnings) == [(f"{name}:n", "IMPOSSIBLE_TO_SCHEDULE") for name in "abc"]
+    assert [pilot.feedback.status(name) for name in ("old", "a", "b", "c")] == ["INTERRUPTED", *["FAILED"] * 3]
+
+
+async def test_what_is_broken_off_on_purpose_or_gives_its_arm_away_is_not_lost(pilot) -> None:
+    beat = '<gesture id="g" lexeme="BEAT" mode="RIGHT_HAND"/>'
+    pilot.block("old", REQUIRED.format(TALK.format("") + beat) + nod("n", start="0", end="2"))
+    pilot.block("new", beat, **{"bmla:chunkAfter": "old"})
+    pilot.block("stop", '<bmla:interrupt id="i" target="old" include="s" start="0.5"/>')
+    await pilot.advance(6)
+    assert pilot.feedback.warnings == []
+    assert_ended(pilot.feedback, "old")
+    assert_ended(pilot.feedback, "new")

@@ -1,0 +1,53 @@
+"""What tests of the strategy `convex` plan: some timings, and a plan whose times follow its pegs."""
+
+from dataclasses import replace
+from itertools import pairwise
+
+from reactive_realizer.planunit.timing import Phase, PhaseKind, Timing, timing_at
+from reactive_realizer.scheduler.convex.convex_strategy import ConvexStrategy
+from reactive_realizer.scheduler.plan_view import PlanView
+from reactive_realizer.scheduler.problem import Origin, Point
+from reactive_realizer.testing.problems import item, problem
+
+START = Origin.BLOCK_START
+NOD = timing_at({"start": 0.0, "stroke": 0.4, "end": 1.0})
+BEAT = timing_at({"start": 0.0, "ready": 0.3, "stroke": 0.5, "relax": 0.8, "end": 1.2})
+SPEECH = timing_at({"start": 0.0, "sync1": 0.5, "end": 2.0}, PhaseKind.RIGID)
+HELD = Timing(("start", "ready", "relax", "end"), (Phase(0.5), Phase(1.0, PhaseKind.HOLD), Phase(0.5)))
+CHANGE = timing_at({"start": 0.0, "end": 1.0}, PhaseKind.FREE)
+
+
+class Plan:
+    """What came out, as times that are computed anew from the pegs each time they are asked for."""
+
+    def __init__(self, items, *constraints) -> None:
+        self.asked = problem([item(id_, timing) for id_, timing in items.items()], *constraints)
+        self.solution = ConvexStrategy().solve(self.asked)
+
+    def __getitem__(self, point):
+        behavior, sync = point.split(":")
+        return self._view.times[Point(behavior, sync)]
+
+    def times(self, behavior):
+        return [self._view.times[Point(behavior, sync)] for sync in self.solution.pegs[behavior]]
+
+    def lengths(self, behavior):
+        return [after - before for before, after in pairwise(self.times(behavior))]
+
+    @property
+    def losses(self):
+        return [(loss.behavior, loss.fault.code, loss.dropped) for loss in self.solution.losses]
+
+    @property
+    def lost(self):
+        return [loss.constraint.text for loss in self.solution.losses if loss.constraint]
+
+    @property
+    def _view(self):
+        times = {cell: cell.value for cell in self.asked.times}
+        return PlanView.of_solution(replace(self.asked, times=times), self.solution)
+
+
+def move(cell, time):
+    with cell.graph.transaction("test"):
+        cell.set(time)
