@@ -134,20 +134,18 @@ def _read(constraints: Iterable[C], read: Callable[[C, Locate], list[T]], locate
 
 
 def _synchronized(constraint: Synchronize, locate: Locate) -> list[Tie]:
-    first, *others = constraint.refs
-    pivot = locate(first)
+    """Ties to what comes from outside, if one of the points does: all follow that, in whatever order they stand."""
+    nodes = [locate(ref) for ref in constraint.refs]
+    pivot = next((place for place, node in enumerate(nodes) if not isinstance(node, Point)), 0)
+    first = constraint.refs[pivot]
     return [
         Tie(
-            locate(ref),
-            pivot,
-            first.offset - ref.offset,
-            None,
-            constraint.location,
-            f"{ref} = {first}",
+            node, nodes[pivot], first.offset - ref.offset, None, constraint.location, f"{ref} = {first}",
             constraint.required,
         )
-        for ref in others
-    ]
+        for place, (node, ref) in enumerate(zip(nodes, constraint.refs, strict=True))
+        if place != pivot
+    ]  # fmt: skip
 
 
 def _ordered(constraint: OrderConstraint, locate: Locate) -> list[Order]:

@@ -4,7 +4,8 @@ from collections import defaultdict
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import NamedTuple
 
-from reactive_realizer.scheduler.convex.longest_path import TOLERANCE, components
+from reactive_realizer.scheduler.convex.branches import Branches
+from reactive_realizer.scheduler.convex.longest_path import TOLERANCE
 from reactive_realizer.scheduler.convex.model import START
 from reactive_realizer.scheduler.convex.recipes import Spot
 from reactive_realizer.scheduler.convex.span import Span
@@ -51,8 +52,7 @@ class Precedence(NamedTuple):
 class Network:
     """Roots, their times, and ways between them.
 
-    What hangs on a time from outside falls apart into branches, each with a root of its own: what is tied together by
-    other ties than those to that time. So a branch stays in one piece when its first point has passed.
+    What hangs on a time from outside falls apart into `Branches`, each with a root of its own.
 
     Attributes:
         roots: in order; the fixed ones come first.
@@ -66,8 +66,8 @@ class Network:
         self._table = table
         self._model = table.model
         self.fixed = len(self._model.stage.fixed)
-        links = [pair for pair in self._model.roots.pairs if min(pair) >= self.fixed]
-        self._parts = components(len(self._model.roots), links)
+        self._outside = range(START + 1, self.fixed)
+        self._branches = Branches(self._model.roots, self._outside)
         self._spots = [self._spot(node) for node in range(len(self._model.roots))]
         self.branches: dict[int, Spot] = {}
         self._hanging = table.grounded | {self.cluster(root) for root in range(self.fixed)}
@@ -104,6 +104,10 @@ class Network:
     def at(self, spot: Spot) -> float:
         """When, s after the block's start."""
         return self.time(spot.root) + spot.distance
+
+    def is_rigid(self, branch: int) -> bool:
+        """Whether a branch is more than one point."""
+        return branch in self._branches.rigid
 
     def hangs(self, cluster: int) -> bool:
         """Whether something of it, or next to it, has its time from outside."""
@@ -178,8 +182,8 @@ class Network:
 
     def _spot(self, node: int) -> Spot:
         fixed, distance = self._model.roots.find(node)
-        root = self._parts[node]
-        if fixed == START or node < self.fixed:
+        root = self._branches.pieces[node]
+        if fixed not in self._outside or node == fixed:
             return Spot(fixed, distance)
         return Spot(root, distance - self._model.roots.find(root)[1])
 
@@ -190,7 +194,8 @@ class Network:
     def _note_branch(self, root: int) -> None:
         fixed, distance = self._model.roots.find(root)
         if fixed < self.fixed:
-            self.branches[root] = Spot(fixed, distance)
+            host = self._branches.hosts[root]
+            self.branches[root] = Spot(host, distance - self._model.roots.find(host)[1])
 
     def _way(self, span: Span) -> Way:
         (start, one), (end, two) = self.spot(span.start), self.spot(span.end)

@@ -32,8 +32,10 @@ def _points(table: Timetable, roots: "_Roots", behavior: int) -> dict[str, PegSp
             pegs[k] = knots[k]
         elif times[k] == times[k - 1] or (after is not None and times[after] <= times[before]):
             pegs[k] = pegs[k - 1]
-        elif after is None or _rigid(timing.phases[before:k]):
+        elif _rigid(timing.phases[before:k]):
             pegs[k] = AtOffset(knots[before], times[k] - times[before])
+        elif after is None:
+            pegs[k] = roots.behind(table.model.knots[behavior][before], times[k] - times[before])
         elif _rigid(timing.phases[k:after]):
             pegs[k] = AtOffset(knots[after], times[k] - times[after])
         else:
@@ -67,6 +69,14 @@ class _Roots:
     def peg(self, node: int) -> PegSpec:
         """The peg of a node."""
         return self._at(self._network.spot(node))
+
+    def behind(self, node: int, distance: float) -> PegSpec:
+        """A peg at a distance (s) from a node, which goes on to follow what the node hangs on when that has passed."""
+        spot = self._network.spot(node)
+        if spot.root not in self._network.branches or self._network.is_rigid(spot.root):
+            return AtOffset(self.peg(node), distance)
+        host = self._network.branches[spot.root]
+        return self._at(host.moved(spot.distance + distance))
 
     def _at(self, spot: Spot) -> PegSpec:
         key = (spot.root, round(spot.distance, 9))

@@ -61,9 +61,13 @@ class Roots:
         return None
 
     @property
-    def pairs(self) -> list[tuple[int, int]]:
-        """The nodes that were linked to each other; no more than are needed to hold each class together."""
-        return [(node, other) for node, others in self._links.items() for other, _ in others if node < other]
+    def links(self) -> list[tuple[int, int, Cause]]:
+        """The nodes that were linked to each other and why; no more than are needed to hold each class together."""
+        return [(node, other, cause) for node, others in self._links.items() for other, cause in others if node < other]
+
+    def neighbors(self, node: int) -> list[int]:
+        """Those that it was linked to, in order of linking."""
+        return [other for other, _ in self._links.get(node, ())]
 
     def way(self, one: int, other: int) -> frozenset[Cause]:
         """What ties two nodes to each other, or, where nothing does, each to its root."""
