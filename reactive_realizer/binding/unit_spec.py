@@ -45,7 +45,9 @@ class UnitSpec:
             said: its attributes, `comparable`.
             leaving: an attribute whose constraint need not be met.
         """
-        return all(said.get(name) == word for name, word in self.wanted.items() if name != leaving)
+        left = self.wanted.keys() & {leaving}
+        wanted = {name: self.wanted[name] for name in self.wanted.keys() - left} if left else self.wanted
+        return wanted.items() <= said.items()
 
     def parameters(self, attributes: Mapping[str, str], own: Mapping[str, str] = _NONE) -> dict[str, str]:
         """The unit's parameters for a behavior: what it says, else the defaults.

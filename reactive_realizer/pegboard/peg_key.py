@@ -27,7 +27,8 @@ class PegKey(NamedTuple):
         return BlockKey(self.character, self.block)
 
     def __str__(self) -> str:
-        return ":".join(part for part in (self.block, self.behavior, self.sync) if part)
+        point = self.sync if self.behavior is None else f"{self.behavior}:{self.sync}"
+        return f"{self.block}:{point}"
 
 
 def anticipator_key(anticipator: str, sync: str) -> PegKey:

@@ -19,7 +19,8 @@ class PegBuilder:
         self._specs = specs
         self._names: dict[PegSpec, str] = {}
         for key, spec in specs.items():
-            self._names.setdefault(spec, str(key))
+            if spec not in self._names:
+                self._names[spec] = str(key)
         for key, spec in specs.items():
             for natural in _naturals(spec):
                 self._names.setdefault(natural, f"{key} as planned")

@@ -153,16 +153,17 @@ class Planning:
         return holds
 
     def _hang(self, block: BMLBlock, plan: Plan) -> dict[PegKey, TimePeg]:
-        keys = {unit.key(sync): spec for unit in plan.units for sync, spec in plan.pegs[unit.behavior.id].items()}
-        builder = PegBuilder(self._board.graph, block, keys)
+        own = {unit: {unit.key(sync): sync for sync in plan.pegs[unit.behavior.id]} for unit in plan.units}
+        specs = {key: plan.pegs[unit.behavior.id][sync] for unit, keys in own.items() for key, sync in keys.items()}
+        builder = PegBuilder(self._board.graph, block, specs)
         pegs = builder.build()
         self._board.add_unnamed(block.key, builder.unnamed)
         for key, text in _reasons(block, plan.kept):
             pegs[key].why = text
         tied = {node for each in plan.kept for node in each.nodes if isinstance(node, Point)}
-        for unit in plan.units:
+        for unit, keys in own.items():
             id_ = unit.behavior.id
-            unit.points = [SyncPoint(sync, pegs[unit.key(sync)], Point(id_, sync) in tied) for sync in plan.pegs[id_]]
+            unit.points = [SyncPoint(sync, pegs[key], Point(id_, sync) in tied) for key, sync in keys.items()]
             unit.points += [SyncPoint(sync, peg) for sync, peg in unit.open.items()]
         return pegs | {unit.key(sync): peg for unit in plan.units for sync, peg in unit.open.items()}
 

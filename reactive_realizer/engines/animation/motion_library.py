@@ -110,10 +110,11 @@ class MotionLibrary:
             raise error("no-unit", unit=spec.unit)
         wanted = _wanted(spec, behavior, attributes)
         motion, parameters = maker(wanted), wanted.parameters
-        own = _spelled(behavior.parameters, motion.known | {GROUP} | spec.parameter_map.keys())
-        if own != behavior.parameters:
-            renamed = replace(behavior, parameters=own)
-            return self.choice(spec, renamed, seen(renamed))
+        if behavior.parameters:
+            own = _spelled(behavior.parameters, motion.known | {GROUP} | spec.parameter_map.keys())
+            if own != behavior.parameters:
+                renamed = replace(behavior, parameters=own)
+                return self.choice(spec, renamed, seen(renamed))
         if spec not in self._judged and wanted.file == spec.file:
             self._judge(spec, motion)
         group = parameters.get(GROUP)
