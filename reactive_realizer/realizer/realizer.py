@@ -211,12 +211,14 @@ class Realizer:
     async def _play(self, tick: Tick) -> list[Play]:
         """Rounds of the tick until nothing changes; what the last one shows is what is seen."""
         plays: list[Play] = []
+        played: set[EngineTask] = set()
         for _ in range(_MOST_ROUNDS):
             self.scheduler.advance(tick.time)
             self._clamp(tick)
-            if self.scheduler.apply(await play_all(self._awake(self._leading), tick), tick.time):
+            leading = [task for task in self._leading if self._cast.awake(task.engine)]
+            if self.scheduler.apply(await play_all(leading, tick), tick.time):
                 continue
-            plays = await play_all(self._following if tick.frame else self._awake(self._following), tick)
+            plays = await play_all(self._following if tick.frame else self._awake(played, tick.time), tick)
             changed = self.scheduler.apply(plays, tick.time)
             for play in plays:
                 self._publish_audio(play)
@@ -225,9 +227,17 @@ class Realizer:
         self.scheduler.fail_restless(_MOST_ROUNDS, tick.time)
         return plays
 
-    def _awake(self, tasks: Sequence[EngineTask]) -> list[EngineTask]:
-        """Those that have something to play: of many characters most engines rest, and to wake one has its price."""
-        return [task for task in tasks if self._cast.awake(task.engine)]
+    def _awake(self, played: set[EngineTask], now: GlobalTime) -> list[EngineTask]:
+        """The followers that have something to play: of many characters most rest, and to wake one has its price.
+
+        Args:
+            played: those that have played in this tick; they are from now on.
+            now: the time of the tick.
+        """
+        cast = self._cast
+        awake = [t for t in self._following if (cast.called(t.engine, now) if t in played else cast.awake(t.engine))]
+        played.update(awake)
+        return awake
 
     def _clamp(self, tick: Tick) -> None:
         """Nothing that changed since the last call has moved points into the past."""

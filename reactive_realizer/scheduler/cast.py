@@ -1,10 +1,9 @@
 """Who plays: the characters and their engines."""
 
-from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 
 from reactive_realizer.bml.behavior import Behavior
-from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.clock.units import GlobalTime, is_due
 from reactive_realizer.engine.engine import Engine
 from reactive_realizer.planunit.plan_unit import PlanUnit
 
@@ -19,7 +18,7 @@ class Cast:
     def __init__(self, engines: Mapping[str, Sequence[Engine]]) -> None:
         self._engines = {character: tuple(own) for character, own in engines.items()}
         self._playing: dict[PlanUnit, Engine] = {}
-        self._units: Counter[Engine] = Counter()
+        self._units: dict[Engine, dict[PlanUnit, None]] = {engine: {} for engine in self.engines}
         self._stirred = set(self.engines)
 
     @property
@@ -45,7 +44,7 @@ class Cast:
     def give(self, unit: PlanUnit, engine: Engine) -> None:
         """Have an engine play a unit that has its pegs."""
         self._playing[unit] = engine
-        self._units[engine] += 1
+        self._units[engine][unit] = None
         engine.add(unit)
 
     def reset(self, character: str, time: GlobalTime) -> None:
@@ -58,7 +57,7 @@ class Cast:
         """Take a unit from the engine that plays it; one that nobody plays is no mistake."""
         engine = self._playing.pop(unit, None)
         if engine is not None:
-            self._units[engine] -= 1
+            del self._units[engine][unit]
             self._stirred.add(engine)
             engine.remove(unit)
             unit.parameters.clear()  # they lead back to it: only the garbage collector would find them
@@ -68,6 +67,14 @@ class Cast:
 
         Whoever asks has it play then.
         """
+        return self._take_stirred(engine) or bool(self._units[engine])
+
+    def called(self, engine: Engine, now: GlobalTime) -> bool:
+        """Whether an engine that has played in this tick is to play once more: something of it has become due."""
+        points = (point for unit in self._units[engine] for point in unit.points)
+        return self._take_stirred(engine) or any(p.fired is None and is_due(p.peg.value, now) for p in points)
+
+    def _take_stirred(self, engine: Engine) -> bool:
         stirred = engine in self._stirred
         self._stirred.discard(engine)
-        return stirred or self._units[engine] > 0
+        return stirred
