@@ -1,7 +1,7 @@
 """From a timetable to descriptions of pegs."""
 
-from bisect import bisect_right
 from collections.abc import Sequence
+from itertools import zip_longest
 
 from reactive_realizer.pegboard.time_peg import TimeCell
 from reactive_realizer.planunit.timing import Phase, PhaseKind
@@ -24,29 +24,23 @@ def _points(table: Timetable, roots: "_Roots", behavior: int) -> dict[str, PegSp
     """Between knots at a fraction, behind the last at a distance; rigid phases keep theirs."""
     timing, times = table.model.stage.items[behavior].timing, table.points[behavior]
     knots = {k: roots.peg(node) for k, node in table.model.knots[behavior].items()}
-    pegs: dict[int, PegSpec] = {}
-    places = tuple(knots)
-    for k in range(len(times)):
-        before, after = _around(k, places)
-        if k in knots:
-            pegs[k] = knots[k]
-        elif times[k] == times[k - 1] or (after is not None and times[after] <= times[before]):
-            pegs[k] = pegs[k - 1]
-        elif _rigid(timing.phases[before:k]):
-            pegs[k] = AtOffset(knots[before], times[k] - times[before])
-        elif after is None:
-            pegs[k] = roots.behind(table.model.knots[behavior][before], times[k] - times[before])
-        elif _rigid(timing.phases[k:after]):
-            pegs[k] = AtOffset(knots[after], times[k] - times[after])
-        else:
-            pegs[k] = AtRatio(knots[before], knots[after], (times[k] - times[before]) / (times[after] - times[before]))
-    return {timing.points[k]: peg for k, peg in pegs.items()}
-
-
-def _around(k: int, knots: Sequence[int]) -> tuple[int, int | None]:
-    """The last knot up to a point, and the next one, if there is one."""
-    place = bisect_right(knots, k)
-    return knots[place - 1], knots[place] if place < len(knots) else None
+    pegs: list[PegSpec] = []
+    for before, after in zip_longest(knots, list(knots)[1:]):
+        pegs.append(knots[before])
+        whole = 0.0 if after is None else times[after] - times[before]
+        for k in range(before + 1, len(times) if after is None else after):
+            gone = times[k] - times[before]
+            if times[k] == times[k - 1] or (after is not None and whole <= 0.0):
+                pegs.append(pegs[-1])
+            elif _rigid(timing.phases[before:k]):
+                pegs.append(AtOffset(knots[before], gone))
+            elif after is None:
+                pegs.append(roots.behind(table.model.knots[behavior][before], gone))
+            elif _rigid(timing.phases[k:after]):
+                pegs.append(AtOffset(knots[after], times[k] - times[after]))
+            else:
+                pegs.append(AtRatio(knots[before], knots[after], gone / whole))
+    return dict(zip(timing.points, pegs, strict=True))
 
 
 def _rigid(phases: tuple[Phase, ...]) -> bool:

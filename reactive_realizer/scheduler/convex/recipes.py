@@ -1,6 +1,6 @@
 """What the pegs of a plan are made of, root by root, before they are made."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from graphlib import TopologicalSorter
 from typing import NamedTuple
@@ -109,4 +109,14 @@ def steps(recipes: Mapping[int, Recipe]) -> list[Step]:
             needs[natural], needs[bounded] = spots, [natural, *recipe.bounds]
         else:
             needs[bounded] = spots
-    return list(TopologicalSorter(needs).static_order())
+    return _in_turn(needs) or list(TopologicalSorter(needs).static_order())
+
+
+def _in_turn(needs: Mapping[Step, Sequence[Step]]) -> list[Step]:
+    """All steps as they come, if each comes after those that it needs, as in almost all plans; else none."""
+    made: dict[Step, None] = {}
+    for step, needed in needs.items():
+        if not made.keys() >= set(needed):
+            return []
+        made[step] = None
+    return list(made)
