@@ -84,6 +84,8 @@ class Behavior:
     @property
     def forms(self) -> "tuple[Behavior, ...]":
         """What may be played for it, the best first: its descriptions by priority, then itself."""
+        if not self.descriptions:
+            return (self,)
         described = sorted((each for each in self.descriptions if each.behavior), key=lambda each: -each.priority)
         return (*(self._told_by(each.behavior) for each in described if each.behavior), self)
 

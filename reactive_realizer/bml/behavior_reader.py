@@ -79,7 +79,7 @@ def _known(tree: Tree, element: Element, source: Source, place: dict[str, Any], 
     points = [name for name in element.sync_points if name in behavior.sync_points]
     points += _own_points(tree, element, behavior, source)
     names = [*(each.name for each in element.attributes), *points]
-    notes += source.unread(tree, names, [*element.children, _DESCRIPTION, PARAMETER])
+    notes += source.unread_but_foreign(tree, names, [*element.children, _DESCRIPTION, PARAMETER])
     return replace(
         behavior,
         syncs=behavior.tied(source.syncs(tree, points)),

@@ -34,6 +34,7 @@ class BehaviorBlock:
         procedure: id of the procedure whose behaviors and constraints it has; then there are none here.
         behaviors: in document order, also those inside ``<required>``.
         constraints: in document order.
+        unread: ids of the behaviors that were dropped because they cannot be read.
         extensions: attributes of other namespaces, (namespace, local name) to value.
         location: of its start tag.
     """
@@ -52,6 +53,7 @@ class BehaviorBlock:
     procedure: str | None = None
     behaviors: tuple[Behavior, ...] = ()
     constraints: tuple[Constraint, ...] = ()
+    unread: frozenset[str] = frozenset()
     extensions: Mapping[tuple[str, str], str] = field(default_factory=dict)
     location: Location
 

@@ -57,7 +57,9 @@ class BlockReader:
         attributes = self._attributes(content, [_ID])
         self._source.names.external = attributes.get("external_refs", False) or not self._source.names.draft
         content.read()
-        block = BehaviorBlock(**attributes, behaviors=content.behaviors, constraints=content.constraints)
+        block = BehaviorBlock(
+            **attributes, behaviors=content.behaviors, constraints=content.constraints, unread=content.unread
+        )
         return Parsed(block, content.problems, content.failed)
 
     def _read_use(self) -> Parsed:
@@ -77,7 +79,11 @@ class BlockReader:
             return Parsed(None, content.problems)
         location = self._source.location(self._tree)
         procedure = DefineProc(
-            id=self._id, behaviors=content.behaviors, constraints=content.constraints, location=location
+            id=self._id,
+            behaviors=content.behaviors,
+            constraints=content.constraints,
+            unread=content.unread,
+            location=location,
         )
         return Parsed(None, content.problems, procedure=procedure)
 

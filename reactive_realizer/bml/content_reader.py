@@ -32,6 +32,7 @@ class ContentReader:
         self._behaviors: dict[str, Behavior] = {}
         self._drafts: list[str] = []
         self._constraints: list[Constraint] = []
+        self._unread: set[str] = set()
         self._problems: list[Problem] = []
 
     @property
@@ -43,6 +44,11 @@ class ContentReader:
     def constraints(self) -> tuple[Constraint, ...]:
         """In document order."""
         return tuple(self._constraints)
+
+    @property
+    def unread(self) -> frozenset[str]:
+        """Ids of the behaviors that cannot be read."""
+        return frozenset(self._unread.difference(self._behaviors))
 
     @property
     def problems(self) -> tuple[Problem, ...]:
@@ -104,6 +110,7 @@ class ContentReader:
             if behavior.id in self._behaviors:
                 raise RealizerError(self._source.fault(tree, "duplicate-id", id=behavior.id))
         except RealizerError as refused:
+            self._unread.add(tree.get("id", ""))
             self._drop(refused.fault, required, tree.get("id"))
         else:
             self._behaviors[behavior.id] = behavior

@@ -25,12 +25,14 @@ class DefineProc:
         id: its name among procedures.
         behaviors: in document order, also those inside ``<required>``.
         constraints: in document order.
+        unread: ids of the behaviors that were dropped because they cannot be read.
         location: of its start tag.
     """
 
     id: str = field(metadata=attribute(Name()))
     behaviors: tuple[Behavior, ...] = ()
     constraints: tuple[Constraint, ...] = ()
+    unread: frozenset[str] = frozenset()
     location: Location
 
 

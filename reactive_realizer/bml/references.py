@@ -29,7 +29,7 @@ def check_references(block: BehaviorBlock | DefineProc, points: Points = standar
     return tuple(
         Problem(fault, place)
         for place, location, ref in references_of(block)
-        if ref.block in {None, block.id} and (fault := _fault(ref, behaviors, location, points))
+        if ref.block in {None, block.id} and (fault := _fault(ref, block, behaviors, location, points))
     )
 
 
@@ -57,11 +57,19 @@ def _refs_of(constraint: Constraint) -> tuple[SyncRef, ...]:
     return (constraint.ref, *constraint.refs) if isinstance(constraint, Order) else constraint.refs
 
 
-def _fault(ref: SyncRef, behaviors: Mapping[str, Behavior], location: Location, points: Points) -> Fault | None:
+def _fault(
+    ref: SyncRef,
+    block: BehaviorBlock | DefineProc,
+    behaviors: Mapping[str, Behavior],
+    location: Location,
+    points: Points,
+) -> Fault | None:
     if ref.behavior is None:
         return None
     details: dict[str, object] = {"reference": str(ref), "behavior": ref.behavior, "sync": ref.sync}
     behavior = behaviors.get(ref.behavior)
+    if ref.behavior in block.unread:
+        return Fault("lost-with", details, location.line, location.column)
     if behavior is None:
         code, known = "unknown-reference", listed(behaviors)
     elif (those := points(behavior)) is None or ref.sync in those:

@@ -141,10 +141,21 @@ class Source:
 
     def unread(self, tree: Tree, attributes: Iterable[str], children: Iterable[str] = ()) -> list[Fault]:
         """What an element holds beside these attributes and children; all of it is passed over."""
+        return [*self.foreign_attributes(tree), *self.unread_but_foreign(tree, attributes, children)]
+
+    def unread_but_foreign(self, tree: Tree, attributes: Iterable[str], children: Iterable[str] = ()) -> list[Fault]:
+        """The same of an element whose attributes of other namespaces are kept: what plays it may know them."""
         return [
             *self.unread_attributes(tree, attributes),
             *self.unread_children(tree, children),
             *self.stray_text(tree),
+        ]
+
+    def foreign_attributes(self, tree: Tree) -> list[Fault]:
+        """A fault for each attribute of another namespace."""
+        return [
+            self.fault(tree, "foreign-attribute", attribute=name, namespace=namespace)
+            for namespace, name in extensions_of(tree)
         ]
 
     def unread_attributes(self, tree: Tree, names: Iterable[str]) -> list[Fault]:

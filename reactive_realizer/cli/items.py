@@ -4,9 +4,10 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
+from reactive_realizer.bml.sync_ref import NUMBER
 from reactive_realizer.clock.units import GlobalTime
 
-_TIMED = re.compile(r"(.+)@([0-9]+(?:\.[0-9]+)?)")
+_TIMED = re.compile(rf"(.+)@({NUMBER})")
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,6 +31,10 @@ def seconds(text: str) -> GlobalTime:
 
 
 def item(text: str) -> Item:
-    """``path`` or ``path@seconds``; only a suffix that is a number is a time."""
+    """``path`` or ``path@seconds``; only a suffix that is a number is a time.
+
+    Raises:
+        ValueError: a number beyond all times.
+    """
     found = _TIMED.fullmatch(text)
-    return Item(Path(found[1]), GlobalTime(float(found[2]))) if found else Item(Path(text), GlobalTime(0.0))
+    return Item(Path(found[1]), seconds(found[2])) if found else Item(Path(text), GlobalTime(0.0))

@@ -25,6 +25,8 @@ class Engine(Protocol):
         name: for logs: ``character/modality``.
         behaviors: the kinds of behaviors it plays.
         extensions: the attributes of other namespaces, (namespace, local name), that mean something to it.
+        reads_parameters: whether it reads what behaviors say by ``bmlt:parameter``; it tells those of them itself that
+            mean nothing to it. Of one that reads none, all are told without it.
         parameters: what of a kind of behaviors may be changed while it plays, by name.
         leads: whether it plays before the others in each round of a tick: what it asks for is done before they play.
     """
@@ -33,6 +35,7 @@ class Engine(Protocol):
     leads: bool
     behaviors: frozenset[type[Behavior]]
     extensions: frozenset[tuple[str, str]]
+    reads_parameters: bool
     parameters: Mapping[type[Behavior], Mapping[str, Range]]
 
     def supports(self, behavior: Behavior) -> bool:
@@ -81,6 +84,7 @@ class DefaultEngine:
     leads: bool = False
     behaviors: frozenset[type[Behavior]] = frozenset()
     extensions: frozenset[tuple[str, str]] = frozenset()
+    reads_parameters: bool = False
     parameters: Mapping[type[Behavior], Mapping[str, Range]] = MappingProxyType({})
 
     def __init__(self, name: str) -> None:

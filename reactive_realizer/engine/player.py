@@ -83,7 +83,7 @@ class Player:
 
         Who started last lies above, of those that started together the one that ends first.
         """
-        return [unit for unit in sorted(self.playing, key=_height) if isinstance(unit, kind)]
+        return [unit for unit in sorted(self.playing, key=height) if isinstance(unit, kind)]
 
     def take_ending(self) -> tuple[EndUnit, ...]:
         """The units that are to end now because others take over from them, since the last call."""
@@ -159,7 +159,8 @@ class Player:
         self._dropped.append(Dropped(unit, fault))
 
 
-def _height(unit: PlanUnit) -> tuple[float, float]:
+def height(unit: PlanUnit) -> tuple[float, float]:
+    """Where a unit lies among others: what is greater lies above."""
     start, end = unit.times_around
     return (inf if start is None else start, -inf if end is None else -end)
 

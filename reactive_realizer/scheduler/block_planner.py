@@ -87,8 +87,11 @@ class BlockPlanner:
         engines = self._cast.engines_for(block.key.character, behaviors)
         losses = [_unsupported(behavior) for behavior in behaviors if behavior.id not in engines]
         for behavior in behaviors:
-            known = engines[behavior.id][1].extensions if behavior.id in engines else frozenset()
+            _, engine = engines.get(behavior.id, (behavior, None))
+            known = engine.extensions if engine is not None else frozenset()
             self._reporter.meaningless(block, [name for name in behavior.extensions if name not in known], behavior)
+            if behavior.parameters and engine is not None and not engine.reads_parameters:
+                self._reporter.unheard(block, behavior)
         if not any(loss.required for loss in losses):
             self._preparations[block] = prepared or self._begin(engines)
         return losses
@@ -108,7 +111,7 @@ class BlockPlanner:
         """
         for block in self._blocks.alive:
             if block in self._preparations and self._may_plan(block):
-                engines, refused = _units(block, self._preparations.pop(block))
+                engines, refused = _units(block, self._preparations.pop(block), self._reporter)
                 timings = {unit: unit.timing for unit in engines}
                 self._solving[block] = _Solving(engines, refused, self._planning.pose(block, timings, now))
                 self._solve(block, self._solving[block])
@@ -178,14 +181,14 @@ class BlockPlanner:
         return not any(other in self._preparations or other in self._solving for other in earlier)
 
 
-def _units(block: BMLBlock, preparation: Preparation) -> tuple[dict[PlanUnit, Engine], list[Loss]]:
+def _units(block: BMLBlock, preparation: Preparation, reporter: Reporter) -> tuple[dict[PlanUnit, Engine], list[Loss]]:
     units: dict[PlanUnit, Engine] = {}
     losses: list[Loss] = []
     for behavior, engine in preparation.engines.values():
         if behavior.id in block.cancelled:
             continue
         try:
-            units[_unit(block, behavior, engine, preparation)] = engine
+            units[_unit(block, behavior, engine, preparation, reporter)] = engine
         except RealizerError as problem:
             losses.append(lost_behavior(behavior, problem.fault))
         except Exception as failure:
@@ -194,8 +197,10 @@ def _units(block: BMLBlock, preparation: Preparation) -> tuple[dict[PlanUnit, En
     return units, losses
 
 
-def _unit(block: BMLBlock, behavior: Behavior, engine: Engine, preparation: Preparation) -> PlanUnit:
-    """A unit for the best form of a behavior that the engine can make.
+def _unit(
+    block: BMLBlock, behavior: Behavior, engine: Engine, preparation: Preparation, reporter: Reporter
+) -> PlanUnit:
+    """A unit for the best form of a behavior that the engine can make; of better ones it is told why not.
 
     Raises:
         RealizerError: it can make none; what is wrong with the behavior itself.
@@ -206,7 +211,7 @@ def _unit(block: BMLBlock, behavior: Behavior, engine: Engine, preparation: Prep
         try:
             return _named(engine.plan(block.key, form, prepared), behavior)
         except RealizerError as problem:
-            logger.info("%s/%s:%s is not played by its description: %s", *block.key, behavior.id, problem)
+            reporter.passed_over(block, behavior, problem.fault)
     return _named(engine.plan(block.key, last, prepared), behavior)
 
 

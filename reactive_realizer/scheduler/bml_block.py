@@ -82,6 +82,7 @@ class BMLBlock:
         holds: pegs that its constraints say it does not start before.
         units: its behaviors that are planned and not dropped, in document order.
         cancelled: ids of behaviors that were interrupted before the block started.
+        dropped: ids of behaviors that were planned and could not be played.
         kept: the constraints of its plan.
         outside: the pegs of other blocks and of anticipators that these name.
         failing: whether something required of it was lost: it is to end FAILED.
@@ -106,6 +107,7 @@ class BMLBlock:
         self.state = BlockState.IN_PREP
         self.units: list[PlanUnit] = []
         self.cancelled: set[str] = set()
+        self.dropped: set[str] = set()
         self.kept: tuple[Tie | Order, ...] = ()
         self.outside: frozenset[TimeCell] = frozenset()
         self.settled: set[Tie | Order] = set()

@@ -250,7 +250,7 @@ class BMLScheduler:
         for unit in list(block.units):
             unit.release()
             if unit.over_before(time):
-                self._endings.drop_unit(unit, Fault("all-past", {"late": time - (unit.time("end") or 0.0)}), now)
+                self._endings.drop_past(unit, Fault("all-past", {"late": time - (unit.time("end") or 0.0)}), now)
         self._owe_prediction(block)
         self._reporter.started(block, time)
         if block.failing:

@@ -9,10 +9,11 @@ from reactive_realizer.bml.constraint import Order as OrderConstraint
 from reactive_realizer.bml.constraint import OrderKind, Synchronize
 from reactive_realizer.bml.continuous import ParameterValueChange
 from reactive_realizer.bml.sync_ref import SyncRef
-from reactive_realizer.errors import RealizerError, error
+from reactive_realizer.errors import Fault, RealizerError, error
 from reactive_realizer.pegboard.time_peg import Bound
 from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.scheduler.losses import lost_behavior
+from reactive_realizer.scheduler.names import Names
 from reactive_realizer.scheduler.problem import Loss, Node, Order, Origin, Point, Tie
 
 C = TypeVar("C", Synchronize, OrderConstraint)
@@ -47,23 +48,24 @@ def hanging_on(named: Collection[str], kept: Iterable[Tie | Order]) -> set[str]:
     return found.difference(named)
 
 
-def naming(behavior: str, points: Container[Point], kept: Iterable[Tie | Order]) -> Point | None:
-    """The first of some points that a constraint ties a behavior to; None if none does."""
+def naming(behavior: str, points: Container[Node], kept: Iterable[Tie | Order]) -> Node | None:
+    """The first of some points, or pegs of the outside, that a constraint ties a behavior to; None if none does."""
     for each in kept:
-        nodes = [node for node in each.nodes if isinstance(node, Point)]
-        if any(node.behavior == behavior for node in nodes):
-            found = next((node for node in nodes if node in points), None)
+        if any(isinstance(node, Point) and node.behavior == behavior for node in each.nodes):
+            found = next((node for node in each.nodes if node in points), None)
             if found is not None:
                 return found
     return None
 
 
-def drop_unplaceable(units: dict[str, PlanUnit], locate: Locate) -> list[Loss]:
+def drop_unplaceable(units: dict[str, PlanUnit], names: Names) -> list[Loss]:
     """Take out the behaviors that hang on a point that can never come, and those that hang on them, and so on."""
     losses: list[Loss] = []
-    while (lost := next(_unplaceable(units, locate), None)) is not None:
-        losses.append(lost)
-        del units[lost.behavior or ""]
+    while (lost := next(_unplaceable(units, names.locate), None)) is not None:
+        unit, fault = lost
+        losses.append(lost_behavior(unit.behavior, fault))
+        names.lose(unit.behavior.id, fault)
+        del units[unit.behavior.id]
     return losses
 
 
@@ -94,7 +96,7 @@ def holding(constraint: Tie | Order) -> Bound | None:
     return None if isinstance(node, Point | Origin) else (node, distance)
 
 
-def _unplaceable(units: Mapping[str, PlanUnit], locate: Locate) -> Iterator[Loss]:
+def _unplaceable(units: Mapping[str, PlanUnit], locate: Locate) -> Iterator[tuple[PlanUnit, Fault]]:
     for unit in units.values():
         behavior = unit.behavior
         for sync, ref in behavior.syncs.items():
@@ -102,7 +104,7 @@ def _unplaceable(units: Mapping[str, PlanUnit], locate: Locate) -> Iterator[Loss
                 locate(ref)
                 _own_point(unit, sync, ref)
             except RealizerError as problem:
-                yield lost_behavior(behavior, problem.fault)
+                yield unit, problem.fault
 
 
 def _own_point(unit: PlanUnit, sync: str, ref: SyncRef) -> None:

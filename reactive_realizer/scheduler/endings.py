@@ -1,7 +1,7 @@
 """How blocks end: by themselves, cut short, revoked, failed."""
 
 import logging
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 
 from reactive_realizer.clock.units import GlobalTime, is_due
 from reactive_realizer.engine.effects import Dropped, Reached
@@ -10,7 +10,7 @@ from reactive_realizer.pegboard.following import followers_of
 from reactive_realizer.pegboard.peg_key import BlockKey, PegKey
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.pegboard.time_peg import OpenPeg, TimePeg
-from reactive_realizer.planunit.plan_unit import PlanUnit, UnitState
+from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint, UnitState
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BlockState, BMLBlock
 from reactive_realizer.scheduler.cast import Cast
@@ -63,7 +63,7 @@ class Endings:
         for unit in block.units:
             self._cast.take(unit)
         self._hand_over_targets(block)
-        self._release_tied(block.key, cut, time, began=block.noticed is not None)
+        self._release_tied(block.key, cut, time, "cut-tie", began=block.noticed is not None)
         self._board.remove_block(block.key)
         self.failed += state is BlockState.FAILED
         logger.info("%s/%s %s at %.2f s, %d behaviors", *block.key, state.value, time, len(block.units))
@@ -88,10 +88,10 @@ class Endings:
             self._revoke(block, time, spared)
             return
         chosen = [unit for unit in block.live_units if unit.behavior.id not in spared]
-        later = {unit: last for unit in chosen if gently and (last := unit.gentle_end(time)) > time and unit.begun}
-        for unit, last in later.items():
-            self._cut_later(unit, last)
-        self._cut(block, [unit for unit in chosen if unit not in later], time)
+        ends = {unit: unit.gentle_end(time) for unit in chosen if gently and unit.begun}
+        for unit, last in ends.items():
+            self._end_at(unit, last)
+        self._cut(block, [unit for unit in chosen if ends.get(unit, time) <= time], time)
 
     def cut_due(self, now: GlobalTime) -> bool:
         """Cut what was to end its word first; whether anything was due."""
@@ -108,13 +108,23 @@ class Endings:
         self._units.finish(unit, time)
         self._subside(unit.block)
 
-    def drop_unit(self, unit: PlanUnit, fault: Fault, now: GlobalTime) -> None:
-        """A behavior cannot be played on."""
+    def drop_past(self, unit: PlanUnit, fault: Fault, now: GlobalTime) -> None:
+        """A behavior was over before its block began: who hangs on its points knows when they were."""
         self._units.drop_unit(unit, fault, now)
 
+    def drop_unit(self, unit: PlanUnit, fault: Fault, now: GlobalTime) -> None:
+        """A behavior cannot be played on."""
+        unit.drop(now)
+        self.drop(Dropped(unit, fault), now)
+
     def drop(self, dropped: Dropped, now: GlobalTime) -> None:
-        """Warn of a unit that left the plan; one that had begun ends now."""
+        """Warn of a unit that left the plan, and tell what hung on it; one that had begun ends now."""
+        unit = dropped.unit
+        missed = self._pegs_of(unit, unit.ahead())
         self._units.drop(dropped, now)
+        block = self._blocks.get(unit.block)
+        if block is not None and not block.failing:
+            self._let_go(block, missed, "dropped-tie", now)
 
     def reach(self, reached: Sequence[Reached]) -> None:
         """Sync points were reached: they keep their times, and are told; a block may subside by it."""
@@ -147,23 +157,25 @@ class Endings:
         elif not block.live_units:
             self.end(block, BlockState.DONE, block.end.value if block.end.value is not None else time)
         else:
-            self._let_go(block, missed, time)
+            self._let_go(block, missed, "cut-tie", time)
             self._subside(block.key)
 
     def _missed(self, units: Sequence[PlanUnit], time: GlobalTime) -> dict[Point, TimePeg]:
         """The points that some behaviors will not reach as planned if they are cut at a time, with their old pegs."""
-        missed = {}
+        missed: dict[Point, TimePeg] = {}
         for unit in units:
-            for point in unit.ahead():
-                moved = unit in self._cuts and point is unit.points[-1]
-                peg = self._board.get(unit.key(point.id))
-                ahead = moved or not is_due(point.peg.value, time)
-                if ahead and isinstance(peg, TimePeg) and not isinstance(peg, OpenPeg):
-                    missed[Point(unit.behavior.id, point.id)] = peg
+            moved = unit.points[-1] if unit in self._cuts else None
+            ahead = [point for point in unit.ahead() if point is moved or not is_due(point.peg.value, time)]
+            missed |= self._pegs_of(unit, ahead)
         return missed
 
-    def _let_go(self, block: BMLBlock, missed: Mapping[Point, TimePeg], time: GlobalTime) -> None:
-        """What hung on points that a block's behaviors miss keeps the times predicted last, and is told."""
+    def _pegs_of(self, unit: PlanUnit, points: Iterable[SyncPoint]) -> dict[Point, TimePeg]:
+        """Some points of a behavior with the pegs that others may hang on."""
+        pegs = ((Point(unit.behavior.id, point.id), self._board.get(unit.key(point.id))) for point in points)
+        return {point: peg for point, peg in pegs if isinstance(peg, TimePeg) and not isinstance(peg, OpenPeg)}
+
+    def _let_go(self, block: BMLBlock, missed: Mapping[Point, TimePeg], code: str, time: GlobalTime) -> None:
+        """What hung on points that a block's behaviors miss keeps the times predicted last, and is told by a code."""
         hanging = hanging_on({point.behavior for point in missed}, block.kept)
         others = [unit for unit in block.live_units if unit.behavior.id not in hanging]
         living = {point.peg for unit in others for point in unit.ahead()}
@@ -173,14 +185,14 @@ class Endings:
             for peg in pegs:
                 peg.pin(peg.value)
             block.end_again(block.end.floor)
-        told = self._release_tied(block.key, pegs, time, began=True)
+        told = self._release_tied(block.key, pegs, time, code, began=block.state.plays)
         for unit in [unit for unit in block.live_units if unit.behavior.id in hanging and unit not in told]:
             point = naming(unit.behavior.id, missed, block.kept)
-            if point is not None:
-                self._reporter.warn_of(unit, Fault("cut-tie", {"point": PegKey(*block.key, *point)}))
+            if isinstance(point, Point):
+                self._reporter.warn_of(unit, Fault(code, {"point": PegKey(*block.key, *point)}))
 
-    def _cut_later(self, unit: PlanUnit, time: GlobalTime) -> None:
-        """It ends at a time ahead, which is known from now on; one that would end by then anyway goes on."""
+    def _end_at(self, unit: PlanUnit, time: GlobalTime) -> None:
+        """It is to be cut at a time, which is its end from now on; one that would end by then anyway goes on."""
         if is_due(unit.time("end"), time):
             return
         self._cuts[unit] = time
@@ -199,25 +211,28 @@ class Endings:
         ended.waits = ()
 
     def _release_tied(
-        self, owner: BlockKey, cut: Collection[TimePeg], now: GlobalTime, *, began: bool
+        self, owner: BlockKey, cut: Collection[TimePeg], now: GlobalTime, code: str, *, began: bool
     ) -> set[PlanUnit]:
-        """Behaviors that hang on points which never come keep the times predicted last, and are told; which these are.
+        """Behaviors that hang on points which never come keep the times predicted last; those that are told of it.
 
-        Without such a time they are lost; also when the block that owns these points never began, nor have they.
+        Without such a time they are lost; also when the block that owns these points never began, nor have they. Those
+        of other blocks are told that are tied to such a point: who hangs on them is tied to them as before.
         """
         told = set()
+        gone = frozenset(cut)
         followed = {follower: peg for peg in cut for follower in (peg, *followers_of(peg))}
         alive = self._blocks.alive if followed else ()
-        for unit in [unit for block in alive for unit in block.live_units]:
+        for block, unit in [(each, unit) for each in alive for unit in each.live_units]:
             tied = [point.peg for point in unit.ahead() if point.peg in followed]
             if not tied:
                 continue
-            told.add(unit)
             details = {"point": self._as_written(unit, owner, followed[tied[0]])}
             if any(peg.value is None for peg in tied) or not (began or unit.begun):
                 self._units.drop_unit(unit, Fault("never-comes", details), now)
-            else:
-                self._reporter.warn_of(unit, Fault("cut-tie", details))
+                told.add(unit)
+            elif block.key != owner and naming(unit.behavior.id, gone, block.kept) is not None:
+                self._reporter.warn_of(unit, Fault(code, details))
+                told.add(unit)
         return told
 
     def _as_written(self, unit: PlanUnit, owner: BlockKey, peg: TimePeg) -> str:

@@ -4,14 +4,14 @@ from collections.abc import Mapping, Sequence
 
 from reactive_realizer.bml.names import ANTICIPATORS
 from reactive_realizer.bml.sync_ref import SyncRef
-from reactive_realizer.errors import error
+from reactive_realizer.errors import Fault, error
 from reactive_realizer.pegboard.following import hangs_on
 from reactive_realizer.pegboard.peg_key import PegKey
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.pegboard.time_peg import TimeCell
 from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.scheduler.blocks import Blocks
-from reactive_realizer.scheduler.bml_block import BMLBlock
+from reactive_realizer.scheduler.bml_block import BlockState, BMLBlock
 from reactive_realizer.scheduler.problem import Node, Origin, Point
 
 
@@ -23,6 +23,12 @@ class Names:
         self._units = units
         self._board = board
         self._blocks = blocks
+        self._causes: dict[str, str] = {}
+
+    def lose(self, behavior: str, fault: Fault) -> None:
+        """A behavior of the block is dropped; whoever hangs on it is lost with what it was lost with itself."""
+        if fault.code == "lost-with":
+            self._causes[behavior] = str(fault.details["behavior"])
 
     def locate(self, ref: SyncRef) -> Node:
         """The point that a reference names, without its offset.
@@ -37,6 +43,8 @@ class Names:
         if ref.behavior is None or ref.sync is None:
             return Origin.BLOCK_START
         unit = self._units.get(ref.behavior)
+        if unit is None and ref.behavior in _written(self._block):
+            raise error("lost-with", behavior=self._causes.get(ref.behavior, ref.behavior), reference=str(ref))
         if unit is None:
             raise error("unknown-reference", behavior=ref.behavior, reference=str(ref), known=_list(self._units))
         if ref.sync not in unit.timing.points:
@@ -51,12 +59,25 @@ class Names:
         peg = self._board.get(PegKey(*other.key, ref.behavior, ref.sync or "start"))
         if peg is not None and hangs_on(peg, self._block.start):
             raise error("cyclic-reference", block=self._block.key.block, reference=str(ref))
+        if ref.behavior in other.dropped:
+            raise _lost(ref)
         if peg is None:
             units = {unit.behavior.id: unit for unit in other.units}
             if ref.behavior in units:
                 raise _no_sync(ref, units[ref.behavior].timing.points)
+            if other.state is not BlockState.IN_PREP and ref.behavior in _written(other):
+                raise _lost(ref)
             raise error("unknown-reference", behavior=ref.behavior, reference=str(ref), known=_list(units))
         return peg
+
+
+def _written(block: BMLBlock) -> set[str]:
+    """Ids of all behaviors that stand in a block, those that are not played too."""
+    return {behavior.id for behavior in block.description.behaviors} | block.description.unread
+
+
+def _lost(ref: SyncRef) -> Exception:
+    return error("lost-with", behavior=f"{ref.block}:{ref.behavior}", reference=str(ref))
 
 
 def _no_sync(ref: SyncRef, known: Sequence[str]) -> Exception:

@@ -80,7 +80,7 @@ class Planning:
         for unit in kept.values():
             self._open(unit)
         names = Names(block, kept, self._board, self._blocks)
-        losses = drop_unplaceable(kept, names.locate)
+        losses = drop_unplaceable(kept, names)
         ties, lost_ties = ties_of(block.description, kept, names.locate)
         orders, lost_orders = orders_of(block.description, names.locate)
         wanted = [Item(unit.behavior, timings[unit].closed) for unit in kept.values()]

@@ -53,7 +53,12 @@ class Procedures:
         if block.procedure not in self._procedures:
             raise error("unknown-procedure", procedure=block.procedure, known=", ".join(self._procedures) or "none")
         definition = self._procedures[block.procedure].definition
-        return replace(block, behaviors=definition.behaviors, constraints=definition.constraints)
+        return replace(
+            block,
+            behaviors=definition.behaviors,
+            constraints=definition.constraints,
+            unread=definition.unread,
+        )
 
     def preparation(self, character: str, block: BehaviorBlock) -> Preparation | None:
         """What is prepared for a use of a procedure; None for other blocks."""

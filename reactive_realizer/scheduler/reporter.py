@@ -72,6 +72,20 @@ class Reporter:
             fault = Fault("foreign-attribute", details, at.location.line, at.location.column)
             self.warn(block.key.character, id_, fault)
 
+    def unheard(self, block: BMLBlock, behavior: Behavior) -> None:
+        """Parameters of a behavior whose engine reads none."""
+        names = ", ".join(sorted(behavior.parameters))
+        place = behavior.location
+        details = {"names": names, "element": behavior.name, "known": "none"}
+        fault = Fault("unknown-parameter", details, place.line, place.column)
+        self.warn(block.key.character, f"{block.key.block}:{behavior.id}", fault)
+
+    def passed_over(self, block: BMLBlock, behavior: Behavior, fault: Fault) -> None:
+        """A description of a behavior cannot be made; another form of it is played."""
+        place = behavior.location
+        told = Fault("description-left-out", {"reason": fault.sentence}, place.line, place.column)
+        self.warn(block.key.character, f"{block.key.block}:{behavior.id}", told)
+
     def warn_of(self, unit: PlanUnit, fault: Fault) -> None:
         """Something is wrong with a behavior; its place in the document is told."""
         located = fault.located(unit.behavior.location.line, unit.behavior.location.column)

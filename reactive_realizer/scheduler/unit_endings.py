@@ -85,6 +85,7 @@ class UnitEndings:
         self._reporter.warn_of(unit, dropped.fault)
         if block is not None and unit in block.units:
             block.units.remove(unit)
+            block.dropped.add(unit.behavior.id)
             block.failing |= unit.behavior.required
             with self._board.graph.transaction(f"drop {unit.behavior.id}"):
                 block.end_again(now)

@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Final
 
-from reactive_realizer.errors import RealizerError, error
+from reactive_realizer.errors import Fault, RealizerError, error
 from reactive_realizer.server.schema import Schema
 
 VERSION: Final = 1
@@ -29,16 +29,33 @@ def _by_type(direction: str) -> dict[str, Message]:
 _FROM_CLIENT = _by_type("ClientMessage")
 
 
+class NoNumber(RealizerError):
+    """A text would be JSON, but for a NaN or an infinity in it.
+
+    Attributes:
+        message: what it says otherwise.
+    """
+
+    def __init__(self, number: str, message: Any) -> None:
+        super().__init__(Fault("bad-json", {"reason": f"{number} is no number"}))
+        self.message = message
+
+
 def decode(text: str | bytes) -> Any:
     """What a JSON text says.
 
     Raises:
-        RealizerError: "bad-json"; NaN and infinities are none.
+        RealizerError: "bad-json".
+        NoNumber: "bad-json" for NaN and infinities.
     """
+    strange: list[str] = []
     try:
-        return json.loads(text, parse_constant=_no_constant)
+        message = json.loads(text, parse_constant=strange.append)
     except (ValueError, RecursionError) as problem:
         raise error("bad-json", reason=problem) from problem
+    if strange:
+        raise NoNumber(strange[0], message)
+    return message
 
 
 def encode(message: Message) -> str:
@@ -82,7 +99,3 @@ def refused(refusal: RealizerError, ref: str | int | None = None, blocks: Sequen
 def _shown(value: object) -> str:
     text = json.dumps(value)
     return text if len(text) <= _MOST_SHOWN else text[:_MOST_SHOWN] + "..."
-
-
-def _no_constant(name: str) -> None:
-    raise ValueError(f"{name} is no number")

@@ -17,7 +17,7 @@ class Mismatch:
     Attributes:
         place: path into the value, keys and indices joined by dots; empty for all of it.
         value: what stands there.
-        rule: the keyword and its argument.
+        rule: the keyword and its argument; of a pattern, how its node is described.
     """
 
     place: str
@@ -43,7 +43,7 @@ class Schema:
                 found = next(_NESTED[keyword](self, value, argument, place), None)
             else:
                 fits = _CHECKS[keyword](value, argument)
-                found = None if fits else Mismatch(place, value, f"{keyword} {json.dumps(argument)}")
+                found = None if fits else Mismatch(place, value, _rule(keyword, node))
             if found is not None:
                 return found
         return None
@@ -90,6 +90,11 @@ class Schema:
             found = self.mismatch(value, node, place)
             if found is not None:
                 yield found
+
+
+def _rule(keyword: str, node: Node) -> str:
+    # Few people read patterns.
+    return json.dumps(node["description"]) if keyword == "pattern" else f"{keyword} {json.dumps(node[keyword])}"
 
 
 def _inside(place: str, part: object) -> str:

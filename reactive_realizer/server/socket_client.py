@@ -10,7 +10,7 @@ from reactive_realizer.errors import ERRORS, RealizerError, error
 from reactive_realizer.server.client_queue import ClientQueue
 from reactive_realizer.server.intake import BlocksRefused, Intake
 from reactive_realizer.server.live import Live
-from reactive_realizer.server.protocol import Message, accepted, check, decode, encode, ref_of, refused
+from reactive_realizer.server.protocol import Message, NoNumber, accepted, check, decode, encode, ref_of, refused
 from reactive_realizer.server.rate_limit import RateLimit
 from reactive_realizer.server.streams import Stream
 
@@ -125,6 +125,8 @@ class SocketClient:
             ref = ref_of(message)
             check(message)
             blocks = await self._answer(message)
+        except NoNumber as refusal:
+            self._tell(refused(refusal, ref_of(refusal.message)))
         except BlocksRefused as refusal:
             self._tell(refused(refusal, ref, refusal.entered))
         except RealizerError as refusal:

@@ -57,6 +57,7 @@ class EngineContract:
         assert engine.name
         assert engine.behaviors
         assert isinstance(engine.leads, bool)
+        assert isinstance(engine.reads_parameters, bool)
         assert engine.parameters.keys() <= engine.behaviors
         for namespace, name in engine.extensions:
             assert namespace

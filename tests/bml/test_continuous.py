@@ -159,4 +159,4 @@ def test_other_blocks_have_sync_points_where_no_behavior_has_their_name(block: B
 def test_a_behavior_that_cannot_be_read_is_no_block(read: Read) -> None:
     parsed = read('<wait id="w" start="lost:end"/><wait id="lost" duration="long"/>')
     assert parsed.block
-    assert [problem.fault.code for problem in check_references(parsed.block)] == ["unknown-reference"]
+    assert [problem.fault.code for problem in check_references(parsed.block)] == ["lost-with"]

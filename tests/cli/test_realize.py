@@ -66,8 +66,24 @@ def test_files_enter_at_their_times_in_order(realize, bml) -> None:
     assert [(time, "two" in xml) for time, xml in starts] == [(0.0, False), (1.5, True)]
 
 
-def test_only_a_suffix_that_is_a_number_is_a_time(realize, bml) -> None:
-    assert realize(bml(block("b"), "me@home"))[0] == 0
+@pytest.mark.parametrize("name", ["me@home", "me@", "me@inf", "me@nan", "me@1_000", "me@1.2.3", "me@1e", "me@ 1"])
+def test_only_a_suffix_that_is_a_number_is_a_time(realize, bml, name) -> None:
+    assert realize(bml(block("b"), name))[0] == 0
+
+
+@pytest.mark.parametrize(
+    ("suffix", "time"), [("2", 2), ("0.5", 0.5), (".5", 0.5), ("2.", 2), ("2e0", 2), ("5E-1", 0.5)]
+)
+def test_a_number_may_be_written_in_any_way(realize, bml, suffix, time) -> None:
+    _, feedback, _ = realize(f"{bml(block('b'))}@{suffix}")
+    assert [when for when, xml in feedback if "b:start" in xml] == [time]
+
+
+def test_a_time_that_is_never_is_a_wrong_option(bml, capsys) -> None:
+    with pytest.raises(SystemExit) as end:
+        main(["realize", f"{bml(block('b'))}@1e999"])
+    assert end.value.code == 2
+    assert "@1e999" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(
@@ -242,6 +258,13 @@ def test_a_block_may_refer_to_those_before_it_in_its_file_and_in_earlier_files(b
     assert lines == [f"{second}:1:{lines[0].split(':')[2]}: no block 'two' for two:h:end: it is unknown or has ended"]
 
 
+def test_who_hangs_on_what_cannot_be_read_is_told_that_this_is_why(bml, capsys) -> None:
+    status, lines = check(capsys, bml(block("b", '<head id="h"/><head id="i" lexeme="NOD" start="h:end"/>')))
+    assert status == 1
+    assert "<head> needs the attribute 'lexeme'" in lines[0]
+    assert "h:end never comes, because 'h' is dropped" in lines[1]
+
+
 def test_a_reference_to_a_block_that_comes_later_is_a_problem_also_in_a_constraint(bml, capsys) -> None:
     tie = '<constraint><synchronize><sync ref="h:start"/><sync ref="later:w:end"/></synchronize></constraint>'
     later = block("later", '<wait id="w" duration="1"/>')
@@ -285,6 +308,10 @@ def test_a_change_of_a_behavior_that_its_block_has_not_is_a_problem(bml, capsys)
     [
         ('name="amount"', "<parameter> needs the attribute 'value'"),
         ('name="amount" value="1" unit="m"', "unknown attribute unit of <parameter>; known are name, value"),
+        (
+            'name="amount" value="1" xmlns:u="urn:units" u:unit="m"',
+            "the attribute unit of urn:units means nothing here",
+        ),
         ('name="amount" value="7"', None),
         ('name="amuont" value="1"', None),
     ],

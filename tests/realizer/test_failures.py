@@ -157,6 +157,18 @@ async def test_an_engine_that_fails_drops_its_units_with_feedback_and_the_others
     assert told.reached("d:again:end")
 
 
+async def test_what_hangs_on_behaviors_of_an_engine_that_fails_is_lost_with_them_before_its_block_began(pilot) -> None:
+    pilot.block("b", own("engine", start=1) + '<wait id="w" start="x:end" duration="1"/>')
+    pilot.block("c", own("", "z") + '<wait id="v" start="z:end" duration="1"/>', composition="APPEND")
+    await pilot.advance(5)
+    told = {line.id: line.element.text for line in pilot.feedback.of("warningFeedback")}
+    assert set(told) == {"b:x", "b:w", "c:z", "c:v"}
+    assert "the behavior of b:x:end is dropped; this one keeps the time predicted last" in told["b:w"]
+    assert "it hangs on c:z:end, which never comes; it is dropped" in told["c:v"]
+    assert pilot.feedback.time("b:w:start") == 2.0
+    assert pilot.feedback.status("c") == "DONE"
+
+
 async def test_results_of_slow_work_enter_in_order_of_request_whichever_was_first(pilot) -> None:
     pilot.block("slow", own("", takes=50))
     pilot.block("quick", own("", takes=1))
@@ -184,6 +196,16 @@ async def test_a_block_that_names_points_of_one_in_preparation_waits_for_its_pla
     assert pilot.feedback.warnings == []
     assert pilot.feedback.time("beside:start") == 0.0
     assert pilot.feedback.time("next:w:start") == pilot.feedback.time("slow:x:stroke")
+
+
+async def test_a_point_of_a_later_block_in_preparation_is_not_known_and_nobody_says_that_it_is_dropped(pilot) -> None:
+    pilot.block("next", '<wait id="w" start="slow:x:stroke" duration="1"/>')
+    pilot.block("slow", own("", takes=5))
+    await pilot.advance(4)
+    (line,) = pilot.feedback.of("warningFeedback")
+    assert line.id == "next:w"
+    assert "no behavior 'x' for slow:x:stroke" in line.element.text
+    assert pilot.feedback.reached("slow:x:end")
 
 
 async def test_work_for_a_block_that_is_replaced_meanwhile_is_given_up(pilot) -> None:

@@ -82,6 +82,31 @@ async def test_the_answer_bears_the_ref_even_of_a_message_that_is_wrong_otherwis
         assert "ref" not in await socket.hear("error")
 
 
+async def test_so_does_the_answer_to_what_is_json_but_for_a_number(on_air: Open) -> None:
+    async with on_air() as air:
+        socket = await air.connect()
+        for number in ("NaN", "Infinity", "-Infinity"):
+            text = '{"type":"predict","anticipator":"a","sync":"s","time":%s,"ref":"r8"}'
+            await socket.say_anything(text % number)
+            answer = await socket.hear("error")
+            assert (answer["ref"], answer["code"]) == ("r8", "bad-json")
+            assert f"{number} is no number" in answer["message"]
+        await socket.say_anything('{"type":"ping","t":1,"ref":NaN}')
+        assert "ref" not in await socket.hear("error")
+
+
+@pytest.mark.parametrize("name", ["two words", "a:b", "a+1", "", "a" * 201, "a\n"])
+async def test_what_a_name_may_not_have_in_it_is_said_in_words(on_air: Open, name: str) -> None:
+    async with on_air() as air:
+        socket = await air.connect()
+        await socket.say_anything(json.dumps({"type": "predict", "anticipator": "a", "sync": name, "time": 1}))
+        answer = await socket.hear("error")
+        assert answer["code"] == "bad-message"
+        assert answer["message"].startswith('sync: "')
+        assert '"A part of a sync reference: 1 to 200 characters, no white space, ' in answer["message"]
+        assert "[" not in answer["message"]
+
+
 async def test_binary_junk_is_answered_and_the_socket_stays_open(on_air: Open) -> None:
     async with on_air() as air:
         socket = await air.connect()

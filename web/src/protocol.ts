@@ -23,7 +23,7 @@ export type Predict1 = {
   [k: string]: unknown;
 };
 /**
- * A part of a sync reference: no white space, control character, colon, plus sign or half of a surrogate pair.
+ * A part of a sync reference: 1 to 200 characters, no white space, control character, colon, plus sign or half of a surrogate pair.
  */
 export type Name = string;
 export type Seconds = number;
