@@ -141,6 +141,12 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
         "never-holds": ErrorKind("{what} can never hold, {gap:g} s are missing; it is dropped", _SCHEDULE),
         "constraint-lost": ErrorKind("{constraint} cannot be kept any more: {gap:g} s are missing", _SCHEDULE),
         "names-dropped": ErrorKind("{constraint} names '{behavior}', which is dropped", _SCHEDULE),
+        "lost-with": ErrorKind(
+            "{reference} never comes, because '{behavior}' is dropped; what hangs on it is dropped, too", _SCHEDULE
+        ),
+        "dropped-tie": ErrorKind(
+            "the behavior of {point} is dropped; this one keeps the time predicted last", _SCHEDULE
+        ),
         "cut-tie": ErrorKind("{point} was interrupted; this behavior keeps the time predicted last", _SCHEDULE),
         "never-comes": ErrorKind("it hangs on {point}, which never comes; it is dropped", _SCHEDULE),
         "all-past": ErrorKind("it would have ended {late:g} s before its block starts", _SCHEDULE),
@@ -154,6 +160,7 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
         "foreign-attribute": ErrorKind(
             "the attribute {attribute} of {namespace} means nothing here", WarningType.CUSTOM_ATTRIBUTE_NOT_SUPPORTED
         ),
+        "description-left-out": ErrorKind("a description of it is not played, but what comes next: {reason}", _CREATE),
         "overtaken": ErrorKind("its sync points lost their order when they were moved", _SCHEDULE),
         "work-failed": ErrorKind("its preparation failed: {reason}", _CREATE),
         "never-moves": ErrorKind("still waiting for {waits} when nothing more could happen", _SCHEDULE),
@@ -163,6 +170,10 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
         ),
         "gaze-short": ErrorKind(
             "it stays {angle:.0f} degrees beside its target: that is too far aside for what takes part in it", _PLAYING
+        ),
+        "gaze-near": ErrorKind("its target is too near to be looked at: the eyes go straight ahead", _PLAYING),
+        "joints-left-out": ErrorKind(
+            "{joints} are left out: what plays <{element}> does not turn them, or the figure cannot", _PLAYING
         ),
         "not-reachable": ErrorKind(
             "{joint} does not reach where {animation} wants it at phase {phase:.2f}: {distance:.2f} m are missing",
@@ -190,7 +201,7 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
             "'{name}' cannot name a peak: wanted is a letter, then letters, digits, '_', each name once"
         ),
         # --- making a behavior
-        "no-motion-for": ErrorKind("nothing in the binding plays <{element}> with lexeme '{lexeme}'", _CREATE),
+        "no-motion-for": ErrorKind("nothing in the binding plays <{element}>{said}", _CREATE),
         "no-unit": ErrorKind("there is no motion unit '{unit}'", _CREATE),
         "no-file": ErrorKind("<{element}> needs a file, or the name of one", _CREATE),
         "wrong-element": ErrorKind("the motion unit '{unit}' does not play <{element}>", _CREATE),

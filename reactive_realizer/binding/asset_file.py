@@ -30,13 +30,14 @@ def first_asset(asset: Callable[[str], Path], *names: str) -> Path:
         names: one or more.
 
     Raises:
-        RealizerError: "no-asset": none of them is; or the name of one is wrong.
+        RealizerError: "no-asset": none of them is, all of which it names; or the name of one is wrong.
     """
-    *others, last = names
-    for name in others:
+    missing = []
+    for name in names:
         try:
             return asset(name)
         except RealizerError as problem:
             if problem.fault.code != "no-asset":
                 raise
-    return asset(last)
+            missing.append(str(problem.fault.details["name"]))
+    raise error("no-asset", name="' or '".join(missing))

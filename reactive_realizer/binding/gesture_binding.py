@@ -82,6 +82,11 @@ class GestureBinding:
             return (*exact[:1], *(spec for spec in exact[1:] if _HANDS in spec.constraints))
         return (*exact, *(spec for spec in specs if _HANDS in spec.constraints and spec.fits(said, _HANDS)))
 
+    def chooses_by(self, behavior: str, namespace: str) -> frozenset[str]:
+        """The attributes that the entries for an element ask for."""
+        entries = (spec for spec in self.specs if (spec.behavior, spec.namespace) == (behavior, namespace))
+        return frozenset().union(*(spec.constraints for spec in entries))
+
 
 def _by_lexeme(specs: Iterable[UnitSpec]) -> dict[_Asked, list[UnitSpec]]:
     """For each lexeme the entries that may fit, in order, those for any lexeme too."""

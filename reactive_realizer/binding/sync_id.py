@@ -1,6 +1,6 @@
 """The names that files of motions give to points in time."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 
 from reactive_realizer.binding.xml_file import Element, attribute, bad
@@ -22,6 +22,21 @@ def sync_id(element: Element) -> str:
             element, f"id='{name}' cannot name a sync point; wanted is a name as attributes have, but id or xmlns"
         )
     return name
+
+
+def by_sync_id(elements: Iterable[Element]) -> dict[str, Element]:
+    """KeyPositions by their ids.
+
+    Raises:
+        RealizerError: "bad-asset": two have the same id, or one has none.
+    """
+    found: dict[str, Element] = {}
+    for element in elements:
+        name = sync_id(element)
+        if name in found:
+            raise bad(element, f"a second {element.tag} with id='{name}'")
+        found[name] = element
+    return found
 
 
 def is_placed(sync: str, phase: float) -> bool:

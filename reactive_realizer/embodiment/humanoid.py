@@ -13,7 +13,6 @@ from reactive_realizer.embodiment.frame import Frame, rotation_array
 from reactive_realizer.embodiment.joints import EYES, ROOT
 from reactive_realizer.embodiment.pose import Layer, compose
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, conjugate, from_axis_angle, multiply, rotate
-from reactive_realizer.embodiment.skeleton import Pose
 from reactive_realizer.embodiment.speed_limit import SpeedLimit, slowed
 from reactive_realizer.embodiment.vector import UP, ZERO, Vec3, add, scale, subtract
 
@@ -52,9 +51,13 @@ class Humanoid:
         self._shown = Body(avatar.skeleton)
         self._time = GlobalTime(0.0)
         self._passed = 0.0
-        self._looked: Pose | None = None
+        self._before: Body | None = None
         self.body = Body(avatar.skeleton)
         """The figure without additive motion, in its own frame: where a motion that begins finds it."""
+
+    def rest(self, body: Body) -> None:
+        """Be so until the first frame: what begins before it, or looks at the figure, finds it at rest."""
+        self.body = self._shown = body
 
     def move(self, time: GlobalTime, layers: Iterable[Layer]) -> None:
         """Come to what layers make of the figure at a time, without a jump.
@@ -67,7 +70,7 @@ class Humanoid:
             self._limit = SpeedLimit(composed.shown)
             self._shown = composed.shown
         else:
-            self._looked = self._shown.pose
+            self._before = self._shown
             self._shown = self._limit(composed.shown, self._passed)
         self.body = composed.steady
 
@@ -81,27 +84,37 @@ class Humanoid:
         body = self._shown
         turns, lids = ({}, {}) if eyes is None else eyes(body)
         looking = {**{eye: body.rotation(eye) for eye in EYES if eye in body.skeleton}, **turns}
-        if self._looked is not None:
-            looking = slowed(self._looked, looking, self._passed)
+        if self._before is not None:
+            looking = slowed(self._before.pose, looking, self._passed)
         self._shown = body.posed(looking)
         weights = self._weights((*faces, lids))
         return Frame(self._time, self._root(self._shown.root), self._rotations(self._shown.pose), weights)
 
     @property
     def shown(self) -> Body:
-        """The figure as it was shown last, additive motion included, in its own frame; at first in its default pose."""
+        """The figure as it was shown last, additive motion included, in its own frame."""
         return self._shown
 
     def to_own_frame(self, point: Vec3) -> Vec3:
         """A point of the world as seen from the figure, m."""
         return rotate(conjugate(self._turn), subtract(point, self._position))
 
-    def locate(self, joint: str | None) -> Vec3 | None:
-        """Where a joint is in the world, m; None: between its eyes. An unknown joint is nowhere."""
+    def locate(self, joint: str | None, time: GlobalTime | None = None) -> Vec3 | None:
+        """Where a joint is in the world, m; None: between its eyes. An unknown joint is nowhere.
+
+        Args:
+            joint: its name.
+            time: of a frame to come, in which it will be there if it goes on as in the last one; None: where it is.
+        """
         name = joint or "skullbase"
         if name not in self.avatar.skeleton.joints:
             return None
-        point = self._shown.place(name).position if joint else between_eyes(self._shown)
+        point = _point(self._shown, joint)
+        ahead = 0.0 if time is None else time - self._time
+        if self._before is not None and ahead > 0.0:
+            # Over a gap in the frames nobody knows how it goes on.
+            way = subtract(point, _point(self._before, joint))
+            point = add(point, scale(way, min(1.0, ahead / self._passed)))
         return add(self._position, rotate(self._turn, point))
 
     def _root(self, moved: Vec3) -> NDArray[np.float64]:
@@ -118,6 +131,10 @@ class Humanoid:
             for morph in face.keys() & self._morphs.keys():
                 weights[self._morphs[morph]] += face[morph]
         return weights.clip(0.0, 1.0)
+
+
+def _point(body: Body, joint: str | None) -> Vec3:
+    return body.place(joint).position if joint else between_eyes(body)
 
 
 def between_eyes(body: Body) -> Vec3:

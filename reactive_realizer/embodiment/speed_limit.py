@@ -37,6 +37,11 @@ _SPEEDS = {
 _ALL_SPEEDS = frozenset((_LIMB, *_SPEEDS.values()))
 
 
+def fastest(joint: str) -> float:
+    """How fast a joint turns at most, rad/s."""
+    return _SPEEDS.get(joint, _LIMB)
+
+
 def slowed(shown: Pose, wanted: Pose, duration: float) -> dict[str, Quat]:
     """Rotations of joints that turn no faster than they can.
 
@@ -47,7 +52,7 @@ def slowed(shown: Pose, wanted: Pose, duration: float) -> dict[str, Quat]:
     """
     within = {speed: math.cos(0.5 * speed * duration) for speed in _ALL_SPEEDS}
     hasty = {
-        joint: _toward(start, goal, _SPEEDS.get(joint, _LIMB) * duration)
+        joint: _toward(start, goal, fastest(joint) * duration)
         for joint, goal in wanted.items()
         # Most joints are left where they are, by the same tuple.
         if (start := shown.get(joint, IDENTITY)) is not goal

@@ -1,8 +1,18 @@
 """The things that behaviors look and point at."""
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
+from typing import Protocol
 
+from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.vector import Vec3
+
+
+class Locate(Protocol):
+    """Says where a character or one of its joints is, or will be at a time (`Humanoid.locate`)."""
+
+    def __call__(self, joint: str | None, time: GlobalTime | None = None) -> Vec3 | None:
+        """In the world, m; None: it has no such joint."""
+        ...
 
 
 class World:
@@ -14,10 +24,10 @@ class World:
 
     def __init__(self, positions: Mapping[str, Vec3]) -> None:
         self._positions: dict[str, Vec3] = dict(positions)
-        self._living: dict[str, Callable[[str | None], Vec3 | None]] = {}
+        self._living: dict[str, Locate] = {}
 
-    def add_character(self, character: str, locate: Callable[[str | None], Vec3 | None]) -> None:
-        """Make a character a target: ``locate(joint)`` says where it or one of its joints is."""
+    def add_character(self, character: str, locate: Locate) -> None:
+        """Make a character a target."""
         self._living[character] = locate
 
     def move(self, target: str, position: Vec3 | None) -> None:
@@ -27,11 +37,16 @@ class World:
         else:
             self._positions[target] = position
 
-    def position(self, target: str) -> Vec3 | None:
-        """Where a target is now; ``alice`` looks her in the eye, ``alice:l_wrist`` at a joint. None: no such target."""
+    def position(self, target: str, time: GlobalTime | None = None) -> Vec3 | None:
+        """Where a target is; ``alice`` looks her in the eye, ``alice:l_wrist`` at a joint. None: no such target.
+
+        Args:
+            target: its name.
+            time: of a frame in which characters have not moved yet: where they will be then; None: now.
+        """
         character, _, joint = target.partition(":")
         if character in self._living:
-            return self._living[character](joint or None)
+            return self._living[character](joint or None, time)
         return self._positions.get(target)
 
     @property

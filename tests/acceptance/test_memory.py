@@ -4,6 +4,7 @@ import gc
 import weakref
 
 from reactive_realizer.engines.animation.arms.gesture_motion_unit import GestureMotionUnit
+from reactive_realizer.engines.animation.release import Release
 from reactive_realizer.scheduler.bml_block import BMLBlock
 
 
@@ -55,6 +56,22 @@ async def test_only_the_last_ended_blocks_are_remembered(pilot) -> None:
         pilot.block(f"b{number}")
     await pilot.tick()
     assert [ended.key.block for ended in blocks.ended] == [f"b{n}" for n in range(5, 10)]
+
+
+async def test_where_nobody_looks_nothing_that_has_left_is_kept(pilot) -> None:
+    for number in range(12):
+        stance = "SITTING" if number % 2 else "STANDING"
+        pilot.block(
+            f"b{number}",
+            f"""
+            <postureShift id="p" start="0" end="0.1"><stance type="{stance}"/></postureShift>
+            <gazeShift id="g" target="bluebox" start="0" end="0.1"/>
+            """,
+            composition="REPLACE" if number == 1 else "MERGE",
+        )
+        await pilot.advance(3.1)
+    gc.collect()
+    assert len([thing for thing in gc.get_objects() if isinstance(thing, Release)]) < 4
 
 
 async def test_a_gesture_that_was_asked_for_in_all_sizes_is_not_kept_in_all_of_them(pilot) -> None:

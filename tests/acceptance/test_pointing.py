@@ -1,6 +1,7 @@
 """Pointing, from BML to frames: the finger's line meets the target (thesis 4.2.2)."""
 
 import math
+from itertools import pairwise
 from pathlib import Path
 from random import Random
 
@@ -81,6 +82,19 @@ async def test_a_target_that_moves_during_the_hold_is_followed(pair) -> None:
         await pair.tick()
         if pair.frames["alice"][-1].time >= pair.now - 0.0101 and i > 2:
             assert miss(pair.bodies("alice")[-1], "r", target) < 2.0
+    assert pair.feedback.warnings == []
+
+
+@pytest.mark.parametrize(("who", "other"), [("alice", "bob"), ("bob", "alice")])
+async def test_the_finger_is_on_the_hand_of_another_one_while_that_waves(pair, who, other) -> None:
+    pointing = f'<pointing id="p" target="{other}:r_wrist" mode="LEFT_HAND" start="0" ready="1" relax="4"/>'
+    pair.perform(block("b", pointing, characterId=who))
+    pair.perform(block("w", '<gesture id="w" lexeme="GREET" mode="RIGHT_HAND" start="0.5"/>', characterId=other))
+    await pair.advance(4.2)
+    wrists = [body.place("r_wrist").position for body in pair.bodies(other)][51:200]
+    assert max(math.dist(a, b) for a, b in pairwise(wrists)) > 0.02, "more than 1 m/s"
+    missed = [miss(body, "l", wrist) for body, wrist in zip(pair.bodies(who)[51:200], wrists, strict=True)]
+    assert max(missed) < 1.0
     assert pair.feedback.warnings == []
 
 

@@ -8,11 +8,12 @@ from pathlib import Path
 import pytest
 
 from reactive_realizer.embodiment.avatar import Avatar
+from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.humanoid import Humanoid, Look
 from reactive_realizer.embodiment.joints import EYES
 from reactive_realizer.embodiment.pose import Layer, LayerKind
 from reactive_realizer.embodiment.quaternion import angle, conjugate, difference, from_axis_angle
-from reactive_realizer.embodiment.vector import UP
+from reactive_realizer.embodiment.vector import UP, distance
 
 AVATAR = Avatar.read(Path(str(files("reactive_realizer"))) / "assets" / "avatars" / "female.glb")
 FRAME = 0.02
@@ -98,3 +99,36 @@ def test_a_figure_that_has_moved_is_there_for_who_looks_at_it_before_it_looks_it
     figure.look(lambda body: seen.append(body.place("r_wrist").position) or Look({}, {}), ())
     assert moved != before
     assert seen == [moved] == [figure.locate("r_wrist")]
+
+
+def bent(angle_):
+    """An arm that moves."""
+    return [Layer(LayerKind.BASE, {"r_shoulder": from_axis_angle((1.0, 0.0, 0.0), -angle_)})]
+
+
+def test_before_its_first_frame_it_is_at_rest_for_who_looks_at_it_and_for_what_begins():
+    figure = Humanoid(AVATAR)
+    rest = Body(AVATAR.skeleton, {"r_shoulder": from_axis_angle(UP, 0.3)}, (0.0, -0.1, 0.0))
+    figure.rest(rest)
+    assert figure.body is figure.shown is rest
+    assert figure.locate("r_wrist") == rest.place("r_wrist").position
+
+
+def test_where_a_joint_will_be_in_the_next_frame_follows_from_how_it_moves():
+    figure = Humanoid(AVATAR, position=(1.0, 0.0, 0.0), heading=1.0)
+    for i in range(5):
+        frame(figure, i * FRAME, bent(0.1 * i))
+    now, expected = figure.locate("r_wrist"), figure.locate("r_wrist", 5 * FRAME)
+    frame(figure, 5 * FRAME, bent(0.5))
+    there = figure.locate("r_wrist")
+    assert distance(there, now) > 0.04
+    assert distance(there, expected) < 0.15 * distance(there, now)
+    assert figure.locate("r_wrist", 5 * FRAME) == there, "it has moved there"
+    assert figure.locate("r_no_such", 6 * FRAME) is None
+
+
+def test_who_has_not_been_shown_for_a_while_is_not_expected_far_away():
+    figure = Humanoid(AVATAR)
+    for i in range(3):
+        frame(figure, i * FRAME, bent(0.1 * i))
+    assert figure.locate("r_wrist", 60.0) == pytest.approx(figure.locate("r_wrist", 3 * FRAME))

@@ -2,7 +2,6 @@
 
 import asyncio
 from collections.abc import Awaitable, Callable, Iterator, Mapping, Sequence
-from math import inf
 from random import Random
 from types import MappingProxyType
 from typing import TypeVar
@@ -18,6 +17,7 @@ from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.humanoid import Eyes, Look
 from reactive_realizer.embodiment.pose import Layer, LayerKind, checked, over
 from reactive_realizer.embodiment.quaternion import Quat
+from reactive_realizer.embodiment.vector import Vec3
 from reactive_realizer.engine.context import EngineContext
 from reactive_realizer.engine.effects import Request, Warn
 from reactive_realizer.engine.engine import DefaultEngine
@@ -53,6 +53,7 @@ class AnimationEngine(DefaultEngine):
     """Turns the joints of one figure."""
 
     behaviors = TWENTE | {Gesture, Head, HeadDirectionShift, Gaze, GazeShift, Pointing, Posture, PostureShift}
+    reads_parameters = True
     parameters = MappingProxyType(
         {
             Gesture: {"amount": AMOUNT_RANGE},
@@ -69,6 +70,7 @@ class AnimationEngine(DefaultEngine):
         binding = GestureBinding.read(*context.bindings["gesture"])
         library = PostureLibrary(context.humanoid.avatar.skeleton, context.asset, binding.rest_poses)
         self._rest = Rest(library, self._expected)
+        self._humanoid.rest(self._rest.body)
         functions = registered(context.functions)
         actor = Actor(context.humanoid, context.world, context.asset, context.seed, self._rest, functions)
         self._library = MotionLibrary(binding, actor)
@@ -121,8 +123,8 @@ class AnimationEngine(DefaultEngine):
     def add(self, unit: PlanUnit) -> None:
         """As every engine."""
         self._drafts.clear()
-        if isinstance(unit, AnimationUnit) and unit.note is not None:
-            self._notes.append(Warn(unit, unit.note))
+        if isinstance(unit, AnimationUnit):
+            self._notes += (Warn(unit, note) for note in unit.notes)
         super().add(unit)
 
     def _expected(self) -> BodyPosture:
@@ -138,12 +140,12 @@ class AnimationEngine(DefaultEngine):
     def reset(self, time: GlobalTime) -> None:
         """The figure stands and looks as at first."""
         for layer in self._lasting.layers(time, self._humanoid.body):
-            self._releases.append(Release(layer, time))
+            self._let_go(Release(layer, time))
         self._lasting.clear()
         self._looking.notice(time)
         base = self._base()
         if self._rest.reset():
-            self._let_go(base, time)
+            self._let_go(Release(base, time, release_duration(base, self._roots())))
 
     def layers(self, tick: Tick) -> tuple[Layer, ...]:
         """Rest pose and idle life, what has stayed, what is on its way back, what plays, and where the feet stay."""
@@ -171,8 +173,9 @@ class AnimationEngine(DefaultEngine):
         alone = [layer for _, layer in playing]
         return self._net("what is on its way back", lambda: stacked(self._releases, playing, now), alone)
 
-    def _playing(self, now: GlobalTime) -> list[tuple[float, Layer]]:
-        return self.player.show(AnimationUnit, lambda unit: (unit.started, unit.layer(now)), now)
+    def _playing(self, now: GlobalTime) -> list[tuple[tuple[float, float], Layer]]:
+        layers = self.player.show(AnimationUnit, lambda unit: (unit, unit.layer(now)), now)
+        return [(unit.height, layer) for unit, layer in layers]
 
     def eyes(self, tick: Tick) -> Eyes:
         """What the eyes of all gazes make of it, from the head as it is shown; lids go with them."""
@@ -210,20 +213,30 @@ class AnimationEngine(DefaultEngine):
         return None if hands is rest else hands
 
     def _release(self, unit: AnimationUnit, time: GlobalTime) -> None:
-        """Take over the joints of a unit that plays no more."""
+        """Take over the joints of a unit that plays no more; what stays of it lies below all others from now on."""
         self._notice(unit, time)
         stays = unit.state is UnitState.DONE and unit.motion.lasts is not None and not unit.was_cut("end")
-        if stays:
-            if not unit.motion.becomes_rest():
-                self._lasting.keep(unit.motion, time, self._humanoid.body)
-        elif unit.shown.rotations or unit.shown.root is not None:
-            self._let_go(caught(unit.shown, self._humanoid.shown.root), time, unit.started)
+        base, layer, drift = self._base(), caught(unit.shown, self._humanoid.shown.root), unit.drift(time)
+        duration = release_duration(layer, self._roots())
+        if stays and unit.motion.becomes_rest():
+            duration = max(duration, release_duration(base, self._roots()))
+            self._let_go(Release(base, time, duration, under=layer.weight))
+        elif stays:
+            self._lasting.keep(unit.motion, time, self._humanoid.body)
+            drift = None  # it is where it wanted to be
+        if layer.rotations or layer.root is not None:
+            self._let_go(Release(layer, time, duration, unit.height, drift))
+
+    def _let_go(self, release: Release) -> None:
+        self._releases = [other for other in (*self._releases, release) if not other.over(release.since)]
+
+    def _roots(self) -> list[Vec3]:
+        """Where HumanoidRoot is at rest, and where what plays has it."""
+        playing = (unit.shown.root for unit in self.player.playing if isinstance(unit, AnimationUnit))
+        return [self._rest.body.root, *(root for root in playing if root is not None)]
 
     def _base(self) -> Layer:
         return Layer(LayerKind.BASE, self._rest.pose, root=self._rest.body.root)
-
-    def _let_go(self, layer: Layer, time: GlobalTime, started: float = -inf) -> None:
-        self._releases.append(Release(layer, time, release_duration(layer, self._rest.body.root), started))
 
 
 def _precedes(unit: AnimationUnit, block: BlockKey, behavior: Behavior) -> bool:

@@ -1,6 +1,6 @@
 """Motions in a plan."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import inf
@@ -10,8 +10,10 @@ from reactive_realizer.bml.behaviors import Pointing
 from reactive_realizer.clock.units import RESOLUTION, GlobalTime
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.pose import Layer, LayerKind
+from reactive_realizer.engine.player import height
 from reactive_realizer.engines.animation.choice import Choice, Choices, choose
-from reactive_realizer.engines.animation.easing import share
+from reactive_realizer.engines.animation.drift import Drift, Shown
+from reactive_realizer.engines.animation.easing import minimum_jerk, share
 from reactive_realizer.engines.animation.motion_unit import (
     Moment,
     MotionUnit,
@@ -19,6 +21,7 @@ from reactive_realizer.engines.animation.motion_unit import (
     layer_of,
 )
 from reactive_realizer.engines.animation.moving import Moving
+from reactive_realizer.engines.animation.release import LOWEST
 from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.parameter import Parameter
@@ -33,6 +36,9 @@ _HOLDS = frozenset({("ready", "strokeStart"), ("strokeEnd", "relax")})
 
 _STAYS = frozenset({("strokeStart", "stroke"), ("stroke", "strokeEnd")})
 """The stroke of a pointing is a stay."""
+
+_LATE = 0.05
+"""s; what comes later than this after its start has joined late."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,8 +72,8 @@ class AnimationUnit(PlanUnit):
         motion: what is played.
         keys: sync id -> phase of the motion, 0 to 1.
         shown: what it showed last.
-        started: when it started, s; before that it lies below all others.
-        note: what is wrong with what is said to it though it is played, None if nothing is.
+        height: where it lay among others when it was shown last.
+        notes: what is wrong with what is said to it, or with its motion, though it is played.
     """
 
     def __init__(self, block: BlockKey, behavior: Behavior, choices: Choices, stage: Stage) -> None:
@@ -81,14 +87,16 @@ class AnimationUnit(PlanUnit):
         """
         planned = choices.planned
         motion = planned.motion
-        super().__init__(block, behavior, motion_timing(behavior, motion))
+        keys = keys_of(behavior, motion)
+        super().__init__(block, behavior, motion_timing(behavior, motion, keys))
         self._stage = stage
-        self._play(planned)
+        self._play(planned, keys)
         for name, own in planned.names.items():
             cell = Source(stage.graph, str(self.key(name)), motion.parameters[own])
             self.parameters[name] = Parameter(self, cell, planned.range(name))
-        self.note = planned.note
-        self.started = GlobalTime(-inf)
+        self.notes = planned.notes
+        self.height = LOWEST
+        self._joined: GlobalTime | None = None
         self._complained = False
         self._choices = choices
 
@@ -97,20 +105,21 @@ class AnimationUnit(PlanUnit):
         """How far the motion has come, 0 to 1."""
         return self._clock.phase
 
-    def _play(self, choice: Choice) -> None:
+    def _play(self, choice: Choice, keys: Mapping[str, float]) -> None:
         motion = choice.motion
         self.motion = motion
         self.resources = motion.resources
         self.group = choice.group or motion.group
         self.yields = choice.yields
-        self.shown = Layer(motion.kind, {})
-        self.keys = _keys(self.behavior, motion)
-        self._clock = PhaseClock(self.keys)
+        self.shown = Layer(motion.kind, {}, 0.0)
+        self._seen: tuple[Shown, ...] = ()
+        self.keys = keys
+        self._clock = PhaseClock(keys)
         self._names = choice.names
 
     def _stands_in(self, choice: Choice) -> bool:
         """Whether a choice has the points and the parameters of the one that is planned."""
-        points = tuple(_keys(self.behavior, choice.motion))
+        points = tuple(keys_of(self.behavior, choice.motion))
         return points == self.timing.points and choice.names.keys() >= self._names.keys()
 
     def settle(self, taken: frozenset[str]) -> None:
@@ -120,7 +129,7 @@ class AnimationUnit(PlanUnit):
         usable = (choice for choice in self._choices if choice is planned or self._stands_in(choice))
         chosen = choose(usable, taken, None if start is None or end is None else end - start)
         if chosen.motion is not self.motion:
-            self._play(chosen)
+            self._play(chosen, keys_of(self.behavior, chosen.motion))
 
     def preference(self, now: GlobalTime) -> Timing:
         """A gesture that begins now is prepared from where the hands are (thesis 12.1.4)."""
@@ -144,9 +153,17 @@ class AnimationUnit(PlanUnit):
     def _exits(self) -> list[SyncPoint]:
         return [point for point in self.points if point.id in self.motion.exits]
 
+    def fire(self, now: GlobalTime, *, end: bool = True) -> list[SyncPoint]:
+        """As every unit; what begins after its start has passed joins late."""
+        begins = not self.begun
+        fired = super().fire(now, end=end)
+        start = self.points[0].fired
+        if begins and start is not None and now - start > _LATE:
+            self._joined = now
+        return fired
+
     def on_start(self, time: GlobalTime) -> None:
         """The motion begins from where the body is; what is added to it comes from nowhere."""
-        self.started = time
         added = self.motion.kind is LayerKind.ADDITIVE
         self.motion.start(self._stage.body() if added else self._stage.moving(time).body)
 
@@ -167,8 +184,22 @@ class AnimationUnit(PlanUnit):
         for name, own in self._names.items():
             self.motion.parameters[own] = self.parameters[name].value
         stage = self._stage
-        self.shown = layer_of(self.motion, Moment(self._clock.advance(self, now), now, stage.body(), stage.shown()))
+        layer = layer_of(self.motion, Moment(self._clock.advance(self, now), now, stage.body(), stage.shown()))
+        self.height = height(self)
+        self.shown = self._come_in(layer, now)
+        self._seen = (*(seen for seen in self._seen[-1:] if seen.time < now), Shown(now, self.shown))
         return self.shown
+
+    def _come_in(self, layer: Layer, now: GlobalTime) -> Layer:
+        """The layer of one that joined late comes by its weight."""
+        entrance = self.motion.entrance
+        if self._joined is None or entrance is None:
+            return layer
+        return replace(layer, weight=layer.weight * minimum_jerk(share(now, self._joined, self._joined + entrance)))
+
+    def drift(self, time: GlobalTime) -> Drift | None:
+        """How what it showed last goes on by itself from a time on; None if that is not known."""
+        return Drift.after(self._seen, time)
 
     def complaint(self) -> Fault | None:
         """What is wrong with it though it plays on; told once."""
@@ -184,26 +215,26 @@ class AnimationUnit(PlanUnit):
         return layer_of(self.motion, Moment(begin + gone * (1.0 - begin), now, rest))
 
 
-def motion_timing(behavior: Behavior, motion: MotionUnit) -> Timing:
+def motion_timing(behavior: Behavior, motion: MotionUnit, keys: Mapping[str, float]) -> Timing:
     """The preferred timing of a behavior, from the key positions of its motion.
 
-    Its points are those of the motion, whatever their names, and those that BML wants of such a behavior.
+    Args:
+        behavior: what is asked for.
+        motion: what plays it.
+        keys: the phase of each point: of those of the motion, whatever their names, and of those that BML wants of such
+            a behavior.
     """
-    keys = _keys(behavior, motion)
     shortest, longest = motion.limits or (0.0, inf)
     # What is added to other motion waits for nothing: where its points coincide they stay together.
     holds = frozenset[tuple[str, str]]() if motion.kind is LayerKind.ADDITIVE else _holds(behavior)
-    phases = (
-        Phase((keys[b] - keys[a]) * motion.preferred_duration, PhaseKind.HOLD)
-        if (a, b) in holds
-        else Phase(
-            (keys[b] - keys[a]) * motion.preferred_duration,
-            PhaseKind.ELASTIC,
-            (keys[b] - keys[a]) * shortest,
-            (keys[b] - keys[a]) * longest if keys[b] > keys[a] else inf,
-        )
-        for a, b in pairwise(keys)
-    )
+    phases = []
+    for points, (begin, end) in zip(pairwise(keys), pairwise(keys.values()), strict=True):
+        part = end - begin
+        if points in holds:
+            phases.append(Phase(part * motion.preferred_duration, PhaseKind.HOLD))
+        else:
+            most = part * longest if part > 0.0 else inf
+            phases.append(Phase(part * motion.preferred_duration, PhaseKind.ELASTIC, part * shortest, most))
     return Timing(tuple(keys), tuple(phases), persistent=behavior.persistent)
 
 
@@ -215,7 +246,8 @@ def _holds(behavior: Behavior) -> frozenset[tuple[str, str]]:
     return _HOLDS | ({("ready", "relax")} & set(pairwise(behavior.sync_points)))
 
 
-def _keys(behavior: Behavior, motion: MotionUnit) -> dict[str, float]:
+def keys_of(behavior: Behavior, motion: MotionUnit) -> dict[str, float]:
+    """The phase of each point of a behavior that a motion plays, in order."""
     wanted = (*behavior.sync_points, *behavior.instead_of)
     keys = motion.key_positions
     if not keys.keys() >= set(wanted):

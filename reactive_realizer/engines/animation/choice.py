@@ -21,14 +21,14 @@ class Choice:
         names: name of a parameter in BML -> the motion's own, of those that may be changed.
         group: the replacement group that the behavior or the binding names, None for the motion's own.
         yields: whether others of its group may take its place while it plays.
-        note: what is wrong with what the behavior says, though it is played; None if nothing is.
+        notes: what is wrong with what the behavior says, or with what plays it, though it is played.
     """
 
     motion: MotionUnit
     names: Mapping[str, str] = field(default_factory=dict)
     group: str | None = None
     yields: bool = False
-    note: Fault | None = None
+    notes: tuple[Fault, ...] = ()
 
     def range(self, name: str) -> Range:
         """The values that mean something of a parameter, by its name in BML: an amount is one, whatever it scales."""

@@ -1,4 +1,4 @@
-"""What a behavior, or its binding, says to a motion that knows nothing of it."""
+"""What a behavior, its binding or a file says to a motion that cannot do it."""
 
 from collections.abc import Iterable
 
@@ -10,6 +10,17 @@ from reactive_realizer.errors import Fault
 
 GROUP = "replacementgroup"
 """The parameter that is the binding's own, whatever plays: who gives way to whom (thesis 8.7.5)."""
+
+
+def left_out(spec: UnitSpec, behavior: Behavior, motion: MotionUnit) -> Fault | None:
+    """The joints that a motion cannot turn for a behavior that says which file is played; None where it turns all.
+
+    Of a file that an entry names its author learns by the log: to a planner every gesture of a figure without fingers
+    would complain.
+    """
+    if spec.file is not None or not motion.lacking:
+        return None
+    return Fault("joints-left-out", {"joints": listed(motion.lacking), "element": behavior.name})
 
 
 def said_in_vain(spec: UnitSpec, behavior: Behavior, motion: MotionUnit) -> Fault | None:

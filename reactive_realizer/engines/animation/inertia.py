@@ -14,7 +14,7 @@ def faded(goal: Mapping[str, Quat], offsets: Mapping[str, Quat], left: float) ->
     Args:
         goal: joint -> rotation local to the parent.
         offsets: joint -> turn from its goal to what was shown, when the goal jumped.
-        left: how much of that is left, 1 to 0.
+        left: how much of that is there, 0 to 1.
     """
     return {
         joint: multiply(turn, power(offsets[joint], left)) if joint in offsets else turn for joint, turn in goal.items()

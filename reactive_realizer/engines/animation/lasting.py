@@ -31,7 +31,7 @@ class Lasting:
             return
         replaced = self._motions.pop(motion.lasts, None)
         if replaced is not None and (layer := self._layer(replaced, now, body)) is not None:
-            self._leaving.append(Release(layer, now))
+            self._leaving = [*self._left(now), Release(layer, now)]
         self._motions[motion.lasts] = motion
 
     def clear(self) -> None:
@@ -46,10 +46,13 @@ class Lasting:
 
     def layers(self, now: GlobalTime, body: Body) -> tuple[Layer, ...]:
         """What they show, and what is left of those that they have replaced."""
-        self._leaving = [release for release in self._leaving if not release.over(now)]
+        self._leaving = self._left(now)
         leaving = (replace(release.at(now), priority=_LEAVING) for release in self._leaving)
         staying = (self._layer(motion, now, body) for motion in self.motions)
         return (*leaving, *(layer for layer in staying if layer is not None))
+
+    def _left(self, now: GlobalTime) -> list[Release]:
+        return [release for release in self._leaving if not release.over(now)]
 
     def _layer(self, motion: MotionUnit, now: GlobalTime, body: Body) -> Layer | None:
         """What one shows; one that fails stays no longer: its behavior has ended and cannot be told of it."""

@@ -9,7 +9,7 @@ from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.document import parse
 from reactive_realizer.bml.names import BML
 from reactive_realizer.engine.lexicon import Changeable, Word
-from reactive_realizer.engines.animation.animation_unit import motion_timing
+from reactive_realizer.engines.animation.animation_unit import keys_of, motion_timing
 from reactive_realizer.engines.animation.motion_library import MotionLibrary
 from reactive_realizer.engines.animation.posture.posture_library import LEXEMES
 from reactive_realizer.errors import RealizerError
@@ -44,7 +44,7 @@ def _word(spec: UnitSpec, text: str, library: MotionLibrary) -> Word:
     except RealizerError as problem:
         return Word(spec.behavior, lexeme, said, file=spec.file, problem=problem.fault.sentence)
     motion = choice.motion
-    timing = motion_timing(behavior, motion)
+    timing = motion_timing(behavior, motion, keys_of(behavior, motion))
     return Word(
         spec.behavior,
         lexeme,

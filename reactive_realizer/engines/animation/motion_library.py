@@ -13,7 +13,7 @@ from reactive_realizer.bml.behaviors import Head
 from reactive_realizer.engines.animation.actor import Actor, SlowMaker, Wanted
 from reactive_realizer.engines.animation.choice import Choice, Choices
 from reactive_realizer.engines.animation.gaze.gaze_maker import DYNAMIC
-from reactive_realizer.engines.animation.in_vain import GROUP, listed, named_in_vain, said_in_vain
+from reactive_realizer.engines.animation.in_vain import GROUP, left_out, listed, named_in_vain, said_in_vain
 from reactive_realizer.engines.animation.makers import makers_of
 from reactive_realizer.engines.animation.motion_unit import FILE, MotionUnit
 from reactive_realizer.engines.animation.values import values_of
@@ -53,7 +53,9 @@ class MotionLibrary:
         attributes = seen(behavior)
         specs = self.binding.match(behavior.name, behavior.namespace, attributes)
         if not specs:
-            raise error("no-motion-for", element=behavior.name, lexeme=attributes.get("lexeme", ""))
+            said = self.binding.chooses_by(behavior.name, behavior.namespace) & attributes.keys()
+            words = " and ".join(f"{name}='{attributes[name]}'" for name in sorted(said))
+            raise error("no-motion-for", element=behavior.name, said=f" with {words}" if words else "")
         return Choices(self._made(specs, behavior, attributes))
 
     def _made(self, specs: Iterable[UnitSpec], behavior: Behavior, attributes: Mapping[str, str]) -> Iterator[Choice]:
@@ -119,7 +121,8 @@ class MotionLibrary:
             self._judge(spec, motion)
         group = parameters.get(GROUP)
         yields = group is not None or motion.lasts is not None or behavior.persistent
-        choice = Choice(motion, _names(spec, motion), group, yields, said_in_vain(spec, behavior, motion))
+        notes = filter(None, (said_in_vain(spec, behavior, motion), left_out(spec, behavior, motion)))
+        choice = Choice(motion, _names(spec, motion), group, yields, tuple(notes))
         said = {name: parameters[own] for name, own in choice.names.items() if own in parameters}
         values_of(said, {name: choice.range(name) for name in said})
         return choice

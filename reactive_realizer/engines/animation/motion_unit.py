@@ -103,6 +103,7 @@ class MotionUnit(ABC):
     Attributes:
         kind: where it lies among the layers of a frame.
         joints: the joints that it turns, while it plays.
+        lacking: those that it was to turn, too, and cannot, of this figure or at all.
         resources: what of the body it owns while it plays (`Resource`); units that share one exclude each other.
         group: its replacement group, if it has one of its own: see `PlanUnit.group`.
         lasts: the name under which its last pose stays when it has ended, until another of that name has ended or
@@ -116,12 +117,14 @@ class MotionUnit(ABC):
         preferred_duration: how long it takes where nothing else is asked for, s.
         limits: shortest and longest duration, s, if its author named any; given up before any constraint is.
         foreseen: when it is known what it will show.
+        entrance: how long it takes to come in if it joins late, s; None: it is there at once, or sees to that itself.
         led: whether it goes to where others go on, and is told of them (`lead`).
         fault: what is wrong with it though it plays on, None as long as nothing is.
     """
 
     kind: LayerKind
     joints: frozenset[str]
+    lacking: frozenset[str] = frozenset()
     resources: frozenset[str] = frozenset()
     group: str | None = None
     lasts: str | None = None
@@ -133,6 +136,7 @@ class MotionUnit(ABC):
     preferred_duration: float
     limits: tuple[float, float] | None = None
     foreseen: Foreseen = Foreseen.NEVER
+    entrance: float | None = None
     led: bool = False
     fault: Fault | None = None
 

@@ -9,6 +9,7 @@ from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.joints import ROOT
 from reactive_realizer.embodiment.pose import Layer, LayerKind
 from reactive_realizer.embodiment.vector import Vec3, distance
+from reactive_realizer.engines.animation.drift import Drift
 from reactive_realizer.engines.animation.easing import minimum_jerk, share
 
 DURATION = 0.6
@@ -26,6 +27,9 @@ _WALK = 1.0
 _OUTRUN = 0.5
 """m; a figure that is further behind a motion has not kept up with it."""
 
+LOWEST = (-inf, -inf)
+"""The height of what lies below all others."""
+
 _NOTICEABLE = 1e-3
 """A motion that has eased out by itself is let go with less."""
 
@@ -38,30 +42,38 @@ class Release:
         layer: as it was shown last.
         since: when it began to leave.
         duration: until nothing is left of it, s.
-        height: when the motion that it is of had started: what had started before stays below.
+        height: where the motion that it is of lay among others: what was below stays below.
+        drift: how it goes on; None if it was at rest.
+        under: the weight of what leaves above it at the same time and is the same as what has come below it. It leaves
+            so that the two together go straight from what was shown to what has come.
     """
 
     layer: Layer
     since: GlobalTime
     duration: float = DURATION
-    height: float = -inf
+    height: tuple[float, float] = LOWEST
+    drift: Drift | None = None
+    under: float = 0.0
 
     def over(self, now: GlobalTime) -> bool:
         """Whether nothing of it is left."""
-        return now >= self.since + self.duration or self.layer.weight < _NOTICEABLE
+        return now >= self.since + self.duration or self.layer.weight * (1.0 - self.under) < _NOTICEABLE
 
     def at(self, now: GlobalTime) -> Layer:
         """What is left of it."""
-        gone = minimum_jerk(share(now, self.since, self.since + self.duration))
-        return replace(self.layer, weight=self.layer.weight * (1.0 - gone))
+        layer = self.layer if self.drift is None else self.drift(self.layer, now)
+        left = 1.0 - minimum_jerk(share(now, self.since, self.since + self.duration))
+        return replace(layer, weight=layer.weight * left * (1.0 - self.under) / (1.0 - self.under * left))
 
 
-def stacked(releases: Iterable[Release], playing: Iterable[tuple[float, Layer]], now: GlobalTime) -> list[Layer]:
-    """Layers that leave and layers that play, what started first below.
+def stacked(
+    releases: Iterable[Release], playing: Iterable[tuple[tuple[float, float], Layer]], now: GlobalTime
+) -> list[Layer]:
+    """Layers that leave and layers that play, the lowest first.
 
     Args:
         releases: what leaves.
-        playing: layers with the times at which they started, the lowest first.
+        playing: layers with their heights, in order.
         now: time of the frame.
     """
     heights = [*((release.height, release.at(now)) for release in releases), *playing]
@@ -80,12 +92,13 @@ def caught(layer: Layer, root: Vec3) -> Layer:
     return replace(layer, root=root) if leads and outrun else layer
 
 
-def release_duration(layer: Layer, rest: Vec3) -> float:
+def release_duration(layer: Layer, roots: Iterable[Vec3]) -> float:
     """How long a layer takes to leave, s: where the whole figure has to move, longer.
 
     Args:
         layer: that leaves.
-        rest: where HumanoidRoot is without it, as a displacement from its default place, m.
+        roots: where HumanoidRoot may be without it, as displacements from its default place, m.
     """
-    moved = 0.0 if layer.root is None else layer.weight * distance(layer.root, rest)
+    place = layer.root
+    moved = 0.0 if place is None else layer.weight * max(distance(place, root) for root in roots)
     return max(DURATION, min(_A_METER * moved, _LONGEST), _WALK * moved)

@@ -1,14 +1,23 @@
 """Where the targets of the world are, as the figure sees them."""
 
-from collections.abc import Callable
+from typing import Protocol
 
+from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.vector import Vec3
 from reactive_realizer.engines.animation.actor import Actor
 from reactive_realizer.errors import error
 
 
-def sight_of(actor: Actor, target: str, *, follow: bool) -> Callable[[], Vec3]:
-    """Where a target is now, in the figure's own frame, m.
+class Sight(Protocol):
+    """Where a target is."""
+
+    def __call__(self, time: GlobalTime | None = None) -> Vec3:
+        """In the figure's own frame, m: at the time of a frame that is being made, or as it is seen now."""
+        ...
+
+
+def sight_of(actor: Actor, target: str, *, follow: bool) -> Sight:
+    """Where a target is, whenever it is asked for.
 
     Args:
         actor: whose frame.
@@ -25,8 +34,8 @@ def sight_of(actor: Actor, target: str, *, follow: bool) -> Callable[[], Vec3]:
         raise error("no-target", target=target, known=", ".join(world.targets))
     seen: list[Vec3] = []
 
-    def locate() -> Vec3:
-        position = world.position(target) if follow or not seen else None
+    def locate(time: GlobalTime | None = None) -> Vec3:
+        position = world.position(target, time) if follow or not seen else None
         if position is not None:
             seen[:] = [position]
         return humanoid.to_own_frame(seen[0] if seen else known)

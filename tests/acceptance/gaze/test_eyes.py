@@ -101,24 +101,29 @@ def lids(pilot, *morphs: str) -> list[float]:
 
 
 @pytest.mark.parametrize(
-    ("pitch", "morph", "other"), [(25, "eyeLookUp", "eyeLookDown"), (-25, "eyeLookDown", "eyeLookUp")]
+    ("pitch", "morph", "other", "weight"),
+    [
+        (15, "eyeLookUp", "eyeLookDown", 0.6),
+        (35, "eyeLookUp", "eyeLookDown", 1),
+        (-25, "eyeLookDown", "eyeLookUp", 0.6),
+    ],
 )
-async def test_the_lids_go_with_the_eyes(pilot, pitch, morph, other) -> None:
+async def test_the_lids_go_with_the_eyes(pilot, pitch, morph, other, weight) -> None:
     put(pilot, "t", 0, pitch)
     pilot.block("b", '<gaze id="g" target="t" influence="EYES" start="0" end="4"/>')
     await pilot.advance(1)
     both = [f"{morph}Left", f"{morph}Right"]
-    assert lids(pilot, *both) == pytest.approx([0.6, 0.6], abs=0.05)
+    assert lids(pilot, *both) == pytest.approx([weight, weight], abs=0.05)
     assert lids(pilot, f"{other}Left", f"{other}Right") == [0, 0]
 
 
 async def test_in_each_frame_a_lid_is_where_its_eye_is(pilot) -> None:
-    put(pilot, "t", 0, 25)
+    put(pilot, "t", 0, -25)
     pilot.block("b", '<gaze id="g" target="t" influence="EYES" start="0.2" end="4"/>')
     await pilot.advance(0.5)
-    lid = pilot.realizer.characters["alice"].humanoid.avatar.morphs.index("eyeLookUpLeft")
-    raised = [float(frame.weights[lid]) for frame in pilot.frames["alice"]]
-    looks = [max(0.0, rotate(body.rotation(EYES[0]), FORWARD)[1] / EYE_RANGE) for body in pilot.bodies()]
-    assert raised == pytest.approx(looks, abs=1e-6)
+    lid = pilot.realizer.characters["alice"].humanoid.avatar.morphs.index("eyeLookDownLeft")
+    lowered = [float(frame.weights[lid]) for frame in pilot.frames["alice"]]
+    looks = [max(0.0, -rotate(body.rotation(EYES[0]), FORWARD)[1] / EYE_RANGE) for body in pilot.bodies()]
+    assert lowered == pytest.approx(looks, abs=1e-6)
     # While the eye is on its way, too.
-    assert sum(0.01 < weight < 0.59 for weight in raised) >= 3
+    assert sum(0.01 < weight < 0.59 for weight in lowered) >= 3

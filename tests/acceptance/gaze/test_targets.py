@@ -10,7 +10,7 @@ from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.embodiment.vector import distance, subtract, unit
 from reactive_realizer.testing.pilot import open_pilot
 
-from .seen import EYES, FAR, PLATEAU, between, miss, place, put, sight, speeds
+from .seen import EYES, FAR, GLANCE, PLATEAU, between, miss, place, put, sight, speeds
 
 OFFSETS = [
     ("RIGHT", -1, 0),
@@ -116,6 +116,28 @@ async def test_figures_look_at_each_other_and_at_each_others_joints(tests_data) 
         hers, his = pilot.bodies(alice)[-1], pilot.bodies(bob)[-1]
     assert miss(hers, his.place("r_shoulder").position) < 0.5
     assert miss(his, hers.place("skullbase").position) < 0.5
+
+
+async def test_a_gaze_that_begins_before_anything_was_shown_is_at_a_hand_of_a_figure_at_rest(tests_data) -> None:
+    two = SceneOptions(human=tests_data / "humans" / "two.toml", voice="text")
+    async with open_pilot(two) as pilot:
+        pilot.watch()
+        alice, bob = pilot.realizer.characters
+        pilot.block("a", f'<gaze id="g" target="{bob}:r_wrist" start="0" end="4"/>', characterId=alice)
+        await pilot.advance(2)
+        assert miss(pilot.bodies(alice)[-1], pilot.bodies(bob)[0].place("r_wrist").position) < 1
+
+
+@pytest.mark.parametrize("target", ["alice", "alice:l_eyeball_joint"])
+@pytest.mark.parametrize("element", ["gaze", "gazeShift", "headDirectionShift"])
+async def test_who_is_to_look_into_its_own_eyes_looks_straight_ahead_and_it_is_told_once(
+    pilot, element, target
+) -> None:
+    pilot.block("b", f'<{element} id="g" target="{target}" start="0"/>')
+    await pilot.advance(3)
+    assert pilot.feedback.warnings == [("b:g", "EXECUTION_FAILURE")]
+    ahead = [between(sight(body, eye), sight(body, "skullbase")) for body in pilot.bodies() for eye in EYES]
+    assert max(ahead) < GLANCE
 
 
 async def test_a_figure_may_look_at_its_own_hand_as_far_as_it_can(pilot) -> None:

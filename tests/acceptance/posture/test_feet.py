@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+from reactive_realizer.embodiment.quaternion import angle
+
 from .soles import FRAME, flat, heights, planted, slides
 from .standing import FEET, SIT, sits
 
@@ -107,7 +109,7 @@ async def test_a_foot_that_comes_to_stand_elsewhere_goes_there_through_the_air(e
     for foot, name in enumerate(FEET):
         x, _, z = np.subtract(shown[-1].place(name).position, shown[0].place(name).position)
         lifted = high[:, foot].max() - max(high[0, foot], high[-1, foot])
-        assert lifted > 0.03 or np.hypot(x, z) < 0.01 or "SITTING CROSSED" in (before, after)
+        assert lifted > 0.03 or np.hypot(x, z) < 0.01
 
 
 async def test_a_foot_leaves_the_ground_and_comes_back_to_it_gently(either) -> None:
@@ -117,6 +119,22 @@ async def test_a_foot_leaves_the_ground_and_comes_back_to_it_gently(either) -> N
     setting_out = [next(speed for speed in foot if speed > 0.01) for foot in (*climbs.T, *climbs[::-1].T)]
     assert max(setting_out) < 0.4 * climbs.max()
     assert climbs.max() < 0.8
+
+
+LARGEST = 120.0
+"""rad/s^2 of a knee: a third of what it was when it locked at full stretch."""
+
+
+@pytest.mark.parametrize(("before", "after"), CHANGES)
+async def test_no_knee_locks_when_a_foot_comes_down_or_unlocks_when_it_leaves(either, before, after) -> None:
+    """No law of others: how it is done, `engines/animation/posture/footing.py` says."""
+    either.block("a", shift(before))
+    await either.advance(4)
+    either.block("b", shift(after))
+    await either.advance(5)
+    for knee in ("l_knee", "r_knee"):
+        bends = [angle(shown.rotation(knee)) for shown in either.bodies()]
+        assert np.abs(np.diff(bends, n=2)).max() / FRAME**2 < LARGEST
 
 
 async def test_who_changes_the_stance_while_changing_it_does_not_slide_either(either) -> None:

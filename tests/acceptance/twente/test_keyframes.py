@@ -12,7 +12,7 @@ from reactive_realizer.engines.animation.keyframe.capture import Capture
 from reactive_realizer.engines.animation.keyframe.capture_reader import read_capture
 from reactive_realizer.testing.pilot import open_pilot
 
-from .motions import BOW, WAVE, after_start, angles
+from .motions import BOW, WAVE, after_start, angles, told
 
 
 @pytest.mark.parametrize("inside", ["", WAVE, WAVE.replace("<SkeletonInterpolator", '<SkeletonInterpolator xmlns=""')])
@@ -108,13 +108,36 @@ async def test_where_it_may_not_be_left_the_arm_is_taken(pilot) -> None:
     assert pilot.feedback.warnings == [("b:p", "IMPOSSIBLE_TO_SCHEDULE")]
 
 
-async def test_what_a_clip_turns_and_the_figure_has_not_is_logged_once(tmp_path, caplog) -> None:
+async def test_what_a_clip_turns_and_the_figure_has_not_is_told_of_each_behavior_and_logged_once(
+    tmp_path, caplog
+) -> None:
     rows = "0 1 0 0 0 1 0 0 0 1 1 0 0 0 1 0 0 0"
     wagging = f'<SkeletonInterpolator parts="skullbase tail" encoding="R">{rows}</SkeletonInterpolator>'
     (tmp_path / "wagging.xml").write_text(wagging)
     async with open_pilot(SceneOptions(voice="text", assets=(tmp_path,))) as pilot:
-        for number in range(3):
+        for number in range(2):
             pilot.block(f"b{number}", '<bmlt:keyframe id="k" name="wagging"/>')
             await pilot.advance(1.5)
-        assert pilot.feedback.warnings == []
+        assert pilot.feedback.warnings == [("b0:k", "EXECUTION_FAILURE"), ("b1:k", "EXECUTION_FAILURE")]
+        assert told(pilot).endswith("tail are left out: what plays <keyframe> does not turn them, or the figure cannot")
+        assert {"b0:k:end", "b1:k:end"} <= set(pilot.feedback.progress)
     assert caplog.text.count("wagging.xml leaves out what it has not, or the figure has not: tail") == 1
+
+
+async def test_what_a_procedural_animation_turns_and_the_figure_has_not_is_told_where_a_planner_names_the_file(
+    tmp_path,
+) -> None:
+    turns = "".join(f'<Rotation target="{joint}" rotation="0.2*t;0;0"/>' for joint in ("vc4", "tail", "r_ear"))
+    (tmp_path / "wagging.xml").write_text(f'<ProcAnimation prefDuration="1">{turns}</ProcAnimation>')
+    (tmp_path / "gesturebinding.xml").write_text(
+        """<gesturebinding><MotionUnitSpec type="gesture">
+        <constraints><constraint name="lexeme" value="WAG"/></constraints>
+        <MotionUnit type="ProcAnimation" file="wagging.xml"/>
+        </MotionUnitSpec></gesturebinding>"""
+    )
+    async with open_pilot(SceneOptions(voice="text", assets=(tmp_path,))) as pilot:
+        pilot.block("b", '<bmlt:procanimation id="p" name="wagging"/><gesture id="g" lexeme="WAG" start="2"/>')
+        await pilot.advance(4)
+        assert pilot.feedback.warnings == [("b:p", "EXECUTION_FAILURE")]
+        assert "r_ear, tail are left out" in told(pilot)
+        assert {"b:p:end", "b:g:end"} <= set(pilot.feedback.progress)

@@ -12,7 +12,7 @@ PERLIN = '<bmlt:noise id="x" type="perlin" joint="vl5"><bmlt:parameter name="{}"
     [
         ('<bmlt:procanimation id="x" name="nowhere"/>', "no file 'nowhere.xml' among the assets"),
         ('<bmlt:procanimation id="x"/>', "<procanimation> needs a file, or the name of one"),
-        ('<bmlt:keyframe id="x" name="nowhere"/>', "no file 'nowhere.bvh' among the assets"),
+        ('<bmlt:keyframe id="x" name="nowhere"/>', "no file 'nowhere.xml' or 'nowhere.bvh' among the assets"),
         ('<bmlt:keyframe id="x" name="../secret"/>', "it may not leave the folders"),
         (f'<bmlt:keyframe id="x" name="wave">{ARM.replace("joints", "mirror")}</bmlt:keyframe>',
          "mirror='r_shoulder,r_elbow r_wrist' is neither true nor false"),
@@ -43,7 +43,8 @@ PERLIN = '<bmlt:noise id="x" type="perlin" joint="vl5"><bmlt:parameter name="{}"
         ('<gaze id="x" target="bluebox"><bmlt:parameter name="back" value="-1"/></gaze>',
          "the parameter back is a number from 0 to 1, which '-1' is not"),
         ('<bmlt:noise id="x" type="perlin" joint="tail"/>', "this figure has no tail, which <noise> needs"),
-        ('<bmlt:noise id="x" type="white" joint="vl5"/>', "nothing in the binding plays <noise>"),
+        ('<bmlt:noise id="x" type="white" joint="vl5"/>', "nothing in the binding plays <noise> with type='white'"),
+        ('<gesture id="x" lexeme="JUGGLE"/>', "nothing in the binding plays <gesture> with lexeme='JUGGLE'"),
         ('<bmlt:transition id="x" class="Teleport"/>', "no transition is called 'Teleport'; known are SlerpTransition"),
     ],
 )  # fmt: skip

@@ -227,6 +227,11 @@ def test_a_crouch_of_another_body_stands_on_the_ground_of_ours(skeleton):
         ('<KeyPosition id="end" time="0.5"/>0 0 1 0 0 1 0 1 0 0', 'parts="vl5" encoding="R"', "end at 0.5 s: it lasts"),
         ('<KeyPosition id="start" time="1"/>0 0 1 0 0 1 0 1 0 0', 'parts="vl5" encoding="R"', "start at 1 s: it lasts"),
         ('<KeyPosition id="a b" time="1"/>0 0 1 0 0 1 0 1 0 0', 'parts="vl5" encoding="R"', "id='a b' cannot name"),
+        (
+            '<KeyPosition id="a" time="0"/><KeyPosition id="a" time="1"/>0 0 1 0 0 1 0 1 0 0',
+            'parts="vl5" encoding="R"',
+            "a second KeyPosition with id='a'",
+        ),
         ('<KeyPosition id="" time="1"/>0 0 1 0 0 1 0 1 0 0', 'parts="vl5" encoding="R"', "id='' cannot name"),
         ('<KeyPosition id="id" time="1"/>0 0 1 0 0 1 0 1 0 0', 'parts="vl5" encoding="R"', "id='id' cannot name"),
     ],

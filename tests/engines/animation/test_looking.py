@@ -174,7 +174,7 @@ def test_a_lid_goes_with_its_eye_as_far_as_it_is_open(closed):
     weights = with_lids(dict(zip(EYES, (down, up), strict=True)), {"eyeBlinkLeft": closed})
     assert weights["eyeBlinkLeft"] == closed
     assert weights["eyeLookDownLeft"] == pytest.approx((1 - closed) * math.sin(EYE_RANGE) / EYE_RANGE)
-    assert weights["eyeLookUpRight"] == pytest.approx(math.sin(0.2) / EYE_RANGE)
+    assert weights["eyeLookUpRight"] == pytest.approx(math.sin(0.2) / math.sin(math.radians(25)))
     assert "eyeLookDownRight" not in weights
 
 

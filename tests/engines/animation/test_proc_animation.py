@@ -18,6 +18,8 @@ from reactive_realizer.engines.animation.procedural.proc_animation_reader import
 from reactive_realizer.engines.animation.procedural.proc_motion_unit import ProcMotionUnit
 from reactive_realizer.errors import RealizerError
 
+STILL = '<Rotation target="vc4" rotation="0;0;0"/>'
+
 
 def test_a_rotation_is_a_formula_of_phase_and_parameters(read, skeleton):
     animation = read('<Rotation target="vc4" rotation="a*t;0;0.1"/><Parameter sid="a" value="0.5"/>')
@@ -31,13 +33,14 @@ def test_a_name_that_nobody_declares_is_a_parameter_of_value_0(read):
 
 
 def test_equal_durations_mean_that_nobody_wrote_limits(read):
-    assert read("", 'prefDuration="2" minDuration="2" maxDuration="2.0"').timing({}).limits is None
-    assert read("", 'prefDuration="2"').timing({}).limits is None
-    assert read("", 'prefDuration="2" minDuration="1" maxDuration="3"').timing({}).limits == (1.0, 3.0)
+    assert read(STILL, 'prefDuration="2" minDuration="2" maxDuration="2.0"').timing({}).limits is None
+    assert read(STILL, 'prefDuration="2"').timing({}).limits is None
+    assert read(STILL, 'prefDuration="2" minDuration="1" maxDuration="3"').timing({}).limits == (1.0, 3.0)
 
 
 def test_durations_and_key_positions_may_depend_on_parameters(read):
-    animation = read('<KeyPosition id="stroke" time="0.5/r"/><Parameter sid="r" value="1"/>', 'prefDuration="0.5*r"')
+    points = '<KeyPosition id="stroke" time="0.5/r"/><Parameter sid="r" value="1"/>'
+    animation = read(STILL + points, 'prefDuration="0.5*r"')
     timing = animation.timing({"r": 4.0})
     assert timing.duration == 2.0
     assert timing.key_positions == {"stroke": 0.125}
@@ -127,6 +130,7 @@ def test_joints_that_a_figure_lacks_are_left_out_and_noted_once(read, skeleton, 
     animation = read('<Rotation target="vc7" rotation="1;0;0"/><Rotation target="vc4" rotation="t;0;0"/>')
     with caplog.at_level("WARNING"):
         fitted = animation.on(skeleton)
+        assert fitted.lacking == {"vc7"}
         for phase in (0.0, 0.5, 1.0):
             assert fitted.sample(phase, {}, Body(skeleton)).rotations == {"vc4": from_euler(phase, 0.0, 0.0)}
     assert [record.message for record in caplog.records] == ["some.xml: this figure cannot turn vc7; left out"]
@@ -189,6 +193,11 @@ def test_in_the_mirror_the_left_arm_does_what_the_right_arm_did(skeleton, animat
         ('<Parameter sid="a" value="nan"/>', r"<Parameter>: value='nan' is no number"),
         ('<Parameter sid="t" value="1"/>', r"a parameter may not be called t"),
         ('<KeyPosition id="a:b" time="0"/>', r"line 2, <KeyPosition>: id='a:b' cannot name a sync point"),
+        (
+            '<KeyPosition id="stroke" time="0"/>\n<KeyPosition id="stroke" time="1"/>',
+            r"line 3, <KeyPosition>: a second KeyPosition with id='stroke'",
+        ),
+        ('<Parameter sid="a" value="1"/>', r"line 1, <ProcAnimation>: it turns and moves nothing"),
         ('<KeyPosition id="stroke" time="t"/>', r"a duration or key time depends on t"),
         (
             '<Keyframes target="vc4" encoding="polar"/>',
@@ -217,6 +226,14 @@ def test_a_wrong_file_is_refused_by_file_line_element_and_reason(read, content, 
         read(content)
     assert caught.value.fault.code == "bad-asset"
     assert "some.xml" in str(caught.value)
+
+
+def test_no_shortest_duration_is_longer_than_the_longest(read):
+    with pytest.raises(
+        RealizerError, match=r"some\.xml, line 1, <ProcAnimation>: it lasts at least 3 s and at most 2 s"
+    ):
+        read(STILL, 'prefDuration="2" minDuration="2+1" maxDuration="2"')
+    assert read(STILL, 'prefDuration="2" minDuration="2" maxDuration="2*a"').joints == {"vc4"}
 
 
 @pytest.mark.parametrize("head", ['<!DOCTYPE x [<!ENTITY a "b">]><ProcAnimation/>', "<gesturebinding/>", "", "junk"])
@@ -255,12 +272,12 @@ def test_a_motion_of_no_duration_or_with_points_outside_it_cannot_be_planned(rea
     with pytest.raises(
         RealizerError, match=r"it would last 0 s|key positions lie from 0 to 1, start at 0 and end at 1"
     ):
-        ProcMotionUnit(read(content, durations), {}, LayerKind.ADDITIVE)
+        ProcMotionUnit(read(STILL + content, durations), {}, LayerKind.ADDITIVE)
 
 
 def test_files_may_say_where_start_and_end_are(read):
     points = '<KeyPosition id="start" time="0"/><KeyPosition id="stroke" time="0.5"/><KeyPosition id="end" time="1"/>'
-    motion = ProcMotionUnit(read(points), {}, LayerKind.ADDITIVE)
+    motion = ProcMotionUnit(read(STILL + points), {}, LayerKind.ADDITIVE)
     assert motion.key_positions == {"start": 0.0, "stroke": 0.5, "end": 1.0}
 
 

@@ -64,7 +64,7 @@ class GestureMotionUnit(MotionUnit):
         """
         self.parameters = {AMOUNT: parameters.get(AMOUNT, 1.0), **animation.values(parameters)}
         self.ranges = {**dict.fromkeys(self.parameters, ANY_VALUE), AMOUNT: AMOUNT_RANGE}
-        self.joints = animation.joints
+        self.joints, self.lacking = animation.joints, animation.lacking
         self.resources = arms_of(animation.joints)
         self._animation = animation
         self._rest = rest

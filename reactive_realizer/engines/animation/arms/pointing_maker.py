@@ -1,16 +1,15 @@
 """From a behavior to a pointing."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 
 from reactive_realizer.bml.behaviors import Pointing
 from reactive_realizer.bml.words import Mode
 from reactive_realizer.embodiment.joints import SIDES
-from reactive_realizer.embodiment.vector import Vec3
 from reactive_realizer.engines.animation.actor import Actor, Wanted
 from reactive_realizer.engines.animation.arms.pointing_arm import PointingArm
 from reactive_realizer.engines.animation.arms.pointing_motion_unit import DEFAULTS, HAND, RANGES, PointingMotionUnit
-from reactive_realizer.engines.animation.sight import sight_of
+from reactive_realizer.engines.animation.sight import Sight, sight_of
 from reactive_realizer.engines.animation.values import values_of
 from reactive_realizer.errors import RealizerError, error
 from reactive_realizer.planunit.parameter import spelled
@@ -41,7 +40,7 @@ class PointingMaker:
         humanoid, rest = self._actor.humanoid, self._actor.rest.body
         return PointingMotionUnit(behavior.target, arms, target, lambda: humanoid.shown, rest, parameters)
 
-    def _free(self, behavior: Pointing, target: Callable[[], Vec3]) -> Sequence[PointingArm]:
+    def _free(self, behavior: Pointing, target: Sight) -> Sequence[PointingArm]:
         """The arm on the side of the target, or the other if that one cannot."""
         first, second = "lr" if target()[0] > 0.0 else "rl"
         try:
@@ -51,7 +50,7 @@ class PointingMaker:
                 return self._arms(second, behavior, target)
             raise fault
 
-    def _arms(self, sides: str, behavior: Pointing, target: Callable[[], Vec3]) -> Sequence[PointingArm]:
+    def _arms(self, sides: str, behavior: Pointing, target: Sight) -> Sequence[PointingArm]:
         """Arms that can point at a target."""
         body, arms = self._actor.rest.body, [self._arm[side] for side in sides]
         if missing := [joint for arm in arms for joint in arm.missing]:

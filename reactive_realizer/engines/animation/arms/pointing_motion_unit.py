@@ -3,16 +3,17 @@
 from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
 
+from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.pose import LayerKind
 from reactive_realizer.embodiment.quaternion import Quat, slerp
-from reactive_realizer.embodiment.vector import Vec3
 from reactive_realizer.engines.animation.arms.gesture_motion_unit import HOLD, HOLD_RANGE
 from reactive_realizer.engines.animation.arms.pace import comfortable, seven_points
 from reactive_realizer.engines.animation.arms.pointing_arm import ArmPose, PointingArm
 from reactive_realizer.engines.animation.arms.sigmoid import sigmoid
 from reactive_realizer.engines.animation.easing import share
 from reactive_realizer.engines.animation.motion_unit import Moment, MotionUnit, Posed, arms_of
+from reactive_realizer.engines.animation.sight import Sight
 from reactive_realizer.errors import Fault
 from reactive_realizer.planunit.parameter import Range
 
@@ -46,7 +47,7 @@ class PointingMotionUnit(MotionUnit):
         self,
         name: str,
         arms: Sequence[PointingArm],
-        target: Callable[[], Vec3],
+        target: Sight,
         figure: Callable[[], Body],
         rest: Body,
         parameters: Mapping[str, float] = DEFAULTS,
@@ -56,7 +57,7 @@ class PointingMotionUnit(MotionUnit):
         Args:
             name: of the target.
             arms: one or both.
-            target: where the target is now, in the figure's frame, m.
+            target: where the target is; a hand that moves is pointed at where it will be in the frame.
             figure: the body as it was shown last, additive motion included: a trunk that breathes moves the finger.
             rest: as the body is expected to be at the start: preferred durations follow from it.
             parameters: a value within its range for each of `RANGES`.
@@ -83,7 +84,7 @@ class PointingMotionUnit(MotionUnit):
         """Rotations of arms and fingers; they leave for whatever lies below."""
         keys, phase = self.key_positions, moment.phase
         if phase <= keys["relax"] or not self._aimed:
-            aims = self._aim(self._figure())
+            aims = self._aim(self._figure(), moment.time)
             self._aimed = _turns(aims)
             if phase >= keys["ready"]:
                 self.fault = self.fault or self._missed(aims)
@@ -95,8 +96,8 @@ class PointingMotionUnit(MotionUnit):
     def _gone(self, progress: float) -> float:
         return sigmoid(progress, self.parameters[STEEPNESS], self.parameters[ASYMMETRY])
 
-    def _aim(self, body: Body) -> list[ArmPose]:
-        target = self._target()
+    def _aim(self, body: Body, time: GlobalTime | None = None) -> list[ArmPose]:
+        target = self._target(time)
         return [arm.aim(body, target) for arm in self._arms]
 
     def _missed(self, aims: Sequence[ArmPose]) -> Fault | None:

@@ -17,8 +17,9 @@ Of the rotation as a quaternion the squares of its vertical and its horizontal p
 "Three-dimensional model of the human eye-head saccadic system" (Journal of Neurophysiology 77, 1997).
 """
 
-_NEAREST = 0.01
-"""m; what is nearer to an eye has no direction."""
+_NEAREST = 0.07
+"""m; eyes do not converge on what is nearer, and it has no direction: M. Scheiman and others, "Nearpoint of
+convergence" (Optometry and Vision Science 80, 2003)."""
 
 
 @dataclass(frozen=True, slots=True)

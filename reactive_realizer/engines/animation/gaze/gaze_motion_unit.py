@@ -119,7 +119,9 @@ class GazeMotionUnit(MotionUnit):
         if self.lasts is not None:
             # The shift in whose place it comes goes when this one has ended, with what that does to the trunk.
             turn = self._turn(body.posed({joint: self._rest.body.rotation(joint) for joint in self.joints}))
-        if turn.missing > _NOTICED:
+        if turn.missing is None:
+            self.fault = Fault("gaze-near")
+        elif turn.missing > _NOTICED:
             self.fault = Fault("gaze-short", {"angle": math.degrees(turn.missing)})
 
     def gaze(self, phase: float) -> Self | None:

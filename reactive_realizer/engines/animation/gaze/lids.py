@@ -1,11 +1,15 @@
 """Lids go up and down with their eyes: else an eye that looks up is all white."""
 
+import math
 from collections.abc import Mapping
 
 from reactive_realizer.embodiment.joints import EYES
 from reactive_realizer.embodiment.quaternion import Quat, rotate
 from reactive_realizer.embodiment.vector import FORWARD
 from reactive_realizer.engines.animation.gaze.eyes import EYE_RANGE
+
+_HIGHEST = math.sin(math.radians(25.0))
+"""Of an eye that looks up as far as people do without effort: there its lid is as high as it goes."""
 
 _SIDES = dict(zip(EYES, ("Left", "Right"), strict=True))
 
@@ -25,10 +29,11 @@ def with_lids(turns: Mapping[str, Quat], blinks: Mapping[str, float]) -> dict[st
     for eye, turn in turns.items():
         side = _SIDES[eye]
         open_ = 1.0 - blinks.get(f"eyeBlink{side}", 0.0)
-        raised = open_ * rotate(turn, FORWARD)[1] / EYE_RANGE
-        if raised > 0.0:
+        height = rotate(turn, FORWARD)[1]
+        if height > 0.0:
             # A lid that is raised shows more of the eye than the morph for looking up alone does.
+            raised = open_ * min(1.0, height / _HIGHEST)
             weights |= {f"eyeLookUp{side}": raised, f"eyeWide{side}": raised}
-        elif raised < 0.0:
-            weights[f"eyeLookDown{side}"] = -raised
+        elif height < 0.0:
+            weights[f"eyeLookDown{side}"] = -open_ * height / EYE_RANGE
     return weights

@@ -51,11 +51,12 @@ class Turn(NamedTuple):
 
     Attributes:
         rotations: of the joints of trunk, neck and head that take part, local to their parents.
-        missing: how far beyond the point is of what they and the eyes turn to, rad; 0 where they get there.
+        missing: how far beyond the point is of what they and the eyes turn to, rad; 0 where they get there. None for
+            a point that is too near to have a direction: then they are straight ahead.
     """
 
     rotations: Mapping[str, Quat]
-    missing: float
+    missing: float | None
 
 
 def turn_toward(body: Body, rest: Pose, point: Callable[[Vec3], Vec3], weights: Mapping[str, float]) -> Turn:
@@ -79,6 +80,8 @@ def turn_toward(body: Body, rest: Pose, point: Callable[[Vec3], Vec3], weights: 
     eyes = weights.get(EYES, 0.0)
     turn = head_turn(_reachable(sight), min(1.0, sum(parts.values())), eyes * _COMFORT * EYE_RANGE)
     rotations, done = _spread(turn, parts, ahead)
+    if way is None:
+        return Turn(rotations, None)
     # Eyes that go a part of the way leave the rest of it willingly.
     left = EYE_RANGE / eyes if eyes > 0.0 else 0.0
     return Turn(rotations, max(0.0, angle(between(rotate(done, FORWARD), sight)) - left))

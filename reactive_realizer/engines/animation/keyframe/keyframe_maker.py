@@ -33,7 +33,15 @@ class KeyframeMaker:
     def __call__(self, wanted: Wanted) -> KeyframeMotionUnit:
         """As every maker."""
         clip = self._clip(wanted)
-        return KeyframeMotionUnit(self._of_figure(clip.mirrored() if wanted.mirror else clip, wanted), self._skeleton)
+        clip = clip.mirrored() if wanted.mirror else clip
+        chosen = wanted.joints or frozenset(clip.joints)
+        there = [joint for joint in clip.joints if joint in chosen and joint in self._skeleton]
+        lacking = chosen.difference(there)
+        if not there:
+            raise error("no-joints", joints=", ".join(sorted(lacking)), element=wanted.behavior.name)
+        if lacking:
+            _tell(clip.name, ", ".join(sorted(lacking)))
+        return KeyframeMotionUnit(clip.only(there), self._skeleton, lacking)
 
     def reading(self, wanted: Wanted) -> Callable[[], object] | None:
         """As `SlowMaker`; what stands in BML is short."""
@@ -47,22 +55,11 @@ class KeyframeMaker:
     def _file(self, wanted: Wanted) -> Path:
         return self._actor.file_of(wanted, "xml", "bvh")
 
-    def _of_figure(self, clip: Clip, wanted: Wanted) -> Clip:
-        """What of it moves joints that are wanted and that the figure has."""
-        chosen = wanted.joints or clip.joints
-        there = [joint for joint in clip.joints if joint in chosen and joint in self._skeleton]
-        missing = sorted(set(chosen).difference(there))
-        if not there:
-            raise error("no-joints", joints=", ".join(missing), element=wanted.behavior.name)
-        if missing:
-            _tell(clip.name, ", ".join(missing))
-        return clip.only(there)
-
 
 @lru_cache
-def _tell(clip: str, missing: str) -> None:
+def _tell(clip: str, lacking: str) -> None:
     """Once, however often it is played."""
-    _log.warning("%s leaves out what it has not, or the figure has not: %s", clip, missing)
+    _log.warning("%s leaves out what it has not, or the figure has not: %s", clip, lacking)
 
 
 def _said(wanted: Wanted) -> str | None:

@@ -34,14 +34,16 @@ class KeyframeMotionUnit(MotionUnit):
     fixed = OF_FILES | {FILTER}
     foreseen = Foreseen.ALWAYS
 
-    def __init__(self, clip: Clip, skeleton: Skeleton) -> None:
+    def __init__(self, clip: Clip, skeleton: Skeleton, lacking: frozenset[str] = frozenset()) -> None:
         """Prepares a motion.
 
         Args:
             clip: of joints that the figure has.
             skeleton: the figure's.
+            lacking: the joints that are wanted and that the clip or the figure has not.
         """
         self.parameters = {}
+        self.lacking = lacking
         self.joints = frozenset(clip.joints)
         self.resources = owned(self.joints)
         self.preferred_duration = clip.duration

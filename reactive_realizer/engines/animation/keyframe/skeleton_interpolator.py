@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 from lxml import etree
 
-from reactive_realizer.binding.sync_id import ENDS, is_placed, sync_id
+from reactive_realizer.binding.sync_id import ENDS, by_sync_id, is_placed
 from reactive_realizer.binding.xml_file import Element, bad, boolean, number, read_xml
 from reactive_realizer.embodiment.pose import FARTHEST
 from reactive_realizer.engines.animation.keyframe.clip import Clip, KeyPoint, continuous
@@ -77,7 +77,8 @@ def _points(element: Element, first: float, last: float) -> dict[str, KeyPoint]:
     for child in element:
         if child.tag != _POINT:
             raise bad(child, f"only {_POINT} may stand in {_TAG}")
-        sync, time = sync_id(child), number(child, "time")
+    for sync, child in by_sync_id(element).items():
+        time = number(child, "time")
         if not is_placed(sync, (time - first) / (last - first)):
             raise bad(child, f"{sync} at {time:g} s: it lasts from its start at {first:g} s to its end at {last:g} s")
         if sync not in ENDS:

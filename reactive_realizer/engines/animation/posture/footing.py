@@ -1,7 +1,7 @@
 """Feet that stay where they stand while the pelvis moves."""
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import reduce
 from typing import NamedTuple
@@ -13,7 +13,7 @@ from reactive_realizer.embodiment.pose import Layer, LayerKind, checked, over, t
 from reactive_realizer.embodiment.quaternion import Quat
 from reactive_realizer.embodiment.skeleton import Place, Skeleton
 from reactive_realizer.embodiment.vector import subtract
-from reactive_realizer.engines.animation.posture.steps import leading, stepped
+from reactive_realizer.engines.animation.posture.steps import leading, lift, stepped
 
 _MOVING = LEG_JOINTS | {ROOT}
 
@@ -23,6 +23,13 @@ _DEEPEST = 0.25
 _NOTHING = 1e-6
 """m"""
 
+_GIVE = 0.1
+"""How softly the pelvis keeps to the height at which a leg is straight, for each meter that the feet are lifted.
+
+Near there the bend of a knee goes with the root of what the leg lacks of its length: it would lock and unlock at once,
+when the foot comes down and when it leaves. So who is about to step bends both knees a little. It is our choice.
+"""
+
 
 class _Stand(NamedTuple):
     """What some layers come to, below the waist.
@@ -31,11 +38,13 @@ class _Stand(NamedTuple):
         body: as they pose it.
         feet: where its ankles are to be, the left one first.
         ground: where they are in the uppermost of the layers that are there in full.
+        softness: how softly the pelvis keeps to the length of the legs, m; 0 where nobody steps.
     """
 
     body: Body
     feet: tuple[Place, ...]
     ground: tuple[Place, ...]
+    softness: float
 
 
 class Footing:
@@ -44,8 +53,8 @@ class Footing:
     Blending two postures joint by joint would let the feet swim: where the pelvis is lowered by half, half-bent knees
     do not reach the ground. So the layers are asked where they want the *feet*, each by its own legs and root; between
     these places the feet step, and hips, knees and ankles follow from there and from the pelvis, which sinks where a
-    leg would be too short. What adds to pelvis and legs owns nothing: who shifts his weight, or whose knee stirs, has
-    the feet where they were without it.
+    leg would be too short, or straight in a step. What adds to pelvis and legs owns nothing: who shifts his weight, or
+    whose knee stirs, has the feet where they were without it.
     """
 
     def __init__(self, skeleton: Skeleton) -> None:
@@ -70,9 +79,10 @@ class Footing:
         added = [layer for layer in ordered if layer.kind is LayerKind.ADDITIVE]
         if not added and all(layer.weight_of(ROOT) == 1.0 for layer in lower):
             return
-        below, places, _ = reduce(_over, lower, _stand(self._start))
+        below, places, _, softness = reduce(_over, lower, _stand(self._start))
         body = reduce(_pushed, added, below)
-        sinking = min(_DEEPEST, max(_sinking(body, side, foot) for side, foot in zip(SIDES, places, strict=True)))
+        lacking = [_lacking(body, side, foot) for side, foot in zip(SIDES, places, strict=True)]
+        sinking = min(_DEEPEST, _highest((0.0, *lacking), softness))
         if sinking > _NOTHING:
             lowered = Layer(LayerKind.ADDITIVE, {}, root=(0.0, -sinking, 0.0))
             body = _pushed(body, lowered)
@@ -82,7 +92,7 @@ class Footing:
 
 def _stand(body: Body) -> _Stand:
     places = feet(body)
-    return _Stand(body, places, places)
+    return _Stand(body, places, places, 0.0)
 
 
 def _asked(layer: Layer) -> object:
@@ -101,8 +111,12 @@ def _over(below: _Stand, layer: Layer) -> _Stand:
     weight = layer.weight_of(ROOT)
     if weight == 1.0:
         return _stand(goal)
-    body, places = over(below.body, replace(layer, rotations=rotations)), feet(goal)
-    return below._replace(body=body, feet=stepped(below.feet, places, weight, leading(below.ground, places)))
+    places = feet(goal)
+    return below._replace(
+        body=over(below.body, replace(layer, rotations=rotations)),
+        feet=stepped(below.feet, places, weight, leading(below.ground, places)),
+        softness=(1.0 - weight) * (below.softness + 4.0 * weight * _GIVE * lift(below.feet, places)),
+    )
 
 
 def _pushed(body: Body, layer: Layer) -> Body:
@@ -110,7 +124,15 @@ def _pushed(body: Body, layer: Layer) -> Body:
     return turned_further(body, replace(layer, rotations=_moving(layer)))
 
 
-def _sinking(body: Body, side: str, foot: Place) -> float:
-    """How much lower the pelvis has to be for a leg to reach the place of its foot, m; 0 where it does."""
+def _lacking(body: Body, side: str, foot: Place) -> float:
+    """How much lower the pelvis has to be for a leg to reach the place of its foot, m; below 0 where it does."""
     x, y, z = subtract(body.place(f"{side}_hip").position, foot.position)
-    return max(0.0, y - math.sqrt(max(0.0, reach(body.skeleton, side) ** 2 - x * x - z * z)))
+    return y - math.sqrt(max(0.0, reach(body.skeleton, side) ** 2 - x * x - z * z))
+
+
+def _highest(values: Sequence[float], softness: float) -> float:
+    """The highest of some values, and a little more where others come near to it: so it has no corners."""
+    highest = max(values)
+    if softness < _NOTHING:
+        return highest
+    return highest + softness * math.log(sum(math.exp((value - highest) / softness) for value in values))

@@ -1,5 +1,6 @@
 """Taking a posture, and giving it up again."""
 
+import math
 from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 
@@ -17,12 +18,20 @@ from reactive_realizer.engines.animation.posture.parts import JOINTS
 from reactive_realizer.engines.animation.posture.rest import Rest
 from reactive_realizer.engines.animation.ways import furthest
 
-_BOW = {"vl5": 0.6, "vt10": 0.3}
-"""How far the trunk bows, rad, while the pelvis sinks or rises by half a meter: else who sits down would fall.
+_BOW = {"vl5": (0.6, 0.0, 0.0), "vt10": (0.3, 0.0, 0.0)}
+"""How far the trunk bows while the pelvis sinks or rises by half a meter, Euler angles, rad: else one would fall.
 
 M. Schenkman et al., "Whole-body movements during rising to standing from sitting" (Physical Therapy 70, 1990): the
 trunk is bent most when the seat is left.
 """
+
+_SWING = {
+    "l_shoulder": (-0.8, 0.0, 0.4),
+    "r_shoulder": (-0.8, 0.0, -0.4),
+    "l_elbow": (-0.5, 0.0, 0.0),
+    "r_elbow": (-0.5, 0.0, 0.0),
+}
+"""How far arms that go along swing forward and aside meanwhile: else hands would go through the thighs that come up."""
 
 _THERE_AND_BACK = MappingProxyType({"start": 0.0, "ready": 0.25, "relax": 0.75, "end": 1.0})
 """A quarter to come, half to stay, a quarter to go."""
@@ -63,7 +72,8 @@ class PostureMotionUnit(MotionUnit):
         self._ready, self._relax = (self.key_positions.get(sync, 1.0) for sync in ("ready", "relax"))
         rest.check(BodyPosture(stance or rest.expected.stance, self.change[1]))
         self._set_out(rest.expected)
-        self.preferred_duration = self._way() / self._ready
+        self.entrance = self._way()
+        self.preferred_duration = self.entrance / self._ready
 
     def _set_out(self, base: BodyPosture) -> None:
         """Finds the posture to go to from a base posture."""
@@ -88,7 +98,8 @@ class PostureMotionUnit(MotionUnit):
         """How long going there should take, s: less than a second for the arms alone, near two for sitting down."""
         hands, feet = (furthest(joint, SIDES, (self._from, self.body)) for joint in ("wrist", "ankle"))
         pelvis = distance(self._from.root, self.body.root)
-        return max(0.5, 0.3 + 1.0 * hands, 0.6 + 1.5 * feet, 0.5 + 2.2 * pelvis)
+        # Of feet the way counts less than that they have to be lifted and set down, one after the other.
+        return max(0.5, 0.3 + 1.0 * hands, 0.4 + 1.7 * math.sqrt(feet), 0.5 + 2.2 * pelvis)
 
     def start(self, body: Body) -> None:
         """The base posture may be another one than was expected."""
@@ -112,5 +123,6 @@ class PostureMotionUnit(MotionUnit):
         bow = 2.0 * self._sinking * 4.0 * weight * (1.0 - weight)
         if bow == 0.0:
             return self._goal
-        bends = {joint: from_euler(angle * bow, 0.0, 0.0) for joint, angle in _BOW.items() if joint in self._goal}
-        return {**self._goal, **{joint: multiply(self._goal[joint], bend) for joint, bend in bends.items()}}
+        turns = {joint: turn for joint, turn in (_BOW | _SWING).items() if joint in self._goal}
+        bends = {joint: from_euler(*(bow * angle for angle in turn)) for joint, turn in turns.items()}
+        return {**self._goal, **{joint: multiply(bend, self._goal[joint]) for joint, bend in bends.items()}}

@@ -36,6 +36,11 @@ def leading(before: Sequence[Place], after: Sequence[Place]) -> int:
     return 1 if right < left - _LEVEL else 0
 
 
+def lift(before: Sequence[Place], after: Sequence[Place]) -> float:
+    """How high the feet are lifted where one step of each is enough, m: the higher of both."""
+    return max(_lift(_way(a, b)) for a, b in zip(before, after, strict=True))
+
+
 def stepped(before: Sequence[Place], after: Sequence[Place], weight: float, leader: int) -> tuple[Place, ...]:
     """The feet on their way from place to place: one steps, then the other, and if that is far they go on in turn.
 

@@ -51,6 +51,7 @@ class ProcAnimation:
         key_times: sync id -> formula of its phase.
         root: where HumanoidRoot is, None for an animation that leaves it alone.
         tracks: what turns joints; later ones stand on what earlier ones do.
+        lacking: the joints that it does not turn because its figure cannot.
     """
 
     name: str
@@ -59,6 +60,7 @@ class ProcAnimation:
     key_times: Mapping[str, Node]
     root: RootTrack | None = None
     tracks: tuple[Track, ...] = ()
+    lacking: frozenset[str] = frozenset()
 
     TIME: ClassVar[str] = "t"
     """The name of the phase in formulas."""
@@ -210,4 +212,5 @@ class ProcAnimation:
             _log.warning("%s: this figure cannot turn %s; left out", self.name, ", ".join(sorted(missing)))
         depth = {joint: len(skeleton.links(joint)) for track in tracks for joint in track.joints}
         tracks.sort(key=lambda track: min(depth[joint] for joint in track.joints))
-        return replace(self, root=self.root if ROOT in skeleton else None, tracks=tuple(tracks))
+        root = self.root if ROOT in skeleton else None
+        return replace(self, root=root, tracks=tuple(tracks), lacking=missing)

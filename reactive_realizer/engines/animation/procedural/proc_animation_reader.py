@@ -8,9 +8,10 @@ import logging
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
-from reactive_realizer.binding.sync_id import sync_id
+from reactive_realizer.binding.sync_id import by_sync_id
 from reactive_realizer.binding.xml_file import Element, attribute, bad, boolean, number, read_xml
 from reactive_realizer.embodiment.joints import ROOT
+from reactive_realizer.engines.animation.expression.compiler import fold
 from reactive_realizer.engines.animation.expression.functions import FUNCTIONS, Function
 from reactive_realizer.engines.animation.expression.nodes import Node, Number, variables
 from reactive_realizer.engines.animation.expression.parser import parse
@@ -67,12 +68,19 @@ class _Reader:
             self._formula(document, limit) if limit in document.attrib else preferred
             for limit in ("minDuration", "maxDuration")
         )
-        key_times = {sync_id(key): self._formula(key, "time") for key in document.iterfind("KeyPosition")}
+        match fold(shortest), fold(longest):
+            case Number(least), Number(most) if least > most:
+                raise bad(document, f"it lasts at least {least:g} s and at most {most:g} s")
+        points = by_sync_id(document.iterfind("KeyPosition"))
+        key_times = {sync: self._formula(key, "time") for sync, key in points.items()}
         root, tracks = self._root(document), tuple(self._tracks(document))
         motion = [*(root.formulas if root else ()), *(node for track in tracks for node in track.formulas)]
+        parameters = _parameters(document, [preferred, shortest, longest, *key_times.values()], motion)
+        if not motion and not tracks:
+            raise bad(document, "it turns and moves nothing")
         return ProcAnimation(
             name=name,
-            parameters=_parameters(document, [preferred, shortest, longest, *key_times.values()], motion),
+            parameters=parameters,
             durations=(preferred, shortest, longest),
             key_times=key_times,
             root=root,

@@ -57,7 +57,7 @@ class ProcMotionUnit(MotionUnit):
         self.ranges = {name: _REPEATS_RANGE if name == REPEATS else ANY_VALUE for name in self.parameters}
         check(self.parameters, self.ranges)
         self.kind = kind
-        self.joints = animation.joints
+        self.joints, self.lacking = animation.joints, animation.lacking
         self.resources = frozenset() if kind is LayerKind.ADDITIVE else _owned(animation)
         self._animation = animation
         # Where things happen is planned once: a parameter that changes while it plays changes the motion only.

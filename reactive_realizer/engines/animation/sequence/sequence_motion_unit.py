@@ -28,6 +28,7 @@ class SequenceMotionUnit(MotionUnit):
         self.key_positions = in_order({sync: time / self.preferred_duration for sync, time in key_positions.items()})
         self.kind = parts[0].motion.kind
         self.joints = frozenset[str]().union(*(part.motion.joints for part in parts))
+        self.lacking = frozenset[str]().union(*(part.motion.lacking for part in parts))
         self.resources = frozenset[str]().union(*(part.motion.resources for part in parts))
         self.parameters = _agreed(parts)
         # Where parts have other values than others, what is said when it is made is the same for all of them.

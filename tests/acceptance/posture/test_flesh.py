@@ -1,0 +1,46 @@
+"""Limbs in exported frames: they do not go through each other. No laws of others."""
+
+import pytest
+
+from .flesh import deepest_in_each_other, deepest_in_legs, deepest_in_trunk
+from .standing import CROSSED
+
+SOFT = 0.03
+"""m that one limb may be in another: flesh and clothes give way, and a hand that lies on a thigh touches it."""
+
+LEANING = '<pose part="WHOLEBODY" lexeme="{}"/>'
+BEFORE_THE_BELLY = ("BEAT", "OFFER", "CONDUIT", "CHOP")
+
+
+@pytest.mark.parametrize("stance", ["SITTING", "CROUCHING"])
+@pytest.mark.parametrize("poses", ["", LEANING.format("LEANING_FORWARD"), LEANING.format("LEANING_BACKWARD"), CROSSED])
+async def test_no_hand_goes_through_a_thigh_on_the_way_down_or_up_or_stays_there(either, stance, poses) -> None:
+    either.block("b", f'<posture id="p" start="0"><stance type="{stance}"/>{poses}</posture>')
+    await either.advance(9)
+    assert either.feedback.reached("b:p:end")
+    assert deepest_in_legs(either.bodies()[::2]) < SOFT
+
+
+@pytest.mark.parametrize("lexeme", BEFORE_THE_BELLY)
+async def test_who_crouches_has_room_for_gestures_before_the_belly(either, lexeme) -> None:
+    either.block("a", '<postureShift id="s"><stance type="CROUCHING"/></postureShift>')
+    await either.advance(3)
+    either.block("b", f'<gesture id="g" lexeme="{lexeme}" mode="BOTH_HANDS"/>')
+    await either.advance(4)
+    assert either.feedback.reached("b:g:stroke")
+    assert deepest_in_legs(either.bodies()[150::2]) < SOFT
+
+
+async def test_crossed_arms_lie_before_the_trunk(either) -> None:
+    either.block("b", f'<posture id="p" start="0">{CROSSED}</posture>')
+    await either.advance(5)
+    assert deepest_in_trunk(either.bodies()[::2]) < SOFT
+
+
+@pytest.mark.parametrize("stance", ["STANDING", "SITTING"])
+async def test_no_leg_goes_through_the_other_on_the_way_into_crossed_legs_or_back(either, stance) -> None:
+    crossed = '<pose part="LEGS" lexeme="LEGS_CROSSED"/>'
+    either.block("b", f'<posture id="p" start="0"><stance type="{stance}"/>{crossed}</posture>')
+    await either.advance(9)
+    assert either.feedback.reached("b:p:end")
+    assert deepest_in_each_other(either.bodies()[::2]) < SOFT
