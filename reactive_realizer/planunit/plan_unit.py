@@ -133,12 +133,19 @@ class PlanUnit:
         return self.state not in (UnitState.DONE, UnitState.DROPPED)
 
     def time(self, sync: str) -> Time:
-        """When one of its points was, or is predicted to be.
+        """When one of its points was, or is predicted to be, as `times` tells it of all.
 
         Raises:
             KeyError: it has no such point.
         """
-        return self.times()[sync]
+        place = next((place for place, point in enumerate(self.points) if point.id == sync), None)
+        if place is None:
+            raise KeyError(sync)
+        time = self.points[place].time
+        if time is None or not self.begun or self.points[place].fired is not None:
+            return time
+        known = (point.time for point in self.points[place:])
+        return min(each for each in known if each is not None)
 
     def times(self) -> dict[str, Time]:
         """When each of its points was, or is predicted to be; once it plays, none comes after its successor."""

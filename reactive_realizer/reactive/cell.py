@@ -57,7 +57,8 @@ class Cell(Generic[T]):
         Raises:
             CellError: there is none, because its formula or one that it depends on raised.
         """
-        self.graph.settle()
+        if self.graph.waiting:  # asked here, for this is read more often than anything else
+            self.graph.settle()
         value = self._value
         if isinstance(value, Failure):
             raise CellError(self.name, value)

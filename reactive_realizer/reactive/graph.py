@@ -30,6 +30,7 @@ class Graph:
 
     Attributes:
         time: what its owner says the time is; noted in commits.
+        waiting: ranks of which cells are to be recomputed, lowest first; mostly none.
     """
 
     def __init__(self) -> None:
@@ -39,7 +40,7 @@ class Graph:
         self._depth = 0
         self._notifying = False
         self._buckets: dict[int, list[Derived[Any]]] = {}
-        self._ranks: list[int] = []
+        self.waiting: list[int] = []
         self._before: dict[Cell[Any], Any] = {}
         self._made: list[Cell[Any]] = []
         self._listeners: list[Callable[[Commit], None]] = []
@@ -101,8 +102,8 @@ class Graph:
 
     def settle(self) -> None:
         """Recompute what was touched, lowest rank first."""
-        while self._ranks:
-            rank = heappop(self._ranks)
+        while self.waiting:
+            rank = heappop(self.waiting)
             bucket = self._buckets.pop(rank)
             for cell in sorted(bucket, key=_SEQUENCE) if len(bucket) > 1 else bucket:
                 # One that was pinned since is not to be computed, one that got another rank not here.
@@ -130,7 +131,7 @@ class Graph:
         bucket = self._buckets.get(cell.rank)
         if bucket is None:
             self._buckets[cell.rank] = [cell]
-            heappush(self._ranks, cell.rank)
+            heappush(self.waiting, cell.rank)
         else:
             bucket.append(cell)
 
