@@ -4,7 +4,7 @@ from collections.abc import Awaitable, Mapping
 from dataclasses import dataclass
 from typing import Protocol
 
-from reactive_realizer.clock.units import RESOLUTION, is_due
+from reactive_realizer.clock.units import RESOLUTION
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,8 +62,8 @@ class Utterance:
     sample_rate: int = 22_050
 
     def words_begun(self, time: float) -> tuple[Word, ...]:
-        """The words that have begun at a time, s from the start of the utterance; one that begins there has."""
-        return tuple(word for word in self.words if is_due(word.start, time))
+        """The words of which something was heard before a time, s from the start of the utterance."""
+        return tuple(word for word in self.words if word.start < time - RESOLUTION)
 
     def next_word(self, time: float) -> float:
         """When the first word at or after a time begins, s; the duration where none does."""

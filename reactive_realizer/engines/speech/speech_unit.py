@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 
 from reactive_realizer.bml.behaviors import Speech
-from reactive_realizer.clock.units import RESOLUTION, GlobalTime, is_due
+from reactive_realizer.clock.units import RESOLUTION, GlobalTime
 from reactive_realizer.engine.tts import Utterance
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.parameter import Parameter, Range
@@ -59,15 +59,8 @@ class SpeechUnit(PlanUnit):
         return GlobalTime(self.started + self.utterance.next_word(time - self.started))
 
     def end_details(self, time: GlobalTime) -> Mapping[str, str]:
-        """The last word that began: what a listener has heard of an interrupted speech.
-
-        One that was asked to end its word ends where the next one would begin: that does not begin.
-        """
-        start, end = self.times_around
-        if start is None:
-            begun = []
-        else:
-            begun = [word for word in self.utterance.words_begun(time - start) if not is_due(end, start + word.start)]
+        """The last word that began: what a listener has heard of an interrupted speech."""
+        begun = self.utterance.words_begun(time - self.started) if self.started is not None else ()
         if not begun:
             return {"word": "-1", "text": "", "heard": "0"}
         return {"word": str(len(begun) - 1), "text": begun[-1].text, "heard": str(begun[-1].last)}

@@ -77,6 +77,6 @@ def test_what_has_been_heard_are_the_words_that_have_begun():
     utterance = spoken("put the red box")
     second = utterance.words[1].start
     assert utterance.words_begun(second - 0.001) == utterance.words[:1]
-    assert utterance.words_begun(second) == utterance.words[:2]
+    assert utterance.words_begun(second) == utterance.words[:1]
     assert utterance.words_begun(second + 0.001) == utterance.words[:2]
     assert utterance.words_begun(-1.0) == ()
