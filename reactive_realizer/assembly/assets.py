@@ -10,8 +10,8 @@ from reactive_realizer.errors import error
 
 PACKAGE_ASSETS = Path(__file__).parent.parent / "assets"
 
-_ANYWHERE = "**"
-"""The first part of a name that is looked for in all folders, however deep."""
+_ANYWHERE = "**/"
+"""The beginning of a name that is looked for in all folders, however deep."""
 
 
 class Assets:
@@ -39,16 +39,16 @@ class Assets:
         Raises:
             RealizerError: the name leaves the folders, or no file has it, or several in the folders of one root.
         """
-        path = _relative(name)
-        if path.parts[0] == _ANYWHERE and len(path.parts) > 1:
-            return self._anywhere(path.relative_to(_ANYWHERE))
-        found = next(filter(None, (_within(*place) for place in self._places(path))), None)
-        if found is None:
-            raise error("no-asset", name=name)
-        return found
+        if name.startswith(_ANYWHERE):
+            return self._anywhere(_relative(name).relative_to(_ANYWHERE))
+        for folder, file in self._places(name):
+            if (found := _within(folder, file)) is not None:
+                return found
+        raise error("no-asset", name=name)
 
-    def _all_places(self, path: PurePosixPath) -> list[tuple[Path, Path]]:
+    def _all_places(self, name: str) -> list[tuple[Path, Path]]:
         """Where a file may be, as written and without its leading folders, each place with the root that it is in."""
+        path = _relative(name)
         ends = [path.parts[start:] for start in range(len(path.parts))]
         return [(folder, folder.joinpath(*end)) for folder in self._folders for end in ends]
 
@@ -64,7 +64,6 @@ class Assets:
         raise error("no-asset", name=name.name)
 
 
-@lru_cache(1000)
 def _relative(name: str) -> PurePosixPath:
     """The path of a name.
 

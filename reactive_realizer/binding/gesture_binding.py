@@ -2,8 +2,9 @@
 
 import logging
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
+from functools import lru_cache
 from pathlib import Path
 
 from lxml import etree
@@ -13,6 +14,7 @@ from reactive_realizer.binding.unit_spec import UnitSpec, comparable
 from reactive_realizer.binding.xml_file import Element, attribute, bad, read_xml
 from reactive_realizer.bml.elements import ELEMENTS
 from reactive_realizer.bml.names import BML
+from reactive_realizer.bml.words import StanceType
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.limits import Limits
 
@@ -23,6 +25,11 @@ _HANDS = "mode"
 
 _LEXEME = "lexeme"
 """The attribute by which most entries are told apart."""
+
+_MOST = 1000
+"""Behaviors, as bindings see them, of which it is kept what fits them: most are said again and again."""
+
+_Said = tuple[tuple[str, str], ...]
 
 _Asked = tuple[str, str, str | None]
 """Namespace and name of a behavior's element, and its lexeme if it has one, `comparable`."""
@@ -40,9 +47,11 @@ class GestureBinding:
     specs: tuple[UnitSpec, ...]
     rest_poses: Mapping[str, str]
     _by_lexeme: Mapping[_Asked, list[UnitSpec]] = field(init=False, repr=False)
+    _matches: Callable[[str, str, _Said], tuple[UnitSpec, ...]] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "_by_lexeme", _by_lexeme(self.specs))
+        object.__setattr__(self, "_matches", lru_cache(_MOST)(self._match))
 
     @classmethod
     def read(cls, *paths: Path) -> "GestureBinding":
@@ -74,11 +83,14 @@ class GestureBinding:
             namespace: of its element.
             attributes: as `seen`.
         """
-        said = comparable(attributes)
+        return self._matches(behavior, namespace, tuple(attributes.items()))
+
+    def _match(self, behavior: str, namespace: str, attributes: _Said) -> tuple[UnitSpec, ...]:
+        said = comparable(dict(attributes))
         others = self._by_lexeme.get((namespace, behavior, None), ())
         specs = self._by_lexeme.get((namespace, behavior, said.get(_LEXEME)), others)
         exact = [spec for spec in specs if spec.fits(said)]
-        if _HANDS in attributes:
+        if _HANDS in said:
             return (*exact[:1], *(spec for spec in exact[1:] if _HANDS in spec.constraints))
         return (*exact, *(spec for spec in specs if _HANDS in spec.constraints and spec.fits(said, _HANDS)))
 
@@ -151,10 +163,16 @@ def _spec(element: Element, part: str, behavior: str | None) -> UnitSpec:
 
 def _rest_poses(element: Element) -> Iterator[tuple[str, str]]:
     pose, stance = _part(element, "RestPose"), _pairs(element, "constraints/constraint", "name", "value").get("stance")
-    if stance is not None and "file" in pose.attrib:
-        yield stance.upper(), attribute(pose, "file")
+    if stance is None or "file" not in pose.attrib:
+        _leave_out(element, "no stance or no file")
+    elif stance.upper() not in list(StanceType):
+        _leave_out(element, f"stance='{stance}': known are {', '.join(StanceType)}")
     else:
-        _log.warning("line %s: a RestPoseSpec without a stance or a file is left out", element.sourceline)
+        yield stance.upper(), attribute(pose, "file")
+
+
+def _leave_out(element: Element, reason: str) -> None:
+    _log.warning("%s; it is left out", bad(element, reason).fault.sentence)
 
 
 def _part(element: Element, name: str) -> Element:

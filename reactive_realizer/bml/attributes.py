@@ -41,6 +41,7 @@ class Attribute:
         required: whether an element without it is refused.
         default: its value where it is not written.
         continuous: whether it stands in the namespace of BMLA or of BMLT; else in none.
+        spellings: its names in Clark notation; where several are written the first one counts.
     """
 
     name: str
@@ -49,11 +50,11 @@ class Attribute:
     required: bool
     default: object
     continuous: bool
+    spellings: tuple[str, ...] = dataclasses.field(init=False)
 
-    @property
-    def spellings(self) -> tuple[str, ...]:
-        """Its names in Clark notation; where several are written the first one counts."""
-        return tuple(f"{{{namespace}}}{self.name}" for namespace in CONTINUOUS) if self.continuous else (self.name,)
+    def __post_init__(self) -> None:
+        qualified = tuple(f"{{{namespace}}}{self.name}" for namespace in CONTINUOUS)
+        object.__setattr__(self, "spellings", qualified if self.continuous else (self.name,))
 
 
 _FOUND: dict[type, tuple[Attribute, ...]] = {}

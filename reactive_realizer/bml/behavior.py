@@ -77,8 +77,14 @@ class Behavior:
         """All its sync points, in the order in which they are reached."""
         return self.SYNC_POINTS
 
-    def tied(self, syncs: Mapping[str, SyncRef]) -> Mapping[str, SyncRef]:
-        """What its points are tied to, if that is what is written of them."""
+    @classmethod
+    def tied_by(cls, values: Mapping[str, object]) -> SyncPoints:
+        """Of one with these values, by field: the sync points that attributes of its element may tie."""
+        return cls.SYNC_POINTS
+
+    @classmethod
+    def tied(cls, syncs: Mapping[str, SyncRef], namespace: str) -> Mapping[str, SyncRef]:
+        """What the points of one of a namespace are tied to, if that is what is written of them."""
         return syncs
 
     @property

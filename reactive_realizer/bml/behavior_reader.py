@@ -1,7 +1,6 @@
 """From an element to a behavior."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 from types import MappingProxyType
 from typing import Any, Final
 
@@ -25,6 +24,7 @@ from reactive_realizer.bml.trees import (
     is_core,
     listed,
     name_of,
+    names_in,
     namespace_of,
 )
 from reactive_realizer.bml.twente import Keyframe
@@ -73,27 +73,24 @@ def _known(tree: Tree, element: Element, source: Source, place: dict[str, Any], 
     values = place | source.written(tree) | source.values(tree, element.attributes)
     if element.behavior in _READ_PARTS:
         values |= _READ_PARTS[element.behavior](tree, source, notes)
-    namespace = namespace_of(tree) if element.continuous else element.namespace
-    behavior = element.behavior(**values, namespace=namespace)
-    # A head that strokes several times has no single stroke to be tied.
-    points = [name for name in element.sync_points if name in behavior.sync_points]
-    points += _own_points(tree, element, behavior, source)
-    names = [*(each.name for each in element.attributes), *points]
+    values["namespace"] = namespace = namespace_of(tree) if element.continuous else element.namespace
+    points = [*element.behavior.tied_by(values), *_own_points(tree, element, source)]
+    names = [*element.names, *points]
     notes += source.unread_but_foreign(tree, names, [*element.children, _DESCRIPTION, PARAMETER])
-    return replace(
-        behavior,
-        syncs=behavior.tied(source.syncs(tree, points)),
+    return element.behavior(
+        **values,
+        syncs=element.behavior.tied(source.syncs(tree, points), namespace),
         parameters=read_parameters(tree, source, notes),
         descriptions=_descriptions(tree, source, notes),
     )
 
 
-def _own_points(tree: Tree, element: Element, behavior: Behavior, source: Source) -> list[str]:
+def _own_points(tree: Tree, element: Element, source: Source) -> list[str]:
     """The attributes of one of BMLT's motions that tie points of its own: each holds a reference, nothing else."""
-    if not (element.continuous and behavior.OPEN_POINTS):
+    if not (element.continuous and element.behavior.OPEN_POINTS):
         return []
-    known = {*(each.name for each in element.attributes), *element.sync_points}
-    return [name for name in attributes_in(tree) if name not in known and source.holds_ref(tree, name)]
+    known = {*element.names, *element.sync_points}
+    return [name for name in names_in(tree) if name not in known and source.holds_ref(tree, name)]
 
 
 def _descriptions(tree: Tree, source: Source, notes: list[Fault]) -> tuple[Description, ...]:

@@ -4,6 +4,7 @@ An element's name is its class's with a small first letter. Defaults that the st
 OpenBMLParser's.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from reactive_realizer.bml.attribute_types import Duration, Integer, Name, Number, Target, Text, Word
@@ -93,6 +94,12 @@ class Head(Behavior):
             return _STROKE_POINTS
         strokes = (f"stroke:{number}" for number in range(1, self.repetition + 1))
         return (*_STROKE_POINTS[:3], *strokes, *_STROKE_POINTS[4:])
+
+    @classmethod
+    def tied_by(cls, values: Mapping[str, object]) -> SyncPoints:
+        """One that strokes several times has no single stroke to be tied."""
+        several = values.get("repetition", 1) != 1
+        return tuple(point for point in _STROKE_POINTS if point != "stroke") if several else _STROKE_POINTS
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

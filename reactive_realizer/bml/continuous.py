@@ -87,9 +87,10 @@ class ParameterValueChange(Behavior):
     parameter: str = field(metadata=attribute(Text(), "paramId"))
     trajectory: Trajectory
 
-    def tied(self, syncs: Mapping[str, SyncRef]) -> Mapping[str, SyncRef]:
+    @classmethod
+    def tied(cls, syncs: Mapping[str, SyncRef], namespace: str) -> Mapping[str, SyncRef]:
         """BMLT's stroke and its end are one point: where only the end is tied, the stroke is tied with it."""
-        if self.namespace != BMLT or "stroke" in syncs or "end" not in syncs:
+        if namespace != BMLT or "stroke" in syncs or "end" not in syncs:
             return syncs
         return MappingProxyType({**syncs, "stroke": syncs["end"]})
 

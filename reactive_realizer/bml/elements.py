@@ -41,6 +41,11 @@ class Element:
     attributes: tuple[Attribute, ...]
 
     @property
+    def names(self) -> tuple[str, ...]:
+        """Those of its attributes that are no sync points."""
+        return tuple(each.name for each in self.attributes)
+
+    @property
     def continuous(self) -> bool:
         """Whether it is none of BML 1.0's."""
         return self.namespace in CONTINUOUS

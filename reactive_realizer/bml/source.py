@@ -14,12 +14,12 @@ from reactive_realizer.bml.root_builder import Root
 from reactive_realizer.bml.sync_ref import SyncRef
 from reactive_realizer.bml.trees import (
     Tree,
-    attributes_in,
     extensions_of,
     is_continuous,
     is_part,
     listed,
     name_of,
+    names_in,
     shown,
     stray_text_of,
 )
@@ -96,12 +96,14 @@ class Source:
         Raises:
             RealizerError: ``missing-attribute`` or ``bad-attribute``.
         """
-        continuous = is_continuous(tree)
-        texts = [(each, _text_of(tree, each, continuous)) for each in attributes]
-        missing = [each.name for each, text in texts if each.required and text is None]
-        if missing:
-            raise RealizerError(self.fault(tree, "missing-attribute", attribute=missing[0]))
-        return {each.field: self._read(tree, each, text) for each, text in texts if text is not None}
+        values, continuous = {}, is_continuous(tree)
+        for each in attributes:
+            text = _text_of(tree, each, continuous) if each.continuous else tree.get(each.name)
+            if text is not None:
+                values[each.field] = self._read(tree, each, text)
+            elif each.required:
+                raise RealizerError(self.fault(tree, "missing-attribute", attribute=each.name))
+        return values
 
     def syncs(self, tree: Tree, names: Iterable[str]) -> Mapping[str, SyncRef]:
         """What the sync points of these names are tied to, in order of writing.
@@ -110,7 +112,7 @@ class Source:
             RealizerError: ``bad-attribute``.
         """
         points = set(names)
-        return MappingProxyType({name: self.ref(tree, name) for name in attributes_in(tree) if name in points})
+        return MappingProxyType({name: self.ref(tree, name) for name in names_in(tree) if name in points})
 
     def holds_ref(self, tree: Tree, name: str) -> bool:
         """Whether an attribute holds a reference."""
@@ -161,7 +163,7 @@ class Source:
     def unread_attributes(self, tree: Tree, names: Iterable[str]) -> list[Fault]:
         """One fault for all un-namespaced attributes that are none of these."""
         known = list(names)
-        unknown = [name for name in attributes_in(tree) if name not in known]
+        unknown = [name for name in names_in(tree) if name not in known]
         if not unknown:
             return []
         return [self.fault(tree, "unknown-attribute", attributes=listed(unknown), known=listed(known))]
@@ -189,5 +191,7 @@ class Source:
 
 def _text_of(tree: Tree, attribute: Attribute, continuous: bool) -> str | None:
     # An element of continuous interaction has the attributes of its own namespace without a prefix too.
-    names = (*attribute.spellings, attribute.name) if continuous else attribute.spellings
-    return next((text for name in names if (text := tree.get(name)) is not None), None)
+    for name in attribute.spellings:
+        if (text := tree.get(name)) is not None:
+            return text
+    return tree.get(attribute.name) if continuous else None

@@ -77,9 +77,9 @@ class SyncRef:
         block = None if block == BLOCK else block
         if behavior == BLOCK:
             behavior, sync = None, _block_point(block, sync)
-        names = (block, behavior, sync and sync.removeprefix("stroke:"))
-        if any(name is not None and not _NAME.fullmatch(name) for name in names):
-            raise error("not-a-reference")
+        for name in (block, behavior, sync and sync.removeprefix("stroke:")):
+            if name is not None and not _NAME.fullmatch(name):
+                raise error("not-a-reference")
         return cls(block, behavior, sync, offset)
 
     def read_in(self, block: str, behaviors: Collection[str]) -> Self:

@@ -71,15 +71,20 @@ def stray_text_of(tree: Tree) -> str:
     return " ".join(f"{tree.text or ''} {' '.join(child.tail or '' for child in tree)}".split())
 
 
+def names_in(tree: Tree) -> list[str]:
+    """The names of the attributes that have no namespace, in order of writing."""
+    return [name for name in map(str, tree.keys()) if name[0] != "{"]
+
+
 def attributes_in(tree: Tree) -> dict[str, str]:
     """The attributes that have no namespace, in order of writing."""
-    return {str(name): str(value) for name, value in tree.attrib.items() if not str(name).startswith("{")}
+    return {name: tree.get(name, "") for name in names_in(tree)}
 
 
 def extensions_of(tree: Tree, known: Collection[str] = ()) -> Mapping[tuple[str, str], str]:
     """The attributes that have a namespace, but for some in Clark notation: (namespace, local name) to value."""
-    written = ((str(name), str(value)) for name, value in tree.attrib.items() if name not in known)
-    return MappingProxyType({_parts(name): value for name, value in written if name.startswith("{")})
+    names = [name for name in map(str, tree.keys()) if name[0] == "{" and name not in known]
+    return MappingProxyType({_parts(name): tree.get(name, "") for name in names})
 
 
 def _parts(name: str) -> tuple[str, str]:

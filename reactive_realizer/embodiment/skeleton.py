@@ -37,9 +37,14 @@ class Skeleton:
     parents: tuple[int, ...]
     offsets: tuple[Vec3, ...]
     _chains: dict[str, tuple[tuple[str, Vec3], ...]] = field(init=False, repr=False, compare=False)
+    _hash: int = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "_chains", {name: self._chain(i) for i, name in enumerate(self.joints)})
+        object.__setattr__(self, "_hash", hash((self.joints, self.parents, self.offsets)))
+
+    def __hash__(self) -> int:
+        return self._hash  # asked for with every motion that is made for a figure
 
     def _chain(self, index: int) -> tuple[tuple[str, Vec3], ...]:
         links: list[tuple[str, Vec3]] = []

@@ -1,6 +1,6 @@
 """The board: every point in time of every character, by name."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from itertools import islice
 
 from reactive_realizer.clock.units import GlobalTime, Time
@@ -41,10 +41,14 @@ class PegBoard:
 
     def add(self, key: PegKey, peg: TimeCell) -> None:
         """Name a peg; one peg may bear several names."""
-        block = key.block_key
-        self._pegs[key] = peg
-        self._blocks.setdefault(block, []).append(key)
-        self._owners.setdefault(peg, block)
+        self.add_block(key.block_key, {key: peg})
+
+    def add_block(self, block: BlockKey, pegs: Mapping[PegKey, TimeCell]) -> None:
+        """Name the pegs of a block."""
+        self._pegs.update(pegs)
+        self._blocks.setdefault(block, []).extend(pegs)
+        for peg in pegs.values():
+            self._owners.setdefault(peg, block)
 
     def add_unnamed(self, block: BlockKey, pegs: Iterable[TimePeg]) -> None:
         """Take in pegs that only pegs of a block hang on, and that go with it."""

@@ -19,11 +19,11 @@ class Supposed:
     def __call__(self, peg: TimeCell) -> Time:
         """The time that a peg would have; a long chain is no deeper a call than a short one."""
         known = self._known
-        path = [peg]
+        path = [] if peg in known else [peg]
         while path:
             last = path[-1]
-            missing = [] if last in known else [cell for cell in last.dependencies if cell not in known]
-            if missing:
+            missing = [cell for cell in last.dependencies if cell not in known]
+            if missing and last not in known:
                 path += missing
             elif path.pop() not in known:
                 known[last] = self._time(last)

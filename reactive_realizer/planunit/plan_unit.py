@@ -120,7 +120,7 @@ class PlanUnit:
 
     def key(self, sync: str) -> PegKey:
         """The name of one of its sync points."""
-        return PegKey(self.block.character, self.block.block, self.behavior.id, sync)
+        return PegKey(*self.block, self.behavior.id, sync)
 
     @property
     def begun(self) -> bool:
@@ -149,12 +149,13 @@ class PlanUnit:
 
     def times(self) -> dict[str, Time]:
         """When each of its points was, or is predicted to be; once it plays, none comes after its successor."""
+        if not self.begun:
+            return {point.id: point.time for point in self.points}
         times: dict[str, Time] = {}
         following: Time = None
-        begun = self.begun
         for point in reversed(self.points):
             time = point.time
-            if begun and point.fired is None and time is not None and following is not None:
+            if point.fired is None and time is not None and following is not None:
                 time = min(time, following)
             times[point.id] = time
             following = following if time is None else time

@@ -2,7 +2,7 @@
 
 import itertools
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import Enum
 from math import inf
 
@@ -41,6 +41,11 @@ class Phase:
     minimum: float = 0.0
     maximum: float = inf
 
+    @property
+    def authored(self) -> bool:
+        """Whether it has limits."""
+        return self.minimum > 0 or self.maximum < inf
+
 
 @dataclass(frozen=True, slots=True)
 class Timing:
@@ -51,26 +56,26 @@ class Timing:
         phases: one between each two points.
         instant: whether it is an event, all its points at one time; other behaviors take time (thesis 7.14).
         persistent: whether it goes on until it is ended: until then nobody knows its relax and its end (thesis 6.3.1).
+        rigid: whether nothing of it may be stretched.
+        free: whether it follows what others leave to it, and moves nothing.
+        limited: indices of the phases with authored limits that mean something.
     """
 
     points: tuple[str, ...]
     phases: tuple[Phase, ...]
     instant: bool = False
     persistent: bool = False
+    rigid: bool = field(init=False, repr=False, compare=False)
+    free: bool = field(init=False, repr=False, compare=False)
+    limited: frozenset[int] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         if len(self.phases) != len(self.points) - 1:
             raise ValueError(f"{len(self.points)} points want {len(self.points) - 1} phases, not {len(self.phases)}")
-
-    @property
-    def rigid(self) -> bool:
-        """Whether nothing of it may be stretched."""
-        return all(phase.kind is PhaseKind.RIGID for phase in self.phases)
-
-    @property
-    def free(self) -> bool:
-        """Whether it follows what others leave to it, and moves nothing."""
-        return all(phase.kind is PhaseKind.FREE for phase in self.phases)
+        object.__setattr__(self, "rigid", all(phase.kind is PhaseKind.RIGID for phase in self.phases))
+        object.__setattr__(self, "free", all(phase.kind is PhaseKind.FREE for phase in self.phases))
+        limited = (k for k, phase in enumerate(self.phases) if phase.authored and phase.kind is not PhaseKind.RIGID)
+        object.__setattr__(self, "limited", frozenset(limited))
 
     @property
     def closed(self) -> "Timing":

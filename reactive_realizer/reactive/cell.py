@@ -218,9 +218,13 @@ class Derived(Cell[T]):
 
     def _link(self, dependencies: tuple[Cell[Any], ...]) -> None:
         self.dependencies: tuple[Cell[Any], ...] = dependencies
+        rank = -1
         for cell in dependencies:
             cell.dependents[self] = None
-        raise_rank(self, 1 + max((cell.rank for cell in dependencies), default=-1))
+            if cell.rank > rank:
+                rank = cell.rank
+        if rank >= self.rank:
+            raise_rank(self, rank + 1)
 
     def _unlink(self) -> None:
         for cell in self.dependencies:

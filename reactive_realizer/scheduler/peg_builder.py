@@ -7,7 +7,7 @@ from reactive_realizer.pegboard.time_peg import AfterPeg, BeforePeg, Bound, Offs
 from reactive_realizer.reactive.cell import Cell
 from reactive_realizer.reactive.graph import Graph
 from reactive_realizer.scheduler.bml_block import BMLBlock
-from reactive_realizer.scheduler.problem import AtBlock, AtLeast, AtMost, AtOffset, AtRatio, PegSpec, links_of
+from reactive_realizer.scheduler.problem import AtBlock, AtLeast, AtMost, AtOffset, AtRatio, PegSpec
 
 
 class PegBuilder:
@@ -21,14 +21,17 @@ class PegBuilder:
         for key, spec in specs.items():
             if spec not in self._names:
                 self._names[spec] = str(key)
-        for key, spec in specs.items():
+        for spec, name in list(self._names.items()):
             for natural in _naturals(spec):
-                self._names.setdefault(natural, f"{key} as planned")
+                self._names.setdefault(natural, f"{name} as planned")
         self._built: dict[PegSpec, TimePeg] = {}
 
     def build(self) -> dict[PegKey, TimePeg]:
         """The peg of each sync point."""
-        return {key: self._peg(spec) for key, spec in self._specs.items()}
+        for spec in self._specs.values():
+            if spec not in self._built:
+                self._build(spec)
+        return {key: self._built[spec] for key, spec in self._specs.items()}
 
     @property
     def unnamed(self) -> list[TimePeg]:
@@ -36,23 +39,19 @@ class PegBuilder:
         named = set(self._specs.values())
         return [peg for spec, peg in self._built.items() if spec not in named]
 
-    def _peg(self, spec: PegSpec) -> TimePeg:
-        """A peg, after those that it hangs on; these may be a long chain, too deep for recursion."""
-        waiting = [] if spec in self._built else [spec]
+    def _build(self, spec: PegSpec) -> None:
+        """Make a peg, after those that it hangs on; these may be a long chain, too deep for recursion."""
+        built, waiting = self._built, [spec]
         while waiting:
-            missing = [link for link in links_of(waiting[-1]) if not isinstance(link, Cell) and link not in self._built]
-            if missing:
+            made = waiting[-1]
+            missing = [link for link in made.links if link not in built and not isinstance(link, Cell)]
+            if missing and made not in built:
                 waiting += missing
-            else:
-                made = waiting.pop()
-                if made not in self._built:
-                    self._built[made] = self._make(made, self._name(made))
-        return self._built[spec]
+            elif waiting.pop() not in built:
+                built[made] = self._make(made)
 
-    def _name(self, spec: PegSpec) -> str:
-        return self._names.get(spec, f"{self._block.key.block}:a planned time")
-
-    def _make(self, spec: PegSpec, name: str) -> TimePeg:
+    def _make(self, spec: PegSpec) -> TimePeg:
+        name = self._names.get(spec) or f"{self._block.key.block}:a planned time"
         match spec:
             case AtBlock(anchor, offset):
                 return OffsetPeg(self._graph, name, self._block.start, anchor.time + offset)

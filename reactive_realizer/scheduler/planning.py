@@ -1,7 +1,7 @@
 """From a prepared block to a plan on the board: solved aside, committed in one transaction or not at all."""
 
 import logging
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from reactive_realizer.clock.units import RESOLUTION, GlobalTime, Time
@@ -128,8 +128,7 @@ class Planning:
     def commit(self, block: BMLBlock, plan: Plan, now: GlobalTime) -> None:
         """Put a plan on the board: all of it, in one transaction."""
         with self._board.graph.transaction(f"plan {block.key.block}"):
-            for key, peg in self._hang(block, plan).items():
-                self._board.add(key, peg)
+            self._board.add_block(block.key, self._hang(block, plan))
             block.planned(now, plan.units, plan.kept, self._holds(block, plan))
 
     def recommit(self, block: BMLBlock, plan: Plan) -> None:
@@ -153,30 +152,29 @@ class Planning:
         return holds
 
     def _hang(self, block: BMLBlock, plan: Plan) -> dict[PegKey, TimePeg]:
-        own = {unit: {unit.key(sync): sync for sync in plan.pegs[unit.behavior.id]} for unit in plan.units}
-        specs = {key: plan.pegs[unit.behavior.id][sync] for unit, keys in own.items() for key, sync in keys.items()}
+        own = {unit: {sync: unit.key(sync) for sync in plan.pegs[unit.behavior.id]} for unit in plan.units}
+        specs = {key: plan.pegs[unit.behavior.id][sync] for unit, keys in own.items() for sync, key in keys.items()}
         builder = PegBuilder(self._board.graph, block, specs)
         pegs = builder.build()
         self._board.add_unnamed(block.key, builder.unnamed)
-        for key, text in _reasons(block, plan.kept):
-            pegs[key].why = text
-        tied = {node for each in plan.kept for node in each.nodes if isinstance(node, Point)}
+        reasons = _reasons(plan.kept)
         for unit, keys in own.items():
-            id_ = unit.behavior.id
-            unit.points = [SyncPoint(sync, pegs[key], Point(id_, sync) in tied) for key, sync in keys.items()]
+            named = reasons.get(unit.behavior.id, {})
+            for sync, texts in named.items():
+                pegs[keys[sync]].why = "; ".join(texts)
+            unit.points = [SyncPoint(sync, pegs[key], sync in named) for sync, key in keys.items()]
             unit.points += [SyncPoint(sync, peg) for sync, peg in unit.open.items()]
         return pegs | {unit.key(sync): peg for unit in plan.units for sync, peg in unit.open.items()}
 
 
-def _reasons(block: BMLBlock, kept: Sequence[Tie | Order]) -> Iterator[tuple[PegKey, str]]:
-    """The points that constraints name, with the text of these."""
-    texts: dict[Point, list[str]] = {}
-    for each in kept:
+def _reasons(constraints: Iterable[Tie | Order]) -> dict[str, dict[str, list[str]]]:
+    """The points of each behavior that constraints name, with the text of these."""
+    found: dict[str, dict[str, list[str]]] = {}
+    for each in constraints:
         for node in each.nodes:
             if isinstance(node, Point):
-                texts.setdefault(node, []).append(each.text)
-    for point, reasons in texts.items():
-        yield PegKey(*block.key, *point), "; ".join(reasons)
+                found.setdefault(node.behavior, {}).setdefault(node.sync, []).append(each.text)
+    return found
 
 
 def _predicted_start(block: BMLBlock, now: GlobalTime) -> GlobalTime:

@@ -12,7 +12,8 @@ from reactive_realizer.scheduler.bml_block import BMLBlock
 _WORTH_SAYING = 1e-3
 """Seconds by which a published time must have moved."""
 
-_Times = Mapping[tuple[str, str], Time]
+_Times = Mapping[str, Mapping[str, Time]]
+"""Of the points of each behavior; those of the block have no behavior."""
 
 
 class Predictions:
@@ -47,14 +48,17 @@ class Predictions:
 
 
 def _times(block: BMLBlock) -> _Times:
-    times: dict[tuple[str, str], Time] = {("", "start"): block.start.value, ("", "end"): block.end.value}
-    for unit in block.units:
-        times |= {(unit.behavior.id, sync): time for sync, time in unit.times().items()}
-    return times
+    own = {"start": block.start.value, "end": block.end.value}
+    return {"": own} | {unit.behavior.id: unit.times() for unit in block.units}
 
 
 def _moved(old: _Times, new: _Times) -> bool:
-    return any(_differ(time, new.get(key)) for key, time in old.items()) or any(key not in old for key in new)
+    behaviors = old.keys() | new.keys()
+    return old != new and any(_any_moved(old.get(name, {}), new.get(name, {})) for name in behaviors)
+
+
+def _any_moved(old: Mapping[str, Time], new: Mapping[str, Time]) -> bool:
+    return not old.keys() >= new.keys() or any(_differ(time, new.get(sync)) for sync, time in old.items())
 
 
 def _differ(old: Time, new: Time) -> bool:
@@ -68,13 +72,12 @@ def _prediction(block: BMLBlock, now: GlobalTime) -> PredictionFeedback:
     start = now if block.start.value is None else block.start.value
     supposed = Supposed({block.start: start})
     times = {unit: _ahead(unit, supposed) for unit in block.units}
-    ends = [time for known in times.values() for time in known.values()]
     end = supposed(block.end)
+    if end is None:
+        end = max([start, *(time for known in times.values() for time in known.values())])
     behaviors = tuple(BehaviorPrediction(unit.behavior, _local(known, start)) for unit, known in times.items())
     status = block.state.value
-    return PredictionFeedback(
-        block.key.character, block.key.block, start, max([start, *ends]) if end is None else end, status, behaviors
-    )
+    return PredictionFeedback(block.key.character, block.key.block, start, end, status, behaviors)
 
 
 def _ahead(unit: PlanUnit, supposed: Supposed) -> dict[str, GlobalTime]:

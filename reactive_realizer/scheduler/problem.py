@@ -123,6 +123,11 @@ class AtBlock:
     anchor: "Anchor"
     offset: float
 
+    @property
+    def links(self) -> "Links":
+        """What it hangs on, besides the start of the block."""
+        return ()
+
 
 @dataclass(slots=True, eq=False)
 class Anchor:
@@ -139,6 +144,11 @@ class AtOffset:
     link: "PegSpec | TimeCell"
     offset: float
 
+    @property
+    def links(self) -> "Links":
+        """What it hangs on."""
+        return (self.link,)
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class AtRatio:
@@ -147,6 +157,11 @@ class AtRatio:
     before: "PegSpec | TimeCell"
     after: "PegSpec | TimeCell"
     ratio: float
+
+    @property
+    def links(self) -> "Links":
+        """What it hangs on."""
+        return self.before, self.after
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -160,6 +175,11 @@ class AtLeast:
     bounds: "tuple[tuple[PegSpec | TimeCell, float], ...]"
     ceilings: "tuple[tuple[PegSpec | TimeCell, float], ...]" = ()
 
+    @property
+    def links(self) -> "Links":
+        """What it hangs on."""
+        return self.natural, *(link for link, _ in (*self.bounds, *self.ceilings))
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class AtMost:
@@ -172,22 +192,17 @@ class AtMost:
     bounds: "tuple[tuple[PegSpec | TimeCell, float], ...]"
     floors: "tuple[tuple[PegSpec | TimeCell, float], ...]" = ()
 
+    @property
+    def links(self) -> "Links":
+        """What it hangs on."""
+        return self.natural, *(link for link, _ in (*self.bounds, *self.floors))
+
 
 PegSpec = AtBlock | AtOffset | AtRatio | AtLeast | AtMost
 """A peg to be made when the plan is committed; points that share a spec share a peg."""
 
-
-def links_of(spec: PegSpec) -> "list[PegSpec | TimeCell]":
-    """What a peg is to hang on; the start of the block, on which an `AtBlock` does, is not told."""
-    match spec:
-        case AtBlock():
-            return []
-        case AtOffset(link, _):
-            return [link]
-        case AtRatio(before, after, _):
-            return [before, after]
-        case AtLeast(natural, bounds, stops) | AtMost(natural, bounds, stops):
-            return [natural, *(link for link, _ in (*bounds, *stops))]
+Links = tuple[PegSpec | TimeCell, ...]
+"""What a peg is to hang on."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from reactive_realizer.pegboard.formulas import not_after, not_before
 from reactive_realizer.pegboard.time_peg import TimeCell
 from reactive_realizer.reactive.cell import Cell
-from reactive_realizer.scheduler.problem import AtBlock, AtLeast, AtMost, AtOffset, AtRatio, PegSpec, links_of
+from reactive_realizer.scheduler.problem import AtBlock, AtLeast, AtMost, AtOffset, AtRatio, PegSpec
 
 
 class SpecTimes:
@@ -30,7 +30,7 @@ class SpecTimes:
         path = {spec: None}
         while path:
             last = next(reversed(path))
-            links = (link for link in links_of(last) if not isinstance(link, Cell))
+            links = (link for link in last.links if not isinstance(link, Cell))
             missing = next((link for link in links if link not in self._known), None)
             if missing is None:
                 self._known[last] = self._work_out(last)
@@ -51,9 +51,9 @@ class SpecTimes:
                 low, high = self._time(before), self._time(after)
                 return None if low is None or high is None else low + ratio * (high - low)
             case AtLeast(_, bounds, ceilings):
-                return not_before(_distances(bounds), _distances(ceilings))(*map(self._time, links_of(spec)))
+                return not_before(_distances(bounds), _distances(ceilings))(*map(self._time, spec.links))
             case AtMost(_, bounds, floors):
-                return not_after(_distances(bounds), _distances(floors))(*map(self._time, links_of(spec)))
+                return not_after(_distances(bounds), _distances(floors))(*map(self._time, spec.links))
 
     def _time(self, link: PegSpec | TimeCell) -> float | None:
         return self._outer[link] if isinstance(link, Cell) else self._known[link]

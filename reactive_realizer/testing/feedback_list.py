@@ -34,15 +34,28 @@ class Line:
 
 
 class FeedbackList:
-    """All that was told, in order."""
+    """All that was told, in order.
+
+    Attributes:
+        raw: as it was told.
+    """
 
     def __init__(self) -> None:
-        self.lines: list[Line] = []
         self.raw: list[str] = []
+        self._lines: list[Line] = []
+        self._unread: list[Report] = []
 
     def __call__(self, report: Report) -> None:
-        """Take a report."""
-        self.add(report.time, report.xml)
+        """Take a report; it is read when somebody asks, and so costs no tick anything."""
+        self.raw.append(report.xml)
+        self._unread.append(report)
+
+    @property
+    def lines(self) -> list[Line]:
+        """All messages."""
+        self._lines += (Line(report.time, etree.fromstring(report.xml)) for report in self._unread)
+        self._unread.clear()
+        return self._lines
 
     def add(self, time: float, xml: str) -> None:
         """Take a message that was told at a time, s.

@@ -2,10 +2,11 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from itertools import pairwise
 from math import inf
 
-from reactive_realizer.bml.behavior import Behavior
+from reactive_realizer.bml.behavior import Behavior, SyncPoints
 from reactive_realizer.bml.behaviors import Pointing
 from reactive_realizer.clock.units import RESOLUTION, GlobalTime
 from reactive_realizer.embodiment.body import Body
@@ -30,6 +31,12 @@ from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
 from reactive_realizer.planunit.timing import Phase, PhaseKind, Timing
 from reactive_realizer.reactive.cell import Source
 from reactive_realizer.reactive.graph import Graph
+
+Both = tuple[str, str]
+"""The sync points at the ends of a phase."""
+
+_MOST_TIMINGS = 1000
+"""Timings that are kept: most motions are planned again and again."""
 
 _HOLDS = frozenset({("ready", "strokeStart"), ("strokeEnd", "relax")})
 """Before and after a stroke the hands wait."""
@@ -224,26 +231,40 @@ def motion_timing(behavior: Behavior, motion: MotionUnit, keys: Mapping[str, flo
         keys: the phase of each point: of those of the motion, whatever their names, and of those that BML wants of such
             a behavior.
     """
-    shortest, longest = motion.limits or (0.0, inf)
     # What is added to other motion waits for nothing: where its points coincide they stay together.
-    holds = frozenset[tuple[str, str]]() if motion.kind is LayerKind.ADDITIVE else _holds(behavior)
+    waits = motion.kind is not LayerKind.ADDITIVE
+    holds = _holds(isinstance(behavior, Pointing), behavior.sync_points) if waits else frozenset[Both]()
+    limits = motion.limits or (0.0, inf)
+    return _timing(tuple(keys.items()), motion.preferred_duration, limits, holds, behavior.persistent)
+
+
+@lru_cache(_MOST_TIMINGS)
+def _timing(
+    keys: tuple[tuple[str, float], ...],
+    duration: float,
+    limits: tuple[float, float],
+    holds: frozenset[Both],
+    persistent: bool,
+) -> Timing:
+    shortest, longest = limits
     phases = []
-    for points, (begin, end) in zip(pairwise(keys), pairwise(keys.values()), strict=True):
+    for (point, begin), (other, end) in pairwise(keys):
         part = end - begin
-        if points in holds:
-            phases.append(Phase(part * motion.preferred_duration, PhaseKind.HOLD))
+        if (point, other) in holds:
+            phases.append(Phase(part * duration, PhaseKind.HOLD))
         else:
             most = part * longest if part > 0.0 else inf
-            phases.append(Phase(part * motion.preferred_duration, PhaseKind.ELASTIC, part * shortest, most))
-    return Timing(tuple(keys), tuple(phases), persistent=behavior.persistent)
+            phases.append(Phase(part * duration, PhaseKind.ELASTIC, part * shortest, most))
+    return Timing(tuple(point for point, _ in keys), tuple(phases), persistent=persistent)
 
 
-def _holds(behavior: Behavior) -> frozenset[tuple[str, str]]:
+@lru_cache(_MOST_TIMINGS)
+def _holds(pointing: bool, points: SyncPoints) -> frozenset[Both]:
     """The phases in which a motion waits."""
-    if isinstance(behavior, Pointing):
+    if pointing:
         return _HOLDS | _STAYS
     # What only comes and goes, such as a gaze, waits between.
-    return _HOLDS | ({("ready", "relax")} & set(pairwise(behavior.sync_points)))
+    return _HOLDS | ({("ready", "relax")} & set(pairwise(points)))
 
 
 def keys_of(behavior: Behavior, motion: MotionUnit) -> dict[str, float]:

@@ -38,6 +38,7 @@ class MotionLibrary:
         self._makers = makers_of(actor)
         makers: Mapping[str, object] = self._makers
         self._slow = {unit: maker for unit, maker in makers.items() if isinstance(maker, SlowMaker)}
+        self._reads = {(spec.behavior, spec.namespace) for spec in binding.specs if spec.unit in self._slow}
         self._noted: set[UnitSpec] = set()
         self._judged: set[UnitSpec] = set()
 
@@ -78,6 +79,8 @@ class MotionLibrary:
 
     def readings(self, behavior: Behavior) -> list[Callable[[], object]]:
         """The work of `SlowMaker`s for a behavior; what they cannot make is told when it is made."""
+        if (behavior.name, behavior.namespace) not in self._reads:
+            return []
         attributes = seen(behavior)
         works: list[Callable[[], object] | None] = []
         for spec in self.binding.match(behavior.name, behavior.namespace, attributes):

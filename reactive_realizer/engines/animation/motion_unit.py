@@ -6,7 +6,7 @@ from enum import Enum
 from math import inf
 from operator import itemgetter
 from types import MappingProxyType
-from typing import NamedTuple, Protocol
+from typing import NamedTuple, Protocol, Self
 
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body
@@ -160,6 +160,13 @@ class MotionUnit(ABC):
     def preparation(self, body: Body) -> float | None:
         """How long its first phase would take from where a body is, s; None where that makes no difference."""
         return None
+
+    def another(self) -> Self:
+        """The same once more, of one that has not begun: how long it would like to take need not be found out again."""
+        motion = object.__new__(type(self))
+        motion.__dict__.update(self.__dict__)  # as `copy` does, in a fifth of the time
+        motion.parameters = dict(self.parameters)
+        return motion
 
     def lead(self, begin: Moving, goal: Moving, duration: float) -> None:
         """Where to; only motions that are `led` are told.

@@ -46,6 +46,7 @@ class BehaviorSpans:
         self._knots = knots
         self._named = named
         self._lifted = lifted
+        self._limited = {k for k in timing.limited if Cause(Rank.LIMIT, index, k) not in lifted}
         self._node = node
         self.spans: list[Span] = []
         self.rigid: list[tuple[int, int, float]] = []
@@ -57,8 +58,7 @@ class BehaviorSpans:
 
     def limited(self, phase: int) -> bool:
         """Whether authored limits of a phase are to be kept."""
-        authored = self._phases[phase].minimum > 0 or self._phases[phase].maximum < inf
-        return authored and not self._is_rigid(phase) and Cause(Rank.LIMIT, self._index, phase) not in self._lifted
+        return phase in self._limited
 
     def _connect(self, before: int, after: int) -> None:
         """Spans from knot to knot, one behind the other."""
@@ -76,9 +76,10 @@ class BehaviorSpans:
         """The phases that can give, elastic ones together."""
         elastic, others = [], []
         for k in range(before, after):
-            if self._phases[k].kind is PhaseKind.ELASTIC and not self.limited(k):
+            kind = self._phases[k].kind
+            if kind is PhaseKind.ELASTIC and k not in self._limited:
                 elastic.append(k)
-            elif not self._is_rigid(k):
+            elif kind is not PhaseKind.RIGID:
                 others.append([k])
         lump = [k for k in elastic if self._phases[k].duration > 0]
         groups = [lump, *others] if lump else others

@@ -24,6 +24,13 @@ class Branches:
 
     def __init__(self, roots: Roots, outside: Sequence[int]) -> None:
         """Of all that is tied to some nodes."""
+        self.pieces: Sequence[int] = range(len(roots))
+        self.rigid: set[int] = set()
+        self.hosts: dict[int, int] = {}
+        if outside:  # else nothing hangs on anything
+            self._find(roots, outside)
+
+    def _find(self, roots: Roots, outside: Sequence[int]) -> None:
         inner = [(one, other) for one, other, cause in roots.links if cause.rank is Rank.BEHAVIOR]
         held = {node for pair in inner for node in pair}
         rigid = [(one, other) for one, other, _ in roots.links if {one, other} <= held]
@@ -32,7 +39,6 @@ class Branches:
         members: defaultdict[int, list[int]] = defaultdict(list)
         for node, piece in enumerate(self.pieces):
             members[piece].append(node)
-        self.hosts: dict[int, int] = {}
         waiting = deque(outside)
         while waiting:
             host = waiting.popleft()

@@ -57,23 +57,36 @@ class Stage:
 
 @dataclass(frozen=True, slots=True)
 class Case:
-    """Behaviors by id, constraints by what they name, required ones first: the last of some is the first to go."""
+    """Behaviors by id, constraints by what they name, required ones first: the last of some is the first to go.
+
+    Attributes:
+        items: the behaviors.
+        ties: in order.
+        orders: in order.
+        points: of the behaviors; each with the index of its behavior, and its own.
+    """
 
     items: tuple[Item, ...]
     ties: tuple[Tie, ...]
     orders: tuple[Order, ...]
+    points: Mapping[Node, tuple[int, int]]
 
     @classmethod
     def of(cls, problem: Problem) -> "Case":
         """The problem, sorted; what compares equal is the same but for its place in the document."""
         items = tuple(sorted(problem.items, key=lambda item: item.behavior.id))
-        place = _places(items)
-        return cls(items, _sorted(problem.ties, place), _sorted(problem.orders, place))
+        points: dict[Node, tuple[int, int]] = {
+            Point(item.behavior.id, sync): (index, k)
+            for index, item in enumerate(items)
+            for k, sync in enumerate(item.timing.points)
+        }
+        place = _places(points)
+        return cls(items, _sorted(problem.ties, place), _sorted(problem.orders, place), points)
 
     def stage(self, behaviors: Iterable[int], fixed: Mapping[Node, Fixed], without: AbstractSet[Cause]) -> Stage:
         """Some behaviors, and the constraints that name nothing else than them and what is fixed."""
         items = {index: self.items[index] for index in behaviors if Cause(Rank.BEHAVIOR, index) not in without}
-        own = {Point(item.behavior.id, sync) for item in items.values() for sync in item.timing.points}
+        own = {node for node, (index, _) in self.points.items() if index in items}
         known = {*own, *fixed}
         ties = _used(self.ties, Rank.TIE, known, without)
         orders = _used(self.orders, Rank.ORDER, known, without)
@@ -82,18 +95,16 @@ class Case:
         return Stage(items, ties, orders, {node: fixed[node] for node in (Origin.BLOCK_START, *named)})
 
 
-Place = tuple[int, int, str]
+Place = tuple[int, int, int, str]
 
 
-def _places(items: Sequence[Item]) -> Callable[[Node], Place]:
+def _places(points: Mapping[Node, tuple[int, int]]) -> Callable[[Node], Place]:
     """What nodes are sorted by: behavior and index of the point; then the start of the block; then the outside."""
-    points = [Point(item.behavior.id, sync) for item in items for sync in item.timing.points]
-    places = {point: (0, number, "") for number, point in enumerate(points)}
 
     def place(node: Node) -> Place:
         if isinstance(node, Point):
-            return places.get(node, (1, 0, f"{node.behavior}:{node.sync}"))
-        return 2, 0, "" if node is Origin.BLOCK_START else node.name
+            return (0, *points[node], "") if node in points else (1, 0, 0, f"{node.behavior}:{node.sync}")
+        return 2, 0, 0, "" if node is Origin.BLOCK_START else node.name
 
     return place
 

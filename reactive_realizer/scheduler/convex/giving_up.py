@@ -50,6 +50,8 @@ class GivingUp:
     def report_orphans(self) -> None:
         """Required constraints that name a behavior that was given up are lost with it."""
         lost = {self._case.items[cause.number].behavior.id for cause in self.things if cause.rank is Rank.BEHAVIOR}
+        if not lost:
+            return
         constraints: list[Tie | Order] = [*self._case.ties, *self._case.orders]
         told = [loss.constraint for loss in self.losses]
         for each in constraints:

@@ -59,8 +59,9 @@ class Hanging:
         for root in self._network.roots[self._network.fixed :]:
             cluster = self._network.cluster(root)
             if not self._network.hangs(cluster):
-                old = firsts.get(cluster, root)
-                firsts[cluster] = min(old, root, key=self._network.first_time)
+                first = firsts.setdefault(cluster, root)
+                if self._network.first_time(root) < self._network.first_time(first):
+                    firsts[cluster] = root
         return firsts
 
     def _begin_after(self, order: Precedence) -> None:
@@ -79,8 +80,9 @@ class Hanging:
     # --- where roots are by nature
 
     def _naturals(self, given: Collection[int]) -> dict[int, Natural]:
-        network = self._network
-        before, after = network.latest_before(given), network.earliest_after(given)
+        network, between = self._network, self._network.between(given)
+        before = network.latest_before(given) if between else {}
+        after = network.earliest_after(given) if between else {}
         naturals: dict[int, Natural] = {}
         for root in network.roots:
             if root in network.branches:
@@ -126,7 +128,7 @@ class Hanging:
             root = waiting.pop()
             if root not in found:
                 found.add(root)
-                waiting += [spot.root for spot in self.recipes[root].spots]
+                waiting += [spot.root for spot in self.recipes[root].natural.spots]
         return found
 
     def _hang_on(self, given: Collection[int]) -> None:
@@ -158,13 +160,12 @@ class Hanging:
 
     def _keep_between(self, given: Collection[int]) -> set[int]:
         """Bounds for the order of what leads from and to several that move against each other; who got some."""
-        ends = {root for way in self._network.ways for root in (way.start, way.end)}
-        if len(ends.intersection(given)) < 2:
+        if not self._network.between(given):
             return set()
         floors, ceilings = self._network.floors(given), self._network.ceilings(given)
         bounded = set()
         for root, recipe in self.recipes.items():
-            hung = {spot.root for spot in recipe.spots}
+            hung = {spot.root for spot in recipe.natural.spots}
             if root not in given and (len(floors[root]) > 1 or len(ceilings[root]) > 1):
                 recipe.after += [spot for spot in floors[root] if spot.root not in hung]
                 recipe.before += [spot for spot in ceilings[root] if spot.root not in hung]
@@ -195,7 +196,7 @@ class Hanging:
         """The roots that move when times from outside do."""
         users: defaultdict[int, list[int]] = defaultdict(list)
         for root, recipe in self.recipes.items():
-            for spot in (*recipe.spots, *recipe.after):
+            for spot in (*recipe.natural.spots, *recipe.after):
                 users[spot.root].append(root)
         moved = set(range(START + 1, self._network.fixed))
         waiting = sorted(moved)

@@ -48,8 +48,8 @@ def components(size: int, pairs: Iterable[tuple[int, int]]) -> list[int]:
         return node
 
     for one, other in pairs:
-        low, high = sorted((top(one), top(other)))
-        parents[high] = low
+        one, other = top(one), top(other)
+        parents[max(one, other)] = min(one, other)
     return [top(node) for node in range(size)]
 
 

@@ -69,17 +69,17 @@ class Model:
     # --- nodes
 
     def _add_behaviors(self, lifted: AbstractSet[Cause]) -> None:
-        named = self._named([*self.stage.ties.values(), *self.stage.orders.values()])
         tied = self._named(self.stage.ties.values())
+        ordered = self._named(self.stage.orders.values())
         for index, item in self.stage.items.items():
             points = item.timing.points
             id_ = item.behavior.id
-            knots = {k: self.roots.add() for k, sync in enumerate(points) if k == 0 or sync in named[id_]}
+            at = {k for k, sync in enumerate(points) if sync in tied[id_]}
+            named = at | {k for k, sync in enumerate(points) if sync in ordered[id_]} if id_ in ordered else at
+            knots = {k: self.roots.add() for k in sorted({0, *named})}
             self.nodes.update({Point(id_, points[k]): node for k, node in knots.items()})
-            at = {k for k in knots if points[k] in tied[id_]}
-            mentioned = {k for k in knots if points[k] in named[id_]}
             self.knots[index] = knots
-            self.parts[index] = BehaviorSpans(index, item.timing, knots, mentioned, at, lifted, self.roots.add)
+            self.parts[index] = BehaviorSpans(index, item.timing, knots, named, at, lifted, self.roots.add)
 
     def _named(self, constraints: Iterable[Tie | Order]) -> defaultdict[str, set[str]]:
         named: defaultdict[str, set[str]] = defaultdict(set)

@@ -132,6 +132,10 @@ class Network:
         """What they cannot come after: all given roots to which phases lead."""
         return self._stops(given, [way.back for way in reversed(self._least_ways())], -1.0)
 
+    def between(self, given: Collection[int]) -> bool:
+        """Whether phases lead from or to more than one of them."""
+        return len({root for way in self.ways for root in (way.start, way.end)}.intersection(given)) > 1
+
     def latest_before(self, given: Iterable[int]) -> dict[int, Spot]:
         """For each root that phases lead to from a given one: where it would be if these took no time.
 
@@ -189,7 +193,7 @@ class Network:
 
     def _turn(self, way: Way) -> tuple[float, float, Way]:
         """By start; of those that start together, but for rounding, one that takes no time goes first."""
-        return round(self._table.time(way.start), 9), round(self._table.time(way.end), 9), way
+        return round(self._times[way.start], 9), round(self._times[way.end], 9), way
 
     def _note_branch(self, root: int) -> None:
         fixed, distance = self._model.roots.find(root)

@@ -24,6 +24,7 @@ def _points(table: Timetable, roots: "_Roots", behavior: int) -> dict[str, PegSp
     """Between knots at a fraction, behind the last at a distance; rigid phases keep theirs."""
     timing, times = table.model.stage.items[behavior].timing, table.points[behavior]
     knots = {k: roots.peg(node) for k, node in table.model.knots[behavior].items()}
+    rigid = any(phase.kind is PhaseKind.RIGID for phase in timing.phases)
     pegs: list[PegSpec] = []
     for before, after in zip_longest(knots, list(knots)[1:]):
         pegs.append(knots[before])
@@ -32,11 +33,11 @@ def _points(table: Timetable, roots: "_Roots", behavior: int) -> dict[str, PegSp
             gone = times[k] - times[before]
             if times[k] == times[k - 1] or (after is not None and whole <= 0.0):
                 pegs.append(pegs[-1])
-            elif _rigid(timing.phases[before:k]):
+            elif rigid and _rigid(timing.phases[before:k]):
                 pegs.append(AtOffset(knots[before], gone))
             elif after is None:
                 pegs.append(roots.behind(table.model.knots[behavior][before], gone))
-            elif _rigid(timing.phases[k:after]):
+            elif rigid and _rigid(timing.phases[k:after]):
                 pegs.append(AtOffset(knots[after], times[k] - times[after]))
             else:
                 pegs.append(AtRatio(knots[before], knots[after], gone / whole))

@@ -17,32 +17,48 @@ class Spot(NamedTuple):
         return Spot(self.root, self.distance + distance)
 
 
-@dataclass(frozen=True, slots=True)
-class Given:
+class Given(NamedTuple):
     """The root's own time comes from outside."""
 
+    @property
+    def spots(self) -> tuple[Spot, ...]:
+        """What it hangs on."""
+        return ()
 
-@dataclass(frozen=True, slots=True)
-class First:
+
+class First(NamedTuple):
     """A cluster begins with this root, so long (s) after the block: as early as may be (thesis 7.24)."""
 
     offset: float
 
+    @property
+    def spots(self) -> tuple[Spot, ...]:
+        """What it hangs on."""
+        return ()
 
-@dataclass(frozen=True, slots=True)
-class Hung:
+
+class Hung(NamedTuple):
     """At a distance from another root."""
 
     spot: Spot
 
+    @property
+    def spots(self) -> tuple[Spot, ...]:
+        """What it hangs on."""
+        return (self.spot,)
 
-@dataclass(frozen=True, slots=True)
-class Between:
+
+class Between(NamedTuple):
     """At a fraction of the way between two spots: retimed, everything there stretches alike."""
 
     before: Spot
     after: Spot
     ratio: float
+
+    @property
+    def spots(self) -> tuple[Spot, ...]:
+        """What it hangs on."""
+        return self.before, self.after
 
 
 Natural = Given | First | Hung | Between
@@ -74,17 +90,6 @@ class Recipe:
     ceilings: list[Spot] = field(default_factory=list)
 
     @property
-    def spots(self) -> list[Spot]:
-        """What its natural place hangs on."""
-        match self.natural:
-            case Hung(spot):
-                return [spot]
-            case Between(before, after, _):
-                return [before, after]
-            case _:
-                return []
-
-    @property
     def bounds(self) -> list[Step]:
         """What its bounds hang on."""
         others = (*self.floors, *self.after, *self.ceilings)
@@ -104,7 +109,7 @@ def steps(recipes: Mapping[int, Recipe]) -> list[Step]:
     named = {spot.root for recipe in recipes.values() for spot in recipe.before}
     for root, recipe in recipes.items():
         natural, bounded = Step(root, bounded=False), Step(root, bounded=True)
-        spots = [Step(spot.root, bounded=True) for spot in recipe.spots]
+        spots = [Step(spot.root, bounded=True) for spot in recipe.natural.spots]
         if recipe.before or recipe.after or root in named:
             needs[natural], needs[bounded] = spots, [natural, *recipe.bounds]
         else:

@@ -1,9 +1,7 @@
 """A gesture: a stroke from a file, with the way there and the way back."""
 
 from collections.abc import Mapping
-from copy import copy
 from itertools import pairwise
-from typing import Self
 
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.pose import LayerKind
@@ -85,12 +83,6 @@ class GestureMotionUnit(MotionUnit):
         stroke = [whole * (after - before) for before, after in pairwise(self._inner)]
         stroke[-1] += hold
         return [self.preparation(rest), *stroke, comfortable(relax, rest, self.joints)]
-
-    def another(self) -> Self:
-        """The same gesture once more, not begun: how long it would like to take need not be found out again."""
-        gesture = copy(self)
-        gesture.parameters = dict(self.parameters)
-        return gesture
 
     def start(self, body: Body) -> None:
         """The hands set out from where they are now."""

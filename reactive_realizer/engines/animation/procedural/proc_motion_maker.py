@@ -1,20 +1,30 @@
 """From a binding to a procedural animation as it is."""
 
+from functools import lru_cache
+
 from reactive_realizer.binding.gesture_binding import numbers
 from reactive_realizer.embodiment.pose import LayerKind
 from reactive_realizer.engines.animation.actor import Actor, Wanted
 from reactive_realizer.engines.animation.procedural.animation_files import wanted_animation
+from reactive_realizer.engines.animation.procedural.proc_animation import ProcAnimation
 from reactive_realizer.engines.animation.procedural.proc_motion_unit import ProcMotionUnit, kind_of
+
+_MOST = 128
+"""Motions that are kept to be made again."""
 
 
 class ProcMotionMaker:
-    """Makes motions of animation files."""
+    """Makes motions of animation files; those that are alike are planned once."""
 
     def __init__(self, actor: Actor) -> None:
         self._actor = actor
+        self._motion = lru_cache(_MOST)(_made)
 
     def __call__(self, wanted: Wanted) -> ProcMotionUnit:
         """As every maker."""
         animation = wanted_animation(self._actor, wanted)
-        kind = LayerKind.ADDITIVE if wanted.added else kind_of(animation)
-        return ProcMotionUnit(animation, numbers(wanted.parameters), kind)
+        return self._motion(animation, tuple(numbers(wanted.parameters).items()), wanted.added).another()
+
+
+def _made(animation: ProcAnimation, parameters: tuple[tuple[str, float], ...], added: bool) -> ProcMotionUnit:
+    return ProcMotionUnit(animation, dict(parameters), LayerKind.ADDITIVE if added else kind_of(animation))
