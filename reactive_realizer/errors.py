@@ -241,7 +241,8 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
         "parameter-range": ErrorKind(
             "the {parameter} of '{behavior}' is from {low:g} to {high:g}, and {value:g} is not within", _PLAYING
         ),
-        # --- recorded sessions
+        # --- sessions and their recordings
+        "never-enters": ErrorKind("{file} does not enter: the session ended at {end:g} s, before {time:g} s"),
         "bad-recording": ErrorKind("{file}, line {row}: {reason}"),
         "not-recorded": ErrorKind("a message of type {type} is no input of a recorded session"),
         "lost-input": ErrorKind("input {seq} stands where input {wanted} was to come"),

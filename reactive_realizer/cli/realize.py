@@ -3,7 +3,7 @@
 import argparse
 import asyncio
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
@@ -16,6 +16,8 @@ from reactive_realizer.assembly.scene import DEFAULT_HUMAN, SceneOptions, open_s
 from reactive_realizer.cli.items import Item, item, seconds
 from reactive_realizer.cli.output import Explainer, FeedbackWriter, FrameRecorder
 from reactive_realizer.clock.clock import ManualClock, SystemClock
+from reactive_realizer.clock.units import GlobalTime, is_due
+from reactive_realizer.errors import Fault
 from reactive_realizer.realizer.inputs import BmlText
 from reactive_realizer.realizer.realizer import Realizer
 from reactive_realizer.realizer.replay import replay
@@ -37,7 +39,7 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
     parser.add_argument("items", nargs="*", type=item, metavar="ITEM", help="a file, or file@seconds")
     parser.add_argument("--clock", choices=("virtual", "real"), default="virtual")
     parser.add_argument("--human", type=Path, default=DEFAULT_HUMAN, metavar="FILE")
-    parser.add_argument("--voice", choices=("espeak", "text"), default="espeak")
+    parser.add_argument("--voice", choices=names("tts"), default="espeak")
     parser.add_argument("--feedback", metavar="FILE|-", help="JSON lines")
     parser.add_argument("--frames", type=Path, metavar="FILE.npz")
     parser.add_argument("--explain", type=Path, metavar="FILE", help="why each sync point was when it was, as JSON")
@@ -85,7 +87,15 @@ async def _realize(options: argparse.Namespace) -> int:
         with _written(options, scene.realizer):
             clock = ManualClock() if options.clock == "virtual" else SystemClock()
             await run_until_done(scene.realizer, clock, options.until)
+        _tell_left_out(options.items, scene.realizer.time)
         return 1 if unread else _status(scene.realizer)
+
+
+def _tell_left_out(items: Iterable[Item], end: GlobalTime) -> None:
+    for entry in items:
+        if not is_due(entry.time, end):
+            details = {"file": entry.path, "end": end, "time": entry.time}
+            print(Fault("never-enters", details).sentence, file=sys.stderr)
 
 
 async def _replay(options: argparse.Namespace) -> int:

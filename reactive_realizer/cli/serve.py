@@ -27,7 +27,7 @@ def _add(
     parser.add_argument("--host", default="127.0.0.1")
     parser.add_argument("--port", type=int, default=8088)
     parser.add_argument("--human", type=Path, default=DEFAULT_HUMAN, metavar="FILE")
-    parser.add_argument("--voice", choices=("espeak", "text"), default="espeak")
+    parser.add_argument("--voice", choices=names("tts"), default="espeak")
     parser.add_argument("--assets", type=Path, action="append", default=[], metavar="DIR")
     parser.add_argument("--token", metavar="T", help="that every client must show")
     parser.add_argument("--allow-origin", action="append", default=[], metavar="O", help="of another page to let in")

@@ -1,5 +1,6 @@
 """Plug-ins as pip would leave them."""
 
+import shutil
 import tomllib
 from pathlib import Path
 
@@ -7,8 +8,9 @@ import pytest
 
 
 def install(plugin: Path, site: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Put a plug-in on the path for a test: its modules, and in ``site`` the metadata that name its entry points."""
-    project = tomllib.loads((plugin / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    """Put a plug-in on the path for a test: in ``site`` its modules and the metadata that name its entry points."""
+    settings = tomllib.loads((plugin / "pyproject.toml").read_text(encoding="utf-8"))
+    project = settings["project"]
     name, version = project["name"], project["version"]
     metadata = site / f"{name.replace('-', '_')}-{version}.dist-info"
     metadata.mkdir()
@@ -16,5 +18,6 @@ def install(plugin: Path, site: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     groups = project["entry-points"].items()
     lines = [line for group, own in groups for line in (f"[{group}]", *(f"{id_} = {of}" for id_, of in own.items()))]
     (metadata / "entry_points.txt").write_text("\n".join(lines), encoding="utf-8")
+    for module in settings["tool"]["setuptools"]["py-modules"]:
+        shutil.copy(plugin / f"{module}.py", site)
     monkeypatch.syspath_prepend(str(site))
-    monkeypatch.syspath_prepend(str(plugin))

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from reactive_realizer.__main__ import main
 from reactive_realizer.assembly.registry import load, names
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.embodiment.audio import AudioGain
@@ -44,6 +45,13 @@ async def test_all_four_have_their_part_in_the_block_of_the_page() -> None:
         assert lid[38] == lid[101] == 0.0
         gains = [change.gain for change in pilot.sounds if isinstance(change, AudioGain)]
         assert max(gains) > gains[-1] == pytest.approx(70 / 50)
+
+
+@pytest.mark.usefixtures("installed")
+def test_the_command_line_takes_them_by_their_names(capsys: pytest.CaptureFixture[str]) -> None:
+    options = ["--human", str(PLUGIN / "human.toml"), "--voice", "beep", "--strategy", "quick_first", "--feedback", "-"]
+    assert main(["realize", str(PLUGIN / "wink.xml"), *options]) == 0
+    assert "hint:eye:end" in capsys.readouterr().out
 
 
 @pytest.mark.usefixtures("installed")

@@ -24,6 +24,8 @@ BML = 'xmlns="http://www.bml-initiative.org/bml/bml-1.0"'
 WAIT = f'<bml {BML} id="{{id}}"><wait id="w" duration="{{duration}}"/></bml>'
 ALICE = '[character.alice]\n[anticipator.metronome]\nkind = "metronome"\n'
 
+XML = {"Content-Type": "application/xml"}
+
 OPEN = Security()
 
 _SCHEMA = json.loads(DOCUMENT)
@@ -109,6 +111,12 @@ class OnAir:
         socket = Socket(await self.client.ws_connect("/ws" + query, max_msg_size=0, **options))
         socket.hello = await socket.hear()
         return socket
+
+
+async def post(air: OnAir, path: str, body: str | bytes, headers: dict[str, str] = XML) -> tuple[int, dict[str, Any]]:
+    """The status and the body of what is answered."""
+    async with air.client.post(path, data=body, headers=headers) as answer:
+        return answer.status, await answer.json()
 
 
 Open = Callable[..., AbstractAsyncContextManager[OnAir]]

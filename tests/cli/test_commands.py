@@ -1,0 +1,23 @@
+"""What all commands do alike."""
+
+import pytest
+
+from reactive_realizer.__main__ import main
+from reactive_realizer.testing.pilot import block
+
+
+@pytest.mark.parametrize("command", ["realize", "check"])
+def test_every_command_has_help_with_an_example(command, capsys) -> None:
+    with pytest.raises(SystemExit) as ended:
+        main([command, "--help"])
+    assert ended.value.code == 0
+    assert f"example: reactive-realizer {command}" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("command", ["realize", "check"])
+@pytest.mark.parametrize("mistake", ["bindings = { foo = 'x' }", "[limits]\nblocks_alive = -1"])
+def test_a_human_file_that_cannot_be_is_2_and_one_line_says_why(bml, capsys, command, mistake) -> None:
+    human = bml(f"[character.alice]\n{mistake}", "human.toml")
+    assert main([command, bml(block("b")), "--human", human]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith("human.toml: ")
