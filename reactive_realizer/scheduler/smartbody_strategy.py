@@ -7,7 +7,7 @@ from reactive_realizer.errors import Fault, RealizerError, error
 from reactive_realizer.pegboard.time_peg import TimeCell
 from reactive_realizer.planunit.timing import SHORTEST
 from reactive_realizer.scheduler.equalities import Equalities
-from reactive_realizer.scheduler.losses import lost_behavior, lost_constraint
+from reactive_realizer.scheduler.losses import kept_of, lost_behavior, lost_constraint, with_required
 from reactive_realizer.scheduler.placed import Placed, check_given, check_playable, filled, is_past, moved
 from reactive_realizer.scheduler.problem import (
     Anchor,
@@ -40,8 +40,12 @@ class SmartBodyStrategy:
     name = "smartbody"
 
     def solve(self, problem: Problem) -> Solution:
-        """See `SchedulingStrategy`."""
-        return _Run(problem).solve()
+        """See `SchedulingStrategy`; the rest of what is lost is placed once more, as if that had never been."""
+        left, lost = problem, list[Loss]()
+        while (solution := _Run(left).solve()).losses:
+            lost += [with_required(loss, problem) for loss in solution.losses]
+            left = kept_of(left, solution)
+        return Solution(solution.pegs, tuple(lost))
 
 
 class _Run:

@@ -1,0 +1,56 @@
+"""SmartBody's scheduling: what is lost leaves nothing behind (thesis 7.2.2, 7.24)."""
+
+import pytest
+from hypothesis import given, settings
+
+from reactive_realizer.scheduler.plan_view import PlanView
+from reactive_realizer.scheduler.problem import Origin, Point, Problem
+from reactive_realizer.scheduler.smartbody_strategy import SmartBodyStrategy
+from reactive_realizer.testing.problems import TIMINGS, at, item, outer, problem, problems
+from reactive_realizer.testing.strategy_contract import violations
+
+START = Origin.BLOCK_START
+
+
+def solved(behaviors, *ties):
+    """Kinds by id: the times of all points, and the losses as (code, required)."""
+    asked = problem([item(id_, TIMINGS[kind]) for id_, kind in behaviors.items()], *ties)
+    solution = SmartBodyStrategy().solve(asked)
+    times = PlanView.of_solution(asked, solution).times
+    return times, [(loss.fault.code, loss.required) for loss in solution.losses]
+
+
+def test_what_was_tied_to_a_behavior_that_is_lost_starts_with_its_block() -> None:
+    hit = outer("hit", 3.0)
+    ties = at("lost:start", hit), at("lost:end", hit), at("nod:start", "lost:start", 0.5)
+    times, losses = solved({"lost": "beat", "nod": "nod"}, *ties)
+    assert losses == [("too-short", False)]
+    assert times[Point("nod", "start")] == 0.0
+
+
+def test_what_leaned_on_it_in_a_cluster_starts_as_early_as_it_may_without_it() -> None:
+    ties = at("n:start", "lost:end", 2.0), at("lost:start", "b:end"), at("lost:end", "b:end")
+    times, losses = solved({"b": "beat", "lost": "nod", "n": "nod"}, *ties)
+    assert losses == [("too-short", False)]
+    assert times[Point("n", "start")] == times[Point("b", "start")] == 0.0
+
+
+def test_a_tie_that_a_rigid_behavior_cannot_meet_places_it_no_more() -> None:
+    ties = at("s:start", "s:end", 0.5), at("s:end", outer("hit", 4.0))
+    times, losses = solved({"s": "speech"}, *ties)
+    assert losses == [("rigid", False), ("rigid", False)]
+    assert times[Point("s", "start")] == 0.0
+
+
+@pytest.mark.parametrize("required", [False, True])
+def test_the_loss_of_a_behavior_fails_its_block_if_something_required_names_it(required) -> None:
+    ties = at("lost:start", START, 3.0), at("lost:end", START, 2.0), at("nod:start", "lost:start", required=required)
+    _, losses = solved({"lost": "beat", "nod": "nod"}, *ties)
+    assert losses == [("out-of-order", required)]
+
+
+@settings(max_examples=300)
+@given(problems())
+def test_whatever_is_lost_the_rest_starts_as_early_as_what_is_kept_lets_it(asked: Problem) -> None:
+    broken = violations(asked, SmartBodyStrategy().solve(asked))
+    assert [each for each in broken if each.equation == "7.24"] == []
