@@ -144,9 +144,18 @@ def test_a_stance_has_its_rest_pose_from_the_first_entry_that_names_one(read):
     assert binding.rest_poses == {"SITTING": "a.xml", "LYING": "c.xml"}
 
 
-def test_a_rest_pose_without_a_file_is_left_out_and_noted(read, caplog):
-    assert read('<gesturebinding><RestPoseSpec><RestPose type="X"/></RestPoseSpec></gesturebinding>').rest_poses == {}
-    assert "RestPoseSpec without a stance or a file" in caplog.text
+@pytest.mark.parametrize(
+    ("content", "reason"),
+    [
+        ('<RestPose type="X"/>', "no stance or no file"),
+        ('<constraints><constraint name="stance" value="SITING"/></constraints><RestPose type="X" file="a.xml"/>',
+         "stance='SITING': known are SITTING, CROUCHING, STANDING, LYING"),
+    ],
+)  # fmt: skip
+def test_a_rest_pose_without_a_file_or_a_stance_that_bml_knows_is_left_out_and_noted(read, caplog, content, reason):
+    binding = read(f"<gesturebinding>\n<RestPoseSpec>{content}</RestPoseSpec></gesturebinding>")
+    assert binding.rest_poses == {}
+    assert f"line 2, <RestPoseSpec>: {reason}; it is left out" in caplog.text
 
 
 def test_a_rest_gaze_is_what_plays_a_gaze_shift(read):

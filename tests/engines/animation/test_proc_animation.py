@@ -266,12 +266,12 @@ def test_a_keyframe_that_is_no_rotation_is_no_motion(read, skeleton, value):
         ('<KeyPosition id="stroke" time="1.5"/>', 'prefDuration="1"'),
         ('<KeyPosition id="start" time="0.5"/>', 'prefDuration="1"'),
         ('<KeyPosition id="end" time="0.5"/>', 'prefDuration="1"'),
+        ("", 'prefDuration="1" minDuration="2" maxDuration="1+a"'),
     ],
 )
 def test_a_motion_of_no_duration_or_with_points_outside_it_cannot_be_planned(read, content, durations):
-    with pytest.raises(
-        RealizerError, match=r"it would last 0 s|key positions lie from 0 to 1, start at 0 and end at 1"
-    ):
+    reasons = r"it would last 0 s|key positions lie from 0 to 1, start at 0 and end at 1|at least 2 s and at most 1 s"
+    with pytest.raises(RealizerError, match=reasons):
         ProcMotionUnit(read(STILL + content, durations), {}, LayerKind.ADDITIVE)
 
 

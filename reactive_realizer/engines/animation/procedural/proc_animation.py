@@ -121,11 +121,15 @@ class ProcAnimation:
         """When things happen, for given values of the parameters.
 
         Raises:
-            RealizerError: "no-motion": a duration is not above 0; "bad-keys": a key position is where it cannot be.
+            RealizerError: "no-motion": it would last no time; "bad-keys": a key position is where it cannot be, or what
+                is shortest is longer than what is longest.
         """
         preferred, shortest, longest, *phases = self._values(self._times, 0.0, [parameters[n] for n in self.parameters])
         if preferred <= 0.0:
             raise error("no-motion", animation=self.name, phase=0.0, reason=f"it would last {preferred:g} s")
+        if shortest > longest:
+            reason = f"it lasts at least {shortest:g} s and at most {longest:g} s"
+            raise error("bad-keys", animation=self.name, reason=reason)
         keys = dict(zip(self.key_times, phases, strict=True))
         wrong = [f"{name} at {phase:g}" for name, phase in keys.items() if not is_placed(name, phase)]
         if wrong:
