@@ -62,8 +62,7 @@ class BehaviorSpans:
 
     def _connect(self, before: int, after: int) -> None:
         """Spans from knot to knot, one behind the other."""
-        groups = self._groups(before, after)
-        rigid = sum(self._phases[k].duration for k in range(before, after) if self._is_rigid(k))
+        rigid, groups = self._groups(before, after)
         if not groups:
             self.rigid.append((self._knots[before], self._knots[after], rigid))
         start = self._knots[before]
@@ -72,23 +71,24 @@ class BehaviorSpans:
             self.spans.append(self._span(group, start, end, rigid))
             start, rigid = end, 0.0
 
-    def _groups(self, before: int, after: int) -> list[list[int]]:
-        """The phases that can give, elastic ones together."""
-        elastic, others = [], []
+    def _groups(self, before: int, after: int) -> tuple[float, list[list[int]]]:
+        """How long (s) the phases last that cannot give; and those that can, elastic ones together."""
+        rigid = 0.0
+        lump: list[int] = []
+        merged: list[int] = []
+        others: list[list[int]] = []
         for k in range(before, after):
-            kind = self._phases[k].kind
-            if kind is PhaseKind.ELASTIC and k not in self._limited:
-                elastic.append(k)
-            elif kind is not PhaseKind.RIGID:
+            phase = self._phases[k]
+            if phase.kind is PhaseKind.RIGID:
+                rigid += phase.duration
+            elif phase.kind is PhaseKind.ELASTIC and k not in self._limited:
+                (lump if phase.duration > 0 else merged).append(k)
+            else:
                 others.append([k])
-        lump = [k for k in elastic if self._phases[k].duration > 0]
         groups = [lump, *others] if lump else others
-        if not groups and elastic and before in self._named:
-            groups = [elastic[-1:]]  # may be forced apart
-        return groups
-
-    def _is_rigid(self, phase: int) -> bool:
-        return self._phases[phase].kind is PhaseKind.RIGID
+        if not groups and merged and before in self._named:
+            groups = [merged[-1:]]  # may be forced apart
+        return rigid, groups
 
     def _span(self, group: list[int], start: int, end: int, rigid: float) -> Span:
         phase = self._phases[group[0]]
