@@ -7,6 +7,8 @@ from pathlib import Path
 import pytest
 from hypothesis import settings
 
+from reactive_realizer.server.routes_page import STATIC
+
 # So that an assertion of a contract says what it compared.
 pytest.register_assert_rewrite(
     *(f"reactive_realizer.testing.{kind}_contract" for kind in ("anticipator", "engine", "strategy", "tts"))
@@ -34,7 +36,9 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
 @pytest.fixture(scope="session")
 def chromium() -> str:
-    """The path of a Chromium: $BROWSER if it names one, else the first on the PATH."""
+    """The path of a Chromium to show the page: $BROWSER if it names one, else the first on the PATH."""
+    if not (STATIC / "index.html").is_file():
+        pytest.fail("the page is not built: make page", pytrace=False)
     named = os.environ.get("BROWSER")
     for name in [named] if named else ["chromium", "chromium-browser", "google-chrome"]:
         if path := shutil.which(name):

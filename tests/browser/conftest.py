@@ -14,7 +14,6 @@ from reactive_realizer.assembly.scene import SceneOptions, open_scene
 from reactive_realizer.clock.clock import SystemClock
 from reactive_realizer.server.app import create_app
 from reactive_realizer.server.live import Live
-from reactive_realizer.server.routes_page import STATIC
 from reactive_realizer.server.security import Security
 
 # Without a graphics card: Mesa's software renderer, which is quicker than the browser's own.
@@ -52,9 +51,6 @@ Open = Callable[..., AbstractAsyncContextManager[Theater]]
 @pytest.fixture
 def theater(chromium: str, tmp_path: Path) -> Open:
     """Puts the scene of a human file on the air, and a browser before it."""
-    if not (STATIC / "index.html").is_file():
-        pytest.fail("the page is not built: make page", pytrace=False)
-
     @asynccontextmanager
     async def open_(human: str, voice: str = "text") -> AsyncIterator[Theater]:
         file = tmp_path / "human.toml"
