@@ -35,12 +35,12 @@ from reactive_realizer.engines.animation.motion_library import MotionLibrary
 from reactive_realizer.engines.animation.motion_unit import AMOUNT_RANGE, Gazing
 from reactive_realizer.engines.animation.net import Net
 from reactive_realizer.engines.animation.posture.body_posture import BodyPosture
-from reactive_realizer.engines.animation.posture.expectation import posture_after
+from reactive_realizer.engines.animation.posture.expectation import bodies_in, posture_after
 from reactive_realizer.engines.animation.posture.footing import Footing
 from reactive_realizer.engines.animation.posture.posture_library import PostureLibrary
 from reactive_realizer.engines.animation.posture.rest import Rest
 from reactive_realizer.engines.animation.prediction import AnimationPredictor
-from reactive_realizer.engines.animation.release import Release, caught, release_duration, stacked
+from reactive_realizer.engines.animation.release import Release, caught, release_duration, stacked, uncovered
 from reactive_realizer.engines.animation.trail import Trail
 from reactive_realizer.engines.animation.transition.transition_unit import TransitionUnit
 from reactive_realizer.pegboard.peg_key import BlockKey
@@ -69,7 +69,7 @@ class AnimationEngine(DefaultEngine):
         self._world = context.world
         binding = GestureBinding.read(*context.bindings["gesture"])
         library = PostureLibrary(context.humanoid.avatar.skeleton, context.asset, binding.rest_poses)
-        self._rest = Rest(library, self._expected)
+        self._rest = Rest(library, self._expected, self._elsewhere)
         self._humanoid.rest(self._rest.body)
         functions = registered(context.functions)
         actor = Actor(context.humanoid, context.world, context.asset, context.seed, self._rest, functions)
@@ -79,6 +79,8 @@ class AnimationEngine(DefaultEngine):
         self._lasting = Lasting()
         self._looking = Looking(self._idle.blink) if self._idle else Looking()
         self._releases: list[Release] = []
+        # In what it was to stay and does not, since something was planned last.
+        self._left: list[Body] = []
         # Of the block that is being planned: they are not in the plan yet.
         self._drafts: list[AnimationUnit] = []
         # Of those that have come into the plan, and nobody has been told.
@@ -123,6 +125,7 @@ class AnimationEngine(DefaultEngine):
     def add(self, unit: PlanUnit) -> None:
         """As every engine."""
         self._drafts.clear()
+        self._left.clear()
         if isinstance(unit, AnimationUnit):
             self._notes += (Warn(unit, note) for note in unit.notes)
         super().add(unit)
@@ -130,6 +133,10 @@ class AnimationEngine(DefaultEngine):
     def _expected(self) -> BodyPosture:
         planned = (unit.motion for unit in (*self.player.units, *self._drafts) if isinstance(unit, AnimationUnit))
         return posture_after(self._rest.posture, planned)
+
+    def _elsewhere(self) -> tuple[Body, ...]:
+        planned = (*self.player.playing, *self._drafts)
+        return (*bodies_in(unit.motion for unit in planned if isinstance(unit, AnimationUnit)), *self._left)
 
     def _unit(self, block: BlockKey, behavior: Behavior) -> AnimationUnit:
         choices = self._library.choices(behavior)
@@ -143,8 +150,9 @@ class AnimationEngine(DefaultEngine):
             self._let_go(Release(layer, time))
         self._lasting.clear()
         self._looking.notice(time)
-        base = self._base()
+        base, body = self._base(), self._rest.body
         if self._rest.reset():
+            self._left.append(body)
             self._let_go(Release(base, time, release_duration(base, self._roots())))
 
     def layers(self, tick: Tick) -> tuple[Layer, ...]:
@@ -157,7 +165,7 @@ class AnimationEngine(DefaultEngine):
             *self._lasting.layers(tick.time, self._humanoid.body),
             *self._stacked(tick.time),
         )
-        feet: tuple[Layer, ...] = self._net("where its feet are", lambda: self._footing.layers(layers), ())
+        feet: tuple[Layer, ...] = self._net("where its feet are", lambda: self._footing.layers(layers, tick.time), ())
         return (*layers, *feet)
 
     def _breath(self, now: GlobalTime) -> tuple[Layer, ...]:
@@ -215,20 +223,28 @@ class AnimationEngine(DefaultEngine):
     def _release(self, unit: AnimationUnit, time: GlobalTime) -> None:
         """Take over the joints of a unit that plays no more; what stays of it lies below all others from now on."""
         self._notice(unit, time)
-        stays = unit.state is UnitState.DONE and unit.motion.lasts is not None and not unit.was_cut("end")
+        done = unit.state is UnitState.DONE and not unit.was_cut("end")
+        stays = done and unit.motion.lasts is not None
+        if not done:
+            self._left += bodies_in([unit.motion])
         base, layer, drift = self._base(), caught(unit.shown, self._humanoid.shown.root), unit.drift(time)
         duration = release_duration(layer, self._roots())
         if stays and unit.motion.becomes_rest():
+            self._releases = [uncovered(release, layer, unit.height) for release in self._releases]
             duration = max(duration, release_duration(base, self._roots()))
             self._let_go(Release(base, time, duration, under=layer.weight))
         elif stays:
             self._lasting.keep(unit.motion, time, self._humanoid.body)
-            drift = None  # it is where it wanted to be
+            # One that came in time is where it wanted to be.
+            drift = None if unit.motion.joined is None else drift
         if layer.rotations or layer.root is not None:
             self._let_go(Release(layer, time, duration, unit.height, drift))
 
     def _let_go(self, release: Release) -> None:
-        self._releases = [other for other in (*self._releases, release) if not other.over(release.since)]
+        # What the figure rested in was below all else.
+        lowest = release.layer.kind is LayerKind.BASE
+        releases = (release, *self._releases) if lowest else (*self._releases, release)
+        self._releases = [other for other in releases if not other.over(release.since)]
 
     def _roots(self) -> list[Vec3]:
         """Where HumanoidRoot is at rest, and where what plays has it."""

@@ -35,6 +35,8 @@ from reactive_realizer.reactive.graph import Graph
 Both = tuple[str, str]
 """The sync points at the ends of a phase."""
 
+_NEVER: frozenset[Both] = frozenset()
+
 _MOST_TIMINGS = 1000
 """Timings that are kept: most motions are planned again and again."""
 
@@ -103,7 +105,6 @@ class AnimationUnit(PlanUnit):
             self.parameters[name] = Parameter(self, cell, planned.range(name))
         self.notes = planned.notes
         self.height = LOWEST
-        self._joined: GlobalTime | None = None
         self._complained = False
         self._choices = choices
 
@@ -166,7 +167,7 @@ class AnimationUnit(PlanUnit):
         fired = super().fire(now, end=end)
         start = self.points[0].fired
         if begins and start is not None and now - start > _LATE:
-            self._joined = now
+            self.motion.joined = now
         return fired
 
     def on_start(self, time: GlobalTime) -> None:
@@ -199,10 +200,10 @@ class AnimationUnit(PlanUnit):
 
     def _come_in(self, layer: Layer, now: GlobalTime) -> Layer:
         """The layer of one that joined late comes by its weight."""
-        entrance = self.motion.entrance
-        if self._joined is None or entrance is None:
+        joined, entrance = self.motion.joined, self.motion.entrance
+        if joined is None or entrance is None:
             return layer
-        return replace(layer, weight=layer.weight * minimum_jerk(share(now, self._joined, self._joined + entrance)))
+        return replace(layer, weight=layer.weight * minimum_jerk(share(now, joined, joined + entrance)))
 
     def drift(self, time: GlobalTime) -> Drift | None:
         """How what it showed last goes on by itself from a time on; None if that is not known."""
@@ -233,7 +234,7 @@ def motion_timing(behavior: Behavior, motion: MotionUnit, keys: Mapping[str, flo
     """
     # What is added to other motion waits for nothing: where its points coincide they stay together.
     waits = motion.kind is not LayerKind.ADDITIVE
-    holds = _holds(isinstance(behavior, Pointing), behavior.sync_points) if waits else frozenset[Both]()
+    holds = _holds(isinstance(behavior, Pointing), behavior.sync_points) if waits else _NEVER
     limits = motion.limits or (0.0, inf)
     return _timing(tuple(keys.items()), motion.preferred_duration, limits, holds, behavior.persistent)
 

@@ -118,6 +118,7 @@ class MotionUnit(ABC):
         limits: shortest and longest duration, s, if its author named any; given up before any constraint is.
         foreseen: when it is known what it will show.
         entrance: how long it takes to come in if it joins late, s; None: it is there at once, or sees to that itself.
+        joined: when it was started, s, if that was after its time: it is seen from then on; None if it was in time.
         led: whether it goes to where others go on, and is told of them (`lead`).
         fault: what is wrong with it though it plays on, None as long as nothing is.
     """
@@ -137,6 +138,7 @@ class MotionUnit(ABC):
     limits: tuple[float, float] | None = None
     foreseen: Foreseen = Foreseen.NEVER
     entrance: float | None = None
+    joined: GlobalTime | None = None
     led: bool = False
     fault: Fault | None = None
 

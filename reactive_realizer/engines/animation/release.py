@@ -33,6 +33,9 @@ LOWEST = (-inf, -inf)
 _NOTICEABLE = 1e-3
 """A motion that has eased out by itself is let go with less."""
 
+_WHOLE = 0.99
+"""The weight from which on a layer hides what is below it: a shift need not have been shown at its very end."""
+
 
 @dataclass(frozen=True, slots=True)
 class Release:
@@ -90,6 +93,23 @@ def caught(layer: Layer, root: Vec3) -> Layer:
     leads = layer.kind is not LayerKind.ADDITIVE and layer.weight_of(ROOT) == 1.0
     outrun = layer.root is not None and distance(layer.root, root) > _OUTRUN
     return replace(layer, root=root) if leads and outrun else layer
+
+
+def uncovered(release: Release, layer: Layer, height: tuple[float, float]) -> Release:
+    """What of a release is seen again below a posture that stays.
+
+    Args:
+        release: what leaves.
+        layer: the posture, as it was shown last.
+        height: where it lay among others.
+    """
+    leaves = release.layer
+    below = (leaves.kind, release.height) < (layer.kind, height)
+    if layer.weight < _WHOLE or not below:
+        return release
+    rotations = {joint: turn for joint, turn in leaves.rotations.items() if joint not in layer.rotations}
+    root = leaves.root if layer.root is None else None
+    return replace(release, layer=replace(leaves, rotations=rotations, root=root))
 
 
 def release_duration(layer: Layer, roots: Iterable[Vec3]) -> float:

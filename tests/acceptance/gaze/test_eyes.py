@@ -103,7 +103,7 @@ def lids(pilot, *morphs: str) -> list[float]:
 @pytest.mark.parametrize(
     ("pitch", "morph", "other", "weight"),
     [
-        (15, "eyeLookUp", "eyeLookDown", 0.6),
+        (15, "eyeLookUp", "eyeLookDown", 0.52),
         (35, "eyeLookUp", "eyeLookDown", 1),
         (-25, "eyeLookDown", "eyeLookUp", 0.6),
     ],

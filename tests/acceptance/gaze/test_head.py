@@ -1,6 +1,7 @@
 """What trunk, neck and head have in a gaze (D. Tweed's model; thesis 4.2.2), seen in frames."""
 
 import math
+import re
 from itertools import pairwise
 
 import pytest
@@ -11,7 +12,7 @@ from reactive_realizer.embodiment.quaternion import between as shortest
 from reactive_realizer.embodiment.vector import FORWARD, subtract, unit
 from reactive_realizer.testing.pilot import open_pilot
 
-from .seen import FAR, at, between, miss, place, put, speeds
+from .seen import FAR, at, between, miss, place, put, sight, speeds
 
 
 @pytest.mark.parametrize(("yaw", "pitch"), [(40, 0), (-40, 0), (0, 30), (0, -30), (40, 25), (-40, 25)])
@@ -113,3 +114,20 @@ async def test_the_weights_of_a_gaze_are_changed_while_it_plays(pilot, name) -> 
     assert math.degrees(angle(shown[-1].rotation("skullbase"))) < 2
     assert max(speeds(shown[at(pilot, 1.9) :], "skullbase")) < 0.6
     assert max(miss(body, target) for body in shown[at(pilot, 1.9) :]) < 0.5
+
+
+@pytest.mark.parametrize("side", [1, -1])
+@pytest.mark.parametrize(("influence", "furthest"), [("HEAD", 77.4), ("SHOULDER", 106.0), ("WAIST", 126.1)])
+async def test_to_what_is_out_of_reach_behind_all_that_takes_part_turns_as_far_as_it_goes(
+    pilot, influence, furthest, side
+) -> None:
+    """The limits of the joints, and 40.5 degrees of the eyes; then it is said by how much the target is missed."""
+    target = put(pilot, "t", side * 174, 0, FAR)
+    pilot.block("b", f'<gaze id="g" target="t" influence="{influence}" start="0" ready="1.5" end="6"/>')
+    await pilot.advance(3)
+    first, last = pilot.bodies()[0], pilot.bodies()[-1]
+    assert between(sight(first, "skullbase"), sight(last, "skullbase")) == pytest.approx(furthest, abs=1.0)
+    assert miss(last, target) == pytest.approx(174 - furthest - 40.5, abs=1.5)
+    (warning,) = pilot.feedback.of("warningFeedback")
+    (said,) = re.findall(r"stays (\d+) degrees beside", warning.element.text)
+    assert int(said) == pytest.approx(174 - furthest - 40.5, abs=1.5)

@@ -77,6 +77,26 @@ async def test_a_shift_that_began_together_with_the_posture_below_it_leaves_it_i
     assert speeds(either.bodies()).max() < 2.5
 
 
+async def test_who_has_got_up_in_a_hurry_does_not_sink_again(either) -> None:
+    """To stand is to take the place of sitting, which is left in its own time."""
+    either.block("a", f'<postureShift id="s">{SIT}</postureShift>')
+    await either.advance(3)
+    either.block("b", f'<postureShift id="s" start="0" end="0.6">{OPEN}</postureShift>', composition="REPLACE")
+    await either.advance(3)
+    heights_of_root = [shown.root[1] for shown in either.bodies()]
+    assert min(heights_of_root[185:]) > heights_of_root[-1] - 0.01
+
+
+async def test_who_is_getting_up_is_not_thrown_when_everything_is_replaced_again(either) -> None:
+    either.block("a", f'<postureShift id="s">{SIT}</postureShift>')
+    await either.advance(3)
+    either.block("b", f'<postureShift id="s" start="0.1" end="0.3">{CROSSED}</postureShift>', composition="REPLACE")
+    await either.advance(0.6)
+    either.block("c", composition="REPLACE")
+    await either.advance(3)
+    assert jolts(either).max() < 0.05
+
+
 # --- what joins late
 
 

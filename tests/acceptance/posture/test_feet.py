@@ -1,8 +1,11 @@
 """Feet in exported frames: they stay where they stand, or step."""
 
+from collections.abc import Iterator
+
 import numpy as np
 import pytest
 
+from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.quaternion import angle
 
 from .soles import FRAME, flat, heights, planted, slides
@@ -121,6 +124,13 @@ async def test_a_foot_leaves_the_ground_and_comes_back_to_it_gently(either) -> N
     assert climbs.max() < 0.8
 
 
+def hurries(bodies: list[Body]) -> Iterator[float]:
+    """By how much each knee speeds up or slows down at the most, rad/s^2."""
+    for knee in ("l_knee", "r_knee"):
+        bends = [angle(body.rotation(knee)) for body in bodies]
+        yield np.abs(np.diff(bends, n=2)).max() / FRAME**2
+
+
 LARGEST = 120.0
 """rad/s^2 of a knee: a third of what it was when it locked at full stretch."""
 
@@ -132,9 +142,7 @@ async def test_no_knee_locks_when_a_foot_comes_down_or_unlocks_when_it_leaves(ei
     await either.advance(4)
     either.block("b", shift(after))
     await either.advance(5)
-    for knee in ("l_knee", "r_knee"):
-        bends = [angle(shown.rotation(knee)) for shown in either.bodies()]
-        assert np.abs(np.diff(bends, n=2)).max() / FRAME**2 < LARGEST
+    assert max(hurries(either.bodies())) < LARGEST
 
 
 async def test_who_changes_the_stance_while_changing_it_does_not_slide_either(either) -> None:
@@ -144,3 +152,31 @@ async def test_who_changes_the_stance_while_changing_it_does_not_slide_either(ei
     await either.advance(4)
     assert slides(either.bodies()).max() < 0.05
     assert heights(either.bodies()).min() > -0.001
+
+
+OVERLAPS = [
+    ("CROUCHING", "SITTING CROSSED", "SITTING", 1.0),
+    ("SITTING CROSSED", "STANDING OPEN", "CROUCHING", 0.8),
+    ("STANDING OPEN", "STANDING CROSSED", "STANDING", 0.8),
+    ("CROUCHING", "STANDING OPEN", "STANDING", 0.2),
+    ("CROUCHING", "STANDING", "SITTING", 1.0),
+]
+
+
+@pytest.mark.parametrize("composition", ["MERGE", "REPLACE"])
+@pytest.mark.parametrize(("before", "between", "after", "passed"), OVERLAPS)
+async def test_a_change_of_stance_that_begins_during_another_leaves_one_foot_on_the_ground(
+    either, before, between, after, passed, composition
+) -> None:
+    """No law of others: how it is done, `engines/animation/posture/carrying.py` says."""
+    either.block("a", shift(before))
+    await either.advance(3)
+    either.block("b", shift(between), composition=composition)
+    await either.advance(passed)
+    either.block("c", shift(after), composition=composition)
+    await either.advance(3.5)
+    shown = either.bodies()[145:]
+    assert heights(shown).min(axis=1).max() < 0.006
+    assert heights(shown).max() > 0.03, "somebody stepped"
+    assert slides(shown).max() < 0.05
+    assert max(hurries(shown)) < 2.0 * LARGEST

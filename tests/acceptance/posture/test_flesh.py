@@ -5,6 +5,8 @@ import pytest
 from .flesh import deepest_in_each_other, deepest_in_legs, deepest_in_trunk
 from .standing import CROSSED
 
+AKIMBO = '<pose part="ARMS" lexeme="ARMS_AKIMBO"/>'
+
 SOFT = 0.03
 """m that one limb may be in another: flesh and clothes give way, and a hand that lies on a thigh touches it."""
 
@@ -12,13 +14,26 @@ LEANING = '<pose part="WHOLEBODY" lexeme="{}"/>'
 BEFORE_THE_BELLY = ("BEAT", "OFFER", "CONDUIT", "CHOP")
 
 
+POSES = ["", LEANING.format("LEANING_FORWARD"), LEANING.format("LEANING_BACKWARD"), CROSSED, AKIMBO]
+
+
 @pytest.mark.parametrize("stance", ["SITTING", "CROUCHING"])
-@pytest.mark.parametrize("poses", ["", LEANING.format("LEANING_FORWARD"), LEANING.format("LEANING_BACKWARD"), CROSSED])
+@pytest.mark.parametrize("poses", POSES)
 async def test_no_hand_goes_through_a_thigh_on_the_way_down_or_up_or_stays_there(either, stance, poses) -> None:
     either.block("b", f'<posture id="p" start="0"><stance type="{stance}"/>{poses}</posture>')
     await either.advance(9)
     assert either.feedback.reached("b:p:end")
     assert deepest_in_legs(either.bodies()[::2]) < SOFT
+
+
+@pytest.mark.parametrize("stance", ["STANDING", "SITTING", "CROUCHING", "LYING"])
+async def test_hands_at_the_hips_lie_on_them(either, stance) -> None:
+    """Touching the hip is to be within a few centimeters of the thigh below it, and hardly in it."""
+    either.block("b", f'<postureShift id="s" start="0"><stance type="{stance}"/>{AKIMBO}</postureShift>')
+    await either.advance(5)
+    shown = either.bodies()[-1:]
+    assert -0.07 < deepest_in_legs(shown) < 0.02
+    assert deepest_in_trunk(shown) < SOFT
 
 
 @pytest.mark.parametrize("lexeme", BEFORE_THE_BELLY)

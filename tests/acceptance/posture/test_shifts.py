@@ -40,6 +40,37 @@ async def test_getting_up_takes_its_time_also_if_it_is_planned_together_with_sit
     assert pilot.feedback.time("b:up:end") - pilot.feedback.time("b:up:start") == pytest.approx(GETTING_UP, abs=0.02)
 
 
+async def test_getting_up_takes_its_time_also_above_a_posture_that_sits_on(pilot) -> None:
+    pilot.block("a", f'<posture id="p" start="0" end="12">{SIT}</posture>')
+    await pilot.advance(4)
+    pilot.block("b", f'<postureShift id="s">{STAND}</postureShift>')
+    await pilot.advance(3)
+    assert pilot.feedback.time("b:s:end") - pilot.feedback.time("b:s:start") == pytest.approx(GETTING_UP, abs=0.02)
+    spine = [shown.rotation("vl5")[1] for shown in pilot.bodies()[200:280]]
+    assert max(spine) - spine[0] > 0.1, "and one bows meanwhile"
+
+
+async def test_and_where_it_takes_the_place_of_all_that_was_before(pilot) -> None:
+    """A shift to sit has ended; a posture that sits still plays."""
+    for number, sitting in enumerate(
+        (f'<postureShift id="s">{SIT}</postureShift>', f'<posture id="p">{SIT}</posture>')
+    ):
+        pilot.block(f"a{number}", sitting)
+        await pilot.advance(2.5)
+        pilot.block(f"b{number}", f'<postureShift id="s">{STAND}</postureShift>', composition="REPLACE")
+        await pilot.advance(3)
+        start, end = (pilot.feedback.time(f"b{number}:s:{sync}") for sync in ("start", "end"))
+        assert end - start == pytest.approx(GETTING_UP, abs=0.02)
+
+
+async def test_who_only_moves_the_arms_takes_no_longer_for_it_where_he_sits(pilot) -> None:
+    pilot.block("a", f'<posture id="p" start="0" end="12">{SIT}</posture>')
+    await pilot.advance(4)
+    pilot.block("b", f'<postureShift id="s">{CROSSED}</postureShift>')
+    await pilot.advance(3)
+    assert pilot.feedback.time("b:s:end") - pilot.feedback.time("b:s:start") < 1.0
+
+
 async def test_a_shift_of_a_block_that_could_not_be_planned_is_not_expected(pilot) -> None:
     nobody = '<required><gesture id="g" lexeme="NOBODY_KNOWS"/></required>'
     pilot.block("a", f'<postureShift id="s">{SIT}</postureShift>{nobody}')

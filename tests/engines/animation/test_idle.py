@@ -123,7 +123,7 @@ def test_the_shoulders_rise_and_fall_twelve_to_eighteen_times_a_minute_and_never
 
 
 def test_air_goes_in_faster_than_it_goes_out():
-    """M. J. Tobin and others (Chest 84, 1983): breathing in is 0.42 of a breath."""
+    """Ours: breathing in is 0.42 of a breath."""
     lift = lungs(Idle(Random(5)), 600)
     rising = sum(b > a for a, b in pairwise(lift)) / len(lift)
     assert rising == pytest.approx(0.42, abs=0.01)

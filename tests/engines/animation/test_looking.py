@@ -41,11 +41,21 @@ def test_an_eye_does_not_roll_about_its_line_of_sight(yaw, pitch):
     assert roll == pytest.approx(0.0, abs=1e-12)
 
 
-def test_an_eye_turns_forty_degrees_and_a_half_to_any_side():
+def test_an_eye_turns_forty_degrees_and_a_half_aside_and_down():
     head = from_euler(0.1, 0.3, 0.0)
-    for target in (way(120, 0), way(-170, 60), way(0, -80), way(60, 60)):
+    for target in (way(120, -10), way(-170, -60), way(0, -80), way(60, -60)):
         assert angle(listing(head, target)) == pytest.approx(EYE_RANGE)
     assert math.degrees(EYE_RANGE) == pytest.approx(40.5, abs=0.1)
+
+
+def test_and_thirty_up_where_its_lid_is_highest():
+    straight = from_euler(0.0, 0.0, 0.0)
+    ranges = [math.degrees(angle(listing(straight, way(yaw, pitch)))) for yaw, pitch in ((0, 80), (60, 60), (89, 1))]
+    assert ranges == pytest.approx([30.0, 31.5, 40.5], abs=1.0)
+    assert ranges == sorted(ranges)
+    for pitch, raised in ((29, 0.97), (31, 1.0), (80, 1.0)):
+        turns = dict.fromkeys(EYES, listing(straight, way(0, pitch)))
+        assert with_lids(turns, {})["eyeWideLeft"] == pytest.approx(raised, abs=0.01)
 
 
 def test_both_eyes_are_on_something_near(skeleton):
@@ -174,7 +184,7 @@ def test_a_lid_goes_with_its_eye_as_far_as_it_is_open(closed):
     weights = with_lids(dict(zip(EYES, (down, up), strict=True)), {"eyeBlinkLeft": closed})
     assert weights["eyeBlinkLeft"] == closed
     assert weights["eyeLookDownLeft"] == pytest.approx((1 - closed) * math.sin(EYE_RANGE) / EYE_RANGE)
-    assert weights["eyeLookUpRight"] == pytest.approx(math.sin(0.2) / math.sin(math.radians(25)))
+    assert weights["eyeLookUpRight"] == pytest.approx(math.sin(0.2) / math.sin(math.radians(30)))
     assert "eyeLookDownRight" not in weights
 
 

@@ -5,6 +5,7 @@ from itertools import pairwise
 
 import pytest
 
+from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.pose import Layer, LayerKind, compose
 from reactive_realizer.embodiment.skeleton import Skeleton
@@ -16,7 +17,7 @@ from .posing import height
 def walking(skeleton: Skeleton, way: float, share: float) -> Body:
     """A figure that has gone a share of a way straight ahead, m."""
     below, goal = Layer(LayerKind.BASE, {}), Layer(LayerKind.POSTURE, {}, share, root=(0.0, 0.0, way))
-    return compose(skeleton, (below, goal, *Footing(skeleton).layers((below, goal)))).shown
+    return compose(skeleton, (below, goal, *Footing(skeleton).layers((below, goal), GlobalTime(0.0)))).shown
 
 
 def test_who_goes_far_sets_one_foot_before_the_other_and_keeps_the_pelvis_up_between_them(skeleton):
@@ -43,5 +44,5 @@ def test_a_foot_is_in_the_air_or_does_not_slide(skeleton):
 
 def test_for_feet_that_it_has_left_behind_the_pelvis_does_not_sink_far(skeleton):
     pushed = Layer(LayerKind.ADDITIVE, {}, root=(1.5, 0.0, 0.0))
-    lowered, _ = Footing(skeleton).layers((Layer(LayerKind.BASE, {}), pushed))
+    lowered, _ = Footing(skeleton).layers((Layer(LayerKind.BASE, {}), pushed), GlobalTime(0.0))
     assert lowered.root == pytest.approx((0.0, -0.25, 0.0))

@@ -3,6 +3,7 @@
 import pytest
 
 from reactive_realizer.bml.words import PosePart, StanceType
+from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.pose import Layer, LayerKind, compose
 from reactive_realizer.embodiment.quaternion import angle
 from reactive_realizer.embodiment.skeleton import Skeleton
@@ -97,7 +98,7 @@ def test_a_figure_that_lacks_joints_takes_postures_as_far_as_it_can(skeleton, pa
         posed = unit.pose(Moment(phase, 0.0, rest.body))
         assert posed.rotations.keys() <= set(lesser.joints)
         layers = (Layer(LayerKind.BASE, rest.pose, root=rest.body.root), posed_layer(posed))
-        compose(lesser, (*layers, *Footing(lesser).layers(layers)))
+        compose(lesser, (*layers, *Footing(lesser).layers(layers, GlobalTime(0.0))))
 
 
 def posed_layer(posed: Posed) -> Layer:
@@ -117,4 +118,4 @@ def test_legs_of_no_length_are_left_alone(skeleton):
     )
     body = body_in(flat, "SITTING")
     layers = (Layer(LayerKind.BASE, {}), Layer(LayerKind.POSTURE, body.pose, 0.5, root=body.root))
-    assert Footing(flat).layers(layers) == ()
+    assert Footing(flat).layers(layers, GlobalTime(0.0)) == ()

@@ -9,7 +9,7 @@ from reactive_realizer.embodiment.quaternion import IDENTITY, from_euler
 from reactive_realizer.embodiment.skeleton import Place
 from reactive_realizer.embodiment.vector import Vec3, add
 from reactive_realizer.engines.animation.easing import minimum_jerk
-from reactive_realizer.engines.animation.posture.steps import leading, stepped
+from reactive_realizer.engines.animation.posture.steps import Foot, leading, stepped
 
 LEFT, RIGHT = (0.1, 0.08, 0.0), (-0.1, 0.08, 0.0)
 STANDING = (Place(LEFT, IDENTITY), Place(RIGHT, IDENTITY))
@@ -24,7 +24,8 @@ def moved(left: Vec3, right: Vec3 = (0.0, 0.0, 0.0), yaw: float = 0.0) -> tuple[
 def way(before, after, foot: int) -> list[Place]:
     """Where a foot is on its way, in equal times of an eased weight."""
     leader = leading(before, after)
-    return [stepped(before, after, minimum_jerk(i / FRAMES), leader)[foot] for i in range(FRAMES + 1)]
+    start = tuple(map(Foot, before))
+    return [stepped(start, after, minimum_jerk(i / FRAMES), leader)[foot].place for i in range(FRAMES + 1)]
 
 
 def lifts(places: list[Place]) -> list[float]:
@@ -90,6 +91,17 @@ def test_the_foot_that_comes_down_to_the_ground_goes_first(raised, first):
 
 def test_in_far_walks_a_foot_is_never_more_than_a_stride_from_the_other():
     after = moved((0.0, 0.0, 3.0), (0.0, 0.0, 3.0))
-    shown = [stepped(STANDING, after, i / FRAMES, 0) for i in range(FRAMES + 1)]
-    assert max(abs(left.position[2] - right.position[2]) for left, right in shown) < 0.6
-    assert shown[-1] == tuple(after)
+    shown = [stepped(tuple(map(Foot, STANDING)), after, i / FRAMES, 0) for i in range(FRAMES + 1)]
+    assert max(abs(left.place.position[2] - right.place.position[2]) for left, right in shown) < 0.6
+    assert shown[-1] == tuple(map(Foot, after))
+
+
+def test_it_is_known_how_much_of_a_foots_height_is_that_of_its_step():
+    """Also of one that was in the air already: of that it has less the farther it goes."""
+    start = (Foot(Place(add(LEFT, (0.0, 0.05, 0.0)), IDENTITY), lift=0.05), Foot(STANDING[1]))
+    after = moved((0.2, 0.0, 0.0))
+    for i in range(FRAMES + 1):
+        left, right = stepped(start, after, minimum_jerk(i / FRAMES), 0)
+        assert left.place.position[1] == pytest.approx(LEFT[1] + left.lift)
+        assert right.lift == 0.0
+    assert left.lift == pytest.approx(0.0)

@@ -8,7 +8,7 @@ from typing import Self
 
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.pose import LayerKind
-from reactive_realizer.embodiment.quaternion import slerp
+from reactive_realizer.embodiment.quaternion import Quat, slerp
 from reactive_realizer.embodiment.vector import Vec3
 from reactive_realizer.engines.animation.easing import minimum_jerk, share
 from reactive_realizer.engines.animation.gaze.aim import Aim
@@ -58,8 +58,8 @@ _NEARLY = 0.8
 turned elsewhere."""
 
 _NOTICED = math.radians(3.0)
-"""What nobody sees who is looked at: J. J. Gibson and A. D. Pick, "Perception of another person's looking behavior"
-(American Journal of Psychology 76, 1963)."""
+"""What hardly anybody notices who is looked at. It is our choice: how fine that sense is depends on how one asks
+(L. Linke and G. Horstmann, "New task - new results?", Attention, Perception, & Psychophysics 86, 2024)."""
 
 
 class GazeMotionUnit(MotionUnit):
@@ -94,6 +94,7 @@ class GazeMotionUnit(MotionUnit):
         self._relax = course.key_positions.get("relax", math.inf)
         self._settling = Settling()
         self._begin = rest.body
+        self._late = False
 
     def start(self, body: Body) -> None:
         """The head turns from where it is now, which may be another gaze."""
@@ -105,11 +106,21 @@ class GazeMotionUnit(MotionUnit):
         turn = self._turn(body)
         if self.fault is None and _NEARLY * self._ready <= phase <= self._relax:
             self._judge(turn, body)
-        there = self._settling(turn.rotations, moment.time)
-        done = minimum_jerk(share(phase, 0.0, self._ready))
-        if done < 1.0:
-            there = {joint: slerp(self._begin.rotation(joint), turn, done) for joint, turn in there.items()}
-        return Posed(there, 1.0 - minimum_jerk(share(phase, self._relax, 1.0)) if phase > self._relax else 1.0)
+        return Posed(
+            self._come(turn.rotations, moment),
+            1.0 - minimum_jerk(share(phase, self._relax, 1.0)) if phase > self._relax else 1.0,
+        )
+
+    def _come(self, goal: Mapping[str, Quat], moment: Moment) -> Mapping[str, Quat]:
+        """As much of a turn as there is at a moment; one that joins late goes at its own pace, whatever the phase."""
+        if self.joined is not None and not self._late:
+            self._late = True
+            self._settling.leave({joint: self._begin.rotation(joint) for joint in goal}, self.joined)
+        there = self._settling(goal, moment.time)
+        done = minimum_jerk(share(moment.phase, 0.0, self._ready))
+        if done == 1.0 or self._late:
+            return there
+        return {joint: slerp(self._begin.rotation(joint), turn, done) for joint, turn in there.items()}
 
     def _turn(self, body: Body) -> Turn:
         return turn_toward(body, self._rest.pose, self.point, self.parameters)

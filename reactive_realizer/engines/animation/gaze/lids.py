@@ -6,10 +6,10 @@ from collections.abc import Mapping
 from reactive_realizer.embodiment.joints import EYES
 from reactive_realizer.embodiment.quaternion import Quat, rotate
 from reactive_realizer.embodiment.vector import FORWARD
-from reactive_realizer.engines.animation.gaze.eyes import EYE_RANGE
+from reactive_realizer.engines.animation.gaze.eyes import EYE_RANGE, EYE_RANGE_UP
 
-_HIGHEST = math.sin(math.radians(25.0))
-"""Of an eye that looks up as far as people do without effort: there its lid is as high as it goes."""
+_HIGHEST = math.sin(EYE_RANGE_UP)
+"""Of an eye that looks up as far as it goes: there its lid is as high as it goes."""
 
 _SIDES = dict(zip(EYES, ("Left", "Right"), strict=True))
 

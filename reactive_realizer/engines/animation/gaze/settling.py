@@ -27,6 +27,10 @@ class Settling:
         self._goal: Mapping[str, Quat] = {}
         self._shown: Mapping[str, Quat] = {}
 
+    def leave(self, shown: Mapping[str, Quat], now: GlobalTime) -> None:
+        """Whatever the goal of the next frame is, the joints come to it from how they are shown at a time."""
+        self._time, self._goal, self._shown = now, shown, shown
+
     def __call__(self, goal: Mapping[str, Quat], now: GlobalTime) -> Mapping[str, Quat]:
         """What to show of a goal, joint -> rotation, in the frame of a time."""
         passed = now - self._time

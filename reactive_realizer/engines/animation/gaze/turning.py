@@ -21,7 +21,7 @@ from reactive_realizer.embodiment.quaternion import (
 )
 from reactive_realizer.embodiment.skeleton import Pose
 from reactive_realizer.embodiment.vector import FORWARD, Vec3, unit
-from reactive_realizer.engines.animation.gaze.eyes import EYE_RANGE, Sockets, direction
+from reactive_realizer.engines.animation.gaze.eyes import EYE_RANGE, Sockets, direction, eye_range
 from reactive_realizer.engines.animation.gaze.influence import EYES, joint_weights
 
 HORIZONTAL = 0.9
@@ -42,8 +42,8 @@ _FURTHEST = {
     "skullbase": (0.45, 0.75),
 }
 
-# What is further behind is turned to as if it were here: across the back, the shortest way there is over the head.
-_SIDEWAYS = sum(side for _, side in _FURTHEST.values())
+_LESS = 0.3
+"""By how much less far aside than at the height of the eyes one turns, for each rad of height: so one gets nearest."""
 
 
 class Turn(NamedTuple):
@@ -78,16 +78,19 @@ def turn_toward(body: Body, rest: Pose, point: Callable[[Vec3], Vec3], weights: 
     way = direction(sockets.middle, point(sockets.middle))
     sight = FORWARD if way is None else rotate(conjugate(sockets.rotation), way)
     eyes = weights.get(EYES, 0.0)
-    turn = head_turn(_reachable(sight), min(1.0, sum(parts.values())), eyes * _COMFORT * EYE_RANGE)
+    willing = eyes * _COMFORT
+    aside = sum(_FURTHEST[joint][1] for joint in parts) + willing * EYE_RANGE
+    turn = head_turn(_beside(sight, aside), min(1.0, sum(parts.values())), willing)
     rotations, done = _spread(turn, parts, ahead)
     if way is None:
         return Turn(rotations, None)
+    beyond = _beyond(done, sight)
     # Eyes that go a part of the way leave the rest of it willingly.
-    left = EYE_RANGE / eyes if eyes > 0.0 else 0.0
-    return Turn(rotations, max(0.0, angle(between(rotate(done, FORWARD), sight)) - left))
+    left = eye_range(beyond) / eyes if eyes > 0.0 else 0.0
+    return Turn(rotations, max(0.0, angle(beyond) - left))
 
 
-def head_turn(sight: Vec3, part: float, left: float) -> Quat:
+def head_turn(sight: Vec3, part: float, willing: float) -> Quat:
     """The head's turn toward a direction: more of it to the side than up or down, and as much roll as Donders' law has.
 
     With x the turn that would bring the nose there, a quaternion, it is (0.3 x_v, 0.9 x_h, -0.15 x_v x_h): for each
@@ -97,23 +100,32 @@ def head_turn(sight: Vec3, part: float, left: float) -> Quat:
     Args:
         sight: a unit vector in the axes of a head that looks straight ahead.
         part: how much of it is done, 0 to 1.
-        left: the angle that the eyes make up for, rad.
+        willing: the share of their range within which the eyes make up for what is missing.
     """
     _, vertical, horizontal, _ = between(FORWARD, sight)
     x, y, z = VERTICAL * vertical, HORIZONTAL * horizontal, TORSIONAL * vertical * horizontal
     turn = power((math.sqrt(1.0 - x * x - y * y - z * z), x, y, z), part)
-    missing = between(rotate(turn, FORWARD), sight)
-    excess = angle(missing) - left
-    return turn if excess <= 0.0 else multiply(power(missing, excess / angle(missing)), turn)
+    beyond = _beyond(turn, sight)
+    excess = angle(beyond) - willing * eye_range(beyond)
+    return turn if excess <= 0.0 else multiply(turn, power(beyond, excess / angle(beyond)))
 
 
-def _reachable(sight: Vec3) -> Vec3:
+def _beyond(turn: Quat, sight: Vec3) -> Quat:
+    """The shortest turn from where a turned head looks to a direction, in the axes of that head: that of the eyes."""
+    return between(FORWARD, rotate(conjugate(turn), sight))
+
+
+def _beside(sight: Vec3, furthest: float) -> Vec3:
+    """A direction, or the one at its height that is so far to its side (rad): what is further behind is turned to so.
+
+    Across the back, the shortest way there would be over the head, and the sooner the higher or lower it is.
+    """
     x, y, z = sight
-    side = math.atan2(x, z)
-    if abs(side) <= _SIDEWAYS:
+    side, level = math.atan2(x, z), math.hypot(x, z)
+    nearest = furthest - _LESS * abs(math.atan2(y, level))
+    if abs(side) <= nearest:
         return sight
-    level = math.hypot(x, z)
-    side = math.copysign(_SIDEWAYS, side)
+    side = math.copysign(nearest, side)
     return (level * math.sin(side), y, level * math.cos(side))
 
 

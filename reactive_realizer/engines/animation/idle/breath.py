@@ -18,9 +18,9 @@ _IN = 0.42
 class Breath:
     """Breaths of a person at rest, no two of which are alike.
 
-    M. J. Tobin and others, "Breathing patterns 1. Normal subjects" (Chest 84, 1983), for how many there are and how
-    much of each is breathing in; "Variability of resting respiratory drive and timing in healthy subjects" (Journal of
-    Applied Physiology 65, 1988): from breath to breath depth varies more than time. How much here is our choice.
+    From breath to breath depth varies more than time: M. J. Tobin and others, "Variability of resting respiratory drive
+    and timing in healthy subjects" (Journal of Applied Physiology 65, 1988). How many there are, how much of each is
+    breathing in and how much they vary is our choice, within what people do.
     """
 
     def __init__(self, random: Random) -> None:

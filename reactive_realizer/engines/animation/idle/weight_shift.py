@@ -26,8 +26,8 @@ class WeightShift:
 
     After M. Duarte and V. M. Zatsiorsky, "Patterns of center of pressure migration during prolonged unconstrained
     standing" (Motor Control 3, 1999), of whose three patterns this is the one called shifting; how far and how often is
-    our choice. The hip of the leg that carries is the higher one, trunk and neck make up for the tilt, and the head
-    stays level.
+    our choice: theirs came every 199 s to the side, and who watches for a minute should see one. The hip of the leg
+    that carries is the higher one, trunk and neck make up for the tilt, and the head stays level.
     """
 
     def __init__(self, random: Random) -> None:

@@ -28,8 +28,8 @@ trunk is bent most when the seat is left.
 _SWING = {
     "l_shoulder": (-0.8, 0.0, 0.4),
     "r_shoulder": (-0.8, 0.0, -0.4),
-    "l_elbow": (-0.5, 0.0, 0.0),
-    "r_elbow": (-0.5, 0.0, 0.0),
+    "l_elbow": (-1.0, 0.0, 0.0),
+    "r_elbow": (-1.0, 0.0, 0.0),
 }
 """How far arms that go along swing forward and aside meanwhile: else hands would go through the thighs that come up."""
 
@@ -72,7 +72,9 @@ class PostureMotionUnit(MotionUnit):
         self._ready, self._relax = (self.key_positions.get(sync, 1.0) for sync in ("ready", "relax"))
         rest.check(BodyPosture(stance or rest.expected.stance, self.change[1]))
         self._set_out(rest.expected)
-        self.entrance = self._way()
+        # Who only moves the arms goes no further for being elsewhere.
+        begins = (self._from,) if self._root is None else (self._from, *rest.elsewhere)
+        self.entrance = max(map(self._way, begins))
         self.preferred_duration = self.entrance / self._ready
 
     def _set_out(self, base: BodyPosture) -> None:
@@ -94,17 +96,19 @@ class PostureMotionUnit(MotionUnit):
         parts = [PosePart.WHOLEBODY] if stance else [pose.part for pose in poses]
         return frozenset().union(*(JOINTS[part] for part in parts))
 
-    def _way(self) -> float:
+    def _way(self, begin: Body) -> float:
         """How long going there should take, s: less than a second for the arms alone, near two for sitting down."""
-        hands, feet = (furthest(joint, SIDES, (self._from, self.body)) for joint in ("wrist", "ankle"))
-        pelvis = distance(self._from.root, self.body.root)
+        hands, feet = (furthest(joint, SIDES, (begin, self.body)) for joint in ("wrist", "ankle"))
+        pelvis = distance(begin.root, self.body.root)
         # Of feet the way counts less than that they have to be lifted and set down, one after the other.
         return max(0.5, 0.3 + 1.0 * hands, 0.4 + 1.7 * math.sqrt(feet), 0.5 + 2.2 * pelvis)
 
     def start(self, body: Body) -> None:
-        """The base posture may be another one than was expected."""
+        """The base posture may be another one than was expected, and another posture may still play."""
         if self._rest.posture != self._base:
             self._set_out(self._rest.posture)
+        if self._root is not None:
+            self._sinking = abs(self._root[1] - body.root[1])
 
     def pose(self, moment: Moment) -> Posed:
         """The posture, as much of it as is shown at the phase."""

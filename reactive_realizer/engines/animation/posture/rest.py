@@ -1,6 +1,6 @@
 """How one figure holds itself when it does nothing."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.skeleton import Pose
@@ -17,15 +17,22 @@ class Rest:
             looking.
     """
 
-    def __init__(self, library: PostureLibrary, expected: Callable[[], BodyPosture] = BodyPosture) -> None:
+    def __init__(
+        self,
+        library: PostureLibrary,
+        expected: Callable[[], BodyPosture] = BodyPosture,
+        elsewhere: Callable[[], Iterable[Body]] = tuple,
+    ) -> None:
         """Standing, as at first.
 
         Args:
             library: of postures.
             expected: the posture after all shifts that come before what is being planned.
+            elsewhere: in which other postures the figure may be when what is being planned begins.
         """
         self._library = library
         self._expected = expected
+        self._elsewhere = elsewhere
         self.posture = BodyPosture()
         self.body = library.body(self.posture)
 
@@ -38,6 +45,11 @@ class Rest:
     def expected(self) -> BodyPosture:
         """The posture in which what is being planned will begin: how long a shift takes follows from it."""
         return self._expected()
+
+    @property
+    def elsewhere(self) -> Iterable[Body]:
+        """The figure in other postures, in which what is being planned may find it: from there it takes longer."""
+        return self._elsewhere()
 
     def take(self, posture: BodyPosture, body: Body) -> None:
         """From now on the figure rests in a posture.

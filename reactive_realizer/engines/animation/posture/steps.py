@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from typing import NamedTuple
 
 from reactive_realizer.embodiment.quaternion import rotate, slerp
 from reactive_realizer.embodiment.skeleton import Place
@@ -27,6 +28,18 @@ _BALL: Vec3 = (0.0, 0.0, 0.15)
 """From the ankle to the ball of the foot, m: it goes far, too, where the foot turns."""
 
 
+class Foot(NamedTuple):
+    """A foot that stands or steps.
+
+    Attributes:
+        place: of its ankle.
+        lift: how much of its height is that of a step, m; 0 where it stands.
+    """
+
+    place: Place
+    lift: float = 0.0
+
+
 def leading(before: Sequence[Place], after: Sequence[Place]) -> int:
     """The foot that goes first (0 the left, 1 the right).
 
@@ -41,7 +54,7 @@ def lift(before: Sequence[Place], after: Sequence[Place]) -> float:
     return max(_lift(_way(a, b)) for a, b in zip(before, after, strict=True))
 
 
-def stepped(before: Sequence[Place], after: Sequence[Place], weight: float, leader: int) -> tuple[Place, ...]:
+def stepped(before: Sequence[Foot], after: Sequence[Place], weight: float, leader: int) -> tuple[Foot, ...]:
     """The feet on their way from place to place: one steps, then the other, and if that is far they go on in turn.
 
     As in walking each comes down a stride ahead of the other, and the pelvis is half a stride behind by then: so the
@@ -49,29 +62,29 @@ def stepped(before: Sequence[Place], after: Sequence[Place], weight: float, lead
     foot is enough, both get the same time of a weight that is eased in and out.
 
     Args:
-        before: of both feet, the left one first.
-        after: the same.
+        before: both feet, the left one first; one that steps already has less of that the farther it goes.
+        after: where they are to be.
         weight: how much of the way the pelvis has gone, 0 to 1.
         leader: the foot that goes first.
     """
-    far = max(distance(a.position, b.position) for a, b in zip(before, after, strict=True))
+    far = max(distance(a.place.position, b.position) for a, b in zip(before, after, strict=True))
     strides = max(1, math.ceil(far / _STRIDE))
     gone = weight * strides if strides > 1 else _steady(weight)
     pairs = enumerate(zip(before, after, strict=True))
     return tuple(_step(a, b, foot == leader, gone, strides) for foot, (a, b) in pairs)
 
 
-def _step(before: Place, after: Place, leads: bool, gone: float, strides: int) -> Place:
+def _step(before: Foot, after: Place, leads: bool, gone: float, strides: int) -> Foot:
     """Where the foot that leads, or the other, is when the pelvis has gone so many of the strides."""
     number = min(int(gone + 0.5), strides)
     if (number % 2 == 0) != leads:
-        return _along(before, after, number / strides)
+        return _along(before, Foot(after), number / strides)
     begin, end = max(0.0, number - 0.5), min(number + 0.5, strides)
     start, goal = max(0, number - 1) / strides, min(number + 1, strides) / strides
-    return _swung(_along(before, after, start), _along(before, after, goal), (gone - begin) / (end - begin))
+    return swung(_along(before, Foot(after), start), _along(before, Foot(after), goal), (gone - begin) / (end - begin))
 
 
-def _swung(start: Place, goal: Place, done: float) -> Place:
+def swung(start: Foot, goal: Foot, done: float) -> Foot:
     """A foot in its step, of which a share is done: up first, then over, then down.
 
     So no sole slides: it is a centimeter above the ground before it goes anywhere. The height is a bell that is at rest
@@ -80,8 +93,8 @@ def _swung(start: Place, goal: Place, done: float) -> Place:
     72, 1992).
     """
     over = _along(start, goal, smoothstep(share(done, _RISING, 1.0 - _RISING)))
-    high = _lift(_way(start, goal)) * 16.0 * (done * (1.0 - done)) ** 2
-    return Place(add(over.position, scale(UP, high)), over.rotation)
+    high = _lift(_way(start.place, goal.place)) * 16.0 * (done * (1.0 - done)) ** 2
+    return Foot(Place(add(over.place.position, scale(UP, high)), over.place.rotation), over.lift + high)
 
 
 def _lift(way: float) -> float:
@@ -98,9 +111,11 @@ def _point(foot: Place, part: Vec3) -> Vec3:
     return add(foot.position, rotate(foot.rotation, part))
 
 
-def _along(before: Place, after: Place, share: float) -> Place:
-    way = subtract(after.position, before.position)
-    return Place(add(before.position, scale(way, share)), slerp(before.rotation, after.rotation, share))
+def _along(before: Foot, after: Foot, share: float) -> Foot:
+    (start, lift), (goal, other) = before, after
+    way = subtract(goal.position, start.position)
+    place = Place(add(start.position, scale(way, share)), slerp(start.rotation, goal.rotation, share))
+    return Foot(place, lift + share * (other - lift))
 
 
 def _steady(weight: float) -> float:
