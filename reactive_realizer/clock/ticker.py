@@ -37,6 +37,16 @@ class Tick:
             return cls(number, GlobalTime(-1.0), frame=True)
         return cls(number, last.time, number // FRAME_EVERY > last.number // FRAME_EVERY)
 
+    @classmethod
+    def on_time(cls, number: int, frame: bool = False) -> Self:
+        """Tick ``number`` right after the one before it."""
+        return cls(number, tick_time(number - 1), frame)
+
+    @property
+    def left_out(self) -> range:
+        """The numbers of the ticks that would have been since the last one, had this one not come late."""
+        return range(max(0, round(self.previous * RATE) + 1), self.number)
+
     @property
     def time(self) -> GlobalTime:
         """Seconds on the realizer's clock."""

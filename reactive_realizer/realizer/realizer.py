@@ -1,21 +1,19 @@
 """The Realizer: inputs in, ticks through, feedback, frames and sounds out."""
 
 import asyncio
-import logging
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import AsyncExitStack
 from types import TracebackType
 from typing import Self
 
 from reactive_realizer.bml.document import parse
-from reactive_realizer.clock.ticker import Tick
+from reactive_realizer.clock.ticker import Tick, tick_time
 from reactive_realizer.clock.units import GlobalTime, is_due
 from reactive_realizer.embodiment.audio import AudioChange
 from reactive_realizer.embodiment.frame import Frame
 from reactive_realizer.embodiment.world import World
 from reactive_realizer.engine.effects import Play
 from reactive_realizer.engine.engine_task import EngineTask, play_all
-from reactive_realizer.errors import RealizerError
 from reactive_realizer.feedback.feedback_manager import FeedbackManager
 from reactive_realizer.limits import Limits
 from reactive_realizer.pegboard.anticipator import Anticipator
@@ -24,7 +22,8 @@ from reactive_realizer.reactive.commit import Commit
 from reactive_realizer.reactive.graph import Graph
 from reactive_realizer.realizer.character import Character
 from reactive_realizer.realizer.entered import Delivery, Entered
-from reactive_realizer.realizer.inputs import BmlText, Event, Input, Prediction, TargetMoved
+from reactive_realizer.realizer.inbox import Inbox
+from reactive_realizer.realizer.inputs import BmlText, Input
 from reactive_realizer.realizer.verifier import Verifier
 from reactive_realizer.realizer.workshop import TaskWorkshop
 from reactive_realizer.scheduler.bml_scheduler import BMLScheduler
@@ -32,8 +31,7 @@ from reactive_realizer.scheduler.cast import Cast
 from reactive_realizer.scheduler.constraint_watch import ConstraintWatch
 from reactive_realizer.scheduler.reporter import Reporter
 from reactive_realizer.scheduler.strategy import SchedulingStrategy
-
-logger = logging.getLogger(__name__)
+from reactive_realizer.scheduler.verified_strategy import VerifiedStrategy
 
 _MOST_ROUNDS = 100
 
@@ -74,13 +72,12 @@ class Realizer:
         self.board = PegBoard(Graph())
         self.anticipators = dict(anticipators(self.board))
         self.time = GlobalTime(0.0)
-        self._strategy = strategy
+        self._strategy = VerifiedStrategy(strategy) if verify else strategy
         self._verify = verify
         self._cast = Cast({character.id: character.engines for character in characters})
         self._leading = [EngineTask(engine) for engine in self._cast.engines if engine.leads]
         self._following = [EngineTask(engine) for engine in self._cast.engines if not engine.leads]
-        self._inbox: list[tuple[GlobalTime, int, Input]] = []
-        self._entered = 0
+        self._inbox = Inbox(self.board, self.anticipators, world)
         self._commits: list[Commit] = []
         self._clamped = 0
         self._frame_listeners: list[FrameListener] = []
@@ -114,8 +111,7 @@ class Realizer:
 
     def put(self, entry: Input, at: GlobalTime = GlobalTime(0.0)) -> None:  # noqa: B008 - a float
         """Have an input enter at the first tick at or after ``at``, after all that was put before."""
-        self._entered += 1
-        self._inbox.append((at, self._entered, entry))
+        self._inbox.put(entry, at)
 
     def watch(self, listener: FrameListener) -> Callable[[], None]:
         """Get the frames of all characters; the returned call ends that. Nothing is composed where nobody looks."""
@@ -149,60 +145,43 @@ class Realizer:
             work: what is handed over of the slow work; None: whatever is there.
         """
         self.time = self.board.time = tick.time
-        watched = Tick(tick.number, tick.previous, tick.frame and bool(self._frame_listeners))
-        self._commits.clear()
-        self._clamped = 0
-        self._take_inputs(tick, self._workshop.ready() if work is None else tuple(work))
+        entered = self._enter(tick, self._workshop.ready() if work is None else tuple(work))
+        self._inbox.apply(entered.inputs, tick.time)
+        self._clamp(tick)
+        await self._catch_up(tick)
+        self._take_blocks(entered, tick.time)
+        watched = Tick.on_time(tick.number, tick.frame and bool(self._frame_listeners))
         plays = await self._play(watched)
         if watched.frame:
             self._publish_frames(tick.time, plays)
         self.scheduler.publish(tick.time)
-        self._watch.check(self._commits, tick.time)
-        if self._verifier is not None:
-            self._verifier.check(self._commits, tick.time)
+        self._check(tick.time)
         self.feedback.flush(tick.time)
 
-    def _take_inputs(self, tick: Tick, work: tuple[Delivery, ...]) -> None:
-        due = [entry for at, _, entry in sorted(self._inbox, key=lambda e: e[:2]) if is_due(at, tick.time)]
-        self._inbox = [waiting for waiting in self._inbox if not is_due(waiting[0], tick.time)]
+    def _enter(self, tick: Tick, work: tuple[Delivery, ...]) -> Entered:
+        entered = Entered(tick.number, self._inbox.take(tick.time), work)
         for listener in self._entry_listeners:
-            listener(Entered(tick.number, tuple(due), work))
-        with self.board.graph.transaction("inputs"):
-            for anticipator in self.anticipators.values():
-                self._try(anticipator.id, anticipator.advance, tick.time)
-            for entry in due:
-                self._try(entry, self._apply, entry, tick.time)
-        self._clamp(tick)
-        self._workshop.deliver(work, tick.time)
-        for entry in due:
+            listener(entered)
+        return entered
+
+    async def _catch_up(self, tick: Tick) -> None:
+        """What was due at ticks that were left out happens in its order, as it would have; nothing of it is seen."""
+        due = self.scheduler.next_due(tick.previous) if tick.left_out else None
+        for number in tick.left_out:
+            if is_due(due, tick_time(number)):
+                missed = Tick.on_time(number)
+                self.board.time = missed.time
+                await self._play(missed)
+                self._check(missed.time)
+                due = self.scheduler.next_due(missed.time)
+        self.board.time = tick.time
+
+    def _take_blocks(self, entered: Entered, now: GlobalTime) -> None:
+        """What was prepared, then what is new."""
+        self._workshop.deliver(entered.work, now)
+        for entry in entered.inputs:
             if isinstance(entry, BmlText):
-                self._read(entry, tick.time)
-
-    def _try(self, what: object, act: Callable[..., None], *arguments: object) -> None:
-        """Whoever brings an input may check it first; one that cannot be is left out, and all else goes on."""
-        try:
-            act(*arguments)
-        except RealizerError as problem:
-            logger.warning("%s is left out: %s", what, problem)
-        except Exception:
-            logger.exception("%s is left out", what)
-
-    def _apply(self, entry: Input, now: GlobalTime) -> None:
-        match entry:
-            case Prediction(anticipator, sync, time):
-                self._anticipator(anticipator).check_prediction()
-                self._anticipator(anticipator).predict(sync, time, now)
-            case Event(anticipator):
-                _tell(self._anticipator(anticipator), entry, now)
-            case TargetMoved(target, position):
-                self.world.move(target, position)
-            case BmlText():
-                pass
-
-    def _anticipator(self, name: str) -> Anticipator:
-        if name not in self.anticipators:
-            self.anticipators[name] = Anticipator(name, self.board)
-        return self.anticipators[name]
+                self._read(entry, now)
 
     def _read(self, entry: BmlText, now: GlobalTime) -> None:
         for parsed in parse(entry.text, self.limits) if entry.parsed is None else entry.parsed:
@@ -245,6 +224,14 @@ class Realizer:
         self.scheduler.clamp(tick.previous, tick.time, commits)
         self._clamped = len(self._commits)
 
+    def _check(self, now: GlobalTime) -> None:
+        """Say what the commits since the last call have broken."""
+        self._watch.check(self._commits, now)
+        if self._verifier is not None:
+            self._verifier.check(self._commits, now)
+        self._commits.clear()
+        self._clamped = 0
+
     def _publish_audio(self, play: Play) -> None:
         for change in play.audio:
             for listener in self._audio_listeners:
@@ -263,12 +250,3 @@ class Realizer:
             frame = character.look(its)
             for listener in tuple(self._frame_listeners):
                 listener(character, frame)
-
-
-def _tell(anticipator: Anticipator, event: Event, now: GlobalTime) -> None:
-    if event.text is None:
-        anticipator.check(event.name, event.value)
-        anticipator.event(event.name, event.value, now)
-    else:
-        anticipator.check_heard(event.name)
-        anticipator.hear(event.name, event.text, now)

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable, Sequence
 from reactive_realizer.bml.block import BehaviorBlock, Parsed
 from reactive_realizer.bml.procedure import DefineProc
 from reactive_realizer.bml.words import Composition
-from reactive_realizer.clock.units import RESOLUTION, GlobalTime, is_due
+from reactive_realizer.clock.units import RESOLUTION, GlobalTime, Time, is_due
 from reactive_realizer.engine.effects import Play
 from reactive_realizer.errors import Fault, RealizerError, error
 from reactive_realizer.feedback.feedback_manager import FeedbackManager
@@ -27,7 +27,7 @@ from reactive_realizer.scheduler.problem import Loss
 from reactive_realizer.scheduler.procedures import Procedures
 from reactive_realizer.scheduler.reporter import Reporter
 from reactive_realizer.scheduler.requests import Requests
-from reactive_realizer.scheduler.standstill import awaited_by, can_move
+from reactive_realizer.scheduler.standstill import awaited_by, can_move, times_ahead
 from reactive_realizer.scheduler.strategy import SchedulingStrategy
 from reactive_realizer.scheduler.workshop import Workshop
 
@@ -123,6 +123,11 @@ class BMLScheduler:
         for block in sorted(starting, key=lambda b: (b.start.value, b.arrival)):
             self._start(block, now)
         return bool(failing or cut or ending or starting)
+
+    def next_due(self, after: GlobalTime) -> Time:
+        """When, after a time, something is to happen next, as far as that is known now; None where nothing is."""
+        times = (time for block in self.blocks.alive for time in times_ahead(block))
+        return min((time for time in times if not is_due(time, after)), default=None)
 
     def apply(self, plays: Sequence[Play], now: GlobalTime) -> bool:
         """Do what the playing of engines asks for, in their order; whether anything changed."""

@@ -1,9 +1,15 @@
 """However late a tick is: frames may be lost, sync points and times are not."""
 
-import pytest
+import asyncio
+from functools import cache
 
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.clock.ticker import Tick, tick_time
-from reactive_realizer.realizer.inputs import BmlText
+from reactive_realizer.realizer.inputs import BmlText, Prediction
 from reactive_realizer.testing.pilot import block, open_pilot
 
 BLOCKS = [
@@ -104,6 +110,118 @@ async def test_what_is_free_again_at_the_very_time_is_free_however_late_the_tick
     assert pilot.feedback.warnings == []
     assert pilot.feedback.time("two:s:start") == pilot.feedback.time("one:s:end") == 1.08
     assert pilot.feedback.time("three:s:start") == pilot.feedback.time("two:s:end") == 1.105
+
+
+@pytest.mark.parametrize("late", [(), range(91, 150)], ids=["on time", "late"])
+async def test_who_has_the_arm_is_asked_even_if_an_interrupt_comes_in_the_same_tick(pilot, late) -> None:
+    pilot.block("one", RIGHT.format(' start="0" end="2.5"'))
+    pilot.block("two", RIGHT.format(' start="1"') + '<wait id="w" duration="2"/>')
+    pilot.block("three", '<bmla:interrupt id="i" target="two" start="1.1"/>')
+    await skip(pilot, late)
+    assert pilot.feedback.warnings == [("two:g", "IMPOSSIBLE_TO_SCHEDULE")]
+    assert not pilot.feedback.reached("two:g:start")
+
+
+@pytest.mark.parametrize("late", [(), range(91, 150)], ids=["on time", "late"])
+async def test_a_gesture_ends_where_the_next_one_takes_its_arm_though_it_would_be_over_by_then(pilot, late) -> None:
+    pilot.block("one", RIGHT.format(' start="0" relax="0.93"'))
+    pilot.block("two", RIGHT.format(' start="1" end="2.5"'))
+    pilot.block("three", '<wait id="w" duration="1"/>', **{"bmla:appendAfter": "one"})
+    await skip(pilot, late)
+    assert pilot.feedback.time("one:g:end") == pilot.feedback.time("three:start") == 1.0
+
+
+@pytest.mark.parametrize("late", [(), range(91, 150)], ids=["on time", "late"])
+async def test_a_block_whose_last_behavior_is_dropped_ends_when_that_was_to_start(pilot, late) -> None:
+    pilot.block("one", RIGHT.format(' start="0" end="2"'))
+    pilot.block("two", RIGHT.format(' start="1" end="2.5"'))
+    pilot.block("three", '<wait id="w" duration="1"/>', **{"bmla:appendAfter": "two"})
+    await skip(pilot, late)
+    assert pilot.feedback.warnings == [("two:g", "IMPOSSIBLE_TO_SCHEDULE")]
+    assert pilot.feedback.time("two:end") == pilot.feedback.time("three:start") == 1.0
+
+
+@pytest.mark.parametrize("late", [(), range(41, 150)], ids=["on time", "late"])
+async def test_a_speech_still_ends_its_word_and_what_is_lost_by_it_is_told(pilot, late) -> None:
+    pilot.block("one", SPEECH.format(' end="1.58"'))
+    pilot.block("two", '<bmla:interrupt id="i" target="one" start="0.812" speech="word"/>')
+    await skip(pilot, late)
+    assert pilot.feedback.time("one:s:end") == 0.98
+    ((_, text),) = [(line.id, line.element.text) for line in pilot.feedback.of("warningFeedback")]
+    assert "s:end = 1.58 cannot be kept any more" in text
+
+
+@pytest.mark.parametrize("late", [(), range(91, 150)], ids=["on time", "late"])
+async def test_what_comes_in_with_a_late_tick_finds_what_would_have_been(pilot, late) -> None:
+    pilot.block("one", RIGHT.format(' start="0" relax="0.93"'))
+    pilot.block("two", '<wait id="w" duration="1"/>', **{"bmla:chunkAfter": "one"})
+    pilot.realizer.put(BmlText(block("three", RIGHT.format(""), composition="REPLACE")), tick_time(150))
+    await skip(pilot, late)
+    assert pilot.feedback.time("two:start") == 0.93
+    assert pilot.feedback.time("two:w:end") == pilot.feedback.time("three:g:start") == 1.5
+
+
+@pytest.mark.parametrize("late", [(), range(91, 150)], ids=["on time", "late"])
+async def test_a_block_that_waits_for_a_time_from_outside_has_begun_before_what_replaces_it(pilot, late) -> None:
+    pilot.predict("partner", "hit", 1.0)
+    after = '<constraint><after ref="anticipators:partner:hit"><sync ref="one:start"/></after></constraint>'
+    pilot.block("one", after + SPEECH.format(""))
+    pilot.realizer.put(BmlText(block("two", SPEECH.format(""), composition="REPLACE")), tick_time(150))
+    await skip(pilot, late)
+    assert pilot.feedback.time("one:start") == 1.0
+    assert (pilot.feedback.time("one:end"), pilot.feedback.status("one")) == (1.5, "INTERRUPTED")
+
+
+async def test_a_prediction_that_comes_in_with_a_late_tick_moves_what_did_not_come_in_time(pilot) -> None:
+    pilot.predict("partner", "hit", 1.0)
+    pilot.block("one", '<wait id="w" start="0" end="anticipators:partner:hit"/>')
+    pilot.realizer.put(Prediction("partner", "hit", tick_time(170)), tick_time(140))
+    await skip(pilot, range(91, 150))
+    assert pilot.feedback.time("one:w:end") == 1.7
+
+
+async def test_a_chain_that_is_longer_than_the_rounds_of_a_tick_comes_to_its_end_in_one(pilot) -> None:
+    for number in range(150):
+        pilot.block(f"b{number}", '<wait id="w" duration="0.01"/>', composition="APPEND")
+    await skip(pilot, range(1, 399))
+    assert pilot.feedback.time("b149:end") == 1.5
+    assert pilot.feedback.warnings == []
+
+
+SESSION = [
+    block("a", SPEECH.format("") + RIGHT.format(' start="s:start+0.1" relax="0.7"')),
+    block("b", '<pointing id="p" target="bluebox" mode="RIGHT_HAND"/>', **{"bmla:chunkAfter": "a"}),
+    block("c", RIGHT.format(' start="1.2"') + '<head id="h" lexeme="NOD" stroke="g:stroke"/>'),
+    block("d", SPEECH.format(""), **{"bmla:preplan": "true"}),
+    block("e", '<bmla:activate id="i" target="d" start="0.985"/><wait id="w" start="d:s:start" end="d:s:end"/>'),
+    block("f", '<bmla:interrupt id="i" target="d" start="1.437" speech="word"/>'),
+    block("g", RIGHT.format("") + '<gazeShift id="z" target="bluebox"/>', **{"bmla:appendAfter": "c"}),
+    block("h", "<required>" + RIGHT.format(' start="2.3"') + '</required><wait id="w" duration="3"/>'),
+    block("i", '<posture id="p"><stance type="SITTING"/></posture>', composition="APPEND"),
+]
+
+
+@cache
+def told(late):
+    """What is told of the session, whichever tick tells it."""
+
+    async def play():
+        async with open_pilot(SceneOptions(voice="text")) as pilot:
+            for text in SESSION:
+                pilot.realizer.put(BmlText(text))
+            await skip(pilot, late)
+            progress = [line for line in pilot.feedback.lines if line.kind.endswith("Progress")]
+            warnings = sorted((line.id, line.element.text) for line in pilot.feedback.of("warningFeedback"))
+            return sorted((line.at, line.id, *line.element.attrib.items()) for line in progress), warnings
+
+    return asyncio.run(play())
+
+
+@settings(max_examples=12)
+@given(st.lists(st.tuples(st.integers(1, 380), st.integers(1, 90)), min_size=1, max_size=8))
+def test_whichever_ticks_are_left_out_the_same_is_told(gaps) -> None:
+    late = {first + n for first, length in gaps for n in range(length)} - {399}
+    assert told(frozenset(late)) == told(frozenset())
 
 
 async def skip(pilot, late):

@@ -3,7 +3,7 @@
 import pytest
 
 from reactive_realizer.clock.clock import ManualClock, SystemClock
-from reactive_realizer.clock.ticker import Ticker
+from reactive_realizer.clock.ticker import Tick, Ticker
 from reactive_realizer.clock.units import GlobalTime, is_due
 
 
@@ -52,6 +52,13 @@ async def test_a_late_tick_covers_the_whole_interval_and_what_was_left_out_is_co
     assert [tick.previous for tick in found] == [-1.0, 0.0, 0.01, 0.07]
     assert ticker.overruns == 5
     assert max(ticker.lateness) == pytest.approx(0.053)
+
+
+def test_a_tick_knows_which_were_left_out_before_it() -> None:
+    assert list(Tick(7, GlobalTime(0.01)).left_out) == [2, 3, 4, 5, 6]
+    assert not Tick(8, GlobalTime(0.07)).left_out
+    assert not Tick.on_time(29).left_out
+    assert list(Tick.following(None, 2).left_out) == [0, 1]
 
 
 async def test_a_frame_that_was_missed_comes_with_the_next_tick_and_the_rhythm_goes_on() -> None:

@@ -1,0 +1,62 @@
+"""A tick that comes late takes up what was due before it, and pays for nothing else."""
+
+import pytest
+
+from reactive_realizer.clock.ticker import Tick
+from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.testing.pilot import open_pilot
+
+
+@pytest.fixture
+async def pilot():
+    async with open_pilot() as pilot:
+        await pilot.advance(0.01)
+        yield pilot
+
+
+@pytest.fixture
+def played(pilot):
+    """The ticks that the waits of Alice are asked to play."""
+    engine = next(engine for engine in pilot.realizer.characters["alice"].engines if engine.name.endswith("/wait"))
+    ticks, play = [], engine.play
+
+    def note(tick):
+        ticks.append(tick)
+        return play(tick)
+
+    engine.play = note
+    return ticks
+
+
+async def test_of_the_ticks_that_were_left_out_those_are_played_in_which_something_was_due(pilot, played) -> None:
+    pilot.block("b", '<wait id="v" start="0.5" duration="0.734"/><wait id="w" start="3" duration="1"/>')
+    await pilot.tick()
+    played.clear()
+    await pilot.realizer.step(Tick(500, GlobalTime(0.01), frame=False))
+    assert sorted({tick.number for tick in played}) == [51, 125, 301, 401]
+    assert [tick for tick in played if tick.left_out] == []
+
+
+async def test_of_a_long_sleep_through_which_nothing_was_due_nothing_is_played(pilot, played) -> None:
+    pilot.block("b", '<wait id="w" start="4000" duration="1"/>')
+    await pilot.tick()
+    played.clear()
+    await pilot.realizer.step(Tick(360_000, GlobalTime(0.01), frame=False))
+    assert {tick.number for tick in played} == {360_000}
+
+
+async def test_only_the_late_tick_itself_is_seen(pilot) -> None:
+    pilot.watch()
+    pilot.block("b", '<gesture id="g" lexeme="BEAT"/>')
+    await pilot.tick()
+    await pilot.realizer.step(Tick(101, GlobalTime(0.01), frame=True))
+    assert [frame.time for frame in pilot.frames["alice"]] == [1.01]
+    assert pilot.realizer.time == pilot.realizer.board.time == 1.01
+
+
+async def test_a_point_that_cannot_be_reached_yet_does_not_have_every_tick_played(pilot, played) -> None:
+    pilot.block("b", '<wait id="v" duration="9"/><wait id="w" start="anticipators:user:ready" end="1"/>')
+    await pilot.tick()
+    played.clear()
+    await pilot.realizer.step(Tick(500, GlobalTime(0.01), frame=False))
+    assert len(played) <= 3
