@@ -30,6 +30,7 @@ class Conducting(Anticipator):
 
     kind = "conducting"
     events = ("beat", "start")
+    points = ("beatN",)
 
     def __init__(
         self,

@@ -54,6 +54,7 @@ class Exercise(Anticipator):
             if not _NAME.fullmatch(name) or name in names[:rank]:
                 raise error("bad-peak-name", name=name)
         self._names = names
+        self.points = ("N", *names)
         self._peaks = Peaks(within("rise", rise, 1e-6, _STRONGEST))
         self._rhythm = Rhythm(phase, period, ahead, _SHORTEST, _LONGEST, max(1, len(names)))
 

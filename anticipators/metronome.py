@@ -35,6 +35,7 @@ class Metronome(Anticipator):
 
     kind = "metronome"
     events = ("tempo", "start")
+    points = ("tickN",)
 
     def __init__(self, id: str, board: PegBoard, tempo: float = 60.0) -> None:  # noqa: A002
         super().__init__(id, board)

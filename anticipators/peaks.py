@@ -8,6 +8,9 @@ from reactive_realizer.clock.units import GlobalTime, Time
 _SLOW = 5.0
 """Time constant of the average, s: some movements long."""
 
+_FIRST = 0.5
+"""So long (s) the first sample counts for all that was before: it may be one of rest, or that of a peak."""
+
 
 class _Sample(NamedTuple):
     value: float
@@ -27,6 +30,7 @@ class Peaks:
         self._rise = rise
         self._average = 0.0
         self._last: Time = None
+        self._seen = 0.0
         self._top: _Sample | None = None
 
     def take(self, value: float, now: GlobalTime) -> Time:
@@ -43,8 +47,15 @@ class Peaks:
         return None
 
     def _follow(self, value: float, now: GlobalTime) -> None:
+        """The average is over what was seen: a stream that begins in a peak is understood as soon as any other."""
         if self._last is None:
-            self._average = value
-        else:
-            self._average += (value - self._average) * (1 - exp((self._last - now) / _SLOW))
+            self._last, self._average = now, value
+        passed = now - self._last
+        self._seen += passed
+        self._average += (value - self._average) * _weight(passed) / _weight(max(self._seen, _FIRST))
         self._last = now
+
+
+def _weight(seconds: float) -> float:
+    """Of the last seconds, in a slow average over all time."""
+    return 1 - exp(-seconds / _SLOW)

@@ -18,6 +18,7 @@ class Spacebar(Anticipator):
 
     kind = "spacebar"
     events = _POINTS
+    points = _POINTS
 
     def event(self, name: str, value: float | None, now: GlobalTime) -> None:
         """``press`` and ``release``."""

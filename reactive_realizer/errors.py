@@ -106,6 +106,10 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
         "outer-tie": ErrorKind("{tie} ties two times that both come from elsewhere; it is dropped", _SCHEDULE),
         "rigid": ErrorKind("{point} cannot be where {tie} wants it, {gap:g} s away; that tie is dropped", _SCHEDULE),
         "cyclic-reference": ErrorKind("{reference} hangs on the block '{block}' itself", _SCHEDULE),
+        "mutual-reference": ErrorKind(
+            "{reference} is not planned before '{block}': '{other}' names this one, itself or by way of others",
+            _SCHEDULE,
+        ),
         "unknown-target-block": ErrorKind("{attribute}: there never was a block '{block}'", _SCHEDULE),
         "not-awaited": ErrorKind(
             "'{block}' is not over: {behaviors} goes on until it is ended; nothing waits for that", _SCHEDULE
@@ -116,7 +120,9 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
         "cyclic-composition": ErrorKind(
             "'{block}' is to come before '{other}' and waits for it too; it is refused", _SCHEDULE
         ),
-        "unknown-procedure": ErrorKind("no procedure '{procedure}'; there are {known}", WarningType.NO_SUCH_TARGET),
+        "unknown-procedure": ErrorKind(
+            "no procedure '{procedure}'; there are {known}", WarningType.NO_SUCH_TARGET, 404
+        ),
         "too-many-procedures": ErrorKind("{limit} procedures are defined; this one is refused", _PARSING, 429),
         "no-such-block": ErrorKind("there never was a block '{block}'", WarningType.NO_SUCH_TARGET, 404),
         "block-ended": ErrorKind("the block '{block}' has ended", _SCHEDULE, 410),
@@ -161,7 +167,10 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
             "the attribute {attribute} of {namespace} means nothing here", WarningType.CUSTOM_ATTRIBUTE_NOT_SUPPORTED
         ),
         "description-left-out": ErrorKind("a description of it is not played, but what comes next: {reason}", _CREATE),
-        "overtaken": ErrorKind("its sync points lost their order when they were moved", _SCHEDULE),
+        "overtaken": ErrorKind(
+            "its sync points lost their order when they were moved: {sync} is at {time:g} s, {later} at {late:g} s",
+            _SCHEDULE,
+        ),
         "work-failed": ErrorKind("its preparation failed: {reason}", _CREATE),
         "never-moves": ErrorKind("still waiting for {waits} when nothing more could happen", _SCHEDULE),
         # --- playing

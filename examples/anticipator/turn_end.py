@@ -14,6 +14,7 @@ class TurnEnd(Anticipator):
 
     kind = "turn_end"
     events = ("pause", "voice")
+    points = ("end",)
 
     def __init__(self, id: str, board: PegBoard, patience: float = 0.7) -> None:
         super().__init__(id, board)

@@ -36,20 +36,26 @@ class Findings(NamedTuple):
 
 
 class Checker:
-    """Reads documents one after the other; a block may refer to those before it, in its document or an earlier one."""
+    """Reads documents one after the other.
+
+    A block may refer to all blocks of its document and of earlier ones; it joins, interrupts or starts those before it.
+    """
 
     def __init__(self, realizer: Realizer) -> None:
         self._realizer = realizer
         self._cast = Cast({character.id: character.engines for character in realizer.characters.values()})
         self._earlier: set[str] = set()
+        self._named: set[str] = set()
         self._procedures: dict[str, None] = {}
 
     async def check(self, text: bytes) -> Findings:
         """What is wrong with a document."""
-        admission = self._realizer.scheduler.admission()
+        admission = self._realizer.scheduler.admission(self._procedures)
         mistakes: list[Fault] = []
         notes: list[Fault] = []
-        for parsed in parse(text, self._realizer.limits):
+        document = parse(text, self._realizer.limits)
+        self._named = self._earlier.union(parsed.block.id for parsed in document if parsed.block is not None)
+        for parsed in document:
             mistakes += (problem.fault for problem in parsed.problems)
             mistakes += self._refusals(parsed, admission)
             written = parsed.block or parsed.procedure
@@ -68,10 +74,11 @@ class Checker:
             self._earlier.add(parsed.block.id)
 
     def _refusals(self, parsed: Parsed, admission: Admission) -> Iterator[Fault]:
-        """What is wrong with how a block joins those before it."""
+        """What is wrong with how a block joins those before it, or a procedure."""
+        if parsed.procedure is not None:
+            yield from filter(None, [admission.define(parsed.procedure)])
         if parsed.block is not None:
             yield from filter(None, [admission.take(parsed.block, parsed.failed)])
-            yield from self._unknown_procedure(parsed.block)
             yield from self._unknown_others(parsed.block)
 
     def _inside(self, block: BehaviorBlock | DefineProc, rehearsal: Rehearsal) -> Iterator[Fault]:
@@ -86,11 +93,6 @@ class Checker:
         yield from _unknown_behaviors(block)
         yield from _unknown_points(block, rehearsal)
 
-    def _unknown_procedure(self, block: BehaviorBlock) -> Iterator[Fault]:
-        if block.procedure not in {None, *self._procedures}:
-            details = {"procedure": block.procedure, "known": ", ".join(self._procedures) or "none"}
-            yield Fault("unknown-procedure", details, block.location.line, block.location.column)
-
     def _unknown_others(self, block: BehaviorBlock) -> Iterator[Fault]:
         """Blocks that it joins, interrupts or starts."""
         for attribute in attributes_of(BehaviorBlock):
@@ -101,7 +103,7 @@ class Checker:
                     yield Fault("unknown-target-block", details, block.location.line, block.location.column)
 
     def _unknown_blocks(self, block: BehaviorBlock | DefineProc) -> Iterator[Fault]:
-        known = {None, ANTICIPATORS, block.id, *self._earlier}
+        known = {None, ANTICIPATORS, block.id, *self._named}
         for _, location, ref in references_of(block):
             if ref.block not in known:
                 yield unknown_block(ref, block).located(location.line, location.column)

@@ -20,12 +20,14 @@ class Anticipator:
         kind: by which the human file names its class.
         events: names of those that `event` knows.
         heard: names of those that `hear` knows, and that come with a text.
+        points: names of its points, with an N where a number stands; none where they are not known beforehand.
         id: by which BML names it, ``anticipators:ID:SYNC``.
     """
 
     kind: ClassVar[str] = "remote"
     events: ClassVar[tuple[str, ...]] = ()
     heard: ClassVar[tuple[str, ...]] = ()
+    points: tuple[str, ...] = ()
 
     def __init__(self, id: str, board: PegBoard) -> None:  # noqa: A002 - the standard's word
         self.id = id

@@ -19,13 +19,13 @@ def followers_of(peg: TimeCell) -> set[TimeCell]:
 
 def hangs_on(peg: TimeCell, other: TimeCell) -> bool:
     """Whether a peg moves with another one."""
-    seen = {peg}
-    waiting = [peg]
+    seen = {other}
+    waiting = [other]
     while waiting:
         cell = waiting.pop()
-        if cell is other:
+        if cell is peg:
             return True
-        new = [each for each in cell.dependencies if each not in seen and each.rank >= other.rank]
+        new = [each for each in cell.dependents if each not in seen and each.rank <= peg.rank]
         seen.update(new)
         waiting += new
     return False

@@ -216,10 +216,14 @@ class PlanUnit:
         """Whether it is its turn to begin."""
         return self.state is UnitState.LURKING and is_due(self.points[0].peg.value, now)
 
-    def in_order(self) -> bool:
-        """Whether its known times keep the order of its points (thesis 7.15)."""
-        times = [time for point in self.points if (time := point.time) is not None]
-        return all(a <= b + RESOLUTION for a, b in itertools.pairwise(times))
+    def overtaken(self) -> tuple[tuple[str, GlobalTime], tuple[str, GlobalTime]] | None:
+        """Two of its points whose known times lost their order (thesis 7.15), if there are such; tied ones first."""
+        known = [(point, time) for point in self.points if (time := point.time) is not None]
+        for points in ([each for each in known if each[0].tied], known):
+            for (earlier, time), (later, late) in itertools.pairwise(points):
+                if time > late + RESOLUTION:
+                    return (earlier.id, time), (later.id, late)
+        return None
 
     def refusal(self) -> Fault | None:
         """Why it cannot begin with the times that its points have now (thesis 7.14, 7.15), if it cannot.
@@ -227,8 +231,9 @@ class PlanUnit:
         Times from outside may lose their order for a while; that is judged when it is to begin.
         """
         start, end = self.points[0].peg.value, self.points[-1].peg.value
-        if not self.in_order():
-            return Fault("overtaken")
+        if (lost := self.overtaken()) is not None:
+            (sync, time), (later, late) = lost
+            return Fault("overtaken", {"sync": sync, "time": time, "later": later, "late": late})
         if start is None or end is None or self.timing.instant or end - start >= SHORTEST:
             return None
         return Fault("too-short")

@@ -98,6 +98,7 @@ class Realizer:
             self.board, self._cast, self.feedback, self._workshop, self._strategy, self.limits
         )
         self._watch = ConstraintWatch(self.board, self.scheduler.blocks, Reporter(self.feedback, self.scheduler.blocks))
+        self.scheduler.listen(self._watch.note_end)
         self._verifier = Verifier(self.board, self.scheduler.blocks, self.feedback) if self._verify else None
         return self
 

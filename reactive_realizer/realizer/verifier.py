@@ -2,10 +2,9 @@
 
 import logging
 from collections.abc import Iterable
-from dataclasses import asdict
 
 from reactive_realizer.clock.units import GlobalTime
-from reactive_realizer.errors import Fault, WarningType
+from reactive_realizer.errors import WarningType
 from reactive_realizer.feedback.feedback_manager import FeedbackManager
 from reactive_realizer.feedback.messages import WarningFeedback
 from reactive_realizer.pegboard.peg_key import BlockKey
@@ -46,6 +45,6 @@ class Verifier:
                 self._say(block.key, violation)
 
     def _say(self, block: BlockKey, violation: Violation) -> None:
-        text = str(Fault("constraint-broken", asdict(violation) | {"points": ", ".join(violation.points)}))
+        text = str(violation.fault)
         logger.error("%s/%s: %s", *block, text)
         self._feedback.say(WarningFeedback(*block, WarningType.IMPOSSIBLE_TO_SCHEDULE, text))

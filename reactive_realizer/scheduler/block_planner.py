@@ -2,7 +2,7 @@
 
 import asyncio
 import logging
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Container, Iterator, Mapping
 from dataclasses import dataclass
 
 from reactive_realizer.bml.behavior import Behavior
@@ -12,14 +12,14 @@ from reactive_realizer.engine.engine import Engine
 from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.scheduler.blocks import Blocks
-from reactive_realizer.scheduler.bml_block import BMLBlock
+from reactive_realizer.scheduler.bml_block import BlockState, BMLBlock
 from reactive_realizer.scheduler.cast import Cast
-from reactive_realizer.scheduler.constraints import blocks_named
 from reactive_realizer.scheduler.losses import lost_behavior
 from reactive_realizer.scheduler.planning import Plan, Planning, Task
 from reactive_realizer.scheduler.preparation import Preparation
 from reactive_realizer.scheduler.problem import Loss
 from reactive_realizer.scheduler.reporter import Reporter
+from reactive_realizer.scheduler.turns import in_turn
 from reactive_realizer.scheduler.workshop import Result, Workshop
 
 logger = logging.getLogger(__name__)
@@ -107,16 +107,19 @@ class BlockPlanner:
     def drafts(self, now: GlobalTime) -> Iterator[tuple[BMLBlock, Draft]]:
         """Blocks that can be committed, as if they were to start now, in order of arrival.
 
-        One that names points of an earlier block waits until that is planned.
+        One that names others waits until these are planned; in a circle of some that name each other, one is first.
         """
-        for block in self._blocks.alive:
-            if block in self._preparations and self._may_plan(block):
+        late: set[BMLBlock] = set()
+        for block in self._in_turn():
+            if block in self._preparations and self._may_plan(block, late):
                 engines, refused = _units(block, self._preparations.pop(block), self._reporter)
                 timings = {unit: unit.timing for unit in engines}
                 self._solving[block] = _Solving(engines, refused, self._planning.pose(block, timings, now))
                 self._solve(block, self._solving[block])
             if block in self._solving and (draft := self._draft(block, self._solving[block], now)) is not None:
                 yield block, draft
+            if block.state is BlockState.IN_PREP:
+                late.add(block)
 
     def commit(self, block: BMLBlock, draft: Draft, now: GlobalTime) -> None:
         """Put a draft on the board and into the engines' plans."""
@@ -174,12 +177,18 @@ class BlockPlanner:
         del self._solving[block]
         return Draft(solving.plan, solving.engines, (*solving.refused, *solving.plan.losses))
 
-    def _may_plan(self, block: BMLBlock) -> bool:
-        if not self._preparations[block].complete:
-            return False
-        others = [self._blocks.find(block.key.character, name) for name in blocks_named(block.description)]
-        earlier = [other for other in others if other is not None and other.arrival < block.arrival]
-        return not any(other in self._preparations or other in self._solving for other in earlier)
+    def _in_turn(self) -> list[BMLBlock]:
+        """The blocks in preparation, each after those that it waits for; none while none can be planned."""
+        if not self._solving and not any(preparation.complete for preparation in self._preparations.values()):
+            return []
+        preparing = [block for block in self._blocks.alive if block.state is BlockState.IN_PREP]
+        return in_turn(preparing, self._awaited)
+
+    def _awaited(self, block: BMLBlock) -> list[BMLBlock]:
+        return self._blocks.planned_before(block) if block in self._preparations else []
+
+    def _may_plan(self, block: BMLBlock, late: Container[BMLBlock]) -> bool:
+        return self._preparations[block].complete and not any(other in late for other in self._awaited(block))
 
 
 def _units(block: BMLBlock, preparation: Preparation, reporter: Reporter) -> tuple[dict[PlanUnit, Engine], list[Loss]]:

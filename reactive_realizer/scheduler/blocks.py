@@ -1,5 +1,6 @@
 """The blocks of all characters: those alive, and what is remembered of those that have ended."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from reactive_realizer.clock.units import GlobalTime
@@ -72,6 +73,17 @@ class Blocks:
             return self._alive.get(key)
         return next((other for other in self._alive.values() if other.key.block == block), None)
 
+    def planned_before(self, block: BMLBlock) -> list[BMLBlock]:
+        """The blocks in preparation that are to be planned before one that is in preparation too.
+
+        They are those whose points it names, and of those whose parameters it changes the ones that came before it.
+        """
+        changed = self._preparing(block, block.mentions.parameters)
+        return [
+            *self._preparing(block, block.mentions.points),
+            *(other for other in changed if other.arrival < block.arrival),
+        ]
+
     def add(self, block: BMLBlock) -> None:
         """A block was accepted."""
         self._alive[block.key] = block
@@ -83,3 +95,8 @@ class Blocks:
         self._ended[block.key] = Ended(block.key, block.state, time)
         while len(self._ended) > self._remembered:
             self._ended.pop(next(iter(self._ended)))
+
+    def _preparing(self, block: BMLBlock, ids: Iterable[str]) -> list[BMLBlock]:
+        """The blocks in preparation among those that a block names."""
+        found = (self.find(block.key.character, id_) for id_ in ids)
+        return [other for other in found if other is not None and other.state is BlockState.IN_PREP]

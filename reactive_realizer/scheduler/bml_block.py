@@ -5,13 +5,15 @@ from dataclasses import dataclass
 from enum import Enum
 
 from reactive_realizer.bml.block import BehaviorBlock
+from reactive_realizer.bml.names import ANTICIPATORS
 from reactive_realizer.clock.units import GlobalTime, Time, is_due
 from reactive_realizer.feedback.feedback_manager import Place
 from reactive_realizer.feedback.xml import as_told
 from reactive_realizer.pegboard.peg_key import BlockKey, PegKey
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.pegboard.time_peg import AnticipatorPeg, BMLBlockPeg, LatestPeg, TimeCell
+from reactive_realizer.pegboard.time_peg import AnticipatorPeg, BMLBlockPeg, LatestPeg, OffsetPeg, TimeCell
 from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
+from reactive_realizer.scheduler.mentions import mentions_of
 from reactive_realizer.scheduler.problem import Order, Origin, Point, Tie
 
 
@@ -72,8 +74,11 @@ class BMLBlock:
     Attributes:
         key: its name.
         description: what was asked for.
+        mentions: the other blocks that stand in that.
         arrival: number of arrival over all characters.
         noticed: time of the tick in which it started; its peg may lie before that.
+        predicted: the points of anticipators that it names, by anticipator and sync id, as they were meant when it
+            arrived: by the time it is planned one may have come, and its name mean the next time.
         activation: when a preplanned block was activated, None before; None for others.
         start: its peg; pinned when it starts.
         relax: when it subsides: the latest relax of its behaviors, or end of those that have none.
@@ -100,6 +105,7 @@ class BMLBlock:
     ) -> None:
         self.key = key
         self.description = description
+        self.mentions = mentions_of(description)
         self.arrival = arrival
         self.waits = tuple(waits)
         self.holds: tuple[TimeCell, ...] = ()
@@ -119,6 +125,9 @@ class BMLBlock:
         self.end = LatestPeg(board.graph, f"{name}:end", arrived, (self.start,))
         for sync, peg in (("start", self.start), ("relax", self.relax), ("end", self.end)):
             board.add(PegKey(*key, None, sync), peg)
+        self.predicted = _predicted(board, description)
+        # The board forgets the names of points that nothing hangs on.
+        board.add_unnamed(key, [OffsetPeg(board.graph, peg.name, peg, 0.0) for peg in self.predicted.values()])
 
     def planned(
         self, now: GlobalTime, units: Sequence[PlanUnit], kept: Sequence[Tie | Order], holds: Sequence[TimeCell]
@@ -209,6 +218,13 @@ class BMLBlock:
     def _awaited(self) -> tuple[TimeCell, ...]:
         activation = [self.activation] if self.activation is not None else []
         return (*activation, *(wait.peg for wait in self.waits), *self.holds)
+
+
+def _predicted(board: PegBoard, description: BehaviorBlock) -> dict[tuple[str, str], AnticipatorPeg]:
+    names = ((ref.behavior, ref.sync) for ref in description.refs if ref.block == ANTICIPATORS)
+    return {
+        (whose, sync): board.predicted(whose, sync) for whose, sync in names if whose is not None and sync is not None
+    }
 
 
 def _subsiding(unit: PlanUnit) -> SyncPoint:

@@ -56,7 +56,7 @@ class BMLScheduler:
         self._reporter = Reporter(feedback, self.blocks)
         planning = Planning(board, self.blocks, strategy)
         self._planner = BlockPlanner(cast, self.blocks, planning, workshop, self._reporter)
-        self._procedures = Procedures(cast, workshop, limits.procedures)
+        self._procedures = Procedures(cast, workshop)
         self._predictions = Predictions(feedback)
         self._endings = Endings(board, cast, self.blocks, self._reporter, self._predictions)
         self._requests = Requests(board, self.blocks, self._planner, self._endings, self._reporter)
@@ -93,19 +93,23 @@ class BMLScheduler:
             self._reporter.warn(character, problem.id, problem.fault)
         try:
             if parsed.procedure is not None:
-                self._procedures.define(parsed.procedure)
+                self._define(parsed.procedure)
             elif parsed.block is not None:
-                self._admit(self._procedures.expand(parsed.block), parsed.failed, character, now)
+                self._admit(parsed.block, parsed.failed, character, now)
             else:
                 self.refused += 1
         except RealizerError as refused:
             self.refused += 1
             self._refuse(refused.fault, parsed.block or parsed.procedure, character)
 
-    def admission(self) -> Admission:
-        """Judges blocks that would enter now; nothing changes here."""
+    def admission(self, defined: Iterable[str] = ()) -> Admission:
+        """Judges blocks and procedures that would enter now; nothing changes here.
+
+        Args:
+            defined: ids of procedures that enter before.
+        """
         alive = (block.key for block in self.blocks.alive)
-        return Admission(self._cast.characters, self._limits.blocks_alive, alive)
+        return Admission(self._cast.characters, self._limits, alive, (*self._procedures.names, *defined))
 
     # --- what time brings
 
@@ -178,15 +182,27 @@ class BMLScheduler:
 
     # --- accepting
 
-    def _admit(self, description: BehaviorBlock, failed: bool, character: str, now: GlobalTime) -> None:
+    def _define(self, definition: DefineProc) -> None:
+        """Keep a procedure.
+
+        Raises:
+            RealizerError: why it is refused.
+        """
+        fault = self.admission().define(definition)
+        if fault is not None:
+            raise RealizerError(fault)
+        self._procedures.define(definition)
+
+    def _admit(self, written: BehaviorBlock, failed: bool, character: str, now: GlobalTime) -> None:
         """Make a block of it.
 
         Raises:
             RealizerError: why it is refused.
         """
-        fault = self.admission().take(description)
+        fault = self.admission().take(written)
         if fault is not None:
             raise RealizerError(fault)
+        description = self._procedures.expand(written)
         joining = Joining(self.blocks, character, description)
         if (fault := joining.refusal()) is not None:
             raise RealizerError(fault)

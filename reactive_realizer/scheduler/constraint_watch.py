@@ -5,12 +5,14 @@ from typing import Any
 
 from reactive_realizer.clock.units import GlobalTime, Time, is_due
 from reactive_realizer.errors import Fault
+from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.pegboard import PegBoard
+from reactive_realizer.pegboard.time_peg import TimeCell
 from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.reactive.cell import Cell
 from reactive_realizer.reactive.commit import Commit
 from reactive_realizer.scheduler.blocks import Blocks
-from reactive_realizer.scheduler.bml_block import BMLBlock
+from reactive_realizer.scheduler.bml_block import BlockState, BMLBlock
 from reactive_realizer.scheduler.concerned import concerned
 from reactive_realizer.scheduler.problem import Node, Order, Origin, Point, Tie
 from reactive_realizer.scheduler.reporter import Reporter
@@ -34,13 +36,21 @@ class ConstraintWatch:
         self._board = board
         self._blocks = blocks
         self._reporter = reporter
+        self._ended: list[BMLBlock] = []
+
+    def note_end(self, key: BlockKey) -> None:
+        """A block ends; if it does so by itself, what the tick has broken of it is still said."""
+        block = self._blocks.get(key)
+        if block is not None and block.state is BlockState.DONE:
+            self._ended.append(block)
 
     def check(self, commits: Iterable[Commit], now: GlobalTime) -> None:
         """Check what the commits of the tick at ``now`` moved."""
         moved: dict[Cell[Any], Any] = {}
         for change in (change for commit in commits for change in commit.changes):
             moved.setdefault(change.cell, change.old)
-        for block in concerned(self._blocks, self._board, moved):
+        ended, self._ended = self._ended, []
+        for block in (*ended, *concerned(self._blocks, self._board, moved)):
             self._check(block, moved, now)
 
     def _check(self, block: BMLBlock, moved: Moved, now: GlobalTime) -> None:
@@ -49,10 +59,11 @@ class ConstraintWatch:
             if each in block.settled or _cut(each, units):
                 continue
             late = missed(each, *(_time(node, block, units) for node in each.nodes))
-            if late > TOLERANCE:
-                block.settled.add(each)
-                if not _over(each, late, block, units, moved, now):
-                    self._say(block, each, late)
+            if late <= TOLERANCE or _slight(each, late, block, units):
+                continue
+            block.settled.add(each)
+            if not _again(each, block, units, moved, now):
+                self._say(block, each, late)
 
     def _say(self, block: BMLBlock, constraint: Tie | Order, late: float) -> None:
         owner = constraint.owner if isinstance(constraint, Tie) else None
@@ -74,23 +85,28 @@ def _cut(constraint: Tie | Order, units: Mapping[str, PlanUnit]) -> bool:
     return any(point.behavior not in units or units[point.behavior].was_cut(point.sync) for point in points)
 
 
-def _over(
-    constraint: Tie | Order,
-    late: float,
-    block: BMLBlock,
-    units: Mapping[str, PlanUnit],
-    moved: Moved,
-    now: GlobalTime,
-) -> bool:
-    """Whether all that it names had come when a time from outside was given anew.
+def _slight(constraint: Tie | Order, late: float, block: BMLBlock, units: Mapping[str, PlanUnit]) -> bool:
+    """Whether a time from outside is corrected by less than anybody would see, after all that is tied to it has come.
 
-    Where that time had come before, what is given anew is another occurrence. Where it comes now, or is corrected by
-    less than anybody would see, whoever was tied to it has done its part: one is a little ahead of a beat, or behind.
+    Who was tied to it has done its part: one is a little ahead of a beat, or behind.
     """
-    outside = [node for node in constraint.nodes if not isinstance(node, Point | Origin)]
+    tied = isinstance(constraint, Tie) and bool(_outside(constraint))
+    return tied and late <= _NOTICEABLE and _came(constraint, block, units)
+
+
+def _again(
+    constraint: Tie | Order, block: BMLBlock, units: Mapping[str, PlanUnit], moved: Moved, now: GlobalTime
+) -> bool:
+    """Whether a time from outside is given anew after it had come, as had all that names it: for the next time."""
+    return any(is_due(moved.get(node), now) for node in _outside(constraint)) and _came(constraint, block, units)
+
+
+def _outside(constraint: Tie | Order) -> list[TimeCell]:
+    return [node for node in constraint.nodes if not isinstance(node, Point | Origin)]
+
+
+def _came(constraint: Tie | Order, block: BMLBlock, units: Mapping[str, PlanUnit]) -> bool:
+    """Whether all that it names of its block has."""
     points = [node for node in constraint.nodes if isinstance(node, Point)]
-    came = all(units[point.behavior].point(point.sync).fired is not None for point in points)
-    started = block.state.plays or Origin.BLOCK_START not in constraint.nodes
-    before = any(is_due(moved.get(node), now) for node in outside)
-    here = late <= _NOTICEABLE or all(is_due(node.value, now) for node in outside)
-    return came and started and (before or (isinstance(constraint, Tie) and here))
+    started = block.noticed is not None or Origin.BLOCK_START not in constraint.nodes
+    return started and all(units[point.behavior].point(point.sync).fired is not None for point in points)

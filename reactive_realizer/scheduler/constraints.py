@@ -7,7 +7,6 @@ from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.block import BehaviorBlock
 from reactive_realizer.bml.constraint import Order as OrderConstraint
 from reactive_realizer.bml.constraint import OrderKind, Synchronize
-from reactive_realizer.bml.continuous import ParameterValueChange
 from reactive_realizer.bml.sync_ref import SyncRef
 from reactive_realizer.errors import Fault, RealizerError, error
 from reactive_realizer.pegboard.time_peg import Bound
@@ -24,15 +23,6 @@ Locate = Callable[[SyncRef], Node]
 
 Raises RealizerError: there is none.
 """
-
-
-def blocks_named(block: BehaviorBlock) -> set[str]:
-    """Ids of the blocks that the references of a block name, and those whose parameters it changes."""
-    refs = [ref for behavior in block.behaviors for ref in behavior.syncs.values()]
-    for constraint in block.constraints:
-        refs += (constraint.ref, *constraint.refs) if isinstance(constraint, OrderConstraint) else constraint.refs
-    targets = (behavior.target_block for behavior in block.behaviors if isinstance(behavior, ParameterValueChange))
-    return {name for name in (*(ref.block for ref in refs), *targets) if name is not None}
 
 
 def hanging_on(named: Collection[str], kept: Iterable[Tie | Order]) -> set[str]:

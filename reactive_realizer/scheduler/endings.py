@@ -126,6 +126,12 @@ class Endings:
         if block is not None and not block.failing:
             self._let_go(block, missed, "dropped-tie", now)
 
+    def begin(self, unit: PlanUnit, now: GlobalTime) -> None:
+        """A behavior plays what is due of it, before its engine has it play; one that is not due is no mistake."""
+        if unit.due(now):
+            unit.begin()
+            self.reach([Reached(unit, point, point.fired or now) for point in unit.fire(now)])
+
     def reach(self, reached: Sequence[Reached]) -> None:
         """Sync points were reached: they keep their times, and are told; a block may subside by it."""
         self._units.tell(reached)

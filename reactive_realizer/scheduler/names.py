@@ -1,6 +1,6 @@
 """What the references of a block name."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 from reactive_realizer.bml.names import ANTICIPATORS
 from reactive_realizer.bml.sync_ref import SyncRef
@@ -37,7 +37,7 @@ class Names:
             RealizerError: there is none.
         """
         if ref.block == ANTICIPATORS and ref.behavior is not None and ref.sync is not None:
-            return self._board.predicted(ref.behavior, ref.sync)
+            return self._block.predicted[ref.behavior, ref.sync]
         if ref.block not in (None, self._block.key.block):
             return self._outside(ref)
         if ref.behavior is None or ref.sync is None:
@@ -65,9 +65,12 @@ class Names:
             units = {unit.behavior.id: unit for unit in other.units}
             if ref.behavior in units:
                 raise _no_sync(ref, units[ref.behavior].timing.points)
-            if other.state is not BlockState.IN_PREP and ref.behavior in _written(other):
-                raise _lost(ref)
-            raise error("unknown-reference", behavior=ref.behavior, reference=str(ref), known=_list(units))
+            if ref.behavior not in _written(other):
+                known = _list([behavior.id for behavior in other.description.behaviors])
+                raise error("unknown-reference", behavior=ref.behavior, reference=str(ref), known=known)
+            if other.state is BlockState.IN_PREP:
+                raise error("mutual-reference", block=self._block.key.block, other=ref.block, reference=str(ref))
+            raise _lost(ref)
         return peg
 
 
@@ -84,5 +87,5 @@ def _no_sync(ref: SyncRef, known: Sequence[str]) -> Exception:
     return error("unknown-sync", behavior=ref.behavior, sync=ref.sync, reference=str(ref), known=", ".join(known))
 
 
-def _list(units: Mapping[str, PlanUnit]) -> str:
-    return ", ".join(units) or "none"
+def _list(ids: Iterable[str]) -> str:
+    return ", ".join(ids) or "none"

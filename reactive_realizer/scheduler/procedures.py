@@ -4,7 +4,6 @@ from dataclasses import dataclass, field, replace
 
 from reactive_realizer.bml.block import BehaviorBlock
 from reactive_realizer.bml.procedure import DefineProc
-from reactive_realizer.errors import error
 from reactive_realizer.scheduler.cast import Cast
 from reactive_realizer.scheduler.preparation import Preparation
 from reactive_realizer.scheduler.workshop import Workshop
@@ -19,39 +18,27 @@ class _Procedure:
 
 
 class Procedures:
-    """Keeps definitions with the slow part of their planning: no use after the first asks an engine for it again.
+    """Keeps definitions with the slow part of their planning: no use after the first asks an engine for it again."""
 
-    Args:
-        most: how many may be defined.
-    """
-
-    def __init__(self, cast: Cast, workshop: Workshop, most: int) -> None:
+    def __init__(self, cast: Cast, workshop: Workshop) -> None:
         self._cast = cast
         self._workshop = workshop
-        self._most = most
         self._procedures: dict[str, _Procedure] = {}
 
-    def define(self, definition: DefineProc) -> None:
-        """Keep a definition, in the place of one of the same name, and prepare it for the first character.
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The ids of those that are defined."""
+        return tuple(self._procedures)
 
-        Raises:
-            RealizerError: "too-many-procedures".
-        """
-        if definition.id not in self._procedures and len(self._procedures) >= self._most:
-            raise error("too-many-procedures", limit=self._most)
+    def define(self, definition: DefineProc) -> None:
+        """Keep a definition, in the place of one of the same name, and prepare it for the first character."""
         self._procedures[definition.id] = procedure = _Procedure(definition)
         self._prepare(procedure, self._cast.characters[0])
 
     def expand(self, block: BehaviorBlock) -> BehaviorBlock:
-        """A block with the behaviors and constraints of the procedure that it uses, if it uses one.
-
-        Raises:
-            RealizerError: "unknown-procedure".
-        """
+        """A block with the behaviors and constraints of the procedure that it uses, if it uses one."""
         if block.procedure is None:
             return block
-        if block.procedure not in self._procedures:
-            raise error("unknown-procedure", procedure=block.procedure, known=", ".join(self._procedures) or "none")
         definition = self._procedures[block.procedure].definition
         return replace(
             block,

@@ -15,7 +15,7 @@ from reactive_realizer.engine.effects import (
 from reactive_realizer.errors import Fault, RealizerError, error
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.planunit.parameter import spelled
-from reactive_realizer.planunit.plan_unit import PlanUnit
+from reactive_realizer.planunit.plan_unit import PlanUnit, UnitState
 from reactive_realizer.scheduler.block_planner import BlockPlanner
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BlockState, BMLBlock
@@ -71,12 +71,18 @@ class Requests:
         self._endings.interrupt(block, time)
 
     def _do(self, request: _Timed, now: GlobalTime) -> None:
+        if request.unit.state is UnitState.DROPPED:
+            return  # by what was asked for before
         character = request.unit.block.character
         match request:
-            case ActivateBlock():
-                self._activate(request, character)
+            case ActivateBlock(unit, target, time):
+                fault = self.activate(character, target, time)
+                if fault is None:
+                    self._endings.begin(unit, now)
+                else:
+                    self._refuse(unit, fault, now)
             case InterruptBlock():
-                self._refuse(request, self._interrupt(request, character))
+                self._interrupt(request, character, now)
             case BindParameter(unit):
                 try:
                     self._bind(request, character)
@@ -85,36 +91,39 @@ class Requests:
             case EndUnit(unit, time):
                 self._endings.finish(unit, time)
 
-    def _activate(self, request: ActivateBlock, character: str) -> None:
-        """Who finds nothing to activate has done nothing, which fails its block if it is required."""
-        fault = self.activate(character, request.target, request.time)
-        self._refuse(request, fault)
-        block = self._blocks.get(request.unit.block)
-        if block is not None and fault is not None:
-            block.failing |= request.unit.behavior.required
+    def _refuse(self, unit: PlanUnit, fault: Fault, now: GlobalTime) -> None:
+        """There is nothing to do: who asked is dropped with a warning, or plays on with it."""
+        if unit.begun:
+            self._reporter.warn_of(unit, fault)
+        else:
+            self._endings.drop_unit(unit, fault, now)
 
-    def _refuse(self, request: ActivateBlock | InterruptBlock, fault: Fault | None) -> None:
-        if fault is not None:
-            self._reporter.warn_of(request.unit, fault)
-
-    def _interrupt(self, request: InterruptBlock, character: str) -> Fault | None:
-        """A block that has ended is interrupted enough."""
+    def _interrupt(self, request: InterruptBlock, character: str, now: GlobalTime) -> None:
         block = self._blocks.find(character, request.target)
         if block is None:
-            missing = self._missing(character, request.target)
-            return missing if missing.code == "no-such-block" else None
-        names = [behavior.id for behavior in block.description.behaviors]
+            self._interrupt_nobody(request, character, now)
+            return
+        names = {behavior.id for behavior in block.description.behaviors}
+        spared = names.intersection(request.exclude) | (names.difference(request.include) if request.include else set())
         unknown = [name for name in (*request.include, *request.exclude) if name not in names]
-        spared = {
-            name for name in names if name in request.exclude or (request.include and name not in request.include)
-        }
+        fault = Fault("no-such-behavior", {"block": block.key.block, "behavior": ", ".join(unknown)})
+        if unknown and spared == names:
+            self._refuse(request.unit, fault, now)
+            return
+        # It begins before anything is cut: it may hang on that, and may be of the same block.
+        self._endings.begin(request.unit, now)
+        if unknown:
+            self._reporter.warn_of(request.unit, fault)
         if not spared:
             self._planner.cancel(block)
-        if len(spared) < len(names):
-            self._endings.interrupt(block, request.time, spared, gently=request.gently)
-        return (
-            Fault("no-such-behavior", {"block": block.key.block, "behavior": ", ".join(unknown)}) if unknown else None
-        )
+        self._endings.interrupt(block, request.time, spared, gently=request.gently)
+
+    def _interrupt_nobody(self, request: InterruptBlock, character: str, now: GlobalTime) -> None:
+        """A block that has ended is interrupted enough; one that never was is so too, but that is told."""
+        self._endings.begin(request.unit, now)
+        missing = self._missing(character, request.target)
+        if missing.code == "no-such-block":
+            self._reporter.warn_of(request.unit, missing)
 
     def _bind(self, request: BindParameter, character: str) -> None:
         parameters = self._target(request, character).parameters

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from math import inf
 
+from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.time_peg import AnticipatorPeg
 from reactive_realizer.planunit.timing import SHORTEST, PhaseKind
 from reactive_realizer.scheduler.clusters import Cluster, clusters_of
@@ -31,6 +32,12 @@ class Violation:
     amount: float
     text: str
 
+    @property
+    def fault(self) -> Fault:
+        """What is said of it."""
+        details = {"text": self.text, "amount": self.amount, "equation": self.equation}
+        return Fault("constraint-broken", details | {"points": ", ".join(self.points)})
+
 
 def verify(plan: PlanView) -> list[Violation]:
     """The equations that a plan breaks.
@@ -38,7 +45,18 @@ def verify(plan: PlanView) -> list[Violation]:
     Not judged is what nobody knows or can help any more: unknown times, points that were cut, `at` constraints of
     points that have passed, and before/after constraints of which the later point has.
     """
-    checks = (_ties, _orders, _not_before_block, _durations, _sequences, _rigid_phases, _early_clusters, _block_end)
+    checks = (_rigid_phases, _early_clusters, _block_end)
+    broken = [violation for check in checks for violation in check(plan) if violation.amount > TOLERANCE]
+    return verify_promises(plan) + broken
+
+
+def verify_promises(plan: PlanView) -> list[Violation]:
+    """Those of them that are excused once it is played, and so are to be looked for in what a strategy answered.
+
+    A constraint that is missed may be so because times moved, and is given up. A behavior that is out of order, or
+    before its block, is dropped, or joins late.
+    """
+    checks = (_ties, _orders, _not_before_block, _durations, _sequences)
     return [violation for check in checks for violation in check(plan) if violation.amount > TOLERANCE]
 
 

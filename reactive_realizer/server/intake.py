@@ -2,14 +2,16 @@
 
 import asyncio
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, NamedTuple
 from xml.sax.saxutils import quoteattr
 
+from reactive_realizer.bml.block import Parsed
 from reactive_realizer.bml.document import parse
 from reactive_realizer.bml.names import BML
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.errors import Fault, RealizerError, error
 from reactive_realizer.realizer.inputs import BmlText, Event, Position, Prediction, TargetMoved
+from reactive_realizer.scheduler.admission import Admission
 from reactive_realizer.server.demo import Demo
 from reactive_realizer.server.live import Live
 from reactive_realizer.server.protocol import Message
@@ -31,6 +33,15 @@ class BlocksRefused(RealizerError):
         self.entered = entered
 
 
+class _Judged(NamedTuple):
+    """A document, the ids of what of it can be accepted, and why the rest cannot."""
+
+    entry: BmlText
+    blocks: list[str]
+    procedures: list[str]
+    faults: list[Fault]
+
+
 class Intake:
     """The door of a live scene: refuses what can be refused at once, and puts the rest in.
 
@@ -43,6 +54,7 @@ class Intake:
         self._realizer = live.realizer
         self._stops = 0
         self._points: set[tuple[str, str]] = set()
+        self._procedures: dict[str, None] = {}
         self.demo = Demo(live, self.stop)
 
     async def document(self, text: str | bytes) -> list[str]:
@@ -51,11 +63,11 @@ class Intake:
         Raises:
             RealizerError: why the first of the others is refused; nothing has entered.
         """
-        entry, ids, faults = await self._judge(text)
-        if faults:
-            raise RealizerError(faults[0])
-        self._realizer.put(entry)
-        return ids
+        judged = await self._judge(text)
+        if judged.faults:
+            raise RealizerError(judged.faults[0])
+        self._put(judged)
+        return judged.blocks
 
     async def blocks(self, text: str) -> list[str]:
         """Take in the blocks of a document that can be accepted, whatever the others are; their ids.
@@ -65,11 +77,11 @@ class Intake:
         Raises:
             BlocksRefused: why the first of the others is refused.
         """
-        entry, ids, faults = await self._judge(text)
-        self._realizer.put(entry)
-        if faults:
-            raise BlocksRefused(faults[0], ids)
-        return ids
+        judged = await self._judge(text)
+        self._put(judged)
+        if judged.faults:
+            raise BlocksRefused(judged.faults[0], judged.blocks)
+        return judged.blocks
 
     def predict(self, message: Message) -> GlobalTime | None:
         """Take in a prediction; when it is for.
@@ -118,21 +130,26 @@ class Intake:
             case _:  # "demo" is what is left of the protocol
                 self.demo.perform()
 
-    async def _judge(self, text: str | bytes) -> tuple[BmlText, list[str], list[Fault]]:
-        """A document, the ids of the blocks that can be accepted, and why the others cannot."""
+    async def _judge(self, text: str | bytes) -> _Judged:
         if len(text) < _SMALL:
             read = parse(text, self._live.limits)
         else:
             read = await asyncio.to_thread(parse, text, self._live.limits)
-        admission = self._realizer.scheduler.admission()
-        ids, faults = [], []
+        # Procedures of the documents that are still to enter count too.
+        admission = self._realizer.scheduler.admission(self._procedures)
+        judged = _Judged(BmlText(text, read), [], [], [])
         for parsed in read:
-            fault = admission.take(parsed.block, parsed.failed) if parsed.block else parsed.refusal
-            if fault is not None:
-                faults.append(fault)
+            if (fault := _refusal(admission, parsed)) is not None:
+                judged.faults.append(fault)
             elif parsed.block is not None:
-                ids.append(parsed.block.id)
-        return BmlText(text, read), ids, faults
+                judged.blocks.append(parsed.block.id)
+            elif parsed.procedure is not None:
+                judged.procedures.append(parsed.procedure.id)
+        return judged
+
+    def _put(self, judged: _Judged) -> None:
+        self._procedures.update(dict.fromkeys(judged.procedures))
+        self._realizer.put(judged.entry)
 
     def _event(self, event: Event) -> None:
         known = self._realizer.anticipators
@@ -161,6 +178,12 @@ class Intake:
             raise error("too-many-names", limit=limit, things="targets")
         for target, position in targets.items():
             self._realizer.put(TargetMoved(target, None if position is None else _position(position)))
+
+
+def _refusal(admission: Admission, parsed: Parsed) -> Fault | None:
+    if parsed.block is not None:
+        return admission.take(parsed.block, parsed.failed)
+    return parsed.refusal if parsed.procedure is None else admission.define(parsed.procedure)
 
 
 def _position(coordinates: Sequence[float]) -> Position:

@@ -7,6 +7,7 @@ from random import Random
 import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.bml.names import BMLA
 from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 HUMAN = """
@@ -67,6 +68,36 @@ async def test_what_waits_for_a_while_after_the_key_is_not_held_up_by_another_pr
     await until(pilot, 4.0)
     assert pilot.feedback.time("b:h:start") == 1.5
     assert pilot.feedback.status("b") == "DONE"
+
+
+async def test_the_key_counts_from_the_arrival_of_a_block_on_however_long_its_planning_takes(pilot) -> None:
+    solved_aside = "".join(f'<wait id="w{n}" duration="0.1"/>' for n in range(60))
+    pilot.block("b", NOD.format("spacebar:press+0.5") + solved_aside)
+    await pilot.tick()
+    assert pilot.feedback.predictions("b")[-1].element[0].get(f"{{{BMLA}}}status") == "IN_PREP"
+    pilot.event("spacebar", "press")
+    await until(pilot, 2.0)
+    assert pilot.feedback.time("b:h:start") == pytest.approx(0.51)
+
+
+async def test_a_name_that_others_have_done_with_is_still_that_of_whoever_is_being_planned(pilot) -> None:
+    solved_aside = "".join(f'<wait id="w{n}" duration="0.1"/>' for n in range(60))
+    pilot.block("other", NOD.format("spacebar:press"))
+    pilot.block("b", NOD.format("spacebar:press") + solved_aside)
+    pilot.block("stop", **{"bmla:interrupt": "other"})
+    await until(pilot, 1.0)
+    pilot.event("spacebar", "press")
+    await until(pilot, 3.0)
+    assert pilot.feedback.time("b:h:start") == 1.0
+
+
+async def test_a_chunk_that_is_planned_anew_at_its_start_keeps_the_time_of_a_key_that_was_pressed_before(pilot) -> None:
+    pilot.block("a", '<wait id="w" duration="1"/>')
+    pilot.block("b", NOD.format("spacebar:press+1"), **{"bmla:chunkAfter": "a"})
+    await until(pilot, 0.5)
+    pilot.event("spacebar", "press")
+    await until(pilot, 3.0)
+    assert pilot.feedback.time("b:h:start") == 1.5
 
 
 async def test_what_was_to_come_before_the_key_comes_with_it(pilot) -> None:
@@ -133,6 +164,56 @@ async def test_an_answer_that_is_planned_long_after_the_turn_waits_for_the_next_
     await until(pilot, 16.0)
     assert pilot.feedback.time("b:s:start") == pytest.approx(12.08, abs=0.01)
     assert pilot.feedback.warnings == []
+
+
+async def test_an_answer_that_is_sent_after_the_turn_is_over_waits_for_the_next_one_however_soon(pilot) -> None:
+    pilot.block("b", REPLY)
+    pilot.event("user", "voice", 1.0)
+    await until(pilot, 1.0)
+    pilot.event("user", "voice", 0.0)
+    pilot.event("user", "words", text="Hello you there.")
+    await until(pilot, 1.6)
+    assert pilot.feedback.time("b:s:start") == pytest.approx(1.38, abs=0.01)
+    pilot.block("c", REPLY)
+    pilot.block("d", NOD.format("user:stop"))
+    await until(pilot, 5.0)
+    assert pilot.feedback.status("b") == "DONE"
+    pilot.event("user", "voice", 1.0)
+    await until(pilot, 6.0)
+    pilot.event("user", "voice", 0.0)
+    await until(pilot, 12.0)
+    assert pilot.feedback.time("c:s:start") == pytest.approx(6.88 + 0.2, abs=0.01)
+    assert pilot.feedback.time("d:h:start") == pytest.approx(6.88, abs=0.01)
+    assert pilot.feedback.warnings == []
+
+
+async def test_a_turn_that_is_resumed_ends_for_whoever_waited_before_and_since(pilot) -> None:
+    pilot.block("before", NOD.format("user:stop+0.5"))
+    pilot.event("user", "words", text="I see.")
+    await until(pilot, 0.4)
+    pilot.block("since", NOD.format("user:stop+0.5"))
+    pilot.event("user", "words", text="I see. But tell me")
+    await until(pilot, 5.0)
+    starts = [pilot.feedback.time(f"{block}:h:start") for block in ("before", "since")]
+    assert starts == pytest.approx([0.4 + 0.88 + 0.5] * 2, abs=0.01)
+    assert pilot.feedback.warnings == []
+
+
+async def test_who_says_the_same_again_and_again_is_answered_each_time(pilot) -> None:
+    for number in range(3):
+        pilot.block(f"b{number}", NOD.format("user:stop"))
+        pilot.event("user", "words", text="Yes.")
+        await until(pilot, 5.0 * (number + 1))
+    assert [pilot.feedback.time(f"b{n}:h:start") for n in range(3)] == pytest.approx([0.19, 5.19, 10.19], abs=0.01)
+
+
+async def test_who_turns_out_to_have_said_nothing_is_not_answered(pilot) -> None:
+    pilot.block("b", NOD.format("user:stop"))
+    pilot.event("user", "words", text="um")
+    await until(pilot, 0.3)
+    pilot.event("user", "words", text="")
+    await until(pilot, 4.0)
+    assert not pilot.feedback.reached("b:h:start")
 
 
 # --- an exercise

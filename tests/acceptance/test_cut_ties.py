@@ -57,3 +57,24 @@ async def test_in_a_constraint_of_the_block(pilot, constraint) -> None:
     pilot.block("stop", **{"bmla:interrupt": "t"})
     await pilot.tick()
     assert ["t:late:end was interrupted" in said for said in texts(pilot)] == [True]
+
+
+async def test_what_hangs_on_a_point_that_came_with_the_interruption_has_lost_nothing(pilot) -> None:
+    speech = '<speech id="s"><text>one two <sync id="m"/>three four five six</text></speech>'
+    pilot.block("b", speech + nod("n", start="s:m+0.5"))
+    pilot.block("stop", '<bmla:interrupt id="i" target="b" include="s" start="b:s:m"/>')
+    await pilot.advance(3)
+    assert texts(pilot) == []
+    assert pilot.feedback.time("b:n:start") == pytest.approx(pilot.feedback.time("b:s:m") + 0.5)
+
+
+async def test_who_plays_already_keeps_its_time_though_it_hangs_on_a_block_that_never_began(pilot) -> None:
+    pilot.block("first", '<wait id="w" duration="1"/>')
+    pilot.block("l", nod("n"), **{"bmla:appendAfter": "first"})
+    pilot.block("b", '<gaze id="g" target="bluebox" start="0" end="l:n:end+1"/>')
+    await pilot.advance(0.5)
+    expected = pilot.feedback.predicted("b:g:end")
+    pilot.block("stop", '<bmla:interrupt id="i" target="l"/>')
+    await pilot.advance(4)
+    assert ["l:n:end was interrupted" in said for said in texts(pilot)] == [True]
+    assert pilot.feedback.time("b:g:end") == pytest.approx(expected)

@@ -66,3 +66,13 @@ async def test_a_chain_of_them_is_followed_to_what_it_hangs_on(pilot) -> None:
     await pilot.advance(5)
     assert pilot.feedback.time("b:n:start") == 3
     assert pilot.feedback.warnings == []
+
+
+async def test_of_two_that_say_when_one_of_its_points_is_the_required_one_is_kept() -> None:
+    waits = '<wait id="w" start="0" duration="0.3"/><wait id="f" start="1" end="3"/>'
+    meet = '<synchronize><sync ref="w:end"/><sync ref="f:start"/></synchronize>'
+    async with open_pilot(SceneOptions(voice="text", verify=True)) as pilot:
+        pilot.block("b", f"{waits}<required><constraint>{meet}</constraint></required>")
+        await pilot.advance(4)
+        assert [pilot.feedback.time(point) for point in ("b:w:start", "b:w:end", "b:f:end")] == [0, 0.3, 3]
+        assert pilot.feedback.time("b:f:start") == 0.3

@@ -111,23 +111,6 @@ async def test_an_interrupt_spares_itself_in_its_own_block(pilot) -> None:
     assert pilot.feedback.warnings == []
 
 
-async def test_interrupting_what_ended_changes_nothing_and_what_never_was_is_told(pilot) -> None:
-    send(pilot, "old", '<wait id="w" duration="0.1"/>')
-    await pilot.advance(0.5)
-    send(pilot, "stop", '<bmla:interrupt id="i" target="old"/><bmla:interrupt id="j" target="nobody"/>')
-    await pilot.advance(0.5)
-    assert pilot.feedback.warnings == [("stop:j", "NO_SUCH_TARGET")]
-    assert pilot.feedback.status("stop") == "DONE"
-
-
-async def test_names_that_the_target_has_not_are_told(pilot) -> None:
-    send(pilot, "talk", TALK)
-    send(pilot, "stop", '<bmla:interrupt id="i" target="talk" exclude="s,x"/>')
-    await pilot.advance(3)
-    assert pilot.feedback.warnings == [("stop:i", "NO_SUCH_TARGET")]
-    assert pilot.feedback.status("talk") == "DONE"
-
-
 @pytest.mark.parametrize("prefix", ["bmla", "bmlt"])
 async def test_an_activated_block_starts_at_the_very_time_of_the_activate(pilot, prefix) -> None:
     send(pilot, "ready", TALK, 'bmla:preplan="true"')
@@ -136,22 +119,6 @@ async def test_an_activated_block_starts_at_the_very_time_of_the_activate(pilot,
     await pilot.advance(4)
     assert pilot.feedback.time("ready:start") == pilot.feedback.time("go:n:stroke")
     assert pilot.feedback.lines[-1].id == "ready:end"
-
-
-async def test_activating_in_the_wrong_way_is_told(pilot) -> None:
-    send(pilot, "plain", '<wait id="w" duration="0.1"/>')
-    send(pilot, "ready", TALK, 'bmla:preplan="true"')
-    inside = "".join(
-        f'<bmla:activate id="a{i}" target="{target}"/>' for i, target in enumerate(("plain", "ready", "ready", "x"))
-    )
-    send(pilot, "go", inside)
-    await pilot.advance(0.5)
-    assert sorted(pilot.feedback.warnings) == [
-        ("go:a0", "IMPOSSIBLE_TO_SCHEDULE"),
-        ("go:a2", "IMPOSSIBLE_TO_SCHEDULE"),
-        ("go:a3", "NO_SUCH_TARGET"),
-    ]
-    assert pilot.feedback.reached("ready:start")
 
 
 async def test_a_speech_is_interrupted_with_a_prepared_continuation_in_the_same_tick(pilot) -> None:

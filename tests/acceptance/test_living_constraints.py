@@ -147,7 +147,7 @@ async def test_a_point_that_its_successor_overtakes_comes_with_it_and_is_predict
     assert [f"n:stroke = {HIT} {LOST}" in said for said in texts(pilot)] == [True]
 
 
-@pytest.mark.parametrize(("moved", "why"), [(0.8, "lost their order"), (1.0, "no time is left")])
+@pytest.mark.parametrize(("moved", "why"), [(0.8, ": start is at 1 s, end at 0.8 s"), (1.0, "no time is left")])
 async def test_a_behavior_without_time_that_has_not_begun_is_dropped_with_one_warning(pilot, moved, why) -> None:
     pilot.predict("t", "go", 1.0)
     pilot.predict("t", "hit", 3.0)

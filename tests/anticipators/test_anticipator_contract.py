@@ -40,6 +40,7 @@ class TestSpeechStop(AnticipatorContract):
         Told("voice", 0.4),
         Told("words", text="I live in a"),
         Told("words", text="I live in a house."),
+        Told("words", text=""),
     )
     refused = (
         Told("voice", 1.1),

@@ -37,6 +37,15 @@ def test_peaks_are_found_where_they_are_whatever_the_noise(seed) -> None:
     assert found == pytest.approx(moments, abs=0.06)
 
 
+@pytest.mark.parametrize("begin", [0.95, 1.0, 1.05, 1.2, 1.8])
+def test_it_does_not_matter_in_which_part_of_a_movement_the_samples_begin(begin) -> None:
+    moments = [1.0 + 1.2 * n for n in range(5)]
+    peaks = Peaks(3.0)
+    samples = [sample for sample in acceleration(moments, 7.0, 1) if sample[0] >= begin]
+    found = [peak for time, value in samples if (peak := peaks.take(value, time)) is not None]
+    assert found[-4:] == pytest.approx(moments[1:], abs=0.06)
+
+
 def peaks_of(*values: float) -> list[float]:
     """Where peaks are found in samples 0.1 s apart."""
     peaks = Peaks(3.0)

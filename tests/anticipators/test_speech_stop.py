@@ -8,8 +8,10 @@ from hypothesis import strategies as st
 
 from anticipators.speech_stop import SpeechStop
 from anticipators.turn_model import PauseModel, Turn
+from reactive_realizer.clock.units import Time
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.pegboard.pegboard import PegBoard
+from reactive_realizer.reactive.cell import Cell
 from reactive_realizer.reactive.graph import Graph
 from reactive_realizer.testing.anticipator_stand import AnticipatorStand
 
@@ -35,6 +37,10 @@ class User:
     def words(self, now: float, text: str) -> float | None:
         self.stage.event(now, self.stop, "words", text=text)
         return self.time
+
+    def hang(self) -> Cell[Time]:
+        """What somebody hangs on who names the stop now."""
+        return self.stage.board.predicted("user", "stop")
 
     @property
     def time(self) -> float | None:
@@ -90,9 +96,12 @@ def test_an_end_that_is_said_to_be_long_ago_can_be_taken_back_as_long_as_any() -
     user.words(1.0, OPEN)
     user.voice(1.0, 1.0)
     user.voice(3.0, 0.0)
+    stop = user.hang()
     assert user.words(4.5, FINISHED) == 4.5
-    assert user.voice(5.4, 0.0) == 4.5
-    assert user.voice(5.45, 1.0) is None
+    user.voice(5.4, 0.0)
+    assert stop.value == 4.5
+    user.voice(5.45, 1.0)
+    assert stop.value is None
 
 
 def test_words_alone_are_enough_and_every_new_one_puts_it_off(user) -> None:
@@ -102,17 +111,46 @@ def test_words_alone_are_enough_and_every_new_one_puts_it_off(user) -> None:
     assert user.words(2.0, f"{FINISHED} ") == pytest.approx(1.9 + silence(FINISHED))
 
 
-def test_it_can_be_taken_back_for_a_second_after_it_came_and_then_means_the_next_turn(user) -> None:
+def test_once_it_has_come_its_name_means_the_end_of_the_next_turn(user) -> None:
     user.voice(1.0, 1.0)
-    came = user.voice(2.0, 0.0)
-    user.voice(came + 0.9, 0.0)
-    assert user.time == came
-    assert user.voice(came + 0.95, 1.0) is None
-    came = user.voice(5.0, 0.0)
+    came, stop = user.voice(2.0, 0.0), user.hang()
+    assert user.voice(came - 0.01, 0.0) == came
+    assert user.voice(came, 0.0) is None
     user.voice(came + 1.1, 0.0)
-    assert user.time is None
     user.voice(10.0, 1.0)
     assert user.voice(11.0, 0.0) == pytest.approx(11.0 + silence(""))
+    assert stop.value == came
+
+
+@pytest.mark.parametrize(("after", "resumed"), [(0.0, True), (0.95, True), (1.05, False)])
+def test_for_a_second_after_it_came_a_user_who_goes_on_takes_it_back(user, after, resumed) -> None:
+    user.voice(1.0, 1.0)
+    came, stop = user.voice(2.0, 0.0), user.hang()
+    user.voice(came + after, 1.0)
+    assert stop.value == (None if resumed else came)
+    end = user.voice(5.0, 0.0)
+    assert stop.value == (end if resumed else came)
+
+
+def test_all_who_wait_for_the_end_of_a_turn_wait_until_it_is_over_however_often_it_is_resumed(user) -> None:
+    user.voice(1.0, 1.0)
+    stops = []
+    for begin in (2.0, 4.0, 6.0):
+        came = user.voice(begin, 0.0)
+        stops.append(user.hang())
+        user.voice(came + 0.5, 1.0)
+    assert [stop.value for stop in stops] == [None, None, None]
+    end = user.voice(8.0, 0.0)
+    assert [stop.value for stop in stops] == [end, end, end]
+
+
+@pytest.mark.parametrize("text", ["", PLAIN, OPEN, FINISHED + " Yes."])
+def test_words_that_are_understood_after_it_has_come_move_nothing_while_the_voice_is_gone(user, text) -> None:
+    user.voice(1.0, 1.0)
+    user.words(2.0, FINISHED)
+    came, stop = user.voice(3.0, 0.0), user.hang()
+    assert user.words(came + 0.1, text) is None
+    assert stop.value == came
 
 
 def test_the_words_of_a_turn_do_not_count_for_the_next_one(user) -> None:
@@ -123,10 +161,33 @@ def test_the_words_of_a_turn_do_not_count_for_the_next_one(user) -> None:
     assert user.voice(10.0, 0.0) == pytest.approx(10.0 + silence(""))
 
 
-def test_words_told_again_after_the_turn_begin_no_other_one(user) -> None:
-    user.words(1.0, FINISHED)
-    assert user.words(9.0, FINISHED) is None
-    assert user.words(10.0, "Yes.") == pytest.approx(10.0 + silence(FINISHED))
+def test_the_same_words_once_more_are_another_turn_when_the_first_is_over_for_good(user) -> None:
+    came, stop = user.words(1.0, FINISHED), user.hang()
+    assert user.words(came + 0.9, FINISHED) is None
+    assert user.words(came + 1.1, FINISHED) == pytest.approx(came + 1.1 + silence(FINISHED))
+    assert stop.value == came
+
+
+def test_words_that_are_taken_back_are_no_turn(user) -> None:
+    assert user.words(1.0, "") is None
+    assert user.words(2.0, "um") is not None
+    assert user.words(2.3, " ") is None
+    assert user.words(3.0, FINISHED) == pytest.approx(3.0 + silence(FINISHED))
+
+
+def test_who_begins_to_tell_of_a_voice_after_it_has_come_goes_on_with_the_turn_only_if_it_sounds(user) -> None:
+    came, stop = user.words(1.0, FINISHED), user.hang()
+    user.voice(came + 0.1, 0.0)
+    assert stop.value == came
+    user.voice(came + 0.2, 1.0)
+    assert stop.value is None
+
+
+def test_no_words_after_it_has_come_make_room_for_the_next_turn_at_once(user) -> None:
+    came, stop = user.words(1.0, FINISHED), user.hang()
+    assert user.words(came + 0.1, "") is None
+    assert user.words(came + 0.2, FINISHED) == pytest.approx(came + 0.2 + silence(FINISHED))
+    assert stop.value == came
 
 
 def test_another_model_of_turns_may_stand_in(stage) -> None:

@@ -30,8 +30,9 @@ def test_an_element_that_bml_does_not_have_is_a_problem(bml, capsys) -> None:
     assert "<speach> is no behavior" in line
 
 
-def test_a_block_may_refer_to_those_before_it_in_its_file_and_in_earlier_files(bml, capsys) -> None:
-    first = bml(block("one") + block("two", '<head id="h" lexeme="NOD" start="one:0.5"/>'), "first.xml")
+def test_a_block_may_refer_to_those_of_its_file_and_of_earlier_files(bml, capsys) -> None:
+    late = block("zero", '<head id="h" lexeme="NOD" start="two:h:end"/>')
+    first = bml(late + block("one") + block("two", '<head id="h" lexeme="NOD" start="one:0.5"/>'), "first.xml")
     second = bml(block("three", '<head id="h" lexeme="NOD" start="two:h:end" stroke="anticipators:m:hit"/>'), "2.xml")
     assert check(capsys, first, second) == (0, [])
     status, lines = check(capsys, second, first)
@@ -46,12 +47,13 @@ def test_who_hangs_on_what_cannot_be_read_is_told_that_this_is_why(bml, capsys) 
     assert "h:end never comes, because 'h' is dropped" in lines[1]
 
 
-def test_a_reference_to_a_block_that_comes_later_is_a_problem_also_in_a_constraint(bml, capsys) -> None:
-    tie = '<constraint><synchronize><sync ref="h:start"/><sync ref="later:w:end"/></synchronize></constraint>'
-    later = block("later", '<wait id="w" duration="1"/>')
-    status, (line,) = check(capsys, bml(block("b", '<head id="h" lexeme="NOD"/>' + tie) + later))
+def test_a_reference_to_a_block_that_there_is_not_is_a_problem_also_in_a_constraint(bml, capsys) -> None:
+    tie = '<constraint><synchronize><sync ref="h:start"/><sync ref="{}:w:end"/></synchronize></constraint>'
+    written = block("b", '<head id="h" lexeme="NOD"/>' + tie) + block("later", '<wait id="w" duration="1"/>')
+    assert check(capsys, bml(written.format("later"))) == (0, [])
+    status, (line,) = check(capsys, bml(written.format("never")))
     assert status == 1
-    assert "no block 'later'" in line
+    assert "no block 'never'" in line
 
 
 BMLT = 'xmlns:x="http://hmi.ewi.utwente.nl/bmlt"'

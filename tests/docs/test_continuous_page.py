@@ -1,11 +1,12 @@
 """docs/continuous.md: its examples are played as it says, and what it says can go wrong is told in that way."""
 
 import re
+from collections.abc import Callable
 
 import pytest
 
 from reactive_realizer.bml.document import parse
-from reactive_realizer.bml.names import BML, BMLA, BMLT
+from reactive_realizer.bml.names import BML, BMLA, BMLT, OWN
 from reactive_realizer.errors import ERRORS
 from reactive_realizer.limits import Limits
 from reactive_realizer.scheduler.bml_block import BlockState
@@ -91,6 +92,21 @@ async def test_the_end_of_a_speech_that_was_broken_off_is_told_as_the_page_shows
         await pilot.advance(5)
         (told,) = [line.element for line in pilot.feedback.lines if line.id == shown["id"]]
     assert {name.rpartition("}")[2]: value for name, value in told.items()}.items() >= shown.items()
+
+
+async def test_the_rest_of_a_speech_that_was_broken_off_is_found_as_the_page_says_however_it_was_written() -> None:
+    (code,) = fences(PAGE, "python")
+    found: dict[str, Callable[[str, int], str]] = {}
+    exec(code.text, found)
+    text = "\n  It is   quite \u00e9 \U0001f680 close\n\tto the station,  and   not far.\n"
+    marked = text.replace("close", '<sync id="m"/> close')
+    async with open_pilot() as pilot:
+        pilot.block("talk", f'<speech id="s"><text>{marked}</text></speech>')
+        pilot.block("stop", '<bmla:interrupt id="x" target="talk" start="talk:s:m+0.1" speech="word"/>')
+        await pilot.advance(5)
+        (told,) = [line.element for line in pilot.feedback.lines if line.id == "talk:s:end"]
+    assert told.get(f"{{{OWN}}}text") == "close"
+    assert found["rest"](text, int(told.get(f"{{{OWN}}}heard"))) == " to the station, and not far."
 
 
 @pytest.mark.parametrize(("code", "warning"), ROWS)

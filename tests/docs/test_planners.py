@@ -10,6 +10,8 @@ from pathlib import Path
 
 import pytest
 
+from reactive_realizer.testing.pilot import open_pilot
+
 from .conftest import ADDRESS, EXAMPLES, REPOSITORY, fences, page
 
 PYTHON = (sys.executable, "-u", "-c")
@@ -76,6 +78,27 @@ async def test_whoever_barges_in_is_given_way_to_and_the_planner_knows_what_was_
     for _ in range(2):  # also where somebody barged in before
         (printed,) = await run("barge_in.py", server, TO_ITS_END)
         assert printed.strip() in page(PLANNERS)
+
+
+@pytest.mark.parametrize(
+    ("barges_in", "statuses"),
+    [
+        (0.6, {"talk": "INTERRUPTED", "more": "REVOKED", "yield": "DONE", "away": "DONE"}),
+        (2.0, {"talk": "DONE", "more": "INTERRUPTED", "yield": "DONE", "away": "DONE"}),
+        (None, {"talk": "DONE", "more": "DONE", "yield": "INTERRUPTED", "away": "DONE"}),
+    ],
+)
+async def test_a_story_goes_on_beside_what_waits_to_break_it_off(barges_in, statuses) -> None:
+    (story,) = fences(PLANNERS, "xml")
+    async with open_pilot() as pilot:
+        pilot.perform(story.text)
+        await pilot.advance(0.5)
+        pilot.predict("user", "barges_in", barges_in)
+        await pilot.advance(6)
+        pilot.block("away", **{"bmla:interrupt": "yield"})
+        await pilot.advance(0.1)
+        assert {id_: pilot.feedback.status(id_) for id_ in statuses} == statuses
+        assert pilot.feedback.warnings == []
 
 
 async def test_the_same_in_javascript(server: str) -> None:

@@ -55,6 +55,16 @@ def test_the_command_line_takes_them_by_their_names(capsys: pytest.CaptureFixtur
 
 
 @pytest.mark.usefixtures("installed")
+@pytest.mark.parametrize("command", ["realize", "serve", "demo"])
+def test_the_help_of_a_command_names_them(command: str, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit, match="0"):
+        main([command, "--help"])
+    told = capsys.readouterr().out
+    assert "--voice {beep,espeak,text}" in told
+    assert "quick_first" in told
+
+
+@pytest.mark.usefixtures("installed")
 def test_each_is_found_under_the_name_of_the_page() -> None:
     for group, name in [("engines", "wink"), ("tts", "beep"), ("strategies", "quick_first")]:
         assert name in names(group)

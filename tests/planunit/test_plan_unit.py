@@ -110,8 +110,8 @@ def test_a_unit_leaves_even_if_it_fails_to_go_back_to_rest() -> None:
 
 
 def test_order_is_judged_by_what_is_known() -> None:
-    assert Told(start=0.0, stroke=None, end=1.0).in_order()
-    assert not Told(start=2.0, stroke=None, end=1.0).in_order()
+    assert Told(start=0.0, stroke=None, end=1.0).overtaken() is None
+    assert Told(start=2.0, stroke=None, end=1.0).overtaken() == (("start", 2.0), ("end", 1.0))
 
 
 def test_it_has_no_other_points() -> None:

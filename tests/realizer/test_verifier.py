@@ -4,6 +4,8 @@ import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.pegboard.time_peg import OffsetPeg
+from reactive_realizer.scheduler.convex.convex_strategy import ConvexStrategy
+from reactive_realizer.scheduler.problem import Anchor, AtBlock, Solution
 from reactive_realizer.testing.pilot import open_pilot
 
 WAIT = '<wait id="w" duration="1" start="2"/>'
@@ -51,6 +53,32 @@ async def test_a_block_of_the_same_name_is_judged_anew() -> None:
         pilot.feedback.lines.clear()
         await broken(pilot)
         assert len(pilot.feedback.warnings) == 1
+
+
+LIES = {
+    "untied": (lambda offsets: offsets, "'n:start = w:end' is missed by 1 s (n:start, w:end; thesis 7.11)"),
+    "early": (lambda offsets: [each - 0.4 for each in offsets], "w:start not before its block' is missed by 0.4 s"),
+    "turned": (lambda offsets: offsets[::-1], "'w:start not after its end' is missed by 1 s"),
+    "pressed": (lambda offsets: [0.0 for _ in offsets], "'w takes time' is missed by"),
+}
+
+
+@pytest.mark.parametrize("lie", LIES)
+async def test_what_a_strategy_promises_and_does_not_keep_is_said_once(monkeypatch, lie) -> None:
+    place, words = LIES[lie]
+
+    def solve(self, problem):
+        timings = {item.behavior.id: item.timing for item in problem.items}
+        rows = {id_: zip(timing.points, place(timing.offsets), strict=True) for id_, timing in timings.items()}
+        return Solution({id_: {sync: AtBlock(Anchor(), time) for sync, time in row} for id_, row in rows.items()}, ())
+
+    monkeypatch.setattr(ConvexStrategy, "solve", solve)
+    async with open_pilot(SceneOptions(voice="text", verify=True)) as pilot:
+        pilot.block("b", '<wait id="w" duration="1"/><head id="n" lexeme="NOD" start="w:end"/>')
+        await pilot.advance(3)
+        told = [line.element.text for line in pilot.feedback.of("warningFeedback") if line.id == "b"]
+    assert sum(words in text for text in told) == 1
+    assert len(set(told)) == len(told)
 
 
 async def test_nobody_looks_unless_asked_to() -> None:

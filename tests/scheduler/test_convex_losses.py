@@ -55,6 +55,11 @@ def test_a_required_constraint_on_a_dropped_behavior_fails_the_block_too() -> No
     assert {(loss.fault.code, loss.required) for loss in losses} == {("too-short", False), ("names-dropped", True)}
 
 
+def test_where_only_what_is_required_is_left_it_is_told_by_what_it_says_and_not_by_the_behavior() -> None:
+    plan = Plan({"s": SPEECH}, at("s:start", START, 1.0, required=True), at("s:end", START, 4.0, required=True))
+    assert [(loss.fault.code, loss.required) for loss in plan.solution.losses] == [("rigid", True)]
+
+
 def test_rigid_wins_over_a_second_tie_and_the_amount_is_named() -> None:
     plan = Plan({"s": SPEECH}, at("s:start", START, 1.0), at("s:end", START, 4.0))
     assert plan.losses == [("s", "rigid", False)]

@@ -4,12 +4,13 @@ from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.continuous import Activate
 from reactive_realizer.engine.context import EngineContext
 from reactive_realizer.engine.effects import ActivateBlock
-from reactive_realizer.engine.leading import EventUnit, LeadingEngine
+from reactive_realizer.engine.event_engine import EventEngine
+from reactive_realizer.engine.event_unit import EventUnit
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.plan_unit import PlanUnit
 
 
-class ActivateEngine(LeadingEngine):
+class ActivateEngine(EventEngine):
     """Asks for the start of blocks."""
 
     behaviors = frozenset({Activate})
@@ -22,4 +23,4 @@ class ActivateEngine(LeadingEngine):
         if not isinstance(behavior, Activate):
             raise TypeError(behavior)
         target = behavior.target
-        return EventUnit(block, behavior, lambda unit, time: self.ask(ActivateBlock(unit, target, time)))
+        return EventUnit(block, behavior, lambda unit, time: ActivateBlock(unit, target, time))

@@ -6,12 +6,13 @@ from reactive_realizer.bml.words import InterruptSpeech
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.engine.context import EngineContext
 from reactive_realizer.engine.effects import InterruptBlock
-from reactive_realizer.engine.leading import EventUnit, LeadingEngine
+from reactive_realizer.engine.event_engine import EventEngine
+from reactive_realizer.engine.event_unit import EventUnit
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.plan_unit import PlanUnit
 
 
-class InterruptEngine(LeadingEngine):
+class InterruptEngine(EventEngine):
     """Asks for the end of blocks, or of some of their behaviors."""
 
     behaviors = frozenset({Interrupt})
@@ -26,7 +27,7 @@ class InterruptEngine(LeadingEngine):
         gently = behavior.speech is InterruptSpeech.WORD
         target, include, exclude = behavior.target, behavior.include, behavior.exclude
 
-        def ask(unit: PlanUnit, time: GlobalTime) -> None:
-            self.ask(InterruptBlock(unit, target, include, exclude, gently, time))
+        def request(unit: PlanUnit, time: GlobalTime) -> InterruptBlock:
+            return InterruptBlock(unit, target, include, exclude, gently, time)
 
-        return EventUnit(block, behavior, ask)
+        return EventUnit(block, behavior, request)

@@ -1,0 +1,102 @@
+"""Constraints that a late prediction breaks: each is said once, with what is missing, unless nobody would see it."""
+
+import re
+
+import pytest
+
+from reactive_realizer.testing.assertions import assert_time
+
+from .living_time import GO, HIT, LOST, after, moves, nod, wait
+
+AHEAD = nod("n", start=f"{HIT}-0.5")
+
+
+def missed(pilot):
+    """What was said not to be kept, of whom, and by how many seconds."""
+    lines = [(line.id, line.element.text) for line in pilot.feedback.of("warningFeedback")]
+    said = [(id_, re.fullmatch(rf"(?:line .*?: )?(.*?) {LOST}: (.*) s are missing", text)) for id_, text in lines]
+    return {(id_, match[1]): float(match[2]) for id_, match in said}
+
+
+@pytest.mark.parametrize("moved", [2.2, 2.0, 1.2])
+async def test_who_was_to_be_ahead_of_what_comes_at_once_is_late_and_so_is_who_is_tied_to_it(pilot, moved) -> None:
+    pilot.predict("t", "hit", 4.0)
+    pilot.block("b", AHEAD + wait("w", 1, start="n:start-0.3"))
+    await moves(pilot, 2, ("hit", moved), 4)
+    assert_time(pilot.feedback, "b:n:start", 2.0)
+    assert_time(pilot.feedback, "b:w:start", 2.0)
+    late = 2.0 - (max(moved, 2.0) - 0.5)
+    ties = {("b:n", f"n:start = {HIT}-0.5"): late, ("b:w", "w:start = n:start-0.3"): 0.3}
+    assert missed(pilot) == pytest.approx(ties)
+    assert len(pilot.feedback.warnings) == 2
+
+
+async def test_what_is_rigid_and_ends_with_what_comes_at_once_is_told_too(pilot) -> None:
+    pilot.predict("t", "hit", 4.0)
+    pilot.block("b", AHEAD + wait("w", 1, end="n:start-0.3"))
+    await moves(pilot, 3.2, ("hit", 3.0), 4)
+    assert_time(pilot.feedback, "b:w:end", 3.2)
+    ties = {("b:n", f"n:start = {HIT}-0.5"): 0.5, ("b:w", "w:end = n:start-0.3"): 0.3}
+    assert missed(pilot) == pytest.approx(ties)
+
+
+async def test_so_is_what_ends_its_block_by_it(pilot) -> None:
+    pilot.predict("t", "hit", 4.0)
+    pilot.block("b", nod("n", end=f"{HIT}-0.5"))
+    await moves(pilot, 3, ("hit", 1.0), 1)
+    assert_time(pilot.feedback, "b:end", 3.0)
+    assert missed(pilot) == pytest.approx({("b:n", f"n:end = {HIT}-0.5"): 0.5})
+    assert pilot.feedback.lines[-1].id == "b:end"
+
+
+async def test_a_tie_between_two_blocks_is_told_as_one_of_the_block_that_has_it(pilot) -> None:
+    pilot.predict("t", "hit", 4.0)
+    pilot.block("a", wait("w", 1, start=HIT))
+    pilot.block("b", nod("n", start="a:w:start-0.5"))
+    await moves(pilot, 2, ("hit", 1.0), 4)
+    assert missed(pilot) == pytest.approx({("b:n", "n:start = a:w:start-0.5"): 0.5})
+
+
+@pytest.mark.parametrize(
+    ("corrections", "said"), [([1.96], {}), ([1.96, 1.92, 2.05], {}), ([1.96, 1.92, 1.87, 1.8], 0.13)]
+)
+async def test_corrections_that_nobody_sees_are_told_when_somebody_would(pilot, corrections, said) -> None:
+    pilot.predict("t", "hit", 2.0)
+    pilot.block("b", AHEAD)
+    await pilot.advance(1.55)
+    for correction in corrections:
+        await moves(pilot, ("hit", correction), 0.05)
+    await pilot.advance(2)
+    assert missed(pilot) == pytest.approx(said and {("b:n", f"n:start = {HIT}-0.5"): said})
+
+
+async def test_what_has_come_may_be_predicted_for_the_next_time_without_a_word(pilot) -> None:
+    pilot.predict("t", "hit", 2.0)
+    pilot.block("b", AHEAD + wait("w", 9))
+    await moves(pilot, 2.5, ("hit", 5.0), 0.5, ("hit", 4.0), 4)
+    assert pilot.feedback.warnings == []
+
+
+async def test_what_is_tied_within_a_block_or_has_to_come_later_is_told_however_little_is_missing(pilot) -> None:
+    pilot.predict("t", "hit", 4.0)
+    pilot.predict("t", "go", 2.5)
+    pilot.block("b", AHEAD + wait("w", 1, start="n:start-0.05") + wait("v", 1) + after(f"{GO}-0.5", "v:start"))
+    await moves(pilot, 2.1, ("hit", 2.2), ("go", 2.55), 4)
+    ties = {("b:n", f"n:start = {HIT}-0.5"): 0.4, ("b:w", "w:start = n:start-0.05"): 0.05}
+    assert missed(pilot) == pytest.approx(ties | {("b", f"v:start after {GO}-0.5"): 0.05})
+
+
+async def test_so_is_what_has_not_come_yet(pilot) -> None:
+    pilot.predict("t", "go", 1.5)
+    pilot.predict("t", "hit", 1.0)
+    pilot.block("b", nod("n", start="0", stroke=HIT, end=GO))
+    await moves(pilot, 0.5, ("hit", 1.55), 2)
+    assert missed(pilot) == pytest.approx({("b:n", f"n:stroke = {HIT}"): 0.05})
+
+
+async def test_what_was_to_come_after_a_time_that_is_given_anew_and_cannot_follow_is_told(pilot) -> None:
+    pilot.predict("t", "hit", 2.0)
+    pilot.block("b", wait("w", 1, end=f"{HIT}+0.8"))
+    await moves(pilot, 2.2, ("hit", 5.0), 4)
+    assert_time(pilot.feedback, "b:w:end", 2.8)
+    assert missed(pilot) == pytest.approx({("b:w", f"w:end = {HIT}+0.8"): 3.0})

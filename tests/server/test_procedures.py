@@ -1,0 +1,69 @@
+"""Procedures over the network: a use is taken in where its definition has come before it."""
+
+import pytest
+
+from .conftest import ALICE, BML, Open, post, wait
+
+BMLT = 'xmlns:bmlt="http://hmi.ewi.utwente.nl/bmlt"'
+
+
+def define(id_: str) -> str:
+    return f'<bmlt:defineproc {BML} {BMLT} id="{id_}"><wait id="w" duration="0.1"/></bmlt:defineproc>'
+
+
+def use(procedure: str, block: str) -> str:
+    return f'<bmlt:useproc {BMLT} procid="{procedure}" bmlid="{block}"/>'
+
+
+async def test_a_use_of_a_procedure_that_was_not_defined_is_refused_at_the_door(on_air: Open) -> None:
+    async with on_air() as air:
+        status, body = await post(air, "/bml", wait("b1") + "\n" + use("nothing", "b2"))
+        assert (status, body["error"]["code"], body["error"]["line"]) == (404, "unknown-procedure", 2)
+        assert "nothing" in body["error"]["message"]
+        assert not air.live.realizer.busy, "nothing of it has entered"
+
+
+async def test_over_the_socket_it_is_none_of_the_blocks_that_have_entered(on_air: Open) -> None:
+    async with on_air() as air:
+        socket = await air.connect()
+        answer = await socket.ask(type="bml", xml=use("nothing", "b1") + wait("b2"))
+        assert (answer["type"], answer["code"], answer["blocks"]) == ("error", "unknown-procedure", ["b2"])
+        await air.tick()
+        assert 'id="b1"' in (await socket.hear_feedback("warningFeedback"))["xml"]
+        assert await socket.hear_feedback('"b2:start"')
+
+
+@pytest.mark.parametrize(
+    "documents", [[define("p") + use("p", "b1")], [define("p"), use("p", "b1")]], ids=["in one", "one after the other"]
+)
+@pytest.mark.parametrize("ticks", [0, 1])
+async def test_a_procedure_is_known_as_soon_as_its_definition_was_taken_in(
+    on_air: Open, documents: list[str], ticks: int
+) -> None:
+    async with on_air() as air:
+        socket = await air.connect()
+        for document in documents:
+            status, body = await post(air, "/bml", document)
+            for _ in range(ticks):
+                await air.tick()
+        assert (status, body) == (202, {"blocks": ["b1"]})
+        await air.tick_until(0.3)
+        assert "DONE" in (await socket.hear_feedback('"b1:end"'))["xml"]
+
+
+async def test_a_definition_that_was_refused_with_its_document_is_none(on_air: Open) -> None:
+    async with on_air() as air:
+        assert (await post(air, "/bml", define("p") + wait("b1") + wait("b1")))[0] == 409
+        assert (await post(air, "/bml", use("p", "b2")))[0] == 404
+
+
+async def test_more_procedures_than_the_limit_are_refused_at_the_door_unless_they_take_the_place_of_others(
+    on_air: Open,
+) -> None:
+    async with on_air(ALICE + "[limits]\nprocedures = 2\n") as air:
+        assert await post(air, "/bml", define("p") + define("q")) == (202, {"blocks": []})
+        status, body = await post(air, "/bml", define("r"))
+        assert (status, body["error"]["code"]) == (429, "too-many-procedures")
+        assert (await post(air, "/bml", define("q")))[0] == 202
+        await air.tick()
+        assert not air.live.realizer.scheduler.refused
