@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from functools import partial
+from typing import Final
 
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.behaviors import Wait
@@ -14,7 +15,9 @@ from reactive_realizer.conformance.check import TOLERANCE, Check
 from reactive_realizer.conformance.relations import relations
 from reactive_realizer.testing.assertions import (
     DONE,
+    assert_all_predicted,
     assert_block_around,
+    assert_block_times,
     assert_ended,
     assert_linked,
     assert_not_played,
@@ -24,6 +27,8 @@ from reactive_realizer.testing.assertions import (
     assert_told_once,
     assert_warnings,
 )
+
+_PREDICTION: Final = "the last prediction before it"
 
 
 def checks_of(case: Case) -> Iterator[Check]:
@@ -43,8 +48,10 @@ def _block(case: Case, block: BehaviorBlock) -> Iterator[Check]:
         yield Check(f"{block.id} is never played", partial(assert_not_played, behavior=block.id))
         return
     yield Check(f"all of {block.id} is between its start and its end", partial(assert_block_around, block=block.id))
+    yield Check("time", partial(assert_block_times, block=block.id, tolerance=TOLERANCE))
+    yield _predicted(f"{block.id}:start")
     if status == DONE:
-        yield Check("the last prediction", partial(assert_predicted, point=f"{block.id}:end", tolerance=TOLERANCE))
+        yield _predicted(f"{block.id}:end")
         yield from _whole(case, block)
 
 
@@ -57,9 +64,14 @@ def _whole(case: Case, block: BehaviorBlock) -> Iterator[Check]:
             yield Check(f"{name} is left out", partial(assert_not_played, behavior=name))
         else:
             yield _in_order(name, behavior)
+            yield Check(_PREDICTION, partial(assert_all_predicted, behavior=name, tolerance=TOLERANCE))
             yield from _ties(block, name, behavior)
     if block.id not in silent:
         yield from _constraints(block)
+
+
+def _predicted(point: str) -> Check:
+    return Check(_PREDICTION, partial(assert_predicted, point=point, tolerance=TOLERANCE))
 
 
 def _in_order(name: str, behavior: Behavior) -> Check:

@@ -8,7 +8,7 @@ from reactive_realizer.bml.continuous import Activate, Interrupt
 from reactive_realizer.bml.words import Composition
 from reactive_realizer.conformance.case import Case
 from reactive_realizer.conformance.check import TOLERANCE, Check
-from reactive_realizer.testing.assertions import assert_linked, assert_order
+from reactive_realizer.testing.assertions import assert_linked, assert_order, assert_starts_with_last
 
 
 def relations(case: Case) -> Iterator[Check]:
@@ -17,56 +17,68 @@ def relations(case: Case) -> Iterator[Check]:
     for block in case.blocks:
         if case.starts(block):
             yield from _waits(case, block, earlier)
+            yield from _comes_after(block, earlier)
             yield from _acts(block)
         earlier.append(block)
 
 
 def _waits(case: Case, block: BehaviorBlock, earlier: Iterable[BehaviorBlock]) -> Iterator[Check]:
-    blocks = {other.id: other for other in case.blocks}
-    if block.composition is not Composition.MERGE:
-        before = [other.id for other in earlier if other.character == block.character and not other.preplan]
-        yield from _after(block, before, f"composition={block.composition}")
-    yield from _after(block, block.append_after, "appendAfter")
-    yield from _after(block, block.interrupts, "interrupt")
-    for name in block.chunk_after:
-        yield from (_order(point, f"{block.id}:start", "chunkAfter") for point in _subsiding(blocks[name]))
-    for name in block.prepend_before:
-        yield _order(f"{block.id}:end", f"{name}:start", "prependBefore")
-    for name in block.chunk_before:
-        yield from (_order(point, f"{name}:start", "chunkBefore") for point in _subsiding(block))
-    for name in block.on_start:
-        yield _together(f"{name}:start", f"{block.id}:start", "onStart")
+    """A block starts with the last of what it waits for, neither before nor after."""
+    points = [*_awaited(case, block, earlier), *(_activating(case, block) if block.preplan else ())]
+    if points:
+        assertion = partial(assert_starts_with_last, block=block.id, points=points, tolerance=TOLERANCE)
+        yield Check(f"{block.id} waits for {', '.join(points)}", assertion)
 
 
-def _acts(block: BehaviorBlock) -> Iterator[Check]:
-    """What activate and interrupt do at their start."""
-    for behavior in block.behaviors:
-        start = f"{block.id}:{behavior.id}:start"
-        match behavior:
-            case Activate(target=target):
-                yield _together(f"{target}:start", start, "activate")
-            case Interrupt(target=target, include=(), exclude=()):
-                yield _together(f"{target}:end", start, "interrupt")
-            case Interrupt(target=target, include=include):
-                yield from (_together(f"{target}:{name}:end", start, "interrupt") for name in include)
-            case _:
-                pass
+def _awaited(case: Case, block: BehaviorBlock, earlier: Iterable[BehaviorBlock]) -> Iterator[str]:
+    """The points that composition and BMLA have a block wait for."""
+    if block.composition is Composition.APPEND:
+        yield from (f"{other.id}:end" for other in _beside(block, earlier))
+    for other in case.blocks:
+        if other.id in block.append_after or block.id in other.prepend_before:
+            yield f"{other.id}:end"
+        if other.id in block.chunk_after or block.id in other.chunk_before:
+            yield from _subsiding(case, other)
 
 
-def _after(block: BehaviorBlock, others: Iterable[str], text: str) -> Iterator[Check]:
-    return (_order(f"{other}:end", f"{block.id}:start", text) for other in others)
+def _activating(case: Case, block: BehaviorBlock) -> Iterator[str]:
+    """The points at which a prepared block is activated."""
+    for other in case.blocks:
+        if block.id in other.on_start:
+            yield f"{other.id}:start"
+        for behavior in other.behaviors:
+            if isinstance(behavior, Activate) and behavior.target == block.id:
+                yield f"{other.id}:{behavior.id}:start"
 
 
-def _subsiding(block: BehaviorBlock) -> Iterator[str]:
+def _subsiding(case: Case, block: BehaviorBlock) -> Iterator[str]:
     """The points that a block has passed when all that is left of it is in retraction."""
+    if block.id in case.ends:
+        yield f"{block.id}:end"
+        return
     for behavior in block.behaviors:
         last = "relax" if "relax" in behavior.sync_points else "end"
         yield f"{block.id}:{behavior.id}:{last}"
 
 
-def _order(earlier: str, later: str, text: str) -> Check:
-    return Check(text, partial(assert_order, earlier=earlier, later=later, tolerance=TOLERANCE))
+def _comes_after(block: BehaviorBlock, earlier: Iterable[BehaviorBlock]) -> Iterator[Check]:
+    """What a block ends has ended when it starts, which may be later: it has to be prepared."""
+    ended = [other.id for other in _beside(block, earlier)] if block.composition is Composition.REPLACE else []
+    for other in (*ended, *block.interrupts):
+        assertion = partial(assert_order, earlier=f"{other}:end", later=f"{block.id}:start", tolerance=TOLERANCE)
+        yield Check(f"{block.id} ends {other}", assertion)
 
 
-def _together(point: str, other: str, text: str) -> Check:
-    return Check(text, partial(assert_linked, point=point, other=other, tolerance=TOLERANCE))
+def _beside(block: BehaviorBlock, earlier: Iterable[BehaviorBlock]) -> Iterator[BehaviorBlock]:
+    return (other for other in earlier if other.character == block.character and not other.preplan)
+
+
+def _acts(block: BehaviorBlock) -> Iterator[Check]:
+    """What interrupt does at its start."""
+    for behavior in block.behaviors:
+        if isinstance(behavior, Interrupt) and not behavior.exclude:
+            ended = [f"{behavior.target}:{name}" for name in behavior.include] or [behavior.target]
+            start = f"{block.id}:{behavior.id}:start"
+            for name in ended:
+                assertion = partial(assert_linked, point=f"{name}:end", other=start, tolerance=TOLERANCE)
+                yield Check("interrupt", assertion)

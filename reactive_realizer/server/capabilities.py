@@ -3,24 +3,26 @@
 from collections.abc import Mapping
 from typing import Any
 
+from reactive_realizer.assembly.registry import names
 from reactive_realizer.assembly.scene import Scene
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.elements import ELEMENTS, Element
 from reactive_realizer.engine.lexicon import words_of
+from reactive_realizer.pegboard.anticipator import Anticipator
 from reactive_realizer.planunit.parameter import Range
 
-Lexemes = Mapping[str, list[str]]
-"""The words that play, by element."""
+Found = Mapping[str, object]
+"""What was found on disk: `lexemes`, the words that play, by element; `strategies` and `trajectories`, by name."""
 
 
-async def capabilities_of(scene: Scene, lexemes: Lexemes) -> dict[str, Any]:
-    """Elements with their attributes and sync points, and what stands in the scene's bindings, voice and world."""
+async def capabilities_of(scene: Scene, found: Found) -> dict[str, Any]:
+    """Elements and what is known of them; what stands in the scene's bindings, voice and world; who predicts what."""
     engines = [engine for character in scene.realizer.characters.values() for engine in character.engines]
     realized = frozenset[type[Behavior]]().union(*(engine.behaviors for engine in engines))
     changeable = {behavior: ranges for engine in engines for behavior, ranges in engine.parameters.items()}
     return {
         "elements": {name: _element(element, realized, changeable) for name, element in ELEMENTS.items()},
-        "lexemes": lexemes,
+        **found,
         "parameters": {
             name: sorted(changeable[element.behavior])
             for name, element in ELEMENTS.items()
@@ -28,6 +30,7 @@ async def capabilities_of(scene: Scene, lexemes: Lexemes) -> dict[str, Any]:
         },
         "voices": await scene.tts.voices(),
         "targets": list(scene.realizer.world.targets),
+        "anticipators": {id_: _anticipator(scene, each) for id_, each in scene.realizer.anticipators.items()},
     }
 
 
@@ -45,8 +48,23 @@ def _element(
     }
 
 
-def lexemes_of(scene: Scene) -> Lexemes:
-    """The words of a scene that does not play yet: it reads all their files, for which a tick has no time."""
+def _anticipator(scene: Scene, anticipator: Anticipator) -> dict[str, Any]:
+    """One that has no points of its own tells those that somebody has named so far."""
+    return {
+        "kind": anticipator.kind,
+        "events": anticipator.events,
+        "textEvents": anticipator.heard,
+        "points": anticipator.points or list(scene.realizer.board.predictions(anticipator.id)),
+    }
+
+
+def found_for(scene: Scene) -> Found:
+    """For a scene that does not play yet: all its files are read, for which a tick has no time."""
+    plug_ins = {group: names(group) for group in ("strategies", "trajectories")}
+    return {"lexemes": _lexemes(scene), **plug_ins}
+
+
+def _lexemes(scene: Scene) -> Mapping[str, list[str]]:
     found: dict[str, set[str]] = {}
     for character in scene.realizer.characters.values():
         for word in words_of(character.engines):

@@ -11,7 +11,7 @@ from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.limits import Limits
 from reactive_realizer.realizer.realizer import Realizer
 from reactive_realizer.server.board_watch import BoardWatch
-from reactive_realizer.server.capabilities import lexemes_of
+from reactive_realizer.server.capabilities import found_for
 from reactive_realizer.server.client_count import ClientCount
 from reactive_realizer.server.feedback_log import FeedbackLog
 from reactive_realizer.server.frame_stream import FrameStream
@@ -34,7 +34,7 @@ class Live:
         tick: number of the last one.
         feedback, sounds, frames, board: the streams.
         clients: those connected.
-        lexemes: the words that play.
+        found: what there was on disk when it began.
     """
 
     def __init__(self, scene: Scene, clock: Clock, performance: str | None = None) -> None:
@@ -49,7 +49,7 @@ class Live:
         self.frames = FrameStream(self.realizer)
         self.board = BoardWatch(self.realizer.board, lambda: self.realizer.time)
         self.clients = ClientCount(self.limits.clients)
-        self.lexemes = lexemes_of(scene)
+        self.found = found_for(scene)
         self.realizer.feedback.listen(self.feedback.append)
         self.realizer.hear(self.sounds.take)
 

@@ -57,7 +57,7 @@ async def explain(request: web.Request) -> web.Response:
 async def capabilities(request: web.Request) -> web.Response:
     """What may be asked for."""
     live = request.app[LIVE]
-    return web.json_response(await capabilities_of(live.scene, live.lexemes))
+    return web.json_response(await capabilities_of(live.scene, live.found))
 
 
 def _ticks(live: Live) -> dict[str, float | None]:

@@ -1,5 +1,6 @@
 """What every anticipator has to keep to (thesis 8.5.1), as a pytest class to inherit from; needs pytest, Hypothesis."""
 
+import re
 from collections.abc import Iterator
 from inspect import Parameter, signature
 from math import isfinite
@@ -126,6 +127,11 @@ class AnticipatorContract:
             watched.stand.event(number / 1000, watched.anticipator, *told)
         assert all(time is None or isfinite(time) for time in watched.named().values())
         assert [view.key for view in watched.stand.board.snapshot()] == named
+
+    def test_the_points_that_it_tells_of_itself_are_those_that_it_predicts(self) -> None:
+        told = _Watched(self).anticipator.points
+        forms = [re.sub("N$", "[0-9]+", re.escape(name)) for name in told]
+        assert not told or all(any(re.fullmatch(form, sync) for form in forms) for sync in self.points)
 
     def test_others_may_say_when_its_points_are_only_if_it_is_of_the_kind_that_is_told(self) -> None:
         anticipator = _Watched(self).anticipator

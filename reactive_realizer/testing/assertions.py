@@ -23,7 +23,7 @@ def assert_told_once(told: FeedbackList) -> None:
 
 def assert_syncs_in_order(told: FeedbackList, behavior: str, *syncs: str) -> None:
     """A behavior reached these points and no others, each once, in this order of telling and of time."""
-    reached = [id_.removeprefix(f"{behavior}:") for id_ in told.progress if id_.startswith(f"{behavior}:")]
+    reached = [point.removeprefix(f"{behavior}:") for point in _points(told, behavior)]
     assert reached == list(syncs), f"{behavior} reached {_listed(reached)} where {_listed(syncs)} was to come"
     for earlier, later in pairwise(syncs):
         assert_order(told, f"{behavior}:{earlier}", f"{behavior}:{later}")
@@ -93,10 +93,40 @@ def assert_not_played(told: FeedbackList, behavior: str) -> None:
 
 
 def assert_predicted(told: FeedbackList, point: str, tolerance: float = TOLERANCE) -> None:
-    """A point was reached when the last prediction said; ``block:start`` and ``block:end`` may be asked for too."""
-    block = point.partition(":")[0]
-    assert told.predictions(block), f"nothing was predicted of {block}"
-    assert_time(told, point, told.predicted(point), tolerance)
+    """A point was reached when the last prediction before it said; it may be ``block:start`` or ``block:end`` too."""
+    assert_time(told, point, told.foretold(point), tolerance)
+
+
+def assert_all_predicted(told: FeedbackList, behavior: str, tolerance: float = TOLERANCE) -> None:
+    """A behavior reached its start, its end and what else of it was predicted when the last prediction before said."""
+    for point in _points(told, behavior):
+        try:
+            assert_predicted(told, point, tolerance)
+        except LookupError:
+            assert point not in (f"{behavior}:start", f"{behavior}:end"), f"{point} was not predicted"
+
+
+def assert_block_times(told: FeedbackList, block: str, tolerance: float = TOLERANCE) -> None:
+    """Of each point of a block was told how long after the start of the block it was reached."""
+    start = told.time(f"{block}:start")
+    for line in told.of("syncPointProgress"):
+        if line.id.startswith(f"{block}:"):
+            since = float(line.element.get("time", "nan"))
+            assert abs(since - (line.at - start)) <= tolerance, (
+                f"{line.id} was told with the time {since:g} where {line.at - start:g} s had passed since {block}:start"
+            )
+
+
+def assert_starts_with_last(
+    told: FeedbackList, block: str, points: Iterable[str], tolerance: float = TOLERANCE
+) -> None:
+    """A block started when the last of what it waits for was reached: neither before nor after."""
+    last = max(points, key=told.time)
+    assert_linked(told, f"{block}:start", last, tolerance=tolerance)
+
+
+def _points(told: FeedbackList, behavior: str) -> list[str]:
+    return [id_ for id_ in told.progress if id_.startswith(f"{behavior}:")]
 
 
 def _listed(parts: Iterable[str]) -> str:

@@ -1,13 +1,15 @@
 """Feedback as a test reads it."""
 
 from dataclasses import dataclass
+from itertools import takewhile
 
 from lxml import etree
 
-from reactive_realizer.bml.names import BMLA
+from reactive_realizer.bml.names import BMLA, OWN
 from reactive_realizer.feedback.feedback_manager import Report
 
 _STATUS = f"{{{BMLA}}}status"
+_TIME = f"{{{OWN}}}time"
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,6 +33,24 @@ class Line:
     def at(self) -> float:
         """Global time of progress."""
         return float(self.element.get("globalTime", "nan"))
+
+    def predicted(self, point: str) -> float:
+        """The global time that a prediction has for ``block:behavior:sync``, ``block:start`` or ``block:end``.
+
+        Raises:
+            LookupError: it says nothing of it.
+        """
+        block, *behavior, sync = point.split(":", 2)
+        if not behavior:
+            return float(self.element[0].attrib[f"global{sync.capitalize()}"])
+        own = next((child for child in self.element if child.get("id") == f"{block}:{behavior[0]}"), None)
+        if own is None:
+            raise LookupError(f"{block}:{behavior[0]}")
+        inline = (each.get(_TIME) for each in own.iter() if each.get("id") == sync)
+        time = own.get(sync) or next(inline, None)
+        if time is None:
+            raise LookupError(point)
+        return float(self.element[0].attrib["globalStart"]) + float(time)
 
 
 class FeedbackList:
@@ -105,9 +125,17 @@ class FeedbackList:
 
     def predicted(self, point: str) -> float:
         """The global time last predicted for ``block:behavior:sync``, ``block:start`` or ``block:end``."""
-        block, *behavior, sync = point.split(":")
-        element = self.predictions(block)[-1].element
-        if not behavior:
-            return float(str(element[0].get(f"global{sync.capitalize()}")))
-        own = next(child for child in element if child.get("id") == f"{block}:{behavior[0]}")
-        return float(str(element[0].get("globalStart"))) + float(str(own.get(sync)))
+        return self.predictions(point.partition(":")[0])[-1].predicted(point)
+
+    def foretold(self, point: str) -> float:
+        """Like `predicted`, of the last prediction that was told before the point itself.
+
+        Raises:
+            AssertionError: there is none.
+            LookupError: it says nothing of the point.
+        """
+        block = point.partition(":")[0]
+        before = takewhile(lambda line: line.kind == "predictionFeedback" or line.id != point, self.lines)
+        own = [line for line in before if line.kind == "predictionFeedback" and line.id == block]
+        assert own, f"nothing was predicted of {block} before {point} was told"
+        return own[-1].predicted(point)

@@ -51,6 +51,7 @@ Open = Callable[..., AbstractAsyncContextManager[Theater]]
 @pytest.fixture
 def theater(chromium: str, tmp_path: Path) -> Open:
     """Puts the scene of a human file on the air, and a browser before it."""
+
     @asynccontextmanager
     async def open_(human: str, voice: str = "text") -> AsyncIterator[Theater]:
         file = tmp_path / "human.toml"

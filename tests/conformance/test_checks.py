@@ -85,6 +85,83 @@ async def test_a_point_that_comes_at_another_time_breaks_what_the_script_says_of
     assert any(source in problem for problem in found), found
 
 
+def moved(xml: str, attribute: str, seconds: float) -> str:
+    """A message whose times of one name are later."""
+    return re.sub(f' ({attribute})="([0-9.]*)"', lambda found: f' {found[1]}="{float(found[2]) + seconds}"', xml)
+
+
+@pytest.mark.parametrize(
+    ("attribute", "missed"),
+    [
+        ("globalStart", "b:start"),
+        ("globalEnd", "b:end"),
+        ("start", "b:w:start"),
+        ("stroke", "b:g:stroke"),
+        ("relax", "b:h:relax"),
+        ("end", "b:s:end"),
+        (r"\w+:time", "b:s:m"),
+    ],
+)
+async def test_a_prediction_that_does_not_come_true_is_a_problem(attribute: str, missed: str) -> None:
+    told = [
+        (at, moved(xml, attribute, 0.02) if "<predictionFeedback" in xml else xml) for at, xml in await played(SCRIPT)
+    ]
+    found = problems(case_of(SCRIPT), told)
+    assert any(f"{missed} was reached" in each and "the last prediction before it" in each for each in found), found
+
+
+async def test_a_prediction_counts_only_for_what_is_told_after_it() -> None:
+    told = await played(SCRIPT)
+    late = sorted(told, key=lambda line: "<predictionFeedback" in line[1])
+    assert "nothing was predicted of b before b:start was told (the last prediction before it)" in problems(
+        case_of(SCRIPT), late
+    )
+
+
+async def test_a_behavior_of_which_nothing_is_predicted_is_a_problem() -> None:
+    told = [(at, re.sub(r"<(\w+:)?head .*?/>", "", xml)) for at, xml in await played(SCRIPT)]
+    assert problems(case_of(SCRIPT), told) == ["b:h:start was not predicted (the last prediction before it)"]
+
+
+def waiting(id_: str, attribute: str = "composition", value: str = "MERGE") -> str:
+    """A block that waits half a second once it has started."""
+    return block(id_, '<wait id="w" start="0.1" duration="0.5"/>', **{attribute: value})
+
+
+async def test_the_time_of_progress_is_that_since_the_start_of_its_block() -> None:
+    script = waiting("a") + waiting("b", "composition", "APPEND")
+    told = await played(script)
+    wrong = [(at, moved(xml, "time", 0.5) if "syncPointProgress" in xml else xml) for at, xml in told]
+    assert any("b:w:start was told with the time 0.6 where 0.1 s" in each for each in problems(case_of(script), wrong))
+
+
+RETRACTING = block("a", '<gesture id="g" lexeme="BEAT"/><wait id="w" duration="0.2"/>')
+PREPARED = waiting("b", "bmla:preplan", "true")
+
+
+@pytest.mark.parametrize("seconds", [-0.02, 0.02])
+@pytest.mark.parametrize(
+    ("script", "last"),
+    [
+        (waiting("a") + waiting("b", "composition", "APPEND"), "a:end"),
+        (waiting("a") + waiting("b", "bmla:appendAfter", "a"), "a:end"),
+        (waiting("b", "composition", "APPEND") + waiting("a", "bmla:prependBefore", "b"), "a:end"),
+        (RETRACTING + waiting("b", "bmla:chunkAfter", "a"), "a:g:relax"),
+        (PREPARED + waiting("a", "bmla:onStart", "b"), "a:start"),
+        (PREPARED + block("a", '<bmla:activate id="i" target="b" start="0.5"/>'), "a:i:start"),
+    ],
+)
+async def test_what_waits_starts_with_the_last_that_it_waits_for(script: str, last: str, seconds: float) -> None:
+    told = await played(script)
+    assert problems(case_of(script), told) == []
+
+    def shifted(xml: str) -> str:
+        return moved(xml, "global(?:Start|Time|End)", seconds) if ' id="b' in xml else xml
+
+    found = problems(case_of(script), [(at, shifted(xml)) for at, xml in told])
+    assert any(f"b:start was reached {seconds:g} s after {last} where 0 s was to come" in each for each in found), found
+
+
 @pytest.mark.parametrize(
     ("constraint", "holds"),
     [

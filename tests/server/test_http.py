@@ -109,6 +109,24 @@ async def test_the_capabilities_tell_what_may_be_asked_for(on_air: Open) -> None
         assert "alice" in capabilities["targets"]
 
 
+async def test_the_capabilities_tell_who_predicts_and_what_it_hears(on_air: Open) -> None:
+    kinds = {"user": "speech_stop", "metronome": "metronome", "trainer": "exercise"}
+    scene = "".join(f'[anticipator.{id_}]\nkind = "{kind}"\n' for id_, kind in kinds.items())
+    async with on_air(f'[character.alice]\n{scene}names = ["down", "up"]\n') as air:
+        await post(air, "/predict", '{"anticipator": "partner", "sync": "hit", "in": 1}')
+        await air.tick()
+        async with air.client.get("/capabilities") as answer:
+            told = await answer.json()
+    assert told["anticipators"] == {
+        "user": {"kind": "speech_stop", "events": ["voice"], "textEvents": ["words"], "points": ["stop"]},
+        "metronome": {"kind": "metronome", "events": ["tempo", "start"], "textEvents": [], "points": ["tickN"]},
+        "trainer": {"kind": "exercise", "events": ["sample", "start"], "textEvents": [], "points": ["N", "down", "up"]},
+        "partner": {"kind": "remote", "events": [], "textEvents": [], "points": ["hit"]},
+    }
+    assert {"convex", "embr", "smartbody"} <= set(told["strategies"])
+    assert {"instant", "linear", "ease-in-ease-out"} <= set(told["trajectories"])
+
+
 async def test_the_schema_of_the_protocol_is_served(on_air: Open) -> None:
     async with on_air() as air, air.client.get("/protocol.json") as answer:
         Draft202012Validator.check_schema(await answer.json(content_type=None))
