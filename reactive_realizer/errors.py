@@ -114,11 +114,9 @@ ERRORS: Mapping[str, ErrorKind] = MappingProxyType(
         "not-awaited": ErrorKind(
             "'{block}' is not over: {behaviors} goes on until it is ended; nothing waits for that", _SCHEDULE
         ),
-        "started-already": ErrorKind(
-            "'{block}' has started, and nothing comes before it; this one is refused", _SCHEDULE
-        ),
+        "started-already": ErrorKind("'{block}' has started, and nothing comes before it; this one fails", _SCHEDULE),
         "cyclic-composition": ErrorKind(
-            "'{block}' is to come before '{other}' and waits for it too; it is refused", _SCHEDULE
+            "'{block}' is to come before '{other}' and waits for it too; it fails", _SCHEDULE
         ),
         "unknown-procedure": ErrorKind(
             "no procedure '{procedure}'; there are {known}", WarningType.NO_SUCH_TARGET, 404

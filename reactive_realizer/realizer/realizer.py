@@ -31,7 +31,6 @@ from reactive_realizer.scheduler.cast import Cast
 from reactive_realizer.scheduler.constraint_watch import ConstraintWatch
 from reactive_realizer.scheduler.reporter import Reporter
 from reactive_realizer.scheduler.strategy import SchedulingStrategy
-from reactive_realizer.scheduler.verified_strategy import VerifiedStrategy
 
 _MOST_ROUNDS = 100
 
@@ -72,7 +71,7 @@ class Realizer:
         self.board = PegBoard(Graph())
         self.anticipators = dict(anticipators(self.board))
         self.time = GlobalTime(0.0)
-        self._strategy = VerifiedStrategy(strategy) if verify else strategy
+        self._strategy = strategy
         self._verify = verify
         self._cast = Cast({character.id: character.engines for character in characters})
         self._leading = [EngineTask(engine) for engine in self._cast.engines if engine.leads]
@@ -99,7 +98,7 @@ class Realizer:
         )
         self._watch = ConstraintWatch(self.board, self.scheduler.blocks, Reporter(self.feedback, self.scheduler.blocks))
         self.scheduler.listen(self._watch.note_end)
-        self._verifier = Verifier(self.board, self.scheduler.blocks, self.feedback) if self._verify else None
+        self._verifier = Verifier(self.board, self.scheduler, self.feedback) if self._verify else None
         return self
 
     async def __aexit__(
@@ -227,9 +226,9 @@ class Realizer:
 
     def _check(self, now: GlobalTime) -> None:
         """Say what the commits since the last call have broken."""
-        self._watch.check(self._commits, now)
         if self._verifier is not None:
             self._verifier.check(self._commits, now)
+        self._watch.check(self._commits, now)
         self._commits.clear()
         self._clamped = 0
 

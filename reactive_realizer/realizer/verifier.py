@@ -2,6 +2,8 @@
 
 import logging
 from collections.abc import Iterable
+from dataclasses import replace
+from weakref import WeakKeyDictionary
 
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.errors import WarningType
@@ -10,35 +12,51 @@ from reactive_realizer.feedback.messages import WarningFeedback
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.reactive.commit import Commit
-from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BlockState, BMLBlock
+from reactive_realizer.scheduler.bml_scheduler import BMLScheduler
 from reactive_realizer.scheduler.concerned import concerned
 from reactive_realizer.scheduler.plan_view import PlanView
+from reactive_realizer.scheduler.problem import Problem, Solution
 from reactive_realizer.scheduler.verify import Violation, verify
 
 logger = logging.getLogger(__name__)
 
 
 class Verifier:
-    """Checks, after a tick, the blocks of which something moved, and says once what does not hold (``--verify``)."""
+    """Checks plans as they are committed, and as they move on the board; says once what does not hold (``--verify``).
 
-    def __init__(self, board: PegBoard, blocks: Blocks, feedback: FeedbackManager) -> None:
+    What is committed is judged as a solution of its own problem: its points may come, and times from outside may be
+    other ones, before a tick is over. On the board, constraints are judged where nothing from outside moved. Where
+    something did, what cannot be kept any more breaks nothing, and is told without being asked (`ConstraintWatch`).
+    """
+
+    def __init__(self, board: PegBoard, scheduler: BMLScheduler, feedback: FeedbackManager) -> None:
         self._board = board
-        self._blocks = blocks
+        self._blocks = scheduler.blocks
         self._feedback = feedback
-        self._said: dict[BlockKey, set[tuple[str, tuple[str, ...]]]] = {}
+        self._said: WeakKeyDictionary[BMLBlock, set[tuple[str, tuple[str, ...]]]] = WeakKeyDictionary()
+        self._outside: WeakKeyDictionary[BMLBlock, list[float | None]] = WeakKeyDictionary()
+        scheduler.listen_to_plans(self._hold)
 
     def check(self, commits: Iterable[Commit], now: GlobalTime) -> None:
-        """Check what the commits of the tick at ``now`` moved."""
+        """Check what the commits of the tick at ``now`` moved; before what is missed by it counts as settled."""
         moved = {change.cell for commit in commits for change in commit.changes}
-        self._said = {block.key: self._said.get(block.key, set()) for block in self._blocks.alive}
         for block in concerned(self._blocks, self._board, moved):
             if block.state is not BlockState.IN_PREP:
-                self._verify(block, now)
+                self._judge(block, now)
 
-    def _verify(self, block: BMLBlock, now: GlobalTime) -> None:
-        said = self._said[block.key]
-        for violation in verify(PlanView.of_block(block, now)):
+    def _hold(self, block: BMLBlock, problem: Problem, solution: Solution) -> None:
+        self._verify(block, PlanView.of_solution(problem, solution))
+
+    def _judge(self, block: BMLBlock, now: GlobalTime) -> None:
+        plan = PlanView.of_block(block, now)
+        before, outside = self._outside.get(block), [plan.start, *plan.outer.values()]
+        self._outside[block] = outside
+        self._verify(block, plan if outside == before else replace(plan, settled=frozenset(plan.kept)))
+
+    def _verify(self, block: BMLBlock, plan: PlanView) -> None:
+        said = self._said.setdefault(block, set())
+        for violation in verify(plan):
             key = violation.equation, violation.points
             if key not in said:
                 said.add(key)

@@ -16,12 +16,12 @@ from reactive_realizer.reactive.commit import Commit
 from reactive_realizer.scheduler.admission import Admission
 from reactive_realizer.scheduler.block_planner import BlockPlanner
 from reactive_realizer.scheduler.blocks import Blocks
-from reactive_realizer.scheduler.bml_block import BlockState, BMLBlock
+from reactive_realizer.scheduler.bml_block import BlockState, BMLBlock, Wait
 from reactive_realizer.scheduler.cast import Cast
 from reactive_realizer.scheduler.concerned import concerned
 from reactive_realizer.scheduler.endings import Endings
 from reactive_realizer.scheduler.joining import Joining
-from reactive_realizer.scheduler.planning import Planning
+from reactive_realizer.scheduler.planning import PlanListener, Planning
 from reactive_realizer.scheduler.predictions import Predictions
 from reactive_realizer.scheduler.problem import Loss
 from reactive_realizer.scheduler.procedures import Procedures
@@ -54,8 +54,8 @@ class BMLScheduler:
         self._cast = cast
         self._limits = limits
         self._reporter = Reporter(feedback, self.blocks)
-        planning = Planning(board, self.blocks, strategy)
-        self._planner = BlockPlanner(cast, self.blocks, planning, workshop, self._reporter)
+        self._planning = Planning(board, self.blocks, strategy)
+        self._planner = BlockPlanner(cast, self.blocks, self._planning, workshop, self._reporter)
         self._procedures = Procedures(cast, workshop)
         self._predictions = Predictions(feedback)
         self._endings = Endings(board, cast, self.blocks, self._reporter, self._predictions)
@@ -72,6 +72,10 @@ class BMLScheduler:
     def listen(self, listener: Callable[[BlockKey], None]) -> None:
         """Call ``listener(block)`` when a block has ended, while its points are still on the board."""
         self._endings.listen(listener)
+
+    def listen_to_plans(self, listener: PlanListener) -> None:
+        """Call ``listener(block, problem, solution)`` of each plan that was committed."""
+        self._planning.listen(listener)
 
     def explain(self, character: str, name: str) -> dict[str, object]:
         """Why each point of a block alive is when it is, as objects that `json.dumps` takes.
@@ -205,17 +209,35 @@ class BMLScheduler:
         description = self._procedures.expand(written)
         joining = Joining(self.blocks, character, description)
         if (fault := joining.refusal()) is not None:
-            raise RealizerError(fault)
+            self._turn_away(fault, description, character, now)
+            return
         # Before anything of the new block is known to others.
         for other in joining.ended_by_it():
             self._requests.interrupt(other, now)
         if description.composition is Composition.REPLACE:
             self._cast.reset(character, now)
-        block = self._new_block(description, character, joining, now)
+        block = self._new_block(description, character, joining.waits(), now)
+        with self._board.graph.transaction(f"put {description.id} before others"):
+            joining.push_back(block)
+        for fault in joining.unknown:
+            self._reporter.warn(character, description.id, fault)
         if failed:
             self._endings.end(block, BlockState.FAILED, now)
         else:
             self._prepare(block, now)
+
+    def _turn_away(self, fault: Fault, description: BehaviorBlock, character: str, now: GlobalTime) -> None:
+        """A block cannot stand where it wants to.
+
+        Whoever brought it may have been told at the door, where nobody could know, that it is accepted: so it ends.
+
+        Raises:
+            RealizerError: the fault, if there is a block of that name already.
+        """
+        if self.blocks.get(BlockKey(character, description.id)) is not None:
+            raise RealizerError(fault)
+        self._refuse(fault, description, character)
+        self._endings.end(self._new_block(description, character, (), now), BlockState.FAILED, now)
 
     def _refuse(self, fault: Fault, written: BehaviorBlock | DefineProc | None, character: str) -> None:
         if written is not None:
@@ -225,16 +247,14 @@ class BMLScheduler:
     def _character(self, block: BehaviorBlock | None) -> str:
         return (block and block.character) or self._cast.characters[0]
 
-    def _new_block(self, description: BehaviorBlock, character: str, joining: Joining, now: GlobalTime) -> BMLBlock:
+    def _new_block(
+        self, description: BehaviorBlock, character: str, waits: Iterable[Wait], now: GlobalTime
+    ) -> BMLBlock:
         self._arrivals += 1
         key = BlockKey(character, description.id)
-        block = BMLBlock(self._board, key, description, self._arrivals, now, joining.waits())
+        block = BMLBlock(self._board, key, description, self._arrivals, now, waits)
         self.blocks.add(block)
-        with self._board.graph.transaction(f"put {description.id} before others"):
-            joining.push_back(block)
         self._reporter.meaningless(block, description.extensions, description)
-        for fault in joining.unknown:
-            self._reporter.warn(character, description.id, fault)
         return block
 
     # --- planning

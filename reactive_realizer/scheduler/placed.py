@@ -5,7 +5,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple
 
 from reactive_realizer.errors import error
+from reactive_realizer.pegboard.time_peg import TimeCell
 from reactive_realizer.planunit.timing import SHORTEST
+from reactive_realizer.reactive.cell import Cell
 from reactive_realizer.scheduler.problem import Anchor, AtOffset, AtRatio, Item, PegSpec
 from reactive_realizer.scheduler.stretch import average_stretch, ratio_between
 
@@ -41,6 +43,20 @@ def filled(item: Item, known: Mapping[int, Placed]) -> list[Placed]:
     return placed
 
 
+def cells_of(spec: PegSpec) -> set[TimeCell]:
+    """The pegs of the outside that one hangs on, in whatever number of steps."""
+    cells: set[TimeCell] = set()
+    seen, links = {spec}, [*spec.links]
+    while links:
+        link = links.pop()
+        if isinstance(link, Cell):
+            cells.add(link)
+        elif link not in seen:
+            seen.add(link)
+            links += link.links
+    return cells
+
+
 def is_past(placed: Placed) -> bool:
     """Whether a point lies before its block; those of free clusters have been moved."""
     free = placed.anchor is not None and placed.anchor.free
@@ -73,7 +89,8 @@ def check_playable(item: Item, placed: Sequence[Placed]) -> None:
     """
     known = [(sync, p.time) for sync, p in zip(item.timing.points, placed, strict=True) if p.time is not None]
     _check_order(itertools.pairwise(known))
-    if not item.timing.instant and len(known) == len(placed) and known[-1][1] - known[0][1] < SHORTEST:
+    start, end = placed[0].time, placed[-1].time
+    if not item.timing.instant and start is not None and end is not None and end - start < SHORTEST:
         raise error("too-short")
 
 

@@ -65,7 +65,7 @@ class PlanView:
             times={Point(u.behavior.id, sync): time for u in block.units for sync, time in u.times().items()},
             past=frozenset(key for key, p in points.items() if p.fired is not None or p.peg.pinned),
             kept=block.kept,
-            settled=frozenset(block.settled),
+            settled=_settled(block),
             lurking=frozenset(unit.behavior.id for unit in block.units if not unit.begun),
             outer={n: n.value for each in block.kept for n in each.nodes if not isinstance(n, Point | Origin)},
             start=start,
@@ -88,3 +88,9 @@ class PlanView:
     def movable(self, node: Node) -> bool:
         """Whether what is asked of it can still be met; the outside is as it is."""
         return not isinstance(node, Point) or (node in self.times and node not in self.past)
+
+
+def _settled(block: BMLBlock) -> frozenset[Tie | Order]:
+    """Also what its start waited for, once it has started."""
+    waited = (each for each in block.kept if not any(isinstance(node, Point) for node in each.nodes))
+    return frozenset(block.settled.union(waited) if block.state.plays else block.settled)

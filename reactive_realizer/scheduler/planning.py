@@ -1,7 +1,7 @@
 """From a prepared block to a plan on the board: solved aside, committed in one transaction or not at all."""
 
 import logging
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from reactive_realizer.clock.units import RESOLUTION, GlobalTime, Time
@@ -23,14 +23,16 @@ from reactive_realizer.scheduler.problem import (
     Loss,
     Order,
     Origin,
-    PegSpec,
     Point,
     Problem,
+    Solution,
     Tie,
 )
 from reactive_realizer.scheduler.strategy import SchedulingStrategy
 
 logger = logging.getLogger(__name__)
+
+PlanListener = Callable[[BMLBlock, Problem, Solution], None]
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +56,8 @@ class Plan:
     """A solved block; nothing of it is on the board yet."""
 
     units: tuple[PlanUnit, ...]
-    pegs: Mapping[str, Mapping[str, PegSpec]]
+    problem: Problem
+    solution: Solution
     losses: tuple[Loss, ...]
     kept: tuple[Tie | Order, ...]
     holds: tuple[Bound, ...]
@@ -67,6 +70,11 @@ class Planning:
         self._board = board
         self._blocks = blocks
         self._strategy = strategy
+        self._listeners: list[PlanListener] = []
+
+    def listen(self, listener: PlanListener) -> None:
+        """Call ``listener(block, problem, solution)`` of each plan that was committed."""
+        self._listeners.append(listener)
 
     def pose(self, block: BMLBlock, timings: Mapping[PlanUnit, Timing], now: GlobalTime) -> Task:
         """What is to be solved for a block that would be ready to start now; the board stays as it is.
@@ -108,10 +116,11 @@ class Planning:
         except Exception as failure:
             logger.exception("the strategy %s failed", self._strategy.name)
             fault = Fault("work-failed", {"reason": failure})
-            return Plan((), {}, (*task.losses, Loss(None, fault, dropped=False, required=True)), (), ())
+            solution = Solution({}, (Loss(None, fault, dropped=False, required=True),))
         planned = tuple(unit for unit in task.units if unit.behavior.id in solution.pegs)
         kept = (*solution.kept(task.problem), *task.holds)
-        return Plan(planned, solution.pegs, (*task.losses, *solution.losses), kept, tuple(task.holds.values()))
+        losses = (*task.losses, *solution.losses)
+        return Plan(planned, task.problem, solution, losses, kept, tuple(task.holds.values()))
 
     def is_stale(self, task: Task) -> bool:
         """Whether times from outside are not what they were when the problem was posed.
@@ -130,6 +139,7 @@ class Planning:
         with self._board.graph.transaction(f"plan {block.key.block}"):
             self._board.add_block(block.key, self._hang(block, plan))
             block.planned(now, plan.units, plan.kept, self._holds(block, plan))
+        self._tell(block, plan)
 
     def recommit(self, block: BMLBlock, plan: Plan) -> None:
         """Within a transaction, put another plan in the place of that on the board; who hung on that hangs on this."""
@@ -143,6 +153,11 @@ class Planning:
         for other in self._blocks.alive:
             other.follow(replaced)
         block.replanned(block.end.floor, plan.units, plan.kept)
+        self._tell(block, plan)
+
+    def _tell(self, block: BMLBlock, plan: Plan) -> None:
+        for listener in self._listeners:
+            listener(block, plan.problem, plan.solution)
 
     def _holds(self, block: BMLBlock, plan: Plan) -> list[TimePeg]:
         """The pegs that the start of a block hangs on by constraints."""
@@ -152,8 +167,9 @@ class Planning:
         return holds
 
     def _hang(self, block: BMLBlock, plan: Plan) -> dict[PegKey, TimePeg]:
-        own = {unit: {sync: unit.key(sync) for sync in plan.pegs[unit.behavior.id]} for unit in plan.units}
-        specs = {key: plan.pegs[unit.behavior.id][sync] for unit, keys in own.items() for sync, key in keys.items()}
+        specs_of = plan.solution.pegs
+        own = {unit: {sync: unit.key(sync) for sync in specs_of[unit.behavior.id]} for unit in plan.units}
+        specs = {key: specs_of[unit.behavior.id][sync] for unit, keys in own.items() for sync, key in keys.items()}
         builder = PegBuilder(self._board.graph, block, specs)
         pegs = builder.build()
         self._board.add_unnamed(block.key, builder.unnamed)

@@ -8,7 +8,7 @@ from reactive_realizer.pegboard.time_peg import TimeCell
 from reactive_realizer.planunit.timing import SHORTEST
 from reactive_realizer.scheduler.equalities import Equalities
 from reactive_realizer.scheduler.losses import kept_of, lost_behavior, lost_constraint, with_required
-from reactive_realizer.scheduler.placed import Placed, check_given, check_playable, filled, is_past, moved
+from reactive_realizer.scheduler.placed import Placed, cells_of, check_given, check_playable, filled, is_past, moved
 from reactive_realizer.scheduler.problem import (
     Anchor,
     AtBlock,
@@ -183,11 +183,21 @@ class _Run:
         start = filled(item, known)[0].time
         if start is None or given.time is None or start >= -SHORTEST:
             return known
-        if given.anchor.free if given.anchor else given.time < 0:
+        if given.anchor.free if given.anchor else self._joins_late(given):
             return known
         if first == 0 or item.timing.rigid or given.time <= 0:
             raise error("before-block", early=-start)
         return {0: self._start, **known}
+
+    def _joins_late(self, placed: Placed) -> bool:
+        """Whether an outer time that it hangs on is before the block, or brings a point there that is tied to it."""
+        cells = cells_of(placed.spec)
+        for tie in self._problem.ties:
+            for cell in cells.intersection(tie.nodes):
+                time = self._problem.times[cell]
+                if time is not None and min(time, time + (tie.offset if tie.right is cell else -tie.offset)) < 0:
+                    return True
+        return False
 
     def _join(self, anchors: Iterable[Anchor | None]) -> None:
         """Clusters that a behavior ties together stay together; tied to something fixed they are free no more."""
@@ -218,12 +228,13 @@ class _Run:
             if anchor.free:
                 anchor.time -= earliest.get(id(members), 0.0)
         for item in self._kept():
-            start, end = self._placed[item.behavior.id][0], self._placed[item.behavior.id][-1]
+            points = self._placed[item.behavior.id]
             # A later behavior may have tied a cluster to something fixed while it lay before the block.
-            if start.anchor is not None and is_past(start):
-                self._remove(item, Fault("before-block", {"early": -(start.time or 0.0)}))
-            elif is_past(end):
-                self._remove(item, Fault("all-past", {"late": -(end.time or 0.0)}))
+            early = next((point for point in points if point.anchor is not None and is_past(point)), None)
+            if early is not None:
+                self._remove(item, Fault("before-block", {"early": -(early.time or 0.0)}))
+            elif is_past(points[-1]):
+                self._remove(item, Fault("all-past", {"late": -(points[-1].time or 0.0)}))
 
     def _remove(self, item: Item, fault: Fault) -> None:
         del self._placed[item.behavior.id]

@@ -45,18 +45,7 @@ def verify(plan: PlanView) -> list[Violation]:
     Not judged is what nobody knows or can help any more: unknown times, points that were cut, `at` constraints of
     points that have passed, and before/after constraints of which the later point has.
     """
-    checks = (_rigid_phases, _early_clusters, _block_end)
-    broken = [violation for check in checks for violation in check(plan) if violation.amount > TOLERANCE]
-    return verify_promises(plan) + broken
-
-
-def verify_promises(plan: PlanView) -> list[Violation]:
-    """Those of them that are excused once it is played, and so are to be looked for in what a strategy answered.
-
-    A constraint that is missed may be so because times moved, and is given up. A behavior that is out of order, or
-    before its block, is dropped, or joins late.
-    """
-    checks = (_ties, _orders, _not_before_block, _durations, _sequences)
+    checks = (_ties, _orders, _not_before_block, _durations, _sequences, _rigid_phases, _early_clusters, _block_end)
     return [violation for check in checks for violation in check(plan) if violation.amount > TOLERANCE]
 
 

@@ -47,8 +47,8 @@ TIMES = st.sampled_from([None, 0.0, 0.1, 0.3, 0.7, 1.5, 3.0])
 MOVES = st.tuples(st.sampled_from([0.01, 0.1, 0.25, 0.6]), st.sampled_from(["one", "two"]), TIMES)
 
 
-async def play(first, second, composition, moves):
-    async with open_pilot(SceneOptions(voice="text", verify=True)) as pilot:
+async def play(strategy, first, second, composition, moves):
+    async with open_pilot(SceneOptions(voice="text", strategy=strategy, verify=True)) as pilot:
         pilot.predict("t", "one", 1.0)
         pilot.block("b", first)
         pilot.block("c", second, composition=composition)
@@ -72,7 +72,9 @@ def check(told):
 
 
 @settings(max_examples=40)
-@given(bodies(), bodies(outside=["b:start", "b:p:start", "b:p:end"]), st.sampled_from(["MERGE", "APPEND"]),
-       st.lists(MOVES, min_size=1, max_size=8))  # fmt: skip
-def test_whatever_moves_what_is_not_kept_is_said_and_points_come_once_and_in_order(first, second, how, moves) -> None:
-    check(asyncio.run(play(first, second, how, moves)))
+@given(st.sampled_from(["convex", "smartbody", "embr"]), bodies(), bodies(outside=["b:start", "b:p:start", "b:p:end"]),
+       st.sampled_from(["MERGE", "APPEND"]), st.lists(MOVES, min_size=1, max_size=8))  # fmt: skip
+def test_whatever_moves_what_is_not_kept_is_said_and_points_come_once_and_in_order(
+    by, first, second, how, moves
+) -> None:
+    check(asyncio.run(play(by, first, second, how, moves)))

@@ -93,7 +93,8 @@ async def test_nothing_can_be_put_before_a_block_that_plays(pilot) -> None:
     send(pilot, "late", wait(1), 'bmla:prependBefore="plays"')
     await pilot.advance(2)
     assert pilot.feedback.warnings == [("late", "IMPOSSIBLE_TO_SCHEDULE")]
-    assert not pilot.feedback.progress.count("late:start")
+    assert pilot.feedback.progress == ["plays:start", "plays:w:start", "late:end", "plays:w:end", "plays:end"]
+    assert pilot.feedback.status("late") == "FAILED"
 
 
 async def test_a_block_cannot_come_both_before_and_after_another(pilot) -> None:
@@ -103,7 +104,7 @@ async def test_a_block_cannot_come_both_before_and_after_another(pilot) -> None:
     send(pilot, "odd", wait(1), 'bmla:appendAfter="waits" bmla:prependBefore="waits"')
     await pilot.advance(4)
     assert pilot.feedback.warnings == [("odd", "IMPOSSIBLE_TO_SCHEDULE")]
-    assert pilot.feedback.status("waits") == "DONE"
+    assert (pilot.feedback.status("odd"), pilot.feedback.status("waits")) == ("FAILED", "DONE")
 
 
 async def test_a_behavior_cannot_hang_on_a_block_that_waits_for_its_own(pilot) -> None:
@@ -227,7 +228,7 @@ async def test_a_block_may_interrupt_the_one_of_its_own_name(pilot) -> None:
     ] * 2
 
 
-async def test_a_block_that_is_refused_ends_nothing(pilot) -> None:
+async def test_a_block_that_cannot_stand_where_it_wants_to_ends_nothing(pilot) -> None:
     send(pilot, "plays", wait(1))
     send(pilot, "other", wait(1))
     await pilot.tick()

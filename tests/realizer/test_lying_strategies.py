@@ -1,0 +1,134 @@
+"""A strategy that says that it kept what it did not is seen (`--verify`): which equation, which points, by how much."""
+
+import re
+
+import pytest
+
+from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.planunit.timing import SHORTEST
+from reactive_realizer.scheduler.plan_view import PlanView
+from reactive_realizer.scheduler.problem import Anchor, AtBlock, Point, Solution
+from reactive_realizer.testing.pilot import open_pilot
+
+BLOCK = (
+    '<wait id="w" duration="1" start="0.5"/><head id="n" lexeme="NOD" start="w:end"/>'
+    '<head id="m" lexeme="NOD" stroke="anticipators:partner:hit"/>'
+)
+HIT = "anticipators:partner:hit"
+
+_SAID = re.compile(r"is missed by (\S+) s \((.*); thesis (.*)\)")
+
+
+def untied(item, times):
+    """Everything as it is where nothing is asked."""
+    return item.timing.offsets
+
+
+def early(item, times):
+    """Everything 0.6 s before it should be."""
+    return [time - 0.6 for time in times]
+
+
+def swapped(item, times):
+    """The stroke and the relax of nods, each as if it was the other."""
+    if item.behavior.id == "w":
+        return times
+    *before, stroke, stroke_end, relax, end = times
+    return [*before, relax, stroke_end, stroke, end]
+
+
+def pressed(item, times):
+    """Every behavior all at once."""
+    return [times[0]] * len(times)
+
+
+def lie(pilot, monkeypatch, told, *, of=1) -> None:
+    """Have the strategy lie from its solution number ``of`` on, and lose nothing."""
+    honest, asked = pilot.realizer._strategy.solve, []
+
+    def solve(problem):
+        asked.append(problem)
+        solution = honest(problem)
+        return answer(problem, PlanView.of_solution(problem, solution), told) if len(asked) >= of else solution
+
+    monkeypatch.setattr(pilot.realizer._strategy, "solve", solve)
+
+
+def answer(problem, plan, told) -> Solution:
+    pegs = {}
+    for item in problem.items:
+        points = item.timing.points
+        times = told(item, [plan.times[Point(item.behavior.id, sync)] for sync in points])
+        pegs[item.behavior.id] = {sync: AtBlock(Anchor(), time) for sync, time in zip(points, times, strict=True)}
+    return Solution(pegs, ())
+
+
+def seen(pilot):
+    """What was said of block b with a number of the thesis: equation, points and amount (s)."""
+    texts = [line.element.text for line in pilot.feedback.of("warningFeedback") if line.id == "b"]
+    found = [match.groups() for text in texts if (match := _SAID.search(text))]
+    return [(equation, points, pytest.approx(float(amount), abs=1e-7)) for amount, points, equation in found]
+
+
+AT_START, AT_HIT = ("7.8", "w:start, block start"), ("7.32", f"m:stroke, {HIT}")
+NO_TIME = [("7.14", f"{id_}:start, {id_}:end", SHORTEST) for id_ in "wnm"]
+LIES = [
+    (untied, [(*AT_START, 0.5), ("7.11", "n:start, w:end", 1.0), (*AT_HIT, 2.65)]),
+    (early, [(*AT_START, 0.6), (*AT_HIT, 0.6), ("7.13", "w:start", 0.1)]),
+    (pressed, [("7.11", "n:start, w:end", 1.0), (*AT_HIT, 0.35), *NO_TIME, ("7.1.4", "w:start, w:end", 1.0)]),
+    (swapped, [(*AT_HIT, 0.35), ("7.15", "n:strokeEnd, n:relax", 0.35), ("7.15", "m:strokeEnd, m:relax", 0.35)]),
+]
+
+
+@pytest.fixture
+async def pilot():
+    async with open_pilot(SceneOptions(voice="text", verify=True)) as pilot:
+        pilot.predict("partner", "hit", 3.0)
+        yield pilot
+
+
+@pytest.mark.parametrize(("told", "broken"), LIES, ids=[told.__name__ for told, _ in LIES])
+async def test_a_lie_is_seen_with_its_equations_points_and_amounts(pilot, monkeypatch, told, broken) -> None:
+    lie(pilot, monkeypatch, told)
+    pilot.block("b", BLOCK)
+    await pilot.advance(5)
+    assert seen(pilot) == broken
+
+
+@pytest.mark.parametrize(("told", "broken"), LIES, ids=[told.__name__ for told, _ in LIES])
+async def test_it_is_seen_of_a_plan_that_nobody_has_play(pilot, monkeypatch, told, broken) -> None:
+    lie(pilot, monkeypatch, told)
+    pilot.block("b", BLOCK, **{"bmla:preplan": "true"})
+    await pilot.advance(0.1)
+    assert seen(pilot) == broken
+
+
+async def test_it_is_seen_of_a_chunk_that_is_planned_anew_when_it_starts(pilot, monkeypatch) -> None:
+    lie(pilot, monkeypatch, early, of=3)
+    pilot.block("a", '<wait id="w" duration="1"/>')
+    pilot.block("b", '<wait id="v" duration="1" start="0.5"/>', **{"bmla:chunkAfter": "a"})
+    await pilot.advance(0.9)
+    assert seen(pilot) == []
+    await pilot.advance(0.2)
+    assert seen(pilot) == [("7.8", "v:start, block start", 0.6), ("7.13", "v:start", 0.1)]
+
+
+async def test_it_is_seen_of_a_big_block_which_is_solved_aside(pilot, monkeypatch) -> None:
+    lie(pilot, monkeypatch, untied)
+    pilot.block("b", "".join(f'<wait id="w{i}" duration="1" start="1"/>' for i in range(60)))
+    await pilot.advance(0.5)
+    assert seen(pilot) == [("7.8", f"w{i}:start, block start", 1.0) for i in range(60)]
+
+
+async def test_times_that_moved_while_a_block_was_solved_make_nobody_a_liar(pilot) -> None:
+    """A wait ends in time when it is solved for the third time, and no more when that is committed."""
+    pilot.predict("partner", "start", 2.0)
+    before = f'<constraint><before ref="{HIT}"><sync ref="w:end"/></before></constraint>'
+    rest = "".join(f'<wait id="w{i}" duration="1"/>' for i in range(60))
+    pilot.block("b", f'<wait id="w" duration="1" start="anticipators:partner:start"/>{before}{rest}')
+    for hit in (3.0, 3.2, 3.0, 2.5):
+        pilot.predict("partner", "hit", hit)
+        await pilot.tick()
+    await pilot.advance(4)
+    (warning,) = pilot.feedback.of("warningFeedback")
+    assert "cannot be kept any more" in warning.element.text
