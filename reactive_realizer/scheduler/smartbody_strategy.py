@@ -178,15 +178,16 @@ class _Run:
 
         That binds neither free clusters, which are moved later, nor what hangs on an outer time that has passed.
         """
-        first = min(known)
-        given = known[first]
-        start = filled(item, known)[0].time
-        if start is None or given.time is None or start >= -SHORTEST:
+        times = {i: time for i in sorted(known) if (time := known[i].time) is not None}
+        if not times:
             return known
-        if given.anchor.free if given.anchor else self._joins_late(given):
+        first, time = next(iter(times.items()))
+        given, start = known[first], filled(item, known)[0].time
+        early = -(time if start is None else start)
+        if early <= SHORTEST or (given.anchor.free if given.anchor else self._joins_late(given)):
             return known
-        if first == 0 or item.timing.rigid or given.time <= 0:
-            raise error("before-block", early=-start)
+        if start is None or first == 0 or item.timing.rigid or time <= 0:
+            raise error("before-block", early=early)
         return {0: self._start, **known}
 
     def _joins_late(self, placed: Placed) -> bool:

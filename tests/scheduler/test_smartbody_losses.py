@@ -63,8 +63,9 @@ def test_but_what_the_outside_itself_brings_there_joins_late() -> None:
         assert times[Point("n", "start")] == times[Point("m", "start")] == -0.5
 
 
-def test_a_point_before_the_block_costs_its_behavior_also_while_nobody_knows_when_that_starts() -> None:
-    ties = at("b:start", START), at("n:start", outer("hit", None)), at("n:stroke", "b:start", -0.5)
+@pytest.mark.parametrize("other", [at("b:start", START), at("b:start", outer("hit", 0.25))], ids=["block", "outside"])
+def test_a_point_before_the_block_costs_its_behavior_also_while_nobody_knows_when_that_starts(other) -> None:
+    ties = other, at("n:start", outer("unknown", None)), at("n:stroke", "b:start", -0.5)
     _, losses = solved({"b": "beat", "n": "nod"}, *ties)
     assert losses == [("before-block", False)]
 
