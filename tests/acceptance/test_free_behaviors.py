@@ -3,6 +3,7 @@
 import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.bml.names import BMLT
 from reactive_realizer.testing.pilot import open_pilot
 
 TRANSITION = (
@@ -76,3 +77,18 @@ async def test_of_two_that_say_when_one_of_its_points_is_the_required_one_is_kep
         await pilot.advance(4)
         assert [pilot.feedback.time(point) for point in ("b:w:start", "b:w:end", "b:f:end")] == [0, 0.3, 3]
         assert pilot.feedback.time("b:f:start") == 0.3
+
+
+async def test_one_that_is_to_come_before_a_time_that_nobody_knows_plays(pilot) -> None:
+    change = '<x:trajectory type="instant" targetValue="0.2"/>'
+    pilot.block(
+        "b",
+        NOD.format("")
+        + f'<x:parametervaluechange xmlns:x="{BMLT}" id="v" target="b:n" paramId="amount" start="n:start">{change}'
+        "</x:parametervaluechange>"
+        '<constraint><before ref="anticipators:t:one"><sync ref="v:end"/></before></constraint>',
+    )
+    await pilot.advance(5)
+    assert pilot.feedback.status("b") == "DONE"
+    assert pilot.feedback.reached("b:v:end")
+    assert pilot.feedback.warnings == []

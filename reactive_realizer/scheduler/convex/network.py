@@ -81,7 +81,7 @@ class Network:
         for root in (self.spot(node).root for span in spans for node in (span.start, span.end)):
             self.leads.setdefault(root, 0.0)
         self.roots = sorted(self.leads)
-        self._times = {root: table.time(root) for root in self.roots}
+        self._times = {root: table.time(root) for root in {spot.root for spot in self._spots}}
         ways = [self._way(span) for span in spans]
         self.ways = sorted((w for w in ways if w.start != w.end), key=self._turn)
 
