@@ -59,10 +59,13 @@ class ConstraintWatch:
             if each in block.settled or _cut(each, units):
                 continue
             late = missed(each, *(_time(node, block, units) for node in each.nodes))
+            again = _again(each, block, units, moved, now)
             if late <= TOLERANCE or _slight(each, late, block, units):
+                if again and any(node.value is None for node in _outside(each)):
+                    block.settled.add(each)  # withdrawn: what is given from now on is for the next time
                 continue
             block.settled.add(each)
-            if not _again(each, block, units, moved, now):
+            if not again:
                 self._say(block, each, late)
 
     def _say(self, block: BMLBlock, constraint: Tie | Order, late: float) -> None:

@@ -100,3 +100,13 @@ async def test_what_was_to_come_after_a_time_that_is_given_anew_and_cannot_follo
     await moves(pilot, 2.2, ("hit", 5.0), 4)
     assert_time(pilot.feedback, "b:w:end", 2.8)
     assert missed(pilot) == pytest.approx({("b:w", f"w:end = {HIT}+0.8"): 3.0})
+
+
+async def test_a_time_that_has_come_and_is_withdrawn_may_be_given_anew_for_the_next_time(pilot) -> None:
+    pilot.predict("t", "hit", 1.0)
+    pilot.block("b", wait("w", 4) + nod("n", start=HIT))
+    await moves(pilot, 1.5, ("hit", None), 0.5)
+    pilot.predict("t", "hit", 3.0)
+    await pilot.advance(3)
+    assert_time(pilot.feedback, "b:n:start", 1.0)
+    assert missed(pilot) == {}
