@@ -98,6 +98,15 @@ class SlowMaker(Protocol):
         ...
 
 
+@runtime_checkable
+class LookingMaker(Protocol):
+    """A maker that looks at files, and remembers what it found."""
+
+    def look_again(self) -> None:
+        """Something new is to be planned: files may have been saved since."""
+        ...
+
+
 Maker = Callable[[Wanted], MotionUnit]
 """Makes motions of one kind for one actor.
 

@@ -118,6 +118,8 @@ class AnimationEngine(DefaultEngine):
         """
         while self._drafts and not _precedes(self._drafts[-1], block, behavior):
             self._drafts.pop()
+        if not self._drafts:
+            self._library.look_again()
         unit = self._unit(block, behavior)
         self._drafts.append(unit)
         return unit

@@ -10,7 +10,7 @@ from reactive_realizer.binding.seen import seen
 from reactive_realizer.binding.unit_spec import UnitSpec
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.behaviors import Head
-from reactive_realizer.engines.animation.actor import Actor, SlowMaker, Wanted
+from reactive_realizer.engines.animation.actor import Actor, LookingMaker, SlowMaker, Wanted
 from reactive_realizer.engines.animation.choice import Choice, Choices
 from reactive_realizer.engines.animation.gaze.gaze_maker import DYNAMIC
 from reactive_realizer.engines.animation.in_vain import GROUP, left_out, listed, named_in_vain, said_in_vain
@@ -38,6 +38,7 @@ class MotionLibrary:
         self._makers = makers_of(actor)
         makers: Mapping[str, object] = self._makers
         self._slow = {unit: maker for unit, maker in makers.items() if isinstance(maker, SlowMaker)}
+        self._looking = [maker for maker in makers.values() if isinstance(maker, LookingMaker)]
         self._reads = {(spec.behavior, spec.namespace) for spec in binding.specs if spec.unit in self._slow}
         self._noted: set[UnitSpec] = set()
         self._judged: set[UnitSpec] = set()
@@ -58,6 +59,11 @@ class MotionLibrary:
             words = " and ".join(f"{name}='{attributes[name]}'" for name in sorted(said))
             raise error("no-motion-for", element=behavior.name, said=f" with {words}" if words else "")
         return Choices(self._made(specs, behavior, attributes))
+
+    def look_again(self) -> None:
+        """Files are looked at once for all behaviors of a block: the next ones are of another."""
+        for maker in self._looking:
+            maker.look_again()
 
     def _made(self, specs: Iterable[UnitSpec], behavior: Behavior, attributes: Mapping[str, str]) -> Iterator[Choice]:
         refused: dict[UnitSpec, Fault] = {}

@@ -5,7 +5,7 @@ from functools import lru_cache
 from reactive_realizer.binding.gesture_binding import numbers
 from reactive_realizer.embodiment.pose import LayerKind
 from reactive_realizer.engines.animation.actor import Actor, Wanted
-from reactive_realizer.engines.animation.procedural.animation_files import wanted_animation
+from reactive_realizer.engines.animation.procedural.animation_files import AnimationFiles
 from reactive_realizer.engines.animation.procedural.proc_animation import ProcAnimation
 from reactive_realizer.engines.animation.procedural.proc_motion_unit import ProcMotionUnit, kind_of
 
@@ -17,13 +17,16 @@ class ProcMotionMaker:
     """Makes motions of animation files; those that are alike are planned once."""
 
     def __init__(self, actor: Actor) -> None:
-        self._actor = actor
+        self._files = AnimationFiles(actor)
         self._motion = lru_cache(_MOST)(_made)
 
     def __call__(self, wanted: Wanted) -> ProcMotionUnit:
         """As every maker."""
-        animation = wanted_animation(self._actor, wanted)
-        return self._motion(animation, tuple(numbers(wanted.parameters).items()), wanted.added).another()
+        return self._motion(self._files(wanted), tuple(numbers(wanted.parameters).items()), wanted.added).another()
+
+    def look_again(self) -> None:
+        """As `LookingMaker`."""
+        self._files.look_again()
 
 
 def _made(animation: ProcAnimation, parameters: tuple[tuple[str, float], ...], added: bool) -> ProcMotionUnit:
