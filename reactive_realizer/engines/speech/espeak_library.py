@@ -98,6 +98,7 @@ class EspeakLibrary:
         options = _PHONEME_EVENTS | _PHONEME_IPA | _DONT_EXIT
         self.sample_rate: int = self._library.espeak_Initialize(_SYNCHRONOUS_RETRIEVAL, 0, data, options)
         _check("espeak_Initialize", min(self.sample_rate, 0))  # in place of a rate it returns a negative status
+        self._library.espeak_ng_SetRandSeed(1)  # else breath is seeded with the second in which it starts
         self._spoken = Spoken()
         self._callback = _Callback(self._collect)  # the library keeps only the pointer
         self._library.espeak_SetSynthCallback(self._callback)

@@ -60,6 +60,19 @@ async def test_the_same_text_gives_the_same_bytes_in_another_worker(voice):
         await other.close()
 
 
+async def test_it_does_not_matter_when_a_worker_was_started():
+    """The breath of a voice is random, and of itself seeded with the second in which its worker starts."""
+    heard = set()
+    for _ in range(2):
+        voice = EspeakVoice()
+        try:
+            heard.add((await spoken(voice, SENTENCE, "en-us+f3")).audio)
+            await asyncio.sleep(1.0)  # there is nothing to wait for but another second
+        finally:
+            await voice.close()
+    assert len(heard) == 1
+
+
 async def test_another_voice_speaks_otherwise(voice):
     default = await spoken(voice, SENTENCE)
     variant = await spoken(voice, SENTENCE, "EN-US+f3")
