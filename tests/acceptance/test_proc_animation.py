@@ -208,6 +208,21 @@ async def test_joints_that_it_does_not_turn_are_an_answer_and_no_silence(opened)
         assert "play.xml turns none of l_elbow; it turns r_elbow" in line.element.text
 
 
+async def test_a_file_that_was_saved_anew_is_read_anew_by_a_block_that_failed_before(opened, tmp_path) -> None:
+    bend = animation('<Rotation target="vc4" rotation="{0};0;0"/>')
+    fails = '<required><constraint><before ref="w:start"><sync ref="w:end"/></before></constraint></required>'
+    async with opened(entry("PLAY", "play.xml"), play=bend.format(0.1)) as pilot:
+        pilot.block("b", f'<gesture id="g" lexeme="PLAY"/><wait id="w" duration="1"/>{fails}')
+        await pilot.advance(1)
+        assert pilot.feedback.status("b") == "FAILED"
+        (tmp_path / "play.xml").write_text(bend.format(0.3))
+        os.utime(tmp_path / "play.xml", ns=(0, 1))
+        pilot.block("b", '<wait id="w" duration="1"/><gesture id="g" lexeme="PLAY"/>')
+        await pilot.advance(1)
+        last = shown(pilot, float(pilot.frames["alice"][-1].time))
+        assert gap(last.rotation("vc4"), from_euler(0.3, 0.0, 0.0)) < 0.01
+
+
 async def test_a_file_that_was_saved_anew_is_read_anew_at_its_next_use(opened, tmp_path) -> None:
     async with opened(
         entry("PLAY", "play.xml"), play=animation('<Rotation target="vc4" rotation="0.1;0;0"/>')

@@ -107,6 +107,7 @@ class AnimationEngine(DefaultEngine):
 
     def prepare(self, behavior: Behavior) -> Awaitable[object] | None:
         """Long files are read aside."""
+        self._drafts.clear()  # of a block that failed while it was planned
         works = self._library.readings(behavior)
         return asyncio.to_thread(lambda: [work() for work in works]) if works else None
 
