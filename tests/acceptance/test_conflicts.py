@@ -26,6 +26,17 @@ async def test_an_arm_that_is_free_again_at_the_very_time_is_no_conflict(pilot) 
     assert pilot.feedback.time("b:two:start") == pilot.feedback.time("b:one:end") == 1.234
 
 
+async def test_an_arm_on_its_way_back_is_free_unless_bml_says_when_it_is_there(pilot) -> None:
+    for block, back in (("free", ""), ("said", ' end="2"')):
+        one = f'<gesture id="one" lexeme="BEAT" mode="RIGHT_HAND" start="0" relax="1"{back}/>'
+        pilot.block(block, one + RIGHT.format("two", 1.2, 3))
+        await pilot.advance(4)
+    assert pilot.feedback.time("free:one:end") == pilot.feedback.time("free:two:start")
+    assert pilot.feedback.warnings == [("said:two", "IMPOSSIBLE_TO_SCHEDULE")]
+    start = pilot.feedback.time("said:start")
+    assert pilot.feedback.time("said:one:end") == pytest.approx(start + 2)
+
+
 async def test_it_is_judged_when_the_later_one_starts_and_not_when_it_is_planned(pilot) -> None:
     pilot.predict("test", "go", 1.0)
     pilot.block("b", RIGHT.format("one", 0, 2) + RIGHT.format("two", "anticipators:test:go", 4))

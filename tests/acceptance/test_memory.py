@@ -105,6 +105,7 @@ _PERFORMED = """
 async def test_what_has_ended_frees_itself_without_a_search_for_garbage(pilot) -> None:
     async def perform(block: str) -> None:
         pilot.block(block, _PERFORMED.format(block))
+        pilot.block("big", "".join(f'<wait id="w{number}" duration="0.1"/>' for number in range(60)))  # solved aside
         pilot.block("other", '<gazeShift id="z" target="bluebox"/><speech id="s"><text>and so on</text></speech>')
         await pilot.advance(6.0)
 
