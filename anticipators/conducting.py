@@ -1,4 +1,4 @@
-"""The beats of a music that is played (thesis 8.1.2, 8.5.1 and example 31), from taps or from onsets of its sound."""
+"""Predicts the beats of music (thesis 8.1.2, 8.5.1 and example 31), from taps or from onsets of its sound."""
 
 import re
 
@@ -12,20 +12,20 @@ _SHORTEST, _LONGEST = 0.2, 3.0
 
 
 class Conducting(Anticipator):
-    """Points ``beatN``: the Nth beat, counted from the first that is heard; the next ones are expected by a `Rhythm`.
+    """Its points are ``beatN``: the Nth beat after the first one heard. A `Rhythm` predicts the next ones.
 
-    It assumes one tap, or one onset, a beat, of 20 to 300 beats a minute, told at once, and equal beats whose tempo
-    drifts rather than jumps. From the second beat on the tempo is known. A beat that is missed comes nevertheless, one
-    that is doubled counts once, and notes between two beats are no beats. When the music stops, so many beats still
-    come as are predicted ahead, and the next one heard takes the count up again in the last tempo.
+    It assumes one tap or onset per beat, reported at once, at 20 to 300 beats per minute, and a tempo that drifts but
+    does not jump. The tempo is known from the second beat on. A missed beat is counted, a doubled one counts once, and
+    notes between beats are ignored. When the music stops, ``ahead`` more beats are predicted, and the next one heard
+    continues the count in the last tempo.
 
     Args:
-        phase: how much of the distance between a beat and its prediction the next one makes good.
-        period: how much of it the tempo follows.
-        ahead: how many beats are predicted after the last one heard.
+        phase: share of the error of a beat that the next one corrects.
+        period: share of the error by which the tempo changes.
+        ahead: number of beats predicted after the last one heard.
 
     Raises:
-        RealizerError: a parameter out of its range.
+        RealizerError: a parameter is out of range.
     """
 
     kind = "conducting"
@@ -44,12 +44,12 @@ class Conducting(Anticipator):
         self._rhythm = Rhythm(phase, period, ahead, _SHORTEST, _LONGEST)
 
     def forecast(self, sync: str) -> Time:
-        """The time of a beat; other names are never known."""
+        """The time of a beat; None for other names."""
         found = _BEAT.fullmatch(sync)
         return self._rhythm.time(int(found[1])) if found else None
 
     def event(self, name: str, value: float | None, now: GlobalTime) -> None:
-        """``beat``: one is heard, now; ``start``: the next one heard is the first."""
+        """Handle ``beat``, a beat heard now, and ``start``, which makes the next one heard the first."""
         if name == "beat" and self._rhythm.hear(now, now):
             self.revise(now)
         elif name == "start":

@@ -1,4 +1,4 @@
-"""Key moments of an exercise that somebody does (thesis 6.5.1, 8.5.1, 10.3.6), from an accelerometer."""
+"""Predicts the key moments of a physical exercise (thesis 6.5.1, 8.5.1, 10.3.6), from an accelerometer."""
 
 import re
 
@@ -6,7 +6,7 @@ from anticipators.parameters import within
 from anticipators.peaks import Peaks
 from anticipators.rhythm import Rhythm
 from reactive_realizer.clock.units import GlobalTime, Time, is_due
-from reactive_realizer.errors import error
+from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.pegboard.anticipator import Anticipator
 from reactive_realizer.pegboard.pegboard import PegBoard
 
@@ -16,24 +16,32 @@ _SHORTEST, _LONGEST = 0.3, 10.0
 _STRONGEST = 1e6
 
 
-class Exercise(Anticipator):
-    """Points ``N``: the Nth peak of acceleration, counted from the first; and, each the next of its kind, its names.
+class BadPeakName(Fault):
+    """A name that cannot be the name of a peak."""
 
-    Peaks were found to coincide with the key moments of exercises (thesis 10.3.6). With names, every peak is one of
-    them, in turn from the first one on, and the intervals between them need not be equal: of squats with the names
-    ``down`` and ``up``, ``down`` is the next time the knees are bent, and ``3`` the second. It assumes magnitudes of
-    acceleration, gravity included or not, of 20 samples a second or more, one peak a key moment, and key moments 0.3 to
-    10 s apart whose tempo drifts rather than jumps. Each is expected by a `Rhythm` once its interval was seen.
+    code = "bad-peak-name"
+    template = "'{name}' is not a valid peak name: use a letter followed by letters, digits or '_', each name once"
+    name: str
+
+
+class Exercise(Anticipator):
+    """Its points are ``N``, the Nth peak of acceleration, and the names of peaks, each of which is the next such peak.
+
+    Peaks coincide with the key moments of exercises (thesis 10.3.6). Peaks get the names in turn, and the intervals
+    between them need not be equal: for squats with the names ``down`` and ``up``, ``down`` is the next time that the
+    knees are bent, and ``3`` is the second time. It assumes magnitudes of acceleration, with or without gravity, at 20
+    samples per second or more, one peak per key moment, and key moments 0.3 to 10 s apart, with a tempo that drifts but
+    does not jump. A `Rhythm` predicts each peak once its interval has been observed.
 
     Args:
-        names: of the peaks of one repetition, in order; none: peaks are only counted.
-        rise: how far above the slow average of the samples a peak is, in their unit, more than 0; 3 suits m/s².
-        phase: how much of the distance between a peak and its prediction the next one makes good.
-        period: how much of it the interval follows.
-        ahead: how many peaks are predicted after the last one: so many still come when the user rests.
+        names: of the peaks of one repetition, in order; if empty, peaks are only counted.
+        rise: height of a peak above the slow average of the samples, in their unit, more than 0; 3 suits m/s².
+        phase: share of the error of a peak that the next one corrects.
+        period: share of the error by which the interval changes.
+        ahead: number of peaks predicted after the last one, also when the user rests.
 
     Raises:
-        RealizerError: a parameter out of its range, or a name that is none or stands there twice.
+        RealizerError: a parameter is out of range, or a name is invalid or used twice.
     """
 
     kind = "exercise"
@@ -52,38 +60,38 @@ class Exercise(Anticipator):
         super().__init__(id, board)
         for rank, name in enumerate(names):
             if not _NAME.fullmatch(name) or name in names[:rank]:
-                raise error("bad-peak-name", name=name)
+                raise RealizerError(BadPeakName(name=name))
         self._names = names
         self.points = ("N", *names)
         self._peaks = Peaks(within("rise", rise, 1e-6, _STRONGEST))
         self._rhythm = Rhythm(phase, period, ahead, _SHORTEST, _LONGEST, max(1, len(names)))
 
     def forecast(self, sync: str) -> Time:
-        """The time of a peak by its number, or of the next one of a name; others are never known."""
+        """The time of a peak by its number, or of the next one by its name; None for other names."""
         if sync in self._names:
             passed, names = self._rhythm.passed, len(self._names)
             return self._rhythm.time(passed + 1 + (self._names.index(sync) - passed) % names)
         return self._rhythm.time(int(sync)) if _NUMBER.fullmatch(sync) else None
 
     def check(self, name: str, value: float | None) -> None:
-        """A sample is a magnitude.
+        """Check that a sample is a magnitude.
 
         Raises:
-            RealizerError: it is not, or "unknown-event".
+            RealizerError: "bad-number" or "unknown-event".
         """
         super().check(name, value)
         if name == "sample":
             within(name, value, 0.0, _STRONGEST)
 
     def advance(self, now: GlobalTime) -> None:
-        """What has come is expected again, under its name."""
+        """Renew the named points that have passed."""
         points = self._board.predictions(self.id) if self._rhythm.advance(now) else {}
         for name in self._names:
             if name in points and is_due(points[name].value, now):
                 self.renew(name)
 
     def event(self, name: str, value: float | None, now: GlobalTime) -> None:
-        """``sample``: a magnitude of acceleration; ``start``: the next peak is the first, and of the first name."""
+        """Handle ``sample``, a magnitude of acceleration, and ``start``, which makes the next peak the first."""
         if name == "sample" and value is not None:
             peak = self._peaks.take(value, now)
             if peak is not None and self._rhythm.hear(peak, now):

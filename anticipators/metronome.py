@@ -1,4 +1,4 @@
-"""A metronome (thesis 8.5.1): equal beats whose tempo may change while somebody moves to them."""
+"""A metronome (thesis 8.5.1): equal beats in a tempo that may change."""
 
 import re
 from typing import NamedTuple
@@ -13,7 +13,7 @@ _SLOWEST, _FASTEST = 10.0, 400.0
 
 
 class _Change(NamedTuple):
-    """From a beat on, at a time, beats come one period (s) after another."""
+    """A change of tempo: from a beat on, at a time, the distance of beats is ``period`` (s)."""
 
     beat: int
     time: GlobalTime
@@ -21,16 +21,16 @@ class _Change(NamedTuple):
 
 
 class Metronome(Anticipator):
-    """Points ``tickN``, N beats after its start, at first that of the realizer.
+    """Its points are ``tickN``, N beats after its start, which is that of the realizer until it is restarted.
 
-    A new tempo holds from the beat that went before: that beat and all earlier ones keep their times, the next comes
-    one new period after it.
+    A new tempo holds from the previous beat on: that beat and all earlier ones keep their times, and the next comes one
+    new period later.
 
     Args:
-        tempo: beats a minute, 10 to 400.
+        tempo: beats per minute, 10 to 400.
 
     Raises:
-        RealizerError: a tempo outside of that.
+        RealizerError: the tempo is out of range.
     """
 
     kind = "metronome"
@@ -43,26 +43,26 @@ class Metronome(Anticipator):
 
     @property
     def tempo(self) -> float:
-        """Beats a minute."""
+        """Beats per minute."""
         return 60.0 / self._changes[-1].period
 
     def forecast(self, sync: str) -> Time:
-        """The time of a beat; other names are never known."""
+        """The time of a beat; None for other names."""
         found = _TICK.fullmatch(sync)
         return self._time(int(found[1])) if found else None
 
     def check(self, name: str, value: float | None) -> None:
-        """A tempo is 10 to 400 beats a minute.
+        """Check that a tempo is 10 to 400 beats per minute.
 
         Raises:
-            RealizerError: it is not, or "unknown-event".
+            RealizerError: "bad-number" or "unknown-event".
         """
         super().check(name, value)
         if name == "tempo":
             _checked(value)
 
     def event(self, name: str, value: float | None, now: GlobalTime) -> None:
-        """``tempo`` changes the time of every beat ahead; ``start`` begins to count anew, now."""
+        """Handle ``tempo``, which changes the times of all beats ahead, and ``start``, which makes now beat 0."""
         if name == "start":
             self._changes = [_Change(0, now, self._changes[-1].period)]
             for sync, peg in self._board.predictions(self.id).items():
@@ -78,7 +78,7 @@ class Metronome(Anticipator):
             following = self._changes.pop().beat
         else:
             following = change.beat + int((now - change.time + RESOLUTION) / change.period) + 1
-        # Quicker than time goes: a beat that would have been due under the new tempo comes now.
+        # A beat that would have been due already in the new tempo comes now.
         time = max(GlobalTime(self._time(following - 1) + period), now)
         self._changes.append(_Change(following, time, period))
         self.revise(now)

@@ -1,4 +1,4 @@
-"""Peaks of a signal."""
+"""Finds the peaks of a signal."""
 
 from math import exp
 from typing import NamedTuple
@@ -6,10 +6,10 @@ from typing import NamedTuple
 from reactive_realizer.clock.units import GlobalTime, Time
 
 _SLOW = 5.0
-"""Time constant of the average, s: some movements long."""
+"""Time constant of the average, s: the duration of several movements."""
 
 _FIRST = 0.5
-"""So long (s) the first sample counts for all that was before: it may be one of rest, or that of a peak."""
+"""Weight of the first sample in the average, as a time (s): it may be taken at rest or at a peak."""
 
 
 class _Sample(NamedTuple):
@@ -18,12 +18,12 @@ class _Sample(NamedTuple):
 
 
 class Peaks:
-    """Finds where a signal is highest each time it rises well above its slow average.
+    """Finds the maximum of a signal each time it rises well above its slow average.
 
-    A peak is known for one when the signal has fallen halfway back; noise smaller than half of the rise makes none.
+    A peak is recognized when the signal has fallen halfway back; noise of less than half of the rise has no effect.
 
     Args:
-        rise: how far above the average, in the unit of the signal.
+        rise: height of a peak above the average, in the unit of the signal.
     """
 
     def __init__(self, rise: float) -> None:
@@ -34,7 +34,7 @@ class Peaks:
         self._top: _Sample | None = None
 
     def take(self, value: float, now: GlobalTime) -> Time:
-        """Take a sample; when the peak was that it shows to be one."""
+        """Take a sample; the time of the peak that it confirms, if it does."""
         self._follow(value, now)
         above = value - self._average
         if self._top is None:
@@ -47,7 +47,7 @@ class Peaks:
         return None
 
     def _follow(self, value: float, now: GlobalTime) -> None:
-        """The average is over what was seen: a stream that begins in a peak is understood as soon as any other."""
+        """Update the average, which counts only observed time, so that a signal may begin with a peak."""
         if self._last is None:
             self._last, self._average = now, value
         passed = now - self._last
@@ -57,5 +57,5 @@ class Peaks:
 
 
 def _weight(seconds: float) -> float:
-    """Of the last seconds, in a slow average over all time."""
+    """The weight of the last seconds in a slow average over all time."""
     return 1 - exp(-seconds / _SLOW)

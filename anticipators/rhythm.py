@@ -1,34 +1,34 @@
-"""When the next beats come, from those that were heard: what everybody has in mind who follows a rhythm."""
+"""Predicts the next beats of a rhythm from those that were heard."""
 
 from anticipators.parameters import within
 from reactive_realizer.clock.units import GlobalTime, Time, is_due
 
 _WINDOW = 0.3
-"""So much of an interval a beat may be away from where it was expected."""
+"""Largest distance of an onset from its predicted beat, as a share of the interval."""
 
 
 class Rhythm:
-    """Beats, counted from 1 for the first one heard, and the times at which the next ones are expected.
+    """The beats heard, counted from 1, and the predicted times of the next ones.
 
     The two-process model of sensorimotor synchronization (J. Mates, A model of synchronization of motor acts to a
     stimulus sequence, Biol. Cybern. 70, 1994; B. Repp, Sensorimotor synchronization: a review of the tapping
-    literature, Psychon. Bull. Rev. 12, 2005): a beat that is heard ``e`` seconds after it was expected moves the
-    expected ones by ``phase * e``, and makes the intervals between them longer by ``period * e``; it is steady
-    within the bounds of these two.
+    literature, Psychon. Bull. Rev. 12, 2005): a beat that is heard ``e`` seconds after its predicted time moves the
+    predicted beats by ``phase * e``, and makes the intervals between them longer by ``period * e``; it is stable
+    within the ranges of these two.
 
-    Between two beats that are heard others may be missed. Further onsets of one beat mean nothing, and one that is more
-    than 0.3 intervals from any beat is left out; but two such in a row are a new rhythm.
+    Beats may be missed. Further onsets of a beat are ignored, and so is an onset that is more than 0.3 intervals from
+    any beat; but two such onsets in a row begin a new rhythm.
 
     Args:
-        phase: how much of an error the next beat makes good, more than 0 and at most 1.
-        period: how much of it the interval follows, 0 to 1.
-        ahead: how many beats are expected after the last one heard, 1 to 100.
-        shortest: interval between two beats, s; what follows an onset sooner is its echo.
-        longest: interval, s.
-        cycle: after how many beats the intervals repeat, where they are not all equal.
+        phase: share of an error that the next beat corrects, more than 0 and at most 1.
+        period: share of an error by which the interval changes, 0 to 1.
+        ahead: number of beats predicted after the last one heard, 1 to 100.
+        shortest: shortest interval between two beats, s; an onset that follows sooner is ignored as an echo.
+        longest: longest interval, s.
+        cycle: number of beats after which the intervals repeat; 1 if they are all equal.
 
     Raises:
-        RealizerError: phase, period or ahead out of range.
+        RealizerError: phase, period or ahead is out of range.
     """
 
     def __init__(
@@ -53,11 +53,11 @@ class Rhythm:
 
     @property
     def passed(self) -> int:
-        """How many beats there were, heard or not."""
+        """The number of beats so far, heard or not."""
         return len(self._passed)
 
     def time(self, beat: int) -> Time:
-        """When a beat was, or is expected; None while that is unknown."""
+        """The time of a past or predicted beat; None while it is unknown."""
         if beat <= self.passed:
             return self._passed[beat - 1] if beat > 0 else None
         time = self._next if beat <= self._heard + self._ahead else None
@@ -69,14 +69,14 @@ class Rhythm:
         return time
 
     def advance(self, now: GlobalTime) -> bool:
-        """It is ``now``; whether a beat has come."""
+        """Count the beats that have passed by ``now``; whether there were any."""
         before = self.passed
         while (due := self.time(self.passed + 1)) is not None and is_due(due, now):
             self._add(due)
         return self.passed > before
 
     def hear(self, onset: GlobalTime, now: GlobalTime) -> bool:
-        """A beat began at ``onset``, not after ``now``; whether that changes what is expected."""
+        """Hear an onset, not after ``now``; whether that changes the prediction."""
         self.advance(now)
         if self._onset is not None and onset - self._onset < self._shortest:
             return False
@@ -89,11 +89,11 @@ class Rhythm:
             if abs(onset - time) <= _WINDOW * (coming - last):
                 self._stray = None
                 return self._follow(beat, time, onset - time)
-        # Nothing was heard for so long that nothing was expected any more.
-        return self._begin(onset) if onset > coming else self._leave_out(onset)
+        # After a long silence, an onset later than all predictions continues the rhythm.
+        return self._begin(onset) if onset > coming else self._ignore(onset)
 
     def _follow(self, beat: int, time: GlobalTime, error: float) -> bool:
-        """Correct phase and interval by a beat that was expected at ``time``."""
+        """Correct phase and interval by a beat that was predicted at ``time``."""
         if beat <= self._heard:
             return False
         self._heard = beat
@@ -102,8 +102,8 @@ class Rhythm:
         self._next = corrected if beat > self.passed else self._after(corrected)
         return True
 
-    def _leave_out(self, onset: GlobalTime) -> bool:
-        """An onset where no beat is; the second one in a row begins a new rhythm."""
+    def _ignore(self, onset: GlobalTime) -> bool:
+        """Ignore an onset that is no beat; the second one in a row begins a new rhythm."""
         stray, self._stray = self._stray, onset
         if stray is None or onset - stray > self._longest:
             return False
@@ -113,7 +113,7 @@ class Rhythm:
         return self._begin(onset)
 
     def _begin(self, onset: GlobalTime) -> bool:
-        """A beat that nothing had let expect."""
+        """Count an onset as a beat that was not predicted."""
         if self._passed and self._heard == self.passed:
             self._learn(self.passed, onset - self._passed[-1])
         self._stray = None
@@ -130,7 +130,7 @@ class Rhythm:
         return None if interval is None else GlobalTime(time + interval)
 
     def _interval(self, beat: int) -> float | None:
-        """From a beat to the one after it, s."""
+        """The interval from a beat to the next one, s."""
         return self._intervals[beat % self._cycle]
 
     def _learn(self, beat: int, interval: float) -> None:

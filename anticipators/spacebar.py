@@ -1,6 +1,6 @@
-"""A key (thesis 8.5.1): nothing is predicted, a behavior follows at once when it is pressed or released.
+"""A key (thesis 8.5.1): it predicts nothing, but behaviors start at once when it is pressed or released.
 
-With it an experimenter who listens can stand in for what no program detects yet (thesis 10.4).
+In a Wizard of Oz experiment, it replaces the detection of an event (thesis 10.4).
 """
 
 from reactive_realizer.clock.units import GlobalTime
@@ -10,10 +10,10 @@ _POINTS = ("press", "release")
 
 
 class Spacebar(Anticipator):
-    """Points ``press`` and ``release``: each the next time this happens.
+    """Its points are ``press`` and ``release``, each of which is the next such event.
 
-    What hangs on such a point when the key moves happens at the coming tick, or as long after it as it says. What is
-    hung on it from then on waits for the next time. It assumes that whoever reports a key leaves out its auto-repeat.
+    When the event occurs, behaviors that depend on the point get the time of the coming tick, plus their offset;
+    behaviors that come later wait for the next event. It assumes that auto-repeated key events are not reported.
     """
 
     kind = "spacebar"
@@ -21,7 +21,7 @@ class Spacebar(Anticipator):
     points = _POINTS
 
     def event(self, name: str, value: float | None, now: GlobalTime) -> None:
-        """``press`` and ``release``."""
+        """Handle ``press`` and ``release``."""
         if name in _POINTS:
             self.predict(name, now, now)
             self.renew(name)

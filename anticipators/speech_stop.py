@@ -1,4 +1,4 @@
-"""The end of the user's turn (thesis 6.5.2, 8.5.1, 12.2.2), from voice activity, from the words understood, or both."""
+"""Predicts the end of the user's turn (thesis 6.5.2, 8.5.1, 12.2.2), from voice activity, recognized words, or both."""
 
 from dataclasses import replace
 
@@ -10,28 +10,27 @@ from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.pegboard.time_peg import AnticipatorPeg
 
 _RESUMED = 1.0
-"""For so long (s) after its end the user may still go on with a turn."""
+"""Time (s) after the end of a turn in which the user may still resume it."""
 
 
 class SpeechStop(Anticipator):
-    """One point, ``stop``: the end of the turn that goes on, or of the next one.
+    """Its point is ``stop``: the end of the current turn, or of the next one.
 
-    While the user's voice sounds it is unknown. As soon as the voice is gone it is predicted, from the model of turns,
-    and again with all that is understood of the words meanwhile. Once it has come, its name means the end of the next
-    turn. A user who goes on takes it back, also within a second after it has come: then what hangs on it and has not
-    begun waits for the end of the turn after all. After that second the turn is over for good. It assumes one user,
-    whose voice is told from noise by whoever sends it.
+    It is unknown while the user speaks. When the voice stops, the turn model predicts it, and again whenever more words
+    are recognized. Once it has passed, its name means the end of the next turn. If the user resumes the turn, at most a
+    second after it has passed, the prediction is withdrawn: behaviors that depend on it and have not begun wait for the
+    end of the turn. After that second, the turn is over. It assumes one user, and voice activity without noise.
 
-    Where no voice was ever told, words are a turn, other words go on with it, and no words are no turn. Where it was,
-    words alone neither begin a turn nor go on with it.
+    If voice activity was never reported, words begin a turn, and further words resume it. Otherwise, words alone do
+    neither.
 
     Args:
-        certainty: of the model with which the end is said to be one, 0.5 to 0.999: less is quicker, and interrupts.
+        certainty: probability from which the turn counts as ended, 0.5 to 0.999; a low one is quick, but interrupts.
         pause: mean pause within a turn, s, 0.01 to 10.
-        model: another model of turns than a `PauseModel` of these two.
+        model: a turn model to use instead of a `PauseModel` with these two parameters.
 
     Raises:
-        RealizerError: a parameter out of its range.
+        RealizerError: a parameter is out of range.
     """
 
     kind = "speech_stop"
@@ -53,24 +52,24 @@ class SpeechStop(Anticipator):
         self._turn = Turn()
         self._stop: Time = None
         self._came: Time = None
-        self._old: list[AnticipatorPeg] = []  # stops of this turn that came: those who hang on them may still wait
+        self._old: list[AnticipatorPeg] = []  # passed ends of this turn, to be withdrawn if it is resumed
 
     def forecast(self, sync: str) -> Time:
-        """The end of the turn, as predicted last; other names are never known."""
+        """The predicted end of the turn; None for other names."""
         return self._stop if sync == "stop" else None
 
     def check(self, name: str, value: float | None) -> None:
-        """Voice activity is a probability.
+        """Check that voice activity is a probability.
 
         Raises:
-            RealizerError: it is not, or "unknown-event".
+            RealizerError: "bad-number" or "unknown-event".
         """
         super().check(name, value)
         if name == "voice":
             within(name, value, 0.0, 1.0)
 
     def advance(self, now: GlobalTime) -> None:
-        """A stop that has come makes place for the next one, and the turn does a second later."""
+        """Renew the point when it has passed, and close the turn a second later."""
         if is_due(self._stop, now):
             self._came, self._stop = self._stop, None
             self._old.append(self._board.predicted(self.id, "stop"))
@@ -79,7 +78,7 @@ class SpeechStop(Anticipator):
             self._close()
 
     def event(self, name: str, value: float | None, now: GlobalTime) -> None:
-        """``voice``: how probable it is that the voice sounds; from 0.5 on it does."""
+        """Handle ``voice``: the probability that the user speaks, which counts as speech from 0.5 on."""
         if name != "voice" or value is None:
             return
         voice = value >= 0.5
@@ -87,9 +86,9 @@ class SpeechStop(Anticipator):
             self._take(self._with_voice(voice, now), now, goes_on=voice)
 
     def hear(self, name: str, text: str, now: GlobalTime) -> None:
-        """``words``: all words of the turn so far, as understood now; the same ones again mean nothing.
+        """Handle ``words``: all words of the turn recognized so far; the same words again have no effect.
 
-        None, where there were some, take them back, or make room for those of the next turn if this one has ended.
+        An empty text withdraws earlier words or, if the turn has ended, makes way for the next turn.
         """
         words = text.strip()
         if name != "words" or words == self._turn.words:
@@ -107,7 +106,7 @@ class SpeechStop(Anticipator):
         return Turn("", True, now) if voice else replace(self._turn, voice=False)
 
     def _take(self, turn: Turn, now: GlobalTime, *, goes_on: bool) -> None:
-        """Know more of the turn; what is learned after its stop has come moves that only if the user goes on."""
+        """Update the turn; after its end has passed, that is moved only if the user resumes it."""
         self._turn = turn
         if self._came is not None and not goes_on:
             return
@@ -119,7 +118,7 @@ class SpeechStop(Anticipator):
             peg.set(self._stop)
 
     def _close(self) -> None:
-        """The turn is over for good: what is heard from now on belongs to another one, be it the same words."""
+        """Close the turn: later input belongs to the next one, even if the words are the same."""
         self._turn = Turn(voice=self._turn.voice)
         self._came = None
         self._old.clear()

@@ -1,4 +1,4 @@
-"""Whether somebody has finished speaking, from what was heard so far."""
+"""Turn models: they predict the end of a user's turn from the voice and the words so far."""
 
 import re
 from dataclasses import dataclass
@@ -11,12 +11,12 @@ from reactive_realizer.clock.units import GlobalTime, Time
 
 @dataclass(frozen=True, slots=True)
 class Turn:
-    """What was heard of a turn.
+    """The input of a turn so far.
 
     Attributes:
-        words: as far as they were understood.
-        voice: whether the voice sounds; None where only words are told.
-        since: since when it does or does not; where only words are told, since when they are these; None before the
+        words: the recognized words.
+        voice: whether the user speaks; None if voice activity is not reported.
+        since: time of the last change of ``voice``, or of ``words`` if voice activity is not reported; None before the
             turn.
     """
 
@@ -26,10 +26,10 @@ class Turn:
 
 
 class TurnModel(Protocol):
-    """A model of when turns end; `anticipators.speech_stop.SpeechStop` takes any."""
+    """A model of the ends of turns, for `anticipators.speech_stop.SpeechStop`."""
 
     def end(self, turn: Turn) -> Time:
-        """When a turn ends if nothing more is heard; None while that cannot be said."""
+        """The end of a turn, if there is no further input; None while it is unknown."""
 
 
 _FINISHED = re.compile(r"[.!?][\"')\]]*$")
@@ -42,22 +42,22 @@ _AFTER_FINISHED, _AFTER_OPEN, _AFTER_OTHER = 0.85, 0.1, 0.5
 
 
 class PauseModel:
-    """A turn has ended when a pause has become too long to be one within the turn.
+    """Ends a turn when a pause is too long to be one within the turn.
 
-    Pauses within a turn are taken to last ``pause`` on average and to be distributed exponentially, and the words
-    before a silence to be the last ones with a probability p: 0.85 after a mark that ends a sentence, 0.1 after a comma
-    or an English word that wants another (*the*, *and*, *um*), else 0.5. By Bayes the turn has then ended, after ``t``
-    seconds of silence, with probability ``p / (p + (1 - p) exp(-t / pause))``, which grows with ``t``; the end is where
-    it reaches ``certainty``. With nothing but a voice that is 0.88 s, among the pauses that dialog systems wait for
-    (0.5 to 1 s, thesis 12.2.2); as in the endpointers that weigh pause and syntax (L. Ferrer, E. Shriberg, A. Stolcke,
-    Is the speaker done yet?, ICSLP 2002; A. Raux, M. Eskenazi, Optimizing endpointing thresholds, SIGdial 2008).
+    It assumes that pauses within a turn are distributed exponentially with mean ``pause``, and that the words before a
+    silence are the last ones with a probability p: 0.85 after punctuation that ends a sentence, 0.1 after a comma or an
+    English word that another one follows (*the*, *and*, *um*), and 0.5 otherwise. By Bayes' theorem, the turn has ended
+    after ``t`` seconds of silence with probability ``p / (p + (1 - p) exp(-t / pause))``; the predicted end is where
+    this reaches ``certainty``. With voice activity alone, that is after 0.88 s, which is in the range of dialog systems
+    (0.5 to 1 s, thesis 12.2.2). On endpointing by pause and syntax, see L. Ferrer, E. Shriberg, A. Stolcke, Is the
+    speaker done yet?, ICSLP 2002; A. Raux, M. Eskenazi, Optimizing endpointing thresholds, SIGdial 2008.
 
     Args:
-        certainty: with which the end is said to be one, 0.5 to 0.999.
+        certainty: probability from which the turn counts as ended, 0.5 to 0.999.
         pause: mean pause within a turn, s, 0.01 to 10.
 
     Raises:
-        RealizerError: one of them is out of its range.
+        RealizerError: a parameter is out of range.
     """
 
     def __init__(self, certainty: float, pause: float) -> None:
@@ -65,7 +65,7 @@ class PauseModel:
         self._pause = within("pause", pause, 0.01, 10.0)
 
     def end(self, turn: Turn) -> Time:
-        """While the voice sounds, unknown; else as long after it as it takes to be certain."""
+        """The end of the silence that is needed for certainty; None while the user speaks."""
         if turn.voice or turn.since is None:
             return None
         silence = self._pause * log(self._odds / _odds(_finished(turn.words)))

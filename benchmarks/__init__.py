@@ -1,5 +1,5 @@
-"""How fast it is: each module measures one thing, and ``python -m benchmarks`` runs it by the module's name.
+"""Benchmarks: each module measures one thing, and ``python -m benchmarks NAME`` runs it.
 
-A module has ``measure()``, which returns numbers (None where one could not be taken) under fixed names, nested or not,
-and ``AIMS``, what some of them are to stay below, by their dotted names. It measures medians of several runs.
+A module has ``measure()``, which returns medians of several runs under fixed names, nested or not (None for a number
+that could not be measured), and ``AIMS``, upper limits for some of them by their dotted names.
 """

@@ -18,7 +18,7 @@ Result = dict[str, object]
 
 
 def main() -> None:
-    """Measure what is named, or everything, and print it."""
+    """Runs the named benchmarks, by default all, and prints their results."""
     names = sorted(module.name for module in pkgutil.iter_modules(benchmarks.__path__) if module.name != "__main__")
     parser = argparse.ArgumentParser(prog="python -m benchmarks", description="Measure how fast the realizer is.")
     parser.add_argument("names", nargs="*", metavar="NAME", help=f"what to measure (default all): {', '.join(names)}")
@@ -32,7 +32,7 @@ def main() -> None:
 
 
 def run(name: str, *, as_json: bool, keep: bool) -> None:
-    """Measure one thing, print it, and keep it if asked to."""
+    """Runs one benchmark, prints its result, and optionally adds it to the history."""
     module = import_module(f"benchmarks.{name}")
     result: Result = {**module.measure(), "machine": machine(), "commit": commit()}
     if as_json:
@@ -45,7 +45,7 @@ def run(name: str, *, as_json: bool, keep: bool) -> None:
 
 
 def machine() -> Result:
-    """What it was measured on."""
+    """A description of this machine."""
     return {
         "cpu": _cpu(),
         "cores": os.cpu_count(),
@@ -55,7 +55,7 @@ def machine() -> Result:
 
 
 def commit() -> str | None:
-    """What was measured; None outside of a repository."""
+    """The commit of the repository; None outside of one."""
     command = ["git", "describe", "--always", "--dirty", "--exclude", "*"]
     try:
         found = subprocess.run(command, cwd=HISTORY.parent, capture_output=True, text=True, check=True)
@@ -65,14 +65,14 @@ def commit() -> str | None:
 
 
 def last(name: str) -> Result:
-    """The last result in the history; empty if there is none."""
+    """The last result of a benchmark in the history; empty if there is none."""
     lines = HISTORY.read_text(encoding="utf-8").splitlines() if HISTORY.exists() else []
     results = (json.loads(line) for line in reversed(lines))
     return next((result for result in results if result["benchmark"] == name), {})
 
 
 def table(name: str, result: Result, before: Result, aims: Mapping[str, float]) -> str:
-    """Each number with its aim, and with its ratio to the one before."""
+    """The numbers of a result as text, each with its aim and its ratio to the previous result."""
     old = dict(_numbers(before))
     rows = [f"{name}, commit {result['commit']}, load {_machine(result)['load']}, {_machine(result)['cpu']}"]
     for key, value in _numbers(result):

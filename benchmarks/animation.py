@@ -1,4 +1,4 @@
-"""What a moving figure costs in each frame: from its engine's play to rotations that are ready to be sent."""
+"""Measures the animation of a character: time for each frame, from its engine to rotations ready to be sent."""
 
 import asyncio
 from collections.abc import Sequence
@@ -11,7 +11,7 @@ from reactive_realizer.assembly.scene import SceneOptions, open_scene
 from reactive_realizer.clock.ticker import FRAME_EVERY, RATE, Tick, tick_time
 from reactive_realizer.engine.engine import Engine
 from reactive_realizer.realizer.character import Character
-from reactive_realizer.server.garbage import keep_from_ticks
+from reactive_realizer.server.live_scene import keep_from_ticks
 from reactive_realizer.testing.pilot import RealizerPilot, block
 
 AIMS = {"us_per_character_frame.1": 400, "us_per_character_frame.50": 250}
@@ -20,7 +20,7 @@ _CROWDS = (1, 10, 50, 100)
 _FRAME_US = 1e6 * FRAME_EVERY / RATE
 
 _CHARACTER = '[character.c{0}]\navatar = "avatars/female.glb"\nposition = [{0}, 0, 0]\n'
-# They breathe of themselves; everybody looks at somebody else.
+# Breathing is idle animation; all characters look at the first one.
 _INSIDE = (
     '<gaze id="z" target="c0:l_wrist" start="0" end="6"/>'
     + "".join(
@@ -29,14 +29,14 @@ _INSIDE = (
     + "".join(f'<head id="h{i}" lexeme="NOD" start="{2 * i}" end="{2 * i + 2}"/>' for i in range(3))
 )
 _ALL_MOVE = (0.1, 5.5)
-"""s of the block, in which everything in it plays."""
+"""Times in the block between which all its behaviors play, s."""
 
 
 def measure(most: int = 100) -> dict[str, object]:
-    """Medians of the frames of a performance, us, and how many figures fill the time from one frame to the next.
+    """The median time of a character's frame, us, and the number of characters that take all the time between frames.
 
     Args:
-        most: characters in a crowd; there is no result for more of them.
+        most: number of characters; larger crowds have no result.
     """
     times = {str(size): _microseconds(size) if size <= most else None for size in _CROWDS}
     largest = [time for time in times.values() if time is not None][-1]
@@ -63,7 +63,7 @@ async def _perform(human: Path) -> float:
 
 
 async def _frame(pilot: RealizerPilot, crowd: Sequence[Character]) -> float:
-    """Time for one frame of one of a crowd, us; ticks go on outside of it, where nobody looks."""
+    """Time for one frame of one character, us; the ticks between frames are not measured."""
     await pilot.advance(FRAME_EVERY / RATE)
     number = round(pilot.now * RATE)
     tick = Tick(number, tick_time(number - 1), frame=True)

@@ -1,4 +1,4 @@
-"""How soon a planner hears of what it asked for, from a server in a process of its own, over a socket on loopback."""
+"""Measures latency: the time from a request to its feedback, with a server process and a socket on loopback."""
 
 import asyncio
 import sys
@@ -26,7 +26,7 @@ _WAIT = '<wait id="w" duration="0.05"/>'
 
 
 def measure(runs: int = 300) -> dict[str, object]:
-    """From sending to hearing, ms, median and one in a hundred: a new time of a predicted point, and an activation."""
+    """Median and 99th percentile, ms, for the prediction of a point and for an activation."""
     return {"tick_ms": TICK_MS} | asyncio.run(_measure(runs))
 
 
@@ -44,15 +44,15 @@ async def _times(ask: Callable[[int], Awaitable[float]], runs: int) -> dict[str,
     return {"p50": round(1000 * cuts[49], 3), "p99": round(1000 * cuts[98], 3)}
 
 
-async def _anywhen(number: int) -> float:
-    """Wait until anywhere between two ticks: feedback, which comes with a tick, is no moment like any other."""
+async def _between_ticks(number: int) -> float:
+    """Waits for a quasi-random part of a tick, so that requests are not synchronized with it; returns the time, s."""
     await asyncio.sleep(number * _GOLDEN % 1.0 / RATE)
     return perf_counter()
 
 
 @asynccontextmanager
 async def _server() -> AsyncIterator[str]:
-    """The address of a server on the air."""
+    """Starts a server, and gives its address."""
     process = await asyncio.create_subprocess_exec(*_SERVE, stderr=PIPE)
     assert process.stderr is not None
     try:
@@ -68,7 +68,7 @@ async def _server() -> AsyncIterator[str]:
 
 
 class _Planner:
-    """Somebody who asks, and waits for what comes of it."""
+    """A planner that sends a request and waits for its feedback."""
 
     def __init__(self, socket: aiohttp.ClientWebSocketResponse) -> None:
         self._socket = socket
@@ -77,28 +77,28 @@ class _Planner:
     @classmethod
     @asynccontextmanager
     async def connected(cls, address: str) -> AsyncIterator["_Planner"]:
-        """At the other end of a socket."""
+        """Connects to a server."""
         async with aiohttp.ClientSession(address) as session, session.ws_connect("/ws?streams=feedback") as socket:
             yield cls(socket)
 
     async def prepare(self) -> None:
-        """A gesture is to meet a point far ahead, which is predicted from then on."""
+        """Sends a gesture with a stroke at an anticipator's point."""
         self._now = (await self._socket.receive_json())["time"]
         await self._send(type="bml", xml=_WAITING)
         await self._hear("predictionFeedback", 'id="waiting"')
 
     async def predict(self, number: int) -> float:
-        """A new time for a point that a gesture waits for, until the gesture is predicted anew; s."""
-        begin = await _anywhen(number)
+        """Time from a prediction of that point to the new prediction of the gesture, s."""
+        begin = await _between_ticks(number)
         await self._send(type="predict", anticipator="partner", sync="hit", time=self._now + _FAR + number)
         await self._hear("predictionFeedback", 'id="waiting"')
         return perf_counter() - begin
 
     async def activate(self, number: int) -> float:
-        """A preplanned block, until its first sync point is reached; s."""
+        """Time from the activation of a preplanned block to its first sync point, s."""
         await self._send(type="bml", xml=block(f"p{number}", _WAIT, **{"bmla:preplan": "true"}))
         await self._hear(f'id="p{number}"', "PENDING")
-        begin = await _anywhen(number)
+        begin = await _between_ticks(number)
         await self._send(type="bml", xml=block(f"a{number}", **{"bmla:onStart": f"p{number}"}))
         await self._hear(f'id="p{number}:w:start"')
         return perf_counter() - begin
@@ -107,7 +107,7 @@ class _Planner:
         await self._socket.send_json(message)
 
     async def _hear(self, *parts: str) -> None:
-        """Wait for feedback that holds all of these."""
+        """Waits for a feedback message that contains all of these parts."""
         while True:
             message = await self._socket.receive_json()
             if message["type"] == "error":

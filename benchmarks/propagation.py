@@ -1,4 +1,4 @@
-"""What it costs to change a cell: a cell that follows, a block of pegs, a chain of pegs."""
+"""Measures the propagation of a change: through derived cells, the pegs of a block, and a chain of pegs."""
 
 import gc
 from collections.abc import Callable
@@ -9,8 +9,8 @@ from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.pegboard.peg_key import PegKey
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.pegboard.time_peg import AnticipatorPeg, BMLBlockPeg, OffsetPeg, TimeCell
-from reactive_realizer.reactive.cell import Cell, Derived, Source
-from reactive_realizer.reactive.graph import Graph
+from reactive_realizer.reactive.cell import Derived, Source
+from reactive_realizer.reactive.graph import Cell, Graph
 
 AIMS = {
     "cell_ns.fanout.10": 1500,
@@ -29,10 +29,10 @@ Write = Callable[[int], object]
 
 
 def measure(largest: int = 100_000) -> dict[str, object]:
-    """The medians, with those of reactivex where it is installed.
+    """The medians, also those of reactivex if it is installed.
 
     Args:
-        largest: number of cells; there is no result for more of them.
+        largest: number of cells; larger graphs have no result.
     """
     return {
         "cell_ns": {"fanout": _each(_fanout, largest), "chain": _each(_chain, largest)},
@@ -43,7 +43,7 @@ def measure(largest: int = 100_000) -> dict[str, object]:
 
 
 def _ns(write: Write, runs: int) -> float:
-    """Median time of a write; each writes another value."""
+    """Median time of a write, ns; each write has another value."""
     times = []
     gc.collect()
     gc.disable()
@@ -58,7 +58,7 @@ def _ns(write: Write, runs: int) -> float:
 
 
 def _each(build: Callable[[int], Write | None], largest: int) -> dict[str, float | None]:
-    """Time (ns) for each cell that follows a write, by the number of cells."""
+    """Time per derived cell, ns, by the number of cells."""
     return {str(size): _per_cell(build, size, runs) if size <= largest else None for size, runs in _RUNS.items()}
 
 
@@ -121,7 +121,7 @@ def _reactivex_chain(size: int) -> Write | None:
 
 
 def _block(size: int) -> Write:
-    """A block that waits for a predicted point, which moves: observers of its pegs are told, and all are read."""
+    """Moves a predicted point for which a block waits; all pegs of the block are observed, and read after the write."""
     board = PegBoard(Graph())
     hit = board.predicted("partner", "hit")
     start = BMLBlockPeg(board.graph, "b:start", GlobalTime(0.0), (hit,))
@@ -140,7 +140,7 @@ def _block(size: int) -> Write:
 
 
 def _offset_chain(length: int) -> Write:
-    """A predicted point and pegs that hang on each other: it moves, and the last is read."""
+    """Moves a predicted point at the start of a chain of pegs, and reads the last one."""
     hit = AnticipatorPeg(Graph(), "hit", GlobalTime(0.0))
     peg: TimeCell = hit
     for _ in range(length):

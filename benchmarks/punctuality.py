@@ -1,4 +1,4 @@
-"""How late feedback leaves, live: with one character and with twenty, each performing small blocks all the time."""
+"""Measures the punctuality of feedback in real time, with one and with twenty characters that always play."""
 
 import asyncio
 from itertools import count
@@ -13,7 +13,7 @@ from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.feedback.feedback_manager import Report
 from reactive_realizer.feedback.messages import BlockProgress, SyncPointProgress
 from reactive_realizer.realizer.inputs import BmlText
-from reactive_realizer.server.live import Live
+from reactive_realizer.server.live_scene import LiveScene
 from reactive_realizer.testing.pilot import block
 
 TICK_MS = 1000 / RATE
@@ -23,7 +23,7 @@ AIMS = {"1.p99_ms": 1.5 * TICK_MS, "20.p99_ms": 1.5 * TICK_MS}
 _CROWDS = (1, 20)
 _GOLDEN = 0.618
 _APART = 0.07
-"""s between the beginnings of two characters: a crowd does not move like one."""
+"""Time between the starts of two characters, s, so that they are not synchronized."""
 
 _CHARACTER = '[character.c{0}]\navatar = "avatars/female.glb"\nposition = [{0}, 0, 0]\n'
 _INSIDE = (
@@ -33,10 +33,10 @@ _INSIDE = (
 
 
 def measure(seconds: float = 60.0) -> dict[str, object]:
-    """From the time of a sync point's peg to the moment at which a server passes on its feedback, ms.
+    """The delay from the time of a sync point's peg to the sending of its feedback, ms.
 
     Args:
-        seconds: how long each crowd performs.
+        seconds: duration of each run.
     """
     return {"tick_ms": TICK_MS} | {str(size): _lateness(size, seconds) for size in _CROWDS}
 
@@ -51,9 +51,9 @@ def _lateness(size: int, seconds: float) -> dict[str, float]:
 
 async def _perform(human: Path, seconds: float) -> list[float]:
     async with open_scene(SceneOptions(human, "text")) as scene, asyncio.TaskGroup() as group:
-        live = Live(scene, SystemClock())
+        live = LiveScene(scene, SystemClock())
         crowd = _Crowd(live)
-        live.realizer.feedback.listen(crowd.hear)  # after those who pass it on
+        live.realizer.feedback.listen(crowd.hear)  # after the listeners that send it
         ticking = group.create_task(live.run())
         await asyncio.sleep(seconds)
         ticking.cancel()
@@ -61,13 +61,13 @@ async def _perform(human: Path, seconds: float) -> list[float]:
 
 
 class _Crowd:
-    """All characters of a scene: whose block has ended gets another one.
+    """The characters of a scene; when a block ends, its character gets a new one.
 
     Attributes:
-        late: how late (ms) each sync point was told.
+        late: delay of the feedback of each sync point, ms.
     """
 
-    def __init__(self, live: Live) -> None:
+    def __init__(self, live: LiveScene) -> None:
         self.late: list[float] = []
         self._live = live
         self._numbers = count()
@@ -75,7 +75,7 @@ class _Crowd:
             self._perform(character, GlobalTime(rank * _APART))
 
     def hear(self, report: Report) -> None:
-        """Note what was reached, and go on."""
+        """Notes the delay of a sync point, or starts the next block."""
         message = report.message
         if isinstance(message, SyncPointProgress):
             self.late.append(1000 * (self._live.now - message.time))
@@ -84,5 +84,5 @@ class _Crowd:
 
     def _perform(self, character: str, at: GlobalTime = GlobalTime(0.0)) -> None:  # noqa: B008 - a float
         number = next(self._numbers)
-        inside = _INSIDE.format(number * _GOLDEN % 1.0 / RATE)  # points lie anywhere between two ticks
+        inside = _INSIDE.format(number * _GOLDEN % 1.0 / RATE)  # points are at quasi-random parts of a tick
         self._live.realizer.put(BmlText(block(f"b{number}", inside, characterId=character)), at)

@@ -1,11 +1,11 @@
-"""What it costs to plan a block: from its text to its pegs on the board, with the silent text voice."""
+"""Measures the planning of a block: from its text to its pegs on the board, with the text voice."""
 
 import asyncio
 from statistics import median, quantiles
 from time import perf_counter
 
 from reactive_realizer.assembly.scene import SceneOptions
-from reactive_realizer.server.garbage import keep_from_ticks
+from reactive_realizer.server.live_scene import keep_from_ticks
 from reactive_realizer.testing.pilot import RealizerPilot, block, open_pilot
 
 AIMS = {
@@ -36,10 +36,10 @@ _CHAIN = (
 
 
 def measure(most: int = 100) -> dict[str, object]:
-    """Medians and one in a hundred, ms; of a chain the median with the default strategy.
+    """Medians and 99th percentiles for each strategy, ms, and medians of chains with the default strategy.
 
     Args:
-        most: blocks of one kind.
+        most: number of blocks of one kind.
     """
     sizes = {n: min(runs, most) for n, runs in _RUNS.items()}
     spread = {name: {str(n): asyncio.run(_spread_ms(name, n, sizes[n])) for n in sizes} for name in _STRATEGIES}
@@ -50,7 +50,7 @@ def measure(most: int = 100) -> dict[str, object]:
 
 
 def spread(number: int) -> str:
-    """Speeches one after the other, each with a gesture, a nod, a gaze and a pause hung on it."""
+    """Consecutive speeches, each with a gesture, a nod, a gaze and a pause tied to it."""
     parts = []
     for i in range(number):
         group = i - i % 5
@@ -60,7 +60,7 @@ def spread(number: int) -> str:
 
 
 def chain(number: int) -> str:
-    """Head, gesture, wait in turn, each starting at the end of the one before."""
+    """Heads, gestures and waits in turn, each starting at the end of the previous behavior."""
     starts = (f' start="b{i - 1}:end"' if i else "" for i in range(number))
     return "".join(_CHAIN[i % 3].format(i, start) for i, start in enumerate(starts))
 
@@ -82,7 +82,7 @@ async def _times(strategy: str, inside: str, number: int, runs: int) -> list[flo
 
 
 async def _plan(pilot: RealizerPilot, inside: str, number: int) -> float:
-    """Ticks until the block stands on the board, ms; it is preplanned, so that nothing of it plays."""
+    """Time until the pegs of a block are on the board, ms; it is preplanned, so that it does not play."""
     pilot.perform(block("b", inside, **_PREPLANNED))
     begin = perf_counter()
     await pilot.tick()

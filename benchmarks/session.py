@@ -1,4 +1,4 @@
-"""Whether a long session grows slower or bigger: 1 000 small blocks, one after the other."""
+"""Measures a long session for growth in time and memory: 1 000 small blocks, one after the other."""
 
 import asyncio
 import gc
@@ -17,10 +17,10 @@ _INSIDE = '<speech id="s"><text>hm</text></speech><head id="h" lexeme="NOD" star
 
 
 def measure(blocks: int = 1000) -> dict[str, object]:
-    """Time for the first and the last hundred blocks, and what a block leaves behind.
+    """Time for the first and the last hundred blocks, and the memory that a block retains.
 
     Args:
-        blocks: how many there are; of fewer than 200 it takes the first and the last half.
+        blocks: number of blocks; with fewer than 200, the times are those of the first and the last half.
     """
     part = min(100, blocks // 2)
     return asyncio.run(_durations(blocks, part)) | {
@@ -36,7 +36,7 @@ async def _durations(blocks: int, part: int) -> dict[str, object]:
 
 
 async def _retained(blocks: int, part: int) -> float:
-    """Bytes a block, the name that is remembered of it among them."""
+    """Bytes retained by each block, including its name."""
     async with open_scene(SceneOptions(voice="text")) as scene:
         session = _Session(scene.realizer)
         await session.perform(part)
@@ -54,7 +54,7 @@ def _traced() -> int:
 
 
 class _Session:
-    """Blocks, each played to its end before the next comes."""
+    """Plays blocks one after the other."""
 
     def __init__(self, realizer: Realizer) -> None:
         self._realizer = realizer
@@ -62,7 +62,7 @@ class _Session:
         self._block = 0
 
     async def perform(self, blocks: int) -> float:
-        """How long so many take, ms."""
+        """The time for a number of blocks, ms."""
         begin = perf_counter()
         for _ in range(blocks):
             self._block += 1

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from reactive_realizer.engine.lexicon import Word
+from reactive_realizer.engine.lexicon import LexiconEntry
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,7 +29,7 @@ class Entry:
         return f'<bml {namespaces} id="{self.name}">{self.behaviors}</bml>'
 
 
-def entries(words: Iterable[Word]) -> list[Entry]:
+def entries(words: Iterable[LexiconEntry]) -> list[Entry]:
     """All strips, in order."""
     playing = [word for word in words if word.problem is None]
     own_modes = {word.lexeme for word in playing if word.element == "gesture" and word.constraints}
@@ -37,7 +37,7 @@ def entries(words: Iterable[Word]) -> list[Entry]:
     return [*found, *_UNITS]
 
 
-def _of_word(word: Word) -> Iterator[Entry]:
+def _of_word(word: LexiconEntry) -> Iterator[Entry]:
     said = "".join(f' {name}="{value}"' for name, value in word.constraints.items())
     name = "-".join([word.element, word.lexeme, *word.constraints.values()]).lower().replace("_", "-")
     match word.element:

@@ -1,45 +1,89 @@
-"""Writes docs/errors.md from the table of errors."""
+"""Writes docs/errors.md from the faults that the rooms define."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable
+from importlib import import_module
+from itertools import groupby
 from pathlib import Path
+from pkgutil import walk_packages
 
-from reactive_realizer.errors import ERRORS, ErrorKind
+import anticipators
+import reactive_realizer
+from reactive_realizer.errors import FAULTS, Fault
+from reactive_realizer.server.statuses import CLOSE_CODES, STATUSES
 
 PAGE = Path(__file__).with_name("errors.md")
 
 _HEAD = """\
 # Errors
 
-Everything that the realizer refuses, warns of or closes a connection for has a code. This page is made by `make docs`
-from the table in `reactive_realizer/errors.py`, the one place where these sentences stand; words in braces are filled
-in.
+Each rejection, warning and failure has a code, which does not change, and a sentence, in which the words in braces are
+filled in. [Plug-ins](plugins.md#a-fault) can add their own. `make docs` generates this page from the subclasses of
+`Fault`; the packages of the code define them.
 
-A *warning* is the `type` of a `<warningFeedback>`, *HTTP* the status that answers a request, *close* the code with
-which a socket is closed. A row with none of these is told on stderr, in an `error` message of the socket, or as the
-reason inside another sentence.
+The column *warning* is the `type` of the `<warningFeedback>`, *HTTP* is the status of the answer to a request if it is
+not 400, and *close* is the code with which the socket is closed. A row with none of these appears on stderr, in an
+`error` message of the socket, or as the reason inside another sentence.
+"""
+
+_TABLE = """
+## {title}
 
 | code | sentence | warning | HTTP | close |
 |---|---|---|---|---|
 """
 
+_TITLES = {
+    "errors": "Common",
+    "bml": "Reading BML",
+    "pegboard": "Pegs and predictions",
+    "embodiment": "Avatars and poses",
+    "binding": "Bindings and assets",
+    "planunit": "Plan units",
+    "engine": "Engines",
+    "engines": "Behaviors",
+    "scheduler": "Scheduling",
+    "realizer": "Running and replaying a session",
+    "assembly": "Assembling a scene",
+    "server": "The server",
+    "conformance": "Conformance",
+    "cli": "The command line",
+    "anticipators": "Anticipators",
+}
+"""Titles of the sections by the room that defines the faults, in the order of the page."""
+
+_STATUS_OF = {kind.code: status.value for status, kinds in STATUSES.items() for kind in kinds}
+_CLOSE_CODE_OF = {kind.code: code.value for kind, code in CLOSE_CODES.items()}
+
 
 def page() -> str:
     """The page as Markdown."""
-    return _HEAD + "\n".join(_rows()) + "\n"
+    for package in (anticipators, reactive_realizer):
+        for module in walk_packages(package.__path__, f"{package.__name__}."):
+            if not module.name.endswith("__main__"):
+                import_module(module.name)
+    order = list(_TITLES)
+    own = (kind for kind in FAULTS.values() if _is_own(kind))
+    faults = sorted(own, key=lambda kind: (order.index(_room(kind)), kind.__module__))
+    return _HEAD + "".join(_section(room, kinds) for room, kinds in groupby(faults, _room))
 
 
-def _rows() -> Iterator[str]:
-    for code, kind in ERRORS.items():
-        cells = (f"`{code}`", _escaped(kind.sentence), *map(_or_nothing, _shows(kind)))
-        yield f"| {' | '.join(cells)} |"
+def _section(room: str, kinds: Iterable[type[Fault]]) -> str:
+    return _TABLE.format(title=_TITLES[room]) + "".join(map(_row, kinds))
 
 
-def _shows(kind: ErrorKind) -> tuple[object, ...]:
-    return kind.warning, kind.status, kind.close
+def _is_own(kind: type[Fault]) -> bool:
+    return kind.__module__.startswith(("reactive_realizer.", "anticipators."))
 
 
-def _or_nothing(value: object) -> str:
-    return "" if value is None else str(value)
+def _room(kind: type[Fault]) -> str:
+    package, room, *_ = kind.__module__.split(".")
+    return package if package == "anticipators" else room
+
+
+def _row(kind: type[Fault]) -> str:
+    shown = (kind.warning, _STATUS_OF.get(kind.code), _CLOSE_CODE_OF.get(kind.code))
+    cells = (f"`{kind.code}`", _escaped(kind.template), *("" if value is None else str(value) for value in shown))
+    return f"| {' | '.join(cells)} |\n"
 
 
 def _escaped(sentence: str) -> str:

@@ -27,7 +27,7 @@ from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.engine.lexicon import words_of
 from reactive_realizer.realizer.inputs import BmlText
 from reactive_realizer.server.app import create_app
-from reactive_realizer.server.live import Live
+from reactive_realizer.server.live_scene import LiveScene
 from reactive_realizer.server.security import Security
 
 GALLERY = Path(__file__).parent / "gallery"
@@ -47,7 +47,7 @@ _NOTICEABLE = 24
 """Of 255: software renderers differ by less."""
 
 
-class Studio(Live):
+class Studio(LiveScene):
     """A scene whose page is told that it is late, so that it shows each frame at once.
 
     Attributes:
@@ -87,7 +87,7 @@ class Camera:
         newest = self.live.newest - 1e-6
         await self.page.wait_for_function("time => viewer.lastFrameTime >= time", arg=newest)
         await self.page.wait_for_timeout(120)  # low quality draws 12 times a second
-        shot = Image.open(io.BytesIO(await self.page.locator("#stage canvas").screenshot()))
+        shot = Image.open(io.BytesIO(await self.page.locator("#viewport canvas").screenshot()))
         return ImageOps.fit(shot.convert("RGB"), self.size)
 
 
@@ -113,7 +113,7 @@ async def strip(camera: Camera, entry: Entry) -> Image.Image:
     return whole
 
 
-def _end(live: Live, entry: Entry) -> float:
+def _end(live: LiveScene, entry: Entry) -> float:
     """When the last picture of an entry is due: with the end of its block, if not later."""
     block = live.realizer.scheduler.blocks.find(next(iter(live.realizer.characters)), entry.name)
     now = live.realizer.time

@@ -14,11 +14,11 @@ PAGE = Path(__file__).with_name("limits.md")
 _HEAD = """\
 # Limits
 
-What the realizer accepts from outside is bounded. Each of these numbers may be set in the section `[limits]` of the
-[human file](human.md). What exceeds one is refused with [an error](errors.md) that names it; of what is remembered, the
-oldest is forgotten. This page is made by `make docs` from `reactive_realizer/limits.py`.
+The realizer bounds everything that it accepts from outside. Set these limits in the section `[limits]` of the
+[human file](human.md). Input that exceeds a limit is rejected with [an error](errors.md) that names the limit; stored
+history is dropped from the oldest end. `make docs` generates this page from `reactive_realizer/limits.py`.
 
-| key | default | |
+| key | default | meaning |
 |---|---|---|
 """
 

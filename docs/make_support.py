@@ -8,18 +8,15 @@ from reactive_realizer.assembly.scene import Scene, SceneOptions, open_scene
 from reactive_realizer.bml.attribute_types import Integer
 from reactive_realizer.bml.attributes import Attribute, attributes_of
 from reactive_realizer.bml.behavior import Behavior, Description
-from reactive_realizer.bml.behaviors import Mark
-from reactive_realizer.bml.block import BehaviorBlock
-from reactive_realizer.bml.continuous import Trajectory
+from reactive_realizer.bml.behaviors import Mark, Pose, Stance
+from reactive_realizer.bml.block import BehaviorBlock, DefineProc, UseProc
 from reactive_realizer.bml.document import parse
 from reactive_realizer.bml.elements import ELEMENTS, Element
+from reactive_realizer.bml.extensions import BehaviorParameter, Trajectory
 from reactive_realizer.bml.names import BML, BML_EXT, BMLA, BMLT
-from reactive_realizer.bml.posture import Pose, Stance
-from reactive_realizer.bml.procedure import DefineProc, UseProc
-from reactive_realizer.bml.twente import Parameter
 from reactive_realizer.engine.lexicon import words_of
-from reactive_realizer.errors import ERRORS
 from reactive_realizer.limits import Limits
+from reactive_realizer.scheduler.faults import NotSupported
 
 PAGE = Path(__file__).with_name("support.md")
 
@@ -39,107 +36,109 @@ _INSIDE: tuple[tuple[str, type, bool], ...] = (
     ("pose of a posture", Pose, True),
     ("description of any behavior", Description, True),
     ("trajectory of a parametervaluechange", Trajectory, True),
-    ("parameter of any behavior, of BMLT", Parameter, True),
+    ("parameter of any behavior, of BMLT", BehaviorParameter, True),
 )
 """Elements inside of behaviors: their title, what is read from them, and whether that is realized."""
 
 _PREFIXES = {BML_EXT: "ext:", BMLA: "bmla:", BMLT: "bmlt:"}
 
 _NOTES = {
-    "bml composition": "in any case, with `-`, `_` or nothing between; the last two are `appendAfter` and `chunkAfter`",
-    "bml appendAfter": "it starts when these have ended",
-    "bml chunkAfter": "it starts when these subside: all that goes on of them is in retraction",
-    "bml prependBefore": "these, which have not started, start when it has ended",
-    "bml chunkBefore": "these, which have not started, start when it subsides",
-    "bml interrupt": "these are interrupted when it comes in",
-    "bml onStart": "these, which were planned ahead, start when it starts",
-    "bml preplan": "it is planned, and waits to be activated",
-    "bml allowexternalrefs": "only a draft has to say it",
+    "bml composition": "in any case, with `-`, `_` or no separator; the last two equal `appendAfter` and `chunkAfter`",
+    "bml appendAfter": "starts when these blocks have ended",
+    "bml chunkAfter": "starts when these blocks subside: only retractions continue",
+    "bml prependBefore": "these blocks, not yet started, start when it has ended",
+    "bml chunkBefore": "these blocks, not yet started, start when it subsides",
+    "bml interrupt": "interrupts these blocks on its arrival",
+    "bml onStart": "activates these preplanned blocks when it starts",
+    "bml preplan": "is planned, and waits for its activation",
+    "bml allowexternalrefs": "needed in drafts only",
     "useproc procid": "the procedure",
-    "useproc bmlid": "the block that it becomes",
-    "gesture mode": "without it: the right hand, or the left one if that is busy",
-    "pointing target": "as that of a gaze; it is followed while it moves",
-    "pointing mode": "without it: the hand on the side of the target, or the other one if that is busy or cannot",
-    "head amount": "1 is the most there is",
-    "gaze target": "a name of the world, a character, or its joint: `alice:l_wrist`",
-    "gaze influence": "without it: HEAD; `NECK` is HEAD, `TORSO` is WAIST; WHOLE leaves the feet where they stand",
-    "procanimation name": "that of an entry of the binding, else of its file without suffix",
-    "procanimation mode": "of an animation that the binding has for several hands",
-    "keyframe name": "of a file, `NAME.xml` (SkeletonInterpolator) or `NAME.bvh` (a capture), else keys stand inside",
+    "useproc bmlid": "the id of the new block",
+    "gesture mode": "by default, the right hand, or the left one if that is busy",
+    "pointing target": "as for a gaze; a moving target is followed",
+    "pointing mode": "by default, the hand on the side of the target, or the other one if that is busy or cannot reach",
+    "head amount": "1 is the maximum",
+    "gaze target": "an object of the world, a character, or a joint such as `alice:l_wrist`",
+    "gaze influence": "by default, HEAD; `NECK` means HEAD, `TORSO` means WAIST; WHOLE does not move the feet",
+    "procanimation name": "of an entry of the binding, otherwise of a file without its suffix",
+    "procanimation mode": "for animations that the binding has for several hands",
+    "keyframe name": "of a file, `NAME.xml` (SkeletonInterpolator) or `NAME.bvh` (capture); otherwise, keys inside",
     "noise type": "perlin",
     "transition class": "SlerpTransition, HermiteTransition",
-    "parameter of any behavior name": "of [what plays it](binding.md#kinds-of-motions)",
-    "pose of a posture lexeme": "a word of a `pose`, below, or of [a file of your own](human.md#postures)",
-    "wait duration": "nothing stretches it",
-    "wait max-wait": "how long it lasts where nothing else says it, and the most that it is stretched to",
+    "parameter of any behavior name": "of [the motion that plays it](binding.md#kinds-of-motion)",
+    "pose of a posture lexeme": "a lexeme of `pose` (see below), or of [your own file](human.md#postures)",
+    "wait duration": "never stretched",
+    "wait max-wait": "the duration without other constraints, and the maximum duration",
 }
 
 _HEAD = """\
 # What is supported
 
-This page is made by `make docs` from the code that reads BML and the engines that play it. Everything of the BML 1.0
-core, `faceFacs` of the core extensions, and what BMLA and BMLT add for continuous interaction and for motions is *read*
-and checked: ids, references, values. *Realized* means that it is seen or heard. What is read and not realized is left
-out with one warning, and the rest of the block plays.
+`make docs` generates this page from the parser and the engines. The realizer *reads* and checks the whole BML 1.0 core,
+`faceFacs` of the core extensions, and the parts of BMLA and BMLT for continuous interaction and motion: ids, references
+and values. A *realized* feature can be seen or heard. A feature that is read but not realized is dropped with one
+warning, and the rest of the block plays.
 """
 
 _SYNC_POINTS = """\
 
-Every sync point is an attribute that may be tied to another point. `head` with a `repetition` n above 1 has `stroke:1`
-to `stroke:n` in the place of `stroke`; `speech` has its inline `<sync id="..."/>` between `start` and `end`. A block
-has sync points too: `b1:relax` is that of the block b1 where no behavior beside it is called b1, and `b1:bml:relax` in
-any case; so with `start` and `end`.
+Every sync point is an attribute that can refer to another sync point. A `head` with a `repetition` n above 1 has
+`stroke:1` to `stroke:n` instead of `stroke`. A `speech` has its inline `<sync id="..."/>` elements between `start` and
+`end`. Blocks have the sync points `start`, `relax` and `end`: `b1:relax` refers to the block b1 unless a behavior of
+the same block is named b1, and `b1:bml:relax` always refers to the block.
 
-An attribute without a namespace that is not in these tables is passed over with a warning (`PARSING_FAILURE`); one
-whose value cannot be read drops its behavior, with the same warning.
+An attribute without a namespace that is not in these tables is ignored with a warning (`PARSING_FAILURE`). An attribute
+with an unreadable value drops its behavior with the same warning.
 """
 
 _LEXEMES = """\
 
 ## Lexemes
 
-Words are read in any case, with `_` or `-`. One that is not in this table drops its behavior with a warning
-(`CANNOT_CREATE_BEHAVIOR`). Those of `gesture`, `head` and `procanimation` are entries of a [binding](binding.md), to
-which [others can be added](gesture.md); those of a `pose` are [files](human.md#postures). `reactive-realizer lexicon`
-lists them with their hands, sync points and parameters, and the [gallery](gallery/README.md) shows them.
+Lexemes are read in upper or lower case, with `_` or `-`. An unknown lexeme drops its behavior with a warning
+(`CANNOT_CREATE_BEHAVIOR`). The lexemes of `gesture`, `head` and `procanimation` are entries of a
+[binding](binding.md), and you can [add more](gesture.md); those of `pose` are [files](human.md#postures).
+`reactive-realizer lexicon` lists them with their hands, sync points and parameters, and the
+[gallery](gallery/README.md) shows them.
 
 """
 
 _AROUND = """\
 
-## Around behaviors
+## Constraints and other elements
 
-| element | realized | |
+| element | realized | notes |
 |---|---|---|
-| `required` | yes | what is inside must succeed, or the block ends FAILED and nothing of it plays on |
-| `constraint`, `synchronize` | yes | the points of its `<sync ref="..."/>` are one; an absolute one pins them |
-| `constraint`, `before`, `after` | yes | also while it plays; the strategy `smartbody` keeps none and says so |
-| `description` | yes | the one with the highest priority whose behavior can be made is played |
+| `required` | yes | its contents must succeed; otherwise the block ends as FAILED and stops |
+| `constraint`, `synchronize` | yes | its `<sync ref="..."/>` sync points coincide; an absolute time fixes them |
+| `constraint`, `before`, `after` | yes | also while the block plays; `smartbody` drops them with a warning |
+| `description` | yes | the one with the highest priority that can be realized is played |
 
 ## Other namespaces
 
-| what | realized | |
+| feature | realized | notes |
 |---|---|---|
-| `dynamic="true"` of `http://hmi.ewi.utwente.nl/bmlt` on `gaze` and its shifts | yes | it follows a target that moves |
-| other attributes | no | warning `CUSTOM_ATTRIBUTE_NOT_SUPPORTED`; what they stand on plays |
-| elements, those of BMLA and BMLT among them that have no table above | no | warning `CUSTOM_BEHAVIOUR_NOT_SUPPORTED` |
+| `dynamic="true"` of `http://hmi.ewi.utwente.nl/bmlt` on `gaze` and its shifts | yes | follows a moving target |
+| other attributes | no | warning `CUSTOM_ATTRIBUTE_NOT_SUPPORTED`; their behavior plays |
+| elements, including those of BMLA and BMLT without a table above | no | warning `CUSTOM_BEHAVIOUR_NOT_SUPPORTED` |
 
-`procanimation`, `procanimationgesture`, `keyframe`, `noise` and `transition` are of
-`http://hmi.ewi.utwente.nl/bmlt`. What plays a `gesture`, a `head` or one of them may have further sync points, such as
-the beats of a conducting pattern: constraints name them as any other, and in BMLT's elements attributes do, too.
+`procanimation`, `procanimationgesture`, `keyframe`, `noise` and `transition` are in the namespace
+`http://hmi.ewi.utwente.nl/bmlt`. The motion of such an element, or of a `gesture` or `head`, can have additional sync
+points, such as the beats of a conducting pattern. Constraints and the attributes of BMLT elements can name these.
 
-`activate`, `interrupt` and `parametervaluechange` are of `http://www.asap-project.org/bmla` or
-`http://hmi.ewi.utwente.nl/bmlt`, whichever; so are the attributes of a block above, `defineproc` and `useproc`.
-Elements of either may do without an id: they get the first free one, `activate1`.
+`activate`, `interrupt` and `parametervaluechange` are in the namespace `http://www.asap-project.org/bmla` or
+`http://hmi.ewi.utwente.nl/bmlt`; so are the block attributes above, `defineproc` and `useproc`. Their `id` is optional;
+the default is the first free one, such as `activate1`.
 """
 
 _DRAFTS = """
 ## Documents without a namespace
 
-They are read as drafts of BML, that of van Welbergen's thesis or that of Vienna, in one tolerant way: all of the above,
-and what the drafts wrote otherwise. Nothing is guessed: what has no place in this table gets its warning.
+Documents without a namespace are read as drafts of BML, either that of van Welbergen's thesis or the Vienna draft. One
+tolerant reader accepts everything above and the different spellings of the drafts. It does not guess: anything outside
+this table causes a warning.
 
-| what a draft writes | read as |
+| draft | read as |
 |---|---|
 | `bml scheduling="append"` | `composition` |
 | `bml start="b1:end"`, `start="b1:relax"` | `appendAfter="b1"`, `chunkAfter="b1"` |
@@ -148,15 +147,15 @@ and what the drafts wrote otherwise. Nothing is guessed: what has no place in th
 | `gesture type="BEAT"`, `type="LEXICALIZED" lexeme="..."` | `lexeme` |
 | `gesture type="POINT" target="..."` | `pointing` |
 | `gesture hand="LEFT"` | `mode="LEFT_HAND"` |
-| `gaze type="AT"`, `gaze modality` | nothing more, `influence`; LEGS is WHOLE |
+| `gaze type="AT"`, `gaze modality` | ignored, and `influence`; LEGS means WHOLE |
 | `face type="FACS" au="..."`, `type="LEXICALIZED" lexeme="..."` | `faceFacs`, `faceLexeme` |
 | `posture stance="standing" shape="open" part="lower"` | `stance` and `pose`, here LEGS and LEGS_OPEN |
 | text directly in `speech`, `<tm id="..."/>` | `text`, `sync` |
-| `synchronize ref="..."` | one more `sync` in it |
+| `synchronize ref="..."` | an additional `sync` in it |
 | `stroke_start`, `stroke_end` | `strokeStart`, `strokeEnd` |
 
-A `gaze` or `posture` of which nothing says when it ends [persists](semantics.md#what-persists-and-what-lasts).
-A reference to a behavior of another block wants `allowexternalrefs="true"`.
+A `gaze` or `posture` without a constraint on its end [persists](semantics.md#what-persists-and-what-lasts).
+A reference to a behavior of another block requires `allowexternalrefs="true"`.
 """
 
 
@@ -183,9 +182,9 @@ def _block() -> str:
             _attribute_table("bml", [each for each in attributes if not each.continuous], True),
             _attributes("bml, of BMLA or BMLT", [each for each in attributes if each.continuous], True),
             _attributes("defineproc", attributes_of(DefineProc), True),
-            "\nIt stands beside blocks and holds what a block holds; nothing of it plays until it is used.\n",
+            "\nIt is written beside blocks and has the contents of a block. It does not play until it is used.\n",
             _attributes("useproc", attributes_of(UseProc), True),
-            "\nIt becomes a block and may have all other attributes of one; `scheduling` is its `composition` too.\n",
+            "\nIt creates a block and accepts its other attributes. `scheduling` is another name for `composition`.\n",
         ]
     )
 
@@ -219,7 +218,7 @@ def _elements(engines: Mapping[str, str | None]) -> str:
 
 
 def _element_row(element: Element, engine: str | None) -> tuple[str, ...]:
-    warning = "" if engine else f"`{ERRORS['not-supported'].warning}`"
+    warning = "" if engine else f"`{NotSupported.warning}`"
     return f"`{element.name}`", engine or "none", warning, ", ".join(element.sync_points)
 
 
@@ -233,11 +232,11 @@ def _attributes(title: str, attributes: Iterable[Attribute], realized: bool) -> 
 
 def _attribute_table(element: str, attributes: Iterable[Attribute], realized: bool) -> str:
     rows = (_attribute_row(element, each, realized) for each in attributes)
-    return _table(("attribute", "value", "default", "realized", ""), rows)
+    return _table(("attribute", "value", "default", "realized", "notes"), rows)
 
 
 def _attribute_row(element: str, attribute: Attribute, realized: bool) -> tuple[str, ...]:
-    default = "must be written" if attribute.required else _default(attribute.default)
+    default = "required" if attribute.required else _default(attribute.default)
     note = _NOTES.get(f"{element} {attribute.name}", "")
     return f"`{attribute.name}`", attribute.type.description, default, "yes" if realized else "no", note
 
@@ -260,7 +259,7 @@ def _lexemes(scene: Scene) -> str:
         if word.lexeme and word.problem is None:
             found.setdefault(word.element, set()).add(word.lexeme)
     rows = ((f"`{element}`", ", ".join(sorted(words))) for element, words in sorted(found.items()))
-    return _table(("element", "words of the default scene"), rows)
+    return _table(("element", "lexemes of the default scene"), rows)
 
 
 def _table(head: tuple[str, ...], rows: Iterable[tuple[str, ...]]) -> str:

@@ -1,4 +1,4 @@
-// Talks until somebody barges in, ends the word, and says what was heard.
+// Tells a story until the user barges in, finishes the current word, and prints what was heard.
 
 const ADDRESS = 'http://127.0.0.1:8088';
 const BML = `
@@ -14,7 +14,7 @@ const socket = new WebSocket(`${ADDRESS.replace('http', 'ws')}/ws?streams=feedba
 const send = (message) => socket.send(JSON.stringify(message));
 
 socket.addEventListener('open', () => {
-  // Nobody has barged in yet, whatever happened when this ran before.
+  // Withdraw the prediction of an earlier run.
   send({ type: 'predict', anticipator: 'user', sync: 'barges_in', time: null });
   send({ type: 'bml', xml: BML, ref: 'story' });
 });
@@ -26,7 +26,7 @@ socket.addEventListener('message', ({ data }) => {
 
   const attribute = (name) => new RegExp(` (?:\\w+:)?${name}="(.*?)"`).exec(xml)?.[1];
   switch (attribute('id')) {
-    case 'talk:words:start': // what a voice detector would do, once
+    case 'talk:words:start': // stands in for a voice detector
       setTimeout(() => send({ type: 'predict', anticipator: 'user', sync: 'barges_in', in: 0 }), 1000);
       break;
     case 'talk:words:end':

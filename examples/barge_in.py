@@ -1,4 +1,4 @@
-"""Talks until somebody barges in, ends the word, and says what was heard."""
+"""Tells a story until the user barges in, finishes the current word, and prints what was heard."""
 
 import asyncio
 from xml.etree import ElementTree
@@ -19,23 +19,23 @@ BML = """
 
 
 async def barge_in(socket: aiohttp.ClientWebSocketResponse) -> None:
-    """What a voice detector would do, once."""
+    """Stand in for a voice detector: predict once, after a second."""
     await asyncio.sleep(1.0)
     await socket.send_json({"type": "predict", "anticipator": "user", "sync": "barges_in", "in": 0})
 
 
 async def main() -> None:
     async with aiohttp.ClientSession() as http, http.ws_connect(ADDRESS) as socket, asyncio.TaskGroup() as tasks:
-        # Nobody has barged in yet, whatever happened when this ran before.
+        # Withdraw the prediction of an earlier run.
         await socket.send_json({"type": "predict", "anticipator": "user", "sync": "barges_in", "time": None})
         await socket.send_json({"type": "bml", "xml": BML, "ref": "story"})
         async for message in socket:
-            told = message.json()
-            if told["type"] == "error":
-                raise SystemExit(told["message"])
-            if told["type"] != "feedback":
+            received = message.json()
+            if received["type"] == "error":
+                raise SystemExit(received["message"])
+            if received["type"] != "feedback":
                 continue
-            feedback = ElementTree.fromstring(told["xml"])
+            feedback = ElementTree.fromstring(received["xml"])
             if feedback.get("id") == "talk:words:start":
                 tasks.create_task(barge_in(socket))
             if feedback.get("id") == "talk:words:end":

@@ -1,16 +1,16 @@
-"""A conductor who follows a tempo, and leads it (thesis, examples 31 and 47).
+"""A conductor that follows a tempo and leads it (thesis, examples 31 and 47).
 
-Musicians slow down, and hurry again; one of their beats is not heard, and one is heard twice. The anticipator
-`orchestra` is told of each beat as it sounds and predicts the next ones. Every stroke hangs on one of them, 0.1 s
-before it: who plays too slowly under a conductor who is a little ahead feels late.
+Musicians slow down and speed up again. One of their beats is not detected, and one is detected twice. The anticipator
+`orchestra` receives each beat as it sounds and predicts the next ones. Every stroke is tied to one of them, 0.1 s
+early: musicians who play behind a conductor that is slightly ahead feel that they are late.
 
-Look at the last column, and at the beat that was not heard: it is conducted as well.
+Watch the last column, and the beat that was not detected: it is conducted as well.
 """
 
 import asyncio
 from math import sin
 
-from stage import Stage, open_stage
+from example_scene import ExampleScene, open_example
 
 AHEAD = 0.1
 FIRST, LAST = 3, 20
@@ -31,28 +31,28 @@ def when_the_music_beats() -> list[float]:
 
 
 def heard(beats: list[float]) -> list[float]:
-    """The onsets that a microphone tells."""
+    """The onsets that a detector reports."""
     return sorted([*beats[: MISSED - 1], *beats[MISSED:], beats[DOUBLED - 1] + 0.06])
 
 
-async def main() -> Stage:
+async def main() -> ExampleScene:
     beats = when_the_music_beats()
     onsets = heard(beats)
-    async with open_stage() as stage:
+    async with open_example() as scene:
         for number in range(FIRST, LAST + 1):
             after = "" if number == FIRST else f'bmla:chunkAfter="bar{number - 1}"'
-            stage.perform(STROKE.format(number=number, ahead=AHEAD, after=after))
-        while stage.now < beats[-1] + 2:
-            while onsets and onsets[0] <= stage.now:
+            scene.perform(STROKE.format(number=number, ahead=AHEAD, after=after))
+        while scene.now < beats[-1] + 2:
+            while onsets and onsets[0] <= scene.now:
                 onsets.pop(0)
-                stage.event("orchestra", "beat")
-            await stage.tick()
+                scene.event("orchestra", "beat")
+            await scene.tick()
         print("beat  music  conductor  ahead")
         for number in range(FIRST, LAST + 1):
-            music, conductor = beats[number - 1], stage.feedback.time(f"bar{number}:beat:stroke")
+            music, conductor = beats[number - 1], scene.feedback.time(f"bar{number}:beat:stroke")
             remark = {MISSED: "  not heard", DOUBLED: "  heard twice"}.get(number, "")
             print(f"{number:4} {music:6.2f} {conductor:10.2f} {music - conductor:6.2f}{remark}")
-        return stage
+        return scene
 
 
 if __name__ == "__main__":

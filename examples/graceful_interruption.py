@@ -1,15 +1,15 @@
-"""Breaking off with grace, and at once (thesis, example 16).
+"""Interrupting each behavior at a suitable point (thesis, example 16).
 
-A virtual human explains, with words and a hand. How she would stop is prepared while she speaks: some words that let
-the sentence trail off, and a hand that gives way. One more block says where each part is to be cut, and what is to go
-on in its place, by sync points of what plays: so nothing has to arrive in time, and nothing is between the parts.
+A virtual human explains something with words and a gesture. While she speaks, two continuations are prepared: words
+that let the sentence trail off, and a gesture that yields the turn. One more block ties the interruption of each
+behavior, and its replacement, to sync points of the playing block, so no message has to arrive in time.
 
-Look at the times: each part ends, and what goes on in its place begins, at the same moment.
+Watch the times: each behavior ends exactly when its replacement begins.
 """
 
 import asyncio
 
-from stage import Stage, open_stage
+from example_scene import ExampleScene, open_example
 
 EXPLAIN = """
 <bml xmlns="http://www.bml-initiative.org/bml/bml-1.0" id="explain">
@@ -45,16 +45,16 @@ STOP = """
 SHOWN = ("explain:*:start", "explain:*:end", "trail_off:words:*", "give_way:*:start", "give_way:*:end")
 
 
-async def main() -> Stage:
-    async with open_stage(*SHOWN) as stage:
-        stage.perform(EXPLAIN)
-        stage.perform(TRAIL_OFF)
-        stage.perform(GIVE_WAY)
-        await stage.until(0.7)
-        stage.tell("the user: But")
-        stage.perform(STOP)
-        await stage.until(8)
-        return stage
+async def main() -> ExampleScene:
+    async with open_example(*SHOWN) as scene:
+        scene.perform(EXPLAIN)
+        scene.perform(TRAIL_OFF)
+        scene.perform(GIVE_WAY)
+        await scene.until(0.7)
+        scene.log("the user: But")
+        scene.perform(STOP)
+        await scene.until(8)
+        return scene
 
 
 if __name__ == "__main__":

@@ -1,15 +1,15 @@
-"""Keeping the turn by speaking up (thesis, example 9).
+"""Keeping the turn by raising the voice (thesis, example 9).
 
-A user starts to talk while the virtual human does. She keeps the turn: from her next important word on her voice gets
-louder, along a line of half a second; when the user gives up, it goes back, slowly at both ends. The speech goes on all
-the while: a change of a parameter is a behavior of its own, which may be tied to the one that it changes.
+A user starts to talk while the virtual human is speaking. She keeps the turn: from her next important word on, her
+voice gets louder, linearly over half a second. When the user gives up, it returns to normal, with ease-in and
+ease-out. The speech continues throughout: a parameter change is a behavior, and can be tied to the behavior it changes.
 
-Look at the bars: how loud the voice is, 50 being as it was recorded.
+Watch the bars: they show the volume of the voice; 50 is the recorded volume.
 """
 
 import asyncio
 
-from stage import Stage, open_stage
+from example_scene import ExampleScene, open_example
 
 from reactive_realizer.embodiment.audio import AudioGain
 
@@ -36,30 +36,30 @@ AS_BEFORE = """
 """
 
 
-def volume(stage: Stage) -> float:
-    """How loud it is now, as the loudspeaker was told last."""
-    gains = [each.gain for each in stage.sounds if isinstance(each, AudioGain)]
+def volume(scene: ExampleScene) -> float:
+    """The current volume, from the last change of the gain."""
+    gains = [each.gain for each in scene.sounds if isinstance(each, AudioGain)]
     return 50.0 * gains[-1] if gains else 50.0
 
 
-async def listen(stage: Stage, until: float) -> None:
-    while stage.now < until:
-        await stage.advance(0.2)
-        stage.tell(f"{volume(stage):3.0f} {'#' * round(volume(stage) / 3)}")
+async def listen(scene: ExampleScene, until: float) -> None:
+    while scene.now < until:
+        await scene.advance(0.2)
+        scene.log(f"{volume(scene):3.0f} {'#' * round(volume(scene) / 3)}")
 
 
-async def main() -> Stage:
-    async with open_stage("*:start", "*:end", "*:important", voice="espeak") as stage:
-        stage.perform(TALK)
-        await listen(stage, 1.2)
-        stage.tell("the user: But what about")
-        stage.perform(LOUDER)
-        await listen(stage, 3.4)
-        stage.tell("the user is silent")
-        stage.perform(AS_BEFORE)
-        await listen(stage, 5.0)
-        await stage.until(12)
-        return stage
+async def main() -> ExampleScene:
+    async with open_example("*:start", "*:end", "*:important", voice="espeak") as scene:
+        scene.perform(TALK)
+        await listen(scene, 1.2)
+        scene.log("the user: But what about")
+        scene.perform(LOUDER)
+        await listen(scene, 3.4)
+        scene.log("the user is silent")
+        scene.perform(AS_BEFORE)
+        await listen(scene, 5.0)
+        await scene.until(12)
+        return scene
 
 
 if __name__ == "__main__":

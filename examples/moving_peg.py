@@ -1,4 +1,4 @@
-"""Sends a gesture whose stroke hangs on a prediction, and moves the prediction while the arm is on its way."""
+"""Sends a gesture whose stroke is tied to a prediction, and moves the prediction while the arm moves."""
 
 import asyncio
 import re
@@ -19,7 +19,7 @@ async def main() -> None:
         await socket.send_json({"type": "bml", "xml": BML})
         async for message in socket:
             feedback = message.json().get("xml", "")
-            if "together:clap:start" in feedback:  # the hands set out: the partner is later than expected
+            if "together:clap:start" in feedback:  # the hands have started: the partner is late
                 await socket.send_json({"type": "predict", "anticipator": "partner", "sync": "hit", "in": 2.0})
             if "Progress" in feedback:
                 print(*re.search(r' id="(.+?)".* globalTime="(.+?)"', feedback).groups())

@@ -1,4 +1,4 @@
-"""Sends a block, moves a prediction and reads feedback over HTTP, with nothing but the standard library."""
+"""Sends a block, moves a prediction and reads feedback over HTTP, using only the standard library."""
 
 import json
 from urllib.request import Request, urlopen

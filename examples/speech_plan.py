@@ -1,20 +1,20 @@
-"""A plan of speech that grows with what is understood (thesis, example 11).
+"""Preparing an answer while the question is still being asked (thesis, example 11).
 
-While somebody still asks "how much is the doll", word by word, ways to begin the answer are prepared, then ways to go
-on, then the end of it. None of it plays. When the answer is due a path is taken by an empty block: it activates the
-pieces of the path, which wait for each other, and breaks off the others.
+While a user asks "how much is the doll", word by word, several beginnings of an answer are prepared, then several
+middle parts, then the end. None of them plays. When the answer is due, an empty block selects a path: it activates the
+pieces of the path, which wait for each other, and interrupts the other pieces.
 
     eh ─┐ ┌─ it costs ────────┐
         ├─┼─ let's say ───────┼─ 40 crowns
   well ─┘ └─ you can have it ─┘
 
-Look at the pieces: each starts exactly when the one before it ends, and the first one in the tick in which the path was
-taken, because its speech had been made before.
+Watch the pieces: each starts exactly when the previous one ends, and the first one in the tick in which the path was
+selected, because its speech was already synthesized.
 """
 
 import asyncio
 
-from stage import Stage, open_stage
+from example_scene import ExampleScene, open_example
 
 PIECE = """
 <bml xmlns="http://www.bml-initiative.org/bml/bml-1.0" xmlns:bmla="http://www.asap-project.org/bmla"
@@ -40,21 +40,21 @@ UNDERSTOOD = {
 PIECES = [id_ for pieces in UNDERSTOOD.values() for id_, _, _ in pieces]
 
 
-async def answer(*path: str) -> Stage:
-    async with open_stage("*:words:start", "*:words:end", voice="espeak") as stage:
+async def answer(*path: str) -> ExampleScene:
+    async with open_example("*:words:start", "*:words:end", voice="espeak") as scene:
         for word, pieces in UNDERSTOOD.items():
-            stage.tell(f'understood "{word}"')
+            scene.log(f'understood "{word}"')
             for id_, text, before in pieces:
                 after = f'bmla:appendAfter="{",".join(before)}"' if before else ""
-                stage.perform(PIECE.format(id=id_, text=text, after=after))
-            await stage.advance(0.3)
-        stage.tell(f"the answer: {', '.join(path)}")
-        stage.perform(PATH.format(taken=",".join(path), not_taken=",".join(id_ for id_ in PIECES if id_ not in path)))
-        await stage.advance(4)
-        return stage
+                scene.perform(PIECE.format(id=id_, text=text, after=after))
+            await scene.advance(0.3)
+        scene.log(f"the answer: {', '.join(path)}")
+        scene.perform(PATH.format(taken=",".join(path), not_taken=",".join(id_ for id_ in PIECES if id_ not in path)))
+        await scene.advance(4)
+        return scene
 
 
-async def main() -> list[Stage]:
+async def main() -> list[ExampleScene]:
     return [await answer("eh", "costs", "crowns"), await answer("say", "crowns")]
 
 

@@ -1,16 +1,16 @@
-"""Taking the turn when the other has finished (thesis, examples 8 and 17).
+"""Taking the turn when the user has finished (thesis, examples 8 and 17).
 
-A user asks something, and hesitates on the way. The anticipator `user` gets what a voice detector and a recognizer
-tell, and predicts the end of the turn; a nod hangs on it, and the answer a little after it. The planner sends its block
-once, while the user still speaks, and does nothing more.
+A user asks a question and hesitates. The anticipator `user` receives the output of a voice detector and a speech
+recognizer, and predicts the end of the turn. A nod is tied to it, and the answer starts shortly after it. The planner
+sends its block once, while the user still speaks, and does nothing more.
 
-Look at when the answer is expected: unknown while the voice sounds, soon in the pause, sooner after words that can end
-a sentence, and later after those that want another.
+Watch the predicted start of the answer: unknown while the user speaks, soon during the pause, sooner after words that
+can end a sentence, and later after words that need a continuation.
 """
 
 import asyncio
 
-from stage import Stage, open_stage
+from example_scene import ExampleScene, open_example
 
 REPLY = """
 <bml xmlns="http://www.bml-initiative.org/bml/bml-1.0" id="reply">
@@ -29,24 +29,24 @@ HEARD = [
 ]
 
 
-def expected(stage: Stage) -> str:
-    """What the planner was told last of the start of the answer."""
-    *_, reply = stage.feedback.predictions("reply")[-1].element
+def expected(scene: ExampleScene) -> str:
+    """The last predicted start of the answer, in words."""
+    *_, reply = scene.feedback.predictions("reply")[-1].element
     start = reply.get("start")
     return "not expected yet" if start is None else f"expected at {float(start):.2f}"
 
 
-async def main() -> Stage:
-    async with open_stage("reply:nod:start", "reply:words:*") as stage:
-        stage.perform(REPLY)
+async def main() -> ExampleScene:
+    async with open_example("reply:nod:start", "reply:words:*") as scene:
+        scene.perform(REPLY)
         for time, name, value, text in HEARD:
-            await stage.until(time)
-            stage.event("user", name, value, text)
-            await stage.tick()
+            await scene.until(time)
+            scene.event("user", name, value, text)
+            await scene.tick()
             what = f'understood "{text}"' if text else f"voice {'on' if value else 'off'}"
-            stage.tell(f"{what}: the answer is {expected(stage)}", time)
-        await stage.until(10)
-        return stage
+            scene.log(f"{what}: the answer is {expected(scene)}", time)
+        await scene.until(10)
+        return scene
 
 
 if __name__ == "__main__":

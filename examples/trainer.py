@@ -1,16 +1,16 @@
-"""A trainer who is slightly ahead of you (thesis, example 7).
+"""A trainer that is slightly ahead of the user (thesis, example 7).
 
-Somebody jumps, with an accelerometer on the belt. The anticipator `jumps` gets its samples, finds the peaks and
-predicts the next ones. Every stroke of the trainer hangs on one of them, 0.3 s before it.
+A user jumps, with an accelerometer on the belt. The anticipator `jumps` receives its samples, detects the peaks and
+predicts the next ones. Every stroke of the trainer is tied to one of them, 0.3 s early.
 
-Look at the last column: the user hurries and slows down, nobody tells the trainer a tempo, and she stays ahead.
+Watch the last column: the user speeds up and slows down, nobody tells the trainer the tempo, and she stays ahead.
 """
 
 import asyncio
 from math import cos, exp
 from random import Random
 
-from stage import Stage, open_stage
+from example_scene import ExampleScene, open_example
 
 AHEAD = 0.3
 FIRST, LAST = 4, 18
@@ -34,20 +34,20 @@ def acceleration(time: float, jumps: list[float], noise: Random) -> float:
     return 9.81 + sum(9.0 * exp(-(((time - jump) / 0.08) ** 2)) for jump in jumps) + noise.uniform(0.0, 0.5)
 
 
-async def main() -> Stage:
+async def main() -> ExampleScene:
     jumps, noise = when_the_user_jumps(), Random(1)
-    async with open_stage() as stage:
+    async with open_example() as scene:
         for number in range(FIRST, LAST + 1):
             after = "" if number == FIRST else f'bmla:chunkAfter="jump{number - 1}"'
-            stage.perform(STROKE.format(number=number, ahead=AHEAD, after=after))
-        while stage.now < jumps[-1] + 2:
-            stage.event("jumps", "sample", acceleration(stage.now, jumps, noise))
-            await stage.tick()
+            scene.perform(STROKE.format(number=number, ahead=AHEAD, after=after))
+        while scene.now < jumps[-1] + 2:
+            scene.event("jumps", "sample", acceleration(scene.now, jumps, noise))
+            await scene.tick()
         print("jump   user  trainer  ahead")
         for number in range(FIRST, LAST + 1):
-            user, trainer = jumps[number - 1], stage.feedback.time(f"jump{number}:arms:stroke")
+            user, trainer = jumps[number - 1], scene.feedback.time(f"jump{number}:arms:stroke")
             print(f"{number:4} {user:6.2f} {trainer:8.2f} {user - trainer:6.2f}")
-        return stage
+        return scene
 
 
 if __name__ == "__main__":

@@ -1,20 +1,20 @@
 """Yielding the turn in three ways (thesis, example 10).
 
-A user barges in while the virtual human speaks and points with a gesture. A planner that knows from feedback how far
-she is chooses:
+A user barges in while the virtual human speaks and gestures. A planner that knows the progress of the gesture from
+feedback chooses between:
 
-- the gesture has not begun: everything is broken off;
-- the gesture is over its relax: the hand is on its way down anyway, and only the rest is broken off;
-- between these: everything is broken off, and the hand goes over into one that offers the turn.
+- before the gesture has begun: interrupt everything;
+- after its relax: interrupt the rest, since the hand is already returning;
+- in between: interrupt everything, and continue with a gesture that offers the turn.
 
-Each time she may still finish the word that she is at (``speech="word"``).
+In each case, the speech may finish its current word (``speech="word"``).
 
-Look at the word that was heard last, and at what the hand does.
+Watch the last word that was heard, and the motion of the hand.
 """
 
 import asyncio
 
-from stage import Stage, open_stage
+from example_scene import ExampleScene, open_example
 
 TALK = """
 <bml xmlns="http://www.bml-initiative.org/bml/bml-1.0" id="talk">
@@ -40,26 +40,26 @@ SHOWN = (
 )
 
 
-def way_out(stage: Stage) -> str:
-    """The block that fits how far the gesture is."""
-    if not stage.feedback.reached("talk:left:start"):
+def way_out(scene: ExampleScene) -> str:
+    """The block that suits the progress of the gesture."""
+    if not scene.feedback.reached("talk:left:start"):
         return YIELD.format(exclude="", instead="")
-    if stage.feedback.reached("talk:left:relax"):
+    if scene.feedback.reached("talk:left:relax"):
         return YIELD.format(exclude='exclude="left"', instead="")
     return YIELD.format(exclude="", instead=OFFER)
 
 
-async def barge_in(time: float) -> Stage:
-    async with open_stage(*SHOWN) as stage:
+async def barge_in(time: float) -> ExampleScene:
+    async with open_example(*SHOWN) as scene:
         print(f"The user barges in at {time:g} s.")
-        stage.perform(TALK)
-        await stage.until(time)
-        stage.perform(way_out(stage))
-        await stage.until(12)
-        return stage
+        scene.perform(TALK)
+        await scene.until(time)
+        scene.perform(way_out(scene))
+        await scene.until(12)
+        return scene
 
 
-async def main() -> list[Stage]:
+async def main() -> list[ExampleScene]:
     return [await barge_in(time) for time in (0.8, 3.0, 3.8)]
 
 

@@ -1,3 +1,3 @@
-"""A BML realizer whose time is reactive."""
+"""A BML realizer with reactive timing."""
 
 __version__ = "0.1.0"

@@ -32,11 +32,11 @@ _FORMAT = "%(levelname)s %(name)s: %(message)s"
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="reactive-realizer",
-        description="A BML realizer whose time is reactive.",
+        description="A BML realizer with reactive timing.",
         epilog="example: reactive-realizer realize hello.xml --feedback -",
     )
     parser.add_argument("--version", action="version", version=__version__)
-    parser.add_argument("--verbose", action="store_true", help="log what happens to stderr")
+    parser.add_argument("--verbose", action="store_true", help="write a log to stderr")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
     for command in (serve, realize, check, lexicon, conformance):
         command.add_parser(commands)

@@ -1,44 +1,47 @@
-"""Every bound on what the realizer accepts from outside, in one place."""
+"""The limits on all input from outside."""
 
 from dataclasses import dataclass
 
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """What one realizer accepts; the human file may set each of these in ``[limits]``."""
+    """The limits of one realizer. The human file sets them in ``[limits]``."""
 
     bml_bytes: int = 1_000_000
-    """Size of one BML document."""
+    """Size of a BML document, bytes."""
     xml_depth: int = 32
     """Nesting of elements in a BML document."""
     xml_attributes: int = 200
-    """Attributes and namespace declarations of one element."""
+    """Attributes and namespace declarations of an element."""
     behaviors_per_block: int = 1_000
+    """Behaviors in a block."""
     blocks_alive: int = 1_000
-    """Blocks accepted and not yet ended, all characters together."""
+    """Accepted blocks that have not ended, for all characters together."""
     procedures: int = 1_000
-    """Procedures defined; one that is defined anew counts once."""
+    """Defined procedures; a redefinition does not count again."""
     utterance_characters: int = 5_000
-    """Length of the text of one speech."""
+    """Length of the text of a speech."""
     clients: int = 100
-    """Sockets and feedback streams open at once."""
+    """Open sockets and feedback streams."""
     messages_per_second: int = 500
-    """Socket messages of one client."""
+    """Socket messages per second and client."""
     message_bytes: int = 1_200_000
-    """Size of one socket message: a BML document and its JSON escape."""
+    """Size of a socket message, bytes: a BML document in JSON."""
     queued_bytes: int = 8 * 1024 * 1024
-    """What may pile up for one slow client before it is closed."""
+    """Bytes queued for a slow client before its connection is closed."""
     queued_messages: int = 10_000
+    """Messages queued for a slow client before its connection is closed."""
     predicted_points: int = 10_000
-    """Points of anticipators that clients name in predictions."""
+    """Points of anticipators on the peg board. Passed points that nothing uses make room for new ones."""
     targets: int = 1_000
-    """Things in the world, those that clients put there among them."""
+    """Objects in the world, including those added by clients."""
     sound_bytes: int = 64 * 1024 * 1024
-    """Sounds kept for clients to fetch."""
+    """Bytes of audio stored for clients to fetch."""
     remembered_feedback: int = 10_000
-    """Feedback messages kept for clients that resume."""
+    """Feedback messages stored for clients that reconnect."""
     remembered_feedback_bytes: int = 256 * 1024 * 1024
+    """Bytes of feedback stored for clients that reconnect."""
     remembered_blocks: int = 10_000
-    """Ended blocks of which id, state and end time are kept."""
+    """Ended blocks whose id, state and end time are stored."""
     time_seconds: float = 86_400.0
-    """Largest offset or duration, in absolute value, that a description may name."""
+    """Largest absolute value of an offset or duration in BML, s."""

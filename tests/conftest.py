@@ -1,4 +1,4 @@
-"""What the tests of every room share: the browser, and real input that lies beside the checkout."""
+"""Configuration and fixtures of all tests: the browser, and files of other projects beside the checkout."""
 
 import os
 import shutil
@@ -9,34 +9,43 @@ from hypothesis import settings
 
 from reactive_realizer.server.routes_page import STATIC
 
-# So that an assertion of a contract says what it compared.
+# Failing assertions of the contracts show the values that they compared.
 pytest.register_assert_rewrite(
     *(f"reactive_realizer.testing.{kind}_contract" for kind in ("anticipator", "engine", "strategy", "tts"))
 )
 
-# The same examples on every run and machine, however slow it is.
+# The same examples in every run and on every machine, without a time limit.
 settings.register_profile("same", derandomize=True, deadline=None, database=None)
 settings.load_profile("same")
 
-SHARED_CASES = Path(__file__).resolve().parents[2] / "shared" / "cases"
+SHARED = Path(__file__).resolve().parents[2] / "shared"
 WITHOUT_BROWSER = os.environ.get("BROWSER") == "none"
 
 
 def pytest_report_header() -> list[str]:
-    return ["BROWSER=none: the browser tests are left out"] if WITHOUT_BROWSER else []
+    lines = []
+    if WITHOUT_BROWSER:
+        lines.append("BROWSER=none: the browser tests are left out")
+    if not SHARED.is_dir():
+        lines.append("no ../shared: tests that read files of other projects are left out; our own files test the same")
+    return lines
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    if not WITHOUT_BROWSER:
-        return
-    left_out = [item for item in items if item.get_closest_marker("browser")]
-    items[:] = [item for item in items if item not in left_out]
+    left_out = [item for item in items if _is_left_out(item)]
+    items[:] = [item for item in items if not _is_left_out(item)]
     config.hook.pytest_deselected(items=left_out)
+
+
+def _is_left_out(item: pytest.Item) -> bool:
+    if WITHOUT_BROWSER and item.get_closest_marker("browser"):
+        return True
+    return not SHARED.is_dir() and "shared" in getattr(item, "fixturenames", ())
 
 
 @pytest.fixture(scope="session")
 def chromium() -> str:
-    """The path of a Chromium to show the page: $BROWSER if it names one, else the first on the PATH."""
+    """The path of Chromium: $BROWSER if that names one, else the first on the PATH."""
     if not (STATIC / "index.html").is_file():
         pytest.fail("the page is not built: make page", pytrace=False)
     named = os.environ.get("BROWSER")
@@ -49,14 +58,18 @@ def chromium() -> str:
 
 
 @pytest.fixture(scope="session")
-def shared_cases() -> Path:
-    """The BML scripts and bindings of other realizers, which may lie beside the checkout and are not ours to commit."""
-    if not SHARED_CASES.is_dir():
-        pytest.skip("no ../shared/cases beside this checkout")
-    return SHARED_CASES
+def shared() -> Path:
+    """A folder of other projects' files beside the checkout; a test that uses it is left out where it is absent."""
+    return SHARED
+
+
+@pytest.fixture(scope="session")
+def shared_cases(shared: Path) -> Path:
+    """BML scripts, bindings and animations of other realizers."""
+    return shared / "cases"
 
 
 @pytest.fixture(scope="session")
 def tests_data() -> Path:
-    """Our own data for tests."""
+    """Our own files for tests."""
     return Path(__file__).parent / "data"

@@ -20,32 +20,32 @@ def entry(name: str) -> str:
     return NOTICE.split(f"reactive_realizer/assets/{name} ")[1].split("\n\n")[0]
 
 
-def test_every_data_folder_stands_in_the_notice_and_nothing_else_does():
+def test_every_data_folder_stands_in_the_notice_and_nothing_else_does() -> None:
     assert set(ENTRIES) == shipped_data()
 
 
-def test_every_data_folder_has_a_license_that_lets_everyone_use_it():
+def test_every_data_folder_has_a_license_that_lets_everyone_use_it() -> None:
     assert set(ENTRIES.values()) <= {"Apache-2.0", "CC0-1.0"}
 
 
-def test_what_comes_from_elsewhere_carries_its_own_notice():
+def test_what_comes_from_elsewhere_carries_its_own_notice() -> None:
     from_elsewhere = [name for name in ENTRIES if "written for this" not in entry(name)]
     assert from_elsewhere == ["avatars"]
     assert "CC0 1.0" in (ASSETS / "avatars" / "LICENSE.md").read_text(encoding="utf-8")
 
 
-def test_every_library_in_the_page_bundle_stands_in_the_notice():
+def test_every_library_in_the_page_bundle_stands_in_the_notice() -> None:
     package = json.loads((REPOSITORY / "web" / "package.json").read_text(encoding="utf-8"))
     for library in package["dependencies"]:
         assert re.search(rf"^{library}(\.js)? is part of the page bundle", NOTICE, re.MULTILINE), library
 
 
-def test_the_voice_under_the_gpl_is_named_and_not_shipped():
+def test_the_voice_under_the_gpl_is_named_and_not_shipped() -> None:
     assert "espeak-ng (GPL-3.0-or-later)" in NOTICE
     assert not [path for path in REPOSITORY.glob("reactive_realizer/**/*espeak*") if path.suffix in {".so", ".dll"}]
 
 
-def test_the_license_is_apache_2():
+def test_the_license_is_apache_2() -> None:
     assert "Apache License\n                           Version 2.0" in (REPOSITORY / "LICENSE").read_text(
         encoding="utf-8"
     )

@@ -1,4 +1,4 @@
-"""The end of a turn, for users who think for a long time."""
+"""A turn model for users who pause to think."""
 
 from anticipators.speech_stop import SpeechStop
 from anticipators.turn_model import Turn
@@ -7,17 +7,17 @@ from reactive_realizer.pegboard.pegboard import PegBoard
 
 
 class Patience:
-    """A turn is over when the user said so, or after a long silence."""
+    """The turn ends when the user says "over", or after a long silence."""
 
     def end(self, turn: Turn) -> Time:
-        """When a turn ends if nothing more is heard."""
+        """The time at which the turn ends unless more is heard."""
         if turn.voice or turn.since is None:
             return None
         return GlobalTime(turn.since + (0.3 if turn.words.endswith("over.") else 5.0))
 
 
 class PatientStop(SpeechStop):
-    """Like `speech_stop`, with patience."""
+    """The anticipator `speech_stop` with this model."""
 
     kind = "patient_stop"
 

@@ -1,15 +1,15 @@
-"""The anticipators do what all of their kind have to do."""
+"""The anticipators satisfy their contract."""
 
 from patient_stop import PatientStop
 from turn_end import TurnEnd
 
 from reactive_realizer.testing.anticipator_contract import AnticipatorContract
-from reactive_realizer.testing.anticipator_stand import Told
+from reactive_realizer.testing.anticipator_harness import AnticipatorEvent
 
 
 class TestTurnEnd(AnticipatorContract):
     points = ("end",)
-    events = (Told("pause"), Told("voice"))
+    events = (AnticipatorEvent("pause"), AnticipatorEvent("voice"))
 
     def anticipator(self, id, board):
         return TurnEnd(id, board)
@@ -17,8 +17,12 @@ class TestTurnEnd(AnticipatorContract):
 
 class TestPatientStop(AnticipatorContract):
     points = ("stop",)
-    events = (Told("voice", 1.0), Told("voice", 0.0), Told("words", text="I have thought, over."))
-    refused = (Told("voice", 2.0),)
+    events = (
+        AnticipatorEvent("voice", 1.0),
+        AnticipatorEvent("voice", 0.0),
+        AnticipatorEvent("words", text="I have thought, over."),
+    )
+    refused = (AnticipatorEvent("voice", 2.0),)
 
     def anticipator(self, id, board):
         return PatientStop(id, board)

@@ -1,4 +1,4 @@
-"""An anticipator of one's own: it predicts when somebody stops speaking."""
+"""An anticipator that predicts the end of the user's turn."""
 
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.pegboard.anticipator import Anticipator
@@ -6,10 +6,10 @@ from reactive_realizer.pegboard.pegboard import PegBoard
 
 
 class TurnEnd(Anticipator):
-    """The turn ends some seconds after a pause began, unless the voice comes back.
+    """The turn ends some time after a pause began, unless the user continues.
 
     Args:
-        patience: those seconds.
+        patience: this time, s.
     """
 
     kind = "turn_end"
@@ -21,7 +21,7 @@ class TurnEnd(Anticipator):
         self._patience = patience
 
     def event(self, name: str, value: float | None, now: GlobalTime) -> None:
-        """``pause`` predicts the end of the turn; ``voice`` takes the prediction back."""
+        """``pause`` predicts the end of the turn; ``voice`` withdraws the prediction."""
         if name == "pause":
             self.predict("end", GlobalTime(now + self._patience), now)
         elif name == "voice":

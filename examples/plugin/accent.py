@@ -1,4 +1,4 @@
-"""A function of one's own for formulas: how strong a beat of a bar is."""
+"""A formula function: the strength of each beat of a bar."""
 
 _BEATS = (1.0, 0.5, 0.8, 0.5)
 

@@ -1,4 +1,4 @@
-"""A voice of one's own: it beeps, a word every 0.4 s."""
+"""A voice that beeps once per word, every 0.4 s."""
 
 import re
 
@@ -11,20 +11,20 @@ _WORD = 0.4
 
 
 class BeepVoice:
-    """A tone of 0.3 s a word."""
+    """Plays a tone of 0.3 s for each word."""
 
     async def start(self) -> None:
-        """Nothing has to be made ready."""
+        """Does nothing: there is nothing to prepare."""
 
     async def close(self) -> None:
-        """Nothing was taken."""
+        """Does nothing: there is nothing to release."""
 
     async def voices(self) -> tuple[str, ...]:
-        """There is only one."""
+        """No names, since there is only one voice."""
         return ()
 
     def synthesize(self, text: str, marks: tuple[tuple[str, int], ...], voice: str | None) -> Utterance:
-        """Beeps; a mark comes with the word after it."""
+        """Beeps for a text; a mark has the time of the word after it."""
         spans = [found.span() for found in re.finditer(r"\w+(?:['.:]\w+)*", text)]
         words = tuple(Word(text[a:b], _WORD * n, a, b) for n, (a, b) in enumerate(spans))
         times = {name: _WORD * sum(last <= index for _, last in spans) for name, index in marks}

@@ -1,4 +1,4 @@
-"""So that an assertion of a contract says what it compared."""
+"""Makes pytest explain failed assertions of contract tests."""
 
 import pytest
 

@@ -1,8 +1,8 @@
-"""A trajectory of one's own: further than it should, and back."""
+"""A trajectory that overshoots its target and returns."""
 
 from math import pi, sin
 
 
 def overshoot(share: float) -> float:
-    """The share of the way after a share of the time, both 0 to 1; 1 after all of it."""
+    """The fraction of the change after a fraction of the time, both from 0; 1 at the end."""
     return share + 0.6 * sin(pi * share)

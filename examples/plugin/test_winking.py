@@ -1,7 +1,7 @@
-"""The plug-ins do what all of their kind have to do."""
+"""The plug-ins satisfy their contracts."""
 
 from beep_voice import BeepVoice
-from quick_first import QuickFirst
+from earliest import Earliest
 from wink_engine import WinkEngine
 
 from reactive_realizer.testing.engine_contract import EngineContract
@@ -25,5 +25,5 @@ class TestBeepVoice(TTSContract):
         return BeepVoice()
 
 
-class TestQuickFirst(StrategyContract):
-    strategy = QuickFirst()
+class TestEarliest(StrategyContract):
+    strategy = Earliest()

@@ -1,4 +1,4 @@
-"""An engine of one's own: it winks."""
+"""An engine that winks."""
 
 from collections.abc import Mapping
 
@@ -6,7 +6,7 @@ from reactive_realizer.bml.behavior import Behavior, ForeignBehavior
 from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.engine.context import EngineContext
 from reactive_realizer.engine.engine import DefaultEngine
-from reactive_realizer.errors import error
+from reactive_realizer.errors import CreationFault, RealizerError
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.planunit.timing import timing_at
@@ -14,8 +14,17 @@ from reactive_realizer.planunit.timing import timing_at
 _LIDS = {"left": "eyeBlinkLeft", "right": "eyeBlinkRight"}
 
 
+class NoSuchEye(CreationFault):
+    """There is no such eye."""
+
+    code = "wink-no-such-eye"
+    template = "there is no eye '{eye}'; available: {known}"
+    eye: str
+    known: tuple[str, ...]
+
+
 class Wink(PlanUnit):
-    """One eye, closed from start to end; 0.3 s unless somebody says otherwise."""
+    """Closes one eye from start to end; takes 0.3 s by default."""
 
     def __init__(self, block: BlockKey, behavior: Behavior, lid: str) -> None:
         super().__init__(block, behavior, timing_at({"start": 0.0, "end": 0.3}), resources=frozenset({lid}))
@@ -31,17 +40,17 @@ class WinkEngine(DefaultEngine):
         super().__init__(f"{context.character}/wink")
 
     def supports(self, behavior: Behavior) -> bool:
-        """Other namespaces are for other engines."""
+        """Whether this is a `wink` of our namespace."""
         return (behavior.namespace, behavior.name) == ("urn:example:wink", "wink")
 
     def plan(self, block: BlockKey, behavior: Behavior, prepared: object) -> PlanUnit:
-        """A wink."""
+        """Make a wink."""
         assert isinstance(behavior, ForeignBehavior)
         eye = behavior.attributes.get("eye", "left")
         if eye not in _LIDS:
-            raise error("work-failed", reason=f"nobody has an eye '{eye}'")
+            raise RealizerError(NoSuchEye(eye=eye, known=tuple(_LIDS)))
         return Wink(block, behavior, _LIDS[eye])
 
     def face(self, tick: Tick) -> Mapping[str, float]:
-        """The lids that are closed now."""
+        """The weights of the lids that are closed now."""
         return dict.fromkeys(self.player.show(Wink, lambda unit: unit.lid, tick.time), 1.0)

@@ -1,4 +1,4 @@
-"""A scene from its specification: the human file, the registries of plug-ins, assets, and what they make together.
+"""Assembles a scene from a human file, plug-ins and assets.
 
-Only this room knows names of files and of plug-ins; nothing below does.
+Only this room uses names of files and plug-ins.
 """

@@ -1,12 +1,49 @@
-"""Where files are found by name."""
+"""Finds asset files by name."""
 
 import os
+from collections.abc import Sequence
 from functools import lru_cache
 from pathlib import Path, PurePosixPath
 from stat import S_ISREG
 
-from reactive_realizer.assembly.asset_index import AssetIndex
-from reactive_realizer.errors import error
+from reactive_realizer.assembly.faults import ForbiddenPath, NoFolder, TwoAssets
+from reactive_realizer.binding.faults import NoAsset
+from reactive_realizer.errors import RealizerError
+
+
+class AssetIndex:
+    """An index of the files of a folder by name; walking the folder for each name would take longer than a tick.
+
+    The folder is walked again when the modification time of any folder in it has changed.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        """Creates an index, which walks the folder on first use."""
+        self._folder = folder
+        self._changed: dict[str, int] = {}
+        self._files: dict[str, list[Path]] = {}
+
+    def files(self, name: str) -> Sequence[Path]:
+        """The files with a name, in any order. Links to folders are not followed."""
+        if not self._changed or any(_changed(folder) != at for folder, at in self._changed.items()):
+            self._walk()
+        return self._files.get(name, ())
+
+    def _walk(self) -> None:
+        self._changed, self._files = {}, {}
+        for folder, _, files in os.walk(self._folder):
+            self._changed[folder] = _changed(folder)
+            for name in files:
+                self._files.setdefault(name, []).append(Path(folder, name))
+
+
+def _changed(folder: str) -> int:
+    """When something came into a folder or left it, ns; 0 for one that is not there any more."""
+    try:
+        return os.stat(folder).st_mtime_ns
+    except OSError:
+        return 0
+
 
 PACKAGE_ASSETS = Path(__file__).parent.parent / "assets"
 
@@ -15,7 +52,7 @@ _ANYWHERE = "**/"
 
 
 class Assets:
-    """Folders in which names of assets are resolved, in order; the package's own comes last.
+    """Resolves names of assets in several folders, in order; the folder of the package comes last.
 
     Args:
         folders: the user's.
@@ -27,10 +64,10 @@ class Assets:
     def __init__(self, folders: tuple[Path, ...] = ()) -> None:
         for folder in folders:
             if not folder.is_dir():
-                raise error("no-folder", folder=folder)
+                raise RealizerError(NoFolder(folder=str(folder)))
         self._folders = (*(folder.resolve() for folder in folders), PACKAGE_ASSETS)
         self._indices = {folder: AssetIndex(folder) for folder in self._folders}
-        # Names are asked for again and again, and making paths takes longer than looking whether they are there.
+        # The same names are resolved again and again, and building paths takes longer than checking files.
         self._places = lru_cache(1000)(self._all_places)
 
     def __call__(self, name: str) -> Path:
@@ -44,10 +81,10 @@ class Assets:
         for folder, file in self._places(name):
             if (found := _within(folder, file)) is not None:
                 return found
-        raise error("no-asset", name=name)
+        raise RealizerError(NoAsset(name=name))
 
     def _all_places(self, name: str) -> list[tuple[Path, Path]]:
-        """Where a file may be, as written and without its leading folders, each place with the root that it is in."""
+        """The possible paths of a name, as written and without its leading folders, each with its root."""
         path = _relative(name)
         ends = [path.parts[start:] for start in range(len(path.parts))]
         return [(folder, folder.joinpath(*end)) for folder in self._folders for end in ends]
@@ -57,27 +94,27 @@ class Assets:
             files = (file for file in index.files(name.name) if file.parts[-len(name.parts) :] == name.parts)
             found = sorted(filter(None, (_within(folder, file) for file in files)))
             if len(found) > 1:
-                known = ", ".join(str(file.relative_to(folder)) for file in found)
-                raise error("two-assets", name=name.name, known=known)
+                known = tuple(str(file.relative_to(folder)) for file in found)
+                raise RealizerError(TwoAssets(name=name.name, known=known))
             if found:
                 return found[0]
-        raise error("no-asset", name=name.name)
+        raise RealizerError(NoAsset(name=name.name))
 
 
 def _relative(name: str) -> PurePosixPath:
-    """The path of a name.
+    """The relative path of a name.
 
     Raises:
         RealizerError: "forbidden-path".
     """
     path = PurePosixPath(name)
     if path.is_absolute() or ".." in path.parts or "\\" in name or not path.parts:
-        raise error("forbidden-path", name=name)
+        raise RealizerError(ForbiddenPath(name=name))
     return path
 
 
 def _within(folder: Path, file: Path) -> Path | None:
-    """The file, if it is one and no link leads out of its folder."""
+    """The file, if it is a regular file inside its folder after resolving links."""
     try:
         status = os.stat(file)
     except (OSError, ValueError):  # not there, or no name that a file could have
@@ -87,6 +124,6 @@ def _within(folder: Path, file: Path) -> Path | None:
 
 @lru_cache(1000)
 def _resolved(folder: Path, file: Path, inode: int) -> Path | None:
-    """Where a file really is, None if that is not in its folder: found once for each file, for it takes its time."""
+    """The resolved file, None if it is outside its folder; cached because resolving is slow."""
     found = file.resolve()
     return found if found.is_relative_to(folder.resolve()) else None

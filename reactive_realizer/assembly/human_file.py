@@ -1,4 +1,4 @@
-"""The human file: who is in the scene, what is around, and who predicts, as TOML."""
+"""Reads the human file: the characters, targets, anticipators and limits of a scene, as TOML."""
 
 import re
 import tomllib
@@ -8,9 +8,11 @@ from pathlib import Path
 from sys import float_info
 from typing import Any, Final, TypeVar
 
+from reactive_realizer.assembly.faults import BadHumanFile
+from reactive_realizer.bml.faults import NotAnId
 from reactive_realizer.bml.names import BLOCK
 from reactive_realizer.embodiment.vector import ZERO, Vec3
-from reactive_realizer.errors import error
+from reactive_realizer.errors import RealizerError
 from reactive_realizer.limits import Limits
 
 T = TypeVar("T")
@@ -19,7 +21,7 @@ DEFAULT_ENGINES: Final = ("speech", "animation", "face", "wait", "activate", "in
 DEFAULT_BINDINGS: Final[Mapping[str, str]] = {"gesture": "gesturebinding.xml"}
 
 _ID: Final = re.compile(r"[^\s:+\x00-\x1f\x7f]{1,200}")
-"""What BML can refer to."""
+"""Ids that BML can refer to."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +56,7 @@ class TargetSpec:
 
 @dataclass(frozen=True, slots=True)
 class AnticipatorSpec:
-    """``[anticipator.ID]``: who predicts, and the numbers and lists of names it is made with."""
+    """``[anticipator.ID]``: its kind, and its parameters, which are numbers or lists of names."""
 
     kind: str
     parameters: Mapping[str, float | tuple[str, ...]] = field(default_factory=dict)
@@ -62,7 +64,7 @@ class AnticipatorSpec:
 
 @dataclass(frozen=True, slots=True)
 class HumanFile:
-    """A scene as it is specified."""
+    """The specification of a scene."""
 
     characters: Mapping[str, CharacterSpec]
     targets: Mapping[str, TargetSpec]
@@ -71,7 +73,7 @@ class HumanFile:
 
 
 def read_human_file(path: Path) -> HumanFile:
-    """The scene that a file specifies.
+    """Reads a human file.
 
     Raises:
         RealizerError: not TOML, an id that nothing can refer to or that is taken, an unknown key (the known ones are
@@ -80,15 +82,15 @@ def read_human_file(path: Path) -> HumanFile:
     try:
         table = tomllib.loads(path.read_text(encoding="utf-8"))
     except (ValueError, RecursionError) as problem:
-        raise error("bad-human-file", file=path.name, key="the file", reason=problem) from problem
+        raise RealizerError(BadHumanFile(file=path.name, key="the file", reason=str(problem))) from problem
     reader = _Reader(path.name)
     reader.know("", table, ("character", "target", "anticipator", "limits"))
     characters = reader.section(table, "character", reader.character)
     if not characters:
-        raise error("bad-human-file", file=path.name, key="character", reason="there is none")
+        raise RealizerError(BadHumanFile(file=path.name, key="character", reason="there is none"))
     targets = reader.section(table, "target", lambda key, own: reader.read(TargetSpec, key, own))
     for id_ in characters.keys() & targets.keys():
-        raise error("bad-human-file", file=path.name, key=f"target.{id_}", reason="a character has this id")
+        raise RealizerError(BadHumanFile(file=path.name, key=f"target.{id_}", reason="a character has this id"))
     anticipators = reader.section(table, "anticipator", reader.anticipator)
     return HumanFile(characters, targets, anticipators, reader.limits(table.get("limits", {})))
 
@@ -102,10 +104,10 @@ class _Reader:
     def section(self, table: Mapping[str, Any], name: str, read: Callable[[str, Any], T]) -> dict[str, T]:
         own = table.get(name, {})
         if not isinstance(own, dict):
-            raise self._bad(name, "a table is wanted")
+            raise self._bad(name, "expected a table")
         for id_ in own:
             if id_ == BLOCK or not _ID.fullmatch(id_):
-                raise self._bad(f"{name}.{id_!r}", error("not-an-id").fault.sentence)
+                raise self._bad(f"{name}.{id_!r}", RealizerError(NotAnId()).fault.sentence)
         return {id_: read(f"{name}.{id_}", entry) for id_, entry in own.items()}
 
     def character(self, key: str, table: Any) -> CharacterSpec:
@@ -113,7 +115,7 @@ class _Reader:
         self.know(f"{key}.bindings", spec.bindings, tuple(DEFAULT_BINDINGS))
         for rank, engine in enumerate(spec.engines):
             if engine in spec.engines[:rank]:
-                raise self._bad(f"{key}.engines", f"{engine!r} stands there twice")
+                raise self._bad(f"{key}.engines", f"{engine!r} is listed twice")
         return replace(spec, bindings={**DEFAULT_BINDINGS, **spec.bindings})
 
     def limits(self, table: Any) -> Limits:
@@ -125,14 +127,14 @@ class _Reader:
 
     def anticipator(self, key: str, table: Any) -> AnticipatorSpec:
         if not isinstance(table, dict) or not isinstance(table.get("kind"), str):
-            raise self._bad(key, "a table with a kind is wanted")
+            raise self._bad(key, "expected a table with a kind")
         kinds = {name: tuple[str, ...] if isinstance(value, list) else float for name, value in table.items()}
         rest = {name: self._value(f"{key}.{name}", table[name], kinds[name]) for name in table if name != "kind"}
         return AnticipatorSpec(table["kind"], rest)
 
     def read(self, cls: Callable[..., T], key: str, table: Any) -> T:
         if not isinstance(table, dict):
-            raise self._bad(key, "a table is wanted")
+            raise self._bad(key, "expected a table")
         kinds = {own.name: own.type for own in fields(cls)}  # type: ignore[arg-type]
         self.know(key, table, tuple(kinds))
         values = {name: self._value(f"{key}.{name}", value, kinds[name]) for name, value in table.items()}
@@ -159,7 +161,7 @@ class _Reader:
             return tuple(self._value(key, part, str) for part in value)
         if kind == Mapping[str, str] and isinstance(value, dict):
             return {name: self._value(f"{key}.{name}", part, str) for name, part in value.items()}
-        raise self._bad(key, f"{value!r} is not what is wanted there")
+        raise self._bad(key, f"{value!r} has the wrong type")
 
     def _bad(self, key: str, reason: str) -> Exception:
-        return error("bad-human-file", file=self._file, key=key, reason=reason)
+        return RealizerError(BadHumanFile(file=self._file, key=key, reason=reason))

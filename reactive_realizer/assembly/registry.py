@@ -1,15 +1,18 @@
-"""Plug-ins by short id: the built-in ones stand in the same entry-point groups as everybody's."""
+"""Finds plug-ins by name. Built-in parts are in the same entry-point groups as plug-ins."""
 
 from importlib.metadata import entry_points
 from typing import Any
 
-from reactive_realizer.errors import error
+from reactive_realizer.assembly.faults import NoPlugin
+from reactive_realizer.engine.faults import TwoPlugins
+from reactive_realizer.errors import RealizerError
 
 GROUP = "reactive_realizer"
+_GROUPS = ("engines", "tts", "anticipators", "strategies", "trajectories", "functions")
 
 
 def load(group: str, name: str) -> Any:
-    """What an entry point of ``reactive_realizer.GROUP`` names; imported only now.
+    """Imports the object of an entry point of ``reactive_realizer.GROUP``.
 
     Raises:
         RealizerError: no such name, or two plug-ins that claim it.
@@ -17,10 +20,17 @@ def load(group: str, name: str) -> Any:
     known = names(group)
     found = [point for point in entry_points(group=f"{GROUP}.{group}") if point.name == name]
     if not found:
-        raise error("no-plugin", group=group, name=name, known=", ".join(known) or "none")
+        raise RealizerError(NoPlugin(group=group, name=name, known=tuple(known)))
     if len({point.value for point in found}) > 1:
-        raise error("two-plugins", group=group, name=name, known=", ".join(sorted(point.value for point in found)))
+        raise RealizerError(TwoPlugins(group=group, name=name, known=tuple(sorted(point.value for point in found))))
     return found[0].load()
+
+
+def load_all() -> None:
+    """Import every plug-in of every group, so that all faults are defined."""
+    for group in _GROUPS:
+        for point in entry_points(group=f"{GROUP}.{group}"):
+            point.load()
 
 
 def names(group: str) -> list[str]:

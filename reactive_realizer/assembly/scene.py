@@ -1,4 +1,4 @@
-"""A running scene from its specification."""
+"""Assembles and runs a scene."""
 
 import math
 from collections.abc import AsyncIterator, Callable, Mapping
@@ -9,17 +9,17 @@ from pathlib import Path
 
 from reactive_realizer.assembly.assets import PACKAGE_ASSETS, Assets
 from reactive_realizer.assembly.binding_files import binding_files
+from reactive_realizer.assembly.faults import BadHumanFile
 from reactive_realizer.assembly.human_file import AnticipatorSpec, CharacterSpec, HumanFile, read_human_file
 from reactive_realizer.assembly.registry import load, names
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.avatar import Avatar
 from reactive_realizer.embodiment.humanoid import Humanoid
 from reactive_realizer.embodiment.world import World
-from reactive_realizer.engine.context import EngineContext
+from reactive_realizer.engine.context import EngineContext, LipSyncProvider
 from reactive_realizer.engine.engine import Engine
-from reactive_realizer.engine.lip_sync import LipSyncProvider
 from reactive_realizer.engine.tts import TTSBinding
-from reactive_realizer.errors import RealizerError, error
+from reactive_realizer.errors import RealizerError
 from reactive_realizer.pegboard.anticipator import Anticipator
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.realizer.character import Character
@@ -31,7 +31,7 @@ DEFAULT_HUMAN = PACKAGE_ASSETS / "humans" / "default.toml"
 
 @dataclass(frozen=True, slots=True)
 class SceneOptions:
-    """What a user chooses.
+    """The options of a scene.
 
     Attributes:
         human: the human file.
@@ -52,7 +52,7 @@ class SceneOptions:
 
 @dataclass(frozen=True, slots=True)
 class Scene:
-    """What was assembled.
+    """An assembled scene.
 
     Attributes:
         specification: as it was read.
@@ -118,7 +118,7 @@ def _character(id_: str, spec: CharacterSpec, world: World, assets: Assets, tts:
 
 
 class _Mouth:
-    """What the voices of a character do with its mouth, whatever the order in which its engines are made."""
+    """The mouth shapes of a character, from the first of its voices that speaks."""
 
     def __init__(self) -> None:
         self.voices: list[LipSyncProvider] = []
@@ -141,19 +141,19 @@ def _anticipator(file: str, id_: str, spec: AnticipatorSpec, board: PegBoard) ->
         if name not in defaults:
             reason = f"unknown; known are {', '.join(['kind', *defaults])}"
         elif isinstance(value, tuple) is not isinstance(defaults[name], tuple):
-            reason = f"wanted is a {'list of names' if isinstance(defaults[name], tuple) else 'number'}"
+            reason = f"expected a {'list of names' if isinstance(defaults[name], tuple) else 'number'}"
         else:
             continue
-        raise error("bad-human-file", file=file, key=f"anticipator.{id_}.{name}", reason=reason)
+        raise RealizerError(BadHumanFile(file=file, key=f"anticipator.{id_}.{name}", reason=reason))
     try:
         return cls(id_, board, **spec.parameters)
     except RealizerError as refused:
         reason = refused.fault.sentence
-        raise error("bad-human-file", file=file, key=f"anticipator.{id_}", reason=reason) from refused
+        raise RealizerError(BadHumanFile(file=file, key=f"anticipator.{id_}", reason=reason)) from refused
 
 
 def _parameters(cls: type[Anticipator]) -> Mapping[str, object]:
-    """What a human file may say of an anticipator, with its defaults; keyword-only parameters are for programs."""
+    """The parameters of an anticipator that a human file can set, with defaults; not its keyword-only ones."""
     parameters = signature(cls).parameters.values()
     given = [own for own in parameters if own.kind is Parameter.POSITIONAL_OR_KEYWORD]
     return {own.name: own.default for own in given if own.name not in ("id", "board")}

@@ -1,5 +1,5 @@
-"""From a BML behavior to what plays it: tables that a user edits without programming (thesis 8.6.1).
+"""Maps BML behaviors to the units that play them, using tables that a user can edit without programming (thesis 8.6.1).
 
-This room reads data files and answers which unit fits a behavior's type and attributes. It knows neither engines nor
-how a unit moves anything.
+This package reads data files and answers which unit fits the type and attributes of a behavior. It does not know
+engines, or how a unit moves anything.
 """

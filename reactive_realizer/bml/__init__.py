@@ -1,5 +1,4 @@
-"""The language, as frozen data: BML in, `BehaviorBlock`s and `Problem`s out.
+"""The language: reads BML into frozen `BehaviorBlock`s and `Problem`s.
 
-This room knows what was written and where. It knows no pegs, no clock, no engines: when things happen and who does
-them is decided above.
+This package knows the document only. It imports no pegs, no clock and no engines.
 """

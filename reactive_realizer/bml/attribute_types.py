@@ -1,4 +1,4 @@
-"""What values attributes may have."""
+"""The types of attributes: each reads a value from text, and describes the values it takes."""
 
 import math
 import re
@@ -7,12 +7,16 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import ClassVar, Final
 
+from reactive_realizer.bml.faults import NotAnId, NotWhole, OutOfRange, UnknownWord
 from reactive_realizer.bml.names import BLOCK
 from reactive_realizer.bml.sync_ref import NUMBER
-from reactive_realizer.errors import error
+from reactive_realizer.bml.vocabulary import Composition
+from reactive_realizer.errors import NotANumber, RealizerError
 from reactive_realizer.limits import Limits
 
-_SIGNED: Final = re.compile(rf"[+-]?{NUMBER}")
+_SIGNED_NUMBER: Final = re.compile(rf"[+-]?{NUMBER}")
+_ID: Final = re.compile(r"[^\s:+]{1,200}")
+_AFTER: Final = re.compile(r"\s*(APPEND|CHUNK)[-_]?AFTER\s*\((.*)\)\s*", re.IGNORECASE | re.DOTALL)
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,68 +32,68 @@ class Text:
 
 @dataclass(frozen=True, slots=True)
 class Target(Text):
-    """The name of something in the world."""
+    """The name of an object in the world."""
 
     description: ClassVar[str] = "name of a target"
 
 
 @dataclass(frozen=True, slots=True)
-class Name:
-    """An id that a reference can name."""
+class Id:
+    """An id that a sync reference can name."""
 
     description: ClassVar[str] = "id"
 
     def read(self, text: str, limits: Limits) -> str:
         """The id, without the white space around it."""
         name = text.strip()
-        if name == BLOCK or not re.fullmatch(r"[^\s:+]{1,200}", name):
-            raise error("not-an-id")
+        if name == BLOCK or not _ID.fullmatch(name):
+            raise RealizerError(NotAnId())
         return name
 
 
 @dataclass(frozen=True, slots=True)
-class Names:
-    """Ids with commas between them, each once; there may be none."""
+class IdList:
+    """Zero or more ids, separated by commas."""
 
     description: ClassVar[str] = "ids, separated by commas"
 
     def read(self, text: str, limits: Limits) -> tuple[str, ...]:
-        """The ids, in order of writing."""
+        """The ids in the order of writing, without repetitions."""
         names = text.split(",") if text.strip() else []
-        return tuple(dict.fromkeys(Name().read(name, limits) for name in names))
+        return tuple(dict.fromkeys(Id().read(name, limits) for name in names))
 
 
 @dataclass(frozen=True, slots=True)
-class BehaviorName:
-    """The id of a behavior, with that of its block before it or without."""
+class BehaviorId:
+    """The id of a behavior, optionally after the id of its block."""
 
     description: ClassVar[str] = "[block:]behavior"
 
     def read(self, text: str, limits: Limits) -> str:
-        """Both ids, without the white space around them."""
+        """The ids as written, without the white space around them."""
         names = text.split(":")
         if len(names) > 2:
-            raise error("not-an-id")
-        return ":".join(Name().read(name, limits) for name in names)
+            raise RealizerError(NotAnId())
+        return ":".join(Id().read(name, limits) for name in names)
 
 
 @dataclass(frozen=True, slots=True)
 class Boolean:
-    """Yes or no, as XML Schema writes it, in any case."""
+    """A boolean of XML Schema, in any case."""
 
     description: ClassVar[str] = "true, false"
 
     def read(self, text: str, limits: Limits) -> bool:
-        """Whether it is yes."""
+        """The truth value."""
         word = text.strip().lower()
         if word not in {"true", "false", "1", "0"}:
-            raise error("unknown-word", known=self.description)
+            raise RealizerError(UnknownWord(known=self.description))
         return word in {"true", "1"}
 
 
 @dataclass(frozen=True, slots=True)
-class Number:
-    """A finite number within a range."""
+class Float:
+    """A finite number in a range."""
 
     low: float = -math.inf
     high: float = math.inf
@@ -108,7 +112,7 @@ class Number:
 
 @dataclass(frozen=True, slots=True)
 class Integer:
-    """A whole number within a range."""
+    """A whole number in a range."""
 
     low: int
     high: int
@@ -122,13 +126,13 @@ class Integer:
         """The whole number."""
         value = _within(_finite(text), self.low, self.high)
         if value != int(value):
-            raise error("not-whole")
+            raise RealizerError(NotWhole())
         return int(value)
 
 
 @dataclass(frozen=True, slots=True)
 class Duration:
-    """Seconds from 0 to the limit of times."""
+    """A duration from 0 s to the limit of times."""
 
     description: ClassVar[str] = "seconds"
 
@@ -138,15 +142,20 @@ class Duration:
 
 
 @dataclass(frozen=True, slots=True)
-class Word:
-    """A word of a closed vocabulary, in any case, with ``_``, ``-`` or nothing between its parts."""
+class Enumeration:
+    """A word of a closed vocabulary, in any case, its parts joined by ``_``, ``-`` or nothing.
+
+    Attributes:
+        words: the vocabulary.
+        synonyms: other words, in capital letters and without separators.
+    """
 
     words: type[StrEnum]
     synonyms: Mapping[str, StrEnum] = field(default_factory=dict)
 
     @property
     def description(self) -> str:
-        """The words of the standard."""
+        """The words of the vocabulary, without the synonyms."""
         return ", ".join(self.words)
 
     def read(self, text: str, limits: Limits) -> StrEnum:
@@ -154,8 +163,43 @@ class Word:
         known: dict[str, StrEnum] = {**{_plain(word): word for word in self.words}, **self.synonyms}
         word = known.get(_plain(text.strip()))
         if word is None:
-            raise error("unknown-word", known=self.description)
+            raise RealizerError(UnknownWord(known=self.description))
         return word
+
+
+@dataclass(frozen=True, slots=True)
+class CompositionValue:
+    """The value of a ``composition`` attribute.
+
+    Attributes:
+        composition: its word; MERGE where the attribute lists blocks instead.
+        append_after: ids of the blocks that end before this one starts.
+        chunk_after: ids of the blocks that subside before this one starts.
+    """
+
+    composition: Composition = Composition.MERGE
+    append_after: tuple[str, ...] = ()
+    chunk_after: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class CompositionType:
+    """A word of `Composition`, or a list of blocks: ``APPEND-AFTER(b1,b2)`` (thesis 6.6.8.1), ``CHUNK-AFTER(b1)``."""
+
+    description: ClassVar[str] = f"{Enumeration(Composition).description}, APPEND-AFTER(ids), CHUNK-AFTER(ids)"
+
+    def read(self, text: str, limits: Limits) -> CompositionValue:
+        """The word or the blocks; a word may be in any case, its parts joined by ``_``, ``-`` or nothing."""
+        after = _AFTER.fullmatch(text)
+        if after is not None:
+            blocks = IdList().read(after[2], limits)
+            if after[1].upper() == "APPEND":
+                return CompositionValue(append_after=blocks)
+            return CompositionValue(chunk_after=blocks)
+        try:
+            return CompositionValue(Composition(str(Enumeration(Composition).read(text, limits))))
+        except RealizerError:
+            raise RealizerError(UnknownWord(known=self.description)) from None
 
 
 def _plain(word: str) -> str:
@@ -163,12 +207,12 @@ def _plain(word: str) -> str:
 
 
 def _finite(text: str) -> float:
-    if not _SIGNED.fullmatch(text.strip()) or not math.isfinite(float(text)):
-        raise error("not-a-number")
+    if not _SIGNED_NUMBER.fullmatch(text.strip()) or not math.isfinite(float(text)):
+        raise RealizerError(NotANumber())
     return float(text)
 
 
 def _within(value: float, low: float, high: float) -> float:
     if not low <= value <= high:
-        raise error("out-of-range", low=f"{low:g}", high=f"{high:g}")
+        raise RealizerError(OutOfRange(low=f"{low:g}", high=f"{high:g}"))
     return value

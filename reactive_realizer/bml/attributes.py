@@ -1,6 +1,6 @@
-"""How the text of an attribute becomes a value; a dataclass field says it once, in its metadata.
+"""Declares attributes of elements as metadata of dataclass fields.
 
-The parser, the support tables and ``/capabilities`` all read it back with `attributes_of`.
+The parser, the support tables and ``/capabilities`` read the declarations with `attributes_of`.
 """
 
 import dataclasses
@@ -16,17 +16,17 @@ _METADATA = "bml attribute"
 
 
 class AttributeType(Protocol):
-    """What values an attribute may have."""
+    """The type of an attribute."""
 
     @property
     def description(self) -> str:
-        """For people: the kind of value, its range or words."""
+        """For documentation: the kind of value, its range or words."""
 
     def read(self, text: str, limits: Limits) -> object:
-        """The value written as `text`.
+        """The value of a text.
 
         Raises:
-            RealizerError: with the reason, without the place.
+            RealizerError: with the reason, without a location.
         """
 
 
@@ -37,11 +37,11 @@ class Attribute:
     Attributes:
         name: in XML, without namespace.
         field: of the dataclass that holds its value.
-        type: what it may be.
+        type: of its values.
         required: whether an element without it is refused.
         default: its value where it is not written.
-        continuous: whether it stands in the namespace of BMLA or of BMLT; else in none.
-        spellings: its names in Clark notation; where several are written the first one counts.
+        continuous: whether it is in the namespace of BMLA or BMLT; else it is in none.
+        spellings: its names in Clark notation; if several are written, the first one counts.
     """
 
     name: str
@@ -57,26 +57,26 @@ class Attribute:
         object.__setattr__(self, "spellings", qualified if self.continuous else (self.name,))
 
 
-_FOUND: dict[type, tuple[Attribute, ...]] = {}
-"""Of each dataclass that was asked for; every behavior that is read asks."""
+_CACHE: dict[type, tuple[Attribute, ...]] = {}
+"""Cache of `attributes_of`, which is called for every behavior."""
 
 
 def attribute(kind: AttributeType, name: str | None = None, continuous: bool = False) -> Mapping[str, Any]:
     """Metadata of a field that holds an attribute.
 
     Args:
-        kind: what values it may have.
-        name: its name; without one, the field's in camelCase.
-        continuous: whether it is BMLA's and BMLT's; else it stands without a namespace.
+        kind: its type.
+        name: its name; by default that of the field, in camelCase.
+        continuous: whether it is in the namespace of BMLA or BMLT; else it is in none.
     """
     return {_METADATA: (kind, name, continuous)}
 
 
 def attributes_of(data: type) -> tuple[Attribute, ...]:
-    """The attributes that the fields of a dataclass hold, in their order."""
-    if data not in _FOUND:
-        _FOUND[data] = tuple(_attribute(each) for each in dataclasses.fields(data) if _METADATA in each.metadata)
-    return _FOUND[data]
+    """The attributes that a dataclass declares, in the order of its fields."""
+    if data not in _CACHE:
+        _CACHE[data] = tuple(_attribute(each) for each in dataclasses.fields(data) if _METADATA in each.metadata)
+    return _CACHE[data]
 
 
 def _attribute(each: "dataclasses.Field[Any]") -> Attribute:

@@ -1,44 +1,60 @@
-"""The behaviors of BML 1.0 that move and speak; face.py and posture.py have those made of parts.
+"""The behaviors of BML 1.0 and its core extensions.
 
-An element's name is its class's with a small first letter. Defaults that the standard's readers disagree about are
-OpenBMLParser's.
+The name of an element is the name of its class with a lowercase first letter. Where readers of the standard disagree
+about a default, it is the one of OpenBMLParser.
 """
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Final
 
-from reactive_realizer.bml.attribute_types import Duration, Integer, Name, Number, Target, Text, Word
+from reactive_realizer.bml.attribute_types import Duration, Enumeration, Float, Id, Integer, Target, Text
 from reactive_realizer.bml.attributes import attribute
 from reactive_realizer.bml.behavior import Behavior, SyncPoints
-from reactive_realizer.bml.words import Influence, Mode, OffsetDirection
+from reactive_realizer.bml.names import BML_EXT
+from reactive_realizer.bml.vocabulary import Influence, Mode, OffsetDirection, PosePart, Side, StanceType
 
 _STROKE_POINTS: SyncPoints = ("start", "ready", "strokeStart", "stroke", "strokeEnd", "relax", "end")
 _HOLD_POINTS: SyncPoints = ("start", "ready", "relax", "end")
-_SHIFT_POINTS: SyncPoints = ("start", "end")
-_INFLUENCE = Word(Influence, {"NECK": Influence.HEAD, "TORSO": Influence.WAIST})
-MOST_REPETITIONS = 100
-"""Strokes of a head; each is a sync point."""
+_FACE_POINTS: SyncPoints = ("start", "attackPeak", "relax", "end")
+_START_AND_END: SyncPoints = ("start", "end")
+
+MOST_REPETITIONS: Final = 100
+"""Limit on the strokes of a head behavior; each stroke is a sync point."""
+
+_MOST_ACTION_UNITS: Final = 99
+
+# The drafts before BML 1.0 say NECK and TORSO.
+_INFLUENCE: Final = Enumeration(Influence, {"NECK": Influence.HEAD, "TORSO": Influence.WAIST})
+
+
+# --- speech and hands
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Mark:
-    """An inline sync point of a speech: it stands before the character of that index, or at the end of the text."""
+    """An inline sync point of a speech.
 
-    id: str = field(metadata=attribute(Name()))
+    Attributes:
+        id: name of the sync point.
+        char_index: index of the character that it precedes; the length of the text for a mark at the end.
+    """
+
+    id: str = field(metadata=attribute(Id()))
     char_index: int
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Speech(Behavior):
-    """Says a text.
+    """Speaks a text.
 
     Attributes:
-        text: with single spaces.
-        marks: its inline sync points, in the order of the text.
+        text: the text, runs of white space reduced to single spaces.
+        marks: inline sync points, in the order of the text.
     """
 
     CHILDREN = ("text",)
-    SYNC_POINTS = _SHIFT_POINTS
+    SYNC_POINTS = _START_AND_END
 
     text: str
     marks: tuple[Mark, ...] = ()
@@ -51,23 +67,36 @@ class Speech(Behavior):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Gesture(Behavior):
-    """Moves arms and hands as an open word says; the hands may be left to the realizer."""
+    """Moves arms and hands.
+
+    Attributes:
+        lexeme: a word of an open vocabulary.
+        mode: the hands; None leaves the choice to the realizer.
+    """
 
     SYNC_POINTS = _STROKE_POINTS
     OPEN_POINTS = True
 
     lexeme: str = field(metadata=attribute(Text()))
-    mode: Mode | None = field(default=None, metadata=attribute(Word(Mode)))
+    mode: Mode | None = field(default=None, metadata=attribute(Enumeration(Mode)))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Pointing(Behavior):
-    """Points at a target; the hand may be left to the realizer."""
+    """Points at a target.
+
+    Attributes:
+        target: what it points at.
+        mode: the hand; None leaves the choice to the realizer.
+    """
 
     SYNC_POINTS = _STROKE_POINTS
 
     target: str = field(metadata=attribute(Target()))
-    mode: Mode | None = field(default=None, metadata=attribute(Word(Mode)))
+    mode: Mode | None = field(default=None, metadata=attribute(Enumeration(Mode)))
+
+
+# --- head and gaze
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -77,7 +106,7 @@ class Head(Behavior):
     Attributes:
         lexeme: NOD, SHAKE, or another word.
         repetition: number of strokes.
-        amount: from 0 to 1 (the most there is).
+        amount: extent of the movement, 0 to 1.
     """
 
     SYNC_POINTS = _STROKE_POINTS
@@ -85,63 +114,174 @@ class Head(Behavior):
 
     lexeme: str = field(metadata=attribute(Text()))
     repetition: int = field(default=1, metadata=attribute(Integer(1, MOST_REPETITIONS)))
-    amount: float = field(default=0.5, metadata=attribute(Number(0, 1)))
+    amount: float = field(default=0.5, metadata=attribute(Float(0, 1)))
 
     @property
     def sync_points(self) -> tuple[str, ...]:
-        """With more than one repetition there are ``stroke:1`` to ``stroke:n`` in the place of stroke."""
+        """All sync points; with several repetitions, ``stroke:1`` to ``stroke:n`` replace ``stroke``."""
         if self.repetition == 1:
             return _STROKE_POINTS
         strokes = (f"stroke:{number}" for number in range(1, self.repetition + 1))
         return (*_STROKE_POINTS[:3], *strokes, *_STROKE_POINTS[4:])
 
     @classmethod
-    def tied_by(cls, values: Mapping[str, object]) -> SyncPoints:
-        """One that strokes several times has no single stroke to be tied."""
+    def sync_attributes(cls, values: Mapping[str, object]) -> SyncPoints:
+        """A head behavior with several strokes has no ``stroke`` attribute."""
         several = values.get("repetition", 1) != 1
         return tuple(point for point in _STROKE_POINTS if point != "stroke") if several else _STROKE_POINTS
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HeadDirectionShift(Behavior):
-    """Turns the head to a target and leaves it there."""
+    """Turns the head to a target and keeps it there."""
 
-    SYNC_POINTS = _SHIFT_POINTS
+    SYNC_POINTS = _START_AND_END
 
     target: str = field(metadata=attribute(Target()))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Gaze(Behavior):
-    """Looks at a target, and back.
+    """Looks at a target, then back.
 
     Attributes:
         target: what is looked at.
-        influence: how much of the body takes part; None leaves it to the realizer.
-        offset_angle: by how many degrees the gaze misses the target.
-        offset_direction: to which side.
+        influence: the part of the body that turns; None leaves the choice to the realizer.
+        offset_angle: angle between the gaze and the target, degrees.
+        offset_direction: direction of that angle.
     """
 
     SYNC_POINTS = _HOLD_POINTS
 
     target: str = field(metadata=attribute(Target()))
     influence: Influence | None = field(default=None, metadata=attribute(_INFLUENCE))
-    offset_angle: float = field(default=0.0, metadata=attribute(Number(-360, 360)))
-    offset_direction: OffsetDirection = field(default=OffsetDirection.RIGHT, metadata=attribute(Word(OffsetDirection)))
+    offset_angle: float = field(default=0.0, metadata=attribute(Float(-360, 360)))
+    offset_direction: OffsetDirection = field(
+        default=OffsetDirection.RIGHT, metadata=attribute(Enumeration(OffsetDirection))
+    )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GazeShift(Gaze):
-    """As a gaze; the target becomes the one to which the eyes come back."""
+    """Looks at a target, which becomes the target of the resting gaze."""
 
-    SYNC_POINTS = _SHIFT_POINTS
+    SYNC_POINTS = _START_AND_END
+
+
+# --- face
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FaceLexeme(Behavior):
+    """A facial expression.
+
+    Attributes:
+        lexeme: a word of an open vocabulary, such as RAISE_BROWS.
+        amount: strength of the expression, 0 to 1.
+        overshoot: fraction by which the attack peak exceeds the amount.
+    """
+
+    SYNC_POINTS = _FACE_POINTS
+
+    lexeme: str = field(metadata=attribute(Text()))
+    amount: float = field(default=0.5, metadata=attribute(Float(0, 1)))
+    overshoot: float = field(default=0.0, metadata=attribute(Float(0, 1)))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FaceFacs(Behavior):
+    """An action unit of the Facial Action Coding System (Ekman and Friesen); a core extension.
+
+    Attributes:
+        au: number of the action unit.
+        side: half of the face.
+        amount: strength of the expression, 0 to 1.
+    """
+
+    NAMESPACE = BML_EXT
+    SYNC_POINTS = _FACE_POINTS
+
+    au: int = field(metadata=attribute(Integer(0, _MOST_ACTION_UNITS)))
+    side: Side = field(default=Side.BOTH, metadata=attribute(Enumeration(Side)))
+    amount: float = field(default=0.5, metadata=attribute(Float(0, 1)))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Face(Behavior):
+    """Several expressions that are timed as one.
+
+    Attributes:
+        amount: strength of the whole, 0 to 1.
+        overshoot: fraction by which the attack peak exceeds the amount.
+        parts: the expressions; their ids may be empty, and they have no sync points of their own.
+    """
+
+    CHILDREN = ("faceLexeme", "faceFacs")
+    SYNC_POINTS = _FACE_POINTS
+
+    amount: float = field(default=0.5, metadata=attribute(Float(0, 1)))
+    overshoot: float = field(default=0.0, metadata=attribute(Float(0, 1)))
+    parts: tuple[FaceLexeme | FaceFacs, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FaceShift(Face):
+    """A face that becomes the resting face."""
+
+    SYNC_POINTS = _START_AND_END
+
+
+# --- the whole body
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Stance:
+    """The global body position of a posture."""
+
+    type: StanceType = field(metadata=attribute(Enumeration(StanceType)))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Pose:
+    """The pose of one part of the body.
+
+    Attributes:
+        part: of the body.
+        lexeme: a word of an open vocabulary, such as ARMS_CROSSED.
+    """
+
+    part: PosePart = field(metadata=attribute(Enumeration(PosePart)))
+    lexeme: str = field(metadata=attribute(Text()))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Posture(Behavior):
+    """Takes a posture, then returns to the resting posture.
+
+    Attributes:
+        stance: None keeps the present one; then there is at least one pose.
+        poses: at most one for each part of the body.
+    """
+
+    CHILDREN = ("stance", "pose")
+    SYNC_POINTS = _HOLD_POINTS
+
+    stance: StanceType | None
+    poses: tuple[Pose, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PostureShift(Posture):
+    """A posture that becomes the resting posture."""
+
+    SYNC_POINTS = _START_AND_END
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Locomotion(Behavior):
     """Walks to a target, or moves there in another manner."""
 
-    SYNC_POINTS = _SHIFT_POINTS
+    SYNC_POINTS = _START_AND_END
 
     target: str = field(metadata=attribute(Target()))
     manner: str = field(default="WALK", metadata=attribute(Text()))
@@ -152,11 +292,11 @@ class Wait(Behavior):
     """Does nothing for a while.
 
     Attributes:
-        duration: seconds, None where only its sync points say it.
-        max_wait: the most seconds it lasts, None for no bound.
+        duration: seconds; None where only the sync points determine it.
+        max_wait: the most seconds it lasts; None for no limit.
     """
 
-    SYNC_POINTS = _SHIFT_POINTS
+    SYNC_POINTS = _START_AND_END
 
     duration: float | None = field(default=None, metadata=attribute(Duration()))
     max_wait: float | None = field(default=None, metadata=attribute(Duration(), "max-wait"))

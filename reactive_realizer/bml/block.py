@@ -1,18 +1,105 @@
-"""A block of behaviors, and what came of reading one."""
+"""Blocks, procedures and their constraints, and the result of reading one."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from enum import StrEnum
+from typing import Final
 
-from reactive_realizer.bml.attribute_types import Boolean, Name, Names, Text
+from reactive_realizer.bml.attribute_types import Boolean, CompositionType, Id, IdList, Text
 from reactive_realizer.bml.attributes import attribute
 from reactive_realizer.bml.behavior import Behavior
-from reactive_realizer.bml.composition import CompositionText
-from reactive_realizer.bml.constraint import Constraint, Order
 from reactive_realizer.bml.names import Location
-from reactive_realizer.bml.procedure import DefineProc
 from reactive_realizer.bml.sync_ref import SyncRef
-from reactive_realizer.bml.words import Composition
+from reactive_realizer.bml.vocabulary import Composition
 from reactive_realizer.errors import Fault
+
+DEFINE_PROC: Final = "defineproc"
+USE_PROC: Final = "useproc"
+PROCEDURES: Final = frozenset({DEFINE_PROC, USE_PROC})
+"""Elements of continuous interaction that stand beside blocks."""
+
+
+class OrderKind(StrEnum):
+    """Whether the listed points of an `Order` come before or after its reference point."""
+
+    BEFORE = "before"
+    AFTER = "after"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Synchronize:
+    """A constraint: all these points have the same time.
+
+    Attributes:
+        id: of its constraint element, if it has one.
+        refs: two or more; an absolute time pins the others.
+        required: whether the block fails without it.
+        location: of its start tag.
+    """
+
+    id: str | None
+    refs: tuple[SyncRef, ...]
+    required: bool
+    location: Location
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Order:
+    """A constraint: the listed points are not after, or not before, a reference point.
+
+    Attributes:
+        kind: BEFORE: no listed point is after `ref`; AFTER: none is before it.
+        id: of its constraint element, if it has one.
+        ref: the reference point.
+        refs: the listed points, one or more.
+        required: whether the block fails without it.
+        location: of its start tag.
+    """
+
+    kind: OrderKind
+    id: str | None
+    ref: SyncRef
+    refs: tuple[SyncRef, ...]
+    required: bool
+    location: Location
+
+
+Constraint = Synchronize | Order
+"""A constraint that is written apart from the behaviors."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DefineProc:
+    """A ``<defineproc>``: behaviors and constraints that are written once and played many times (thesis 6.6.2).
+
+    It stands beside blocks, and does not play itself. A later one with the same id replaces it.
+
+    Attributes:
+        id: its name among procedures.
+        behaviors: in document order, including those inside ``<required>``.
+        constraints: in document order.
+        unread: ids of the behaviors that were dropped because they cannot be read.
+        location: of its start tag.
+    """
+
+    id: str = field(metadata=attribute(Id()))
+    behaviors: tuple[Behavior, ...] = ()
+    constraints: tuple[Constraint, ...] = ()
+    unread: frozenset[str] = frozenset()
+    location: Location
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class UseProc:
+    """The attributes of a ``<useproc>`` that a block does not have.
+
+    Attributes:
+        procedure: id of the procedure.
+        block: id of the block that it becomes.
+    """
+
+    procedure: str = field(metadata=attribute(Id(), "procid"))
+    block: str = field(metadata=attribute(Id(), "bmlid"))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -21,33 +108,33 @@ class BehaviorBlock:
 
     Attributes:
         id: unique among the blocks alive.
-        character: id of who is meant; None is the first one.
+        character: id of its character; None for the first one.
         composition: how it joins the earlier blocks.
-        append_after: blocks that have ended before it starts; BMLA's appendAfter.
-        chunk_after: blocks that subside before it starts: all that is left of them is in retraction.
-        prepend_before: blocks that do not start before it has ended.
-        chunk_before: blocks that do not start before it subsides.
-        interrupts: blocks that are interrupted when it comes in; BMLA's interrupt.
-        on_start: planned blocks that start when it starts.
+        append_after: ids of the blocks that end before it starts; BMLA's appendAfter.
+        chunk_after: ids of the blocks that subside before it starts: all that is left of them is in retraction.
+        prepend_before: ids of the blocks that do not start before it has ended.
+        chunk_before: ids of the blocks that do not start before it subsides.
+        interrupts: ids of the blocks that it interrupts when it enters; BMLA's interrupt.
+        on_start: ids of the preplanned blocks that start when it starts.
         preplan: whether it waits to be activated.
         external_refs: whether its references may name behaviors of other blocks; only drafts have to say so.
-        procedure: id of the procedure whose behaviors and constraints it has; then there are none here.
-        behaviors: in document order, also those inside ``<required>``.
+        procedure: id of the procedure whose behaviors and constraints it has; then it has none of its own.
+        behaviors: in document order, including those inside ``<required>``.
         constraints: in document order.
         unread: ids of the behaviors that were dropped because they cannot be read.
         extensions: attributes of other namespaces, (namespace, local name) to value.
         location: of its start tag.
     """
 
-    id: str = field(metadata=attribute(Name()))
+    id: str = field(metadata=attribute(Id()))
     character: str | None = field(default=None, metadata=attribute(Text(), "characterId"))
-    composition: Composition = field(default=Composition.MERGE, metadata=attribute(CompositionText()))
-    append_after: tuple[str, ...] = field(default=(), metadata=attribute(Names(), continuous=True))
-    chunk_after: tuple[str, ...] = field(default=(), metadata=attribute(Names(), continuous=True))
-    prepend_before: tuple[str, ...] = field(default=(), metadata=attribute(Names(), continuous=True))
-    chunk_before: tuple[str, ...] = field(default=(), metadata=attribute(Names(), continuous=True))
-    interrupts: tuple[str, ...] = field(default=(), metadata=attribute(Names(), "interrupt", continuous=True))
-    on_start: tuple[str, ...] = field(default=(), metadata=attribute(Names(), continuous=True))
+    composition: Composition = field(default=Composition.MERGE, metadata=attribute(CompositionType()))
+    append_after: tuple[str, ...] = field(default=(), metadata=attribute(IdList(), continuous=True))
+    chunk_after: tuple[str, ...] = field(default=(), metadata=attribute(IdList(), continuous=True))
+    prepend_before: tuple[str, ...] = field(default=(), metadata=attribute(IdList(), continuous=True))
+    chunk_before: tuple[str, ...] = field(default=(), metadata=attribute(IdList(), continuous=True))
+    interrupts: tuple[str, ...] = field(default=(), metadata=attribute(IdList(), "interrupt", continuous=True))
+    on_start: tuple[str, ...] = field(default=(), metadata=attribute(IdList(), continuous=True))
     preplan: bool = field(default=False, metadata=attribute(Boolean(), continuous=True))
     external_refs: bool = field(default=False, metadata=attribute(Boolean(), "allowexternalrefs", continuous=True))
     procedure: str | None = None
@@ -59,7 +146,7 @@ class BehaviorBlock:
 
     @property
     def refs(self) -> tuple[SyncRef, ...]:
-        """All references that stand in it, those of behaviors first."""
+        """All references in it, those of its behaviors first."""
         own = (ref for behavior in self.behaviors for ref in behavior.syncs.values())
         pivots = (each.ref for each in self.constraints if isinstance(each, Order))
         return (*own, *pivots, *(ref for each in self.constraints for ref in each.refs))
@@ -67,11 +154,11 @@ class BehaviorBlock:
 
 @dataclass(frozen=True, slots=True)
 class Problem:
-    """Something of a document that cannot be as it was written.
+    """A part of a document that cannot be read or played as written.
 
     Attributes:
-        fault: what, and where; the type of its warning is ``fault.kind.warning``.
-        id: the block's, ``block:behavior``, or "bml" where no id could be read.
+        fault: the reason and the place; the type of its warning is ``fault.warning``.
+        id: of the block, ``block:behavior``, or "bml" where no id could be read.
     """
 
     fault: Fault
@@ -80,13 +167,13 @@ class Problem:
 
 @dataclass(frozen=True, slots=True)
 class Parsed:
-    """What came of one top-level element of a document: a block, a procedure, or nothing where it is refused.
+    """The result of reading one top-level element of a document: a block, a procedure, or neither if it is refused.
 
     Attributes:
-        block: without what was dropped.
+        block: without the parts that were dropped.
         problems: in document order; each is one warning.
-        failed: whether something dropped was required, so that the block fails whole.
-        procedure: without what was dropped.
+        failed: whether a dropped part was required, so that the whole block fails.
+        procedure: without the parts that were dropped.
     """
 
     block: BehaviorBlock | None
@@ -96,5 +183,5 @@ class Parsed:
 
     @property
     def refusal(self) -> Fault | None:
-        """Why the whole of it is refused."""
+        """The reason for which the whole element is refused, if it is."""
         return None if self.block or self.procedure else self.problems[0].fault

@@ -1,31 +1,33 @@
-"""From the inside of a block or procedure to behaviors and constraints."""
+"""Reads the content of a block or procedure: behaviors and constraints."""
 
 from collections.abc import Iterator
 from typing import Final
 
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.behavior_reader import read_behavior
-from reactive_realizer.bml.block import Problem
-from reactive_realizer.bml.constraint import Constraint
-from reactive_realizer.bml.constraint_reader import CONSTRAINTS, read_constraint
-from reactive_realizer.bml.drafts.persistence import persisting
-from reactive_realizer.bml.drafts.rewriting import modernize
-from reactive_realizer.bml.source import Source
-from reactive_realizer.bml.trees import Tree, children_of, is_continuous, is_core, name_of, namespace_of, shown
+from reactive_realizer.bml.block import Constraint, Order, OrderKind, Problem, Synchronize
+from reactive_realizer.bml.block_source import BlockSource
+from reactive_realizer.bml.drafts import modernize, persisting
+from reactive_realizer.bml.faults import DuplicateId, MissingElement, MoreProblems, TooManyBehaviors
+from reactive_realizer.bml.sync_ref import SyncRef
+from reactive_realizer.bml.trees import Tree, children_of, is_continuous, is_core, name_of, namespace_of, quoted
 from reactive_realizer.errors import Fault, RealizerError
 
 _REQUIRED: Final = "required"
 _CONSTRAINT: Final = "constraint"
+_SYNCHRONIZE: Final = "synchronize"
+_CONSTRAINTS: Final = (_SYNCHRONIZE, *OrderKind)
+"""The elements that may stand in a ``<constraint>``."""
 
 
 class ContentReader:
-    """Reads what stands inside; what of it cannot be read is dropped with a problem.
+    """Reads the content of a block; a behavior or constraint that cannot be read is dropped with a problem.
 
     Attributes:
-        failed: whether something dropped was required.
+        failed: whether a dropped one was required.
     """
 
-    def __init__(self, source: Source, id_: str) -> None:
+    def __init__(self, source: BlockSource, id_: str) -> None:
         self.failed = False
         self._source = source
         self._id = id_
@@ -52,26 +54,26 @@ class ContentReader:
 
     @property
     def problems(self) -> tuple[Problem, ...]:
-        """In document order, not more than a block may have behaviors."""
+        """In document order, as many as a block may have behaviors, and one for the rest."""
         most = self._source.limits.behaviors_per_block
         first, others = sorted(self._problems, key=_position)[:most], self._problems[most:]
         if others:
-            more = self._source.fault(self._source.tree, "more-problems", number=len(others))
+            more = self._source.located(self._source.tree, MoreProblems(number=len(others)))
             first.append(Problem(more, self._id))
         return tuple(first)
 
     def read(self) -> None:
-        """Read everything.
+        """Reads everything.
 
         Raises:
-            RealizerError: ``too-many-behaviors``, or the texts to be kept of them are too long.
+            RealizerError: ``too-many-behaviors``, or ``too-many-bytes`` in the copies kept of them.
         """
         children = list(self._children(self._source.tree, required=False))
         behaviors = [child for child in children if not _is(child[0], _CONSTRAINT)]
         self._check_number(len(behaviors))
         for tree, _ in behaviors:
             if is_continuous(tree) and not tree.get("id"):
-                self._source.names.give(tree)
+                self._source.ids.give(tree)
         for order, (tree, required) in enumerate(behaviors):
             self._read_behavior(tree, order, required)
         for tree, required in children:
@@ -81,22 +83,22 @@ class ContentReader:
             self._behaviors[behavior.id] = behavior
 
     def report(self, faults: list[Fault], part: str | None = None) -> None:
-        """Take problems of the block, or of a behavior or constraint in it."""
-        name = shown(part or "")
+        """Adds problems of the block, or of the behavior or constraint with an id."""
+        name = quoted(part or "")
         place = f"{self._id}:{name}" if name else self._id
         self._problems += [Problem(fault, place) for fault in faults]
 
     def _check_number(self, size: int) -> None:
         limit = self._source.limits.behaviors_per_block
         if size > limit:
-            raise RealizerError(self._source.fault(self._source.tree, "too-many-behaviors", size=size, limit=limit))
+            raise RealizerError(self._source.located(self._source.tree, TooManyBehaviors(size=size, limit=limit)))
 
     def _children(self, holder: Tree, required: bool) -> Iterator[tuple[Tree, bool]]:
-        """Behaviors and constraints in document order, and whether they are required."""
+        """The elements of behaviors and constraints in document order, and whether each is required."""
         self.report(self._source.stray_text(holder))
         for child in holder:
             if _is(child, _REQUIRED):
-                self.report(self._source.unread_attributes(child, []))
+                self.report(self._source.unknown_attributes(child, []))
                 yield from self._children(child, required=True)
             else:
                 yield child, required
@@ -108,7 +110,7 @@ class ContentReader:
                 modernize(tree, self._source)
             behavior = read_behavior(tree, self._source, order, required, notes)
             if behavior.id in self._behaviors:
-                raise RealizerError(self._source.fault(tree, "duplicate-id", id=behavior.id))
+                raise RealizerError(self._source.located(tree, DuplicateId(element=name_of(tree), id=behavior.id)))
         except RealizerError as refused:
             self._unread.add(tree.get("id", ""))
             self._drop(refused.fault, required, tree.get("id"))
@@ -120,13 +122,13 @@ class ContentReader:
 
     def _read_constraints(self, tree: Tree, required: bool) -> None:
         constraint_id = tree.get("id")
-        self.report(self._source.unread(tree, ["id"], CONSTRAINTS), constraint_id)
-        for child in children_of(tree, *CONSTRAINTS):
+        self.report(self._source.unknown_content(tree, ["id"], _CONSTRAINTS), constraint_id)
+        for child in children_of(tree, *_CONSTRAINTS):
             notes: list[Fault] = []
             try:
                 if _is_draft(child):
                     modernize(child, self._source)
-                self._constraints.append(read_constraint(child, constraint_id, self._source, required, notes))
+                self._constraints.append(_read_constraint(child, constraint_id, self._source, required, notes))
             except RealizerError as refused:
                 self._drop(refused.fault, required, constraint_id)
             else:
@@ -135,6 +137,48 @@ class ContentReader:
     def _drop(self, fault: Fault, required: bool, part: str | None) -> None:
         self.failed |= required
         self.report([fault], part)
+
+
+def _read_constraint(
+    tree: Tree, constraint_id: str | None, source: BlockSource, required: bool, notes: list[Fault]
+) -> Constraint:
+    """The constraint in a child of a ``<constraint>``.
+
+    Args:
+        tree: the child, one of `_CONSTRAINTS`.
+        constraint_id: of the ``<constraint>`` around it.
+        source: its block.
+        required: whether the block fails without it.
+        notes: receives the faults that do not prevent reading it.
+
+    Raises:
+        RealizerError: a reference is missing or bad.
+    """
+    location = source.location(tree)
+    if name_of(tree) == _SYNCHRONIZE:
+        notes += source.unknown_content(tree, [], ["sync"])
+        refs = _refs(tree, 2, source, notes)
+        return Synchronize(id=constraint_id, refs=refs, required=required, location=location)
+    notes += source.unknown_content(tree, ["ref"], ["sync"])
+    return Order(
+        kind=OrderKind(name_of(tree)),
+        id=constraint_id,
+        ref=source.ref(tree, "ref"),
+        refs=_refs(tree, 1, source, notes),
+        required=required,
+        location=location,
+    )
+
+
+def _refs(tree: Tree, least: int, source: BlockSource, notes: list[Fault]) -> tuple[SyncRef, ...]:
+    syncs = children_of(tree, "sync")
+    if len(syncs) < least:
+        raise RealizerError(
+            source.located(tree, MissingElement(element=name_of(tree), children=" and ".join(["<sync>"] * least)))
+        )
+    for sync in syncs:
+        notes += source.unknown_content(sync, ["ref"])
+    return tuple(source.ref(sync, "ref") for sync in syncs)
 
 
 def _is(tree: Tree, name: str) -> bool:

@@ -1,44 +1,160 @@
-"""From a document to its blocks."""
+"""Reads a document: its blocks and procedures, with the problems of each."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from itertools import islice
+from typing import Any, Final
 
-from reactive_realizer.bml.block import Parsed, Problem
-from reactive_realizer.bml.block_reader import BlockReader
-from reactive_realizer.bml.decode import decode
+from reactive_realizer.bml.attribute_types import CompositionValue
+from reactive_realizer.bml.attributes import Attribute, attributes_of
+from reactive_realizer.bml.block import (
+    DEFINE_PROC,
+    USE_PROC,
+    BehaviorBlock,
+    DefineProc,
+    Parsed,
+    Problem,
+    UseProc,
+)
+from reactive_realizer.bml.block_source import BlockSource
+from reactive_realizer.bml.content_reader import ContentReader
+from reactive_realizer.bml.drafts import modernize_block
+from reactive_realizer.bml.faults import NoBlock, NoBlockId, NotBml, TooManyBytes, TooManyRoots
 from reactive_realizer.bml.names import BLOCK
-from reactive_realizer.bml.root_reader import read_roots
-from reactive_realizer.errors import RealizerError, error
+from reactive_realizer.bml.trees import extensions_of, is_continuous, is_core, name_of
+from reactive_realizer.bml.xml_roots import Root, decode, read_roots
+from reactive_realizer.errors import RealizerError
 from reactive_realizer.limits import Limits
+
+_ID, *_OTHERS = attributes_of(BehaviorBlock)
+_PROCEDURE_ID, _BLOCK_ID = attributes_of(UseProc)
+(_DEFINED_ID,) = attributes_of(DefineProc)
+_CONTINUOUS: Final = frozenset(name for each in _OTHERS if each.continuous for name in each.spellings)
 
 
 def parse(text: str | bytes, limits: Limits) -> list[Parsed]:
-    """Reads BML 1.0, and documents without a namespace as if it were theirs.
+    """Reads BML 1.0; a document without a namespace is read as the draft that it may be.
 
     A document may hold several blocks; comments, processing instructions and XML declarations may stand before and
-    between them. Each block, and each thing that is none, has its entry in the answer, in document order, which is
-    never empty. Nothing raises.
+    between them. The result has an entry for each block, and for each other thing at the top level, in document order.
+    It is never empty, and the function raises nothing.
 
     Args:
         text: the document.
-        limits: what is too much.
+        limits: the sizes that are refused.
     """
     try:
         parsed = list(islice(_read(text, limits), limits.blocks_alive + 1))
     except RealizerError as refused:
         return [_refused(refused)]
     if len(parsed) > limits.blocks_alive:
-        parsed[-1] = _refused(error("too-many-roots", limit=limits.blocks_alive))
-    return parsed or [_refused(error("no-block", line=1, column=1))]
+        parsed[-1] = _refused(RealizerError(TooManyRoots(limit=limits.blocks_alive)))
+    return parsed or [_refused(RealizerError(NoBlock(line=1, column=1)))]
 
 
 def _read(text: str | bytes, limits: Limits) -> Iterator[Parsed]:
     size = len(text) if isinstance(text, bytes) else len(text.encode("utf-8", "surrogatepass"))
     if size > limits.bml_bytes:
-        raise error("too-many-bytes", size=size, limit=limits.bml_bytes, line=1, column=1)
+        raise RealizerError(TooManyBytes(size=size, limit=limits.bml_bytes, line=1, column=1))
     for root in read_roots(text if isinstance(text, str) else decode(text), limits):
-        yield Parsed(None, (root,)) if isinstance(root, Problem) else BlockReader(root, limits).read()
+        yield Parsed(None, (root,)) if isinstance(root, Problem) else _BlockReader(root, limits).read()
 
 
 def _refused(refused: RealizerError) -> Parsed:
     return Parsed(None, (Problem(refused.fault, BLOCK),))
+
+
+class _BlockReader:
+    """Reads one block, procedure, or use of a procedure; a part that cannot be read is dropped with a problem."""
+
+    def __init__(self, root: Root, limits: Limits) -> None:
+        self._source = BlockSource(root, limits)
+        self._tree = root.tree
+        self._id = BLOCK
+
+    def read(self) -> Parsed:
+        """The block or procedure, with its problems."""
+        try:
+            return self._read()
+        except RealizerError as refused:
+            return Parsed(None, (Problem(refused.fault, self._id),))
+
+    def _read(self) -> Parsed:
+        name = name_of(self._tree)
+        if self._source.ids.draft:
+            modernize_block(self._tree)
+        if is_core(self._tree) and name == "bml":
+            return self._read_block()
+        if is_continuous(self._tree) and name == USE_PROC:
+            return self._read_use()
+        if is_continuous(self._tree) and name == DEFINE_PROC:
+            return self._read_definition()
+        raise RealizerError(self._source.located(self._tree, NotBml(element=name_of(self._tree))))
+
+    def _read_block(self) -> Parsed:
+        if not self._tree.get("id", "").strip():
+            raise RealizerError(self._source.located(self._tree, NoBlockId()))
+        self._id = self._value(_ID)
+        content = ContentReader(self._source, self._id)
+        attributes = self._attributes(content, [_ID])
+        self._source.ids.external = attributes.get("external_refs", False) or not self._source.ids.draft
+        content.read()
+        block = BehaviorBlock(
+            **attributes, behaviors=content.behaviors, constraints=content.constraints, unread=content.unread
+        )
+        return Parsed(block, content.problems, content.failed)
+
+    def _read_use(self) -> Parsed:
+        self._id = self._value(_BLOCK_ID)
+        procedure = self._value(_PROCEDURE_ID)
+        content = ContentReader(self._source, self._id)
+        attributes = self._attributes(content, [_PROCEDURE_ID, _BLOCK_ID])
+        content.report([*self._source.unknown_children(self._tree, []), *self._source.stray_text(self._tree)])
+        return Parsed(BehaviorBlock(**attributes, procedure=procedure), content.problems)
+
+    def _read_definition(self) -> Parsed:
+        self._id = self._value(_DEFINED_ID)
+        content = ContentReader(self._source, self._id)
+        content.report(self._source.unknown_attributes(self._tree, [_DEFINED_ID.name]))
+        content.read()
+        if content.failed:
+            return Parsed(None, content.problems)
+        procedure = DefineProc(
+            id=self._id,
+            behaviors=content.behaviors,
+            constraints=content.constraints,
+            unread=content.unread,
+            location=self._source.location(self._tree),
+        )
+        return Parsed(None, content.problems, procedure=procedure)
+
+    def _value(self, attribute: Attribute) -> str:
+        return str(self._source.values(self._tree, [attribute])[attribute.field])
+
+    def _attributes(self, content: ContentReader, own: Iterable[Attribute]) -> dict[str, Any]:
+        """The fields of a block except its content; attributes that cannot be read are left out."""
+        values: dict[str, Any] = {}
+        for attribute in _OTHERS:
+            try:
+                values |= self._source.values(self._tree, [attribute])
+            except RealizerError as refused:
+                content.report([refused.fault])
+        continuous = is_continuous(self._tree)
+        plain = [each.name for each in (*own, *_OTHERS) if continuous or not each.continuous]
+        content.report(self._source.unknown_attributes(self._tree, plain))
+        return _composed(values) | {
+            "id": self._id,
+            "extensions": extensions_of(self._tree, _CONTINUOUS),
+            "location": self._source.location(self._tree),
+        }
+
+
+def _composed(values: dict[str, Any]) -> dict[str, Any]:
+    """The same values, with the blocks that the composition names moved to the fields for them."""
+    composed = values.pop("composition", CompositionValue())
+    appended = (*composed.append_after, *values.get("append_after", ()))
+    chunked = (*composed.chunk_after, *values.get("chunk_after", ()))
+    return values | {
+        "composition": composed.composition,
+        "append_after": tuple(dict.fromkeys(appended)),
+        "chunk_after": tuple(dict.fromkeys(chunked)),
+    }

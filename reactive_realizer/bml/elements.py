@@ -1,4 +1,4 @@
-"""The table of the behaviors, from which parser, support tables and ``/capabilities`` are made."""
+"""The table of behavior elements, which the parser, the support tables and ``/capabilities`` read."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -7,6 +7,10 @@ from types import MappingProxyType
 from reactive_realizer.bml.attributes import Attribute, attributes_of
 from reactive_realizer.bml.behavior import Behavior, SyncPoints
 from reactive_realizer.bml.behaviors import (
+    Face,
+    FaceFacs,
+    FaceLexeme,
+    FaceShift,
     Gaze,
     GazeShift,
     Gesture,
@@ -14,25 +18,33 @@ from reactive_realizer.bml.behaviors import (
     HeadDirectionShift,
     Locomotion,
     Pointing,
+    Posture,
+    PostureShift,
     Speech,
     Wait,
 )
-from reactive_realizer.bml.continuous import Activate, Interrupt, ParameterValueChange
-from reactive_realizer.bml.face import Face, FaceFacs, FaceLexeme, FaceShift
+from reactive_realizer.bml.extensions import (
+    Activate,
+    Interrupt,
+    Keyframe,
+    Noise,
+    ParameterValueChange,
+    ProcAnimation,
+    ProcAnimationGesture,
+    Transition,
+)
 from reactive_realizer.bml.names import BML, BML_EXT, BMLA, CONTINUOUS
-from reactive_realizer.bml.posture import Posture, PostureShift
-from reactive_realizer.bml.twente import Keyframe, Noise, ProcAnimation, ProcAnimationGesture, Transition
 
 
 @dataclass(frozen=True, slots=True)
 class Element:
-    """An element of BML 1.0, of continuous interaction or of BMLT that is a behavior.
+    """The element of a behavior in BML 1.0, BMLA or BMLT.
 
     Attributes:
         name: local name.
-        namespace: the core's, that of the core extensions, BMLA's, or BMLT's.
-        behavior: the class of what is read from it.
-        attributes: those other than sync points.
+        namespace: of BML 1.0, its core extensions, BMLA or BMLT.
+        behavior: class of the behavior.
+        attributes: its attributes other than sync points.
     """
 
     name: str
@@ -42,29 +54,29 @@ class Element:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Those of its attributes that are no sync points."""
+        """The names of its attributes other than sync points."""
         return tuple(each.name for each in self.attributes)
 
     @property
     def continuous(self) -> bool:
-        """Whether it is none of BML 1.0's."""
+        """Whether it is in BMLA or BMLT rather than BML 1.0."""
         return self.namespace in CONTINUOUS
 
     @property
     def namespaces(self) -> tuple[str, ...]:
-        """Where it may stand: what is the core's also in none, what is BMLA's also in that of BMLT."""
+        """The namespaces in which it may be written: none for BML 1.0 too, that of BMLT for BMLA too."""
         if not self.continuous:
             return ("", BML, BML_EXT)
         return CONTINUOUS if self.namespace == BMLA else (self.namespace,)
 
     @property
     def children(self) -> tuple[str, ...]:
-        """The elements that it may hold beside descriptions."""
+        """Names of the elements that it may contain besides descriptions."""
         return self.behavior.CHILDREN
 
     @property
     def sync_points(self) -> SyncPoints:
-        """Its default sync points, each of them an attribute too, in the order in which they are reached."""
+        """Its default sync points, each of which is also an attribute, in the order of time."""
         return self.behavior.SYNC_POINTS
 
 
@@ -73,7 +85,7 @@ def _element(behavior: type[Behavior]) -> Element:
 
 
 def _name(behavior: type[Behavior]) -> str:
-    """BML 1.0 writes it in camelCase, the others in small letters."""
+    """The name of an element: camelCase in BML 1.0, lowercase in the others."""
     name = behavior.__name__
     return name.lower() if behavior.NAMESPACE in CONTINUOUS else name[0].lower() + name[1:]
 
@@ -105,4 +117,4 @@ _BEHAVIORS = (
 )
 
 ELEMENTS: Mapping[str, Element] = MappingProxyType({each.name: each for each in map(_element, _BEHAVIORS)})
-"""The behaviors by the name of their element; no two of them share one."""
+"""The elements by name, which is unique."""

@@ -1,29 +1,28 @@
-"""Whether what a block refers to exists."""
+"""Checks that the sync points to which a block refers exist."""
 
 from collections.abc import Callable, Collection, Iterator, Mapping
 
 from reactive_realizer.bml.behavior import Behavior
-from reactive_realizer.bml.block import BehaviorBlock, Problem
-from reactive_realizer.bml.constraint import Constraint, Order
+from reactive_realizer.bml.block import BehaviorBlock, Constraint, DefineProc, Order, Problem
+from reactive_realizer.bml.faults import LostWith, UnknownBlock, UnknownOwner, UnknownReference, UnknownSync
 from reactive_realizer.bml.names import Location
-from reactive_realizer.bml.procedure import DefineProc
 from reactive_realizer.bml.sync_ref import SyncRef
 from reactive_realizer.bml.trees import listed
 from reactive_realizer.errors import Fault
 
 Points = Callable[[Behavior], Collection[str] | None]
-"""The sync points of a behavior; None where they are not known."""
+"""Returns the sync points of a behavior, None if they are not known."""
 
 
 def standard_points(behavior: Behavior) -> Collection[str] | None:
-    """Those that BML names; None where what plays the behavior may know more."""
+    """The sync points that BML defines; None if the engine of the behavior may know more."""
     return None if behavior.OPEN_POINTS else behavior.sync_points
 
 
 def check_references(block: BehaviorBlock | DefineProc, points: Points = standard_points) -> tuple[Problem, ...]:
-    """A problem for each reference to a behavior or sync point that this block or procedure should have and has not.
+    """A problem for each reference to a behavior or sync point that is missing from this block or procedure.
 
-    Other blocks, anticipators, and behaviors of which `points` does not know the sync points are not judged.
+    References to other blocks, to anticipators, and to behaviors whose sync points are not known are not checked.
     """
     behaviors = {behavior.id: behavior for behavior in block.behaviors}
     return tuple(
@@ -34,7 +33,7 @@ def check_references(block: BehaviorBlock | DefineProc, points: Points = standar
 
 
 def references_of(block: BehaviorBlock | DefineProc) -> Iterator[tuple[str, Location, SyncRef]]:
-    """Every reference with the id (``block:behavior``, or the block's) and the place of what holds it."""
+    """Each reference, after the id (``block:behavior``, or the block's) and the location of its owner."""
     for behavior in block.behaviors:
         for ref in behavior.syncs.values():
             yield f"{block.id}:{behavior.id}", behavior.location, ref
@@ -45,12 +44,13 @@ def references_of(block: BehaviorBlock | DefineProc) -> Iterator[tuple[str, Loca
 
 
 def unknown_block(ref: SyncRef, block: BehaviorBlock | DefineProc) -> Fault:
-    """Why a reference of a block names nothing when there is no block of the name that it names."""
-    details = {"block": ref.block, "reference": str(ref)}
+    """The fault of a reference to a block that does not exist."""
+    name = ref.block or ""
     if ref.behavior is not None:
-        return Fault("unknown-block", details)
-    # It may as well have meant a behavior: b1:end is that of either.
-    return Fault("unknown-owner", details | {"known": listed(behavior.id for behavior in block.behaviors)})
+        return UnknownBlock(reference=str(ref), block=name)
+    # b1:end may have been meant for a behavior as well.
+    known = listed(behavior.id for behavior in block.behaviors)
+    return UnknownOwner(reference=str(ref), block=name, known=known)
 
 
 def _refs_of(constraint: Constraint) -> tuple[SyncRef, ...]:
@@ -66,14 +66,14 @@ def _fault(
 ) -> Fault | None:
     if ref.behavior is None:
         return None
-    details: dict[str, object] = {"reference": str(ref), "behavior": ref.behavior, "sync": ref.sync}
     behavior = behaviors.get(ref.behavior)
+    fault: Fault
     if ref.behavior in block.unread:
-        return Fault("lost-with", details, location.line, location.column)
-    if behavior is None:
-        code, known = "unknown-reference", listed(behaviors)
+        fault = LostWith(reference=str(ref), behavior=ref.behavior)
+    elif behavior is None:
+        fault = UnknownReference(reference=str(ref), behavior=ref.behavior, known=listed(behaviors))
     elif (those := points(behavior)) is None or ref.sync in those:
         return None
     else:
-        code, known = "unknown-sync", listed(those)
-    return Fault(code, details | {"known": known}, location.line, location.column)
+        fault = UnknownSync(reference=str(ref), behavior=ref.behavior, sync=ref.sync or "", known=listed(those))
+    return fault.located(location.line, location.column)

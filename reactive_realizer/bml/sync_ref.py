@@ -2,19 +2,24 @@
 
 import math
 import re
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
+from types import MappingProxyType
 from typing import Final, Self
 
+from reactive_realizer.bml.faults import AbsurdTime, NotAReference, OnlyBlockStart
 from reactive_realizer.bml.names import BLOCK
-from reactive_realizer.errors import error
+from reactive_realizer.errors import RealizerError
 from reactive_realizer.limits import Limits
 
 NUMBER: Final = r"(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
-"""A number without its sign, as a pattern."""
+"""Pattern of a number without a sign."""
 
 BLOCK_POINTS: Final = ("start", "relax", "end")
-"""The sync points of a block: it starts, all of it that goes on is in retraction, nothing of it goes on."""
+"""The sync points of a block; at its relax, all of its behaviors that still play are in retraction."""
+
+DRAFT_SPELLINGS: Final[Mapping[str, str]] = MappingProxyType({"stroke_start": "strokeStart", "stroke_end": "strokeEnd"})
+"""Names of sync points in the drafts before BML 1.0, to their names in BML 1.0."""
 
 _SECONDS = re.compile(rf"([+-]?)\s*({NUMBER})")
 _WITH_OFFSET = re.compile(rf"(.*?)\s*([+-])\s*({NUMBER})", re.DOTALL)
@@ -25,17 +30,17 @@ _MOST_CHARACTERS = 1_000
 
 @dataclass(frozen=True, slots=True)
 class SyncRef:
-    """A point in time by name: ``[block:]behavior:sync[+offset]``, or ``[block:]offset`` from the start of a block.
+    """A reference to a point in time: ``[block:]behavior:sync[+offset]``, or ``[block:]offset`` from a block's start.
 
-    A block has sync points too (thesis 12.1.3): ``b1:relax`` is that of another block where no behavior of the block
-    in which it stands is called b1, and ``b1:bml:relax`` is that of the block in any case.
+    A block has sync points too (thesis 12.1.3). ``b1:relax`` names a behavior b1 of the block in which it stands or, if
+    there is none, block b1; ``b1:bml:relax`` always names the block.
 
     Attributes:
         block: id of another block, or "anticipators"; None for the block in which the reference stands.
-        behavior: id of a behavior (of an anticipator); None for the block itself.
-        sync: name of its sync point, ``stroke:2`` for the second stroke; of a block "relax", "end", or None for its
+        behavior: id of a behavior, or of an anticipator; None for the block itself.
+        sync: name of its sync point, ``stroke:2`` for the second stroke; for a block "relax", "end", or None for its
             start.
-        offset: seconds from that point.
+        offset: seconds after that point.
     """
 
     block: str | None
@@ -50,15 +55,15 @@ class SyncRef:
         Ids may hold hyphens, so only a number after the last ``+`` or ``-`` is an offset.
 
         Args:
-            text: what was written.
-            limits: bound the offset.
-            names: sync points known to exist that look like a name and an offset (``s-1``); these are names.
+            text: the reference.
+            limits: limit the offset.
+            names: known names of sync points; one that looks like a name with an offset (``s-1``) is read as a name.
 
         Raises:
             RealizerError: ``not-a-reference``, ``only-block-start`` or ``absurd-time``.
         """
         if len(text) > _MOST_CHARACTERS:
-            raise error("not-a-reference")
+            raise RealizerError(NotAReference())
         *owners, last = (part.strip() for part in text.split(":"))
         absolute = _SECONDS.fullmatch(last)
         if absolute and len(owners) < 2:
@@ -68,22 +73,22 @@ class SyncRef:
         if len(owners) > 1 and owners[-1] == "stroke" and _STROKE_NUMBER.fullmatch(sync):
             sync = f"{owners.pop()}:{int(sync)}"
         if not 1 <= len(owners) <= 2:
-            raise error("not-a-reference")
+            raise RealizerError(NotAReference())
         return cls._checked(owners[0] if len(owners) == 2 else None, owners[-1], sync, offset)
 
     @classmethod
     def _checked(cls, block: str | None, behavior: str | None, sync: str | None, offset: float) -> Self:
-        """With every name legal."""
+        """A reference whose names are all legal."""
         block = None if block == BLOCK else block
         if behavior == BLOCK:
             behavior, sync = None, _block_point(block, sync)
         for name in (block, behavior, sync and sync.removeprefix("stroke:")):
             if name is not None and not _NAME.fullmatch(name):
-                raise error("not-a-reference")
+                raise RealizerError(NotAReference())
         return cls(block, behavior, sync, offset)
 
     def read_in(self, block: str, behaviors: Collection[str]) -> Self:
-        """What it names where it stands: behaviors of that block come before other blocks of the same name.
+        """The same reference as read in a block, whose behaviors take precedence over other blocks with the same id.
 
         Args:
             block: id of the block.
@@ -106,17 +111,17 @@ class SyncRef:
             return _number(self.offset)
         sync = self.sync or "start"
         point = ":".join(name for name in (self.block, self.behavior, sync) if name is not None)
-        # A bare "s-1" would be read as one second before "s".
+        # Without an offset, "s-1" would be read as one second before "s".
         ambiguous = _WITH_OFFSET.fullmatch(sync)
         return f"{point}{_number(self.offset, sign='+')}" if self.offset or ambiguous else point
 
 
 def _block_point(block: str | None, sync: str | None) -> str | None:
-    """A sync point of a block (None: the one in which the reference stands), None for its start."""
+    """A sync point of a block, None for its start; block None is the one in which the reference stands."""
     if sync in {None, "start"}:
         return None
     if block is None or sync not in BLOCK_POINTS:
-        raise error("only-block-start")
+        raise RealizerError(OnlyBlockStart())
     return sync
 
 
@@ -129,7 +134,7 @@ def _split_offset(last: str, limits: Limits, names: Collection[str]) -> tuple[st
 def _seconds(sign: str, digits: str, limits: Limits) -> float:
     seconds = float(sign + digits)
     if not math.isfinite(seconds) or abs(seconds) > limits.time_seconds:
-        raise error("absurd-time", limit=limits.time_seconds)
+        raise RealizerError(AbsurdTime(limit=limits.time_seconds))
     return seconds + 0.0  # no negative zero
 
 

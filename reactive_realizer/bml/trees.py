@@ -1,4 +1,4 @@
-"""Small readings of lxml trees, and quotations from them."""
+"""Names, children and attributes of lxml elements, and their quotation in messages."""
 
 from collections.abc import Collection, Iterable, Mapping
 from types import MappingProxyType
@@ -9,31 +9,31 @@ from lxml import etree
 from reactive_realizer.bml.names import BML, BML_EXT, CONTINUOUS
 
 Tree = etree._Element
-"""An element with what is inside it."""
+"""An element with its content."""
 
 PARAMETER: Final = "parameter"
-"""The element that tells a value to what plays a behavior (thesis C.1.1)."""
+"""Name of the element that gives a value to the engine of a behavior (thesis C.1.1)."""
 
 _MOST_QUOTED: Final = 60
 _MOST_LISTED: Final = 20
 
 
-def shown(text: str) -> str:
-    """A text of the document as a message quotes it: on one line, cut where it is long."""
+def quoted(text: str) -> str:
+    """A text of the document for a message: on one line, truncated if it is long."""
     line = " ".join(text.split())
     return line if len(line) <= _MOST_QUOTED else f"{line[:_MOST_QUOTED]}..."
 
 
 def listed(names: Iterable[str]) -> str:
-    """Names as a message lists them, cut where there are many."""
+    """Names for a message, separated by commas, truncated if there are many."""
     distinct = list(dict.fromkeys(names))
     more = ["..."] if len(distinct) > _MOST_LISTED else []
-    return ", ".join([*map(shown, distinct[:_MOST_LISTED]), *more]) or "none"
+    return ", ".join([*map(quoted, distinct[:_MOST_LISTED]), *more]) or "none"
 
 
 def name_of(tree: Tree) -> str:
     """Its local name."""
-    return tree.tag.rpartition("}")[2]  # a tag is in Clark notation, and a QName of it costs ten times as much
+    return tree.tag.rpartition("}")[2]  # the tag is in Clark notation; making a QName takes ten times as long
 
 
 def namespace_of(tree: Tree) -> str:
@@ -42,19 +42,19 @@ def namespace_of(tree: Tree) -> str:
 
 
 def is_core(tree: Tree) -> bool:
-    """Whether the element is BML's own, or of no namespace."""
+    """Whether the element is in a namespace of BML 1.0, or in none."""
     return namespace_of(tree) in {"", BML, BML_EXT}
 
 
 def is_continuous(tree: Tree) -> bool:
-    """Whether the element is of continuous interaction: BMLA's or BMLT's."""
+    """Whether the element is in a namespace of continuous interaction: BMLA or BMLT."""
     return namespace_of(tree) in CONTINUOUS
 
 
 def is_part(child: Tree, tree: Tree) -> bool:
-    """Whether a child is of the language of its parent: core, or of continuous interaction as its parent is.
+    """Whether a child is in the language of its parent: BML 1.0, or continuous interaction if its parent is.
 
-    A parameter is BMLT's, and may stand in any behavior.
+    A parameter is in BMLT, and may stand in any behavior.
     """
     if name_of(child) == PARAMETER:
         return is_continuous(child) or is_continuous(tree)
@@ -62,27 +62,27 @@ def is_part(child: Tree, tree: Tree) -> bool:
 
 
 def children_of(tree: Tree, *names: str) -> list[Tree]:
-    """The parts of these names directly inside."""
+    """The children with these names that are in the language of the element."""
     return [child for child in tree if is_part(child, tree) and name_of(child) in names]
 
 
 def stray_text_of(tree: Tree) -> str:
-    """The text directly inside an element where none is meant."""
+    """The text directly inside an element that should have none."""
     return " ".join(f"{tree.text or ''} {' '.join(child.tail or '' for child in tree)}".split())
 
 
 def names_in(tree: Tree) -> list[str]:
-    """The names of the attributes that have no namespace, in order of writing."""
+    """The names of the attributes without a namespace, in the order of writing."""
     return [name for name in map(str, tree.keys()) if name[0] != "{"]
 
 
 def attributes_in(tree: Tree) -> dict[str, str]:
-    """The attributes that have no namespace, in order of writing."""
+    """The attributes without a namespace, name to value, in the order of writing."""
     return {name: tree.get(name, "") for name in names_in(tree)}
 
 
 def extensions_of(tree: Tree, known: Collection[str] = ()) -> Mapping[tuple[str, str], str]:
-    """The attributes that have a namespace, but for some in Clark notation: (namespace, local name) to value."""
+    """The attributes in a namespace, (namespace, local name) to value, except those known by their Clark names."""
     names = [name for name in map(str, tree.keys()) if name[0] == "{" and name not in known]
     return MappingProxyType({_parts(name): tree.get(name, "") for name in names})
 

@@ -1,1 +1,1 @@
-"""The command line: the only place that prints, and the only one that knows exit statuses."""
+"""The command line, the only room that prints and that defines exit statuses."""

@@ -1,4 +1,4 @@
-"""``check``: what is wrong with a file, before anybody plays it."""
+"""The command ``check``: reports mistakes in BML files without playing them."""
 
 import argparse
 import asyncio
@@ -16,14 +16,14 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
     """The options of ``check``."""
     parser = commands.add_parser(
         "check",
-        help="say what is wrong with BML files",
-        description="Says what is wrong with BML files. What is no mistake of theirs and means nothing in this scene, "
-        "such as a word that no binding has, is told on stderr.",
+        help="check BML files for mistakes",
+        description="Reports mistakes in BML files. Valid BML that this scene cannot play, such as a lexeme without an "
+        "entry in a binding, is reported on stderr.",
         epilog="example: reactive-realizer check hello.xml",
     )
     parser.add_argument("files", nargs="+", type=Path, metavar="FILE")
-    parser.add_argument("--human", type=Path, default=DEFAULT_HUMAN, metavar="FILE", help="who and what is there")
-    parser.add_argument("--assets", type=Path, action="append", default=[], metavar="DIR", help="folder of assets")
+    parser.add_argument("--human", type=Path, default=DEFAULT_HUMAN, metavar="FILE", help="the human file of the scene")
+    parser.add_argument("--assets", type=Path, action="append", default=[], metavar="DIR", help="a folder of assets")
     parser.set_defaults(run=run)
 
 
@@ -37,7 +37,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 async def _check(options: argparse.Namespace) -> bool:
-    """Print what is found; whether anything is wrong."""
+    """Prints the findings; returns whether there are mistakes."""
     wrong = False
     async with open_scene(SceneOptions(options.human, "text", tuple(options.assets))) as scene:
         checker = Checker(scene.realizer)

@@ -1,34 +1,95 @@
-"""What is wrong with the blocks of a document, and what of them could not be played."""
+"""Finds mistakes in BML documents, and behaviors that the scene cannot play."""
 
-from collections.abc import Collection, Iterable, Iterator
+import logging
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
 from typing import NamedTuple
 
-from reactive_realizer.bml.attribute_types import Names, Target
+from reactive_realizer.bml.attribute_types import IdList, Target
 from reactive_realizer.bml.attributes import attributes_of
 from reactive_realizer.bml.behavior import Behavior, ForeignBehavior
-from reactive_realizer.bml.block import BehaviorBlock, Parsed
-from reactive_realizer.bml.continuous import ParameterValueChange
+from reactive_realizer.bml.block import BehaviorBlock, DefineProc, Parsed
 from reactive_realizer.bml.document import parse
+from reactive_realizer.bml.extensions import ParameterValueChange
+from reactive_realizer.bml.faults import ForeignAttribute, UnknownSync
 from reactive_realizer.bml.names import ANTICIPATORS, Location
-from reactive_realizer.bml.procedure import DefineProc
 from reactive_realizer.bml.references import check_references, references_of, standard_points, unknown_block
-from reactive_realizer.cli.rehearsal import Rehearsal, rehearse
 from reactive_realizer.embodiment.world import World
-from reactive_realizer.errors import Fault, WarningType
+from reactive_realizer.engine.engine import Engine
+from reactive_realizer.engines.animation.faults import NoTarget
+from reactive_realizer.errors import Fault, RealizerError, WarningType
+from reactive_realizer.pegboard.peg_key import BlockKey
+from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.realizer.realizer import Realizer
 from reactive_realizer.scheduler.admission import Admission
-from reactive_realizer.scheduler.cast import Cast
+from reactive_realizer.scheduler.engine_routing import EngineRouting
+from reactive_realizer.scheduler.faults import NoSuchBehavior, UnknownTargetBlock, WorkFailed
+
+logger = logging.getLogger(__name__)
+
+
+@dataclass(frozen=True, slots=True)
+class Rehearsal:
+    """The result of planning the behaviors of a block without playing them.
+
+    Attributes:
+        engines: the engine of each behavior, by id; behaviors without an engine are missing.
+        units: the planned units, by id.
+        faults: of the behaviors that could not be planned.
+    """
+
+    engines: Mapping[str, Engine]
+    units: Mapping[str, PlanUnit]
+    faults: Sequence[Fault]
+
+
+async def rehearse(block: BehaviorBlock | DefineProc, routing: EngineRouting) -> Rehearsal:
+    """Plans the behaviors of a block, in document order.
+
+    What earlier blocks leave behind, they do not know. Nobody plays for a character that is not there.
+    """
+    character = (isinstance(block, BehaviorBlock) and block.character) or routing.characters[0]
+    played = routing.engines_for(character, block.behaviors) if character in routing.characters else {}
+    units: dict[str, PlanUnit] = {}
+    faults: list[Fault] = []
+    for id_, (behavior, engine) in played.items():
+        place = behavior.location
+        try:
+            units[id_] = await _unit(BlockKey(character, block.id), behavior, engine)
+        except RealizerError as refused:
+            faults.append(refused.fault.located(place.line, place.column))
+        except Exception as failure:
+            logger.exception("%s could not be made", id_)
+            faults.append(WorkFailed(reason=str(failure), line=place.line, column=place.column))
+    return Rehearsal({id_: engine for id_, (_, engine) in played.items()}, units, faults)
+
+
+async def _unit(block: BlockKey, behavior: Behavior, engine: Engine) -> PlanUnit:
+    """Plans the first description of a behavior that can be planned.
+
+    Raises:
+        RealizerError: none can; what is wrong with the behavior itself.
+    """
+    forms = [form for form in behavior.forms if engine.supports(form)]
+    work = engine.prepare(forms[0])
+    prepared = None if work is None else await work
+    for form in forms[:-1]:
+        with suppress(RealizerError):
+            return engine.plan(block, form, prepared)
+    return engine.plan(block, forms[-1], prepared)
+
 
 _UNPLAYABLE = WarningType.CANNOT_CREATE_BEHAVIOR
-"""What else an engine refuses is a mistake, and found before it is asked."""
+"""Other faults of engines are mistakes, which are found without an engine."""
 
 
 class Findings(NamedTuple):
-    """What is to be said of a document, in its order.
+    """The findings of a document, in its order.
 
     Attributes:
-        mistakes: of whoever wrote it.
-        notes: what is no mistake, and cannot be made of what this scene has, or means nothing in it.
+        mistakes: invalid BML.
+        notes: valid BML that this scene cannot play or ignores.
     """
 
     mistakes: list[Fault]
@@ -36,20 +97,20 @@ class Findings(NamedTuple):
 
 
 class Checker:
-    """Reads documents one after the other.
+    """Checks documents, one after another.
 
     A block may refer to all blocks of its document and of earlier ones; it joins, interrupts or starts those before it.
     """
 
     def __init__(self, realizer: Realizer) -> None:
         self._realizer = realizer
-        self._cast = Cast({character.id: character.engines for character in realizer.characters.values()})
+        self._routing = EngineRouting({character.id: character.engines for character in realizer.characters.values()})
         self._earlier: set[str] = set()
         self._named: set[str] = set()
         self._procedures: dict[str, None] = {}
 
     async def check(self, text: bytes) -> Findings:
-        """What is wrong with a document."""
+        """Returns the findings of a document."""
         admission = self._realizer.scheduler.admission(self._procedures)
         mistakes: list[Fault] = []
         notes: list[Fault] = []
@@ -60,9 +121,9 @@ class Checker:
             mistakes += self._refusals(parsed, admission)
             written = parsed.block or parsed.procedure
             if written is not None:
-                rehearsal = await rehearse(written, self._cast)
+                rehearsal = await rehearse(written, self._routing)
                 mistakes += self._inside(written, rehearsal)
-                notes += (fault for fault in rehearsal.faults if fault.kind.warning is _UNPLAYABLE)
+                notes += (fault for fault in rehearsal.faults if fault.warning is _UNPLAYABLE)
                 notes += _foreign_attributes(written, rehearsal)
             self._remember(parsed)
         return Findings(sorted(mistakes, key=_place), sorted(notes, key=_place))
@@ -74,16 +135,16 @@ class Checker:
             self._earlier.add(parsed.block.id)
 
     def _refusals(self, parsed: Parsed, admission: Admission) -> Iterator[Fault]:
-        """What is wrong with how a block joins those before it, or a procedure."""
+        """Faults in how a block relates to earlier ones, or in a definition."""
         if parsed.procedure is not None:
-            yield from filter(None, [admission.define(parsed.procedure)])
+            yield from filter(None, [admission.admit_procedure(parsed.procedure)])
         if parsed.block is not None:
-            yield from filter(None, [admission.take(parsed.block, parsed.failed)])
+            yield from filter(None, [admission.admit(parsed.block, parsed.failed)])
             yield from self._unknown_others(parsed.block)
 
     def _inside(self, block: BehaviorBlock | DefineProc, rehearsal: Rehearsal) -> Iterator[Fault]:
         def points(behavior: Behavior) -> Collection[str] | None:
-            """Its sync points, those of what would play it among them; None where nothing would."""
+            """The sync points of a behavior, including those of its motion; None if nothing would play it."""
             unit = rehearsal.units.get(behavior.id) if behavior.OPEN_POINTS else None
             return standard_points(behavior) if unit is None else unit.timing.points
 
@@ -94,13 +155,13 @@ class Checker:
         yield from _unknown_points(block, rehearsal)
 
     def _unknown_others(self, block: BehaviorBlock) -> Iterator[Fault]:
-        """Blocks that it joins, interrupts or starts."""
+        """Unknown blocks that a block joins, interrupts or starts."""
         for attribute in attributes_of(BehaviorBlock):
-            names = getattr(block, attribute.field) if isinstance(attribute.type, Names) else ()
+            names = getattr(block, attribute.field) if isinstance(attribute.type, IdList) else ()
             for name in names:
                 if name not in self._earlier:
-                    details = {"attribute": attribute.name, "block": name}
-                    yield Fault("unknown-target-block", details, block.location.line, block.location.column)
+                    fault = UnknownTargetBlock(attribute=attribute.name, block=name)
+                    yield fault.located(block.location.line, block.location.column)
 
     def _unknown_blocks(self, block: BehaviorBlock | DefineProc) -> Iterator[Fault]:
         known = {None, ANTICIPATORS, block.id, *self._named}
@@ -110,14 +171,14 @@ class Checker:
 
 
 def _unknown_points(block: BehaviorBlock | DefineProc, rehearsal: Rehearsal) -> Iterator[Fault]:
-    """Attributes that tie points which what plays their behavior has not."""
+    """Attributes for sync points that the motion of their behavior does not have."""
     for behavior in block.behaviors:
         unit = rehearsal.units.get(behavior.id)
         for sync, ref in behavior.syncs.items():
             if behavior.OPEN_POINTS and unit is not None and sync not in unit.timing.points:
                 known = ", ".join(unit.timing.points)
-                details = {"behavior": behavior.id, "sync": sync, "reference": str(ref), "known": known}
-                yield Fault("unknown-sync", details, behavior.location.line, behavior.location.column)
+                fault = UnknownSync(reference=str(ref), behavior=behavior.id, sync=sync, known=known)
+                yield fault.located(behavior.location.line, behavior.location.column)
 
 
 def _foreign_attributes(block: BehaviorBlock | DefineProc, rehearsal: Rehearsal) -> Iterator[Fault]:
@@ -136,25 +197,25 @@ def _foreign_attributes(block: BehaviorBlock | DefineProc, rehearsal: Rehearsal)
 
 def _foreign(attributes: Iterable[tuple[str, str]], place: Location) -> Iterator[Fault]:
     for namespace, name in attributes:
-        yield Fault("foreign-attribute", {"attribute": name, "namespace": namespace}, place.line, place.column)
+        yield ForeignAttribute(attribute=name, namespace=namespace, line=place.line, column=place.column)
 
 
 def _unknown_targets(block: BehaviorBlock | DefineProc, world: World) -> Iterator[Fault]:
     for behavior in block.behaviors:
         for target in _targets(behavior):
             if world.position(target) is None:
-                details = {"target": target, "known": ", ".join(world.targets)}
-                yield Fault("no-target", details, behavior.location.line, behavior.location.column)
+                fault = NoTarget(target=target, known=tuple(world.targets))
+                yield fault.located(behavior.location.line, behavior.location.column)
 
 
 def _unknown_behaviors(block: BehaviorBlock | DefineProc) -> Iterator[Fault]:
-    """Behaviors of the block itself of which something is to be changed."""
+    """Unknown behaviors of the block itself whose parameters would change."""
     known = {behavior.id for behavior in block.behaviors}
     changes = (each for each in block.behaviors if isinstance(each, ParameterValueChange))
     for change in changes:
         if change.target_block in {None, block.id} and change.target_behavior not in known:
-            details = {"block": block.id, "behavior": change.target_behavior}
-            yield Fault("no-such-behavior", details, change.location.line, change.location.column)
+            fault = NoSuchBehavior(block=block.id, behavior=change.target_behavior)
+            yield fault.located(change.location.line, change.location.column)
 
 
 def _targets(behavior: Behavior) -> Iterator[str]:

@@ -10,7 +10,7 @@ from itertools import groupby
 from pathlib import Path
 
 from reactive_realizer.assembly.scene import DEFAULT_HUMAN, SceneOptions, open_scene
-from reactive_realizer.engine.lexicon import Changeable, Word, words_of
+from reactive_realizer.engine.lexicon import Changeable, LexiconEntry, words_of
 
 
 def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
@@ -42,12 +42,12 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-async def _lexicons(options: SceneOptions) -> dict[str, list[Word]]:
+async def _lexicons(options: SceneOptions) -> dict[str, list[LexiconEntry]]:
     async with open_scene(options) as scene:
         return {id_: words_of(character.engines) for id_, character in scene.realizer.characters.items()}
 
 
-def _lines(character: str, words: Iterable[Word]) -> Iterable[str]:
+def _lines(character: str, words: Iterable[LexiconEntry]) -> Iterable[str]:
     yield f"{character}:"
     by_element = sorted(words, key=lambda word: word.element)
     for element, group in groupby(by_element, key=lambda word: word.element):
@@ -55,13 +55,13 @@ def _lines(character: str, words: Iterable[Word]) -> Iterable[str]:
         yield from (f"    {_line(word)}" for word in group)
 
 
-def _line(word: Word) -> str:
+def _line(word: LexiconEntry) -> str:
     duration = "" if word.duration is None else f"{word.duration:.2f} s"
     columns = (f"{_asked(word):40}", f"{duration:>7}", " ".join(word.sync_points), _told(word.parameters), word.file)
     return "  ".join(filter(None, columns)).rstrip()
 
 
-def _asked(word: Word) -> str:
+def _asked(word: LexiconEntry) -> str:
     asked = filter(None, [word.lexeme, *(f"{name}={value}" for name, value in word.constraints.items())])
     return " ".join(asked) or "-"
 
@@ -75,7 +75,7 @@ def _range(parameter: Changeable) -> str:
     return f" ({low:g} to {high:g})" if math.isfinite(low) or math.isfinite(high) else ""
 
 
-def _record(word: Word) -> dict[str, object]:
+def _record(word: LexiconEntry) -> dict[str, object]:
     parameters = [
         {"name": name, "default": own.default, "low": _finite(own.range.low), "high": _finite(own.range.high)}
         for name, own in word.parameters.items()

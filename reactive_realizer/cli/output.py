@@ -9,9 +9,9 @@ import numpy as np
 
 from reactive_realizer.embodiment.frame import Frame
 from reactive_realizer.feedback.feedback_manager import Report
-from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.realizer.character import Character
 from reactive_realizer.realizer.realizer import Realizer
+from reactive_realizer.scheduler.bml_block import BMLBlock
 
 
 class FeedbackWriter:
@@ -42,11 +42,11 @@ class Explainer:
     def write(self, path: Path) -> None:
         """One JSON array: the blocks that ended, in order of ending, then those alive."""
         for block in self._scheduler.blocks.alive:
-            self._keep(block.key)
+            self._keep(block)
         path.write_text(json.dumps(self._blocks, ensure_ascii=False, indent=1) + "\n", encoding="utf-8")
 
-    def _keep(self, block: BlockKey) -> None:
-        self._blocks.append(self._scheduler.explain(block.character, block.block))
+    def _keep(self, block: BMLBlock) -> None:
+        self._blocks.append(self._scheduler.explain(block.key.character, block.key.block))
 
 
 class FrameRecorder:

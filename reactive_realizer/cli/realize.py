@@ -1,10 +1,12 @@
-"""``realize``: files in, feedback and frames out."""
+"""The command ``realize``: plays BML files and writes feedback and frames."""
 
 import argparse
 import asyncio
+import re
 import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -13,42 +15,86 @@ from typing import IO
 from reactive_realizer import __version__
 from reactive_realizer.assembly.registry import names
 from reactive_realizer.assembly.scene import DEFAULT_HUMAN, SceneOptions, open_scene
-from reactive_realizer.cli.items import Item, item, seconds
+from reactive_realizer.bml.sync_ref import NUMBER
 from reactive_realizer.cli.output import Explainer, FeedbackWriter, FrameRecorder
 from reactive_realizer.clock.clock import ManualClock, SystemClock
 from reactive_realizer.clock.units import GlobalTime, is_due
 from reactive_realizer.errors import Fault
 from reactive_realizer.realizer.inputs import BmlText
 from reactive_realizer.realizer.realizer import Realizer
-from reactive_realizer.realizer.replay import replay
-from reactive_realizer.realizer.session import run_until_done
+from reactive_realizer.realizer.session import replay, run_until_done
 from reactive_realizer.server.recording import read_recording
+
+_TIMED = re.compile(rf"(.+)@({NUMBER})")
+
+
+@dataclass(frozen=True, slots=True)
+class InputFile:
+    """A file of BML, and the time (s) at which it enters."""
+
+    path: Path
+    time: GlobalTime
+
+
+def seconds(text: str) -> GlobalTime:
+    """A time on the command line.
+
+    Raises:
+        ValueError: not a number of seconds from now on.
+    """
+    time = float(text)
+    if not 0.0 <= time < float("inf"):
+        raise ValueError(text)
+    return GlobalTime(time)
+
+
+def input_file(text: str) -> InputFile:
+    """Parse ``path`` or ``path@seconds``; only a suffix that is a number is a time.
+
+    Raises:
+        ValueError: a number beyond all times.
+    """
+    found = _TIMED.fullmatch(text)
+    return InputFile(Path(found[1]), seconds(found[2])) if found else InputFile(Path(text), GlobalTime(0.0))
+
 
 _UNTIL = 600.0
 _WITH_REPLAY = ("replay", "feedback", "frames", "explain", "verbose", "run")
-"""What can be said beside ``--replay``: all else is as it was recorded."""
+"""The options that ``--replay`` allows; all others come from the recording."""
+
+
+class NeverEnters(Fault):
+    """A file for a time after the end of the session."""
+
+    code = "never-enters"
+    template = "{file} was not played: the session ended at {end:g} s, before its time of {time:g} s"
+    file: str
+    end: float
+    time: float
 
 
 def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     """The options of ``realize``."""
     parser = commands.add_parser(
         "realize",
-        help="play BML files and write what comes out",
+        help="play BML files and write feedback and frames",
         epilog="example: reactive-realizer realize hello.xml more.xml@2.5 --voice text --feedback - --frames out.npz",
     )
-    parser.add_argument("items", nargs="*", type=item, metavar="ITEM", help="a file, or file@seconds")
+    parser.add_argument("items", nargs="*", type=input_file, metavar="ITEM", help="a file, or file@seconds")
     parser.add_argument("--clock", choices=("virtual", "real"), default="virtual")
     parser.add_argument("--human", type=Path, default=DEFAULT_HUMAN, metavar="FILE")
     parser.add_argument("--voice", choices=names("tts"), default="espeak")
     parser.add_argument("--feedback", metavar="FILE|-", help="JSON lines")
     parser.add_argument("--frames", type=Path, metavar="FILE.npz")
-    parser.add_argument("--explain", type=Path, metavar="FILE", help="why each sync point was when it was, as JSON")
+    parser.add_argument(
+        "--explain", type=Path, metavar="FILE", help="explanations of the times of all sync points, JSON"
+    )
     parser.add_argument("--until", type=seconds, default=_UNTIL, metavar="SECONDS")
     parser.add_argument("--assets", type=Path, action="append", default=[], metavar="DIR")
     parser.add_argument("--seed", type=int, default=0, metavar="N")
-    parser.add_argument("--strategy", choices=names("strategies"), default="convex", help="how blocks are timed")
-    parser.add_argument("--verify", action="store_true", help="check plans while they are played")
-    parser.add_argument("--replay", type=Path, metavar="FILE", help="what serve --record wrote, in the place of items")
+    parser.add_argument("--strategy", choices=names("strategies"), default="convex", help="scheduling strategy")
+    parser.add_argument("--verify", action="store_true", help="check plans during playback")
+    parser.add_argument("--replay", type=Path, metavar="FILE", help="replay a recording of serve --record")
     parser.set_defaults(run=partial(run, parser))
 
 
@@ -70,7 +116,7 @@ def _check_combination(parser: argparse.ArgumentParser, options: argparse.Namesp
         parser.error("the following arguments are required: ITEM, or --replay")
     fixed = [name for name in vars(options) if name not in _WITH_REPLAY and _is_given(parser, options, name)]
     if options.replay and fixed:
-        parser.error(f"a recording has its own {', '.join(fixed)}")
+        parser.error(f"--replay does not allow {', '.join(fixed)}: the recording sets them")
 
 
 def _is_given(parser: argparse.ArgumentParser, options: argparse.Namespace, name: str) -> bool:
@@ -91,11 +137,10 @@ async def _realize(options: argparse.Namespace) -> int:
         return 1 if unread else _status(scene.realizer)
 
 
-def _tell_left_out(items: Iterable[Item], end: GlobalTime) -> None:
+def _tell_left_out(items: Iterable[InputFile], end: GlobalTime) -> None:
     for entry in items:
         if not is_due(entry.time, end):
-            details = {"file": entry.path, "end": end, "time": entry.time}
-            print(Fault("never-enters", details).sentence, file=sys.stderr)
+            print(NeverEnters(file=str(entry.path), end=end, time=entry.time).sentence, file=sys.stderr)
 
 
 async def _replay(options: argparse.Namespace) -> int:
@@ -115,7 +160,7 @@ def _status(realizer: Realizer) -> int:
 
 @contextmanager
 def _written(options: argparse.Namespace, realizer: Realizer) -> Iterator[None]:
-    """What comes out while it lasts goes where the options say."""
+    """Writes the output of the session to the files of the options."""
     recorder = FrameRecorder()
     explainer = Explainer(realizer) if options.explain else None
     if options.frames:
@@ -130,8 +175,8 @@ def _written(options: argparse.Namespace, realizer: Realizer) -> Iterator[None]:
         explainer.write(options.explain)
 
 
-def _put(realizer: Realizer, entry: Item) -> bool:
-    """Have a file enter at its time; whether it could be read."""
+def _put(realizer: Realizer, entry: InputFile) -> bool:
+    """Puts a file into the realizer at its time; returns whether it could be read."""
     try:
         realizer.put(BmlText(entry.path.read_bytes()), entry.time)
     except OSError as problem:

@@ -1,4 +1,4 @@
-"""``serve`` and ``demo``: a scene for browsers and planners."""
+"""The commands ``serve`` and ``demo``: serve a scene to browsers and planners."""
 
 import argparse
 import asyncio
@@ -17,7 +17,7 @@ _PERFORMANCE = PACKAGE_ASSETS / "demo" / "performance.xml"
 def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     """The options of ``serve`` and of ``demo``."""
     _add(commands, "serve", "serve a scene to browsers and planners", None)
-    _add(commands, "demo", "the same, with a performance for the first page that opens", _PERFORMANCE)
+    _add(commands, "demo", "serve a scene that performs when the first page opens", _PERFORMANCE)
 
 
 def _add(
@@ -29,12 +29,12 @@ def _add(
     parser.add_argument("--human", type=Path, default=DEFAULT_HUMAN, metavar="FILE")
     parser.add_argument("--voice", choices=names("tts"), default="espeak")
     parser.add_argument("--assets", type=Path, action="append", default=[], metavar="DIR")
-    parser.add_argument("--token", metavar="T", help="that every client must show")
-    parser.add_argument("--allow-origin", action="append", default=[], metavar="O", help="of another page to let in")
+    parser.add_argument("--token", metavar="T", help="token required of every client")
+    parser.add_argument("--allow-origin", action="append", default=[], metavar="O", help="accept pages of this origin")
     parser.add_argument("--seed", type=int, default=0, metavar="N")
-    parser.add_argument("--strategy", choices=names("strategies"), default="convex", help="how blocks are timed")
-    parser.add_argument("--verify", action="store_true", help="check plans while they are played")
-    parser.add_argument("--record", type=Path, metavar="FILE", help="what enters, for realize --replay")
+    parser.add_argument("--strategy", choices=names("strategies"), default="convex", help="scheduling strategy")
+    parser.add_argument("--verify", action="store_true", help="check plans during playback")
+    parser.add_argument("--record", type=Path, metavar="FILE", help="record the session for realize --replay")
     parser.set_defaults(run=run, performance=performance)
 
 

@@ -1,4 +1,4 @@
-"""What time it is, and when to look: seconds with a frame of reference, clocks, ticks.
+"""Time: seconds with a frame of reference, clocks and ticks.
 
-Nothing outside this room asks the machine what time it is; everybody else gets time as an argument.
+Only this package reads the machine's clock; all other code gets the time as an argument.
 """

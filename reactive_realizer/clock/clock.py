@@ -1,4 +1,4 @@
-"""Clocks: where realizer time comes from."""
+"""Clocks: the source of realizer time."""
 
 import asyncio
 import time
@@ -8,10 +8,10 @@ from reactive_realizer.clock.units import GlobalTime
 
 
 class Clock(Protocol):
-    """Realizer time, from 0, never backwards.
+    """Realizer time: it starts at 0 and never goes backwards.
 
     Attributes:
-        epoch: POSIX time (s) of its 0: what others, who have no realizer clock, can compare with.
+        epoch: POSIX time (s) of its 0, to compare with times of other programs.
     """
 
     epoch: float
@@ -37,27 +37,27 @@ class SystemClock:
         return GlobalTime(time.monotonic() - self._start)
 
     async def wait_until(self, moment: GlobalTime) -> None:
-        """Sleep; at once when the moment has passed, yet never without giving others a turn."""
+        """Sleep; if the moment has passed, only let other tasks run."""
         await asyncio.sleep(max(0.0, moment - self.now()))
 
 
 class ManualClock:
-    """A clock that stands where it was put: tests and offline runs; waiting is arriving."""
+    """A virtual clock for tests and offline runs: it stands still, and waiting sets it to the moment."""
 
     def __init__(self) -> None:
         self._now = GlobalTime(0.0)
         self.epoch = 0.0
 
     def now(self) -> GlobalTime:
-        """Where the clock was put."""
+        """The time that the clock was set to."""
         return self._now
 
     async def wait_until(self, moment: GlobalTime) -> None:
-        """Go there.
+        """Set the clock to a moment.
 
         Raises:
             ValueError: the moment has passed.
         """
         if moment < self._now:
-            raise ValueError(f"the clock stands at {self._now:.7f} and does not go back to {moment:.7f}")
+            raise ValueError(f"the clock is at {self._now:.7f} and cannot go back to {moment:.7f}")
         self._now = moment

@@ -1,4 +1,4 @@
-"""Ticks: the moments at which the realizer looks."""
+"""Ticks: the moments at which the realizer acts."""
 
 from collections import deque
 from collections.abc import AsyncIterator
@@ -10,19 +10,19 @@ from reactive_realizer.clock.clock import Clock
 from reactive_realizer.clock.units import RESOLUTION, GlobalTime
 
 RATE = 100
-"""Ticks a second."""
+"""Ticks per second."""
 
 FRAME_EVERY = 2
-"""Ticks a frame: poses are composed at 50 Hz."""
+"""Ticks per frame: poses are composed at 50 Hz."""
 
 
 @dataclass(frozen=True, slots=True)
 class Tick:
-    """One look at the clock.
+    """A moment of realizer time; it covers the time since the previous one.
 
     Attributes:
         number: n; the tick's time is n / RATE, the decimal fraction itself rather than a sum of steps.
-        previous: time of the tick before, -1 s before the first; the tick covers what lies between.
+        previous: time of the previous tick, s; -1 for the first.
         frame: whether a pose is to be composed.
     """
 
@@ -32,19 +32,19 @@ class Tick:
 
     @classmethod
     def following(cls, last: "Tick | None", number: int) -> Self:
-        """Tick ``number`` where ``last`` was the one before; None where it is the first."""
+        """Tick ``number`` after ``last``, which is None for the first."""
         if last is None:
             return cls(number, GlobalTime(-1.0), frame=True)
         return cls(number, last.time, number // FRAME_EVERY > last.number // FRAME_EVERY)
 
     @classmethod
     def on_time(cls, number: int, frame: bool = False) -> Self:
-        """Tick ``number`` right after the one before it."""
+        """Tick ``number``, with none skipped before it."""
         return cls(number, tick_time(number - 1), frame)
 
     @property
     def left_out(self) -> range:
-        """The numbers of the ticks that would have been since the last one, had this one not come late."""
+        """The numbers of the ticks that were skipped since the previous one, because this one is late."""
         return range(max(0, round(self.previous * RATE) + 1), self.number)
 
     @property
@@ -54,16 +54,16 @@ class Tick:
 
 
 def tick_time(number: int) -> GlobalTime:
-    """When tick ``number`` is."""
+    """The time of tick ``number``, s."""
     return GlobalTime(number / RATE)
 
 
 class Ticker:
-    """Makes ticks from a clock; a tick that comes late covers the whole interval, nothing is caught up one by one.
+    """Makes ticks from a clock; a tick that is late covers the whole interval since the previous one.
 
     Attributes:
-        overruns: ticks that were left out because the one before took too long.
-        lateness: how late (s) the last thousand ticks were.
+        overruns: number of ticks that were skipped because an earlier one took too long.
+        lateness: of the last thousand ticks, s.
     """
 
     def __init__(self, clock: Clock) -> None:
@@ -72,7 +72,7 @@ class Ticker:
         self.lateness: deque[float] = deque(maxlen=1000)
 
     async def ticks(self) -> AsyncIterator[Tick]:
-        """Ticks for ever, each at its time."""
+        """Ticks forever, each at its time."""
         last: Tick | None = None
         while True:
             number = 0 if last is None else last.number + 1

@@ -1,4 +1,4 @@
-"""What a planner may expect of a realizer, tried from outside (thesis ch. 9).
+"""A conformance suite that tests any realizer through the protocol (thesis ch. 9).
 
-The room is a client of the protocol: it knows the language and feedback, and nothing of this realizer.
+The room is a client of the protocol. It uses the language and the feedback, and nothing else of this realizer.
 """

@@ -1,5 +1,6 @@
-"""Cases: BML to send, and what is to come of it beyond what it says itself."""
+"""Test cases of the suite: BML to send, what is expected beyond what it says itself, and single checks."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from importlib.resources import files
 from typing import Final
@@ -9,6 +10,34 @@ from lxml import etree
 from reactive_realizer.bml.block import BehaviorBlock
 from reactive_realizer.bml.document import parse
 from reactive_realizer.limits import Limits
+from reactive_realizer.testing.feedback_list import FeedbackList
+
+TOLERANCE: Final = 0.01
+"""s: a tick of 100 Hz, the coarsest that a realizer may look at its clock."""
+
+
+@dataclass(frozen=True, slots=True)
+class Check:
+    """An assertion about feedback.
+
+    Attributes:
+        source: what says so: a part of the script, or a rule of the language.
+        assertion: raises AssertionError where it does not hold.
+    """
+
+    source: str
+    assertion: Callable[[FeedbackList], None]
+
+    def problem(self, told: FeedbackList) -> str | None:
+        """The reason why it does not hold; None if it holds."""
+        try:
+            self.assertion(told)
+        except AssertionError as problem:
+            return f"{problem} ({self.source})"
+        except (ValueError, LookupError, StopIteration) as problem:
+            return f"feedback without what it must have: {problem!r} ({self.source})"
+        return None
+
 
 SUITE: Final = files(__package__) / "cases"
 
@@ -38,10 +67,10 @@ class Send:
 
 @dataclass(frozen=True, slots=True)
 class Warned:
-    """A warning that has to come.
+    """An expected warning.
 
     Attributes:
-        plays: whether what it is about is played nevertheless.
+        plays: whether the behavior plays nevertheless.
     """
 
     id: str
@@ -50,14 +79,14 @@ class Warned:
 
 
 @dataclass(frozen=True, slots=True)
-class Case:
+class ConformanceCase:
     """One case of the suite.
 
     Attributes:
         name: of its file.
-        title: what is to be true, a sentence.
-        sends: in order.
-        warnings: all that are to come.
+        title: a sentence that states the requirement.
+        sends: documents to send, in order.
+        warnings: all expected warnings.
         ends: the state in which a block ends, of those that do not end DONE.
     """
 
@@ -77,19 +106,19 @@ class Case:
         return self.ends.get(block.id) not in _UNPLAYED
 
 
-def read_suite() -> list[Case]:
+def read_suite() -> list[ConformanceCase]:
     """The cases of the suite, in order of their names."""
     found = (read_case(file.name.removesuffix(".xml"), file.read_bytes()) for file in SUITE.iterdir())
     return sorted(found, key=lambda case: case.name)
 
 
-def read_case(name: str, text: bytes) -> Case:
+def read_case(name: str, text: bytes) -> ConformanceCase:
     """A case from its file."""
     root = etree.fromstring(text)
     sends = tuple(map(_send, root.iterchildren("send")))
     warnings = tuple(map(_warned, root.iterchildren("warning")))
     ends = {_said(element, "block"): _said(element, "status") for element in root.iterchildren("end")}
-    return Case(name, _said(root, "title"), sends, warnings, ends)
+    return ConformanceCase(name, _said(root, "title"), sends, warnings, ends)
 
 
 def _said(element: etree._Element, name: str) -> str:

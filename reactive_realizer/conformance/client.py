@@ -1,4 +1,4 @@
-"""A planner's side of the protocol."""
+"""A client of the protocol, as a planner uses it."""
 
 import asyncio
 import json
@@ -11,10 +11,29 @@ import aiohttp
 from lxml import etree
 from yarl import URL
 
-from reactive_realizer.errors import RealizerError, error
+from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.testing.feedback_list import FeedbackList
 
 _PROTOCOL = 1
+
+
+class NotReached(Fault):
+    """No connection to a realizer, or a connection that was lost."""
+
+    code = "not-reached"
+    template = "no realizer can be reached at {url}: {reason}"
+    url: str
+    reason: str
+
+
+class OtherProtocol(Fault):
+    """A server that does not speak this protocol."""
+
+    code = "other-protocol"
+    template = "{url} does not use protocol version {protocol}; its first message was {message}"
+    url: str
+    protocol: int
+    message: str
 
 
 class RealizerClient:
@@ -22,7 +41,7 @@ class RealizerClient:
 
     Args:
         url: of its server or its socket; a token stands in its query.
-        patience: how long (s) to wait for anything.
+        patience: time limit for every answer, s.
 
     Attributes:
         told: the feedback since it was last emptied by `forget`.
@@ -51,13 +70,13 @@ class RealizerClient:
         await self._stack.aclose()
 
     def forget(self) -> None:
-        """Begin anew: what was told until now is of no interest any more."""
+        """Discards the feedback received so far."""
         self.told = FeedbackList()
         self.mistakes = []
         self._silent = True
 
     def check_alive(self) -> None:
-        """Whether anything at all was heard since it began anew.
+        """Checks that any message was received since `forget`.
 
         Raises:
             RealizerError: "not-reached".
@@ -66,13 +85,13 @@ class RealizerClient:
             raise self._not_reached(f"it took what it was sent, and said nothing for {self._patience:g} s")
 
     async def send(self, xml: str) -> bool:
-        """Send a document; whether it was answered."""
+        """Sends a document; returns whether it was answered."""
         ref = next(self._refs)
         await self._socket.send_json({"type": "bml", "xml": xml, "ref": ref})
         return await self.until(lambda: ref in self._answered)
 
     async def until(self, condition: Callable[[], bool]) -> bool:
-        """Listen until something is so; whether it became so in time."""
+        """Receives messages until a condition holds; returns whether it held in time."""
         try:
             async with asyncio.timeout(self._patience):
                 while not condition():
@@ -91,7 +110,7 @@ class RealizerClient:
         except (OSError, ValueError, aiohttp.ClientError) as problem:
             raise self._not_reached(str(problem) or type(problem).__name__) from problem
         if (hello.get("type"), hello.get("protocol")) != ("hello", _PROTOCOL):
-            raise error("other-protocol", url=self._url, protocol=_PROTOCOL, message=json.dumps(hello)[:200])
+            raise RealizerError(OtherProtocol(url=self._url, protocol=_PROTOCOL, message=json.dumps(hello)[:200]))
 
     async def _hear(self) -> dict[str, Any]:
         message = await self._socket.receive()
@@ -121,7 +140,7 @@ class RealizerClient:
             self.mistakes.append(f"feedback that is no XML: {problem}")
 
     def _not_reached(self, reason: str) -> RealizerError:
-        return error("not-reached", url=self._url, reason=reason)
+        return RealizerError(NotReached(url=self._url, reason=reason))
 
 
 def _socket_url(url: str) -> URL:

@@ -6,12 +6,10 @@ from typing import Final
 
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.behaviors import Wait
-from reactive_realizer.bml.block import BehaviorBlock
-from reactive_realizer.bml.constraint import OrderKind, Synchronize
+from reactive_realizer.bml.block import BehaviorBlock, OrderKind, Synchronize
 from reactive_realizer.bml.names import ANTICIPATORS, BML, BML_EXT
 from reactive_realizer.bml.sync_ref import SyncRef
-from reactive_realizer.conformance.case import Case
-from reactive_realizer.conformance.check import TOLERANCE, Check
+from reactive_realizer.conformance.case import TOLERANCE, Check, ConformanceCase
 from reactive_realizer.conformance.relations import relations
 from reactive_realizer.testing.assertions import (
     DONE,
@@ -23,25 +21,25 @@ from reactive_realizer.testing.assertions import (
     assert_not_played,
     assert_order,
     assert_predicted,
+    assert_reported_once,
     assert_syncs_in_order,
-    assert_told_once,
     assert_warnings,
 )
 
 _PREDICTION: Final = "the last prediction before it"
 
 
-def checks_of(case: Case) -> Iterator[Check]:
+def checks_of(case: ConformanceCase) -> Iterator[Check]:
     """All that a case asserts."""
     warnings = [(warning.id, warning.type) for warning in case.warnings]
-    yield Check("progress", assert_told_once)
+    yield Check("progress", assert_reported_once)
     yield Check("warnings", lambda told: assert_warnings(told, *warnings))
     for block in case.blocks:
         yield from _block(case, block)
     yield from relations(case)
 
 
-def _block(case: Case, block: BehaviorBlock) -> Iterator[Check]:
+def _block(case: ConformanceCase, block: BehaviorBlock) -> Iterator[Check]:
     status = case.ends.get(block.id, DONE)
     yield Check(f"{block.id} ends {status}", partial(assert_ended, block=block.id, status=status))
     if not case.starts(block):
@@ -55,7 +53,7 @@ def _block(case: Case, block: BehaviorBlock) -> Iterator[Check]:
         yield from _whole(case, block)
 
 
-def _whole(case: Case, block: BehaviorBlock) -> Iterator[Check]:
+def _whole(case: ConformanceCase, block: BehaviorBlock) -> Iterator[Check]:
     """What holds in a block that nothing cuts short."""
     silent = {warning.id for warning in case.warnings if not warning.plays}
     for behavior in block.behaviors:

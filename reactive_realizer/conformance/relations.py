@@ -4,14 +4,13 @@ from collections.abc import Iterable, Iterator
 from functools import partial
 
 from reactive_realizer.bml.block import BehaviorBlock
-from reactive_realizer.bml.continuous import Activate, Interrupt
-from reactive_realizer.bml.words import Composition
-from reactive_realizer.conformance.case import Case
-from reactive_realizer.conformance.check import TOLERANCE, Check
+from reactive_realizer.bml.extensions import Activate, Interrupt
+from reactive_realizer.bml.vocabulary import Composition
+from reactive_realizer.conformance.case import TOLERANCE, Check, ConformanceCase
 from reactive_realizer.testing.assertions import assert_linked, assert_order, assert_starts_with_last
 
 
-def relations(case: Case) -> Iterator[Check]:
+def relations(case: ConformanceCase) -> Iterator[Check]:
     """The order of the blocks of a case, as far as they start."""
     earlier: list[BehaviorBlock] = []
     for block in case.blocks:
@@ -22,7 +21,7 @@ def relations(case: Case) -> Iterator[Check]:
         earlier.append(block)
 
 
-def _waits(case: Case, block: BehaviorBlock, earlier: Iterable[BehaviorBlock]) -> Iterator[Check]:
+def _waits(case: ConformanceCase, block: BehaviorBlock, earlier: Iterable[BehaviorBlock]) -> Iterator[Check]:
     """A block starts with the last of what it waits for, neither before nor after."""
     points = [*_awaited(case, block, earlier), *(_activating(case, block) if block.preplan else ())]
     if points:
@@ -30,7 +29,7 @@ def _waits(case: Case, block: BehaviorBlock, earlier: Iterable[BehaviorBlock]) -
         yield Check(f"{block.id} waits for {', '.join(points)}", assertion)
 
 
-def _awaited(case: Case, block: BehaviorBlock, earlier: Iterable[BehaviorBlock]) -> Iterator[str]:
+def _awaited(case: ConformanceCase, block: BehaviorBlock, earlier: Iterable[BehaviorBlock]) -> Iterator[str]:
     """The points that composition and BMLA have a block wait for."""
     if block.composition is Composition.APPEND:
         yield from (f"{other.id}:end" for other in _beside(block, earlier))
@@ -41,7 +40,7 @@ def _awaited(case: Case, block: BehaviorBlock, earlier: Iterable[BehaviorBlock])
             yield from _subsiding(case, other)
 
 
-def _activating(case: Case, block: BehaviorBlock) -> Iterator[str]:
+def _activating(case: ConformanceCase, block: BehaviorBlock) -> Iterator[str]:
     """The points at which a prepared block is activated."""
     for other in case.blocks:
         if block.id in other.on_start:
@@ -51,7 +50,7 @@ def _activating(case: Case, block: BehaviorBlock) -> Iterator[str]:
                 yield f"{other.id}:{behavior.id}:start"
 
 
-def _subsiding(case: Case, block: BehaviorBlock) -> Iterator[str]:
+def _subsiding(case: ConformanceCase, block: BehaviorBlock) -> Iterator[str]:
     """The points that a block has passed when all that is left of it is in retraction."""
     if block.id in case.ends:
         yield f"{block.id}:end"

@@ -7,12 +7,12 @@ from itertools import count
 from typing import Final
 
 from reactive_realizer.bml.names import BML
-from reactive_realizer.conformance.case import Case
+from reactive_realizer.conformance.case import ConformanceCase
 from reactive_realizer.conformance.client import RealizerClient
 from reactive_realizer.conformance.derive import checks_of
 
 PATIENCE: Final = 20.0
-"""s to wait for anything; no case takes half of that."""
+"""Time limit for every answer, s; no case takes half of it."""
 
 _UNSUPPORTED: Final = (
     "BEHAVIOR_TYPE_NOT_SUPPORTED",
@@ -24,7 +24,7 @@ _UNANSWERED: Final = "a message with a ref was not answered"
 
 
 class Verdict(StrEnum):
-    """What came of a case; UNSUPPORTED where the realizer warned that it does not know something of it."""
+    """The result of a case; UNSUPPORTED if the realizer warned that it does not support part of it."""
 
     PASSED = "passed"
     FAILED = "failed"
@@ -33,21 +33,21 @@ class Verdict(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """What came of a case.
+    """The outcome of a case.
 
     Attributes:
-        checks: how many things were asserted.
-        problems: those that do not hold, or what the realizer does not support.
+        checks: number of assertions.
+        problems: assertions that do not hold, or unsupported parts.
     """
 
-    case: Case
+    case: ConformanceCase
     verdict: Verdict
     checks: int
     problems: tuple[str, ...]
 
 
-async def run_suite(url: str, cases: Iterable[Case], patience: float = PATIENCE) -> AsyncIterator[Outcome]:
-    """Play cases, ending after each whatever plays.
+async def run_suite(url: str, cases: Iterable[ConformanceCase], patience: float = PATIENCE) -> AsyncIterator[Outcome]:
+    """Runs cases, and ends all blocks after each.
 
     Raises:
         RealizerError: the realizer is not reached, says nothing more, or the connection is lost.
@@ -64,7 +64,7 @@ class _Runner:
         self._client = client
         self._stops = count(1)
 
-    async def run(self, case: Case) -> Outcome:
+    async def run(self, case: ConformanceCase) -> Outcome:
         self._client.forget()
         waited = [*await self._play(case), *await self.stop()]
         told, checks = self._client.told, list(checks_of(case))
@@ -77,15 +77,15 @@ class _Runner:
         return Outcome(case, Verdict.FAILED if problems else Verdict.PASSED, len(checks), problems)
 
     async def stop(self) -> list[str]:
-        """End whatever plays; what went wrong with that."""
+        """Ends all blocks; returns what went wrong."""
         id_ = f"conformance-stop-{next(self._stops)}"
         if not await self._client.send(f'<bml xmlns="{BML}" id="{id_}" composition="REPLACE"/>'):
             self._client.check_alive()
             return [_UNANSWERED]
         return await self._wait([f"{id_}:end"])
 
-    async def _play(self, case: Case) -> list[str]:
-        """Send what a case sends and wait for its end; what did not come in time."""
+    async def _play(self, case: ConformanceCase) -> list[str]:
+        """Sends the documents of a case and waits for its end; returns what did not arrive in time."""
         for send in case.sends:
             missed = await self._wait([send.after] if send.after else [])
             if missed:

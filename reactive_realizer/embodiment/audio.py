@@ -1,4 +1,4 @@
-"""What is heard: clips that start at a time, move, change volume and stop."""
+"""Audio clips that start at a time, and changes to them."""
 
 from dataclasses import dataclass
 
@@ -7,7 +7,7 @@ from reactive_realizer.clock.units import GlobalTime
 
 @dataclass(frozen=True, slots=True)
 class AudioClip:
-    """A sound, as a WAV file in memory."""
+    """A sound, as a WAV file in memory; ``duration`` is in s."""
 
     id: str
     wav: bytes
@@ -16,7 +16,7 @@ class AudioClip:
 
 @dataclass(frozen=True, slots=True)
 class AudioStart:
-    """A clip is to sound from a time on; ``gain`` 1 is as recorded."""
+    """A clip starts at a time; ``gain`` 1 is as recorded."""
 
     character: str
     clip: AudioClip
@@ -26,7 +26,7 @@ class AudioStart:
 
 @dataclass(frozen=True, slots=True)
 class AudioMove:
-    """A clip that was announced is to start at another time."""
+    """An announced clip starts at another time."""
 
     id: str
     start: GlobalTime
@@ -34,7 +34,7 @@ class AudioMove:
 
 @dataclass(frozen=True, slots=True)
 class AudioGain:
-    """A clip is to sound with another gain from a time on; 1 is as recorded."""
+    """A clip gets another gain at a time; 1 is as recorded."""
 
     id: str
     gain: float
@@ -43,7 +43,7 @@ class AudioGain:
 
 @dataclass(frozen=True, slots=True)
 class AudioStop:
-    """A clip falls silent at a time, faded out over ``fade`` s."""
+    """A clip stops at a time, faded out over ``fade`` s."""
 
     id: str
     time: GlobalTime

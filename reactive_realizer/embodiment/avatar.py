@@ -1,6 +1,8 @@
-"""An avatar file: its skeleton in H-Anim terms, its morph targets, and poses turned into its own bones."""
+"""An avatar file: its skeleton in H-Anim terms, its morph targets, and the conversion of poses to its own bones."""
 
+import json
 import math
+import struct
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -9,19 +11,57 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from reactive_realizer.embodiment.glb import read_glb
+from reactive_realizer.embodiment.body import Skeleton
 from reactive_realizer.embodiment.joints import ROOT
 from reactive_realizer.embodiment.mixamo import JOINTS, alignment
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, conjugate, multiply, rotate
-from reactive_realizer.embodiment.skeleton import Skeleton
 from reactive_realizer.embodiment.vector import ZERO, Vec3, add, length
-from reactive_realizer.errors import error
+from reactive_realizer.errors import Fault, RealizerError
+
+_HEADER = struct.Struct("<4sII")
+_CHUNK = struct.Struct("<I4s")
+
+
+def read_glb(path: Path) -> dict[str, Any]:
+    """Read the scene description of a binary glTF 2.0 file: its JSON chunk (Khronos, chapter "Binary glTF Layout").
+
+    Meshes and images are not read.
+
+    Raises:
+        RealizerError: "bad-avatar": the file is not binary glTF 2.
+    """
+    with path.open("rb") as file:
+        header = file.read(_HEADER.size + _CHUNK.size)
+        if len(header) < _HEADER.size + _CHUNK.size:
+            raise RealizerError(BadAvatar(file=path.name, reason="too short for a GLB file"))
+        magic, version, size = _HEADER.unpack_from(header)
+        length, kind = _CHUNK.unpack_from(header, _HEADER.size)
+        if magic != b"glTF" or version != 2 or kind != b"JSON" or length > size:
+            raise RealizerError(BadAvatar(file=path.name, reason="not a binary glTF 2 file"))
+        text = file.read(length)
+    try:
+        scene = json.loads(text)
+    except ValueError as problem:
+        raise RealizerError(BadAvatar(file=path.name, reason=f"its JSON chunk cannot be read: {problem}")) from problem
+    if not isinstance(scene, dict):
+        raise RealizerError(BadAvatar(file=path.name, reason="its JSON chunk is not an object"))
+    return scene
+
 
 _UNITS: tuple[Quat, ...] = ((1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0), (0.0, 0.0, 1.0, 0.0), (0.0, 0.0, 0.0, 1.0))
 _NEEDED = (ROOT, "skullbase", "l_shoulder", "l_elbow", "l_wrist", "r_shoulder", "r_elbow", "r_wrist")
-# The bones that motions aim with, or solve limbs by: without a length they have no direction.
+# Bones that motions aim or solve limbs with. They need a length to have a direction.
 _FAR_FROM_PARENT = frozenset({"elbow", "wrist", "knee", "ankle", "index2", "index3"})
 _SHORTEST = 1e-3
+
+
+class BadAvatar(Fault):
+    """A GLB file that cannot be used as an avatar."""
+
+    code = "bad-avatar"
+    template = "{file} cannot be used as an avatar: {reason}"
+    file: str
+    reason: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,8 +70,8 @@ class Bone:
 
     Attributes:
         name: in the file.
-        parent: index of the bone above among the skin's bones, -1 for none.
-        translation: from the bone above, m.
+        parent: index of the parent among the skin's bones, -1 for none.
+        translation: from the parent bone, m.
     """
 
     name: str
@@ -41,12 +81,12 @@ class Bone:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Avatar:
-    """A humanoid with Mixamo bone names, resting in a T-pose without rotations.
+    """A humanoid with Mixamo bone names that rests in a T-pose without rotations.
 
     Attributes:
-        bones: of its skin, in the order of the skin's joints (glTF `skin.joints`), B of them.
+        bones: of its skin, in the order of the skin's joints (glTF `skin.joints`), (B,).
         morphs: names of the face's morph targets, in the order of the file.
-        skeleton: its J joints in the H-Anim default pose; bones without an H-Anim joint are left out.
+        skeleton: in the H-Anim default pose, J joints; bones without an H-Anim joint are left out.
     """
 
     bones: tuple[Bone, ...]
@@ -58,29 +98,36 @@ class Avatar:
 
     @classmethod
     def read(cls, path: Path) -> "Avatar":
-        """The avatar in a GLB file.
+        """Read the avatar of a GLB file.
 
         Raises:
-            RealizerError: "bad-avatar": not a GLB file, no skin, bones missing, or bones that rest rotated.
+            RealizerError: "bad-avatar": not a GLB file, no skin, missing bones, or bones with a rest rotation.
         """
         scene = read_glb(path)
         try:
             bones, morphs = tuple(_bones(scene, path.name)), _morphs(scene)
         except (KeyError, IndexError, TypeError, ValueError) as problem:
-            raise error("bad-avatar", file=path.name, reason=f"unusable skin or mesh ({problem!r})") from problem
+            raise RealizerError(BadAvatar(file=path.name, reason=f"unusable skin or mesh ({problem!r})")) from problem
         return cls.of_bones(bones, morphs, path.name)
 
     @classmethod
     def of_bones(cls, bones: Sequence[Bone], morphs: Sequence[str], file: str) -> "Avatar":
-        """An avatar of given bones.
+        """Return an avatar with the given bones.
+
+        Args:
+            bones: of the skin.
+            morphs: names of the morph targets.
+            file: its name, for messages.
 
         Raises:
-            RealizerError: "bad-avatar": a bone is missing, or one has no length that needs one; `file` is named.
+            RealizerError: "bad-avatar": a bone is missing, or has no length but needs one.
         """
         names = tuple(JOINTS[bone.name] for bone in bones if bone.name in JOINTS)
         missing = [joint for joint in _NEEDED if joint not in names]
         if missing:
-            raise error("bad-avatar", file=file, reason=f"no bone for {', '.join(missing)} (Mixamo names are expected)")
+            raise RealizerError(
+                BadAvatar(file=file, reason=f"no bone for {', '.join(missing)} (Mixamo names are expected)")
+            )
         indices = [i for i, bone in enumerate(bones) if bone.name in JOINTS]
         links = [_link(bones, i) for i in indices]
         parents = tuple(-1 if parent is None else names.index(parent) for parent, _ in links)
@@ -97,10 +144,10 @@ class Avatar:
         )
 
     def bone_rotations(self, rotations: NDArray[np.float64]) -> NDArray[np.float64]:
-        """A pose in the avatar's own bones.
+        """Convert a pose to the avatar's own bones.
 
-        With G the rotations in the figure's axes, a bone is at G_j A_j; local to its parent bone that is
-        A_p^-1 (G_p^-1 G_j) A_j, the pose's own local rotation between two constants.
+        With G the rotations in the figure's axes, a bone is at G_j A_j. Local to its parent bone that is A_p^-1 (G_p^-1
+        G_j) A_j: the local rotation of the pose between two constants.
 
         Args:
             rotations: (J, 4) H-Anim pose, w x y z local to the parent, in the order of the skeleton.
@@ -122,8 +169,10 @@ def _bones(scene: dict[str, Any], file: str) -> Iterator[Bone]:
         x, y, z = map(float, node.get("translation", ZERO))
         rotation = node.get("rotation", (0.0, 0.0, 0.0, 1.0))
         if "matrix" in node or max(map(abs, rotation[:3])) > 1e-4:
-            raise error(
-                "bad-avatar", file=file, reason=f"bone {node['name']} rests rotated; only translations are read"
+            raise RealizerError(
+                BadAvatar(
+                    file=file, reason=f"the bone {node['name']} has a rotation at rest; only translations are supported"
+                )
             )
         parent = above.get(joint)
         yield Bone(node["name"].removeprefix("mixamorig:"), joints.index(parent) if parent in joints else -1, (x, y, z))
@@ -138,7 +187,7 @@ def _morphs(scene: dict[str, Any]) -> tuple[str, ...]:
 
 
 def _link(bones: Sequence[Bone], index: int) -> tuple[str | None, Vec3]:
-    """The joint above a bone, over bones that are none, and the way from there in the T-pose."""
+    """Return the nearest ancestor of a bone that is a joint, and the offset from there in the T-pose."""
     way = bones[index].translation
     index = bones[index].parent
     while index >= 0 and bones[index].name not in JOINTS:
@@ -151,7 +200,7 @@ def _check_lengths(offsets: Mapping[str, Vec3], file: str) -> None:
     for joint, offset in offsets.items():
         far = length(offset)
         if not math.isfinite(far) or (joint[2:] in _FAR_FROM_PARENT and far < _SHORTEST):
-            raise error("bad-avatar", file=file, reason=f"{joint} is {far:g} m from the joint above")
+            raise RealizerError(BadAvatar(file=file, reason=f"{joint} is {far:g} m from the joint above"))
 
 
 def _alignment_of(joint: str | None) -> Quat:
@@ -159,5 +208,5 @@ def _alignment_of(joint: str | None) -> Quat:
 
 
 def _sandwich(before: Quat, after: Quat) -> NDArray[np.float64]:
-    """The matrix that takes a quaternion q to before q after: a product is linear in each factor, (4, 4)."""
+    """Return the matrix that maps a quaternion q to before q after, (4, 4); the product is linear in each factor."""
     return np.array([multiply(multiply(before, unit), after) for unit in _UNITS]).T

@@ -1,53 +1,135 @@
-"""What a motion needs to know of the body that it moves."""
+"""Skeletons, and bodies: a skeleton in a pose, with forward kinematics."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, multiply, rotate
-from reactive_realizer.embodiment.skeleton import Place, Pose, Skeleton
 from reactive_realizer.embodiment.vector import ZERO, Vec3, add
+
+Pose = Mapping[str, Quat]
+"""Joint name -> rotation local to the parent; joints that are left out are in the default pose."""
+
+
+class Transform(NamedTuple):
+    """Position and rotation of a joint in the figure's frame.
+
+    Attributes:
+        position: m.
+        rotation: from the joint's axes to the figure's.
+    """
+
+    position: Vec3
+    rotation: Quat
+
+
+@dataclass(frozen=True, slots=True)
+class Skeleton:
+    """A tree of joints.
+
+    Attributes:
+        joints: H-Anim names; this is the order of every pose array, (J,).
+        parents: index of each joint's parent, -1 for the root, (J,).
+        offsets: from the parent joint in the default pose, m; for the root, its position above the ground.
+    """
+
+    joints: tuple[str, ...]
+    parents: tuple[int, ...]
+    offsets: tuple[Vec3, ...]
+    _chains: dict[str, tuple[tuple[str, Vec3], ...]] = field(init=False, repr=False, compare=False)
+    _hash: int = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "_chains", {name: self._chain(i) for i, name in enumerate(self.joints)})
+        object.__setattr__(self, "_hash", hash((self.joints, self.parents, self.offsets)))
+
+    def __hash__(self) -> int:
+        return self._hash  # a key of every cache of motions
+
+    def _chain(self, index: int) -> tuple[tuple[str, Vec3], ...]:
+        links: list[tuple[str, Vec3]] = []
+        while index >= 0:
+            links.append((self.joints[index], self.offsets[index]))
+            index = self.parents[index]
+        return tuple(reversed(links))
+
+    def __contains__(self, joint: str) -> bool:
+        return joint in self._chains
+
+    def links(self, joint: str) -> tuple[tuple[str, Vec3], ...]:
+        """Return the joints from the root to a joint, both included, each with its offset.
+
+        Raises:
+            KeyError: no such joint.
+        """
+        return self._chains[joint]
+
+    def chain(self, joint: str) -> tuple[str, ...]:
+        """Return the names of the joints from the root to a joint, both included.
+
+        Raises:
+            KeyError: no such joint.
+        """
+        return tuple(name for name, _ in self._chains[joint])
+
+    def offset(self, joint: str) -> Vec3:
+        """Return the offset of a joint from its parent in the default pose, m.
+
+        Raises:
+            KeyError: no such joint.
+        """
+        return self._chains[joint][-1][1]
+
+    def parent(self, joint: str) -> str | None:
+        """Return the parent of a joint, None for the root.
+
+        Raises:
+            KeyError: no such joint.
+        """
+        chain = self._chains[joint]
+        return chain[-2][0] if len(chain) > 1 else None
 
 
 @dataclass(frozen=True, slots=True)
 class Body:
-    """A skeleton and the pose it is in, in the figure's own frame.
+    """A skeleton in a pose, in the figure's own frame.
 
     Attributes:
-        skeleton: its proportions.
-        pose: of its joints, which nobody changes any more; for a motion that begins, the pose without additive layers,
-            which would be added twice.
-        root: how far HumanoidRoot is moved from its place in the default pose, m.
+        skeleton: with the proportions of the figure.
+        pose: of its joints; never modified. A motion that starts gets the pose without additive layers, which would
+            otherwise be added twice.
+        root: displacement of HumanoidRoot from its position in the default pose, m.
     """
 
     skeleton: Skeleton
     pose: Pose = field(default_factory=dict)
     root: Vec3 = ZERO
-    # All motions of a frame ask for places along the same few chains.
-    _places: dict[str, Place] = field(init=False, repr=False, compare=False, default_factory=dict)
+    # All motions of a frame need transforms along the same few chains.
+    _transforms: dict[str, Transform] = field(init=False, repr=False, compare=False, default_factory=dict)
 
-    def place(self, joint: str) -> Place:
-        """Where a joint is: forward kinematics along its chain, each joint of which is placed once.
+    def transform(self, joint: str) -> Transform:
+        """Return the transform of a joint, by forward kinematics along its chain. Each joint is computed once.
 
         Raises:
             KeyError: no such joint.
         """
-        places = self._places
-        if joint in places:
-            return places[joint]
+        transforms = self._transforms
+        if joint in transforms:
+            return transforms[joint]
         position, rotation = self.root, IDENTITY
         for name, offset in self.skeleton.links(joint):
-            if name in places:
-                position, rotation = places[name]
+            if name in transforms:
+                position, rotation = transforms[name]
             else:
                 position = add(position, rotate(rotation, offset))
                 rotation = multiply(rotation, self.pose.get(name, IDENTITY))
-                places[name] = Place(position, rotation)
-        return Place(position, rotation)
+                transforms[name] = Transform(position, rotation)
+        return Transform(position, rotation)
 
     def rotation(self, joint: str) -> Quat:
-        """A joint's rotation local to its parent."""
+        """Return the rotation of a joint local to its parent."""
         return self.pose.get(joint, IDENTITY)
 
     def posed(self, rotations: Mapping[str, Quat], root: Vec3 | None = None) -> "Body":
-        """This body with some joints turned otherwise, and its root elsewhere if that is said."""
+        """Return this body with other rotations for some joints, and another root displacement if one is given."""
         return Body(self.skeleton, {**self.pose, **rotations}, self.root if root is None else root)

@@ -1,4 +1,4 @@
-"""A character as it can be seen: its avatar, where it stands, and the pose it is in."""
+"""A visible character: its avatar, its position in the world, and its current pose."""
 
 from collections.abc import Callable, Iterable, Mapping
 from typing import NamedTuple
@@ -17,20 +17,20 @@ from reactive_realizer.embodiment.speed_limit import SpeedLimit, slowed
 from reactive_realizer.embodiment.vector import UP, ZERO, Vec3, add, scale, subtract
 
 
-class Look(NamedTuple):
-    """What eyes do in a frame.
+class EyePose(NamedTuple):
+    """The eyes in a frame.
 
     Attributes:
         turns: eye joint -> rotation in the head.
-        lids: weights of the morphs around the eyes, which are added to the face.
+        lids: morph weights around the eyes, which are added to the face.
     """
 
     turns: Mapping[str, Quat]
     lids: Mapping[str, float]
 
 
-Eyes = Callable[[Body], Look]
-"""What the eyes do with the head as it is shown: they come last, when all figures have moved."""
+Eyes = Callable[[Body], EyePose]
+"""Returns the eye pose for a body with its head as shown. Eyes are posed last, after all figures have moved."""
 
 
 class Humanoid:
@@ -38,8 +38,8 @@ class Humanoid:
 
     Args:
         avatar: its body.
-        position: of the place on the ground that it stands on, m.
-        heading: how far it is turned to its left, rad; 0 faces +z.
+        position: of the point on the ground where it stands, m.
+        heading: turn to its left, rad; 0 faces +z.
     """
 
     def __init__(self, avatar: Avatar, position: Vec3 = ZERO, heading: float = 0.0) -> None:
@@ -53,16 +53,16 @@ class Humanoid:
         self._passed = 0.0
         self._before: Body | None = None
         self.body = Body(avatar.skeleton)
-        """The figure without additive motion, in its own frame: where a motion that begins finds it."""
+        """The figure without additive motion, in its own frame; motions start from here."""
 
     def rest(self, body: Body) -> None:
-        """Be so until the first frame: what begins before it, or looks at the figure, finds it at rest."""
+        """Set the body until the first frame."""
         self.body = self._shown = body
 
     def move(self, time: GlobalTime, layers: Iterable[Layer]) -> None:
-        """Come to what layers make of the figure at a time, without a jump.
+        """Move to the pose that layers compose for a time, without a jump.
 
-        Where it looks from there is the second step (`look`): others may look at it, and it at them and at itself.
+        The second step is `look`: figures look at each other, so all of them move first.
         """
         composed = compose(self.avatar.skeleton, layers)
         self._passed, self._time = time - self._time, time
@@ -75,10 +75,10 @@ class Humanoid:
         self.body = composed.steady
 
     def look(self, eyes: Eyes | None, faces: Iterable[Mapping[str, float]]) -> Frame:
-        """The frame of the time to which it has moved: the eyes look from where the head really came to be.
+        """Return the frame at the time of the last move. The eyes look from the head as shown.
 
         Args:
-            eyes: None leaves them as the layers have them.
+            eyes: None leaves the eyes as the layers pose them.
             faces: weights of morphs, which add up.
         """
         body = self._shown
@@ -92,19 +92,19 @@ class Humanoid:
 
     @property
     def shown(self) -> Body:
-        """The figure as it was shown last, additive motion included, in its own frame."""
+        """The figure as shown last, additive motion included, in its own frame."""
         return self._shown
 
     def to_own_frame(self, point: Vec3) -> Vec3:
-        """A point of the world as seen from the figure, m."""
+        """Convert a point of the world to the figure's frame, m."""
         return rotate(conjugate(self._turn), subtract(point, self._position))
 
     def locate(self, joint: str | None, time: GlobalTime | None = None) -> Vec3 | None:
-        """Where a joint is in the world, m; None: between its eyes. An unknown joint is nowhere.
+        """Return the position of a joint in the world, m; None: no such joint.
 
         Args:
-            joint: its name.
-            time: of a frame to come, in which it will be there if it goes on as in the last one; None: where it is.
+            joint: its name; None: the midpoint between the eyes.
+            time: of a coming frame; the position is extrapolated from the last frame. None: the current position.
         """
         name = joint or "skullbase"
         if name not in self.avatar.skeleton.joints:
@@ -112,7 +112,7 @@ class Humanoid:
         point = _point(self._shown, joint)
         ahead = 0.0 if time is None else time - self._time
         if self._before is not None and ahead > 0.0:
-            # Over a gap in the frames nobody knows how it goes on.
+            # Extrapolate by one frame at most: after a gap the motion is unknown.
             way = subtract(point, _point(self._before, joint))
             point = add(point, scale(way, min(1.0, ahead / self._passed)))
         return add(self._position, rotate(self._turn, point))
@@ -134,12 +134,12 @@ class Humanoid:
 
 
 def _point(body: Body, joint: str | None) -> Vec3:
-    return body.place(joint).position if joint else between_eyes(body)
+    return body.transform(joint).position if joint else between_eyes(body)
 
 
 def between_eyes(body: Body) -> Vec3:
-    """The point between the eyes of a body, in its frame, m; the top of the neck of one that has not both."""
+    """Return the midpoint between the eyes in the body's frame, m; the top of the neck if an eye is missing."""
     if not all(eye in body.skeleton for eye in EYES):
-        return body.place("skullbase").position
-    left, right = (body.place(eye).position for eye in EYES)
+        return body.transform("skullbase").position
+    left, right = (body.transform(eye).position for eye in EYES)
     return scale(add(left, right), 0.5)

@@ -1,12 +1,12 @@
-"""The joints of a figure by their H-Anim names (ISO/IEC 19774), and the parts of the body that they make.
+"""H-Anim names of joints (ISO/IEC 19774), and the body parts that they form.
 
-A joint of an arm, a leg or an eye has its side before its name: `l_` or `r_`.
+Names of arm, leg and eye joints start with their side: `l_` or `r_`.
 """
 
 SIDES = ("l", "r")
 
 ROOT = "HumanoidRoot"
-"""The pelvis, which carries all others."""
+"""The pelvis, the root of the skeleton."""
 
 TRUNK = (ROOT, "vl5", "vt10", "vt6")
 HEAD = ("vc4", "skullbase")
@@ -15,7 +15,7 @@ HEAD = ("vc4", "skullbase")
 EYES = ("l_eyeball_joint", "r_eyeball_joint")
 
 FINGERS = ("thumb", "index", "middle", "ring", "pinky")
-"""Each has three joints, 1 the nearest to the palm."""
+"""Each has three joints; 1 is nearest to the palm."""
 
 _ARM = ("sternoclavicular", "shoulder", "elbow", "wrist", *(f"{finger}{i}" for finger in FINGERS for i in (1, 2, 3)))
 _LEG = ("hip", "knee", "ankle", "midtarsal")
@@ -25,10 +25,10 @@ LEFT_LEG, RIGHT_LEG = (frozenset(f"{side}_{joint}" for joint in _LEG) for side i
 LEGS = LEFT_LEG | RIGHT_LEG
 
 LOWER_BODY = LEGS | {ROOT}
-"""What moves a figure as a whole, or has to follow so that its feet stay."""
+"""The joints that move the whole figure or must follow to keep the feet in place."""
 
 
 def other_side(name: str) -> str:
-    """The joint on the other side, or the other side itself; a joint of the middle is its own."""
+    """Mirror the name of a joint, or of a side; joints of the middle stay the same."""
     side, underscore, joint = name.partition("_")
     return {"l": "r", "r": "l"}.get(side, side) + underscore + joint

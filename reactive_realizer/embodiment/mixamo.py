@@ -1,7 +1,7 @@
-"""Mixamo's bones and H-Anim's joints: the only place where the two meet.
+"""Maps Mixamo bones to H-Anim joints.
 
-A Mixamo avatar rests in a T-pose, the H-Anim default pose has the arms hanging. A_j is the turn of joint j's bone from
-the T-pose to the default pose, in the figure's axes; a bone that turned as its joint did is at R_j A_j.
+A Mixamo avatar rests in a T-pose; in the H-Anim default pose the arms hang. A_j is the turn of joint j's bone from the
+T-pose to the default pose, in the figure's axes. A bone that turned as its joint did is at R_j A_j.
 """
 
 import math
@@ -24,8 +24,8 @@ _SIDE = {
     "Eye": "eyeball_joint",
 }
 
-# Three bones stand for seventeen lumbar and thoracic vertebrae, two for the neck: of the joints at their heights those
-# that the animations of AsapRealizer turn most.
+# Three bones stand for seventeen lumbar and thoracic vertebrae, two for the neck. Each maps to the joint near it that
+# AsapRealizer's animations turn most.
 _TRUNK = {"Hips": "HumanoidRoot", "Spine": "vl5", "Spine1": "vt10", "Spine2": "vt6", "Neck": "vc4", "Head": "skullbase"}
 
 JOINTS: Mapping[str, str] = {
@@ -44,5 +44,5 @@ _ALIGNMENT = {f"{side}_{joint}": turn for side, turn in _DOWN.items() for joint 
 
 
 def alignment(joint: str) -> Quat:
-    """A_j: the turn from the T-pose to the H-Anim default pose, in the figure's axes; identity outside the arms."""
+    """Return A_j: the turn from the T-pose to the default pose, in the figure's axes; identity outside the arms."""
     return _ALIGNMENT.get(joint, IDENTITY)

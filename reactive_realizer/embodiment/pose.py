@@ -1,4 +1,4 @@
-"""Layers of motion become one pose, in one fixed order."""
+"""Composes layers of motion into one pose, in a fixed order."""
 
 import math
 from collections.abc import Iterable, Mapping
@@ -8,22 +8,21 @@ from functools import reduce
 from operator import attrgetter
 from typing import NamedTuple
 
-from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.body import Body, Skeleton
 from reactive_realizer.embodiment.joints import ROOT
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, multiply, power, slerp
-from reactive_realizer.embodiment.skeleton import Skeleton
 from reactive_realizer.embodiment.vector import Vec3, add, length, scale, subtract
-from reactive_realizer.errors import error
+from reactive_realizer.errors import PlayingFault, RealizerError
 
-# Of the square of a quaternion's length from 1: rounding stays far below, and a product of ten stays a rotation.
+# Tolerance of a squared quaternion length from 1: rounding errors of ten products stay far below.
 _NEARLY_ZERO = 1e-6
 
 FARTHEST = 10.0
-"""m that a motion may move HumanoidRoot from its default place: more than a stage is wide."""
+"""Limit of the displacement of HumanoidRoot from its default position, m: more than the width of a scene."""
 
 
 class LayerKind(IntEnum):
-    """Kinds of layers, the lowest first."""
+    """Kinds of layers, lowest first."""
 
     BASE = 0
     POSTURE = 1
@@ -34,17 +33,26 @@ class LayerKind(IntEnum):
     END_EFFECTOR = 6
 
 
+class BadPose(PlayingFault):
+    """A layer with a value that no pose can have."""
+
+    code = "bad-pose"
+    template = "its motion sets {what} to {value}, which is not a valid value"
+    what: str
+    value: float | tuple[float, ...]
+
+
 @dataclass(frozen=True, slots=True)
 class Layer:
-    """Rotations that one motion asks for in this frame.
+    """Rotations that one motion asks for in a frame.
 
     Attributes:
-        kind: where it lies among the layers; an ADDITIVE one turns what is below it further, any other replaces it.
+        kind: position in the layer order. An ADDITIVE layer adds to the layers below; any other replaces them.
         rotations: joint -> rotation local to the parent.
-        weight: 0 leaves what is below as it is, 1 is the layer in full.
-        priority: among layers of one kind, the higher lies above; equal ones lie in the order given.
-        root: how far HumanoidRoot is moved from its place in the default pose, m; None leaves it where it is.
-        weights: of joints that weigh less than the layer, the share of its weight; HumanoidRoot's is the root's too.
+        weight: 0 shows only the layers below, 1 only this layer.
+        priority: within a kind, higher layers are above; equal ones keep the given order.
+        root: displacement of HumanoidRoot from its position in the default pose, m; None leaves it.
+        weights: joint -> factor of the weight, for joints that weigh less; HumanoidRoot's also applies to `root`.
     """
 
     kind: LayerKind
@@ -55,37 +63,37 @@ class Layer:
     weights: Mapping[str, float] | None = None
 
     def weight_of(self, joint: str) -> float:
-        """How much of one joint's rotation is shown, 0 to 1."""
+        """Return the weight of one joint, 0 to 1."""
         return min(1.0, self.weight if self.weights is None else self.weight * self.weights.get(joint, 1.0))
 
 
-class Composed(NamedTuple):
+class ComposedBody(NamedTuple):
     """A body under all layers.
 
     Attributes:
         shown: with every layer.
-        steady: without the additive ones. A motion that begins from "where the body is" begins here: nodding goes on
-            while it plays and must not be counted twice.
+        steady: without additive layers. Motions start from this body: a nod continues while they play and must not be
+            counted twice.
     """
 
     shown: Body
     steady: Body
 
 
-def compose(skeleton: Skeleton, layers: Iterable[Layer]) -> Composed:
-    """One pose of all layers; joints that no layer turns are in the default pose.
+def compose(skeleton: Skeleton, layers: Iterable[Layer]) -> ComposedBody:
+    """Compose all layers into one body. Joints that no layer turns are in the default pose.
 
-    Replacing layers lie over the pose below (`over`); additive ones turn what has come together by then further
-    (`turned_further`), so that a head turned aside still nods about its own ears.
+    Replacing layers are laid over the pose below (`over`). Additive layers then turn the result further
+    (`turned_further`), so that a head that is turned aside nods about its own axis.
     """
     lower, added, upper = _sorted(layers)
     steady = reduce(over, lower, Body(skeleton, dict.fromkeys(skeleton.joints, IDENTITY)))
     shown = reduce(turned_further, added, steady)
-    return Composed(reduce(over, upper, shown), reduce(over, upper, steady))
+    return ComposedBody(reduce(over, upper, shown), reduce(over, upper, steady))
 
 
 def over(body: Body, layer: Layer) -> Body:
-    """A body with a layer laid over it, by its weight along the shorter arc; joints that it has not are left out."""
+    """Lay a layer over a body by its weight, along the shorter arc. Joints that the body lacks are ignored."""
     rotations = _known(layer.rotations, body)
     if layer.weight < 1.0 or layer.weights is not None:
         rotations = {
@@ -97,9 +105,9 @@ def over(body: Body, layer: Layer) -> Body:
 
 
 def turned_further(body: Body, layer: Layer) -> Body:
-    """A body with an additive layer, by its weight: each joint turns about its own axes as it stands.
+    """Add an additive layer to a body by its weight: each joint turns about its own axes.
 
-    Joints that the body has not are left out.
+    Joints that the body lacks are ignored.
     """
     rotations = {
         joint: multiply(body.rotation(joint), _weighed(turn, layer.weight_of(joint)))
@@ -114,14 +122,14 @@ def _weighed(turn: Quat, weight: float) -> Quat:
 
 
 def _known(rotations: Mapping[str, Quat], body: Body) -> Mapping[str, Quat]:
-    # Nearly always the pose has all of them.
+    # The usual case: the pose has all of them.
     if rotations.keys() <= body.pose.keys():
         return rotations
     return {joint: turn for joint, turn in rotations.items() if joint in body.skeleton}
 
 
 def _sorted(layers: Iterable[Layer]) -> tuple[list[Layer], list[Layer], list[Layer]]:
-    """Layers from the lowest to the highest: those below the additive ones, these, those above."""
+    """Sort layers from lowest to highest: those below the additive layers, the additive ones, those above."""
     ordered = sorted(layers, key=attrgetter("kind", "priority"))
     return (
         [layer for layer in ordered if layer.kind < LayerKind.ADDITIVE],
@@ -131,18 +139,18 @@ def _sorted(layers: Iterable[Layer]) -> tuple[list[Layer], list[Layer], list[Lay
 
 
 def checked(layer: Layer) -> Layer:
-    """A layer that can be composed.
+    """Return the layer if it can be composed.
 
     Raises:
-        RealizerError: "bad-pose": a rotation is no unit quaternion, a weight is no finite number, or the root is
-            further away than `FARTHEST`.
+        RealizerError: "bad-pose": a rotation is not a unit quaternion, a weight is not finite, or the root is further
+            away than `FARTHEST`.
     """
     for joint, (w, x, y, z) in layer.rotations.items():
         if not abs(w * w + x * x + y * y + z * z - 1.0) < _NEARLY_ZERO:
-            raise error("bad-pose", what=joint, value=(w, x, y, z))
+            raise RealizerError(BadPose(what=joint, value=(w, x, y, z)))
     for weight in (layer.weight, *(layer.weights or {}).values()):
         if not math.isfinite(weight):
-            raise error("bad-pose", what="its weight", value=weight)
+            raise RealizerError(BadPose(what="its weight", value=weight))
     if layer.root is not None and not length(layer.root) <= FARTHEST:
-        raise error("bad-pose", what="HumanoidRoot's place", value=layer.root)
+        raise RealizerError(BadPose(what="HumanoidRoot's place", value=layer.root))
     return layer

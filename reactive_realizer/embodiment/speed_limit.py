@@ -1,27 +1,25 @@
-"""The last safety net under all motion: whatever was asked for, nothing on the figure jumps."""
+"""Limits how fast the figure moves, as a last safeguard against jumps."""
 
 import math
 
-from reactive_realizer.embodiment.body import Body
-from reactive_realizer.embodiment.feet import drawn, feet, leg, walks
-from reactive_realizer.embodiment.ground import depth, soles
+from reactive_realizer.embodiment.body import Body, Pose
+from reactive_realizer.embodiment.feet import depth, drawn, feet, leg, soles, walks
 from reactive_realizer.embodiment.joints import EYES, HEAD, LOWER_BODY, ROOT, SIDES, TRUNK
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, angle, difference, slerp
-from reactive_realizer.embodiment.skeleton import Pose
 from reactive_realizer.embodiment.vector import UP, ZERO, Vec3, add, dot, length, scale, subtract
 
 WRIST_SPEED = 2.4
-"""m/s, of each wrist as seen from the root: less than 5 cm in 20 ms. Conversational gestures stay below 2 m/s."""
+"""Limit for each wrist relative to the root, m/s: less than 5 cm in 20 ms. Conversational gestures stay below 2 m/s."""
 
 WRIST_ACCELERATION = 37.5
-"""m/s^2, of each wrist that sets out or turns back: 1.5 cm more in each 20 ms than in those before."""
+"""Limit for each wrist that starts or turns back, m/s^2: 1.5 cm more in each 20 ms than in the 20 ms before."""
 
 ROOT_SPEED = 2.0
-"""m/s: a brisk walk; who sits down or stands up stays below 1 m/s."""
+"""Limit for the root, m/s: a brisk walk. Sitting down and standing up stay below 1 m/s."""
 
-# Peak velocities, rad/s: the trunk in a lively turn; the neck in a fast voluntary one; the eye in a saccade 9 to 12
-# (the thesis, 4.2.2, has a plateau of 8.7 rad/s); an elbow in a throw above 20, in conversation far below. A wrist
-# could turn as fast, but swings the fingertips on top of what the arm does: at its limit they move 3 cm in 20 ms.
+# Peak velocities, rad/s: the trunk in a lively turn; the neck in a fast voluntary turn; the eye in a saccade, 9 to 12
+# (the thesis, 4.2.2, has a plateau of 8.7); an elbow in a throw, above 20, in conversation far below. A wrist could be
+# as fast, but it adds to the motion of the fingertips: at this limit they move 3 cm in 20 ms.
 _TRUNK = 4.0
 _NECK = 8.0
 _EYE = 16.0
@@ -38,23 +36,23 @@ _ALL_SPEEDS = frozenset((_LIMB, *_SPEEDS.values()))
 
 
 def fastest(joint: str) -> float:
-    """How fast a joint turns at most, rad/s."""
+    """Return the limit for a joint, rad/s."""
     return _SPEEDS.get(joint, _LIMB)
 
 
 def slowed(shown: Pose, wanted: Pose, duration: float) -> dict[str, Quat]:
-    """Rotations of joints that turn no faster than they can.
+    """Return rotations that turn no faster than their limits.
 
     Args:
         shown: the pose shown last.
-        wanted: what some of its joints are asked for now.
+        wanted: the requested rotations of some joints.
         duration: between the two, s, more than 0.
     """
     within = {speed: math.cos(0.5 * speed * duration) for speed in _ALL_SPEEDS}
     hasty = {
         joint: _toward(start, goal, fastest(joint) * duration)
         for joint, goal in wanted.items()
-        # Most joints are left where they are, by the same tuple.
+        # Most joints stay as they are, as the same tuple.
         if (start := shown.get(joint, IDENTITY)) is not goal
         and abs(start[0] * goal[0] + start[1] * goal[1] + start[2] * goal[2] + start[3] * goal[3])
         < within[_SPEEDS.get(joint, _LIMB)]
@@ -63,18 +61,19 @@ def slowed(shown: Pose, wanted: Pose, duration: float) -> dict[str, Quat]:
 
 
 class SpeedLimit:
-    """Keeps what is shown within a distance of what was shown before.
+    """Keeps each shown body within reach of the one before.
 
-    No joint turns faster than its limit, then no wrist moves faster than `WRIST_SPEED`, nor much faster than before,
-    and the root no faster than `ROOT_SPEED`. A pose that asks for more is followed as fast as that allows, which
-    ordinary motion never notices. How soon a wrist stops is not limited: so it never goes past where it is wanted.
+    No joint turns faster than its limit, no wrist moves faster than `WRIST_SPEED` or accelerates more than
+    `WRIST_ACCELERATION`, and the root moves no faster than `ROOT_SPEED`. A faster pose is followed as fast as that
+    allows; ordinary motion is not affected. Deceleration of wrists is not limited, so they never overshoot.
 
-    Legs and root, each held back for itself, would take the feet elsewhere, and into the ground. So knees bend, or
-    stretch, for a root that is late; what legs cannot make up for either raises the figure, within the root's limit.
+    If legs and root were limited separately, the feet would leave their places and go below the ground. So the knees
+    bend or stretch for a root that lags behind; what they cannot compensate raises the figure, within the limit of the
+    root.
     """
 
     def __init__(self, shown: Body) -> None:
-        """Begins with a body as it is shown first."""
+        """Start with the first body that is shown."""
         self._shown = shown
         self._default = dict.fromkeys(shown.skeleton.joints, IDENTITY)
         self._arms = {wrist: shown.skeleton.chain(wrist)[:-1] for wrist in _WRISTS}
@@ -84,15 +83,15 @@ class SpeedLimit:
         self._walks = walks(shown.skeleton)
 
     def __call__(self, wanted: Body, duration: float) -> Body:
-        """The body to show now.
+        """Return the body to show now.
 
         Args:
-            wanted: the one asked for now.
-            duration: since the last one was shown, s, more than 0.
+            wanted: the requested body.
+            duration: since the last body was shown, s, more than 0.
         """
         pose = slowed(self._shown.pose, {**self._default, **wanted.pose}, duration)
         body = Body(wanted.skeleton, pose, self._root(wanted.root, duration))
-        # The wrists share the trunk: holding one back may set the other free, so it goes on until both are content.
+        # The wrists share the trunk, so slowing one may change the other: repeat until both are within their limits.
         while (hasty := self._hasty(body, duration)) is not None:
             wrist, fraction = hasty
             body = body.posed(
@@ -105,7 +104,7 @@ class SpeedLimit:
         return body
 
     def _hasty(self, body: Body, duration: float) -> tuple[str, float] | None:
-        """A wrist that would move too far, with the share of their turns that the joints above it may make."""
+        """Return a wrist that would move too far, and the factor for the turns of the joints above it."""
         for wrist in _WRISTS:
             way = subtract(_from_root(wrist, body), self._places[wrist])
             moved = length(way)
@@ -113,17 +112,17 @@ class SpeedLimit:
                 continue
             reach = self._speed(wrist, scale(way, 1.0 / moved), duration) * duration
             if moved > reach:
-                # A little less than in proportion: the way is an arc, so this comes to rest after a step or two.
+                # A little less than in proportion: the path is an arc. This converges after a step or two.
                 return wrist, 0.98 * reach / moved
         return None
 
     def _speed(self, wrist: str, direction: Vec3, duration: float) -> float:
-        """How fast a wrist may go in a direction (a unit vector), m/s: for one that went the other way, from rest."""
+        """Return the speed limit of a wrist in a direction (a unit vector), m/s; a reversing wrist starts from rest."""
         before = max(0.0, dot(self._velocities[wrist], direction))
         return min(WRIST_SPEED, before + WRIST_ACCELERATION * duration)
 
     def _on_its_feet(self, body: Body, wanted: Body, duration: float) -> Body:
-        """The body with its feet where they are wanted, as far as that can be, and no further under the ground."""
+        """Return the body with its feet in place as far as possible, and no deeper below the ground than requested."""
         if body.root is wanted.root and all(body.rotation(joint) is wanted.rotation(joint) for joint in LOWER_BODY):
             return body
         if self._walks:
@@ -132,7 +131,7 @@ class SpeedLimit:
         return body.posed({}, self._root(add(body.root, scale(UP, sunk)), duration)) if sunk > 0.0 else body
 
     def _legs(self, body: Body, wanted: Body, duration: float) -> dict[str, Quat]:
-        """Rotations of both legs, which make up for a pelvis that has been held back."""
+        """Return rotations of both legs that compensate for a pelvis that was slowed."""
         carried = wanted.posed({ROOT: body.rotation(ROOT)}, body.root)
         places = drawn(carried, feet(wanted), subtract(body.root, wanted.root))
         left, right = (
@@ -141,7 +140,7 @@ class SpeedLimit:
         return left | right
 
     def _as_one(self, goals: dict[str, Quat], duration: float) -> dict[str, Quat]:
-        """Rotations of a leg that is slowed down as a whole: a foot would swing if only its knee were late."""
+        """Return rotations of a leg that is slowed as a whole; the foot would swing if only its knee were slowed."""
         furthest = max(angle(difference(self._shown.rotation(joint), goal)) for joint, goal in goals.items())
         reach = _LIMB * duration
         if furthest <= reach:
@@ -155,8 +154,8 @@ class SpeedLimit:
 
 
 def _from_root(wrist: str, body: Body) -> Vec3:
-    """Where a wrist is as seen from the root, m."""
-    return subtract(body.place(wrist).position, body.root)
+    """Return the position of a wrist relative to the root, m."""
+    return subtract(body.transform(wrist).position, body.root)
 
 
 def _toward(start: Quat, goal: Quat, furthest: float) -> Quat:

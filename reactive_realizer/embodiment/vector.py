@@ -1,4 +1,4 @@
-"""Vectors of three floats, as tuples: at this size they are faster than arrays and cannot be changed by accident."""
+"""Vectors of three floats as tuples. At this size they are faster than arrays, and immutable."""
 
 import math
 
@@ -15,12 +15,12 @@ def add(a: Vec3, b: Vec3) -> Vec3:
 
 
 def subtract(a: Vec3, b: Vec3) -> Vec3:
-    """The way from b to a."""
+    """The vector from b to a."""
     return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
 
 
 def scale(v: Vec3, factor: float) -> Vec3:
-    """The vector times a number."""
+    """The vector times a factor."""
     return (v[0] * factor, v[1] * factor, v[2] * factor)
 
 
@@ -48,7 +48,7 @@ def unit(v: Vec3) -> Vec3:
     """The direction of v, which must not be (nearly) zero.
 
     Raises:
-        ArithmeticError: v has no direction, or is too long to have one in floats.
+        ArithmeticError: v is zero, or too long to be normalized in floats.
     """
     factor = 1.0 / length(v)
     if not factor:
@@ -57,5 +57,5 @@ def unit(v: Vec3) -> Vec3:
 
 
 def rejected(v: Vec3, axis: Vec3) -> Vec3:
-    """What is left of v without its part along a unit axis."""
+    """The component of v perpendicular to a unit axis."""
     return subtract(v, scale(axis, dot(v, axis)))

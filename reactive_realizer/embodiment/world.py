@@ -1,4 +1,4 @@
-"""The things that behaviors look and point at."""
+"""The targets that behaviors look and point at."""
 
 from collections.abc import Iterable, Mapping
 from typing import Protocol
@@ -8,15 +8,15 @@ from reactive_realizer.embodiment.vector import Vec3
 
 
 class Locate(Protocol):
-    """Says where a character or one of its joints is, or will be at a time (`Humanoid.locate`)."""
+    """Returns the position of a character or of one of its joints, now or at a time (`Humanoid.locate`)."""
 
     def __call__(self, joint: str | None, time: GlobalTime | None = None) -> Vec3 | None:
-        """In the world, m; None: it has no such joint."""
+        """In the world, m; None: no such joint."""
         ...
 
 
 class World:
-    """Named places: right-handed, m, y up, a character of heading 0 faces +z.
+    """Named positions: right-handed, m, y up; a character with heading 0 faces +z.
 
     Args:
         positions: of the fixed targets.
@@ -31,18 +31,18 @@ class World:
         self._living[character] = locate
 
     def move(self, target: str, position: Vec3 | None) -> None:
-        """Put a target elsewhere; None removes it."""
+        """Move a target; None removes it."""
         if position is None:
             self._positions.pop(target, None)
         else:
             self._positions[target] = position
 
     def position(self, target: str, time: GlobalTime | None = None) -> Vec3 | None:
-        """Where a target is; ``alice`` looks her in the eye, ``alice:l_wrist`` at a joint. None: no such target.
+        """Return the position of a target; None: no such target. ``alice`` is her eyes, ``alice:l_wrist`` is a joint.
 
         Args:
             target: its name.
-            time: of a frame in which characters have not moved yet: where they will be then; None: now.
+            time: of a frame for which characters have not moved yet; their positions are extrapolated. None: now.
         """
         character, _, joint = target.partition(":")
         if character in self._living:
@@ -51,10 +51,10 @@ class World:
 
     @property
     def targets(self) -> Iterable[str]:
-        """Names of all targets, joints aside."""
+        """Names of all targets, without joints."""
         return (*self._positions, *self._living)
 
     def snapshot(self) -> dict[str, Vec3]:
-        """All targets with their places."""
+        """Return all targets with their positions."""
         known = ((target, self.position(target)) for target in self.targets)
         return {target: position for target, position in known if position is not None}

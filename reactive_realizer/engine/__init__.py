@@ -1,4 +1,4 @@
-"""What every modality is made of: an Engine is a Planner, a plan and a Player, and runs as one asyncio task.
+"""The common parts of all modalities: an Engine has a planner, a plan and a `Player`, and runs as one asyncio task.
 
-The room knows units and pegs; it knows no modality and no block state.
+This package knows units and pegs, but no modality and no block state.
 """

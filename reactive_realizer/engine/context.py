@@ -1,37 +1,47 @@
-"""What an engine is made from."""
+"""The context from which engines are made."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Protocol, runtime_checkable
 
+from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.humanoid import Humanoid
 from reactive_realizer.embodiment.world import World
-from reactive_realizer.engine.lip_sync import LipSyncProvider
 from reactive_realizer.engine.tts import TTSBinding
 from reactive_realizer.reactive.graph import Graph
 
 Trajectory = Callable[[float], float]
-"""What share of its way a value has come after a share of its time; 0 to 1, and 1 at 1."""
+"""Maps a share of the duration of a change to a share of the change; both 0 to 1, and 1 at 1."""
+
+
+@runtime_checkable
+class LipSyncProvider(Protocol):
+    """Visemes over time, from the speech engine; `assembly` gives it to the face engine."""
+
+    def mouth(self, time: GlobalTime) -> Mapping[str, float] | None:
+        """Weights (0..1) of ARKit morphs at a time; empty in a pause of an utterance, None without an utterance."""
+        ...
 
 
 @dataclass(frozen=True, slots=True)
 class EngineContext:
-    """Of one character; factories of engines take it, built-in ones and those of plug-ins alike.
+    """The context of the engines of one character, which all factories of engines take.
 
     Attributes:
         character: its id.
         humanoid: its figure.
-        world: what can be looked at.
+        world: the targets of gaze and pointing.
         asset: finds a file by name.
-        seed: of the randomness of this character.
+        seed: of the random numbers of this character.
         tts: the text-to-speech binding that all characters share.
         voice: name of this character's voice, None for the binding's default.
-        bindings: the character's binding files, by kind; entries of earlier files count before those of later ones.
-        lip_sync: what the mouth does while this character speaks.
-        graph: where the parameters of its behaviors are cells.
-        trajectories: ways from one value of a parameter to another, by name.
-        functions: what formulas of animations may call besides those of the language, by name; pure.
-        idle: whether the figure breathes, blinks, glances and shifts its weight while it does nothing.
+        bindings: the character's binding files, by kind; entries of earlier files have precedence.
+        lip_sync: visemes of this character's speech.
+        graph: of the cells of behavior parameters.
+        trajectories: for changes of parameters, by name.
+        functions: pure functions that formulas of animations may call besides the built-in ones, by name.
+        idle: whether the figure breathes, blinks, glances and shifts its weight when idle.
     """
 
     character: str

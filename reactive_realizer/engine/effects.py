@@ -1,4 +1,4 @@
-"""What playing gives back: an engine changes nothing outside itself, it says what is to be changed."""
+"""The effects of playing: an engine changes nothing outside of itself, but returns what is to be changed."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
@@ -18,10 +18,10 @@ class Reached:
     """A sync point was reached.
 
     Attributes:
-        unit: whose.
-        point: which.
-        time: the time of its peg.
-        details: attributes that its feedback carries beside the time.
+        unit: of the point.
+        point: the sync point.
+        time: of its peg, s, global.
+        details: attributes of its feedback, beside the time.
     """
 
     unit: PlanUnit
@@ -32,7 +32,7 @@ class Reached:
 
 @dataclass(frozen=True, slots=True)
 class Dropped:
-    """A unit left the plan, and why."""
+    """A unit left the plan because of a fault."""
 
     unit: PlanUnit
     fault: Fault
@@ -43,9 +43,9 @@ class ActivateBlock:
     """A preplanned block is to start.
 
     Attributes:
-        unit: who asks.
+        unit: of the request.
         target: id of the block.
-        time: from when on.
+        time: earliest start, s, global.
     """
 
     unit: PlanUnit
@@ -58,12 +58,12 @@ class InterruptBlock:
     """A block, or some behaviors of it, are to be cut.
 
     Attributes:
-        unit: who asks.
+        unit: of the request.
         target: id of the block.
-        include: ids of the behaviors to be cut; none named: all.
-        exclude: ids of the behaviors to be spared.
-        gently: whether a speech may end its word.
-        time: when.
+        include: ids of the behaviors to be cut; all if empty.
+        exclude: ids of the behaviors that go on.
+        gently: whether a speech may finish its word.
+        time: s, global.
     """
 
     unit: PlanUnit
@@ -76,10 +76,10 @@ class InterruptBlock:
 
 @dataclass(frozen=True, slots=True)
 class BindParameter:
-    """A unit wants to change a parameter of a behavior: ``unit.bind(parameter)`` is called, or the unit is dropped.
+    """A parameter of a behavior is to be changed: ``unit.bind(target, parameter)`` is called, or ``unit`` is dropped.
 
     Attributes:
-        unit: who asks.
+        unit: of the request.
         block: id of the target's block.
         behavior: id of the target.
         parameter: its name.
@@ -93,7 +93,7 @@ class BindParameter:
 
 @dataclass(frozen=True, slots=True)
 class SetParameter:
-    """A parameter is to have a value from now on; ignored if another unit has bound the parameter since."""
+    """A parameter is to be set to a value; ignored if another unit has bound the parameter since."""
 
     unit: PlanUnit
     parameter: Parameter
@@ -102,11 +102,11 @@ class SetParameter:
 
 @dataclass(frozen=True, slots=True)
 class EndUnit:
-    """A unit ends of its own accord before its time: nothing is missing of it, and nobody is warned.
+    """A playing unit ends early and regularly: it is not reported as interrupted, and there is no warning.
 
     Attributes:
-        unit: which; it plays.
-        time: when; its points ahead are dealt with as those of an interrupted one.
+        unit: of the request.
+        time: s, global; its points ahead are treated as those of an interrupted unit.
     """
 
     unit: PlanUnit
@@ -115,11 +115,11 @@ class EndUnit:
 
 @dataclass(frozen=True, slots=True)
 class Warn:
-    """Something is wrong with a unit that plays on.
+    """A warning about a unit that goes on.
 
     Attributes:
-        unit: which.
-        fault: what.
+        unit: of the request.
+        fault: of the warning.
     """
 
     unit: PlanUnit
@@ -127,33 +127,33 @@ class Warn:
 
 
 class ParameterUser(PlanUnit, ABC):
-    """A unit that changes a parameter of another one."""
+    """A unit that changes a parameter of another unit."""
 
     @abstractmethod
-    def bind(self, parameter: Parameter) -> None:
-        """Change this one.
+    def bind(self, target: PlanUnit, parameter: Parameter) -> None:
+        """Bind the parameter of another unit that it changes.
 
         Raises:
-            RealizerError: it cannot be changed so; the unit is to be dropped.
+            RealizerError: it cannot be changed as planned; this unit is to be dropped.
         """
 
 
 Request = ActivateBlock | InterruptBlock | BindParameter | SetParameter | EndUnit | Warn
-"""What an engine asks the scheduler to do, in the same tick."""
+"""Requests of an engine to the scheduler, carried out in the same tick."""
 
 
 @dataclass(frozen=True, slots=True)
 class Play:
-    """All that an engine says in one round of a tick.
+    """The effects of one engine in one round of a tick.
 
     Attributes:
         reached: sync points, in order.
         dropped: units that left the plan.
-        layers: what turns the joints, in the frame that is due.
-        face: weights of morphs, 0..1, in the frame that is due; those of several engines add up.
-        eyes: what the eyes do in the frame that is due, once the head is composed.
-        audio: what became audible, moved or fell silent.
-        requests: what others are to do.
+        layers: joint rotations for the frame that is due.
+        face: weights of morphs, 0..1, for the frame that is due; those of several engines are added.
+        eyes: movement of the eyes for the frame that is due, applied after the head.
+        audio: sounds that start, move or stop.
+        requests: to the scheduler.
     """
 
     reached: tuple[Reached, ...] = ()

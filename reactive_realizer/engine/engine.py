@@ -1,4 +1,4 @@
-"""The interface of a modality (thesis 8.6), and what all implementations share."""
+"""The interface of a modality (thesis 8.6), and a default implementation."""
 
 from collections.abc import Awaitable, Mapping
 from types import MappingProxyType
@@ -24,11 +24,12 @@ class Engine(Protocol):
     Attributes:
         name: for logs: ``character/modality``.
         behaviors: the kinds of behaviors it plays.
-        extensions: the attributes of other namespaces, (namespace, local name), that mean something to it.
-        reads_parameters: whether it reads what behaviors say by ``bmlt:parameter``; it tells those of them itself that
-            mean nothing to it. Of one that reads none, all are told without it.
-        parameters: what of a kind of behaviors may be changed while it plays, by name.
-        leads: whether it plays before the others in each round of a tick: what it asks for is done before they play.
+        extensions: the attributes of other namespaces that it uses, (namespace, local name).
+        reads_parameters: whether it reads ``bmlt:parameter`` elements; then it warns of unknown parameters itself.
+            Otherwise, the scheduler warns of all of them.
+        parameters: the parameters of its behaviors that may be changed while they play, by name.
+        leads: whether it plays before the others in each round of a tick, and its requests are carried out before the
+            others play.
     """
 
     name: str
@@ -39,18 +40,18 @@ class Engine(Protocol):
     parameters: Mapping[type[Behavior], Mapping[str, Range]]
 
     def supports(self, behavior: Behavior) -> bool:
-        """Whether a behavior is its own."""
+        """Whether it plays a behavior."""
         ...
 
     def prepare(self, behavior: Behavior) -> Awaitable[object] | None:
-        """Slow work that planning needs first, run off the loop; None where there is none."""
+        """Slow work to be done before planning, outside of the event loop; None if there is none."""
         ...
 
     def plan(self, block: BlockKey, behavior: Behavior, prepared: object) -> PlanUnit:
         """A unit for the behavior, with its preferred timing; it is not in the plan yet.
 
         Raises:
-            RealizerError: it cannot be made; the fault says why.
+            RealizerError: it cannot be made, for the reason that the fault states.
         """
         ...
 
@@ -59,27 +60,27 @@ class Engine(Protocol):
         ...
 
     def remove(self, unit: PlanUnit) -> None:
-        """Take a unit out of the plan, without a trace."""
+        """Take a unit out of the plan, without effects."""
         ...
 
     def play(self, tick: Tick) -> Play:
         """Play what is due; never blocks.
 
-        Called once or more in each tick in which it has units, or in which one was taken from it or a frame is due.
+        Called at least once in each tick in which it has units, lost one, or a frame is due.
         """
         ...
 
     def fail(self, time: GlobalTime, fault: Fault) -> Play:
-        """Drop every unit: the engine itself has failed."""
+        """Drop every unit, because the engine itself has failed."""
         ...
 
     def reset(self, time: GlobalTime) -> None:
-        """Go back to how everything was at first, whatever behaviors have left behind: a block replaces all others."""
+        """Undo the lasting effects of behaviors, because a block replaces all others."""
         ...
 
 
 class DefaultEngine:
-    """An engine around a `Player`; modalities override what they have."""
+    """An engine with a `Player`; modalities override its methods."""
 
     leads: bool = False
     behaviors: frozenset[type[Behavior]] = frozenset()
@@ -93,11 +94,11 @@ class DefaultEngine:
         self._reached: list[Reached] = []
 
     def supports(self, behavior: Behavior) -> bool:
-        """Behaviors of its kinds, and no special cases of these."""
+        """Whether a behavior is of one of its kinds, not of a subclass."""
         return type(behavior) in self.behaviors
 
     def prepare(self, behavior: Behavior) -> Awaitable[object] | None:
-        """Nothing is slow."""
+        """No slow work."""
         return None
 
     def add(self, unit: PlanUnit) -> None:
@@ -109,7 +110,7 @@ class DefaultEngine:
         self.player.remove(unit)
 
     def play(self, tick: Tick) -> Play:
-        """Sync points that are due, and, where a frame is, what is seen and heard."""
+        """The sync points that are due and, if a frame is due, its layers, face and eyes."""
         self._reached += self.player.play(tick)
         return Play(
             layers=self.layers(tick) if tick.frame else (),
@@ -118,11 +119,11 @@ class DefaultEngine:
             audio=self.audio(tick),
             requests=(*self.player.take_ending(), *self.requests(tick)),
             dropped=self.player.take_dropped(),  # by all of the above
-            reached=self._take_reached(),  # nothing raised: else `fail` tells it
+            reached=self._take_reached(),  # last: if anything raises, `fail` returns them
         )
 
     def fail(self, time: GlobalTime, fault: Fault) -> Play:
-        """Drop every unit; what was reached before the failure is told."""
+        """Drop every unit; the points reached before the failure are returned too."""
         dropped, units = self.player.take_dropped(), self.player.units
         for unit in units:
             unit.drop(time)
@@ -130,26 +131,26 @@ class DefaultEngine:
         return Play(self._take_reached(), (*dropped, *(Dropped(unit, fault) for unit in units)))
 
     def reset(self, time: GlobalTime) -> None:
-        """Nothing is left behind."""
+        """No lasting effects."""
 
     def requests(self, tick: Tick) -> tuple[Request, ...]:
-        """What others are to do now."""
+        """The requests of this tick."""
         return ()
 
     def layers(self, tick: Tick) -> tuple[Layer, ...]:
-        """What turns the joints now."""
+        """The layers of joint rotations of this tick."""
         return ()
 
     def face(self, tick: Tick) -> Mapping[str, float]:
-        """Weights of morphs now."""
+        """The weights of morphs of this tick."""
         return {}
 
     def eyes(self, tick: Tick) -> Eyes | None:
-        """What the eyes do now, once the head is composed."""
+        """The movement of the eyes in this tick, applied after the head."""
         return None
 
     def audio(self, tick: Tick) -> tuple[AudioChange, ...]:
-        """What became audible, moved or fell silent since the last tick."""
+        """The changes of audio since the last tick."""
         return ()
 
     def _take_reached(self) -> tuple[Reached, ...]:

@@ -7,15 +7,15 @@ from collections.abc import Sequence
 from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.engine.effects import Play
 from reactive_realizer.engine.engine import Engine
-from reactive_realizer.errors import Fault
+from reactive_realizer.engine.faults import EngineFailed
 
 logger = logging.getLogger(__name__)
 
 
 class EngineTask:
-    """Runs one engine: its mailbox holds at most the tick that it is to play.
+    """Runs one engine; its mailbox holds at most one tick.
 
-    An engine that raises drops its units, with feedback; the others go on.
+    If an engine raises, it drops its units with feedback, and the other engines go on.
     """
 
     def __init__(self, engine: Engine) -> None:
@@ -27,11 +27,11 @@ class EngineTask:
         while True:
             tick, answer = await self._mailbox.get()
             play = self._play(tick)
-            if not answer.cancelled():  # whoever asked may have been told to end
+            if not answer.cancelled():  # the caller may have been cancelled
                 answer.set_result(play)
 
     def post(self, tick: Tick) -> "asyncio.Future[Play]":
-        """Have a tick played."""
+        """Let the engine play a tick; the result comes when it has."""
         answer: asyncio.Future[Play] = asyncio.get_running_loop().create_future()
         self._mailbox.put_nowait((tick, answer))
         return answer
@@ -41,10 +41,10 @@ class EngineTask:
             return self.engine.play(tick)
         except Exception as failure:
             logger.exception("engine %s failed at tick %d", self.engine.name, tick.number)
-            return self.engine.fail(tick.time, Fault("engine-failed", {"engine": self.engine.name, "reason": failure}))
+            return self.engine.fail(tick.time, EngineFailed(engine=self.engine.name, reason=str(failure)))
 
 
 async def play_all(tasks: Sequence[EngineTask], tick: Tick) -> list[Play]:
-    """One round of a tick: all engines at once, their effects in the order of the tasks, whoever was first."""
+    """One round of a tick: all engines play concurrently; their effects are in the order of the tasks."""
     answers = [task.post(tick) for task in tasks]
     return [await answer for answer in answers]

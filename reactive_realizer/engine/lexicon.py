@@ -1,4 +1,4 @@
-"""The words that an engine has a form for."""
+"""The lexicon of an engine: the behaviors and lexemes that it can play."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
@@ -9,25 +9,25 @@ from reactive_realizer.planunit.parameter import Range
 
 @dataclass(frozen=True, slots=True)
 class Changeable:
-    """A parameter of what plays a word: its value where nobody says otherwise, and the values that mean something."""
+    """A parameter of a lexicon entry: its default value and its range."""
 
     default: float
     range: Range
 
 
 @dataclass(frozen=True, slots=True)
-class Word:
-    """What a planner may ask for, and what comes of it.
+class LexiconEntry:
+    """A lexeme that a planner may use, or an element without lexemes.
 
     Attributes:
         element: local name of the behavior's element; "pose" for a part of a posture.
-        lexeme: the word itself, also the name of an animation; empty for an element that wants none.
-        constraints: what else the behavior has to say for it, attribute to value.
-        sync_points: in the order in which they are reached.
-        duration: how long it takes where nothing else is asked for, s; None where that is nothing of its own.
+        lexeme: the lexeme, or the name of an animation; empty for an element without either.
+        constraints: other attributes that the behavior must have for it, attribute to value.
+        sync_points: in the order of time.
+        duration: its preferred duration, s; None if it has none.
         parameters: by their names in BML.
-        file: name of the file that it is made of, if there is one.
-        problem: why it does not play; None for what does.
+        file: name of its file, if it has one.
+        problem: the reason for which it cannot be played; None if it can.
     """
 
     element: str
@@ -41,14 +41,14 @@ class Word:
 
 
 @runtime_checkable
-class WordProvider(Protocol):
-    """An engine that knows words."""
+class LexiconProvider(Protocol):
+    """An engine with a lexicon."""
 
-    def words(self) -> Iterator[Word]:
-        """Those it was told of, also those that do not play; it may read files."""
+    def words(self) -> Iterator[LexiconEntry]:
+        """The entries of its lexicon, including those that cannot be played; it may read files."""
         ...
 
 
-def words_of(engines: Iterable[object]) -> list[Word]:
-    """The words of all engines that know some, in their order."""
-    return [word for engine in engines if isinstance(engine, WordProvider) for word in engine.words()]
+def words_of(engines: Iterable[object]) -> list[LexiconEntry]:
+    """The entries of all engines that have a lexicon, in the order of the engines."""
+    return [word for engine in engines if isinstance(engine, LexiconProvider) for word in engine.words()]

@@ -1,4 +1,4 @@
-"""The player of a plan: which units play now, and which may."""
+"""The player of a unimodal plan: it begins and fires units, and resolves conflicts between them."""
 
 import logging
 from collections.abc import Callable
@@ -8,6 +8,7 @@ from typing import TypeVar
 from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.clock.units import GlobalTime, is_due
 from reactive_realizer.engine.effects import Dropped, EndUnit, Reached
+from reactive_realizer.engine.faults import ResourceTaken, UnitFailed
 from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.planunit.plan_unit import PlanUnit, UnitState
 
@@ -20,8 +21,9 @@ T = TypeVar("T")
 class Player:
     """A unimodal plan and its playing.
 
-    Who owns an arm, the voice, the mouth is judged for the time at which a unit starts, not when it is planned: an
-    interrupt may come between. The one that plays then keeps it, the newer leaves with one warning (BML: merge keeps
+    Conflicts over a resource, such as an arm, the voice or the mouth, are judged for the time at which a unit starts,
+    not when it is planned: an interrupt may come between. The unit that plays keeps the resource, and the newer one is
+    dropped with one warning (BML: merge keeps
     what is running). Only the way back to rest may be taken over: the one that plays ends then, and the newer begins
     (co-articulation; S. Kopp and I. Wachsmuth, "Synthesizing multimodal utterances for conversational agents", 2004;
     thesis 12.1.3).
@@ -48,14 +50,14 @@ class Player:
         self._units.append(unit)
 
     def remove(self, unit: PlanUnit) -> None:
-        """Forget a unit; one that is not there is no mistake."""
+        """Take a unit out of the plan, if it is there."""
         if unit in self._units:
             self._units.remove(unit)
             self._note_end(unit)
 
     def play(self, tick: Tick) -> tuple[Reached, ...]:
-        """Begin what is due, fire what is due, let go of what has ended."""
-        self._ended = [unit for unit in self._ended if not is_due(unit.points[-1].fired, tick.previous)]
+        """Begin the units and fire the sync points that are due; forget units that have ended."""
+        self._ended = [unit for unit in self._ended if not is_due(unit.points[-1].peg.value, tick.previous)]
         if not self._units:
             return ()
         reached: list[Reached] = []
@@ -66,9 +68,9 @@ class Player:
         return tuple(reached)
 
     def show(self, kind: type[U], show: Callable[[U], T], now: GlobalTime) -> list[T]:
-        """What every unit of a kind that plays shows, in the order of `stacked`.
+        """The result of ``show`` for every playing unit of a kind, in the order of `stacked`.
 
-        One that fails leaves, the others go on.
+        A unit for which it raises is dropped; the others go on.
         """
         shown: list[T] = []
         for unit in self.stacked(kind):
@@ -79,19 +81,19 @@ class Player:
         return shown
 
     def stacked(self, kind: type[U]) -> list[U]:
-        """The units of a kind that play, what lies above others last (thesis 8.7.5).
+        """The playing units of a kind, from the lowest to the uppermost (thesis 8.7.5).
 
-        Who started last lies above, of those that started together the one that ends first.
+        A unit that started later is above; of those that started together, the one that ends first.
         """
         return [unit for unit in sorted(self.playing, key=height) if isinstance(unit, kind)]
 
     def take_ending(self) -> tuple[EndUnit, ...]:
-        """The units that are to end now because others take over from them, since the last call."""
+        """The units that have to end since the last call, because others take over from them."""
         ending, self._ending = tuple(self._ending), []
         return ending
 
     def take_dropped(self) -> tuple[Dropped, ...]:
-        """The units that left since the last call."""
+        """The units that were dropped since the last call."""
         if not self._dropped:
             return ()
         dropped, self._dropped = tuple(self._dropped), []
@@ -99,14 +101,14 @@ class Player:
         return dropped
 
     def _in_turn(self, now: GlobalTime) -> list[PlanUnit]:
-        """Units that play, then those that are due: by start, and of equal ones by id, so that the choice is one."""
+        """The playing units, then those that are due: by start, then by id, so that the order is unique."""
         starting = sorted(
             (unit for unit in self._units if unit.due(now)), key=lambda u: (u.points[0].peg.value, u.behavior.id)
         )
         return [*self.playing, *starting]
 
     def _held(self, unit: PlanUnit, tick: Tick) -> bool:
-        """Whether a unit that is due cannot begin: it leaves, or begins next round, without those in its way."""
+        """Whether a unit that is due cannot begin now: it is dropped, or others have to end in this round."""
         start = unit.points[0].peg.value
         if start is None or not unit.due(tick.time):
             return False
@@ -125,23 +127,23 @@ class Player:
         return bool(staying or leaving)
 
     def _owners(self, time: GlobalTime) -> tuple[list[PlanUnit], list[PlanUnit]]:
-        """Who plays and keeps what it has at a time, and who plays and gives it away.
+        """The units that keep their resources at a time, and those that play but give theirs away.
 
-        In a late tick some that played then have ended meanwhile.
+        In a late tick, units that were playing at that time may have ended since.
         """
-        ended = [unit for unit in self._ended if not is_due(unit.points[-1].fired, time)]
+        ended = [unit for unit in self._ended if not is_due(unit.points[-1].peg.value, time)]
         keeping = [unit for unit in (*self.playing, *ended) if not unit.subsiding(time)]
         return keeping, [unit for unit in self.playing if unit.subsiding(time)]
 
     def _fire(self, unit: PlanUnit, now: GlobalTime, reached: list[Reached]) -> None:
-        ahead = unit.ahead()
         if unit.due(now):
             unit.begin()
+        due = unit.due_points(now)
         try:
-            unit.fire(now)
+            unit.fire(due, now)
         except Exception as failure:
             self._fail(unit, failure, now)
-        reached.extend(Reached(unit, point, point.fired) for point in ahead if point.fired is not None)
+        reached.extend(Reached(unit, point, time) for point, time in due if point.fired)
         self._note_end(unit)
 
     def _note_end(self, unit: PlanUnit) -> None:
@@ -149,10 +151,10 @@ class Player:
             self._ended.append(unit)
 
     def _fail(self, unit: PlanUnit, failure: Exception, now: GlobalTime) -> None:
-        # What is wrong with somebody's file is said in a sentence; where we failed ourselves, the trace tells more.
+        # A fault of a file is explained by its sentence; for an internal error, the trace is needed.
         trace = None if isinstance(failure, RealizerError) else failure
         logger.error("%s/%s:%s failed while playing: %s", *unit.block, unit.behavior.id, failure, exc_info=trace)
-        self._drop(unit, Fault("unit-failed", {"reason": failure}), now)
+        self._drop(unit, UnitFailed(reason=str(failure)), now)
 
     def _drop(self, unit: PlanUnit, fault: Fault, now: GlobalTime) -> None:
         unit.drop(now)
@@ -160,12 +162,12 @@ class Player:
 
 
 def height(unit: PlanUnit) -> tuple[float, float]:
-    """Where a unit lies among others: what is greater lies above."""
-    start, end = unit.times_around
+    """Sort key for the height of a unit among others: the uppermost unit has the greatest."""
+    start, end = unit.start_and_end
     return (inf if start is None else start, -inf if end is None else -end)
 
 
 def _taken(unit: PlanUnit, owner: PlanUnit) -> Fault:
     what = ", ".join(sorted(owner.resources & unit.resources)) or f"replacement group {unit.group}"
-    names = {"behavior": f"{unit.block.block}:{unit.behavior.id}", "other": f"{owner.block.block}:{owner.behavior.id}"}
-    return Fault("resource-taken", {**names, "resource": what})
+    behavior, other = (f"{each.block.block}:{each.behavior.id}" for each in (unit, owner))
+    return ResourceTaken(behavior=behavior, other=other, resource=what)

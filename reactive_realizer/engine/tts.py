@@ -1,10 +1,16 @@
-"""What a voice makes of a text, and what a text-to-speech system must offer (thesis 8.10, TTSBinding)."""
+"""Utterances, and the interface of text-to-speech systems (thesis 8.10, TTSBinding)."""
 
+import re
 from collections.abc import Awaitable, Mapping
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Final, Protocol
 
 from reactive_realizer.clock.units import RESOLUTION
+
+_BETWEEN_SPACES: Final = re.compile(r"[^\s\u2013\u2014]+")
+"""The text between white space, en dashes and em dashes."""
+_PUNCTUATION: Final = ".,;:!?\u2026\"'()[]{}\u00ab\u00bb\u201c\u201d\u201e\u2018\u2019\u00a1\u00bf"
+"""Characters around a word that are not part of it: stops, quotation marks, brackets."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,6 +78,21 @@ class Utterance:
     def time_of_character(self, index: int) -> float:
         """When the word at or after a character begins, s; the duration where no word follows."""
         return next((word.start for word in self.words if index < word.last), self.duration)
+
+
+def word_spans(text: str) -> tuple[tuple[int, int], ...]:
+    """Character ranges (first, last), ``last`` exclusive, of the words of a text, without the punctuation around them.
+
+    Voices that use it agree on the indices of words. Words are separated by white space or dashes: a number, an
+    abbreviation or an address is one word, even if it is spoken as several.
+    """
+    spans = (_without_punctuation(run.start(), run.group()) for run in _BETWEEN_SPACES.finditer(text))
+    return tuple((first, last) for first, last in spans if first < last)
+
+
+def _without_punctuation(first: int, run: str) -> tuple[int, int]:
+    first += len(run) - len(run.lstrip(_PUNCTUATION))
+    return first, first + len(run.strip(_PUNCTUATION))
 
 
 class TTSBinding(Protocol):

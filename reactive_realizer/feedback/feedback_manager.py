@@ -1,4 +1,4 @@
-"""Delivery of feedback, in one order."""
+"""Collects feedback and delivers it in one order."""
 
 import logging
 from collections.abc import Callable
@@ -6,7 +6,13 @@ from dataclasses import dataclass
 
 from reactive_realizer.clock.ticker import RATE
 from reactive_realizer.clock.units import GlobalTime
-from reactive_realizer.feedback.messages import BlockProgress, Message, SyncPointProgress, WarningFeedback
+from reactive_realizer.feedback.messages import (
+    BlockProgress,
+    Message,
+    PredictionFeedback,
+    SyncPointProgress,
+    WarningFeedback,
+)
 from reactive_realizer.feedback.xml import to_xml
 
 logger = logging.getLogger(__name__)
@@ -17,7 +23,7 @@ class Report:
     """A message as it goes out.
 
     Attributes:
-        time: of the tick that reported, s; the message has the time of its peg.
+        time: of the tick that reported, s; the message carries the time of its peg.
         xml: one line.
     """
 
@@ -27,8 +33,8 @@ class Report:
 
 
 @dataclass(frozen=True, slots=True, order=True)
-class Place:
-    """Where progress stands among that of the same tick: by time, then by block, behavior and sync point."""
+class ProgressOrder:
+    """The order of progress within a tick: by time, then by block, behavior and sync point."""
 
     time: float
     block_start: float
@@ -38,34 +44,34 @@ class Place:
 
 
 class FeedbackManager:
-    """Collects what a tick has to say and tells every listener, each for itself."""
+    """Collects the messages of a tick and sends them to every listener; one that fails does not stop the others."""
 
     def __init__(self) -> None:
         self._listeners: list[Callable[[Report], None]] = []
-        self._said: list[Message] = []
-        self._progress: list[tuple[Place, int, Message]] = []
+        self._messages: list[Message] = []
+        self._progress: list[tuple[ProgressOrder, int, Message]] = []
 
     def listen(self, listener: Callable[[Report], None]) -> Callable[[], None]:
-        """Tell a listener every report from now on; the returned call ends that."""
+        """Send a listener every report from now on; the returned call ends that."""
         self._listeners.append(listener)
         return lambda: self._listeners.remove(listener) if listener in self._listeners else None
 
-    def say(self, message: Message) -> None:
-        """A warning or prediction: told in the order of saying, before the progress of the tick."""
-        self._said.append(message)
+    def add(self, message: WarningFeedback | PredictionFeedback) -> None:
+        """Have a warning or prediction sent with this tick: in the order of adding, before all progress."""
+        self._messages.append(message)
 
-    def progress(self, message: BlockProgress | SyncPointProgress, place: Place) -> None:
-        """Something happened at a time that may lie before that of the tick."""
-        self._progress.append((place, len(self._progress), message))
+    def add_progress(self, message: BlockProgress | SyncPointProgress, order: ProgressOrder) -> None:
+        """Have progress sent with this tick, in its order; its own time may lie before the tick."""
+        self._progress.append((order, len(self._progress), message))
 
     def flush(self, time: GlobalTime) -> None:
-        """Tell what the tick at ``time`` has to say."""
-        messages = [*self._said, *(message for _, _, message in sorted(self._progress, key=lambda p: p[:2]))]
-        self._said, self._progress = [], []
+        """Send the messages of the tick at ``time`` to every listener."""
+        messages = [*self._messages, *(message for _, _, message in sorted(self._progress, key=lambda p: p[:2]))]
+        self._messages, self._progress = [], []
         for message in messages:
-            self._tell(Report(time, message, to_xml(message)))
+            self._send(Report(time, message, to_xml(message)))
 
-    def _tell(self, report: Report) -> None:
+    def _send(self, report: Report) -> None:
         level = logging.WARNING if isinstance(report.message, WarningFeedback) else logging.DEBUG
         logger.log(level, "tick %d: %s", round(report.time * RATE), report.xml)
         for listener in tuple(self._listeners):

@@ -34,7 +34,7 @@ class SyncPointProgress:
 
 @dataclass(frozen=True, slots=True)
 class BehaviorPrediction:
-    """When the sync points of a behavior are predicted to be; unknown ones are not among them."""
+    """The predicted times of a behavior's sync points; those that are unknown are left out."""
 
     behavior: Behavior
     times: Mapping[str, BlockTime]
@@ -42,7 +42,7 @@ class BehaviorPrediction:
 
 @dataclass(frozen=True, slots=True)
 class PredictionFeedback:
-    """When a block is predicted to start and end, and its behaviors once it is scheduled."""
+    """The predicted start and end of a block, and the times of its behaviors once it is scheduled."""
 
     character: str
     block: str
@@ -54,10 +54,10 @@ class PredictionFeedback:
 
 @dataclass(frozen=True, slots=True)
 class WarningFeedback:
-    """Something could not be as it was asked for.
+    """Something could not be done as it was asked for.
 
     Attributes:
-        character: whose, None where no block could be read.
+        character: of the block; None if no block could be read.
         id: ``block``, ``block:behavior`` or ``bml``.
     """
 

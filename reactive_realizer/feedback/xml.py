@@ -21,7 +21,7 @@ _DECIMALS = 6
 _STATUS = f"{{{BMLA}}}status"
 _OWN_TIME = f"{{{OWN}}}time"
 _NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
-"""What no XML may hold; the reason of a failure may be any text, and so may a name of a plug-in."""
+"""Characters that XML may not hold: reasons of failures and names of plug-ins may be any text."""
 
 
 def to_xml(message: Message) -> str:
@@ -29,8 +29,8 @@ def to_xml(message: Message) -> str:
     return etree.tostring(_element(message), encoding="unicode").replace("\n", " ")
 
 
-def as_told(time: float) -> float:
-    """A time as listeners get it."""
+def as_reported(time: float) -> float:
+    """A time as it is written in feedback."""
     return round(time, _DECIMALS)
 
 
@@ -48,7 +48,7 @@ def _element(message: object) -> etree._Element:
 @_element.register
 def _(message: BlockProgress) -> etree._Element:
     element = _root("blockProgress", message.character, {None: BML, "bmla": BMLA})
-    element.set("id", _told(f"{message.block}:{message.sync}"))
+    element.set("id", _legal(f"{message.block}:{message.sync}"))
     element.set("globalTime", seconds(message.time))
     element.set(_STATUS, message.status)
     return element
@@ -57,18 +57,18 @@ def _(message: BlockProgress) -> etree._Element:
 @_element.register
 def _(message: SyncPointProgress) -> etree._Element:
     element = _root("syncPointProgress", message.character, {None: BML, **({"rr": OWN} if message.details else {})})
-    element.set("id", _told(f"{message.block}:{message.behavior}:{message.sync}"))
+    element.set("id", _legal(f"{message.block}:{message.behavior}:{message.sync}"))
     element.set("time", seconds(message.block_time))
     element.set("globalTime", seconds(message.time))
     for name, value in message.details.items():
-        element.set(f"{{{OWN}}}{name}", _told(value))
+        element.set(f"{{{OWN}}}{name}", _legal(value))
     return element
 
 
 @_element.register
 def _(message: PredictionFeedback) -> etree._Element:
     element = _root("predictionFeedback", message.character, {None: BML, "bmla": BMLA, "rr": OWN})
-    block = etree.SubElement(element, f"{{{BML}}}bml", id=_told(message.block))
+    block = etree.SubElement(element, f"{{{BML}}}bml", id=_legal(message.block))
     block.set("globalStart", seconds(message.start))
     block.set("globalEnd", seconds(message.end))
     block.set(_STATUS, message.status)
@@ -79,13 +79,13 @@ def _(message: PredictionFeedback) -> etree._Element:
 @_element.register
 def _(message: WarningFeedback) -> etree._Element:
     element = _root("warningFeedback", message.character, {None: BML})
-    element.set("id", _told(message.id))
+    element.set("id", _legal(message.id))
     element.set("type", message.type)
-    element.text = _told(message.text)
+    element.text = _legal(message.text)
     return element
 
 
-def _told(text: str) -> str:
+def _legal(text: str) -> str:
     return _NOT_XML.sub("\N{REPLACEMENT CHARACTER}", text)
 
 
@@ -93,18 +93,18 @@ def _root(name: str, character: str | None, namespaces: dict[str | None, str]) -
     # lxml takes None for the default namespace; its stubs do not.
     element = etree.Element(f"{{{BML}}}{name}", nsmap=namespaces)  # type: ignore[arg-type]
     if character is not None:
-        element.set("characterId", _told(character))
+        element.set("characterId", _legal(character))
     return element
 
 
 def _predicted(block: str, prediction: BehaviorPrediction) -> etree._Element:
-    """The behavior's own element, its sync points now times; an inline sync of a speech carries its time itself.
+    """The behavior's own element, with times for its sync points; an inline sync of a speech carries its time itself.
 
-    One whose name is no attribute's, or that of an attribute that says something else, is left out.
+    A sync point is left out if its name cannot be an attribute, or is that of another attribute.
     """
     behavior = prediction.behavior
     element = etree.fromstring(behavior.source)
-    element.set("id", _told(f"{block}:{behavior.id}"))
+    element.set("id", _legal(f"{block}:{behavior.id}"))
     for sync in behavior.syncs:
         if sync in element.attrib:  # not every one was written: a stroke may follow from an end
             del element.attrib[sync]

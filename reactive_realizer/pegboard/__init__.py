@@ -1,4 +1,4 @@
-"""When things happen, and what is tied to what: time pegs on one board.
+"""The peg board: time pegs, which are points in time that depend on each other (thesis 7.3).
 
-The room knows cells and seconds; it knows no BML, no behavior and no engine.
+This package knows cells and seconds, but no BML, no behaviors and no engines.
 """

@@ -1,27 +1,47 @@
-"""What predicts: the base of all anticipators (thesis 8.5.1), and in itself the one that says what it is told."""
+"""Anticipators: they predict the times of events outside the realizer (thesis 8.5.1)."""
 
 from math import isfinite
 from typing import ClassVar
 
 from reactive_realizer.clock.units import GlobalTime, Time, is_due
-from reactive_realizer.errors import RealizerError, error
+from reactive_realizer.errors import Fault, NotANumber, RealizerError
 from reactive_realizer.pegboard.pegboard import PegBoard
 
 
+class PredictsItself(Fault):
+    """A prediction from outside for an anticipator that makes its own."""
+
+    code = "predicts-itself"
+    template = "'{anticipator}' is a {kind}: it makes its own predictions and accepts none from outside"
+    anticipator: str
+    kind: str
+
+
+class UnknownEvent(Fault):
+    """An event that an anticipator does not know."""
+
+    code = "unknown-event"
+    template = "'{anticipator}' does not know the event {event}; known events: {known}"
+    anticipator: str
+    event: str
+    known: str
+
+
 class Anticipator:
-    """The only writer of its points on the board; sub-classes turn events into predictions.
+    """Predicts the times of its points, which it alone writes.
 
-    All calls come within a transaction of the realizer's input phase.
+    This class takes predictions from outside; subclasses make predictions from events. All methods are called within a
+    transaction of the realizer's input phase.
 
-    A point is one moment, like the third beat, or, like the press of a key, each time the next one: then it is renewed
-    on the board whenever it has come.
+    A point is either one moment, such as the third beat, or the next occurrence of an event, such as a key press; such
+    a point is renewed on the board after each occurrence.
 
     Attributes:
-        kind: by which the human file names its class.
-        events: names of those that `event` knows.
-        heard: names of those that `hear` knows, and that come with a text.
-        points: names of its points, with an N where a number stands; none where they are not known beforehand.
-        id: by which BML names it, ``anticipators:ID:SYNC``.
+        kind: name of its class in the human file.
+        events: names of the events that `event` accepts.
+        heard: names of the events with a text, which `hear` accepts.
+        points: names of its points, with an N for a number; empty if they are not known in advance.
+        id: its name in BML, ``anticipators:ID:SYNC``.
     """
 
     kind: ClassVar[str] = "remote"
@@ -35,20 +55,20 @@ class Anticipator:
         board.ask(id, self.forecast)
 
     def forecast(self, sync: str) -> Time:
-        """When a point that is named for the first time is to be; None while nothing is known."""
+        """The predicted time of a point that is named for the first time; None while it is unknown."""
         return None
 
     def check(self, name: str, value: float | None) -> None:
-        """Whether an event may be told; whoever brings it from outside asks first.
+        """Check an event that comes from outside, before it enters.
 
         Raises:
-            RealizerError: "unknown-event", or its value cannot be.
+            RealizerError: "unknown-event", or the value is invalid.
         """
         if name not in self.events:
             raise self._unknown(name)
 
     def check_heard(self, name: str) -> None:
-        """Like `check`, of an event that comes with a text.
+        """Check an event with a text, as `check` does.
 
         Raises:
             RealizerError: "unknown-event".
@@ -57,49 +77,49 @@ class Anticipator:
             raise self._unknown(f"{name} with a text")
 
     def check_prediction(self) -> None:
-        """Whether others may say when its points are to be; whoever brings a prediction from outside asks first.
+        """Check whether it accepts a prediction from outside, before the prediction enters.
 
         Raises:
-            RealizerError: it is of a kind that predicts by itself.
+            RealizerError: it makes its own predictions.
         """
         if self.kind != Anticipator.kind:
-            raise error("predicts-itself", anticipator=self.id, kind=self.kind)
+            raise RealizerError(PredictsItself(anticipator=self.id, kind=self.kind))
 
     def advance(self, now: GlobalTime) -> None:
-        """It is ``now``: asked at every tick, before whatever comes in."""
+        """Called at every tick, before the inputs of the tick."""
 
     def event(self, name: str, value: float | None, now: GlobalTime) -> None:
-        """Something happened that concerns it."""
+        """Handle an event."""
 
     def hear(self, name: str, text: str, now: GlobalTime) -> None:
-        """Like `event`, of words that were said."""
+        """Handle an event with a text."""
 
     def revise(self, now: GlobalTime) -> None:
-        """Predict all points anew that were named and have not passed."""
+        """Predict all named points anew that have not passed."""
         for sync, peg in self._board.predictions(self.id).items():
             if not is_due(peg.value, now):
                 self.predict(sync, self.forecast(sync), now)
 
     def renew(self, sync: str) -> None:
-        """Have a point that has come mean the next time; what hangs on it already keeps its moment."""
+        """Let a point that has passed mean the next occurrence; pegs that depend on it already keep this one."""
         self._board.renew(self.id, sync)
 
     def withdraw(self, now: GlobalTime) -> None:
-        """Take back what was said of all points."""
+        """Withdraw the predictions of all points."""
         for sync in self._board.predictions(self.id):
             self.predict(sync, None, now)
 
     def predict(self, sync: str, time: Time, now: GlobalTime) -> None:
-        """Say when a point is to be; None withdraws what was said.
+        """Predict the time of a point; None withdraws the prediction.
 
-        Whatever comes over a network is late: a point not yet passed is never set before ``now``. A point that has
+        Since network messages are late, a point that has not passed is never set before ``now``. A point that has
         passed keeps its time, unless it is to happen again.
 
         Raises:
             RealizerError: the time is not finite.
         """
         if time is not None and not isfinite(time):
-            raise error("not-a-number")
+            raise RealizerError(NotANumber())
         peg = self._board.predicted(self.id, sync)
         passed = is_due(peg.value, now)
         if time is None or time > now:
@@ -111,4 +131,4 @@ class Anticipator:
         known = ", ".join([*self.events, *(f"{name} with a text" for name in self.heard)])
         if not known:
             known = "none; when its points are to be is said by predict" if self.kind == Anticipator.kind else "none"
-        return error("unknown-event", anticipator=self.id, event=event, known=known)
+        return RealizerError(UnknownEvent(anticipator=self.id, event=event, known=known))

@@ -27,7 +27,7 @@ def between(ratio: float) -> Callable[[Time, Time], Time]:
 
 
 def not_before(bounds: tuple[float, ...], ceilings: tuple[float, ...]) -> Callable[..., Time]:
-    """The first time, or the latest of the bounds, each of which is waited for, that are not after any ceiling.
+    """The first time, or the latest bound that is not after any ceiling; None while a bound is unknown.
 
     Args:
         bounds: distance (s) from each time after the first that is a bound.
@@ -44,7 +44,7 @@ def not_before(bounds: tuple[float, ...], ceilings: tuple[float, ...]) -> Callab
 
 
 def not_after(bounds: tuple[float, ...], floors: tuple[float, ...]) -> Callable[..., Time]:
-    """The first time, or the earliest of the bounds, as far as they are known and not before any floor.
+    """The first time, or the earliest known bound that is not before any floor.
 
     Args:
         bounds: distance (s) from each time after the first that is a bound.
@@ -61,13 +61,23 @@ def not_after(bounds: tuple[float, ...], floors: tuple[float, ...]) -> Callable[
 
 
 def latest(floor: GlobalTime) -> Callable[..., Time]:
-    """The latest of them and the floor."""
+    """The latest of several times and the floor; None while one of them is unknown."""
 
     def formula(*times: Time) -> Time:
         known = [time for time in times if time is not None]
         return max([floor, *known]) if len(known) == len(times) else None
 
     return formula
+
+
+def not_after_next(formula: Callable[..., Time]) -> Callable[..., Time]:
+    """The result of another formula for all times but the last, and not after the last if both are known."""
+
+    def bounded(*times: Time) -> Time:
+        time, successor = formula(*times[:-1]), times[-1]
+        return time if time is None or successor is None else min(time, successor)
+
+    return bounded
 
 
 def _known(times: Iterable[Time], distances: Iterable[float]) -> Iterator[float]:

@@ -3,18 +3,18 @@
 from typing import NamedTuple
 
 ANTICIPATORS = "anticipators"
-"""Takes the place of a block id in the name of a predicted point."""
+"""Stands for a block id in the name of a predicted point."""
 
 
 class BlockKey(NamedTuple):
-    """A block, of one character."""
+    """The name of a block: its character and its id."""
 
     character: str
     block: str
 
 
 class PegKey(NamedTuple):
-    """A sync point: of a behavior, of a block (behavior None), or of an anticipator (block ``anticipators``)."""
+    """The name of a sync point of a behavior, a block (behavior None) or an anticipator (block ``anticipators``)."""
 
     character: str
     block: str

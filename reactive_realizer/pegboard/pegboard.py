@@ -1,29 +1,39 @@
-"""The board: every point in time of every character, by name."""
+"""The peg board: the pegs of all characters, by name."""
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from itertools import islice
 
-from reactive_realizer.clock.units import GlobalTime, Time
-from reactive_realizer.errors import error
-from reactive_realizer.pegboard.explanation import Explanation, explain
-from reactive_realizer.pegboard.moving import MovableSource, move
+from reactive_realizer.clock.ticker import Tick
+from reactive_realizer.clock.units import GlobalTime, Time, is_due
+from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.pegboard.peg_key import ANTICIPATORS, BlockKey, PegKey, anticipator_key
-from reactive_realizer.pegboard.peg_view import PegView, view_of
+from reactive_realizer.pegboard.peg_view import Explanation, PegView, explain, view_of
 from reactive_realizer.pegboard.time_peg import AnticipatorPeg, TimeCell, TimePeg, time_of
+from reactive_realizer.reactive.cell import replace_cell
 from reactive_realizer.reactive.graph import Graph
 
 _PREDICTED = BlockKey("", ANTICIPATORS)
 
 
+class NoPoint(Fault):
+    """No point of the board has the name."""
+
+    code = "no-point"
+    template = "there is no point {point}"
+    point: str
+
+
 class PegBoard:
-    """Names cells; the cells themselves keep each other right (thesis 7.3.2).
+    """The named pegs (thesis 7.3.2); the graph of cells keeps their times consistent.
 
     Attributes:
-        graph: where the cells live; every write is a transaction on it.
+        graph: of the pegs; every write is a transaction on it.
+        previous: time of the tick before the present one, s.
     """
 
     def __init__(self, graph: Graph) -> None:
         self.graph = graph
+        self.previous = GlobalTime(-1.0)
         self._pegs: dict[PegKey, TimeCell] = {}
         self._blocks: dict[BlockKey, list[PegKey]] = {}
         self._owners: dict[TimeCell, BlockKey] = {}
@@ -32,15 +42,15 @@ class PegBoard:
 
     @property
     def time(self) -> GlobalTime:
-        """Realizer time, s, which is noted in commits; its owner sets it with every tick."""
+        """Time of the present tick, s, which is noted in commits."""
         return GlobalTime(self.graph.time)
 
-    @time.setter
-    def time(self, time: GlobalTime) -> None:
-        self.graph.time = time
+    def begin(self, tick: Tick) -> None:
+        """Note the tick that begins."""
+        self.graph.time, self.previous = tick.time, tick.previous
 
     def add(self, key: PegKey, peg: TimeCell) -> None:
-        """Name a peg; one peg may bear several names."""
+        """Name a peg; a peg may have several names."""
         self.add_block(key.block_key, {key: peg})
 
     def add_block(self, block: BlockKey, pegs: Mapping[PegKey, TimeCell]) -> None:
@@ -51,37 +61,29 @@ class PegBoard:
             self._owners.setdefault(peg, block)
 
     def add_unnamed(self, block: BlockKey, pegs: Iterable[TimePeg]) -> None:
-        """Take in pegs that only pegs of a block hang on, and that go with it."""
+        """Note pegs without a name that only pegs of a block depend on, and that are removed with it."""
         self._unnamed.setdefault(block, []).extend(pegs)
 
     def replace(self, key: PegKey, peg: TimePeg) -> None:
-        """Within a transaction, give a name to another peg; what hung on the old one hangs on the new one."""
+        """Within a transaction, give a name to another peg; dependents of the old one then depend on the new one."""
         old = self._pegs[key]
         if isinstance(old, TimePeg) and not old.pinned:
             old.pin(time_of(old))
-        old.replace_by(peg)
+        replace_cell(old, peg)
         self._owners.pop(old, None)
         self._pegs[key] = peg
         self._owners.setdefault(peg, key.block_key)
 
     def owner(self, peg: TimeCell) -> BlockKey | None:
-        """The block that a peg is named for; None for one that has no name."""
+        """The block that a peg was first named for; None if it has no name."""
         return self._owners.get(peg)
 
     def get(self, key: PegKey) -> TimeCell | None:
         """The peg of that name."""
         return self._pegs.get(key)
 
-    def move(self, key: PegKey, time: GlobalTime) -> MovableSource:
-        """Within a transaction, bring a point to a time (s) by writing the one source that it hangs on; which that is.
-
-        Raises:
-            RealizerError: there is no such point, or no source that would bring it there; nothing changes.
-        """
-        return move(self._point(key), time)
-
     def explain(self, key: PegKey) -> Explanation:
-        """The chain of pegs, constraints and commits that set the time of a point.
+        """The chain of pegs, constraints and commits that determined the time of a point.
 
         Raises:
             RealizerError: there is no such point.
@@ -93,7 +95,7 @@ class PegBoard:
         return {str(key): self.explain(key).as_json() for key in self._blocks.get(block, ())}
 
     def pin_block(self, block: BlockKey) -> list[TimePeg]:
-        """Within a transaction, cut all pegs of a block from what they hang on; those that still hung, each once."""
+        """Within a transaction, pin all pegs of a block at their times; those that were not pinned, each once."""
         named = dict.fromkeys(self._pegs[key] for key in self._blocks.get(block, ()))
         cut = [peg for peg in named if isinstance(peg, TimePeg) and not peg.pinned]
         for peg in cut:
@@ -101,9 +103,9 @@ class PegBoard:
         return cut
 
     def remove_block(self, block: BlockKey) -> None:
-        """Forget the names of a block, and predicted points that nothing hangs on and that are known without a peg.
+        """Remove the names of a block, and the predicted points without dependents that can be predicted again.
 
-        Pegs that others hang on live on with them, and stay where they are.
+        A peg that others depend on stays alive with them, and keeps its time.
         """
         for key in dict.fromkeys(self._blocks.pop(block, ())):
             peg = self._pegs.pop(key)
@@ -119,7 +121,7 @@ class PegBoard:
             self._owners.pop(self._pegs.pop(key), None)
 
     def predicted(self, anticipator: str, sync: str) -> AnticipatorPeg:
-        """The peg of a predicted point, made when it is first named; unknown unless its anticipator has an answer."""
+        """The peg of a predicted point, made when the point is first named; the anticipator is asked for its time."""
         key = anticipator_key(anticipator, sync)
         peg = self._pegs.get(key)
         if not isinstance(peg, AnticipatorPeg):
@@ -128,7 +130,7 @@ class PegBoard:
         return peg
 
     def renew(self, anticipator: str, sync: str) -> None:
-        """Have a predicted point mean the next time it happens; what hangs on it already keeps this one."""
+        """Let a predicted point mean the next occurrence; pegs that depend on it already keep this one."""
         key = anticipator_key(anticipator, sync)
         if key in self._pegs:
             self._owners.pop(self._pegs[key], None)
@@ -136,7 +138,7 @@ class PegBoard:
             self._owners[self._pegs[key]] = key.block_key
 
     def ask(self, anticipator: str, forecast: Callable[[str], Time]) -> None:
-        """Have an anticipator asked for the time of its points when they are first named."""
+        """Ask ``forecast(sync)`` for the times of the points of an anticipator when they are first named."""
         self._forecasts[anticipator] = forecast
 
     def predictions(self, anticipator: str) -> dict[str, AnticipatorPeg]:
@@ -145,15 +147,30 @@ class PegBoard:
         pegs = ((key.sync, self._pegs[key]) for key in keys if key.behavior == anticipator)
         return {sync: peg for sync, peg in pegs if isinstance(peg, AnticipatorPeg)}
 
+    @property
+    def predicted_points(self) -> Sequence[PegKey]:
+        """The predicted points that were named, in order of naming."""
+        return self._blocks.get(_PREDICTED, ())
+
+    def spent_points(self, now: GlobalTime) -> list[PegKey]:
+        """The predicted points that no peg depends on and that are unknown or have passed, in order of naming."""
+        pegs = ((key, self._pegs[key]) for key in self.predicted_points)
+        return [key for key, peg in pegs if not peg.dependents and (peg.value is None or is_due(peg.value, now))]
+
+    def forget_point(self, key: PegKey) -> None:
+        """Forget a predicted point that no peg depends on; if it is named again, it is a new one."""
+        self._blocks[_PREDICTED].remove(key)
+        self._owners.pop(self._pegs.pop(key), None)
+
     def snapshot(self, newest: int | None = None) -> tuple[PegView, ...]:
-        """All that is named, in order of naming; or only so many of the newest."""
+        """The named pegs, in order of naming; only the newest, if a number is given."""
         first = 0 if newest is None else max(0, len(self._pegs) - newest)
         pegs = islice(self._pegs.items(), first, None)
         return tuple(view_of(key, peg, self._owners.get(peg)) for key, peg in pegs)
 
     def _point(self, key: PegKey) -> TimeCell:
         if key not in self._pegs:
-            raise error("no-point", point=key)
+            raise RealizerError(NoPoint(point=str(key)))
         return self._pegs[key]
 
     def _forecast(self, key: PegKey) -> Time:

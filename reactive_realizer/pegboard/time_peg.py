@@ -1,4 +1,4 @@
-"""Time pegs: points in time that follow what they hang on (thesis 7.3.2, 7.3.3).
+"""Time pegs: points in time that follow the pegs they depend on (thesis 7.3.2, 7.3.3).
 
 A peg is one cell; its value is a global time in seconds, None while unknown. A sync point placed at a local time of its
 block is an `OffsetPeg` on the `BMLBlockPeg`: moved with the block, read back as a block time by subtraction.
@@ -10,11 +10,10 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import ClassVar, NamedTuple
 
 from reactive_realizer.clock.units import GlobalTime, Time
-from reactive_realizer.pegboard.formulas import between, latest, not_after, not_before, shifted_by
-from reactive_realizer.reactive.cell import Cell, Derived, Source
-from reactive_realizer.reactive.commit import Stamp
-from reactive_realizer.reactive.failure import Failure
-from reactive_realizer.reactive.graph import Graph
+from reactive_realizer.pegboard.formulas import between, latest, not_after, not_after_next, not_before, shifted_by
+from reactive_realizer.reactive.cell import Derived, Source
+from reactive_realizer.reactive.errors import Failure
+from reactive_realizer.reactive.graph import Cell, Graph, Stamp
 
 TimeCell = Cell[Time]
 Bound = tuple[TimeCell, float]
@@ -24,14 +23,14 @@ _MOST_NAMES = 5
 
 
 class Link(NamedTuple):
-    """What a peg hangs on, as data; a pinned peg keeps those that it was cut from, as they were then.
+    """A dependency of a peg, as data; a pinned peg keeps those that it was cut from, as they were then.
 
     Attributes:
         name: of the other peg.
         kind: of the other peg.
         time: s, global; None while unknown.
         stamp: of the commit that gave it this time.
-        peg: the other peg, as long as anybody else has it.
+        peg: the other peg, for as long as something else refers to it.
     """
 
     name: str
@@ -42,14 +41,15 @@ class Link(NamedTuple):
 
 
 class TimePeg(Derived[Time]):
-    """A point in time that hangs on others until it is pinned.
+    """A point in time that depends on others until it is pinned.
 
     Attributes:
-        kind: a word for what it is.
-        why: text of the BML constraint that made it; None if none did.
+        kind: name of its kind.
+        why: text of the BML constraint that it was made for; None if there is none.
+        successors: number of the last dependencies that only keep it from coming after them.
     """
 
-    __slots__ = ("_cut_from", "why")
+    __slots__ = ("_cut_from", "successors", "why")
 
     kind: ClassVar[str]
 
@@ -58,31 +58,45 @@ class TimePeg(Derived[Time]):
     ) -> None:
         super().__init__(graph, name, dependencies, formula)
         self.why: str | None = None
+        self.successors = 0
         self._cut_from: tuple[Link, ...] = ()
 
     @property
     def pinned(self) -> bool:
-        """Whether it has got its last value: its point was reached, cut, or never hung on anything."""
+        """Whether it has its last value: its point was reached or cut, or has never depended on anything."""
         return not self.dependencies
 
     @property
     def links(self) -> tuple[Link, ...]:
-        """What it hangs on; once pinned, what it hung on."""
+        """Its dependencies; once pinned, those that it was cut from."""
         return tuple(_link(cell) for cell in self.dependencies) or self._cut_from
 
     @property
     def deciding(self) -> tuple[Link, ...]:
-        """Those of its links that set its time, or on which it waits."""
-        return self.links
+        """Those of its links that determine its time, or that it waits for."""
+        time = time_of(self)
+        overtaken_by = [link for link in self._split_links[1] if time is not None and link.time == time]
+        return tuple(overtaken_by[:1]) or self._deciding()
+
+    def keep_before(self, successor: "TimePeg") -> None:
+        """Within a transaction, keep this peg from coming after another one from now on.
+
+        If the other peg depends on this one, this one is pinned at the time of the other instead.
+        """
+        if self.pinned or successor.depends_on(self):
+            self.pin(successor.value)
+        else:
+            self.rebind((*self.dependencies, successor), not_after_next(self.formula))
+            self.successors += 1
 
     def pin(self, value: Time) -> None:
-        """Within a transaction, cut it from what it hangs on and give it its last time; what it hung on is noted."""
+        """Within a transaction, cut it from its dependencies, which are noted, and give it its last time."""
         links = self.links
         super().pin(value)
         self._cut_from = links
 
-    def apart(self, name: str, time: GlobalTime) -> "TimePeg":
-        """Within a transaction: a new peg, pinned at a time, for one of the points that shared this one."""
+    def detached(self, name: str, time: GlobalTime) -> "TimePeg":
+        """A new peg, pinned at a time within a transaction, for one of the points that shared this one."""
         peg = OffsetPeg(self.graph, name, self, 0.0)
         peg.pin(time)
         return peg
@@ -92,9 +106,25 @@ class TimePeg(Derived[Time]):
     def parameters(self) -> Mapping[str, object]:
         """The numbers of its formula, by name."""
 
-    @abstractmethod
     def describe(self) -> str:
-        """What it hangs on and how, for people; once pinned, what it hung on."""
+        """The rule by which its time follows from its links, for people."""
+        own, successors = self._split_links
+        return ", not after ".join([self._rule(own), *(link.name for link in successors)])
+
+    @abstractmethod
+    def _rule(self, links: Sequence[Link]) -> str:
+        """The rule without the successors."""
+
+    def _deciding(self) -> tuple[Link, ...]:
+        """The deciding links among those that are no successors."""
+        return self._split_links[0]
+
+    @property
+    def _split_links(self) -> tuple[tuple[Link, ...], tuple[Link, ...]]:
+        """The links without the successors, and the successors."""
+        links = self.links
+        count = len(links) - self.successors
+        return links[:count], links[count:]
 
 
 class OffsetPeg(TimePeg):
@@ -113,13 +143,13 @@ class OffsetPeg(TimePeg):
         """``offset``, s."""
         return {"offset": self.offset}
 
-    def describe(self) -> str:
+    def _rule(self, links: Sequence[Link]) -> str:
         """``link + offset``."""
-        return f"{self.links[0].name} {self.offset:+g} s"
+        return f"{links[0].name} {self.offset:+g} s"
 
 
 class RatioPeg(TimePeg):
-    """A fixed fraction of the way between two other pegs: retimed, it keeps order and stretches uniformly."""
+    """A fixed fraction of the way between two other pegs: when they move, order is kept and phases scale evenly."""
 
     __slots__ = ("ratio",)
 
@@ -134,16 +164,16 @@ class RatioPeg(TimePeg):
         """``ratio``, 0 at the first and 1 at the second."""
         return {"ratio": self.ratio}
 
-    def describe(self) -> str:
+    def _rule(self, links: Sequence[Link]) -> str:
         """``ratio of the way before .. after``."""
-        before, after = self.links
+        before, after = links
         return f"{self.ratio:.3g} of the way {before.name} .. {after.name}"
 
 
 class BoundedPeg(TimePeg):
-    """Where another peg is by nature, as far as its bounds let it, each of which is a peg and a distance (s).
+    """A peg that follows another one, the natural peg, within bounds; each bound is a peg and a distance (s).
 
-    A bound beyond one of its stops binds nothing: it cannot be kept any more.
+    A bound beyond one of the stops has no effect: it cannot be kept any more.
     """
 
     __slots__ = ("bounds", "stops")
@@ -167,22 +197,21 @@ class BoundedPeg(TimePeg):
         """``bounds`` and ``stops``, the distance (s) from each peg after the first."""
         return {"bounds": list(self.bounds), "stops": list(self.stops)}
 
-    @property
-    def deciding(self) -> tuple[Link, ...]:
-        """The natural peg, or the bound that holds it elsewhere."""
+    def _deciding(self) -> tuple[Link, ...]:
+        """The natural peg, or the bound that keeps it from being there."""
         return _reached(self, (0.0, *self.bounds))
 
-    def _described(self, side: str, beyond: str) -> str:
-        natural, *others = self.links
+    def _described(self, links: Sequence[Link], side: str, beyond: str) -> str:
+        natural, *others = links
         stops = _shifted(others[len(self.bounds) :], self.stops)
         bounds = _shifted(others[: len(self.bounds)], self.bounds)
         return f"{natural.name}, not {side} {bounds}" + (f", unless that is {beyond} {stops}" if stops else "")
 
 
 class AfterPeg(BoundedPeg):
-    """Where another peg is, but not before any of its bounds: a live `after`.
+    """A peg that follows another one, but does not come before any of its bounds: a live `after`.
 
-    A bound that is unknown is waited for. Whoever moves a bound pushes this peg (thesis 7.4.1), but not past a ceiling.
+    It is unknown while a bound is. A bound that moves pushes it (thesis 7.4.1), but not past a ceiling.
     """
 
     __slots__ = ()
@@ -194,15 +223,15 @@ class AfterPeg(BoundedPeg):
     ) -> None:
         super().__init__(graph, name, natural, bounds, ceilings, not_before)
 
-    def describe(self) -> str:
+    def _rule(self, links: Sequence[Link]) -> str:
         """``natural, not before ...``."""
-        return self._described("before", "after")
+        return self._described(links, "before", "after")
 
 
 class BeforePeg(BoundedPeg):
-    """Where another peg is, but not after any of its bounds: a live `before`.
+    """A peg that follows another one, but does not come after any of its bounds: a live `before`.
 
-    A bound that is unknown binds nothing, and neither does one in front of a floor.
+    An unknown bound has no effect, and neither has one before a floor.
     """
 
     __slots__ = ()
@@ -214,13 +243,13 @@ class BeforePeg(BoundedPeg):
     ) -> None:
         super().__init__(graph, name, natural, bounds, floors, not_after)
 
-    def describe(self) -> str:
+    def _rule(self, links: Sequence[Link]) -> str:
         """``natural, not after ...``."""
-        return self._described("after", "before")
+        return self._described(links, "after", "before")
 
 
 class LatestPeg(TimePeg):
-    """The latest of some pegs, and not before ``floor``; unknown as long as one of them is."""
+    """The latest of several pegs, and not before ``floor``; unknown while one of them is."""
 
     __slots__ = ("floor",)
 
@@ -231,7 +260,7 @@ class LatestPeg(TimePeg):
         super().__init__(graph, name, tuple(links), latest(floor))
 
     def wait_for(self, floor: GlobalTime, links: Sequence[TimeCell]) -> None:
-        """Within a transaction, hang on other pegs."""
+        """Within a transaction, depend on other pegs."""
         self.floor = floor
         self.rebind(tuple(links), latest(floor))
 
@@ -240,20 +269,19 @@ class LatestPeg(TimePeg):
         """``floor``, s, global."""
         return {"floor": self.floor}
 
-    @property
-    def deciding(self) -> tuple[Link, ...]:
-        """The latest; none where that is the floor."""
+    def _deciding(self) -> tuple[Link, ...]:
+        """The latest; none if that is the floor."""
         return _reached(self, (0.0,) * len(self.links))
 
-    def describe(self) -> str:
+    def _rule(self, links: Sequence[Link]) -> str:
         """``latest of ...``, the first few by name."""
-        names = [link.name for link in self.links]
+        names = [link.name for link in links]
         more = [f"{len(names) - _MOST_NAMES} more"] if len(names) > _MOST_NAMES else []
         return "latest of " + ", ".join([f"{self.floor:g} s", *names[:_MOST_NAMES], *more])
 
 
 class BMLBlockPeg(LatestPeg):
-    """The start of a BML block: predicted from what the block waits for, pinned when it starts."""
+    """The start of a BML block: predicted from the pegs that the block waits for, pinned when it starts."""
 
     __slots__ = ()
 
@@ -261,7 +289,7 @@ class BMLBlockPeg(LatestPeg):
 
 
 class OpenPeg(TimePeg):
-    """The end of what goes on until somebody ends it: unknown until it is pinned."""
+    """The end of a behavior that persists until it is ended: unknown until it is pinned."""
 
     __slots__ = ()
 
@@ -277,8 +305,8 @@ class OpenPeg(TimePeg):
         """None."""
         return {}
 
-    def describe(self) -> str:
-        """That nobody knows."""
+    def _rule(self, links: Sequence[Link]) -> str:
+        """A constant."""
         return "until it is ended"
 
 
@@ -289,7 +317,7 @@ class AnticipatorPeg(Source[Time]):
 
 
 def kind_of(peg: TimeCell) -> str:
-    """A word for what a peg is: offset, ratio, after, before, latest, block, open, predicted."""
+    """The kind of a peg: offset, ratio, after, before, latest, block, open or predicted."""
     return peg.kind if isinstance(peg, TimePeg) else "predicted"
 
 

@@ -1,4 +1,4 @@
-"""What is played between pegs: units with sync points and preferred timing, whatever the modality.
+"""Plan units: behaviors in a plan, with sync points on pegs and a preferred timing, in any modality.
 
-The room knows pegs and BML descriptions; it knows no engine and no scheduler.
+This package knows pegs and BML descriptions, but no engines and no scheduler.
 """

@@ -1,17 +1,14 @@
-"""What of a behavior may be changed while it plays (thesis 6.6.6)."""
+"""Parameters of a behavior that may be changed while it plays (thesis 6.6.6)."""
 
 from collections.abc import Collection
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from reactive_realizer.reactive.cell import Source
 
-if TYPE_CHECKING:
-    from reactive_realizer.planunit.plan_unit import PlanUnit
-
 
 class Range(NamedTuple):
-    """The values that mean something, both ends among them, in the unit of the parameter."""
+    """The valid values of a parameter, both ends included, in the unit of the parameter."""
 
     low: float
     high: float
@@ -21,9 +18,9 @@ class Range(NamedTuple):
 
 
 def spelled(word: str, known: Collection[str]) -> str:
-    """A name or another word as those spell it who know it: it may be said in any case, `_` like `-`.
+    """A word in the spelling of the known word that differs from it only in case or in ``-`` for ``_``.
 
-    What nobody knows stays as it is said. Of names that are the same word, as of formulas, each keeps its own.
+    An unknown word is returned as it is, and so is a known one.
     """
     if word in known:
         return word
@@ -36,26 +33,24 @@ def _folded(word: str) -> str:
 
 @dataclass(slots=True, eq=False)
 class Parameter:
-    """A value of a unit as a cell: whatever shows it follows.
+    """A parameter of a unit that plays; whatever reads its cell follows its changes.
 
     Attributes:
-        unit: whose it is.
         cell: the value.
-        range: of its values.
-        owner: the unit that changed it last; of two that change it, the later start wins.
+        range: of valid values.
+        owner: the unit that changes it; if two do, the one that started later.
     """
 
-    unit: "PlanUnit"
     cell: Source[float]
     range: Range
-    owner: "PlanUnit | None" = None
+    owner: object = None
 
     @property
     def value(self) -> float:
-        """What it is now."""
+        """The present value."""
         return self.cell.value
 
     def set(self, value: float) -> None:
-        """Give it a value, as a transaction of its own or within one; for the scheduler alone."""
+        """Set the value, in a transaction of its own or within one; for the scheduler alone."""
         with self.cell.graph.transaction(f"set {self.cell.name}"):
             self.cell.set(value)

@@ -1,4 +1,4 @@
-"""From time to phase, for a motion whose pegs may move while it plays."""
+"""Maps time to the phase of a motion whose pegs may move while it plays."""
 
 from collections.abc import Mapping
 
@@ -7,10 +7,10 @@ from reactive_realizer.planunit.plan_unit import PlanUnit
 
 
 class PhaseClock:
-    """Walks evenly from each key position to the next, so that it gets there when its sync point is due.
+    """Advances the phase linearly from each key position to the next, to arrive when its sync point is due.
 
-    A point that moves changes how fast the phase goes on from here, never the phase itself: a running motion is
-    stretched or hurried, it does not jump. Without changes the phase is the linear interpolation between the points.
+    If a point moves, the rate changes from now on, but not the phase itself: a motion is slowed down or sped up, and
+    never jumps.
 
     Args:
         keys: sync id -> phase, 0 to 1, in the order in which they are reached.
@@ -23,7 +23,7 @@ class PhaseClock:
         self.phase = 0.0
 
     def advance(self, unit: PlanUnit, now: GlobalTime) -> float:
-        """The phase at a time, not before the one of the last call; it waits where the next point is unknown."""
+        """The phase at a time, not before that of the last call; it stands still while the next point is unknown."""
         while self._next < len(self._keys):
             sync, phase = self._keys[self._next]
             time = unit.time(sync)

@@ -1,16 +1,18 @@
-"""A behavior in a plan: its sync points on pegs, and how far it has come."""
+"""A behavior in a plan: its sync points on pegs, and its progress."""
 
 import itertools
 import logging
-from collections.abc import Mapping
+from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
+from typing import NamedTuple
 
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.clock.units import RESOLUTION, GlobalTime, Time, is_due
 from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.peg_key import BlockKey, PegKey
-from reactive_realizer.pegboard.time_peg import TimePeg
+from reactive_realizer.pegboard.time_peg import OpenPeg, TimePeg
+from reactive_realizer.planunit.faults import Overtaken, TooShort
 from reactive_realizer.planunit.parameter import Parameter
 from reactive_realizer.planunit.timing import OPEN, SHORTEST, Timing
 
@@ -18,12 +20,12 @@ logger = logging.getLogger(__name__)
 
 
 class UnitState(Enum):
-    """Where a unit stands, in the words of Kopp and Wachsmuth that the thesis uses (7.3.4)."""
+    """The state of a unit, in the terms of Kopp and Wachsmuth that the thesis uses (7.3.4)."""
 
     PENDING = "pending"
     """Planned; its block has not started."""
     LURKING = "lurking"
-    """Its block plays, its own start is ahead."""
+    """Its block plays, but its own start is not reached."""
     IN_EXEC = "in_exec"
     DONE = "done"
     DROPPED = "dropped"
@@ -35,41 +37,42 @@ class SyncPoint:
 
     Attributes:
         id: the sync id.
-        peg: when; shared with the sync points it is tied to.
-        tied: whether BML says when; else it is where its behavior would like it.
-        fired: the time it was reported with, None before.
+        peg: its time; shared with the sync points it is tied to.
+        tied: whether a BML constraint names it; otherwise its behavior prefers its time.
+        fired: whether it has been reported; its peg is pinned then.
         cut: whether it was reported because its behavior was cut short.
     """
 
     id: str
     peg: TimePeg
     tied: bool = False
-    fired: Time = None
+    fired: bool = False
     cut: bool = False
 
-    @property
-    def time(self) -> Time:
-        """When it was, or is predicted to be."""
-        return self.peg.value if self.fired is None else self.fired
+
+class DuePoint(NamedTuple):
+    """A sync point that is to fire, and the time (s, global) that it is reported with."""
+
+    point: SyncPoint
+    time: GlobalTime
 
 
 class PlanUnit:
-    """What an engine plays for one behavior; engines make subclasses of it.
+    """A behavior as an engine plays it; engines make subclasses of it.
 
-    A unit fires its sync points in order, each once, with the time of its peg, however late a tick is; a point whose
-    successor is due is due itself, so that order holds whatever a live retiming did.
+    A unit fires its sync points in order, each once, with the time of its peg, even if a tick is late.
 
     Attributes:
-        block: of which block.
-        behavior: what was asked for.
-        timing: what it prefers; the strategy decides.
-        resources: what of the body it owns while it plays; units that share one exclude each other.
+        block: name of its block.
+        behavior: its description.
+        timing: the timing that it prefers; the strategy decides.
+        resources: the parts of the body that it owns while it plays; units that share one exclude each other.
         group: its replacement group (thesis 8.7.5), None without one.
-        yields: whether others of its group may take its place while it plays, and give it back when they end: of these
-            the one that started last plays. Who is overwritten keeps its points and their feedback.
+        yields: whether units of its group that start later replace it until they end. A unit that is replaced keeps its
+            points and their feedback.
         points: its sync points in order; empty until the plan is committed.
         open: pegs of the points that are unknown until it is ended, if it is persistent.
-        parameters: what of it may be changed while it plays, by name.
+        parameters: those that may be changed while it plays, by name.
     """
 
     def __init__(
@@ -89,31 +92,31 @@ class PlanUnit:
     # --- for subclasses
 
     def on_start(self, time: GlobalTime) -> None:
-        """The unit begins to play."""
+        """Called when the unit begins to play."""
 
     def on_sync(self, sync: str, time: GlobalTime) -> None:
-        """A sync point was reached; ``start`` and ``end`` too."""
+        """Called when a sync point is reached, also for ``start`` and ``end``."""
 
     def on_finish(self, time: GlobalTime) -> None:
-        """The unit ended or was interrupted: the way back to rest is the engine's motion."""
+        """Called when the unit has ended or is interrupted; the engine moves the body back to rest."""
 
     def preference(self, now: GlobalTime) -> Timing:
-        """How it would like to be timed if it began now; a chunk is planned anew when it starts (thesis 12.1.4)."""
+        """The timing that it prefers if it begins now; a chunk is planned again when it starts (thesis 12.1.4)."""
         return self.timing
 
     def settle(self, taken: frozenset[str]) -> None:
-        """Choose what to play, if there is a choice, now that it is to begin.
+        """Choose among alternatives just before the unit begins.
 
         Args:
-            taken: the resources that others own and keep.
+            taken: the resources that other units own and keep.
         """
 
     def gentle_end(self, time: GlobalTime) -> GlobalTime:
-        """When it can end without breaking off in the middle of something, if it is asked to at a time."""
+        """The first time, not before ``time``, at which it can end without being cut, for example within a word."""
         return time
 
     def end_details(self, time: GlobalTime) -> Mapping[str, str]:
-        """What the feedback of an interrupted ``end`` tells beside the time."""
+        """Attributes of the feedback of an interrupted ``end``, beside the time."""
         return {}
 
     # --- for the player and the scheduler
@@ -125,41 +128,20 @@ class PlanUnit:
     @property
     def begun(self) -> bool:
         """Whether its start was reached."""
-        return bool(self.points) and self.points[0].fired is not None
+        return bool(self.points) and self.points[0].fired
 
     @property
     def live(self) -> bool:
-        """Whether something of it is ahead."""
+        """Whether it is neither done nor dropped."""
         return self.state not in (UnitState.DONE, UnitState.DROPPED)
 
     def time(self, sync: str) -> Time:
-        """When one of its points was, or is predicted to be, as `times` tells it of all.
+        """The time of the peg of one of its points.
 
         Raises:
             KeyError: it has no such point.
         """
-        place = next((place for place, point in enumerate(self.points) if point.id == sync), None)
-        if place is None:
-            raise KeyError(sync)
-        time = self.points[place].time
-        if time is None or not self.begun or self.points[place].fired is not None:
-            return time
-        known = (point.time for point in self.points[place:])
-        return min(each for each in known if each is not None)
-
-    def times(self) -> dict[str, Time]:
-        """When each of its points was, or is predicted to be; once it plays, none comes after its successor."""
-        if not self.begun:
-            return {point.id: point.time for point in self.points}
-        times: dict[str, Time] = {}
-        following: Time = None
-        for point in reversed(self.points):
-            time = point.time
-            if point.fired is None and time is not None and following is not None:
-                time = min(time, following)
-            times[point.id] = time
-            following = following if time is None else time
-        return dict(reversed(times.items()))
+        return self.point(sync).peg.value
 
     def point(self, sync: str) -> SyncPoint:
         """One of its points.
@@ -173,52 +155,52 @@ class PlanUnit:
         raise KeyError(sync)
 
     def was_cut(self, sync: str) -> bool:
-        """Whether one of the points that it once had was never reached, or not as planned: it was cut short before."""
+        """Whether a point that it was planned with was cut: it was reported early, or never will be."""
         point = next((point for point in self.points if point.id == sync), None)
         return point is None or point.cut
 
     @property
     def last_known(self) -> SyncPoint:
-        """Its end, or, while it persists, the last point that can be known."""
+        """Its end or, while it persists, the last point whose time can be known."""
         return next(point for point in reversed(self.points) if not self._open(point))
 
     @property
-    def lasting(self) -> bool:
-        """Whether it persists, and nothing else is ahead of it."""
+    def only_persists(self) -> bool:
+        """Whether only its unknown end is left, because it persists."""
         return self.begun and self.timing.persistent and all(self._open(point) for point in self.ahead())
 
     def _open(self, point: SyncPoint) -> bool:
-        return self.timing.persistent and point.id in OPEN and point.fired is None
+        return self.timing.persistent and point.id in OPEN and not point.fired
 
     def ahead(self) -> list[SyncPoint]:
-        """The points not yet fired."""
-        return [point for point in self.points if point.fired is None]
+        """The points that have not fired."""
+        return [point for point in self.points if not point.fired]
 
     def subsiding(self, time: GlobalTime) -> bool:
-        """Whether at a time nothing is left of it but a way back to rest that BML says nothing of."""
-        relaxed = any(point.id == "relax" and is_due(point.fired, time) for point in self.points)
+        """Whether, at a time, only a return to rest is left of it whose end no BML constraint names."""
+        relaxed = any(point.id == "relax" and point.fired and is_due(point.peg.value, time) for point in self.points)
         return relaxed and not self.points[-1].tied
 
     def excludes(self, other: "PlanUnit") -> bool:
-        """Whether this and another one cannot play together."""
+        """Whether this unit and another one cannot play at the same time."""
         rivals = self.group is not None and self.group == other.group
         if rivals and (self.yields or other.yields):
-            # Whichever lies above hides the other; of two that begin and end together neither can.
-            return self.times_around == other.times_around
+            # The upper one hides the other; of two that begin and end together, neither is above.
+            return self.start_and_end == other.start_and_end
         return rivals or bool(self.resources & other.resources)
 
     @property
-    def times_around(self) -> tuple[Time, Time]:
-        """When it starts and ends."""
-        return self.points[0].time, self.points[-1].time
+    def start_and_end(self) -> tuple[Time, Time]:
+        """The times of its first and its last point."""
+        return self.points[0].peg.value, self.points[-1].peg.value
 
     def due(self, now: GlobalTime) -> bool:
-        """Whether it is its turn to begin."""
+        """Whether it can begin: its block plays, and its start has come."""
         return self.state is UnitState.LURKING and is_due(self.points[0].peg.value, now)
 
     def overtaken(self) -> tuple[tuple[str, GlobalTime], tuple[str, GlobalTime]] | None:
-        """Two of its points whose known times lost their order (thesis 7.15), if there are such; tied ones first."""
-        known = [(point, time) for point in self.points if (time := point.time) is not None]
+        """Two points, with their times, that are out of order (thesis 7.15), if there are any; tied ones first."""
+        known = [(point, time) for point in self.points if (time := point.peg.value) is not None]
         for points in ([each for each in known if each[0].tied], known):
             for (earlier, time), (later, late) in itertools.pairwise(points):
                 if time > late + RESOLUTION:
@@ -226,53 +208,98 @@ class PlanUnit:
         return None
 
     def refusal(self) -> Fault | None:
-        """Why it cannot begin with the times that its points have now (thesis 7.14, 7.15), if it cannot.
+        """The fault that keeps it from beginning with the present times of its points (thesis 7.14, 7.15), if any.
 
-        Times from outside may lose their order for a while; that is judged when it is to begin.
+        This is checked only when it is about to begin, because times from outside may be out of order temporarily.
         """
         start, end = self.points[0].peg.value, self.points[-1].peg.value
         if (lost := self.overtaken()) is not None:
             (sync, time), (later, late) = lost
-            return Fault("overtaken", {"sync": sync, "time": time, "later": later, "late": late})
+            return Overtaken(sync=sync, time=time, later=later, late=late)
         if start is None or end is None or self.timing.instant or end - start >= SHORTEST:
             return None
-        return Fault("too-short")
+        return TooShort()
 
     def over_before(self, time: GlobalTime) -> bool:
-        """Whether even its end has passed when its block starts."""
+        """Whether its end lies before a time: the start of its block."""
         end = self.points[-1].peg.value
         return end is not None and end < time - RESOLUTION
 
     def release(self) -> None:
-        """Its block has started."""
+        """Called when its block has started."""
         if self.state is UnitState.PENDING:
             self.state = UnitState.LURKING
 
     def begin(self) -> None:
-        """Take the stage; the start itself fires with the next `fire`."""
+        """Begin to play; the start itself fires with the next `fire`."""
         self.state = UnitState.IN_EXEC
 
-    def fire(self, now: GlobalTime, *, end: bool = True) -> list[SyncPoint]:
-        """Fire the points that are due, and those before them; the end only if it may."""
-        ahead = [point for point in self.ahead() if end or point is not self.points[-1]]
-        count = max((i + 1 for i, point in enumerate(ahead) if is_due(point.peg.value, now)), default=0)
-        for i, point in enumerate(ahead[:count]):
-            # A point overtaken by its successor fires with it.
-            times = [time for later in ahead[i:count] if (time := later.peg.value) is not None]
-            self._fire(point, min(times))
-        return ahead[:count]
+    def keep_order(self) -> bool:
+        """Within a transaction, keep each point that has not fired from coming after later ones; whether any did.
+
+        A point that was overtaken moves with the one that overtook it, for as long as that is earlier.
+        """
+        moved = False
+        later: list[tuple[GlobalTime, TimePeg]] = []
+        for point in reversed(self.ahead()):
+            time = point.peg.value
+            if time is None:
+                continue
+            overtaking = [(each, peg) for each, peg in later if time > each + RESOLUTION]
+            if overtaking:
+                # Points between the two may depend on both; only one that does not depend on this one can hold it.
+                independent = [(each, peg) for each, peg in overtaking if not peg.depends_on(point.peg)]
+                time, successor = min(independent or overtaking, key=lambda pair: pair[0])
+                point.peg.keep_before(successor)
+                moved = True
+            later.append((time, point.peg))
+        return moved
+
+    def due_points(self, now: GlobalTime, *, end: bool = True) -> list[DuePoint]:
+        """The points that are due, and unknown points before them, which have the time of the next known point."""
+        due: list[DuePoint] = []
+        successor: Time = None
+        for point in reversed(self.ahead() if end else self.ahead()[:-1]):
+            time = successor if point.peg.value is None else point.peg.value
+            if time is not None and (successor is not None or is_due(time, now)):
+                due.append(DuePoint(point, time))
+                successor = time
+        return due[::-1]
+
+    def fire(self, due: Sequence[DuePoint], now: GlobalTime) -> None:
+        """Fire points that are due ``now``."""
+        for point, time in due:
+            self._fire(point, time)
 
     def interrupt(self, time: GlobalTime) -> list[SyncPoint]:
-        """End now: of the points ahead only ``relax`` and ``end`` are kept, both at ``time``."""
-        self.points = [p for p in self.points if p.fired is not None or p.id in ("relax", "end")]
-        kept = self.ahead()
-        for point in kept:
-            point.fired, point.cut = time, True
-        self._finish(time)
-        return kept
+        """Within a transaction, end at a time: ``relax`` and ``end`` move there alone; other points are removed."""
+        self._drop_cut_points()
+        for point in self.ahead():
+            self.detach(point, time)
+        return self._cut(time)
+
+    def finish(self, time: GlobalTime, shared: Container[TimePeg]) -> list[SyncPoint]:
+        """As `interrupt`, but dependents of ``relax`` and ``end`` move along, unless the peg is a shared one."""
+        self._drop_cut_points()
+        for point in self.ahead():
+            if point.peg in shared:
+                self.detach(point, time)
+            else:
+                point.peg.pin(time)
+        return self._cut(time)
+
+    def detach(self, point: SyncPoint, time: GlobalTime) -> None:
+        """Within a transaction, move a point alone: the points that share its peg, or depend on it, keep their times.
+
+        If the point is open, because its unit persists, its dependents follow: they have no times yet.
+        """
+        if isinstance(point.peg, OpenPeg):
+            point.peg.pin(time)
+        else:
+            point.peg = point.peg.detached(str(self.key(point.id)), time)
 
     def drop(self, time: GlobalTime) -> None:
-        """Leave the plan without a word; what it moves goes back to rest, and it leaves even if that fails."""
+        """Leave the plan without feedback; if `on_finish` raises, that is logged."""
         playing = self.state is UnitState.IN_EXEC
         self.state = UnitState.DROPPED
         if playing:
@@ -281,8 +308,18 @@ class PlanUnit:
             except Exception:
                 logger.exception("%s/%s:%s failed to go back to rest", *self.block, self.behavior.id)
 
+    def _drop_cut_points(self) -> None:
+        self.points = [point for point in self.points if point.fired or point.id in OPEN]
+
+    def _cut(self, time: GlobalTime) -> list[SyncPoint]:
+        kept = self.ahead()
+        for point in kept:
+            point.fired = point.cut = True
+        self._finish(time)
+        return kept
+
     def _fire(self, point: SyncPoint, time: GlobalTime) -> None:
-        point.fired = time
+        point.fired = True
         if point is self.points[0]:
             self.on_start(time)
         self.on_sync(point.id, time)

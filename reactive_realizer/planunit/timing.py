@@ -1,4 +1,4 @@
-"""How long a behavior wants to take: its sync points in order and the phases between them."""
+"""The preferred timing of a behavior: its sync points in order and the phases between them."""
 
 import itertools
 from collections.abc import Mapping
@@ -20,20 +20,20 @@ class PhaseKind(Enum):
     RIGID = "rigid"
     ELASTIC = "elastic"
     HOLD = "hold"
-    """Takes time first, so that the phases around it keep theirs."""
+    """Stretched first, so that the phases around it keep their durations."""
     FREE = "free"
-    """Without a preference: it is as long as its ends say."""
+    """Without a preference: its two points determine its duration."""
 
 
 @dataclass(frozen=True, slots=True)
 class Phase:
-    """The way from one sync point to the next.
+    """The time between a sync point and the next one.
 
     Attributes:
         duration: preferred, s.
         kind: how it may be stretched.
-        minimum: authored limit, s; given up before any constraint is.
-        maximum: likewise.
+        minimum: authored limit, s; it is relaxed before any constraint is.
+        maximum: authored limit, s; likewise.
     """
 
     duration: float
@@ -54,11 +54,11 @@ class Timing:
     Attributes:
         points: sync ids in order, from start to end; two or more.
         phases: one between each two points.
-        instant: whether it is an event, all its points at one time; other behaviors take time (thesis 7.14).
-        persistent: whether it goes on until it is ended: until then nobody knows its relax and its end (thesis 6.3.1).
-        rigid: whether nothing of it may be stretched.
-        free: whether it follows what others leave to it, and moves nothing.
-        limited: indices of the phases with authored limits that mean something.
+        instant: whether all its points have one time; other behaviors have a duration (thesis 7.14).
+        persistent: whether it goes on until it is ended, and its relax and end are unknown until then (thesis 6.3.1).
+        rigid: whether all its phases are rigid.
+        free: whether all its phases are free: it takes the time that other behaviors leave, and moves none of them.
+        limited: indices of the phases with authored limits that have an effect.
     """
 
     points: tuple[str, ...]
@@ -71,7 +71,7 @@ class Timing:
 
     def __post_init__(self) -> None:
         if len(self.phases) != len(self.points) - 1:
-            raise ValueError(f"{len(self.points)} points want {len(self.points) - 1} phases, not {len(self.phases)}")
+            raise ValueError(f"{len(self.points)} points need {len(self.points) - 1} phases, not {len(self.phases)}")
         object.__setattr__(self, "rigid", all(phase.kind is PhaseKind.RIGID for phase in self.phases))
         object.__setattr__(self, "free", all(phase.kind is PhaseKind.FREE for phase in self.phases))
         limited = (k for k, phase in enumerate(self.phases) if phase.authored and phase.kind is not PhaseKind.RIGID)
@@ -79,7 +79,7 @@ class Timing:
 
     @property
     def closed(self) -> "Timing":
-        """What of it can be timed: all of it, or, while it persists, what comes before it relaxes."""
+        """The part that can be timed: all of it or, if it is persistent, the part before its relax."""
         if not self.persistent:
             return self
         count = len([point for point in self.points if point not in OPEN])

@@ -1,5 +1,5 @@
-"""Cells that change together: sources are written, derived cells follow, once each, in order.
+"""Reactive cells: sources are written, and the cells that are computed from them follow, once each and in order.
 
-The room knows no domain word, no task and no clock. Dependencies are declared, never discovered: an edge can be drawn,
-explained, and survives an ``await``.
+This package knows no domain terms, no tasks and no clock. Dependencies are declared, not discovered: an edge can be
+drawn and explained, and survives an ``await``.
 """

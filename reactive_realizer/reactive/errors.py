@@ -1,10 +1,27 @@
-"""Misuse of the graph: mistakes of a programmer, not of a user."""
+"""Failures of formulas, which are values, and misuse of the graph, which is a programming error."""
 
-from reactive_realizer.reactive.failure import Failure
+from dataclasses import dataclass, field
+
+
+@dataclass(frozen=True, slots=True)
+class Failure:
+    """The value of a cell whose formula raised. It propagates, is recorded and heals like any other value.
+
+    Two failures for the same reason are equal, so that a repeated failure is no change.
+
+    Attributes:
+        cell: name of the cell whose formula raised.
+        reason: the error, for people.
+        error: the error.
+    """
+
+    cell: str
+    reason: str
+    error: Exception = field(compare=False, repr=False)
 
 
 class ReactiveError(RuntimeError):
-    """Base of the errors of this room."""
+    """Base of the errors of this package."""
 
 
 class CellError(ReactiveError):
@@ -29,7 +46,7 @@ class WriteOutsideTransactionError(ReactiveError):
 
 
 class WriteDuringCommitError(ReactiveError):
-    """An observer wrote a cell; observers only look."""
+    """An observer wrote a cell; observers may only read."""
 
 
 class DisposedCellError(ReactiveError):

@@ -1,19 +1,23 @@
-"""Transactions: many writes, one propagation, one record."""
+"""Cells and the graph that propagates changes through them: many writes, one propagation, one record."""
 
+import asyncio
 import logging
-from collections.abc import Callable, Iterator
+from collections.abc import AsyncIterator, Callable, Collection, Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from heapq import heappop, heappush
 from operator import attrgetter
-from typing import Any
+from typing import Any, Generic, NamedTuple, TypeVar
 
-from reactive_realizer.reactive.cell import Cell, Derived
-from reactive_realizer.reactive.commit import Change, Commit, Stamp
 from reactive_realizer.reactive.errors import (
+    CellError,
     DisposedCellError,
+    Failure,
     WriteDuringCommitError,
     WriteOutsideTransactionError,
 )
+
+T = TypeVar("T")
 
 logger = logging.getLogger(__name__)
 
@@ -21,49 +25,235 @@ _SEQUENCE = attrgetter("sequence")
 _tuple = tuple.__new__
 
 
-class Graph:
-    """Owns the cells' order and propagates changes through them.
-
-    Cells that a write reaches are recomputed once each, in the order (rank, sequence), and no further than values
-    really change (equality cut-off). Touched cells wait in one bucket a rank: measured several times cheaper than one
-    heap of cells.
+class Cell(Generic[T]):
+    """A node of the graph: a value that other cells may depend on.
 
     Attributes:
-        time: what its owner says the time is; noted in commits.
-        waiting: ranks of which cells are to be recomputed, lowest first; mostly none.
+        name: for people: errors, logs, the viewer.
+        rank: greater than the rank of every cell that it depends on.
+        sequence: order of creation; decides among cells of one rank, so that propagation has one order.
+        dependents: the cells that are computed from it, in order of linking.
+        dependencies: the cells that it is computed from.
+        stale: whether it has to be recomputed before it is read.
+        stamp: of the commit that gave it its value; None for one made outside of a transaction and never changed.
+        disposed: whether it keeps its value forever.
+    """
+
+    __slots__ = (
+        "__weakref__", "_value", "dependents", "disposed", "graph", "name", "observers", "rank", "sequence", "stale",
+        "stamp",
+    )  # fmt: skip
+
+    dependencies: "tuple[Cell[Any], ...]" = ()
+
+    _value: T | Failure
+
+    def __init__(self, graph: "Graph", name: str) -> None:
+        self.graph = graph
+        self.name = name
+        self.rank = 0
+        self.dependents: dict[Cell[Any], None] = {}
+        self.observers: dict[Subscription, None] = {}
+        self.stale = False
+        self.stamp: Stamp | None = None
+        self.disposed = False
+        self.sequence = graph.enter(self)
+
+    @property
+    def value(self) -> T:
+        """The current value, never stale: inside a transaction all earlier writes are propagated first.
+
+        Raises:
+            CellError: there is none, because its formula or one that it depends on raised.
+        """
+        if self.graph.stale_ranks:  # tested here, because no other property is read as often
+            self.graph.settle()
+        value = self._value
+        if isinstance(value, Failure):
+            raise CellError(self.name, value)
+        return value
+
+    @property
+    def result(self) -> T | Failure:
+        """The current value, or the failure that stands for it."""
+        self.graph.settle()
+        return self._value
+
+    def compute(self) -> T | Failure:
+        """Its value, computed anew from the cells that it depends on, if there are any."""
+        return self._value
+
+    def depends_on(self, other: "Cell[Any]") -> bool:
+        """Whether this is the other cell, or is computed from it, directly or through others."""
+        seen: set[Cell[Any]] = {other}
+        waiting: list[Cell[Any]] = [other]
+        while waiting:
+            cell = waiting.pop()
+            if cell is self:
+                return True
+            new = [each for each in cell.dependents if each not in seen and each.rank <= self.rank]
+            seen.update(new)
+            waiting += new
+        return False
+
+    def observe(
+        self, notify: Callable[[T | Failure], None], ended: Callable[[], object] = lambda: None
+    ) -> "Subscription":
+        """Call ``notify(value)`` after each commit that changed this cell, and ``ended()`` when it is disposed of.
+
+        Neither may write. An error that ``notify`` raises is logged.
+        """
+        return Subscription(self.observers, notify, ended)
+
+    def changes(self) -> AsyncIterator[T | Failure]:
+        """The values that commits give the cell from now on; a slow reader gets only the latest.
+
+        It ends when the cell is disposed of. It holds no subscription between two values, so it may be abandoned.
+        """
+        return self._changes_since(self._value)
+
+    def dispose(self) -> None:
+        """Take the cell out of propagation, at any time: it keeps its value.
+
+        Its dependents go on with that value as a constant; its observers are not notified any more.
+        """
+        self.graph.settle()
+        self.disposed = True
+        for subscription in list(self.observers):
+            subscription.dispose()
+            subscription.ended()
+
+    async def _changes_since(self, seen: T | Failure) -> AsyncIterator[T | Failure]:
+        while True:
+            # NaN is not equal to itself, but the same.
+            if self._value is not seen and self._value != seen:
+                seen = self._value
+                yield seen
+            elif self.disposed:
+                return
+            else:
+                await self._next_change()
+
+    async def _next_change(self) -> None:
+        changed = asyncio.Event()
+        subscription = self.observe(lambda _: changed.set(), changed.set)
+        try:
+            await changed.wait()
+        finally:
+            subscription.dispose()
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} {self.name} = {self._value}>"
+
+
+class Subscription:
+    """An observer of a cell, until it is disposed of; disposing twice is harmless."""
+
+    __slots__ = ("_observers", "ended", "notify")
+
+    def __init__(
+        self,
+        observers: "dict[Subscription, None]",
+        notify: Callable[[Any], None],
+        ended: Callable[[], object],
+    ) -> None:
+        self.notify = notify
+        self.ended = ended
+        self._observers = observers
+        observers[self] = None
+
+    def dispose(self) -> None:
+        """Stop observing."""
+        self._observers.pop(self, None)
+
+
+class Change(NamedTuple):
+    """A cell whose value after a commit is not the one before it; a value may be a `Failure`."""
+
+    cell: Cell[Any]
+    old: Any
+    new: Any
+
+
+@dataclass(frozen=True, slots=True)
+class Stamp:
+    """Identifies a commit; each cell keeps the stamp of the commit that gave it its value.
+
+    Attributes:
+        sequence: number of the commit, from 1.
+        cause: the reason for the transaction, for people.
+        time: of the commit, as the owner of the graph sets it.
+    """
+
+    sequence: int
+    cause: str
+    time: float
+
+
+@dataclass(frozen=True, slots=True)
+class Commit:
+    """The record of a transaction that changed or made something.
+
+    Attributes:
+        stamp: identifies it.
+        changes: in order of recomputation; a cell that went A -> B -> A is not among them.
+    """
+
+    stamp: Stamp
+    changes: tuple[Change, ...]
+
+
+class Graph:
+    """Propagates changes through cells, in transactions.
+
+    Cells that a write reaches are recomputed once each, in the order (rank, sequence), and only where a value they
+    depend on has really changed. Stale cells wait in one bucket per rank: measured several times cheaper than one heap
+    of cells.
+
+    Attributes:
+        time: noted in commits; its owner sets it.
+        stale_ranks: a heap of the ranks that have stale cells; mostly empty.
     """
 
     def __init__(self) -> None:
         self.time = 0.0
+        self.stale_ranks: list[int] = []
+        self._buckets: dict[int, list[Cell[Any]]] = {}
         self._sequence = 0
         self._commits = 0
         self._depth = 0
         self._notifying = False
-        self._buckets: dict[int, list[Derived[Any]]] = {}
-        self.waiting: list[int] = []
         self._before: dict[Cell[Any], Any] = {}
         self._made: list[Cell[Any]] = []
+        self._rules: list[Callable[[Collection[Cell[Any]]], None]] = []
         self._listeners: list[Callable[[Commit], None]] = []
 
     def listen(self, listener: Callable[[Commit], None]) -> None:
         """Call ``listener(commit)`` after every commit that changed or made something, and after the cells' observers.
 
-        It may not write; what it raises is logged.
+        It may not write; an error that it raises is logged.
         """
         self._listeners.append(listener)
 
+    def before_commit(self, rule: Callable[[Collection[Cell[Any]]], None]) -> None:
+        """Call ``rule(changed)`` at the end of every transaction that changed cells, before it commits.
+
+        The rule may write, as a part of the transaction; ``changed`` then grows by the cells that this changes.
+        """
+        self._rules.append(rule)
+
     @contextmanager
     def transaction(self, cause: str) -> Iterator[None]:
-        """Writes inside are seen together, as one commit; a transaction within a transaction joins it.
+        """Commit the writes of the body together; a transaction within a transaction joins it.
 
-        A body that raises commits what it wrote until then, so that the graph stays consistent: whoever may fail does
-        so before opening a transaction.
+        If the body raises, its writes until then are committed, so that the graph stays consistent: do what may fail
+        before opening a transaction.
 
         Raises:
             WriteDuringCommitError: opened by an observer or listener.
         """
         if self._notifying:
-            raise WriteDuringCommitError(f"'{cause}' writes while a commit is being told")
+            raise WriteDuringCommitError(f"'{cause}' writes during a commit")
         self._depth += 1
         try:
             yield
@@ -71,44 +261,56 @@ class Graph:
             self._depth -= 1
             if self._depth == 0:
                 self.settle()
-                self._commit(cause)
+                try:
+                    self._apply_rules()
+                finally:
+                    self._commit(cause)
 
     # --- for the cells
 
     def enter(self, cell: Cell[Any]) -> int:
-        """Take in a new cell, which gets its number."""
+        """Take in a new cell; the number that it gets."""
         if self._depth:
             self._made.append(cell)
         self._sequence += 1
         return self._sequence
 
     def write(self, cell: Cell[Any], value: Any) -> None:
-        """Give a cell its value and wake what depends on it."""
+        """Give a cell a value.
+
+        Raises:
+            WriteOutsideTransactionError: no transaction is open.
+            DisposedCellError: the cell keeps its value forever.
+        """
         self._check_writable(cell)
         self._give(cell, value)
 
-    def touch(self, cell: Derived[Any]) -> None:
-        """Have a derived cell recomputed before its value is next read."""
-        self._check_writable(cell)
-        if not cell.waiting:
-            self._wake(cell)
+    def touch(self, cell: Cell[Any]) -> None:
+        """Have a cell recomputed, because its formula or its dependencies are other ones.
 
-    def rerank(self, cell: Derived[Any], rank: int) -> None:
-        """Move a cell to a higher rank, also where it waits to be recomputed."""
+        Raises:
+            WriteOutsideTransactionError: no transaction is open.
+            DisposedCellError: the cell keeps its value forever.
+        """
+        self._check_writable(cell)
+        if not cell.stale:
+            self._mark_stale(cell)
+
+    def rerank(self, cell: Cell[Any], rank: int) -> None:
+        """Move a cell to a higher rank, also while it waits to be recomputed."""
         cell.rank = rank
-        if cell.waiting:
-            cell.waiting = False
-            self._wake(cell)
+        if cell.stale:
+            self._mark_stale(cell)
 
     def settle(self) -> None:
-        """Recompute what was touched, lowest rank first."""
-        while self.waiting:
-            rank = heappop(self.waiting)
+        """Recompute the stale cells, lowest rank first."""
+        while self.stale_ranks:
+            rank = heappop(self.stale_ranks)
             bucket = self._buckets.pop(rank)
             for cell in sorted(bucket, key=_SEQUENCE) if len(bucket) > 1 else bucket:
-                # One that was pinned since is not to be computed, one that got another rank not here.
-                if cell.waiting and cell.rank == rank:
-                    cell.waiting = False
+                # It may have been pinned or moved to another rank since.
+                if cell.stale and cell.rank == rank:
+                    cell.stale = False
                     self._give(cell, cell.compute())
 
     def _give(self, cell: Cell[Any], value: Any) -> None:
@@ -117,8 +319,8 @@ class Graph:
             self._before.setdefault(cell, old)
             cell._value = value
             for dependent in cell.dependents:
-                if not dependent.waiting:
-                    self._wake(dependent)
+                if not dependent.stale:
+                    self._mark_stale(dependent)
 
     def _check_writable(self, cell: Cell[Any]) -> None:
         if self._depth == 0:
@@ -126,14 +328,25 @@ class Graph:
         if cell.disposed:
             raise DisposedCellError(f"'{cell.name}' is written after it was disposed of")
 
-    def _wake(self, cell: Derived[Any]) -> None:
-        cell.waiting = True
+    def _mark_stale(self, cell: Cell[Any]) -> None:
+        cell.stale = True
         bucket = self._buckets.get(cell.rank)
         if bucket is None:
             self._buckets[cell.rank] = [cell]
-            heappush(self.waiting, cell.rank)
+            heappush(self.stale_ranks, cell.rank)
         else:
             bucket.append(cell)
+
+    def _apply_rules(self) -> None:
+        if not self._before:
+            return
+        self._depth += 1
+        try:
+            for rule in self._rules:
+                rule(self._before.keys())
+        finally:
+            self._depth -= 1
+            self.settle()
 
     def _commit(self, cause: str) -> None:
         before = self._before.items()
@@ -150,24 +363,24 @@ class Graph:
             cell.stamp = commit.stamp
         for change in changes:
             change.cell.stamp = commit.stamp
-        self._tell(commit)
+        self._notify(commit)
 
-    def _tell(self, commit: Commit) -> None:
+    def _notify(self, commit: Commit) -> None:
         self._notifying = True
         try:
             for cell, _, new in commit.changes:
                 for subscription in list(cell.observers) if cell.observers else ():
                     # An observer may have disposed of one that comes after it.
                     if subscription in cell.observers:
-                        _try(subscription.tell, new, cell.name)
+                        _try(subscription.notify, new, cell.name)
             for listener in self._listeners:
-                _try(listener, commit, commit.cause)
+                _try(listener, commit, commit.stamp.cause)
         finally:
             self._notifying = False
 
 
-def _try(tell: Callable[[Any], None], value: object, about: str) -> None:
+def _try(notify: Callable[[Any], None], value: object, about: str) -> None:
     try:
-        tell(value)
+        notify(value)
     except Exception:
-        logger.exception("%r, which was told of '%s', raised", tell, about)
+        logger.exception("%r, which was notified of '%s', raised", notify, about)

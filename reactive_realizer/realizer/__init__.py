@@ -1,4 +1,4 @@
-"""The running whole: one board, one ticker, one task an engine, for all characters.
+"""The realizer: one peg board, one ticker and one task per engine, for all characters.
 
-The room knows engines by their interface and characters as they are handed in; it knows no file and no wire.
+This package knows engines by their interface and gets its characters; it knows no files and no network.
 """

@@ -1,4 +1,4 @@
-"""A character as the realizer gets it."""
+"""A character of the realizer."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -12,17 +12,17 @@ from reactive_realizer.engine.engine import Engine
 
 @dataclass(frozen=True, slots=True)
 class Character:
-    """Who plays: a figure, and its engines in rank order."""
+    """A figure with its engines, in rank order."""
 
     id: str
     humanoid: Humanoid
     engines: tuple[Engine, ...]
 
     def move(self, time: GlobalTime, plays: Sequence[Play]) -> None:
-        """Come to what its engines ask for at a time; then it looks (`look`)."""
+        """Move the figure as its engines ask for at a time; `look` comes after that."""
         self.humanoid.move(time, [layer for play in plays for layer in play.layers])
 
     def look(self, plays: Sequence[Play]) -> Frame:
-        """The frame of the time to which it has moved, eyes and face as its engines ask for."""
+        """The frame after `move`, with eyes and face as its engines ask for."""
         eyes = next((play.eyes for play in plays if play.eyes is not None), None)
         return self.humanoid.look(eyes, [play.face for play in plays])

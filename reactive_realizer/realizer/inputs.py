@@ -1,10 +1,11 @@
-"""What enters a realizer; every input waits for a tick."""
+"""The inputs of a realizer; a session with the same inputs at the same ticks is the same."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from reactive_realizer.bml.block import Parsed
 from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.errors import Fault
 
 Position = tuple[float, float, float]
 
@@ -15,7 +16,7 @@ class BmlText:
 
     Attributes:
         text: the document.
-        parsed: what came of it, where somebody has read it already; else it is read as it enters.
+        parsed: the parsed document, if it was parsed before; otherwise it is parsed when it enters.
     """
 
     text: str | bytes
@@ -24,7 +25,7 @@ class BmlText:
 
 @dataclass(frozen=True, slots=True)
 class Prediction:
-    """When a point of an anticipator is now said to be; None withdraws what was said."""
+    """A prediction of a point of an anticipator; None withdraws it."""
 
     anticipator: str
     sync: str
@@ -33,7 +34,7 @@ class Prediction:
 
 @dataclass(frozen=True, slots=True)
 class Event:
-    """Something happened, was set or was said, that an anticipator makes predictions from."""
+    """An event, setting or text from which an anticipator makes predictions."""
 
     anticipator: str
     name: str
@@ -43,10 +44,38 @@ class Event:
 
 @dataclass(frozen=True, slots=True)
 class TargetMoved:
-    """A target of the world is elsewhere (m), or gone."""
+    """A new position (m, world) of a target; None if it is removed."""
 
     target: str
     position: Position | None
 
 
 Input = BmlText | Prediction | Event | TargetMoved
+
+
+@dataclass(frozen=True, slots=True)
+class Delivery:
+    """The delivery of a result of slow work.
+
+    Attributes:
+        request: number of the work, in order of request, from 1.
+        failure: the fault of work that failed; None if there is a result.
+    """
+
+    request: int
+    failure: Fault | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class TickInputs:
+    """All that entered in one tick.
+
+    Attributes:
+        tick: its number; numbers are skipped when a tick is late.
+        inputs: in the order in which they were applied.
+        work: in the order in which it was delivered.
+    """
+
+    tick: int
+    inputs: tuple[Input, ...] = ()
+    work: tuple[Delivery, ...] = ()

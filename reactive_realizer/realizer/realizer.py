@@ -1,4 +1,4 @@
-"""The Realizer: inputs in, ticks through, feedback, frames and sounds out."""
+"""The realizer: takes inputs, plays ticks, and gives feedback, frames and sounds."""
 
 import asyncio
 from collections.abc import Callable, Mapping, Sequence
@@ -18,39 +18,36 @@ from reactive_realizer.feedback.feedback_manager import FeedbackManager
 from reactive_realizer.limits import Limits
 from reactive_realizer.pegboard.anticipator import Anticipator
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.reactive.commit import Commit
-from reactive_realizer.reactive.graph import Graph
+from reactive_realizer.reactive.graph import Commit, Graph
+from reactive_realizer.realizer.background_tasks import BackgroundTasks
 from reactive_realizer.realizer.character import Character
-from reactive_realizer.realizer.entered import Delivery, Entered
 from reactive_realizer.realizer.inbox import Inbox
-from reactive_realizer.realizer.inputs import BmlText, Input
+from reactive_realizer.realizer.inputs import BmlText, Delivery, Input, TickInputs
 from reactive_realizer.realizer.verifier import Verifier
-from reactive_realizer.realizer.workshop import TaskWorkshop
+from reactive_realizer.scheduler.admission import Admission
 from reactive_realizer.scheduler.bml_scheduler import BMLScheduler
-from reactive_realizer.scheduler.cast import Cast
-from reactive_realizer.scheduler.constraint_watch import ConstraintWatch
-from reactive_realizer.scheduler.reporter import Reporter
+from reactive_realizer.scheduler.engine_routing import EngineRouting
 from reactive_realizer.scheduler.strategy import SchedulingStrategy
 
 _MOST_ROUNDS = 100
 
 FrameListener = Callable[[Character, Frame], None]
 AudioListener = Callable[[AudioChange], None]
-EntryListener = Callable[[Entered], None]
+EntryListener = Callable[[TickInputs], None]
 
 
 class Realizer:
-    """One board, one ticker and one task an engine for all characters; used as an async context manager.
+    """Plays the behavior of all characters; used as an async context manager.
 
-    Whoever owns the clock calls `step` for every tick; whoever has something to say calls `put` at any time, and it
-    enters at the first tick at or after its time.
+    The owner of the clock calls `step` for every tick. Inputs are given to `put` at any time, and enter at the first
+    tick at or after their time.
 
     Attributes:
-        feedback: tells everybody who listens.
-        board: all points in time.
-        world: what can be looked at.
-        scheduler: the blocks.
-        characters: by id, the first takes what names none.
+        feedback: of all blocks, for its listeners.
+        board: the pegs of all characters.
+        world: the targets of gaze and pointing.
+        scheduler: of the blocks.
+        characters: by id; the first gets the blocks that name none.
         anticipators: by id.
     """
 
@@ -73,12 +70,11 @@ class Realizer:
         self.time = GlobalTime(0.0)
         self._strategy = strategy
         self._verify = verify
-        self._cast = Cast({character.id: character.engines for character in characters})
-        self._leading = [EngineTask(engine) for engine in self._cast.engines if engine.leads]
-        self._following = [EngineTask(engine) for engine in self._cast.engines if not engine.leads]
-        self._inbox = Inbox(self.board, self.anticipators, world)
+        self._routing = EngineRouting({character.id: character.engines for character in characters})
+        self._leading = [EngineTask(engine) for engine in self._routing.engines if engine.leads]
+        self._following = [EngineTask(engine) for engine in self._routing.engines if not engine.leads]
+        self._inbox = Inbox(self.board, self.anticipators, world, limits)
         self._commits: list[Commit] = []
-        self._clamped = 0
         self._frame_listeners: list[FrameListener] = []
         self._audio_listeners: list[AudioListener] = []
         self._entry_listeners: list[EntryListener] = []
@@ -91,66 +87,85 @@ class Realizer:
         group = await self._stack.enter_async_context(asyncio.TaskGroup())
         running = [group.create_task(task.run(), name=task.engine.name) for task in (*self._leading, *self._following)]
         self._stack.callback(lambda: [task.cancel() for task in running])
-        self._workshop = TaskWorkshop(group)
-        self._stack.callback(self._workshop.close)
+        self._background = BackgroundTasks(group)
+        self._stack.callback(self._background.close)
         self.scheduler = BMLScheduler(
-            self.board, self._cast, self.feedback, self._workshop, self._strategy, self.limits
+            self.board, self._routing, self.feedback, self._background, self._strategy, self.limits
         )
-        self._watch = ConstraintWatch(self.board, self.scheduler.blocks, Reporter(self.feedback, self.scheduler.blocks))
-        self.scheduler.listen(self._watch.note_end)
         self._verifier = Verifier(self.board, self.scheduler, self.feedback) if self._verify else None
         return self
 
     async def __aexit__(
         self, kind: type[BaseException] | None, failure: BaseException | None, trace: TracebackType | None
     ) -> None:
-        # What went wrong outside is raised as it is: the group of engine tasks has no part in it.
+        # An error from outside is raised as it is, not in an exception group of the engine tasks.
         await self._stack.aclose()
 
     # --- the port
 
     def put(self, entry: Input, at: GlobalTime = GlobalTime(0.0)) -> None:  # noqa: B008 - a float
-        """Have an input enter at the first tick at or after ``at``, after all that was put before."""
+        """Have an input enter at the first tick at or after ``at``, after all earlier inputs."""
         self._inbox.put(entry, at)
 
+    def check_prediction(self, anticipator: str, sync: str) -> None:
+        """Check whether a prediction of a point can enter after all earlier inputs.
+
+        Raises:
+            RealizerError: "predicts-itself" or "too-many-names".
+        """
+        self._inbox.check_prediction(anticipator, sync, self.time)
+
+    def admission(self) -> Admission:
+        """Checks for blocks and procedures that would enter after all earlier inputs."""
+        admission = self.scheduler.admission()
+        for entry in self._inbox.waiting:
+            for parsed in (isinstance(entry, BmlText) and entry.parsed) or ():
+                if parsed.procedure is not None:
+                    admission.admit_procedure(parsed.procedure)
+        return admission
+
     def watch(self, listener: FrameListener) -> Callable[[], None]:
-        """Get the frames of all characters; the returned call ends that. Nothing is composed where nobody looks."""
+        """Call a listener with the frames of all characters, until the returned function is called.
+
+        Without listeners, no frames are composed.
+        """
         self._frame_listeners.append(listener)
         return lambda: self._frame_listeners.remove(listener)
 
     def hear(self, listener: AudioListener) -> None:
-        """Get what becomes audible."""
+        """Call a listener with the changes of audio."""
         self._audio_listeners.append(listener)
 
     def record(self, listener: EntryListener) -> None:
-        """Get what enters, tick by tick, before anything comes of it."""
+        """Call a listener with the inputs of each tick, before they are applied."""
         self._entry_listeners.append(listener)
 
     @property
     def busy(self) -> bool:
-        """Whether something is still to enter."""
-        return bool(self._inbox) or self._workshop.busy
+        """Whether inputs or results of slow work are outstanding."""
+        return bool(self._inbox) or self._background.busy
 
     async def settle(self) -> None:
-        """Wait for slow work requested until now."""
-        await self._workshop.settle()
+        """Wait for the slow work that has been requested."""
+        await self._background.settle()
 
     # --- a tick
 
     async def step(self, tick: Tick, work: Sequence[Delivery] | None = None) -> None:
-        """One tick, phase by phase (semantics: a tick, in phases).
+        """Play one tick in phases (docs/semantics.md, a tick).
 
         Args:
-            tick: after all that were before.
-            work: what is handed over of the slow work; None: whatever is there.
+            tick: later than all earlier ones.
+            work: the results of slow work that enter; None for all that are ready.
         """
-        self.time = self.board.time = tick.time
-        entered = self._enter(tick, self._workshop.ready() if work is None else tuple(work))
+        self.time = tick.time
+        self.board.begin(tick)
+        entered = self._enter(tick, self._background.ready() if work is None else tuple(work))
         self._inbox.apply(entered.inputs, tick.time)
-        self._clamp(tick)
         await self._catch_up(tick)
-        self._take_blocks(entered, tick.time)
         watched = Tick.on_time(tick.number, tick.frame and bool(self._frame_listeners))
+        self.board.begin(watched)
+        self._take_blocks(entered, tick.time)
         plays = await self._play(watched)
         if watched.frame:
             self._publish_frames(tick.time, plays)
@@ -158,27 +173,26 @@ class Realizer:
         self._check(tick.time)
         self.feedback.flush(tick.time)
 
-    def _enter(self, tick: Tick, work: tuple[Delivery, ...]) -> Entered:
-        entered = Entered(tick.number, self._inbox.take(tick.time), work)
+    def _enter(self, tick: Tick, work: tuple[Delivery, ...]) -> TickInputs:
+        entered = TickInputs(tick.number, self._inbox.take(tick.time), work)
         for listener in self._entry_listeners:
             listener(entered)
         return entered
 
     async def _catch_up(self, tick: Tick) -> None:
-        """What was due at ticks that were left out happens in its order, as it would have; nothing of it is seen."""
+        """Play the skipped ticks in which something was due, in order and without output."""
         due = self.scheduler.next_due(tick.previous) if tick.left_out else None
         for number in tick.left_out:
             if is_due(due, tick_time(number)):
                 missed = Tick.on_time(number)
-                self.board.time = missed.time
+                self.board.begin(missed)
                 await self._play(missed)
                 self._check(missed.time)
                 due = self.scheduler.next_due(missed.time)
-        self.board.time = tick.time
 
-    def _take_blocks(self, entered: Entered, now: GlobalTime) -> None:
-        """What was prepared, then what is new."""
-        self._workshop.deliver(entered.work, now)
+    def _take_blocks(self, entered: TickInputs, now: GlobalTime) -> None:
+        """Deliver the results of slow work, then accept new blocks."""
+        self._background.deliver(entered.work, now)
         for entry in entered.inputs:
             if isinstance(entry, BmlText):
                 self._read(entry, now)
@@ -188,13 +202,12 @@ class Realizer:
             self.scheduler.accept(parsed, now)
 
     async def _play(self, tick: Tick) -> list[Play]:
-        """Rounds of the tick until nothing changes; what the last one shows is what is seen."""
+        """Play rounds of the tick until nothing changes; the effects of the last round."""
         plays: list[Play] = []
         played: set[EngineTask] = set()
         for _ in range(_MOST_ROUNDS):
             self.scheduler.advance(tick.time)
-            self._clamp(tick)
-            leading = [task for task in self._leading if self._cast.awake(task.engine)]
+            leading = [task for task in self._leading if self._routing.take_active(task.engine)]
             if self.scheduler.apply(await play_all(leading, tick), tick.time):
                 continue
             plays = await play_all(self._following if tick.frame else self._awake(played, tick.time), tick)
@@ -207,30 +220,27 @@ class Realizer:
         return plays
 
     def _awake(self, played: set[EngineTask], now: GlobalTime) -> list[EngineTask]:
-        """The followers that have something to play: of many characters most rest, and to wake one has its price.
+        """The following engines that have something to play: most characters are at rest, and waking a task is costly.
 
         Args:
-            played: those that have played in this tick; they are from now on.
+            played: the tasks that have played in this tick; the result is added to them.
             now: the time of the tick.
         """
-        cast = self._cast
-        awake = [t for t in self._following if (cast.called(t.engine, now) if t in played else cast.awake(t.engine))]
+        routing = self._routing
+        awake = [
+            t
+            for t in self._following
+            if (routing.take_due(t.engine, now) if t in played else routing.take_active(t.engine))
+        ]
         played.update(awake)
         return awake
 
-    def _clamp(self, tick: Tick) -> None:
-        """Nothing that changed since the last call has moved points into the past."""
-        commits = self._commits[self._clamped :]
-        self.scheduler.clamp(tick.previous, tick.time, commits)
-        self._clamped = len(self._commits)
-
     def _check(self, now: GlobalTime) -> None:
-        """Say what the commits since the last call have broken."""
+        """Report the constraints that the commits since the last call have broken."""
         if self._verifier is not None:
             self._verifier.check(self._commits, now)
-        self._watch.check(self._commits, now)
+        self.scheduler.check(self._commits, now)
         self._commits.clear()
-        self._clamped = 0
 
     def _publish_audio(self, play: Play) -> None:
         for change in play.audio:
@@ -243,10 +253,10 @@ class Realizer:
             (character, [by_engine[engine] for engine in character.engines if engine in by_engine])
             for character in self.characters.values()
         ]
-        for character, its in shown:
-            character.move(time, its)
-        # Who looks at another one, or at his own hand, sees where that is in this frame.
-        for character, its in shown:
-            frame = character.look(its)
+        for character, own in shown:
+            character.move(time, own)
+        # Eyes look at others, or at the own hand, where these are in this frame.
+        for character, own in shown:
+            frame = character.look(own)
             for listener in tuple(self._frame_listeners):
                 listener(character, frame)

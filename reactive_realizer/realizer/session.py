@@ -1,15 +1,19 @@
-"""A whole session: on a virtual clock as fast as it can be computed, and the same every time."""
+"""Whole sessions: run on a clock, or replayed from recorded inputs."""
+
+from collections.abc import Iterable
 
 from reactive_realizer.clock.clock import Clock, ManualClock
-from reactive_realizer.clock.ticker import Ticker
+from reactive_realizer.clock.ticker import Tick, Ticker
 from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.realizer.inputs import TickInputs
 from reactive_realizer.realizer.realizer import Realizer
 
 
 async def run_until_done(realizer: Realizer, clock: Clock, until: GlobalTime) -> None:
-    """Tick until every block has ended, nothing that waits can move any more (that is said), or ``until``.
+    """Tick until ``until``, or until every block has ended or can never continue, which is reported.
 
-    On a virtual clock a tick is not left while slow work requested in it is outstanding: its result enters at the next.
+    On a virtual clock, which runs as fast as ticks are computed, slow work finishes before the next tick, where its
+    result enters.
     """
     async for tick in Ticker(clock).ticks():
         await realizer.step(tick)
@@ -21,3 +25,24 @@ async def run_until_done(realizer: Realizer, clock: Clock, until: GlobalTime) ->
             realizer.scheduler.warn_stuck()
             realizer.feedback.flush(tick.time)
             return
+
+
+async def replay(realizer: Realizer, session: Iterable[TickInputs]) -> None:
+    """Play the ticks of a recorded session, and no others, each with its inputs.
+
+    Slow work is done again; its results enter at the ticks at which they did when the session was recorded.
+
+    Args:
+        realizer: of the same scene, at its beginning.
+        session: its ticks in order.
+
+    Raises:
+        RealizerError: "replay-differs": the realizer requests other work than recorded.
+    """
+    tick: Tick | None = None
+    for entered in session:
+        tick = Tick.following(tick, entered.tick)
+        for entry in entered.inputs:
+            realizer.put(entry, tick.time)
+        await realizer.settle()
+        await realizer.step(tick, entered.work)

@@ -1,4 +1,4 @@
-"""Plans that are checked while they are played."""
+"""Checks plans while they play (``--verify``)."""
 
 import logging
 from collections.abc import Iterable
@@ -11,41 +11,41 @@ from reactive_realizer.feedback.feedback_manager import FeedbackManager
 from reactive_realizer.feedback.messages import WarningFeedback
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.reactive.commit import Commit
-from reactive_realizer.scheduler.bml_block import BlockState, BMLBlock
+from reactive_realizer.reactive.graph import Commit
+from reactive_realizer.scheduler.block_state import BlockState
+from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.scheduler.bml_scheduler import BMLScheduler
-from reactive_realizer.scheduler.concerned import concerned
 from reactive_realizer.scheduler.plan_view import PlanView
-from reactive_realizer.scheduler.problem import Problem, Solution
+from reactive_realizer.scheduler.problem import SchedulingProblem, Solution
 from reactive_realizer.scheduler.verify import Violation, verify
 
 logger = logging.getLogger(__name__)
 
 
 class Verifier:
-    """Checks plans as they are committed, and as they move on the board; says once what does not hold (``--verify``).
+    """Checks plans when they are committed and when they move, and reports each violated equation once.
 
-    What is committed is judged as a solution of its own problem: its points may come, and times from outside may be
-    other ones, before a tick is over. On the board, constraints are judged where nothing from outside moved. Where
-    something did, what cannot be kept any more breaks nothing, and is told without being asked (`ConstraintWatch`).
+    A committed plan is checked as a solution of its own problem, because its points may fire, and outside times may
+    change, before the tick is over. On the board, constraints are checked only if no time from outside has moved;
+    otherwise, `ConstraintMonitor` reports the constraints that cannot be kept any more.
     """
 
     def __init__(self, board: PegBoard, scheduler: BMLScheduler, feedback: FeedbackManager) -> None:
         self._board = board
         self._blocks = scheduler.blocks
         self._feedback = feedback
-        self._said: WeakKeyDictionary[BMLBlock, set[tuple[str, tuple[str, ...]]]] = WeakKeyDictionary()
+        self._reported: WeakKeyDictionary[BMLBlock, set[tuple[str, tuple[str, ...]]]] = WeakKeyDictionary()
         self._outside: WeakKeyDictionary[BMLBlock, list[float | None]] = WeakKeyDictionary()
         scheduler.listen_to_plans(self._hold)
 
     def check(self, commits: Iterable[Commit], now: GlobalTime) -> None:
-        """Check what the commits of the tick at ``now`` moved; before what is missed by it counts as settled."""
+        """Check the blocks that commits of the tick at ``now`` moved, before missed constraints count as settled."""
         moved = {change.cell for commit in commits for change in commit.changes}
-        for block in concerned(self._blocks, self._board, moved):
+        for block in self._blocks.affected_by(moved, self._board):
             if block.state is not BlockState.IN_PREP:
                 self._judge(block, now)
 
-    def _hold(self, block: BMLBlock, problem: Problem, solution: Solution) -> None:
+    def _hold(self, block: BMLBlock, problem: SchedulingProblem, solution: Solution) -> None:
         self._verify(block, PlanView.of_solution(problem, solution))
 
     def _judge(self, block: BMLBlock, now: GlobalTime) -> None:
@@ -55,14 +55,14 @@ class Verifier:
         self._verify(block, plan if outside == before else replace(plan, settled=frozenset(plan.kept)))
 
     def _verify(self, block: BMLBlock, plan: PlanView) -> None:
-        said = self._said.setdefault(block, set())
+        reported = self._reported.setdefault(block, set())
         for violation in verify(plan):
             key = violation.equation, violation.points
-            if key not in said:
-                said.add(key)
-                self._say(block.key, violation)
+            if key not in reported:
+                reported.add(key)
+                self._report(block.key, violation)
 
-    def _say(self, block: BlockKey, violation: Violation) -> None:
+    def _report(self, block: BlockKey, violation: Violation) -> None:
         text = str(violation.fault)
         logger.error("%s/%s: %s", *block, text)
-        self._feedback.say(WarningFeedback(*block, WarningType.IMPOSSIBLE_TO_SCHEDULE, text))
+        self._feedback.add(WarningFeedback(*block, WarningType.IMPOSSIBLE_TO_SCHEDULE, text))

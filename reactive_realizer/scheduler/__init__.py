@@ -1,4 +1,4 @@
-"""When things happen: from the constraints of a block to pegs, and from the states of blocks to starts and ends.
+"""Scheduling: turns the constraints of blocks into pegs, and takes blocks from their arrival to their end.
 
-The room knows engines by their interface only, and nothing of what they play.
+The room knows engines by their interface, and nothing of what they play.
 """

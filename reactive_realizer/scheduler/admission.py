@@ -1,26 +1,32 @@
-"""Which blocks and procedures are taken in."""
+"""Admission control: whether blocks and procedures may enter."""
 
 from collections.abc import Iterable, Sequence
 
-from reactive_realizer.bml.block import BehaviorBlock
-from reactive_realizer.bml.procedure import DefineProc
-from reactive_realizer.bml.words import Composition
+from reactive_realizer.bml.block import BehaviorBlock, DefineProc
+from reactive_realizer.bml.vocabulary import Composition
 from reactive_realizer.errors import Fault
 from reactive_realizer.limits import Limits
 from reactive_realizer.pegboard.peg_key import BlockKey
+from reactive_realizer.scheduler.faults import (
+    DuplicateBlock,
+    TooManyBlocks,
+    TooManyProcedures,
+    UnknownCharacter,
+    UnknownProcedure,
+)
 
 
 class Admission:
-    """Judges blocks and procedures that enter at one tick, in order, each beside those that came before it.
+    """Decides on the blocks and procedures that enter at one tick, in order; each counts for those that follow.
 
-    None of them has ended by itself when the next comes, but a REPLACE ends all blocks of its character, and a block
-    may interrupt one of its own name.
+    No block ends by itself in between, but a REPLACE ends all blocks of its character, and a block may interrupt one
+    with its own id.
 
     Args:
-        characters: the first one is meant by a block that names none.
+        characters: the first one takes blocks that name none.
         limits: how many blocks may be alive at once, and procedures defined.
-        alive: the blocks that are.
-        procedures: ids of those that are.
+        alive: the blocks that are alive.
+        procedures: ids of the procedures that are defined.
     """
 
     def __init__(
@@ -31,23 +37,23 @@ class Admission:
         self._alive = set(alive)
         self._procedures = dict.fromkeys(procedures)
 
-    def define(self, procedure: DefineProc) -> Fault | None:
-        """Count a procedure among those that are defined, or say why it is refused."""
+    def admit_procedure(self, procedure: DefineProc) -> Fault | None:
+        """Admit a procedure, or return why not."""
         if procedure.id not in self._procedures and len(self._procedures) >= self._limits.procedures:
-            fault = Fault("too-many-procedures", {"limit": self._limits.procedures})
+            fault = TooManyProcedures(limit=self._limits.procedures)
             return fault.located(procedure.location.line, procedure.location.column)
         self._procedures[procedure.id] = None
         return None
 
-    def take(self, block: BehaviorBlock, failed: bool = False) -> Fault | None:
-        """Count a block among those that have entered, or say why it is refused.
+    def admit(self, block: BehaviorBlock, failed: bool = False) -> Fault | None:
+        """Admit a block, or return why not.
 
         Args:
             block: as it was read.
-            failed: whether something of it that was required could not be read, so that it ends at once.
+            failed: whether something required could not be read, so that the block ends at once.
         """
         key = BlockKey(block.character or self._characters[0], block.id)
-        fault = self._refusal(key, block)
+        fault = self._rejection(key, block)
         if fault is not None:
             return fault.located(block.location.line, block.location.column)
         if block.composition is Composition.REPLACE:
@@ -56,14 +62,13 @@ class Admission:
             self._alive.add(key)
         return None
 
-    def _refusal(self, key: BlockKey, block: BehaviorBlock) -> Fault | None:
+    def _rejection(self, key: BlockKey, block: BehaviorBlock) -> Fault | None:
         if key.character not in self._characters:
-            return Fault("unknown-character", {"character": key.character, "known": ", ".join(self._characters)})
+            return UnknownCharacter(character=key.character, known=tuple(self._characters))
         if key in self._alive and key.block not in block.interrupts:
-            return Fault("duplicate-block", {"block": key.block})
+            return DuplicateBlock(block=key.block)
         if block.procedure is not None and block.procedure not in self._procedures:
-            known = ", ".join(self._procedures) or "none"
-            return Fault("unknown-procedure", {"procedure": block.procedure, "known": known})
+            return UnknownProcedure(procedure=block.procedure, known=tuple(self._procedures))
         if block.composition is not Composition.REPLACE and len(self._alive) >= self._limits.blocks_alive:
-            return Fault("too-many-blocks", {"limit": self._limits.blocks_alive})
+            return TooManyBlocks(limit=self._limits.blocks_alive)
         return None

@@ -1,16 +1,21 @@
-"""The blocks of all characters: those alive, and what is remembered of those that have ended."""
+"""The blocks of all characters: those alive, and a record of those that ended last."""
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 
 from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.peg_key import BlockKey
-from reactive_realizer.scheduler.bml_block import BlockState, BMLBlock
+from reactive_realizer.pegboard.pegboard import PegBoard
+from reactive_realizer.pegboard.time_peg import TimeCell
+from reactive_realizer.scheduler.block_state import BlockState
+from reactive_realizer.scheduler.bml_block import BMLBlock
+from reactive_realizer.scheduler.faults import BlockEnded, NoSuchBlock
 
 
 @dataclass(frozen=True, slots=True)
-class Ended:
-    """All that is kept of an ended block."""
+class EndedBlock:
+    """The record of an ended block."""
 
     key: BlockKey
     state: BlockState
@@ -27,7 +32,7 @@ class Blocks:
     def __init__(self, remembered: int) -> None:
         self._remembered = remembered
         self._alive: dict[BlockKey, BMLBlock] = {}
-        self._ended: dict[BlockKey, Ended] = {}
+        self._ended: dict[BlockKey, EndedBlock] = {}
 
     def __contains__(self, key: BlockKey) -> bool:
         return key in self._alive
@@ -38,8 +43,8 @@ class Blocks:
         return tuple(self._alive.values())
 
     @property
-    def ended(self) -> tuple[Ended, ...]:
-        """The last ones that ended, in order of ending."""
+    def ended(self) -> tuple[EndedBlock, ...]:
+        """Those that ended last, in order of ending."""
         return tuple(self._ended.values())
 
     def of(self, character: str) -> list[BMLBlock]:
@@ -51,12 +56,12 @@ class Blocks:
         return self._alive.get(key)
 
     def last_of(self, character: str) -> list[BMLBlock]:
-        """The blocks of a character that no other one waits for: when they have ended, all have.
+        """The blocks of a character that no other block waits for: when they have ended, all have.
 
-        Those that are preplanned and not activated do not count.
+        Preplanned blocks that are not activated do not count.
         """
-        own = [block for block in self.of(character) if not block.asleep]
-        awaited = {wait.target for block in own for wait in block.waits if not wait.chunk}
+        own = [block for block in self.of(character) if not block.awaits_activation]
+        awaited = {each.block for block in own for each in block.predecessors if not each.chunk}
         return [block for block in own if block not in awaited]
 
     def has_ended(self, character: str, block: str) -> bool:
@@ -66,33 +71,44 @@ class Blocks:
     def find(self, character: str, block: str) -> BMLBlock | None:
         """The block alive that a reference names: the character's own, else the first of any other character.
 
-        Where the own one has ended, nothing is named: that others use the same id is their affair.
+        An own block that has ended hides the blocks of other characters with the same id.
         """
         key = BlockKey(character, block)
         if key in self._alive or key in self._ended:
             return self._alive.get(key)
         return next((other for other in self._alive.values() if other.key.block == block), None)
 
-    def planned_before(self, block: BMLBlock) -> list[BMLBlock]:
-        """The blocks in preparation that are to be planned before one that is in preparation too.
+    def missing(self, character: str, name: str) -> Fault:
+        """The fault of naming a block that is not alive: "block-ended" or "no-such-block"."""
+        return BlockEnded(block=name) if self.has_ended(character, name) else NoSuchBlock(block=name)
 
-        They are those whose points it names, and of those whose parameters it changes the ones that came before it.
+    def affected_by(self, moved: Collection[TimeCell], board: PegBoard) -> list[BMLBlock]:
+        """The blocks alive that have a peg that moved, or whose constraints name one of others that did."""
+        if not moved:
+            return []
+        owners = {board.owner(cell) for cell in moved}
+        return [block for block in self.alive if block.key in owners or not block.outside.isdisjoint(moved)]
+
+    def planned_before(self, block: BMLBlock) -> list[BMLBlock]:
+        """The blocks in preparation that are planned before another one.
+
+        They are those whose points it names, and the earlier ones whose parameters it changes.
         """
-        changed = self._preparing(block, block.mentions.parameters)
+        changed = self._preparing(block, block.named_blocks.parameters)
         return [
-            *self._preparing(block, block.mentions.points),
+            *self._preparing(block, block.named_blocks.points),
             *(other for other in changed if other.arrival < block.arrival),
         ]
 
     def add(self, block: BMLBlock) -> None:
-        """A block was accepted."""
+        """Add an accepted block."""
         self._alive[block.key] = block
 
     def end(self, block: BMLBlock, time: GlobalTime) -> None:
-        """A block has ended."""
+        """Move a block from those alive to those ended."""
         self._alive.pop(block.key, None)
         self._ended.pop(block.key, None)
-        self._ended[block.key] = Ended(block.key, block.state, time)
+        self._ended[block.key] = EndedBlock(block.key, block.state, time)
         while len(self._ended) > self._remembered:
             self._ended.pop(next(iter(self._ended)))
 

@@ -3,6 +3,7 @@
 from collections.abc import Collection
 from dataclasses import dataclass
 
+from reactive_realizer.scheduler.offset_union_find import OffsetUnionFind
 from reactive_realizer.scheduler.plan_view import PlanView
 from reactive_realizer.scheduler.problem import Point, Tie
 
@@ -38,21 +39,14 @@ class Cluster:
 
 def clusters_of(plan: PlanView, behaviors: Collection[str]) -> list[Cluster]:
     """The clusters of some behaviors of a plan, as if there were no others (7.16, 7.17)."""
-    members = {id_: {id_} for id_ in behaviors}
+    groups = OffsetUnionFind[str]()
     own: dict[str, list[Tie]] = {id_: [] for id_ in behaviors}
     for tie in plan.kept:
-        ids = [n.behavior for n in tie.nodes if isinstance(n, Point) and n.behavior in members]
+        ids = [n.behavior for n in tie.nodes if isinstance(n, Point) and n.behavior in own]
         if isinstance(tie, Tie) and ids:
             own[ids[0]].append(tie)
-            _merge(members, ids[0], ids[-1])
-    groups = {id(group): group for group in members.values()}
-    return [
-        Cluster(frozenset(group), tuple(tie for id_ in sorted(group) for tie in own[id_])) for group in groups.values()
-    ]
-
-
-def _merge(members: dict[str, set[str]], one: str, other: str) -> None:
-    few, many = sorted((members[one], members[other]), key=len)
-    if few is not many:
-        many |= few
-        members.update(dict.fromkeys(few, many))
+            groups.union(ids[0], ids[-1])
+    members: dict[str, list[str]] = {}
+    for id_ in behaviors:
+        members.setdefault(groups.find(id_)[0], []).append(id_)
+    return [Cluster(frozenset(ids), tuple(tie for id_ in sorted(ids) for tie in own[id_])) for ids in members.values()]

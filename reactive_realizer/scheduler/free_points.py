@@ -11,20 +11,20 @@ from dataclasses import replace
 from typing import NamedTuple, TypeVar
 
 from reactive_realizer.planunit.timing import Phase, PhaseKind
-from reactive_realizer.scheduler.problem import Item, Node, Order, Point, Tie
+from reactive_realizer.scheduler.problem import Item, Node, Point, Precedence, Tie
 
-C = TypeVar("C", Tie, Order)
+C = TypeVar("C", Tie, Precedence)
 
 
-class Seen(NamedTuple):
+class ProblemWithoutFreePoints(NamedTuple):
     """A block in which nothing hangs on a behavior that is timed last."""
 
     items: tuple[Item, ...]
     ties: list[Tie]
-    orders: list[Order]
+    orders: list[Precedence]
 
 
-def through_free(items: Sequence[Item], ties: Iterable[Tie], orders: Iterable[Order]) -> Seen:
+def through_free(items: Sequence[Item], ties: Iterable[Tie], orders: Iterable[Precedence]) -> ProblemWithoutFreePoints:
     """The same block, as behaviors with preferences see it.
 
     Of the constraints on a point of a behavior without preferences, all but one `at` name what that ties it to instead.
@@ -39,12 +39,16 @@ def through_free(items: Sequence[Item], ties: Iterable[Tie], orders: Iterable[Or
     tied, ordered = list(ties), list(orders)
     for point in sorted(free):
         tied, ordered = _eliminated(point, tied, ordered, free)
-    constraints: list[Tie | Order] = [*tied, *ordered]
+    constraints: list[Tie | Precedence] = [*tied, *ordered]
     awaited = {point.behavior for point in free if any(_awaits(each, point) for each in constraints)}
-    return Seen(tuple(_taking_part(item) if item.behavior.id in awaited else item for item in items), tied, ordered)
+    return ProblemWithoutFreePoints(
+        tuple(_taking_part(item) if item.behavior.id in awaited else item for item in items), tied, ordered
+    )
 
 
-def _eliminated(point: Point, ties: list[Tie], orders: list[Order], free: set[Point]) -> tuple[list[Tie], list[Order]]:
+def _eliminated(
+    point: Point, ties: list[Tie], orders: list[Precedence], free: set[Point]
+) -> tuple[list[Tie], list[Precedence]]:
     own = [tie for tie in ties if point in tie.nodes and tie.left != tie.right]
     anchors = [tie for tie in own if _other(tie, point)[0] not in free]
     if not anchors:
@@ -75,9 +79,9 @@ def _moved(constraint: C, point: Point, node: Node, later: float) -> C:
     return replace(constraint, later=left, earlier=right, offset=offset)
 
 
-def _awaits(constraint: Tie | Order, point: Point) -> bool:
+def _awaits(constraint: Tie | Precedence, point: Point) -> bool:
     """Whether another behavior hangs on a point by a constraint; a behavior that names others follows these."""
-    if isinstance(constraint, Order):
+    if isinstance(constraint, Precedence):
         waiting = [constraint.later] if constraint.earlier == point else []
     else:
         waiting = [_other(constraint, point)[0]] if point in constraint.nodes else []

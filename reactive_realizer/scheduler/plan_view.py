@@ -8,8 +8,8 @@ from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.pegboard.time_peg import TimeCell
 from reactive_realizer.planunit.timing import Timing
 from reactive_realizer.scheduler.bml_block import BMLBlock
-from reactive_realizer.scheduler.problem import Node, Order, Origin, Point, Problem, Solution, Tie
-from reactive_realizer.scheduler.spec_times import SpecTimes
+from reactive_realizer.scheduler.peg_layout.peg_layout import PegLayout
+from reactive_realizer.scheduler.problem import Node, Origin, Point, Precedence, SchedulingProblem, Solution, Tie
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,22 +34,28 @@ class PlanView:
     timings: Mapping[str, Timing]
     times: Mapping[Point, float | None]
     past: frozenset[Point]
-    kept: tuple[Tie | Order, ...]
+    kept: tuple[Tie | Precedence, ...]
     outer: Mapping[TimeCell, float | None]
     start: float | None
     earliest: float | None
     end: float | None = None
     end_floor: float = 0.0
-    settled: frozenset[Tie | Order] = frozenset()
+    settled: frozenset[Tie | Precedence] = frozenset()
     lurking: frozenset[str] = frozenset()
 
     @classmethod
-    def of_solution(cls, problem: Problem, solution: Solution) -> Self:
+    def of_solution(cls, problem: SchedulingProblem, solution: Solution) -> Self:
         """What a strategy answered, in times after the start of the block."""
-        time_of = SpecTimes(problem.times)
-        timings = {i.behavior.id: i.timing for i in problem.items if i.behavior.id in solution.pegs}
-        times = {Point(id_, sync): time_of(spec) for id_, pegs in solution.pegs.items() for sync, spec in pegs.items()}
-        return cls(timings, times, frozenset(), solution.kept(problem), problem.times, 0.0, 0.0)
+        kept = solution.kept_of(problem)
+        return cls(
+            timings={item.behavior.id: item.timing for item in kept.items},
+            times=PegLayout(problem, solution).times,
+            past=frozenset(),
+            kept=(*kept.ties, *kept.orders),
+            outer=problem.times,
+            start=0.0,
+            earliest=0.0,
+        )
 
     @classmethod
     def of_block(cls, block: BMLBlock, now: GlobalTime) -> Self:
@@ -59,11 +65,10 @@ class PlanView:
         return cls(
             # The end of what persists is nobody's business before it comes.
             timings={
-                unit.behavior.id: unit.timing if unit.points[-1].fired is not None else unit.timing.closed
-                for unit in block.units
+                unit.behavior.id: unit.timing if unit.points[-1].fired else unit.timing.closed for unit in block.units
             },
-            times={Point(u.behavior.id, sync): time for u in block.units for sync, time in u.times().items()},
-            past=frozenset(key for key, p in points.items() if p.fired is not None or p.peg.pinned),
+            times={key: p.peg.value for key, p in points.items()},
+            past=frozenset(key for key, p in points.items() if p.peg.pinned),
             kept=block.kept,
             settled=_settled(block),
             lurking=frozenset(unit.behavior.id for unit in block.units if not unit.begun),
@@ -75,7 +80,7 @@ class PlanView:
         )
 
     @property
-    def expected(self) -> list[Tie | Order]:
+    def expected(self) -> list[Tie | Precedence]:
         """The constraints that are to hold."""
         return [each for each in self.kept if each not in self.settled]
 
@@ -90,7 +95,7 @@ class PlanView:
         return not isinstance(node, Point) or (node in self.times and node not in self.past)
 
 
-def _settled(block: BMLBlock) -> frozenset[Tie | Order]:
+def _settled(block: BMLBlock) -> frozenset[Tie | Precedence]:
     """Also what its start waited for, once it has started."""
     waited = (each for each in block.kept if not any(isinstance(node, Point) for node in each.nodes))
     return frozenset(block.settled.union(waited) if block.state.plays else block.settled)

@@ -1,12 +1,10 @@
-"""From a prepared block to a plan on the board: solved aside, committed in one transaction or not at all."""
+"""Turns a prepared block into a scheduling problem, and its solution into pegs on the board."""
 
 import logging
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from reactive_realizer.clock.units import RESOLUTION, GlobalTime, Time
-from reactive_realizer.errors import Fault
-from reactive_realizer.pegboard.following import hangs_on
 from reactive_realizer.pegboard.peg_key import PegKey
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.pegboard.time_peg import Bound, OffsetPeg, OpenPeg, TimeCell, TimePeg
@@ -14,57 +12,73 @@ from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
 from reactive_realizer.planunit.timing import OPEN, Timing
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock
-from reactive_realizer.scheduler.constraints import drop_unplaceable, holding, orders_of, ties_of
+from reactive_realizer.scheduler.constraints import ReferenceResolver, drop_unplaceable, holding, orders_of, ties_of
+from reactive_realizer.scheduler.faults import WorkFailed
 from reactive_realizer.scheduler.free_points import through_free
-from reactive_realizer.scheduler.names import Names
-from reactive_realizer.scheduler.peg_builder import PegBuilder
+from reactive_realizer.scheduler.peg_layout.peg_layout import PegLayout
 from reactive_realizer.scheduler.problem import (
     Item,
     Loss,
-    Order,
     Origin,
     Point,
-    Problem,
+    Precedence,
+    SchedulingProblem,
     Solution,
     Tie,
 )
-from reactive_realizer.scheduler.strategy import SchedulingStrategy
+from reactive_realizer.scheduler.strategy import SchedulingStrategy, solve
 
 logger = logging.getLogger(__name__)
 
-PlanListener = Callable[[BMLBlock, Problem, Solution], None]
+PlanListener = Callable[[BMLBlock, SchedulingProblem, Solution], None]
 
 
 @dataclass(frozen=True, slots=True)
-class Task:
-    """A block as a problem to be solved, and what was lost before that.
+class BlockProblem:
+    """A block as a problem to be solved.
 
     Attributes:
+        units: its behaviors that can be placed.
+        problem: what the strategy gets.
+        losses: what was lost before.
         start: when the block was expected to start.
-        holds: constraints that the block keeps by starting later, with what it comes after by them.
+        holds: constraints that the block keeps by starting later, with the bounds that they put on its start.
     """
 
     units: tuple[PlanUnit, ...]
-    problem: Problem
+    problem: SchedulingProblem
     losses: tuple[Loss, ...]
     start: GlobalTime
-    holds: Mapping[Tie | Order, Bound]
+    holds: Mapping[Tie | Precedence, Bound]
 
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """A solved block; nothing of it is on the board yet."""
+    """A solved block; nothing of it is on the board yet.
+
+    Attributes:
+        units: the behaviors that have times.
+        losses: what was lost before and by the strategy.
+        kept: the constraints that are kept.
+        holds: the bounds on the start of the block.
+    """
 
     units: tuple[PlanUnit, ...]
-    problem: Problem
+    problem: SchedulingProblem
     solution: Solution
+    layout: PegLayout
     losses: tuple[Loss, ...]
-    kept: tuple[Tie | Order, ...]
+    kept: tuple[Tie | Precedence, ...]
     holds: tuple[Bound, ...]
+
+    @property
+    def times(self) -> Mapping[Point, float | None]:
+        """When its points are, s after the start of the block; None for those that wait for an unknown time."""
+        return self.layout.times
 
 
 class Planning:
-    """Solves blocks with a strategy and commits what comes out."""
+    """Poses and solves the problems of blocks, and lays out their plans on the board."""
 
     def __init__(self, board: PegBoard, blocks: Blocks, strategy: SchedulingStrategy) -> None:
         self._board = board
@@ -73,76 +87,96 @@ class Planning:
         self._listeners: list[PlanListener] = []
 
     def listen(self, listener: PlanListener) -> None:
-        """Call ``listener(block, problem, solution)`` of each plan that was committed."""
+        """Call ``listener(block, problem, solution)`` of each plan that is put on the board."""
         self._listeners.append(listener)
 
-    def pose(self, block: BMLBlock, timings: Mapping[PlanUnit, Timing], now: GlobalTime) -> Task:
-        """What is to be solved for a block that would be ready to start now; the board stays as it is.
+    def build_problem(self, block: BMLBlock, timings: Mapping[PlanUnit, Timing], now: GlobalTime) -> BlockProblem:
+        """The problem of a block that is ready to start; the board stays as it is.
 
         Args:
-            block: whose.
+            block: in preparation, or about to start.
             timings: its behaviors, with their preferences.
-            now: it starts not before this.
+            now: the earliest start.
         """
         kept = {unit.behavior.id: unit for unit in timings}
         for unit in kept.values():
             self._open(unit)
-        names = Names(block, kept, self._board, self._blocks)
-        losses = drop_unplaceable(kept, names)
-        ties, lost_ties = ties_of(block.description, kept, names.locate)
-        orders, lost_orders = orders_of(block.description, names.locate)
+        resolver = ReferenceResolver(block, kept, self._board, self._blocks)
+        losses = drop_unplaceable(kept, resolver)
+        ties, lost_ties = ties_of(block.description, kept, resolver)
+        orders, lost_orders = orders_of(block.description, resolver)
         wanted = [Item(unit.behavior, timings[unit].closed) for unit in kept.values()]
         items, ties, orders = through_free(wanted, ties, orders)
         holds = _holds([*ties, *orders], _predicted_start(block, now))
         ties, orders = [tie for tie in ties if tie not in holds], [order for order in orders if order not in holds]
         start = _held_start(block, holds.values(), now)
         times = _outer_times([*ties, *orders], start)
-        problem = Problem(items, tuple(ties), times, tuple(orders))
-        return Task(tuple(kept.values()), problem, (*losses, *lost_ties, *lost_orders), start, holds)
+        problem = SchedulingProblem(items, tuple(ties), times, tuple(orders))
+        return BlockProblem(tuple(kept.values()), problem, (*losses, *lost_ties, *lost_orders), start, holds)
 
     def _open(self, unit: PlanUnit) -> None:
-        """Give one that persists the pegs of its points that nobody knows; others may hang on them."""
+        """Give a behavior that persists pegs for its unknown points, so that others may hang on them."""
         if unit.timing.persistent and not unit.open:
             graph = self._board.graph
             unit.open = {sync: OpenPeg(graph, str(unit.key(sync))) for sync in unit.timing.points if sync in OPEN}
 
-    def solve(self, task: Task) -> Plan:
-        """A plan by the strategy; it may be called in another thread, for it reads and writes nothing but the task.
+    def solve(self, posed: BlockProblem) -> Plan:
+        """A plan by the strategy; thread-safe, because it reads only the problem.
 
-        A strategy that raises costs the block, and nothing else.
+        A strategy that raises fails the block, and nothing else.
         """
         try:
-            solution = self._strategy.solve(task.problem)
+            solution = solve(self._strategy, posed.problem)
+            layout = PegLayout(posed.problem, solution)
         except Exception as failure:
             logger.exception("the strategy %s failed", self._strategy.name)
-            fault = Fault("work-failed", {"reason": failure})
+            fault = WorkFailed(reason=str(failure))
             solution = Solution({}, (Loss(None, fault, dropped=False, required=True),))
-        planned = tuple(unit for unit in task.units if unit.behavior.id in solution.pegs)
-        kept = (*solution.kept(task.problem), *task.holds)
-        losses = (*task.losses, *solution.losses)
-        return Plan(planned, task.problem, solution, losses, kept, tuple(task.holds.values()))
+            layout = PegLayout(posed.problem, solution)
+        left = layout.kept
+        behaviors = {item.behavior.id for item in left.items}
+        planned = tuple(unit for unit in posed.units if unit.behavior.id in behaviors)
+        kept = (*left.ties, *left.orders, *posed.holds)
+        losses = (*posed.losses, *solution.losses)
+        return Plan(planned, posed.problem, solution, layout, losses, kept, tuple(posed.holds.values()))
 
-    def is_stale(self, task: Task) -> bool:
-        """Whether times from outside are not what they were when the problem was posed.
+    def is_stale(self, posed: BlockProblem) -> bool:
+        """Whether times from outside have moved since the problem was posed.
 
-        That the block starts later is nothing new: its plan is in times after its start, and lives.
+        A later start of the block does not count: the times of a plan are relative to it.
         """
-        return any(_moved(cell.value, time, task.start) for cell, time in task.problem.times.items())
+        return any(_moved(cell.value, time, posed.start) for cell, time in posed.problem.times.items())
 
-    def is_cyclic(self, block: BMLBlock, task: Task) -> bool:
-        """Whether by now something from outside hangs on the block itself."""
-        cells = (*task.problem.times, *(cell for cell, _ in task.holds.values()))
-        return any(hangs_on(cell, block.start) for cell in cells)
+    def is_cyclic(self, block: BMLBlock, posed: BlockProblem) -> bool:
+        """Whether a time from outside has come to depend on the block itself."""
+        cells = (*posed.problem.times, *(cell for cell, _ in posed.holds.values()))
+        return any(cell.depends_on(block.start) for cell in cells)
 
-    def commit(self, block: BMLBlock, plan: Plan, now: GlobalTime) -> None:
-        """Put a plan on the board: all of it, in one transaction."""
-        with self._board.graph.transaction(f"plan {block.key.block}"):
-            self._board.add_block(block.key, self._hang(block, plan))
-            block.planned(now, plan.units, plan.kept, self._holds(block, plan))
-        self._tell(block, plan)
+    def renewed(self, block: BMLBlock, start: GlobalTime, now: GlobalTime) -> Plan | None:
+        """A new plan of a block that starts, with the preferences of its engines now (thesis 12.1.4).
 
-    def recommit(self, block: BMLBlock, plan: Plan) -> None:
-        """Within a transaction, put another plan in the place of that on the board; who hung on that hangs on this."""
+        Args:
+            block: about to start.
+            start: its time, s.
+            now: the time of the tick.
+
+        Returns:
+            None if the present plan is still good, or the new one would lose anything.
+        """
+        if not _is_outdated(block, start):
+            return None
+        plan = self.solve(self.build_problem(block, {unit: unit.preference(now) for unit in block.units}, start))
+        return None if plan.losses or len(plan.units) < len(block.units) else plan
+
+    def lay_out(self, block: BMLBlock, plan: Plan) -> list[TimePeg]:
+        """Within a transaction, put the pegs of a plan on the board; those that the block's start waits for."""
+        self._board.add_block(block.key, self._hang(block, plan))
+        holds = self._holds(block, plan)
+        self._announce(block, plan)
+        return holds
+
+    def replace(self, block: BMLBlock, plan: Plan) -> dict[TimeCell, TimeCell]:
+        """Within a transaction, replace the plan on the board; returns the new pegs by the old ones."""
         replaced: dict[TimeCell, TimeCell] = {}
         for key, peg in self._hang(block, plan).items():
             if (old := self._board.get(key)) is peg:
@@ -150,41 +184,41 @@ class Planning:
             if old is not None:
                 replaced[old] = peg
             self._board.replace(key, peg)
-        for other in self._blocks.alive:
-            other.follow(replaced)
-        block.replanned(block.end.floor, plan.units, plan.kept)
-        self._tell(block, plan)
+        self._announce(block, plan)
+        return replaced
 
-    def _tell(self, block: BMLBlock, plan: Plan) -> None:
+    def _announce(self, block: BMLBlock, plan: Plan) -> None:
         for listener in self._listeners:
             listener(block, plan.problem, plan.solution)
 
     def _holds(self, block: BMLBlock, plan: Plan) -> list[TimePeg]:
-        """The pegs that the start of a block hangs on by constraints."""
+        """Pegs for the bounds that constraints put on the start of a block."""
         name = f"{block.key.block}:start as constrained"
         holds: list[TimePeg] = [OffsetPeg(self._board.graph, name, cell, offset) for cell, offset in plan.holds]
         self._board.add_unnamed(block.key, holds)
         return holds
 
     def _hang(self, block: BMLBlock, plan: Plan) -> dict[PegKey, TimePeg]:
-        specs_of = plan.solution.pegs
-        own = {unit: {sync: unit.key(sync) for sync in specs_of[unit.behavior.id]} for unit in plan.units}
-        specs = {key: specs_of[unit.behavior.id][sync] for unit, keys in own.items() for sync, key in keys.items()}
-        builder = PegBuilder(self._board.graph, block, specs)
-        pegs = builder.build()
-        self._board.add_unnamed(block.key, builder.unnamed)
+        """Make the pegs of a plan, and have the points of its units reached at them."""
+        pegs, unnamed = plan.layout.build(self._board.graph, block.key.block, block.start)
+        self._board.add_unnamed(block.key, unnamed)
         reasons = _reasons(plan.kept)
-        for unit, keys in own.items():
+        points: dict[str, dict[str, TimePeg]] = {unit.behavior.id: {} for unit in plan.units}
+        for point, peg in pegs.items():
+            points[point.behavior][point.sync] = peg
+        for unit in plan.units:
             named = reasons.get(unit.behavior.id, {})
+            own = points[unit.behavior.id]
             for sync, texts in named.items():
-                pegs[keys[sync]].why = "; ".join(texts)
-            unit.points = [SyncPoint(sync, pegs[key], sync in named) for sync, key in keys.items()]
+                own[sync].why = "; ".join(texts)
+            unit.points = [SyncPoint(sync, peg, sync in named) for sync, peg in own.items()]
             unit.points += [SyncPoint(sync, peg) for sync, peg in unit.open.items()]
-        return pegs | {unit.key(sync): peg for unit in plan.units for sync, peg in unit.open.items()}
+        known = {unit.key(sync): peg for unit in plan.units for sync, peg in points[unit.behavior.id].items()}
+        return known | {unit.key(sync): peg for unit in plan.units for sync, peg in unit.open.items()}
 
 
-def _reasons(constraints: Iterable[Tie | Order]) -> dict[str, dict[str, list[str]]]:
-    """The points of each behavior that constraints name, with the text of these."""
+def _reasons(constraints: Iterable[Tie | Precedence]) -> dict[str, dict[str, list[str]]]:
+    """The points of each behavior that constraints name, with the texts of these."""
     found: dict[str, dict[str, list[str]]] = {}
     for each in constraints:
         for node in each.nodes:
@@ -193,15 +227,26 @@ def _reasons(constraints: Iterable[Tie | Order]) -> dict[str, dict[str, list[str
     return found
 
 
+def _is_outdated(block: BMLBlock, start: GlobalTime) -> bool:
+    """Whether a block is to be planned again when it starts.
+
+    It is a chunk, and gestures are prepared from where the hands are; or something of it has come to lie before its
+    start, because times from outside are no longer those it was planned with.
+    """
+    times = (point.peg.value for unit in block.units for point in unit.points)
+    early = any(time is not None and time < start - RESOLUTION for time in times)
+    return early or any(each.chunk for each in block.predecessors)
+
+
 def _predicted_start(block: BMLBlock, now: GlobalTime) -> GlobalTime:
-    """When a block that was not started yet is expected to start."""
+    """When a block that has not started is expected to start."""
     return max(now, block.start.value or now)
 
 
-def _holds(constraints: Iterable[Tie | Order], start: GlobalTime) -> dict[Tie | Order, Bound]:
+def _holds(constraints: Iterable[Tie | Precedence], start: GlobalTime) -> dict[Tie | Precedence, Bound]:
     """The constraints that a block keeps by starting later; it cannot start earlier for an `at`."""
     bounds = ((each, bound) for each in constraints if (bound := holding(each)) is not None)
-    return {each: bound for each, bound in bounds if isinstance(each, Order) or not _before(bound, start)}
+    return {each: bound for each, bound in bounds if isinstance(each, Precedence) or not _before(bound, start)}
 
 
 def _before(bound: Bound, time: GlobalTime) -> bool:
@@ -214,7 +259,7 @@ def _held_start(block: BMLBlock, holds: Iterable[Bound], now: GlobalTime) -> Glo
     return max([_predicted_start(block, now), *known])
 
 
-def _outer_times(constraints: Sequence[Tie | Order], start: GlobalTime) -> dict[TimeCell, float | None]:
+def _outer_times(constraints: Sequence[Tie | Precedence], start: GlobalTime) -> dict[TimeCell, float | None]:
     nodes = [node for each in constraints for node in each.nodes]
     cells = (node for node in nodes if not isinstance(node, Point | Origin))
     return {cell: None if cell.value is None else cell.value - start for cell in cells}

@@ -1,7 +1,8 @@
-"""What a strategy gets and gives: a block as points, ties and preferences; a plan as descriptions of pegs."""
+"""Input and output of a strategy: a block as points, ties and preferences; a plan as the times of its points."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Container, Mapping
+from collections.abc import Set as AbstractSet
+from dataclasses import dataclass, field, replace
 from enum import Enum
 from typing import NamedTuple
 
@@ -10,6 +11,9 @@ from reactive_realizer.bml.names import Location
 from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.time_peg import TimeCell
 from reactive_realizer.planunit.timing import Timing
+
+LEAST = 1.6e-5
+"""What a phase that is to last has at least, s: enough to be played (`SHORTEST`), whatever rounding takes."""
 
 
 class Point(NamedTuple):
@@ -61,13 +65,17 @@ class Tie:
         """What it ties."""
         return self.left, self.right
 
+    def names(self, behaviors: Container[str]) -> bool:
+        """Whether it names one of some behaviors."""
+        return _any_of(behaviors, self.nodes)
+
     def renamed(self, names: Mapping[TimeCell, TimeCell]) -> "Tie":
         """The same tie with other pegs of the outside."""
         return replace(self, left=_renamed(self.left, names), right=_renamed(self.right, names))
 
 
 @dataclass(frozen=True, slots=True)
-class Order:
+class Precedence:
     """An `after` constraint: ``later >= earlier + offset``; a `before` is one with its sides exchanged (thesis 7.12).
 
     Attributes:
@@ -90,9 +98,17 @@ class Order:
         """What it orders."""
         return self.later, self.earlier
 
-    def renamed(self, names: Mapping[TimeCell, TimeCell]) -> "Order":
+    def names(self, behaviors: Container[str]) -> bool:
+        """Whether it names one of some behaviors."""
+        return _any_of(behaviors, self.nodes)
+
+    def renamed(self, names: Mapping[TimeCell, TimeCell]) -> "Precedence":
         """The same order with other pegs of the outside."""
         return replace(self, later=_renamed(self.later, names), earlier=_renamed(self.earlier, names))
+
+
+def _any_of(behaviors: Container[str], nodes: tuple[Node, Node]) -> bool:
+    return any(isinstance(node, Point) and node.behavior in behaviors for node in nodes)
 
 
 def _renamed(node: Node, names: Mapping[TimeCell, TimeCell]) -> Node:
@@ -100,109 +116,46 @@ def _renamed(node: Node, names: Mapping[TimeCell, TimeCell]) -> Node:
 
 
 @dataclass(frozen=True, slots=True)
-class Problem:
+class SchedulingProblem:
     """A block to be timed.
 
     Attributes:
         items: its behaviors.
         ties: its `at` constraints.
-        orders: its before/after constraints.
         times: of the outer pegs, s after the predicted block start, None while unknown.
+        orders: its before/after constraints.
+        placed: times of points of behaviors that were timed before; likewise.
     """
 
     items: tuple[Item, ...]
     ties: tuple[Tie, ...]
     times: Mapping[TimeCell, float | None]
-    orders: tuple[Order, ...] = ()
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class AtBlock:
-    """A time (s) after the start of the block."""
-
-    anchor: "Anchor"
-    offset: float
+    orders: tuple[Precedence, ...] = ()
+    placed: Mapping[Point, float | None] = field(default_factory=dict)
 
     @property
-    def links(self) -> "Links":
-        """What it hangs on, besides the start of the block."""
-        return ()
-
-
-@dataclass(slots=True, eq=False)
-class Anchor:
-    """Where a cluster stands in its block (s); free ones are moved as a whole."""
-
-    time: float = 0.0
-    free: bool = False
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class AtOffset:
-    """A distance (s) from another peg."""
-
-    link: "PegSpec | TimeCell"
-    offset: float
+    def given(self) -> dict[Node, float | None]:
+        """The times of all that constraints may name and that is not to be timed; the start of the block is first."""
+        given: dict[Node, float | None] = {Origin.BLOCK_START: 0.0}
+        for times in (self.times, self.placed):
+            given.update(times.items())
+        return given
 
     @property
-    def links(self) -> "Links":
-        """What it hangs on."""
-        return (self.link,)
+    def constraints(self) -> tuple[Tie | Precedence, ...]:
+        """All of them."""
+        return *self.ties, *self.orders
 
-
-@dataclass(frozen=True, slots=True, eq=False)
-class AtRatio:
-    """A fraction of the way between two others."""
-
-    before: "PegSpec | TimeCell"
-    after: "PegSpec | TimeCell"
-    ratio: float
-
-    @property
-    def links(self) -> "Links":
-        """What it hangs on."""
-        return self.before, self.after
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class AtLeast:
-    """Where another peg would be, but not before any bound, each a peg and a distance (s): an `after` kept alive.
-
-    What must come later whatever happens are its ceilings: a bound behind one cannot be kept, and binds nothing.
-    """
-
-    natural: "PegSpec | TimeCell"
-    bounds: "tuple[tuple[PegSpec | TimeCell, float], ...]"
-    ceilings: "tuple[tuple[PegSpec | TimeCell, float], ...]" = ()
-
-    @property
-    def links(self) -> "Links":
-        """What it hangs on."""
-        return self.natural, *(link for link, _ in (*self.bounds, *self.ceilings))
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class AtMost:
-    """Where another peg would be, but not after any bound, each a peg and a distance (s): a `before` kept alive.
-
-    What must come first are its floors: a bound in front of one cannot be kept, and binds nothing.
-    """
-
-    natural: "PegSpec | TimeCell"
-    bounds: "tuple[tuple[PegSpec | TimeCell, float], ...]"
-    floors: "tuple[tuple[PegSpec | TimeCell, float], ...]" = ()
-
-    @property
-    def links(self) -> "Links":
-        """What it hangs on."""
-        return self.natural, *(link for link, _ in (*self.bounds, *self.floors))
-
-
-PegSpec = AtBlock | AtOffset | AtRatio | AtLeast | AtMost
-"""A peg to be made when the plan is committed; points that share a spec share a peg."""
-
-Links = tuple[PegSpec | TimeCell, ...]
-"""What a peg is to hang on."""
+    def only(
+        self, items: Callable[[Item], bool], constraints: Callable[[Tie | Precedence], bool]
+    ) -> "SchedulingProblem":
+        """Some behaviors and constraints of it."""
+        return replace(
+            self,
+            items=tuple(filter(items, self.items)),
+            ties=tuple(filter(constraints, self.ties)),
+            orders=tuple(filter(constraints, self.orders)),
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -220,21 +173,55 @@ class Loss:
     fault: Fault
     dropped: bool
     required: bool
-    constraint: Tie | Order | None = None
+    constraint: Tie | Precedence | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class Solution:
-    """A plan: the pegs of each behavior that is kept, point by point."""
+    """A plan: a time for each point of the behaviors that are kept.
 
-    pegs: Mapping[str, Mapping[str, PegSpec]]
+    Attributes:
+        times: s after the predicted start of the block. What hangs on an unknown time from outside has the times that
+            it would have if that were known to be where it suits the plan.
+        losses: what is not kept.
+    """
+
+    times: Mapping[Point, float]
     losses: tuple[Loss, ...]
 
-    def kept(self, problem: Problem) -> tuple[Tie | Order, ...]:
-        """The constraints of its problem that it keeps: not lost, and on no behavior that is."""
-        lost = {id(loss.constraint) for loss in self.losses}
-        constraints: tuple[Tie | Order, ...] = (*problem.ties, *problem.orders)
-        return tuple(each for each in constraints if id(each) not in lost and all(map(self._has, each.nodes)))
+    @property
+    def behaviors(self) -> AbstractSet[str]:
+        """Ids of the behaviors that are kept."""
+        return {point.behavior for point in self.times}
 
-    def _has(self, node: Node) -> bool:
-        return not isinstance(node, Point) or node.behavior in self.pegs
+    def kept_of(self, problem: SchedulingProblem) -> SchedulingProblem:
+        """What is left of its problem without what is lost, and the constraints on that."""
+        behaviors, lost = self.behaviors, {id(loss.constraint) for loss in self.losses}
+        gone = {item.behavior.id for item in problem.items} - behaviors
+        return problem.only(
+            lambda item: item.behavior.id in behaviors,
+            lambda constraint: id(constraint) not in lost and not constraint.names(gone),
+        )
+
+
+def canonical(problem: SchedulingProblem) -> SchedulingProblem:
+    """The same problem in one order, in whatever order it was written (thesis 7.1.6).
+
+    Behaviors by id; constraints by what they name, required ones first. What compares equal differs in nothing but its
+    place in the document.
+    """
+    items = sorted(problem.items, key=lambda item: item.behavior.id)
+    points = {each.behavior.id: each.timing.points for each in items}
+
+    def place(node: Node) -> tuple[int, str, int, str]:
+        if isinstance(node, Point):
+            own = points.get(node.behavior, ())
+            return 0, node.behavior, own.index(node.sync) if node.sync in own else 0, node.sync
+        return 1, "" if node is Origin.BLOCK_START else node.name, 0, ""
+
+    def by_place(each: Tie | Precedence) -> tuple[object, ...]:
+        name = each.name if isinstance(each, Precedence) else ""
+        return not each.required, name, *map(place, each.nodes), each.offset, each.text
+
+    ties, orders = sorted(problem.ties, key=by_place), sorted(problem.orders, key=by_place)
+    return replace(problem, items=tuple(items), ties=tuple(ties), orders=tuple(orders))

@@ -1,4 +1,4 @@
-"""What engines ask for, done to blocks and behaviors (thesis 8.13-8.15)."""
+"""Carries out the requests of engines to activate, interrupt and change blocks and behaviors (thesis 8.13-8.15)."""
 
 from collections.abc import Iterable
 
@@ -12,144 +12,115 @@ from reactive_realizer.engine.effects import (
     SetParameter,
     Warn,
 )
-from reactive_realizer.errors import Fault, RealizerError, error
-from reactive_realizer.pegboard.pegboard import PegBoard
+from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.planunit.parameter import spelled
 from reactive_realizer.planunit.plan_unit import PlanUnit, UnitState
-from reactive_realizer.scheduler.block_planner import BlockPlanner
+from reactive_realizer.scheduler.block_feedback import BlockFeedback
+from reactive_realizer.scheduler.block_lifecycle import BlockLifecycle
+from reactive_realizer.scheduler.block_state import BlockState
 from reactive_realizer.scheduler.blocks import Blocks
-from reactive_realizer.scheduler.bml_block import BlockState, BMLBlock
-from reactive_realizer.scheduler.endings import Endings
-from reactive_realizer.scheduler.reporter import Reporter
+from reactive_realizer.scheduler.faults import BehaviorEnded, NoSuchBehavior, NoSuchBlock, NoSuchParameter, NotPlanned
 
 _Timed = ActivateBlock | InterruptBlock | BindParameter | EndUnit
 
 
-class Requests:
-    """Does what is asked for, or warns the behavior that asked."""
+class EngineRequests:
+    """Carries out requests, or warns the behavior that made one."""
 
-    def __init__(
-        self, board: PegBoard, blocks: Blocks, planner: BlockPlanner, endings: Endings, reporter: Reporter
-    ) -> None:
-        self._board = board
+    def __init__(self, blocks: Blocks, lifecycle: BlockLifecycle, feedback: BlockFeedback) -> None:
         self._blocks = blocks
-        self._planner = planner
-        self._endings = endings
-        self._reporter = reporter
+        self._lifecycle = lifecycle
+        self._feedback = feedback
 
-    def do(self, requests: Iterable[Request], now: GlobalTime) -> bool:
-        """Do what is asked for, in order of time; whether more than parameters changed.
+    def carry_out(self, requests: Iterable[Request], now: GlobalTime) -> bool:
+        """Carry out requests in order of time; whether more than parameters changed.
 
-        Values come first: a change that ends as another one begins has reached its target by then.
+        Values are set first: a change that ends as another one begins has reached its target by then.
         """
         for each in requests:
             if isinstance(each, SetParameter) and each.parameter.owner is each.unit:
                 each.parameter.set(each.value)
             elif isinstance(each, Warn):
-                self._reporter.warn_of(each.unit, each.fault)
+                self._feedback.warn_behavior(each.unit, each.fault)
         timed = [each for each in requests if not isinstance(each, SetParameter | Warn)]
         for request in sorted(timed, key=lambda each: _time(each, now)):
-            self._do(request, now)
+            self._carry_out(request, now)
         return bool(timed)
 
-    def activate(self, character: str, name: str, time: GlobalTime) -> Fault | None:
-        """Have a preplanned block start at a time, or say why it cannot."""
-        block = self._blocks.find(character, name)
-        if block is None:
-            return self._missing(character, name)
-        if block.activation is None:
-            return Fault("not-preplanned", {"block": name})
-        if not block.asleep:
-            return Fault("activated-already", {"block": name})
-        with self._board.graph.transaction(f"activate {name}"):
-            block.activate(time)
-        return None
-
-    def interrupt(self, block: BMLBlock, time: GlobalTime) -> None:
-        """Cut a whole block, or give up what is prepared for it."""
-        self._planner.cancel(block)
-        self._endings.interrupt(block, time)
-
-    def _do(self, request: _Timed, now: GlobalTime) -> None:
+    def _carry_out(self, request: _Timed, now: GlobalTime) -> None:
         if request.unit.state is UnitState.DROPPED:
-            return  # by what was asked for before
+            return  # by an earlier request
         character = request.unit.block.character
         match request:
             case ActivateBlock(unit, target, time):
-                fault = self.activate(character, target, time)
+                fault = self._lifecycle.activate(character, target, time)
                 if fault is None:
-                    self._endings.begin(unit, now)
+                    self._lifecycle.begin_behavior(unit, now)
                 else:
-                    self._refuse(unit, fault, now)
+                    self._reject(unit, fault, now)
             case InterruptBlock():
                 self._interrupt(request, character, now)
             case BindParameter(unit):
                 try:
                     self._bind(request, character)
                 except RealizerError as problem:
-                    self._endings.drop_unit(unit, problem.fault, now)
+                    self._lifecycle.drop_behavior(unit, problem.fault, now)
             case EndUnit(unit, time):
-                self._endings.finish(unit, time)
+                self._lifecycle.finish_behavior(unit, time)
 
-    def _refuse(self, unit: PlanUnit, fault: Fault, now: GlobalTime) -> None:
-        """There is nothing to do: who asked is dropped with a warning, or plays on with it."""
+    def _reject(self, unit: PlanUnit, fault: Fault, now: GlobalTime) -> None:
+        """Warn the behavior whose request cannot be carried out; it is dropped unless it plays."""
         if unit.begun:
-            self._reporter.warn_of(unit, fault)
+            self._feedback.warn_behavior(unit, fault)
         else:
-            self._endings.drop_unit(unit, fault, now)
+            self._lifecycle.drop_behavior(unit, fault, now)
 
     def _interrupt(self, request: InterruptBlock, character: str, now: GlobalTime) -> None:
         block = self._blocks.find(character, request.target)
         if block is None:
-            self._interrupt_nobody(request, character, now)
+            self._interrupt_missing(request, character, now)
             return
         names = {behavior.id for behavior in block.description.behaviors}
         spared = names.intersection(request.exclude) | (names.difference(request.include) if request.include else set())
         unknown = [name for name in (*request.include, *request.exclude) if name not in names]
-        fault = Fault("no-such-behavior", {"block": block.key.block, "behavior": ", ".join(unknown)})
+        fault = NoSuchBehavior(block=block.key.block, behavior=", ".join(unknown))
         if unknown and spared == names:
-            self._refuse(request.unit, fault, now)
+            self._reject(request.unit, fault, now)
             return
-        # It begins before anything is cut: it may hang on that, and may be of the same block.
-        self._endings.begin(request.unit, now)
+        # The behavior that asks begins before anything is cut: it may hang on that, or be of the same block.
+        self._lifecycle.begin_behavior(request.unit, now)
         if unknown:
-            self._reporter.warn_of(request.unit, fault)
-        if not spared:
-            self._planner.cancel(block)
-        self._endings.interrupt(block, request.time, spared, gently=request.gently)
+            self._feedback.warn_behavior(request.unit, fault)
+        self._lifecycle.interrupt(block, request.time, spared, gently=request.gently)
 
-    def _interrupt_nobody(self, request: InterruptBlock, character: str, now: GlobalTime) -> None:
-        """A block that has ended is interrupted enough; one that never was is so too, but that is told."""
-        self._endings.begin(request.unit, now)
-        missing = self._missing(character, request.target)
-        if missing.code == "no-such-block":
-            self._reporter.warn_of(request.unit, missing)
+    def _interrupt_missing(self, request: InterruptBlock, character: str, now: GlobalTime) -> None:
+        """Interrupt a block that is not alive: nothing happens, and only a block that never was gives a warning."""
+        self._lifecycle.begin_behavior(request.unit, now)
+        missing = self._blocks.missing(character, request.target)
+        if isinstance(missing, NoSuchBlock):
+            self._feedback.warn_behavior(request.unit, missing)
 
     def _bind(self, request: BindParameter, character: str) -> None:
-        parameters = self._target(request, character).parameters
+        target = self._target(request, character)
+        parameters = target.parameters
         parameter = parameters.get(spelled(request.parameter, parameters))
         if parameter is None:
-            known = ", ".join(parameters) or "none"
-            raise error("no-such-parameter", behavior=request.behavior, parameter=request.parameter, known=known)
-        request.unit.bind(parameter)
+            known = tuple(parameters)
+            raise RealizerError(NoSuchParameter(behavior=request.behavior, parameter=request.parameter, known=known))
+        request.unit.bind(target, parameter)
         parameter.owner = request.unit
 
     def _target(self, request: BindParameter, character: str) -> PlanUnit:
         block = self._blocks.find(character, request.block)
         if block is None:
-            raise RealizerError(self._missing(character, request.block))
+            raise RealizerError(self._blocks.missing(character, request.block))
         unit = next((unit for unit in block.units if unit.behavior.id == request.behavior), None)
         if unit is not None and unit.live:
             return unit
         if request.behavior not in [each.id for each in block.description.behaviors]:
-            code = "no-such-behavior"
-        else:
-            code = "not-planned" if block.state is BlockState.IN_PREP else "behavior-ended"
-        raise error(code, block=request.block, behavior=request.behavior)
-
-    def _missing(self, character: str, name: str) -> Fault:
-        code = "block-ended" if self._blocks.has_ended(character, name) else "no-such-block"
-        return Fault(code, {"block": name})
+            raise RealizerError(NoSuchBehavior(block=request.block, behavior=request.behavior))
+        kind = NotPlanned if block.state is BlockState.IN_PREP else BehaviorEnded
+        raise RealizerError(kind(block=request.block, behavior=request.behavior))
 
 
 def _time(request: _Timed, now: GlobalTime) -> GlobalTime:

@@ -9,8 +9,9 @@ from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.time_peg import AnticipatorPeg
 from reactive_realizer.planunit.timing import SHORTEST, PhaseKind
 from reactive_realizer.scheduler.clusters import Cluster, clusters_of
+from reactive_realizer.scheduler.faults import ConstraintBroken
 from reactive_realizer.scheduler.plan_view import PlanView
-from reactive_realizer.scheduler.problem import Node, Order, Origin, Point, Tie
+from reactive_realizer.scheduler.problem import Node, Origin, Point, Precedence, Tie
 
 TOLERANCE = 1e-6
 """s by which an equation may be missed: times are sums of fractions."""
@@ -35,8 +36,8 @@ class Violation:
     @property
     def fault(self) -> Fault:
         """What is said of it."""
-        details = {"text": self.text, "amount": self.amount, "equation": self.equation}
-        return Fault("constraint-broken", details | {"points": ", ".join(self.points)})
+        points = ", ".join(self.points)
+        return ConstraintBroken(text=self.text, amount=self.amount, points=points, equation=self.equation)
 
 
 def verify(plan: PlanView) -> list[Violation]:
@@ -49,7 +50,7 @@ def verify(plan: PlanView) -> list[Violation]:
     return [violation for check in checks for violation in check(plan) if violation.amount > TOLERANCE]
 
 
-def missed(constraint: Tie | Order, first: float | None, second: float | None) -> float:
+def missed(constraint: Tie | Precedence, first: float | None, second: float | None) -> float:
     """By how much (s) a constraint is missed with its nodes at some times; minus infinity if one is unknown."""
     late = _late(first, second, constraint.offset)
     return abs(late) if isinstance(constraint, Tie) and late > -inf else late
@@ -66,7 +67,7 @@ def _ties(plan: PlanView) -> Iterator[Violation]:
 def _orders(plan: PlanView) -> Iterator[Violation]:
     """7.9, 7.10, 7.12, 7.33, 7.34: ``f(later) >= f(earlier) + offset``."""
     for order in plan.expected:
-        if isinstance(order, Order) and plan.movable(order.later):
+        if isinstance(order, Precedence) and plan.movable(order.later):
             amount = missed(order, *map(plan.time, order.nodes))
             before = not isinstance(order.later, Point)
             numbers = ("7.10", "7.12", "7.34") if before else ("7.9", "7.12", "7.33")
@@ -131,7 +132,7 @@ def _could_be_earlier(plan: PlanView, cluster: Cluster) -> float:
     room = min(known) - plan.earliest
     for order in plan.kept:
         inside = [isinstance(node, Point) and node.behavior in cluster.behaviors for node in order.nodes]
-        if isinstance(order, Order) and inside == [True, False]:
+        if isinstance(order, Precedence) and inside == [True, False]:
             gap = missed(order, *map(plan.time, order.nodes))
             room = min(room, 0.0 if gap == -inf else -gap)
     return room

@@ -1,5 +1,5 @@
-"""How the world talks to a realizer: HTTP, a socket, frames and sounds, from one scene to many clients.
+"""The network interface of a realizer: HTTP, a WebSocket, frames and sounds, from one scene to many clients.
 
-The room adapts and decides nothing: what is said enters as inputs of the realizer, what comes out is passed on. It may
-not know how anything is planned or played.
+The room only adapts: requests enter as inputs of the realizer, and its output is passed on. It does not depend on how
+behaviors are planned or played.
 """

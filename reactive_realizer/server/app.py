@@ -3,27 +3,27 @@
 from aiohttp import web
 
 from reactive_realizer.server import routes_page, routes_requests, routes_state, routes_streams
-from reactive_realizer.server.audience import Audience
 from reactive_realizer.server.intake import Intake
-from reactive_realizer.server.keys import FAREWELLS, INTAKE, LIVE, SECURITY
-from reactive_realizer.server.live import Live
+from reactive_realizer.server.keys import INTAKE, LIVE, SECURITY, SHUTDOWN
+from reactive_realizer.server.live_scene import LiveScene
 from reactive_realizer.server.middleware import add_headers, let_in, tell_refusals
 from reactive_realizer.server.security import Security
+from reactive_realizer.server.subscribers import Subscribers
 
 
-def create_app(live: Live, security: Security) -> web.Application:
-    """An application; who ticks the scene is somebody else's business.
+def create_app(live: LiveScene, security: Security) -> web.Application:
+    """Creates the application. It does not tick the scene.
 
     Args:
         live: the scene.
-        security: who is let in.
+        security: the hosts, origins and token that are accepted.
     """
-    # aiohttp refuses a body that has the size of its limit already.
+    # aiohttp also refuses a body of exactly the limit.
     app = web.Application(middlewares=[tell_refusals, let_in], client_max_size=live.limits.bml_bytes + 1)
     app[LIVE] = live
     app[INTAKE] = Intake(live)
     app[SECURITY] = security
-    app[FAREWELLS] = Audience()
+    app[SHUTDOWN] = Subscribers()
     for routes in (routes_page.routes, routes_requests.routes, routes_state.routes, routes_streams.routes):
         app.add_routes(routes)
     app.add_routes(routes_page.built_files())
@@ -33,4 +33,4 @@ def create_app(live: Live, security: Security) -> web.Application:
 
 
 async def _say_farewell(app: web.Application) -> None:
-    app[FAREWELLS].tell(None)
+    app[SHUTDOWN].publish(None)

@@ -1,4 +1,4 @@
-"""What a planner may ask of a scene."""
+"""The capabilities of a scene, for `GET /capabilities`."""
 
 from collections.abc import Mapping
 from typing import Any

@@ -1,13 +1,36 @@
-"""Feedback as it goes to clients: numbered, and kept for those who resume."""
+"""Feedback as clients receive it: numbered, with POSIX times, and kept for clients that resume."""
 
 from collections import deque
 from dataclasses import dataclass
 
+from lxml import etree
+
+from reactive_realizer.bml.names import BML, BMLA
 from reactive_realizer.feedback.feedback_manager import Report
 from reactive_realizer.limits import Limits
-from reactive_realizer.server.audience import Audience
-from reactive_realizer.server.posix import with_posix_times
 from reactive_realizer.server.protocol import encode
+from reactive_realizer.server.subscribers import Subscribers
+
+etree.register_namespace("bmla", BMLA)  # the prefix that lxml uses where the document declares none
+
+_STAMPS = {"globalTime": "posixTime", "globalStart": "posixStartTime", "globalEnd": "posixEndTime"}
+"""A global time (s) -> the attribute that says the same as POSIX time (ms)."""
+
+
+def with_posix_times(report: Report, epoch: float) -> str:
+    """The XML of a report, with the POSIX time added to every global time.
+
+    Args:
+        report: a feedback message.
+        epoch: POSIX time (s) of global time 0.
+    """
+    element = etree.fromstring(report.xml)
+    for part in (element, *element.iterchildren(f"{{{BML}}}bml")):
+        for seconds, stamp in _STAMPS.items():
+            time = part.get(seconds)
+            if time is not None:
+                part.set(f"{{{BMLA}}}{stamp}", str(round(1000 * (epoch + float(time)))))
+    return etree.tostring(element, encoding="unicode")
 
 
 @dataclass(frozen=True, slots=True)
@@ -19,21 +42,21 @@ class Entry:
 
 
 class FeedbackLog:
-    """Numbers feedback from 1 and keeps the last.
+    """Numbers feedback messages from 1 and keeps the newest.
 
     Args:
         session: id of this run.
         epoch: POSIX time (s) of realizer time 0.
-        limits: how much of it is kept.
+        limits: how many messages and bytes are kept.
 
     Attributes:
         seq: number of the last message.
-        audience: is told every message.
+        subscribers: of the messages.
     """
 
     def __init__(self, session: str, epoch: float, limits: Limits) -> None:
         self.seq = 0
-        self.audience: Audience[Entry] = Audience()
+        self.subscribers: Subscribers[Entry] = Subscribers()
         self._session = session
         self._epoch = epoch
         self._limits = limits
@@ -41,7 +64,7 @@ class FeedbackLog:
         self._bytes = 0
 
     def append(self, report: Report) -> None:
-        """Take a message in and tell everybody."""
+        """Numbers a message, keeps it and publishes it."""
         self.seq += 1
         message = {
             "type": "feedback",
@@ -52,10 +75,10 @@ class FeedbackLog:
         }
         entry = Entry(self.seq, encode(message))
         self._keep(entry)
-        self.audience.tell(entry)
+        self.subscribers.publish(entry)
 
     def after(self, seq: int) -> list[Entry]:
-        """The messages after a number, as far as they are kept."""
+        """The messages after a number that are still kept."""
         return [entry for entry in self._kept if entry.seq > seq]
 
     @property

@@ -1,34 +1,73 @@
-"""Frames of all characters, encoded once for everybody."""
+"""Frames of all characters in their binary form, encoded once for all clients (docs/protocol.md, frames)."""
 
+import struct
 from collections.abc import Callable
 from itertools import count
 
+import numpy as np
+from numpy.typing import NDArray
+
+from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.frame import Frame
 from reactive_realizer.realizer.character import Character
 from reactive_realizer.realizer.realizer import Realizer
-from reactive_realizer.server.audience import Audience
-from reactive_realizer.server.frame_codec import encode_frame
+from reactive_realizer.server.subscribers import Subscribers
+
+_HEADER = struct.Struct("<BBHIdHH3f")
+_KIND, _VERSION = 1, 1
+_ROTATION_SCALE = 32767
+_WEIGHT_SCALE = 65535
+_MOST_SEQUENCE = 2**32
+
+
+def encode_frame(
+    character: int,
+    sequence: int,
+    time: GlobalTime,
+    root: NDArray[np.float64],
+    rotations: NDArray[np.float64],
+    weights: NDArray[np.float64],
+) -> bytes:
+    """Encodes a frame, little-endian.
+
+    A header of 32 bytes (u8 kind, u8 version, u16 character, u32 sequence, f64 time, u16 J, u16 M, 3 x f32 root), then
+    J x 4 int16 and M x uint16.
+
+    Args:
+        character: index of the character in hello.
+        sequence: number of the frame of the character; it wraps.
+        time: s.
+        root: position of HumanoidRoot in the world, m, (3,).
+        rotations: (J, 4) unit quaternions w x y z local to the parent bone.
+        weights: (M,) of the morphs, 0..1.
+    """
+    header = _HEADER.pack(
+        _KIND, _VERSION, character, sequence % _MOST_SEQUENCE, time, len(rotations), len(weights), *root.tolist()
+    )
+    turned = np.rint(rotations * _ROTATION_SCALE).clip(-_ROTATION_SCALE, _ROTATION_SCALE).astype("<i2")
+    weighed = np.rint(weights * _WEIGHT_SCALE).clip(0, _WEIGHT_SCALE).astype("<u2")
+    return header + turned.tobytes() + weighed.tobytes()
 
 
 class FrameStream:
-    """Watches a realizer as long as somebody looks: nothing is composed where nobody does."""
+    """Sends frames to subscribers. Without subscribers, the realizer composes no frames."""
 
     def __init__(self, realizer: Realizer) -> None:
         self._realizer = realizer
-        self._audience: Audience[bytes] = Audience()
+        self._subscribers: Subscribers[bytes] = Subscribers()
         self._indices = {id_: index for index, id_ in enumerate(realizer.characters)}
         self._sequences = {id_: count() for id_ in realizer.characters}
         self._look_away: Callable[[], None] | None = None
 
-    def join(self, listener: Callable[[bytes], None]) -> Callable[[], None]:
-        """Send the frames to a listener; the returned call ends that."""
-        leave = self._audience.join(listener)
+    def subscribe(self, listener: Callable[[bytes], None]) -> Callable[[], None]:
+        """Sends the frames to a listener. The returned function ends that."""
+        leave = self._subscribers.subscribe(listener)
         if self._look_away is None:
             self._look_away = self._realizer.watch(self._send)
 
         def leave_and_look_away() -> None:
             leave()
-            if not self._audience and self._look_away is not None:
+            if not self._subscribers and self._look_away is not None:
                 self._look_away()
                 self._look_away = None
 
@@ -37,4 +76,4 @@ class FrameStream:
     def _send(self, character: Character, frame: Frame) -> None:
         index, sequence = self._indices[character.id], next(self._sequences[character.id])
         rotations = character.humanoid.avatar.bone_rotations(frame.rotations)
-        self._audience.tell(encode_frame(index, sequence, frame.time, frame.root, rotations, frame.weights))
+        self._subscribers.publish(encode_frame(index, sequence, frame.time, frame.root, rotations, frame.weights))

@@ -1,14 +1,14 @@
-"""What the handlers find in the application."""
+"""Keys of the objects that request handlers find in the application."""
 
 from aiohttp import web
 
-from reactive_realizer.server.audience import Audience
 from reactive_realizer.server.intake import Intake
-from reactive_realizer.server.live import Live
+from reactive_realizer.server.live_scene import LiveScene
 from reactive_realizer.server.security import Security
+from reactive_realizer.server.subscribers import Subscribers
 
-LIVE = web.AppKey("live", Live)
+LIVE = web.AppKey("live", LiveScene)
 INTAKE = web.AppKey("intake", Intake)
 SECURITY = web.AppKey("security", Security)
-FAREWELLS = web.AppKey("farewells", Audience[None])
-"""Those who must be told when the server ends: connections last until then."""
+SHUTDOWN = web.AppKey("shutdown", Subscribers[None])
+"""Called when the server shuts down, so that open connections end."""

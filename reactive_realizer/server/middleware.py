@@ -1,42 +1,43 @@
-"""What holds for every request: who comes in, and how a refusal is told."""
+"""Middleware for every request: access control, and faults as JSON."""
 
 import logging
 
 from aiohttp import web
 from aiohttp.typedefs import Handler
 
-from reactive_realizer.errors import RealizerError, error
+from reactive_realizer.bml.faults import TooManyBytes
+from reactive_realizer.errors import RealizerError
+from reactive_realizer.server.faults import BadRequest, NothingThere, WrongMethod
 from reactive_realizer.server.keys import LIVE, SECURITY
 from reactive_realizer.server.security import HEADERS
+from reactive_realizer.server.statuses import status_of
 
 logger = logging.getLogger(__name__)
-
-_BAD_REQUEST = 400
 
 
 @web.middleware
 async def tell_refusals(request: web.Request, handler: Handler) -> web.StreamResponse:
-    """Every refusal is answered by JSON with its code, its sentence, and its place in the document if it has one."""
+    """Answers each fault with JSON: its code, its sentence, and its place in the document, if any."""
     try:
         return await handler(request)
     except RealizerError as refusal:
         return answer_to(refusal)
     except web.HTTPRequestEntityTooLarge:
         limit = request.app[LIVE].limits.bml_bytes
-        return answer_to(error("too-many-bytes", size=request.content_length or f"more than {limit}", limit=limit))
+        return answer_to(RealizerError(TooManyBytes(size=request.content_length or f"more than {limit}", limit=limit)))
     except web.HTTPMethodNotAllowed as refusal:
-        answer = answer_to(error("wrong-method", path=request.path, method=request.method))
+        answer = answer_to(RealizerError(WrongMethod(path=request.path, method=request.method)))
         answer.headers["Allow"] = refusal.headers["Allow"]
         return answer
     except (web.HTTPNotFound, web.HTTPForbidden):
-        return answer_to(error("nothing-there", path=request.path))
+        return answer_to(RealizerError(NothingThere(path=request.path)))
     except web.HTTPBadRequest as refusal:
-        return answer_to(error("bad-request", reason=refusal.text))
+        return answer_to(RealizerError(BadRequest(reason=refusal.text or refusal.reason)))
 
 
 @web.middleware
 async def let_in(request: web.Request, handler: Handler) -> web.StreamResponse:
-    """Ask for host, origin and token; what a browser asks before it asks is answered here."""
+    """Checks host, origin and token, and answers the preflight requests of browsers."""
     request.app[SECURITY].check(request)
     if request.method == "OPTIONS":
         return web.Response(status=204)
@@ -44,15 +45,15 @@ async def let_in(request: web.Request, handler: Handler) -> web.StreamResponse:
 
 
 async def add_headers(request: web.Request, response: web.StreamResponse) -> None:
-    """Signal of the application: what every answer bears."""
+    """Adds the headers of every response."""
     response.headers.update(HEADERS)
     response.headers.update(request.app[SECURITY].cross_origin_headers(request))
 
 
 def answer_to(refusal: RealizerError) -> web.Response:
-    """A refusal as an answer of HTTP."""
+    """The HTTP response for a fault."""
     fault = refusal.fault
     logger.info("%s: %s", fault.code, fault)
     place = {"line": fault.line, "column": fault.column}
     body = {"code": fault.code, "message": fault.sentence, **place}
-    return web.json_response({"error": body}, status=fault.kind.status or _BAD_REQUEST)
+    return web.json_response({"error": body}, status=status_of(fault))

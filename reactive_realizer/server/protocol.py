@@ -1,15 +1,16 @@
-"""The text messages of the socket: read, checked against protocol.json, written."""
+"""Reads, checks and writes the text messages of the socket (protocol.json)."""
 
 import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Final
 
-from reactive_realizer.errors import Fault, RealizerError, error
-from reactive_realizer.server.schema import Schema
+from reactive_realizer.errors import RealizerError
+from reactive_realizer.server.faults import BadJson, UnknownMessage
+from reactive_realizer.server.schema import Schema, shown
 
 VERSION: Final = 1
-"""Rises only when an old client would break."""
+"""Increases only with changes that break clients."""
 
 DOCUMENT: Final = Path(__file__).with_name("protocol.json").read_text(encoding="utf-8")
 """The JSON Schema of every message."""
@@ -17,32 +18,31 @@ DOCUMENT: Final = Path(__file__).with_name("protocol.json").read_text(encoding="
 Message = Mapping[str, Any]
 
 _SCHEMA = Schema(json.loads(DOCUMENT))
-_MOST_SHOWN = 60
 
 
-def _by_type(direction: str) -> dict[str, Message]:
+def _by_type(direction: str) -> Mapping[str, str]:
     names = [alternative["$ref"].rpartition("/")[2] for alternative in _SCHEMA.definitions[direction]["oneOf"]]
-    nodes = [_SCHEMA.definitions[name] for name in names]
-    return {node["properties"]["type"]["const"]: node for node in nodes}
+    return {_SCHEMA.definitions[name]["properties"]["type"]["const"]: name for name in names}
 
 
 _FROM_CLIENT = _by_type("ClientMessage")
+"""Names of definitions, by the type of the message."""
 
 
 class NoNumber(RealizerError):
-    """A text would be JSON, but for a NaN or an infinity in it.
+    """A JSON text that contains a NaN or an infinity.
 
     Attributes:
-        message: what it says otherwise.
+        message: the decoded message, with None for these numbers.
     """
 
     def __init__(self, number: str, message: Any) -> None:
-        super().__init__(Fault("bad-json", {"reason": f"{number} is no number"}))
+        super().__init__(BadJson(reason=f"{number} is no number"))
         self.message = message
 
 
 def decode(text: str | bytes) -> Any:
-    """What a JSON text says.
+    """Decodes a JSON text.
 
     Raises:
         RealizerError: "bad-json".
@@ -52,7 +52,7 @@ def decode(text: str | bytes) -> Any:
     try:
         message = json.loads(text, parse_constant=strange.append)
     except (ValueError, RecursionError) as problem:
-        raise error("bad-json", reason=problem) from problem
+        raise RealizerError(BadJson(reason=str(problem))) from problem
     if strange:
         raise NoNumber(strange[0], message)
     return message
@@ -64,38 +64,31 @@ def encode(message: Message) -> str:
 
 
 def check(message: Any) -> None:
-    """Whether a client may say that.
+    """Checks a message of a client.
 
     Raises:
         RealizerError: "unknown-message" or "bad-message", with the place in the message.
     """
     kind = message.get("type") if isinstance(message, dict) else None
     if not isinstance(kind, str) or kind not in _FROM_CLIENT:
-        raise error("unknown-message", type=_shown(kind), known=", ".join(_FROM_CLIENT))
-    wrong = _SCHEMA.mismatch(message, _FROM_CLIENT[kind])
-    if wrong is not None:
-        raise error("bad-message", place=wrong.place or kind, value=_shown(wrong.value), rule=wrong.rule)
+        raise RealizerError(UnknownMessage(type=shown(kind), known=tuple(_FROM_CLIENT)))
+    _SCHEMA.check(message, _FROM_CLIENT[kind], kind)
 
 
 def ref_of(message: Any) -> str | int | None:
-    """What an answer to a message must bear, even where the rest of the message is wrong."""
+    """The ref that the answer to a message must carry, even if the message is otherwise invalid."""
     ref = message.get("ref") if isinstance(message, dict) else None
-    return None if ref is None or _SCHEMA.mismatch(ref, _SCHEMA.definitions["Ref"]) else ref
+    return ref if ref is not None and _SCHEMA.accepts(ref, "Ref") else None
 
 
 def accepted(ref: str | int, blocks: Sequence[str] | None = None) -> Message:
-    """The answer to a message that has entered; of BML, with the ids of its blocks."""
+    """The answer to an accepted message; for BML, with the ids of its blocks."""
     answer = {"type": "accepted", "ref": ref}
     return answer if blocks is None else answer | {"blocks": blocks}
 
 
 def refused(refusal: RealizerError, ref: str | int | None = None, blocks: Sequence[str] | None = None) -> Message:
-    """The answer to a message that was refused; of BML, with the ids of the blocks that entered nevertheless."""
+    """The answer to a refused message; for BML, with the ids of the blocks that were accepted."""
     answer = {"type": "error", "code": refusal.fault.code, "message": str(refusal.fault)}
     more = {"ref": ref, "blocks": blocks}
     return answer | {name: value for name, value in more.items() if value is not None}
-
-
-def _shown(value: object) -> str:
-    text = json.dumps(value)
-    return text if len(text) <= _MOST_SHOWN else text[:_MOST_SHOWN] + "..."

@@ -4,23 +4,23 @@ import json
 import logging
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
-from dataclasses import asdict, fields
+from dataclasses import fields
 from pathlib import Path
 from typing import IO
 
 from reactive_realizer import __version__
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.clock.ticker import RATE, tick_time
-from reactive_realizer.realizer.entered import Delivery, Entered
+from reactive_realizer.realizer.inputs import Delivery, TickInputs
 from reactive_realizer.server.protocol import Message
-from reactive_realizer.server.recorded_input import message_of
+from reactive_realizer.server.recording import message_of
 
 logger = logging.getLogger(__name__)
 
 
 @contextmanager
 def recording_file(path: Path) -> Iterator[IO[str]]:
-    """A file to record into; what was in it is gone.
+    """Opens a file to record into, and empties it.
 
     Raises:
         OSError: it cannot be written.
@@ -29,14 +29,14 @@ def recording_file(path: Path) -> Iterator[IO[str]]:
     try:
         yield stream
     finally:
-        with suppress(OSError):  # the recorder has said so
+        with suppress(OSError):  # the recorder has logged it
             stream.close()
 
 
 class Recorder:
-    """Listens to what enters a realizer and writes it down, a tick at a time, before anything comes of it.
+    """Records the inputs of a realizer, tick by tick, before they have any effect.
 
-    So a session that was killed can be had again up to the tick in which it was. If the file cannot be written any
+    So even a session that was killed can be replayed up to its last tick. If the file cannot be written any
     more, recording ends, and the session goes on.
 
     Args:
@@ -51,7 +51,7 @@ class Recorder:
         scene = _scene(options)
         self._write([{"recording": 1, "version": __version__, "rate": RATE, "started": started, "scene": scene}])
 
-    def __call__(self, entered: Entered) -> None:
+    def __call__(self, entered: TickInputs) -> None:
         """Write what a tick took in; its own line is the last, and says that the others are all there."""
         lines = []
         for entry in entered.inputs:
@@ -80,4 +80,7 @@ def _scene(options: SceneOptions) -> Message:
 
 def _delivery(delivery: Delivery) -> Message:
     failure = delivery.failure
-    return {"request": delivery.request} | ({} if failure is None else {"failure": asdict(failure)})
+    if failure is None:
+        return {"request": delivery.request}
+    place = {"line": failure.line, "column": failure.column}
+    return {"request": delivery.request, "failure": {"code": failure.code, "details": failure.details, **place}}

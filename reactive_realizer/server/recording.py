@@ -1,24 +1,94 @@
-"""A recorded session, read back."""
+"""Recorded sessions: inputs as JSON lines, and the session that a file holds."""
 
 import json
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Final
+from typing import Any, Final, assert_never
 
+from reactive_realizer.assembly.registry import load_all
 from reactive_realizer.assembly.scene import SceneOptions
-from reactive_realizer.errors import Fault, RealizerError, error
-from reactive_realizer.realizer.entered import Delivery, Entered
-from reactive_realizer.realizer.inputs import Input
-from reactive_realizer.server.protocol import Message, decode
-from reactive_realizer.server.recorded_input import input_of
-from reactive_realizer.server.schema import Schema
+from reactive_realizer.bml.faults import BadEncoding
+from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.errors import FAULTS, Fault, RealizerError
+from reactive_realizer.realizer.inputs import BmlText, Delivery, Event, Input, Prediction, TargetMoved, TickInputs
+from reactive_realizer.server.faults import BadMessage, BadRecording, LostInput, NotRecorded, TicksOutOfOrder
+from reactive_realizer.server.protocol import Message, check, decode
+from reactive_realizer.server.schema import Schema, shown
+
+
+def message_of(entry: Input) -> Message:
+    """Encodes an input as a message of the protocol.
+
+    A document that came as bytes has its ``encoding`` beside its ``xml``, so that it becomes the same bytes again.
+    """
+    match entry:
+        case BmlText(text):
+            return {"type": "bml", **_document(text)}
+        case Prediction(anticipator, sync, time):
+            return {"type": "predict", "anticipator": anticipator, "sync": sync, "time": time}
+        case Event(anticipator, name, value, text):
+            said = {key: what for key, what in (("value", value), ("text", text)) if what is not None}
+            return {"type": "event", "anticipator": anticipator, "event": name, **said}
+        case TargetMoved(target, position):
+            return {"type": "world", "set": {target: position}}
+        case _:
+            assert_never(entry)
+
+
+def input_of(message: Message) -> Input:
+    """Decodes an input from a recorded message.
+
+    Raises:
+        RealizerError: "unknown-message" or "bad-message".
+    """
+    check(message)
+    match message:
+        case {"type": "bml"}:
+            return BmlText(_text(message))
+        case {"type": "predict", "anticipator": anticipator, "sync": sync, "time": time}:
+            return Prediction(anticipator, sync, None if time is None else GlobalTime(time))
+        case {"type": "event", "anticipator": anticipator, "event": name}:
+            return Event(anticipator, name, message.get("value"), message.get("text"))
+        case {"type": "world", "set": targets} if len(targets) == 1:
+            return _moved(targets)
+        case _:
+            raise RealizerError(NotRecorded(type=message["type"]))
+
+
+def _document(text: str | bytes) -> Mapping[str, str]:
+    if isinstance(text, str):
+        return {"xml": text}
+    try:
+        return {"xml": text.decode(), "encoding": "utf-8"}
+    except UnicodeDecodeError:
+        return {"xml": text.decode("latin-1"), "encoding": "latin-1"}
+
+
+def _text(message: Message) -> str | bytes:
+    xml, encoding = str(message["xml"]), message.get("encoding")
+    if encoding is None:
+        return xml
+    try:
+        return xml.encode(encoding)
+    except (TypeError, LookupError, UnicodeEncodeError) as problem:
+        raise RealizerError(BadEncoding()) from problem
+
+
+def _moved(targets: Mapping[str, Sequence[float] | None]) -> TargetMoved:
+    ((target, position),) = targets.items()
+    if position is None:
+        return TargetMoved(target, None)
+    x, y, z = position
+    return TargetMoved(target, (x, y, z))
+
 
 _LINES: Final = Schema(json.loads(Path(__file__).with_name("recording.json").read_text(encoding="utf-8")))
 
 
 @dataclass(frozen=True, slots=True)
 class Recording:
-    """A session as it was.
+    """A recorded session.
 
     Attributes:
         version: of the realizer that was recorded.
@@ -30,10 +100,10 @@ class Recording:
     version: str
     started: float
     scene: Message
-    ticks: tuple[Entered, ...]
+    ticks: tuple[TickInputs, ...]
 
     def options(self, folder: Path) -> SceneOptions:
-        """What its scene is assembled from; the human file is written into a folder.
+        """The options of its scene. Writes the human file into a folder.
 
         Raises:
             OSError: the folder cannot be written to.
@@ -44,7 +114,7 @@ class Recording:
 
 
 def read_recording(path: Path) -> Recording:
-    """The session that a file holds.
+    """Reads a recorded session from a file.
 
     What stands after the last tick that is whole was cut off with its end, and is left out.
 
@@ -57,7 +127,7 @@ def read_recording(path: Path) -> Recording:
         try:
             reader.read(decode(line))
         except RealizerError as problem:
-            raise error("bad-recording", file=path.name, row=row, reason=problem.fault.sentence) from problem
+            raise RealizerError(BadRecording(file=path.name, row=row, reason=problem.fault.sentence)) from problem
     return Recording(reader.header["version"], reader.header["started"], reader.header["scene"], tuple(reader.ticks))
 
 
@@ -66,13 +136,13 @@ class _Reader:
 
     def __init__(self) -> None:
         self.header: Message = {}
-        self.ticks: list[Entered] = []
+        self.ticks: list[TickInputs] = []
         self._inputs: list[Input] = []
         self._tick: int | None = None
         self._seq = 0
 
     def read(self, line: Any) -> None:
-        """Take in the next line.
+        """Reads the next line.
 
         Raises:
             RealizerError: what is wrong with it.
@@ -87,27 +157,25 @@ class _Reader:
     def _take_input(self, line: Message) -> None:
         self._seq += 1
         if line["seq"] != self._seq:
-            raise error("lost-input", seq=line["seq"], wanted=self._seq)
+            raise RealizerError(LostInput(seq=line["seq"], wanted=self._seq))
         self._tick = self._later(line["tick"])
         self._inputs.append(input_of(line["input"]))
 
     def _take_tick(self, line: Message) -> None:
         work = tuple(map(_delivery, line.get("work", ())))
-        self.ticks.append(Entered(self._later(line["tick"]), tuple(self._inputs), work))
+        self.ticks.append(TickInputs(self._later(line["tick"]), tuple(self._inputs), work))
         self._inputs, self._tick = [], None
 
     def _later(self, tick: int) -> int:
         """A tick after those that are whole, and the same as that of the inputs before it."""
         last = self.ticks[-1].tick if self.ticks else -1
         if tick <= last or self._tick not in (None, tick):
-            raise error("ticks-out-of-order", tick=tick, last=last if self._tick is None else self._tick)
+            raise RealizerError(TicksOutOfOrder(tick=tick, last=last if self._tick is None else self._tick))
         return tick
 
 
 def _checked(line: Any, kind: str) -> Message:
-    wrong = _LINES.mismatch(line, _LINES.definitions[kind])
-    if wrong is not None:
-        raise error("bad-message", place=wrong.place or kind, value=json.dumps(wrong.value)[:60], rule=wrong.rule)
+    _LINES.check(line, kind, kind)
     checked: Message = line
     return checked
 
@@ -118,10 +186,15 @@ def _delivery(work: Message) -> Delivery:
 
 
 def _fault(failure: Message) -> Fault:
-    fault = Fault(failure["code"], failure["details"], failure["line"], failure["column"])
+    code, line, column = failure["code"], failure["line"], failure["column"]
+    values: Mapping[str, Any] = failure["details"]
+    details = {name: tuple(value) if isinstance(value, list) else value for name, value in values.items()}
+    if code not in FAULTS:
+        load_all()  # a plug-in may define it
     try:
+        fault = FAULTS[code](**details, line=line, column=column)
         str(fault)
-    except (LookupError, ValueError, AttributeError) as problem:
-        shown = json.dumps(failure)[:60]
-        raise error("bad-message", place="failure", value=shown, rule="the table of errors") from problem
+    except (LookupError, ValueError, AttributeError, TypeError) as problem:
+        reason = f"{shown(failure)} is not one of the faults that are defined"
+        raise RealizerError(BadMessage(place="failure", reason=reason)) from problem
     return fault

@@ -1,4 +1,4 @@
-"""The page and what it loads: files, avatars, sounds, the schema."""
+"""Routes of the page and the files that it loads: avatars, sounds, the schema."""
 
 import asyncio
 from pathlib import Path
@@ -6,13 +6,15 @@ from pathlib import Path
 from aiohttp import web
 from aiohttp.typedefs import Handler
 
-from reactive_realizer.errors import error
+from reactive_realizer.binding.faults import NoAsset
+from reactive_realizer.errors import RealizerError
+from reactive_realizer.server.faults import NoClip, NoPage
 from reactive_realizer.server.keys import LIVE, SECURITY
 from reactive_realizer.server.protocol import DOCUMENT
 from reactive_realizer.server.security import COOKIE
 
 STATIC = Path(__file__).parent / "static"
-"""Where the page is built into."""
+"""The folder of the built page."""
 
 routes = web.RouteTableDef()
 
@@ -21,7 +23,7 @@ routes = web.RouteTableDef()
 async def page(request: web.Request) -> web.StreamResponse:
     """The page; a token in the address becomes a cookie, so that it is not in every address."""
     if not (STATIC / "index.html").is_file():
-        raise error("no-page")
+        raise RealizerError(NoPage())
     if "token" in request.query and request.app[SECURITY].token is not None:
         answer = web.HTTPSeeOther(request.rel_url.with_query(_without_token(request)))
         answer.set_cookie(COOKIE, request.query["token"], httponly=True, samesite="Strict")
@@ -41,7 +43,7 @@ async def avatar(request: web.Request) -> web.StreamResponse:
     name = "avatars/" + request.match_info["name"]
     path = await asyncio.to_thread(request.app[LIVE].scene.assets, name)
     if path.suffix != ".glb":
-        raise error("no-asset", name=name)
+        raise RealizerError(NoAsset(name=name))
     return web.FileResponse(path, headers={"Content-Type": "model/gltf-binary"})
 
 
@@ -51,12 +53,12 @@ async def audio(request: web.Request) -> web.Response:
     clip = request.match_info["clip"]
     wav = request.app[LIVE].sounds.wav(clip)
     if wav is None:
-        raise error("no-clip", clip=clip)
+        raise RealizerError(NoClip(clip=clip))
     return web.Response(body=wav, content_type="audio/wav", headers={"Cache-Control": "no-store"})
 
 
 def built_files() -> list[web.RouteDef]:
-    """A route for each file of the page, as far as it is built now: no other address means anything."""
+    """A route for each file of the built page."""
     files = [file for file in STATIC.rglob("*") if file.is_file()]
     return [web.get(f"/{file.relative_to(STATIC).as_posix()}", _sender(file)) for file in files]
 

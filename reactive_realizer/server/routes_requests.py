@@ -1,11 +1,52 @@
-"""What planners without a socket ask for: BML, predictions, silence."""
+"""Routes for planners without a socket: BML, predictions and stop."""
+
+import codecs
+from typing import Final
 
 from aiohttp import web
 
-from reactive_realizer.errors import error
-from reactive_realizer.server.charset import text_of
+from reactive_realizer.bml.faults import BadEncoding
+from reactive_realizer.errors import RealizerError
+from reactive_realizer.server.faults import WrongCharset, WrongMediaType
 from reactive_realizer.server.keys import INTAKE
 from reactive_realizer.server.protocol import check, decode
+
+_MARKS: Final = (codecs.BOM_UTF8, codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
+_CHARSETS: Final = {
+    "utf-8": "utf-8",
+    "ascii": "ascii",
+    "iso8859-1": "iso8859-1",
+    "utf-16": "utf-16-be",  # without a mark, RFC 2781, 4.3
+    "utf-16-be": "utf-16-be",
+    "utf-16-le": "utf-16-le",
+}
+"""The encodings that are read, by their names in Python."""
+
+
+def text_of(body: bytes, charset: str | None) -> str | bytes:
+    """Decodes a body by the charset of its header; without one, the document declares its encoding itself.
+
+    A byte order mark goes before the header, and the header before what the document declares (RFC 7303, 3). Bytes that
+    are no text become lone surrogates, at which the parser stops and can name the line.
+
+    Raises:
+        RealizerError: "wrong-charset", "bad-encoding".
+    """
+    if charset is None or body.startswith(_MARKS):
+        return body
+    encoding = _encoding(charset)
+    try:
+        return body.decode(encoding, "surrogateescape")
+    except UnicodeDecodeError as problem:
+        raise RealizerError(BadEncoding(line=1, column=1)) from problem
+
+
+def _encoding(charset: str) -> str:
+    try:
+        return _CHARSETS[codecs.lookup(charset).name]
+    except (LookupError, ValueError) as problem:  # ValueError: no name of anything
+        raise RealizerError(WrongCharset(charset=charset)) from problem
+
 
 _XML = ("application/xml", "text/xml", "application/bml+xml")
 
@@ -14,9 +55,9 @@ routes = web.RouteTableDef()
 
 @routes.post("/bml")
 async def bml(request: web.Request) -> web.Response:
-    """A document enters whole, or not at all."""
+    """Accepts a document completely, or not at all."""
     if request.content_type not in _XML:
-        raise error("wrong-media-type", type=request.content_type)
+        raise RealizerError(WrongMediaType(type=request.content_type))
     text = text_of(await request.read(), request.charset)
     blocks = await request.app[INTAKE].document(text)
     return web.json_response({"blocks": blocks}, status=202)
@@ -24,7 +65,7 @@ async def bml(request: web.Request) -> web.Response:
 
 @routes.post("/predict")
 async def predict(request: web.Request) -> web.Response:
-    """The prediction of the socket; the answer says for when it was understood."""
+    """Accepts a prediction like the socket, and returns its time."""
     message = decode(await request.read())
     message = {**message, "type": "predict"} if isinstance(message, dict) else message
     check(message)
@@ -33,5 +74,5 @@ async def predict(request: web.Request) -> web.Response:
 
 @routes.post("/stop")
 async def stop(request: web.Request) -> web.Response:
-    """End everything."""
+    """Ends all blocks."""
     return web.json_response({"blocks": request.app[INTAKE].stop()}, status=202)

@@ -1,4 +1,4 @@
-"""How the realizer is, and what it can do."""
+"""Routes for the state and the capabilities of the realizer."""
 
 from collections import Counter
 from dataclasses import asdict
@@ -7,10 +7,11 @@ from statistics import quantiles
 from aiohttp import web
 
 from reactive_realizer import __version__
-from reactive_realizer.errors import error
+from reactive_realizer.errors import RealizerError
+from reactive_realizer.scheduler.faults import UnknownCharacter
 from reactive_realizer.server.capabilities import capabilities_of
 from reactive_realizer.server.keys import LIVE
-from reactive_realizer.server.live import Live
+from reactive_realizer.server.live_scene import LiveScene
 from reactive_realizer.server.protocol import VERSION
 
 routes = web.RouteTableDef()
@@ -18,7 +19,7 @@ routes = web.RouteTableDef()
 
 @routes.get("/status")
 async def status(request: web.Request) -> web.Response:
-    """How it goes."""
+    """The state of the server."""
     live = request.app[LIVE]
     blocks = live.realizer.scheduler.blocks
     states = [*(block.state for block in blocks.alive), *(block.state for block in blocks.ended)]
@@ -38,7 +39,7 @@ async def status(request: web.Request) -> web.Response:
 
 @routes.get("/world")
 async def world(request: web.Request) -> web.Response:
-    """Where everything is that can be looked at."""
+    """The positions of all targets."""
     places = request.app[LIVE].realizer.world.snapshot()
     return web.json_response({"targets": {name: {"position": place} for name, place in places.items()}})
 
@@ -49,18 +50,18 @@ async def explain(request: web.Request) -> web.Response:
     realizer = request.app[LIVE].realizer
     character = request.query.get("character", next(iter(realizer.characters)))
     if character not in realizer.characters:
-        raise error("unknown-character", character=character, known=", ".join(realizer.characters))
+        raise RealizerError(UnknownCharacter(character=character, known=tuple(realizer.characters)))
     return web.json_response(realizer.scheduler.explain(character, request.match_info["block"]))
 
 
 @routes.get("/capabilities")
 async def capabilities(request: web.Request) -> web.Response:
-    """What may be asked for."""
+    """The capabilities of the scene."""
     live = request.app[LIVE]
     return web.json_response(await capabilities_of(live.scene, live.found))
 
 
-def _ticks(live: Live) -> dict[str, float | None]:
+def _ticks(live: LiveScene) -> dict[str, float | None]:
     """How late (ms) ticks come: the median, and what one in a hundred exceeds; null before there were two."""
     late = live.ticker.lateness
     cuts = quantiles(late, n=100) if len(late) > 1 else [None] * 99

@@ -1,21 +1,21 @@
-"""What goes on, as long as a client likes: the socket, and feedback as server-sent events."""
+"""Routes of streams: the socket, and feedback as server-sent events."""
 
 import socket
 from contextlib import ExitStack
 
 from aiohttp import web
 
-from reactive_realizer.errors import error
-from reactive_realizer.server.client_queue import ClientQueue
+from reactive_realizer.errors import RealizerError
+from reactive_realizer.server.client_limits import ClientQueue
+from reactive_realizer.server.faults import FeedbackGone
 from reactive_realizer.server.feedback_log import Entry, FeedbackLog
-from reactive_realizer.server.keys import FAREWELLS, INTAKE, LIVE
+from reactive_realizer.server.keys import INTAKE, LIVE, SHUTDOWN
 from reactive_realizer.server.protocol import encode, refused
-from reactive_realizer.server.socket_client import SocketClient
-from reactive_realizer.server.streams import Stream, after_of, streams_of
+from reactive_realizer.server.socket_client import SocketClient, Stream, after_of, streams_of
 
 _HEARTBEAT = 30.0
 _SEND_BUFFER = 128 * 1024
-"""Bytes in the machine's hands: the less, the sooner a slow client is noticed and gets new frames instead of old."""
+"""Send buffer of the operating system, bytes: a small one shows early that a client is slow."""
 
 routes = web.RouteTableDef()
 
@@ -38,7 +38,7 @@ async def ws(request: web.Request) -> web.WebSocketResponse:
         if Stream.FRAMES in streams:
             intake.demo.page_opened()
         with ExitStack() as stack:
-            stack.callback(request.app[FAREWELLS].join(lambda _: client.leave()))
+            stack.callback(request.app[SHUTDOWN].subscribe(lambda _: client.leave()))
             await client.serve()
         _hang_up(request)
     return answer
@@ -59,8 +59,8 @@ async def feedback(request: web.Request) -> web.StreamResponse:
             await answer.write(text if isinstance(text, bytes) else text.encode())
 
         with ExitStack() as stack:
-            stack.callback(live.feedback.audience.join(lambda entry: queue.put(_event(entry))))
-            stack.callback(request.app[FAREWELLS].join(lambda _: queue.end()))
+            stack.callback(live.feedback.subscribers.subscribe(lambda entry: queue.put(_event(entry))))
+            stack.callback(request.app[SHUTDOWN].subscribe(lambda _: queue.end()))
             kept_up = await queue.send_all(write)
         if not kept_up:
             _hang_up(request)
@@ -70,7 +70,7 @@ async def feedback(request: web.Request) -> web.StreamResponse:
 def _missed(log: FeedbackLog, after: int | None) -> list[str]:
     if after is None:
         return []
-    gone = encode(refused(error("feedback-gone", seq=log.forgotten)))
+    gone = encode(refused(RealizerError(FeedbackGone(seq=log.forgotten))))
     gap = [f"event: gone\ndata: {gone}\n\n"] if after < log.forgotten else []
     return gap + [_event(entry) for entry in log.after(after)]
 
@@ -86,6 +86,6 @@ def _keep_buffer_small(request: web.Request) -> None:
 
 
 def _hang_up(request: web.Request) -> None:
-    """Drop what was not sent: who does not read would keep it for ever."""
+    """Drops unsent data, which a client that does not read would keep forever."""
     if request.transport is not None:
         request.transport.abort()

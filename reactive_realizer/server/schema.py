@@ -1,155 +1,65 @@
-"""The part of JSON Schema (draft 2020-12) that protocol.json is written in."""
+"""JSON Schemas with definitions, and the sentences for what does not satisfy them."""
 
 import json
-import re
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping
 from typing import Any
 
-Node = Mapping[str, Any]
-Check = Callable[[Any, Any], bool]
+from jsonschema import Draft202012Validator, ValidationError
 
+from reactive_realizer.errors import RealizerError
+from reactive_realizer.server.faults import BadMessage
 
-@dataclass(frozen=True, slots=True)
-class Mismatch:
-    """Where a value does not keep to a schema.
-
-    Attributes:
-        place: path into the value, keys and indices joined by dots; empty for all of it.
-        value: what stands there.
-        rule: the keyword and its argument; of a pattern, how its node is described.
-    """
-
-    place: str
-    value: object
-    rule: str
+_MOST_SHOWN = 60
 
 
 class Schema:
-    """A schema document with ``$defs``.
+    """A schema document with ``$defs``; the validator of each definition is compiled once.
 
-    Keywords of another vocabulary than that of `protocol.json` are a KeyError: nothing goes unchecked.
+    Attributes:
+        definitions: the nodes of ``$defs``, by name.
     """
 
-    def __init__(self, document: Node) -> None:
-        self.definitions: Mapping[str, Node] = document["$defs"]
+    def __init__(self, document: Mapping[str, Any]) -> None:
+        self.definitions: Mapping[str, Mapping[str, Any]] = document["$defs"]
+        self._validators = {
+            name: Draft202012Validator({**node, "$defs": self.definitions}) for name, node in self.definitions.items()
+        }
 
-    def mismatch(self, value: Any, node: Node, place: str = "") -> Mismatch | None:
-        """The first thing that is wrong with a value; None if it keeps to the schema."""
-        for keyword, argument in node.items():
-            if keyword in _NOTES:
-                continue
-            if keyword in _NESTED:
-                found = next(_NESTED[keyword](self, value, argument, place), None)
-            else:
-                fits = _CHECKS[keyword](value, argument)
-                found = None if fits else Mismatch(place, value, _rule(keyword, node))
-            if found is not None:
-                return found
-        return None
+    def accepts(self, value: Any, definition: str) -> bool:
+        """Whether a value satisfies a definition."""
+        return bool(self._validators[definition].is_valid(value))
 
-    def _reference(self, value: Any, argument: str, place: str) -> Iterator[Mismatch]:
-        yield from self._each([(value, self.definitions[argument.rpartition("/")[2]], place)])
+    def check(self, value: Any, definition: str, name: str) -> None:
+        """Checks a value.
 
-    def _properties(self, value: Any, argument: Mapping[str, Node], place: str) -> Iterator[Mismatch]:
-        if isinstance(value, dict):
-            yield from self._each(
-                (value[name], node, _inside(place, name)) for name, node in argument.items() if name in value
-            )
+        Args:
+            value: of any JSON type.
+            definition: the name of its definition.
+            name: of the value as a whole, for messages.
 
-    def _values(self, value: Any, argument: Node, place: str) -> Iterator[Mismatch]:
-        if isinstance(value, dict):
-            yield from self._each((part, argument, _inside(place, name)) for name, part in value.items())
-
-    def _names(self, value: Any, argument: Node, place: str) -> Iterator[Mismatch]:
-        if isinstance(value, dict):
-            yield from self._each((name, argument, _inside(place, name)) for name in value)
-
-    def _items(self, value: Any, argument: Node, place: str) -> Iterator[Mismatch]:
-        if isinstance(value, list):
-            yield from self._each((part, argument, _inside(place, i)) for i, part in enumerate(value))
-
-    def _first_items(self, value: Any, argument: list[Node], place: str) -> Iterator[Mismatch]:
-        if isinstance(value, list):
-            pairs = enumerate(zip(value, argument, strict=False))
-            yield from self._each((part, node, _inside(place, i)) for i, (part, node) in pairs)
-
-    def _any_of(self, value: Any, argument: list[Node], place: str) -> Iterator[Mismatch]:
-        """The first alternative is the one that is told of."""
-        found = [self.mismatch(value, node, place) for node in argument]
-        if None not in found:
-            yield from filter(None, found)
-
-    def _one_of(self, value: Any, argument: list[Node], place: str) -> Iterator[Mismatch]:
-        yield from self._any_of(value, argument, place)
-        if [self.mismatch(value, node, place) for node in argument].count(None) > 1:
-            yield Mismatch(place, value, f"oneOf {json.dumps(argument)}")
-
-    def _each(self, parts: Any) -> Iterator[Mismatch]:
-        for value, node, place in parts:
-            found = self.mismatch(value, node, place)
-            if found is not None:
-                yield found
+        Raises:
+            RealizerError: "bad-message", with the place of the first error: keys and indices joined by dots.
+        """
+        error: ValidationError | None = next(self._validators[definition].iter_errors(value), None)
+        if error is None:
+            return
+        alternatives = error.context or [error]
+        place = ".".join(map(str, alternatives[0].absolute_path)) or name
+        reasons = [_reason(each) for each in alternatives if each.absolute_path == alternatives[0].absolute_path]
+        raise RealizerError(BadMessage(place=place, reason=", or ".join(dict.fromkeys(reasons))))
 
 
-def _rule(keyword: str, node: Node) -> str:
-    # Few people read patterns.
-    return json.dumps(node["description"]) if keyword == "pattern" else f"{keyword} {json.dumps(node[keyword])}"
+def shown(value: object) -> str:
+    """A value as JSON, truncated if it is long."""
+    text = json.dumps(value)
+    return text if len(text) <= _MOST_SHOWN else text[:_MOST_SHOWN] + "..."
 
 
-def _inside(place: str, part: object) -> str:
-    return f"{place}.{part}" if place else str(part)
-
-
-def _is_number(value: Any) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool)
-
-
-def _is_integer(value: Any) -> bool:
-    return _is_number(value) and (isinstance(value, int) or value.is_integer())
-
-
-_TYPES: Mapping[str, Callable[[Any], bool]] = {
-    "object": lambda value: isinstance(value, dict),
-    "array": lambda value: isinstance(value, list),
-    "string": lambda value: isinstance(value, str),
-    "number": _is_number,
-    "integer": _is_integer,
-    "boolean": lambda value: isinstance(value, bool),
-    "null": lambda value: value is None,
-}
-
-
-def _has_type(value: Any, names: str | list[str]) -> bool:
-    return any(_TYPES[name](value) for name in ([names] if isinstance(names, str) else names))
-
-
-def _if(kind: Callable[[Any], bool], check: Check) -> Check:
-    """Keywords say something about values of one kind only."""
-    return lambda value, argument: not kind(value) or check(value, argument)
-
-
-_NOTES = frozenset({"title", "description"})
-_CHECKS: Mapping[str, Check] = {
-    "type": _has_type,
-    "const": lambda value, argument: type(value) is type(argument) and value == argument,
-    "enum": lambda value, argument: any(type(value) is type(one) and value == one for one in argument),
-    "minimum": _if(_is_number, lambda value, least: value >= least),
-    "maximum": _if(_is_number, lambda value, most: value <= most),
-    "maxLength": _if(_TYPES["string"], lambda value, most: len(value) <= most),
-    "pattern": _if(_TYPES["string"], lambda value, pattern: re.search(pattern, value) is not None),
-    "minItems": _if(_TYPES["array"], lambda value, least: len(value) >= least),
-    "maxItems": _if(_TYPES["array"], lambda value, most: len(value) <= most),
-    "maxProperties": _if(_TYPES["object"], lambda value, most: len(value) <= most),
-    "required": _if(_TYPES["object"], lambda value, names: all(name in value for name in names)),
-}
-_NESTED: Mapping[str, Callable[[Schema, Any, Any, str], Iterator[Mismatch]]] = {
-    "$ref": Schema._reference,
-    "properties": Schema._properties,
-    "additionalProperties": Schema._values,
-    "propertyNames": Schema._names,
-    "items": Schema._items,
-    "prefixItems": Schema._first_items,
-    "anyOf": Schema._any_of,
-    "oneOf": Schema._one_of,
-}
+def _reason(error: ValidationError) -> str:
+    if error.validator == "required":
+        return str(error.message)
+    if error.validator == "pattern":  # few people read patterns
+        rule = json.dumps(error.schema["description"])
+    else:
+        rule = f"{error.validator} {json.dumps(error.validator_value)}"
+    return f"{shown(error.instance)} does not satisfy {rule}"

@@ -1,4 +1,4 @@
-"""Who is let in, and what a page from here may do."""
+"""Access control, and the security headers of every response."""
 
 import hmac
 from collections.abc import Collection
@@ -9,7 +9,8 @@ from urllib.parse import urlsplit
 
 from aiohttp import web
 
-from reactive_realizer.errors import error
+from reactive_realizer.errors import RealizerError
+from reactive_realizer.server.faults import ForeignHost, ForeignOrigin, NoToken
 
 HEADERS: Final = {
     "Content-Security-Policy": "; ".join(
@@ -30,17 +31,17 @@ HEADERS: Final = {
     "Referrer-Policy": "no-referrer",
 }
 COOKIE = "reactive-realizer-token"
-"""Where the page keeps the token that it was opened with."""
+"""The cookie in which the page keeps its token."""
 
 
 @dataclass(frozen=True, slots=True)
 class Security:
-    """What a server asks of those who come.
+    """The access rules of a server.
 
     Attributes:
         host: the address that it is bound to.
-        token: that everybody must show; None: nobody must.
-        origins: of other pages that are let in, ``http://localhost:3000``.
+        token: required of every client; None for no token.
+        origins: origins of other pages that are accepted, ``http://localhost:3000``.
     """
 
     host: str = "127.0.0.1"
@@ -49,23 +50,23 @@ class Security:
 
     @property
     def exposed(self) -> bool:
-        """Whether other machines can come."""
+        """Whether other machines can connect."""
         return not _is_loopback(self.host)
 
     def check(self, request: web.Request) -> None:
-        """Let a request in.
+        """Checks a request.
 
         Raises:
             RealizerError: "foreign-host", "foreign-origin" or "no-token".
         """
         self._check_host(request)
         self._check_origin(request)
-        # A browser asks whether a page may send a token before it sends one.
+        # A preflight request carries no token.
         if self.token is not None and request.method != "OPTIONS":
             self._check_token(request, self.token)
 
     def cross_origin_headers(self, request: web.BaseRequest) -> dict[str, str]:
-        """What lets a page of an allowed origin read the answer."""
+        """The headers that let a page of an accepted origin read the response."""
         origin = request.headers.get("Origin")
         if origin is None or origin not in self.origins:
             return {}
@@ -84,18 +85,18 @@ class Security:
         known = {self.host, *map(_host_of, self.origins)}
         named = name is not None and (name in known or _is_loopback(name) or (self.exposed and _is_number(name)))
         if not named:
-            raise error("foreign-host", host=request.host)
+            raise RealizerError(ForeignHost(host=request.host))
 
     def _check_origin(self, request: web.Request) -> None:
         origin = request.headers.get("Origin")
         own = (f"http://{request.host}", f"https://{request.host}")
         if origin is not None and origin not in own and origin not in self.origins:
-            raise error("foreign-origin", origin=origin)
+            raise RealizerError(ForeignOrigin(origin=origin))
 
     def _check_token(self, request: web.Request, token: str) -> None:
         shown = _bearer(request) or request.query.get("token") or request.cookies.get(COOKIE, "")
         if not hmac.compare_digest(shown.encode("utf-8", "surrogateescape"), token.encode()):
-            raise error("no-token")
+            raise RealizerError(NoToken())
 
 
 def _bearer(request: web.Request) -> str:

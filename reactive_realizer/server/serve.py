@@ -1,4 +1,4 @@
-"""A server from its options, until it is told to end."""
+"""Runs a server until it is told to stop."""
 
 import asyncio
 import logging
@@ -13,26 +13,26 @@ from aiohttp import web
 from reactive_realizer.assembly.scene import SceneOptions, open_scene
 from reactive_realizer.clock.clock import SystemClock
 from reactive_realizer.server.app import create_app
-from reactive_realizer.server.live import Live
+from reactive_realizer.server.live_scene import LiveScene
 from reactive_realizer.server.recorder import Recorder, recording_file
 from reactive_realizer.server.security import Security
 
 logger = logging.getLogger(__name__)
 
 _PATIENCE = 2.0
-"""s for clients to take their leave."""
+"""Time for clients to disconnect, s."""
 
 
 @dataclass(frozen=True, slots=True)
 class ServerOptions:
-    """What a user chooses.
+    """The options of a server.
 
     Attributes:
         host: address to bind to.
         port: 0 for any that is free.
-        token: that every client must show; None: nobody must.
-        origins: of other pages that are let in.
-        scene: what is served.
+        token: required of every client; None for no token.
+        origins: origins of other pages that are accepted.
+        scene: options of the scene.
         performance: BML of a demo; None for none.
         record: the file that the session is recorded into; None for none.
     """
@@ -47,7 +47,7 @@ class ServerOptions:
 
 
 async def serve(options: ServerOptions) -> None:
-    """Serve a scene on the machine's clock until SIGTERM or cancellation.
+    """Serves a scene in real time until SIGTERM or cancellation.
 
     Raises:
         RealizerError: the scene cannot be assembled.
@@ -61,7 +61,7 @@ async def serve(options: ServerOptions) -> None:
         record = stack.enter_context(recording_file(options.record)) if options.record else None
         scene = await stack.enter_async_context(open_scene(options.scene))
         group = await stack.enter_async_context(asyncio.TaskGroup())
-        live = Live(scene, SystemClock(), options.performance)
+        live = LiveScene(scene, SystemClock(), options.performance)
         if record is not None:
             live.realizer.record(Recorder(record, options.scene, live.clock.epoch))
         ticking = group.create_task(live.run())
@@ -82,7 +82,7 @@ async def serve(options: ServerOptions) -> None:
 
 
 def _listen(options: ServerOptions) -> socket:
-    """Before anything is started: an address that is taken is known at once."""
+    """Binds the address before anything starts, so that an address in use is reported at once."""
     return create_server((options.host, options.port), family=AF_INET6 if ":" in options.host else AF_INET)
 
 

@@ -1,24 +1,71 @@
-"""One client of the socket, from hello to its close."""
+"""One client of the socket: the streams that it requests, its messages, and the answers."""
 
 import asyncio
 import logging
+from collections.abc import Mapping
 from contextlib import ExitStack
+from enum import StrEnum
 
 from aiohttp import WSMessage, WSMsgType, web
 
-from reactive_realizer.errors import ERRORS, RealizerError, error
-from reactive_realizer.server.client_queue import ClientQueue
+from reactive_realizer.errors import Fault, RealizerError
+from reactive_realizer.server.client_limits import ClientQueue, RateLimit
+from reactive_realizer.server.faults import BadQuery, BinaryMessage, FeedbackGone, GoingAway, TooManyMessages, TooSlow
 from reactive_realizer.server.intake import BlocksRefused, Intake
-from reactive_realizer.server.live import Live
+from reactive_realizer.server.live_scene import LiveScene
 from reactive_realizer.server.protocol import Message, NoNumber, accepted, check, decode, encode, ref_of, refused
-from reactive_realizer.server.rate_limit import RateLimit
-from reactive_realizer.server.streams import Stream
+from reactive_realizer.server.statuses import CLOSE_CODES
+
+
+class Stream(StrEnum):
+    """The streams of a socket."""
+
+    FEEDBACK = "feedback"
+    AUDIO = "audio"
+    FRAMES = "frames"
+    BOARD = "board"
+
+
+_DEFAULT = frozenset({Stream.FEEDBACK, Stream.AUDIO, Stream.FRAMES})
+
+
+def streams_of(query: Mapping[str, str]) -> frozenset[Stream]:
+    """The streams in a query such as ``streams=feedback,frames``; by default all but the board.
+
+    Raises:
+        RealizerError: "bad-query".
+    """
+    if "streams" not in query:
+        return _DEFAULT
+    names = [name for name in query["streams"].split(",") if name]
+    if any(name not in list(Stream) for name in names):
+        raise RealizerError(BadQuery(name="streams", value=query["streams"], wanted="some of " + ", ".join(Stream)))
+    return frozenset(map(Stream, names))
+
+
+def after_of(query: Mapping[str, str], last_event: str | None = None) -> int | None:
+    """The number in ``after=SEQ``, the last feedback that the client has; None for new feedback only.
+
+    Args:
+        query: of the address.
+        last_event: the Last-Event-ID of a reconnecting client, which overrides the query.
+
+    Raises:
+        RealizerError: "bad-query".
+    """
+    text = query.get("after") if last_event is None else last_event
+    if text is None:
+        return None
+    if not (text.isascii() and text.isdigit() and len(text) < 16):
+        raise RealizerError(BadQuery(name="after", value=text, wanted="the number of a feedback message"))
+    return int(text)
+
 
 logger = logging.getLogger(__name__)
 
 
 class SocketClient:
-    """Reads what one client says, and sends what it asked for.
+    """Reads the messages of one client and sends the streams that it requested.
 
     Args:
         live: the scene.
@@ -29,7 +76,12 @@ class SocketClient:
     """
 
     def __init__(
-        self, live: Live, intake: Intake, socket: web.WebSocketResponse, streams: frozenset[Stream], after: int | None
+        self,
+        live: LiveScene,
+        intake: Intake,
+        socket: web.WebSocketResponse,
+        streams: frozenset[Stream],
+        after: int | None,
     ) -> None:
         self._live = live
         self._intake = intake
@@ -37,10 +89,10 @@ class SocketClient:
         self._streams = streams
         self._rate = RateLimit(live.limits.messages_per_second, live.clock)
         self._queue = ClientQueue(live.limits, self._first(after), len(live.realizer.characters))
-        self._reason = "going-away"
+        self._reason: type[Fault] = GoingAway
 
     async def serve(self) -> None:
-        """Until the client goes or is sent away."""
+        """Serves the client until it disconnects or is disconnected."""
         with ExitStack() as stack:
             self._follow(stack)
             async with asyncio.TaskGroup() as group:
@@ -50,10 +102,10 @@ class SocketClient:
         await self._close()
 
     def leave(self) -> None:
-        """Send the client away once it has what waits for it."""
+        """Closes the connection after the messages that wait."""
         self._queue.end()
 
-    # --- what the client is told
+    # --- to the client
 
     def _first(self, after: int | None) -> list[str]:
         messages = [self._live.hello()]
@@ -67,18 +119,18 @@ class SocketClient:
         log = self._live.feedback
         if after is None or Stream.FEEDBACK not in self._streams:
             return []
-        gap = [encode(refused(error("feedback-gone", seq=log.forgotten)))] if after < log.forgotten else []
+        gap = [encode(refused(RealizerError(FeedbackGone(seq=log.forgotten))))] if after < log.forgotten else []
         return gap + [entry.text for entry in log.after(after)]
 
     def _follow(self, stack: ExitStack) -> None:
         if Stream.FEEDBACK in self._streams:
-            stack.callback(self._live.feedback.audience.join(lambda entry: self._queue.put(entry.text)))
+            stack.callback(self._live.feedback.subscribers.subscribe(lambda entry: self._queue.put(entry.text)))
         if Stream.AUDIO in self._streams:
-            stack.callback(self._live.sounds.audience.join(self._tell))
+            stack.callback(self._live.sounds.subscribers.subscribe(self._tell))
         if Stream.BOARD in self._streams:
-            stack.callback(self._live.board.audience.join(self._tell))
+            stack.callback(self._live.board.subscribers.subscribe(self._tell))
         if Stream.FRAMES in self._streams:
-            stack.callback(self._live.frames.join(self._queue.put_frame))
+            stack.callback(self._live.frames.subscribe(self._queue.put_frame))
 
     def _tell(self, message: Message) -> None:
         self._queue.put(encode(message))
@@ -87,9 +139,9 @@ class SocketClient:
         try:
             kept_up = await self._queue.send_all(self._send_one)
         except ConnectionError:
-            return  # the client went without a word
+            return  # the client disconnected
         if not kept_up:
-            self._reason = "too-slow"
+            self._reason = TooSlow
 
     async def _send_one(self, entry: str | bytes) -> None:
         if isinstance(entry, str):
@@ -98,20 +150,19 @@ class SocketClient:
             await self._socket.send_bytes(entry)
 
     async def _close(self) -> None:
-        """One that reads again within aiohttp's patience learns why."""
-        code = ERRORS[self._reason].close
-        assert code is not None
-        if await self._socket.close(code=code, message=self._reason.encode(), drain=False):
-            logger.info("a client was sent away: %s", self._reason)
+        """Closes the socket; a client that still reads receives the reason."""
+        code, reason = CLOSE_CODES[self._reason], self._reason.code
+        if await self._socket.close(code=code, message=reason.encode(), drain=False):
+            logger.info("the connection of a client was closed: %s", reason)
 
-    # --- what the client says
+    # --- from the client
 
     async def _read(self) -> None:
         async for message in self._socket:
             if not self._rate.allows():
                 limit = self._live.limits.messages_per_second
-                self._reason = "too-many-messages"
-                self._tell(refused(error("too-many-messages", limit=limit)))
+                self._reason = TooManyMessages
+                self._tell(refused(RealizerError(TooManyMessages(limit=limit))))
                 break
             await self._take(message)
         self._queue.end()
@@ -120,7 +171,7 @@ class SocketClient:
         ref = None
         try:
             if received.type is not WSMsgType.TEXT:
-                raise error("binary-message")
+                raise RealizerError(BinaryMessage())
             message = decode(received.data)
             ref = ref_of(message)
             check(message)
@@ -136,7 +187,7 @@ class SocketClient:
                 self._tell(accepted(ref, blocks))
 
     async def _answer(self, message: Message) -> list[str] | None:
-        """The ids of the blocks that it had, if it is BML."""
+        """Handles a message; for BML, returns the ids of its blocks."""
         match message["type"]:
             case "ping":
                 self._tell({"type": "pong", "t": message["t"], "time": round(self._live.now, 6)})

@@ -1,1 +1,1 @@
-"""What tests of a realizer need, ours and those of plug-ins: a pilot that owns the clock and reads the feedback."""
+"""Tools for tests of the realizer and of plug-ins: a pilot that advances the clock, assertions and contracts."""

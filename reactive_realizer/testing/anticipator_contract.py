@@ -1,4 +1,4 @@
-"""What every anticipator has to keep to (thesis 8.5.1), as a pytest class to inherit from; needs pytest, Hypothesis."""
+"""The contract of anticipators (thesis 8.5.1): a pytest class to inherit from; needs pytest and Hypothesis."""
 
 import re
 from collections.abc import Iterator
@@ -16,124 +16,128 @@ from reactive_realizer.errors import RealizerError
 from reactive_realizer.pegboard.anticipator import Anticipator
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.pegboard.time_peg import AnticipatorPeg
-from reactive_realizer.reactive.commit import Change, Commit
-from reactive_realizer.testing.anticipator_stand import AnticipatorStand, Told
-from reactive_realizer.testing.inherited import inherited
+from reactive_realizer.reactive.graph import Change, Commit
+from reactive_realizer.testing.anticipator_harness import AnticipatorEvent, AnticipatorHarness
+from reactive_realizer.testing.contract_settings import inherited
 
 _ID = "it"
 
 
 class AnticipatorContract:
-    """For any anticipator, whatever it is told and when: it writes its own points, never into the past, and repeats.
+    """Tests of any anticipator, for any sequence of events: it writes its own points only, and never into the past.
 
     Attributes:
         points: names of points that it predicts.
-        events: what it may be told; of events with a value or a text several, so that something comes of them.
-        refused: what it may not be told.
+        events: events that it takes; several of each kind with a value or a text, so that they have an effect.
+        refused: events that it refuses.
     """
 
     points: ClassVar[tuple[str, ...]]
-    events: ClassVar[tuple[Told, ...]]
-    refused: ClassVar[tuple[Told, ...]] = ()
+    events: ClassVar[tuple[AnticipatorEvent, ...]]
+    refused: ClassVar[tuple[AnticipatorEvent, ...]] = ()
 
     def anticipator(self, id: str, board: PegBoard) -> Anticipator:  # noqa: A002 - the standard's word
-        """The anticipator under test, a new one with each call; the inheriting class makes it."""
+        """A new anticipator under test; inheriting classes define this."""
         raise NotImplementedError
 
     @inherited
     @given(st.data())
-    def test_no_point_is_ever_set_before_now_and_unknown_is_none(self, data: st.DataObject) -> None:
+    def test_no_point_is_set_before_now_and_an_unknown_time_is_none(self, data: st.DataObject) -> None:
         watched = _Watched(self)
-        for now, told in self._story(data):
+        for now, event in self._story(data):
             before = watched.times()
-            watched.stand.event(now, watched.anticipator, *told)
+            watched.harness.event(now, watched.anticipator, *event)
             for peg, time in watched.times().items():
                 assert time is None or isfinite(time)
-                # A point that is named anew means its next time.
+                # A new reference to a point names its next time.
                 if peg not in before or time != before[peg]:
                     assert time is None or time >= now - RESOLUTION
 
     @inherited
     @given(st.data())
-    def test_it_writes_no_points_but_its_own(self, data: st.DataObject) -> None:
+    def test_it_writes_only_its_own_points(self, data: st.DataObject) -> None:
         watched = _Watched(self)
-        other = Anticipator("other", watched.stand.board)
+        other = Anticipator("other", watched.harness.board)
         for sync in self.points:
-            watched.stand.at(0.0, other.predict, sync, 1.5)
+            watched.harness.at(0.0, other.predict, sync, 1.5)
         watched.changes.clear()
-        for now, told in self._story(data):
-            watched.stand.event(now, watched.anticipator, *told)
+        for now, event in self._story(data):
+            watched.harness.event(now, watched.anticipator, *event)
         assert all(change.cell.name.startswith(f"anticipators:{_ID}:") for change in watched.changes)
-        assert [watched.stand.time(other, sync) for sync in self.points] == [1.5] * len(self.points)
+        assert [watched.harness.time(other, sync) for sync in self.points] == [1.5] * len(self.points)
 
     @inherited
     @given(st.data())
-    def test_an_event_that_is_told_twice_at_once_moves_nothing_the_second_time(self, data: st.DataObject) -> None:
+    def test_the_same_event_twice_at_one_time_moves_nothing_the_second_time(self, data: st.DataObject) -> None:
         watched = _Watched(self)
-        for now, told in self._story(data):
-            hung_on = watched.times()
-            watched.stand.event(now, watched.anticipator, *told)
+        for now, event in self._story(data):
+            named = watched.times()
+            watched.harness.event(now, watched.anticipator, *event)
             watched.changes.clear()
-            watched.stand.event(now, watched.anticipator, *told)
-            assert [change for change in watched.changes if change.cell in hung_on] == []
+            watched.harness.event(now, watched.anticipator, *event)
+            assert [change for change in watched.changes if change.cell in named] == []
 
     @inherited
     @given(st.data())
     def test_the_same_events_make_the_same_predictions(self, data: st.DataObject) -> None:
         one, two = _Watched(self), _Watched(self)
-        for now, told in self._story(data):
+        for now, event in self._story(data):
             for watched in (one, two):
-                watched.stand.event(now, watched.anticipator, *told)
+                watched.harness.event(now, watched.anticipator, *event)
             assert one.named() == two.named()
 
-    def test_what_is_never_told_anything_changes_nothing_as_time_goes_by(self) -> None:
+    def test_without_events_nothing_changes(self) -> None:
         watched = _Watched(self)
         for number in range(1000):
-            watched.stand.at(tick_time(number), watched.anticipator.advance)
+            watched.harness.at(tick_time(number), watched.anticipator.advance)
         assert watched.changes == []
 
-    def test_a_name_that_it_does_not_know_is_never_known(self) -> None:
+    def test_a_point_with_an_unknown_name_has_no_time(self) -> None:
         watched = _Watched(self)
-        for now, told in self._each_event():
-            assert watched.stand.time(watched.anticipator, "unheardOf") is None
-            watched.stand.event(now, watched.anticipator, *told)
-        assert watched.stand.time(watched.anticipator, "unheardOf") is None
+        for now, event in self._each_event():
+            assert watched.harness.time(watched.anticipator, "unheardOf") is None
+            watched.harness.event(now, watched.anticipator, *event)
+        assert watched.harness.time(watched.anticipator, "unheardOf") is None
 
-    def test_events_that_it_does_not_know_are_refused(self) -> None:
-        watched = self._told_everything()
-        for told in (Told("unheardOf"), Told("unheardOf", 1.0), Told("unheardOf", text="words")):
+    def test_unknown_events_are_refused(self) -> None:
+        watched = self._after_all_events()
+        for event in (
+            AnticipatorEvent("unheardOf"),
+            AnticipatorEvent("unheardOf", 1.0),
+            AnticipatorEvent("unheardOf", text="words"),
+        ):
             with pytest.raises(RealizerError) as refusal:
-                watched.stand.event(watched.stand.now, watched.anticipator, *told)
+                watched.harness.event(watched.harness.now, watched.anticipator, *event)
             assert refusal.value.fault.code == "unknown-event"
         assert watched.changes == []
 
-    def test_what_it_refuses_is_refused_with_a_reason_and_leaves_it_as_it_was(self) -> None:
-        watched, other = self._told_everything(), self._told_everything()
-        for told in self.refused:
+    def test_a_refused_event_has_a_reason_and_no_effect(self) -> None:
+        watched, other = self._after_all_events(), self._after_all_events()
+        for event in self.refused:
             with pytest.raises(RealizerError) as refusal:
-                watched.stand.check(watched.anticipator, told)
+                watched.harness.check(watched.anticipator, event)
             assert refusal.value.fault.sentence
         assert watched.changes == []
-        for now, told in self._each_event(watched.stand.now + 0.5):
+        for now, event in self._each_event(watched.harness.now + 0.5):
             for each in (watched, other):
-                each.stand.event(now, each.anticipator, *told)
+                each.harness.event(now, each.anticipator, *event)
             assert watched.named() == other.named()
 
-    def test_a_thousand_events_a_second_are_taken_and_leave_nothing_lying_about(self) -> None:
+    def test_a_thousand_events_a_second_leave_no_points_on_the_board(self) -> None:
         watched = _Watched(self)
-        named = [view.key for view in watched.stand.board.snapshot()]
+        named = [view.key for view in watched.harness.board.snapshot()]
         for number in range(2000):
-            told = self.events[number % len(self.events)]
-            watched.stand.event(number / 1000, watched.anticipator, *told)
+            event = self.events[number % len(self.events)]
+            watched.harness.event(number / 1000, watched.anticipator, *event)
         assert all(time is None or isfinite(time) for time in watched.named().values())
-        assert [view.key for view in watched.stand.board.snapshot()] == named
+        assert [view.key for view in watched.harness.board.snapshot()] == named
 
-    def test_the_points_that_it_tells_of_itself_are_those_that_it_predicts(self) -> None:
-        told = _Watched(self).anticipator.points
-        forms = [re.sub("N$", "[0-9]+", re.escape(name)) for name in told]
-        assert not told or all(any(re.fullmatch(form, sync) for form in forms) for sync in self.points)
+    def test_its_declared_points_are_those_that_it_predicts(self) -> None:
+        event = _Watched(self).anticipator.points
+        forms = [re.sub("N$", "[0-9]+", re.escape(name)) for name in event]
+        assert not event or all(any(re.fullmatch(form, sync) for form in forms) for sync in self.points)
 
-    def test_others_may_say_when_its_points_are_only_if_it_is_of_the_kind_that_is_told(self) -> None:
+    def test_only_a_remote_anticipator_takes_predictions_of_others(self) -> None:
         anticipator = _Watched(self).anticipator
         if anticipator.kind == Anticipator.kind:
             anticipator.check_prediction()
@@ -141,7 +145,7 @@ class AnticipatorContract:
             with pytest.raises(RealizerError, match=anticipator.kind):
                 anticipator.check_prediction()
 
-    def test_what_the_human_file_may_say_of_it_are_numbers_and_names_with_defaults(self) -> None:
+    def test_its_options_are_numbers_and_names_with_defaults(self) -> None:
         id_, board, *own = signature(type(_Watched(self).anticipator)).parameters.values()
         assert (id_.name, board.name) == ("id", "board")
         for parameter in own:
@@ -149,46 +153,46 @@ class AnticipatorContract:
             if parameter.kind is not Parameter.KEYWORD_ONLY:
                 assert isinstance(parameter.default, int | float | tuple)
 
-    def _story(self, data: st.DataObject) -> Iterator[tuple[float, Told]]:
-        """What may happen, and when."""
+    def _story(self, data: st.DataObject) -> Iterator[tuple[float, AnticipatorEvent]]:
+        """Random events, each with its time, s."""
         steps = st.tuples(st.sampled_from([0.0, 0.01, 0.2, 0.5, 0.5, 1.0, 3.0]), st.sampled_from(self.events))
         now = 0.0
-        for wait, told in data.draw(st.lists(steps, max_size=20)):
+        for wait, event in data.draw(st.lists(steps, max_size=20)):
             now += wait
-            yield now, told
+            yield now, event
 
-    def _each_event(self, start: float = 0.0) -> Iterator[tuple[float, Told]]:
-        return ((start + number / 2, told) for number, told in enumerate(self.events))
+    def _each_event(self, start: float = 0.0) -> Iterator[tuple[float, AnticipatorEvent]]:
+        return ((start + number / 2, event) for number, event in enumerate(self.events))
 
-    def _told_everything(self) -> "_Watched":
+    def _after_all_events(self) -> "_Watched":
         watched = _Watched(self)
-        for now, told in self._each_event():
-            watched.stand.event(now, watched.anticipator, *told)
+        for now, event in self._each_event():
+            watched.harness.event(now, watched.anticipator, *event)
         watched.changes.clear()
         return watched
 
 
 class _Watched:
-    """An anticipator whose points are all named, and what happens to them."""
+    """An anticipator with a reference to each of its points, and the changes of these."""
 
     def __init__(self, contract: AnticipatorContract) -> None:
-        self.stand = AnticipatorStand()
-        self.anticipator = contract.anticipator(_ID, self.stand.board)
+        self.harness = AnticipatorHarness()
+        self.anticipator = contract.anticipator(_ID, self.harness.board)
         self.changes: list[Change] = []
         self._points = contract.points
         self._pegs: dict[AnticipatorPeg, None] = {}
         self.times()
-        self.stand.board.graph.listen(self._note)
+        self.harness.board.graph.listen(self._note)
 
     def times(self) -> dict[AnticipatorPeg, Time]:
-        """The points of all names, also as they were before they got to mean the next time."""
+        """The times of all points, including those that a new reference would not name."""
         for sync in self._points:
-            self._pegs[self.stand.board.predicted(_ID, sync)] = None
+            self._pegs[self.harness.board.predicted(_ID, sync)] = None
         return {peg: peg.value for peg in self._pegs}
 
     def named(self) -> dict[str, Time]:
-        """What the names mean now."""
-        return {sync: self.stand.time(self.anticipator, sync) for sync in self._points}
+        """The times of all points, for a reference made now."""
+        return {sync: self.harness.time(self.anticipator, sync) for sync in self._points}
 
     def _note(self, commit: Commit) -> None:
         self.changes += commit.changes

@@ -1,7 +1,7 @@
-"""What a test asks of feedback: the assertions of RealizerTester (thesis 9.3), over a `FeedbackList`.
+"""Assertions about feedback, after RealizerTester (thesis 9.3).
 
-Points are named as in feedback: ``block:behavior:sync``, ``block:start``, ``block:end``; behaviors ``block:behavior``.
-Each raises an AssertionError that says what was told instead.
+Ids are those of feedback: ``block:behavior:sync``, ``block:start`` and ``block:end`` for points, ``block:behavior`` for
+behaviors. The message of an AssertionError says what was reported instead.
 """
 
 from collections.abc import Iterable
@@ -10,74 +10,74 @@ from itertools import pairwise
 from reactive_realizer.testing.feedback_list import FeedbackList
 
 TOLERANCE = 1e-3
-"""s by which times that are meant to be one may differ."""
+"""The largest difference between times that count as equal, s."""
 
 DONE = "DONE"
 
 
-def assert_told_once(told: FeedbackList) -> None:
-    """No progress was told twice."""
-    twice = sorted({id_ for id_ in told.progress if told.progress.count(id_) > 1})
-    assert not twice, f"told more than once: {', '.join(twice)}"
+def assert_reported_once(feedback: FeedbackList) -> None:
+    """No progress was reported twice."""
+    twice = sorted({id_ for id_ in feedback.progress if feedback.progress.count(id_) > 1})
+    assert not twice, f"reported more than once: {', '.join(twice)}"
 
 
-def assert_syncs_in_order(told: FeedbackList, behavior: str, *syncs: str) -> None:
-    """A behavior reached these points and no others, each once, in this order of telling and of time."""
-    reached = [point.removeprefix(f"{behavior}:") for point in _points(told, behavior)]
-    assert reached == list(syncs), f"{behavior} reached {_listed(reached)} where {_listed(syncs)} was to come"
+def assert_syncs_in_order(feedback: FeedbackList, behavior: str, *syncs: str) -> None:
+    """A behavior reached exactly these points, each once; reports and times are in this order."""
+    reached = [point.removeprefix(f"{behavior}:") for point in _points(feedback, behavior)]
+    assert reached == list(syncs), f"{behavior} reached {_listed(reached)} instead of {_listed(syncs)}"
     for earlier, later in pairwise(syncs):
-        assert_order(told, f"{behavior}:{earlier}", f"{behavior}:{later}")
+        assert_order(feedback, f"{behavior}:{earlier}", f"{behavior}:{later}")
 
 
-def assert_block_around(told: FeedbackList, block: str) -> None:
-    """A block was told to start and to end, once each, before and after all that was told of its behaviors."""
-    assert_order(told, f"{block}:start", f"{block}:end")
-    own = [id_ for id_ in told.progress if id_.startswith(f"{block}:") and id_ != f"{block}:relax"]
-    assert own[0] == f"{block}:start", f"{own[0]} was told before {block}:start"
-    assert own[-1] == f"{block}:end", f"{own[-1]} was told after {block}:end"
+def assert_block_around(feedback: FeedbackList, block: str) -> None:
+    """The start of a block was reported before all points of its behaviors, and its end after them, each once."""
+    assert_order(feedback, f"{block}:start", f"{block}:end")
+    own = [id_ for id_ in feedback.progress if id_.startswith(f"{block}:") and id_ != f"{block}:relax"]
+    assert own[0] == f"{block}:start", f"{own[0]} was reported before {block}:start"
+    assert own[-1] == f"{block}:end", f"{own[-1]} was reported after {block}:end"
 
 
-def assert_ended(told: FeedbackList, block: str, status: str = DONE) -> None:
-    """A block ended once, in this state."""
-    told.time(f"{block}:end")
-    assert told.status(block) == status, f"{block} ended {told.status(block)} where {status} was to come"
+def assert_ended(feedback: FeedbackList, block: str, status: str = DONE) -> None:
+    """A block ended once, with this status."""
+    feedback.time(f"{block}:end")
+    assert feedback.status(block) == status, f"{block} ended {feedback.status(block)} instead of {status}"
 
 
-def assert_time(told: FeedbackList, point: str, time: float, tolerance: float = TOLERANCE) -> None:
-    """A point was reached at a time of the realizer, s."""
-    reached = told.time(point)
-    assert abs(reached - time) <= tolerance, f"{point} was reached at {reached:g} s where {time:g} s was to come"
+def assert_time(feedback: FeedbackList, point: str, time: float, tolerance: float = TOLERANCE) -> None:
+    """A point was reached at a global time, s."""
+    reached = feedback.time(point)
+    assert abs(reached - time) <= tolerance, f"{point} was reached at {reached:g} s instead of {time:g} s"
 
 
 def assert_linked(
-    told: FeedbackList, point: str, other: str, offset: float = 0.0, tolerance: float = TOLERANCE
+    feedback: FeedbackList, point: str, other: str, offset: float = 0.0, tolerance: float = TOLERANCE
 ) -> None:
-    """A point was reached together with another one, or ``offset`` seconds after it."""
-    distance = told.time(point) - told.time(other)
+    """A point was reached ``offset`` seconds after another one."""
+    distance = feedback.time(point) - feedback.time(other)
     assert abs(distance - offset) <= tolerance, (
-        f"{point} was reached {distance:g} s after {other} where {offset:g} s was to come"
+        f"{point} was reached {distance:g} s after {other} instead of {offset:g} s"
     )
 
 
-def assert_relative_time(told: FeedbackList, point: str, time: float, tolerance: float = TOLERANCE) -> None:
-    """A point was reached so many seconds after the start of its block."""
-    assert_linked(told, point, f"{point.partition(':')[0]}:start", time, tolerance)
+def assert_relative_time(feedback: FeedbackList, point: str, time: float, tolerance: float = TOLERANCE) -> None:
+    """A point was reached ``time`` seconds after the start of its block."""
+    assert_linked(feedback, point, f"{point.partition(':')[0]}:start", time, tolerance)
 
 
 def assert_order(
-    told: FeedbackList, earlier: str, later: str, distance: float = 0.0, tolerance: float = TOLERANCE
+    feedback: FeedbackList, earlier: str, later: str, distance: float = 0.0, tolerance: float = TOLERANCE
 ) -> None:
     """A point was reached at least ``distance`` seconds after another one."""
-    between = told.time(later) - told.time(earlier)
+    between = feedback.time(later) - feedback.time(earlier)
     assert between >= distance - tolerance, (
-        f"{later} was reached {between:g} s after {earlier} where at least {distance:g} s was to come"
+        f"{later} was reached {between:g} s after {earlier} instead of at least {distance:g} s"
     )
 
 
-def assert_warnings(told: FeedbackList, *warnings: tuple[str, str]) -> None:
-    """These warnings came, as (id, type) in any order, and no others."""
+def assert_warnings(feedback: FeedbackList, *warnings: tuple[str, str]) -> None:
+    """Exactly these warnings were sent, (id, type) in any order."""
     missing, other = list(warnings), []
-    for warning in told.warnings:
+    for warning in feedback.warnings:
         if warning in missing:
             missing.remove(warning)
         else:
@@ -86,47 +86,47 @@ def assert_warnings(told: FeedbackList, *warnings: tuple[str, str]) -> None:
     assert not other, f"a warning of {_listed(map(' '.join, other))}"
 
 
-def assert_not_played(told: FeedbackList, behavior: str) -> None:
-    """Nothing was told of a behavior, or of a whole block, but its end."""
-    played = [id_ for id_ in told.progress if id_.startswith(f"{behavior}:") and id_ != f"{behavior}:end"]
+def assert_not_played(feedback: FeedbackList, behavior: str) -> None:
+    """No point of a behavior or block was reported except its end."""
+    played = [id_ for id_ in feedback.progress if id_.startswith(f"{behavior}:") and id_ != f"{behavior}:end"]
     assert not played, f"{behavior} reached {_listed(played)}"
 
 
-def assert_predicted(told: FeedbackList, point: str, tolerance: float = TOLERANCE) -> None:
-    """A point was reached when the last prediction before it said; it may be ``block:start`` or ``block:end`` too."""
-    assert_time(told, point, told.foretold(point), tolerance)
+def assert_predicted(feedback: FeedbackList, point: str, tolerance: float = TOLERANCE) -> None:
+    """A point was reached at the time of the last prediction before it; ``block:start`` and ``block:end`` count too."""
+    assert_time(feedback, point, feedback.predicted_before(point), tolerance)
 
 
-def assert_all_predicted(told: FeedbackList, behavior: str, tolerance: float = TOLERANCE) -> None:
-    """A behavior reached its start, its end and what else of it was predicted when the last prediction before said."""
-    for point in _points(told, behavior):
+def assert_all_predicted(feedback: FeedbackList, behavior: str, tolerance: float = TOLERANCE) -> None:
+    """A behavior reached its points at their last predicted times; its start and its end must be predicted."""
+    for point in _points(feedback, behavior):
         try:
-            assert_predicted(told, point, tolerance)
+            assert_predicted(feedback, point, tolerance)
         except LookupError:
             assert point not in (f"{behavior}:start", f"{behavior}:end"), f"{point} was not predicted"
 
 
-def assert_block_times(told: FeedbackList, block: str, tolerance: float = TOLERANCE) -> None:
-    """Of each point of a block was told how long after the start of the block it was reached."""
-    start = told.time(f"{block}:start")
-    for line in told.of("syncPointProgress"):
+def assert_block_times(feedback: FeedbackList, block: str, tolerance: float = TOLERANCE) -> None:
+    """The ``time`` of each reported point of a block is the time since the start of the block."""
+    start = feedback.time(f"{block}:start")
+    for line in feedback.of("syncPointProgress"):
         if line.id.startswith(f"{block}:"):
             since = float(line.element.get("time", "nan"))
-            assert abs(since - (line.at - start)) <= tolerance, (
-                f"{line.id} was told with the time {since:g} where {line.at - start:g} s had passed since {block}:start"
+            assert abs(since - (line.global_time - start)) <= tolerance, (
+                f"{line.id} was reported with the time {since:g} but {line.global_time - start:g} s after {block}:start"
             )
 
 
 def assert_starts_with_last(
-    told: FeedbackList, block: str, points: Iterable[str], tolerance: float = TOLERANCE
+    feedback: FeedbackList, block: str, points: Iterable[str], tolerance: float = TOLERANCE
 ) -> None:
-    """A block started when the last of what it waits for was reached: neither before nor after."""
-    last = max(points, key=told.time)
-    assert_linked(told, f"{block}:start", last, tolerance=tolerance)
+    """A block started at the time of the last of these points."""
+    last = max(points, key=feedback.time)
+    assert_linked(feedback, f"{block}:start", last, tolerance=tolerance)
 
 
-def _points(told: FeedbackList, behavior: str) -> list[str]:
-    return [id_ for id_ in told.progress if id_.startswith(f"{behavior}:")]
+def _points(feedback: FeedbackList, behavior: str) -> list[str]:
+    return [id_ for id_ in feedback.progress if id_.startswith(f"{behavior}:")]
 
 
 def _listed(parts: Iterable[str]) -> str:

@@ -1,4 +1,4 @@
-"""Feedback as a test reads it."""
+"""Records feedback and answers questions about it in tests."""
 
 from dataclasses import dataclass
 from itertools import takewhile
@@ -13,8 +13,8 @@ _TIME = f"{{{OWN}}}time"
 
 
 @dataclass(frozen=True, slots=True)
-class Line:
-    """One message: its element, and when it was told."""
+class FeedbackMessage:
+    """One message: the time at which it was sent, s, and its element."""
 
     time: float
     element: etree._Element
@@ -26,19 +26,24 @@ class Line:
 
     @property
     def id(self) -> str:
-        """Its id; of a prediction the block's; empty where it has none."""
+        """Its id, or the id of the block of a prediction; empty if it has none."""
         return str(self.element.get("id") or next((child.get("id", "") for child in self.element), ""))
 
     @property
-    def at(self) -> float:
-        """Global time of progress."""
+    def text(self) -> str:
+        """The text of the element, such as the sentence of a warning; empty if it has none."""
+        return self.element.text or ""
+
+    @property
+    def global_time(self) -> float:
+        """The global time of block or sync point progress, s."""
         return float(self.element.get("globalTime", "nan"))
 
     def predicted(self, point: str) -> float:
-        """The global time that a prediction has for ``block:behavior:sync``, ``block:start`` or ``block:end``.
+        """The global time in a prediction of ``block:behavior:sync``, ``block:start`` or ``block:end``, s.
 
         Raises:
-            LookupError: it says nothing of it.
+            LookupError: the point is not in the prediction.
         """
         block, *behavior, sync = point.split(":", 2)
         if not behavior:
@@ -54,54 +59,56 @@ class Line:
 
 
 class FeedbackList:
-    """All that was told, in order.
+    """All messages of a session, in order.
 
     Attributes:
-        raw: as it was told.
+        raw: the messages as XML.
     """
 
     def __init__(self) -> None:
         self.raw: list[str] = []
-        self._lines: list[Line] = []
+        self._messages: list[FeedbackMessage] = []
         self._unread: list[Report] = []
 
     def __call__(self, report: Report) -> None:
-        """Take a report; it is read when somebody asks, and so costs no tick anything."""
+        """Adds a report; it is parsed only when it is read, so that ticks take no time for it."""
         self.raw.append(report.xml)
         self._unread.append(report)
 
     @property
-    def lines(self) -> list[Line]:
+    def lines(self) -> list[FeedbackMessage]:
         """All messages."""
-        self._lines += (Line(report.time, etree.fromstring(report.xml)) for report in self._unread)
+        self._messages += (FeedbackMessage(report.time, etree.fromstring(report.xml)) for report in self._unread)
         self._unread.clear()
-        return self._lines
+        return self._messages
 
     def add(self, time: float, xml: str) -> None:
-        """Take a message that was told at a time, s.
+        """Adds a message that was sent at a time, s.
 
         Raises:
-            lxml.etree.XMLSyntaxError: it is no XML.
+            lxml.etree.XMLSyntaxError: it is not well-formed.
         """
-        self.lines.append(Line(time, etree.fromstring(xml)))
+        self.lines.append(FeedbackMessage(time, etree.fromstring(xml)))
         self.raw.append(xml)
 
-    def of(self, kind: str) -> list[Line]:
+    def of(self, kind: str) -> list[FeedbackMessage]:
         """The messages of one kind."""
-        return [line for line in self.lines if line.kind == kind]
+        return [message for message in self.lines if message.kind == kind]
 
     @property
     def progress(self) -> list[str]:
-        """Ids of block and sync point progress, in order."""
-        return [line.id for line in self.lines if line.kind in ("blockProgress", "syncPointProgress")]
+        """The ids of block and sync point progress, in order."""
+        return [message.id for message in self.lines if message.kind in ("blockProgress", "syncPointProgress")]
 
     def time(self, id_: str) -> float:
-        """The globalTime at which a block or sync point was reached.
+        """The global time at which a block or sync point was reached, s.
 
         Raises:
-            AssertionError: it was reached never, or more than once.
+            AssertionError: it was not reported exactly once.
         """
-        found = [line.at for line in self.lines if line.kind.endswith("Progress") and line.id == id_]
+        found = [
+            message.global_time for message in self.lines if message.kind.endswith("Progress") and message.id == id_
+        ]
         assert len(found) == 1, f"{id_} was reported {len(found)} times"
         return found[0]
 
@@ -111,31 +118,31 @@ class FeedbackList:
 
     @property
     def warnings(self) -> list[tuple[str, str]]:
-        """Id and type of every warning, in order."""
-        return [(line.id, str(line.element.get("type"))) for line in self.of("warningFeedback")]
+        """The id and type of every warning, in order."""
+        return [(message.id, str(message.element.get("type"))) for message in self.of("warningFeedback")]
 
     def status(self, block: str, sync: str = "end") -> str:
         """The status with which a block started or ended."""
-        line = next(line for line in self.of("blockProgress") if line.id == f"{block}:{sync}")
-        return str(line.element.get(_STATUS))
+        message = next(message for message in self.of("blockProgress") if message.id == f"{block}:{sync}")
+        return str(message.element.get(_STATUS))
 
-    def predictions(self, block: str) -> list[Line]:
+    def predictions(self, block: str) -> list[FeedbackMessage]:
         """The predictions of a block, in order."""
-        return [line for line in self.of("predictionFeedback") if line.id == block]
+        return [message for message in self.of("predictionFeedback") if message.id == block]
 
     def predicted(self, point: str) -> float:
         """The global time last predicted for ``block:behavior:sync``, ``block:start`` or ``block:end``."""
         return self.predictions(point.partition(":")[0])[-1].predicted(point)
 
-    def foretold(self, point: str) -> float:
-        """Like `predicted`, of the last prediction that was told before the point itself.
+    def predicted_before(self, point: str) -> float:
+        """The global time in the last prediction before the point itself was reported, s.
 
         Raises:
-            AssertionError: there is none.
-            LookupError: it says nothing of the point.
+            AssertionError: there is no such prediction.
+            LookupError: the point is not in it.
         """
         block = point.partition(":")[0]
-        before = takewhile(lambda line: line.kind == "predictionFeedback" or line.id != point, self.lines)
-        own = [line for line in before if line.kind == "predictionFeedback" and line.id == block]
-        assert own, f"nothing was predicted of {block} before {point} was told"
+        before = takewhile(lambda message: message.kind == "predictionFeedback" or message.id != point, self.lines)
+        own = [message for message in before if message.kind == "predictionFeedback" and message.id == block]
+        assert own, f"nothing was predicted of {block} before {point} was reported"
         return own[-1].predicted(point)

@@ -1,4 +1,4 @@
-"""A realizer with its hand on the clock: the way to write a test of what comes out."""
+"""Drives a realizer in tests: gives BML, advances time, and records all output."""
 
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
@@ -12,10 +12,9 @@ from reactive_realizer.bml.names import BML, BMLA, BMLT
 from reactive_realizer.clock.ticker import FRAME_EVERY, RATE, Tick, tick_time
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.audio import AudioChange
-from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.body import Body, Skeleton
 from reactive_realizer.embodiment.frame import Frame
 from reactive_realizer.embodiment.joints import ROOT
-from reactive_realizer.embodiment.skeleton import Skeleton
 from reactive_realizer.embodiment.vector import subtract
 from reactive_realizer.realizer.character import Character
 from reactive_realizer.realizer.inputs import BmlText, Event, Prediction, TargetMoved
@@ -24,12 +23,13 @@ from reactive_realizer.testing.feedback_list import FeedbackList
 
 
 class RealizerPilot:
-    """Gives BML, moves time on, and keeps everything that came out.
+    """Gives BML to a realizer, advances its time, and records its output.
 
     Attributes:
+        scene: the scene of the realizer.
         feedback: all messages.
-        frames: of each character, once `watch` was called.
-        sounds: what became audible.
+        frames: the frames of each character since `watch` was called.
+        sounds: the changes of sounds.
     """
 
     def __init__(self, scene: Scene) -> None:
@@ -43,58 +43,55 @@ class RealizerPilot:
 
     @property
     def realizer(self) -> Realizer:
-        """What is flown."""
+        """The realizer of the scene."""
         return self.scene.realizer
 
     @property
     def now(self) -> GlobalTime:
-        """Time of the next tick."""
+        """The time of the next tick."""
         return tick_time(self._number)
 
     def perform(self, text: str | bytes) -> None:
-        """Have BML enter at the next tick, as it is."""
+        """Sends a BML document, which enters at the next tick."""
         self.realizer.put(BmlText(text), self.now)
 
     def block(self, id_: str, behaviors: str = "", **attributes: str) -> None:
-        """Have a block enter at the next tick: namespaces are declared, attributes as given."""
+        """Sends a block with the usual namespaces declared, which enters at the next tick."""
         self.perform(block(id_, behaviors, **attributes))
 
     def predict(self, anticipator: str, sync: str, time: float | None) -> None:
-        """Say at the next tick when a point is to be."""
+        """Predicts the time of a point, s, at the next tick."""
         self.realizer.put(Prediction(anticipator, sync, None if time is None else GlobalTime(time)), self.now)
 
     def event(self, anticipator: str, name: str, value: float | None = None, text: str | None = None) -> None:
-        """Have an event happen at the next tick."""
+        """Sends an event to an anticipator at the next tick."""
         self.realizer.put(Event(anticipator, name, value, text), self.now)
 
     def move(self, target: str, position: tuple[float, float, float] | None) -> None:
-        """Put a target elsewhere at the next tick."""
+        """Moves a target at the next tick; None removes it."""
         self.realizer.put(TargetMoved(target, position), self.now)
 
     def watch(self) -> None:
-        """Look at the frames from now on."""
+        """Records frames from now on."""
         self.realizer.watch(self._keep)
 
     def path(self, joint: str, character: str | None = None) -> npt.NDArray[np.float64]:
-        """Where a joint was in each frame since `watch`, (F, 3), m, from the root of its character."""
-        return np.array([subtract(body.place(joint).position, body.root) for body in self.bodies(character)])
+        """The position of a joint in each frame since `watch`, (F, 3), m, relative to the root of its character."""
+        return np.array([subtract(body.transform(joint).position, body.root) for body in self.bodies(character)])
 
     def bodies(self, character: str | None = None) -> list[Body]:
-        """The figure in each frame since `watch`, in the axes of the world; of the first character, if none is named.
-
-        So `place` and `root` say where it is in the world, too.
-        """
+        """The body in each frame since `watch`, in world coordinates; by default of the first character."""
         name = character or next(iter(self.realizer.characters))
         skeleton = self.realizer.characters[name].humanoid.avatar.skeleton
         return [_body(frame, skeleton) for frame in self.frames[name]]
 
     async def advance(self, seconds: float) -> None:
-        """Play the ticks of so many seconds."""
+        """Plays the ticks of some seconds."""
         for _ in range(round(seconds * RATE)):
             await self.tick()
 
     async def tick(self) -> None:
-        """Play one tick, and what it left to be done aside."""
+        """Plays one tick, and waits for the slow work that it started."""
         previous = tick_time(self._number - 1)
         await self.realizer.step(Tick(self._number, previous, self._number % FRAME_EVERY == 0))
         await self.realizer.settle()

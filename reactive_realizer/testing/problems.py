@@ -8,14 +8,17 @@ from hypothesis import strategies as st
 
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.names import BML, Location
-from reactive_realizer.clock.units import GlobalTime
-from reactive_realizer.pegboard.time_peg import AnticipatorPeg, TimeCell
+from reactive_realizer.clock.units import GlobalTime, Time
+from reactive_realizer.pegboard.time_peg import AnticipatorPeg, TimeCell, TimePeg
 from reactive_realizer.planunit.timing import Phase, PhaseKind, Timing, timing_at
+from reactive_realizer.reactive.cell import Source
 from reactive_realizer.reactive.graph import Graph
-from reactive_realizer.scheduler.equalities import Equalities
-from reactive_realizer.scheduler.problem import Item, Node, Order, Origin, Point, Problem, Tie
+from reactive_realizer.scheduler.offset_union_find import TIE_TOLERANCE, OffsetUnionFind
+from reactive_realizer.scheduler.peg_layout.peg_layout import PegLayout
+from reactive_realizer.scheduler.problem import Item, Node, Origin, Point, Precedence, SchedulingProblem, Solution, Tie
 
 _PLACE = Location(1, 1)
+_GRAPH = Graph()
 _ELASTIC, _HOLD = PhaseKind.ELASTIC, PhaseKind.HOLD
 
 TIMINGS: Mapping[str, Timing] = MappingProxyType(
@@ -53,28 +56,39 @@ def at(left: Node | str, right: Node | str, offset: float = 0.0, *, required: bo
     return Tie(one, other, offset, owner, _PLACE, f"{_name(one)} = {_name(other)} + {offset:g}", required)
 
 
-def after(later: Node | str, earlier: Node | str, offset: float = 0.0, *, required: bool = False) -> Order:
+def after(later: Node | str, earlier: Node | str, offset: float = 0.0, *, required: bool = False) -> Precedence:
     """``later >= earlier + offset``; a point may be written ``behavior:sync``."""
     one, other = _node(later), _node(earlier)
     text = f"{_name(one)} after {_name(other)} + {offset:g}"
-    return Order(one, other, offset, text, _PLACE, text, required)
+    return Precedence(one, other, offset, text, _PLACE, text, required)
 
 
 def outer(name: str, time: float | None) -> AnticipatorPeg:
-    """A predicted point."""
-    return AnticipatorPeg(Graph(), name, None if time is None else GlobalTime(time))
+    """A predicted point; all of them are in one graph."""
+    return AnticipatorPeg(_GRAPH, name, None if time is None else GlobalTime(time))
 
 
-def problem(items: Sequence[Item], *constraints: Tie | Order) -> Problem:
+def problem(items: Sequence[Item], *constraints: Tie | Precedence) -> SchedulingProblem:
     """A problem in which the block starts at time 0 and outer pegs are where they are."""
     ties = tuple(each for each in constraints if isinstance(each, Tie))
-    orders = tuple(each for each in constraints if isinstance(each, Order))
+    orders = tuple(each for each in constraints if isinstance(each, Precedence))
     cells = [node for each in constraints for node in each.nodes if not isinstance(node, Point | Origin)]
-    return Problem(tuple(items), ties, {cell: cell.value for cell in cells}, orders)
+    return SchedulingProblem(tuple(items), ties, {cell: cell.value for cell in cells}, orders)
+
+
+def pegs_of(asked: SchedulingProblem, solution: Solution) -> Mapping[Point, TimePeg]:
+    """The pegs of a solution, of a block that starts at time 0; they move with the predicted points of `outer`."""
+    start = Source[Time](_GRAPH, "start", GlobalTime(0.0))
+    return PegLayout(asked, solution).build(_GRAPH, "b", start).pegs
+
+
+def peg_times(asked: SchedulingProblem, solution: Solution) -> dict[Point, float | None]:
+    """The times of the pegs of a solution, s after the start of the block."""
+    return {point: peg.value for point, peg in pegs_of(asked, solution).items()}
 
 
 @st.composite
-def problems(draw: st.DrawFn, most: int = 7) -> Problem:
+def problems(draw: st.DrawFn, most: int = 7) -> SchedulingProblem:
     """Whatever may be asked: mostly more than can be met, with outer times past, ahead and unknown."""
     items = _draw_items(draw, sorted(TIMINGS), most)
     outside = [outer(f"outer{i}", draw(st.sampled_from([None, -0.5, 0.0, 1.0, 4.0]))) for i in range(2)]
@@ -92,19 +106,20 @@ def problems(draw: st.DrawFn, most: int = 7) -> Problem:
 
 
 @st.composite
-def feasible_problems(draw: st.DrawFn, most: int = 6) -> Problem:
+def feasible_problems(draw: st.DrawFn, most: int = 6) -> SchedulingProblem:
     """What can be met as a whole: constraints are read off a plan that was drawn before them."""
     items = _draw_items(draw, [kind for kind, timing in TIMINGS.items() if not timing.free], most)
     outside = [outer("known", draw(st.sampled_from([0.0, 1.0, 2.5]))), outer("unknown", None)]
     times = _draw_times(draw, items) | {Origin.BLOCK_START: 0.0}
     times |= {cell: 2.0 if cell.value is None else cell.value for cell in outside}
-    classes = _rigid_classes(items, [Origin.BLOCK_START, *outside])
+    groups = _rigid_groups(items, [Origin.BLOCK_START, *outside])
     nodes = st.sampled_from([*times])
-    constraints: list[Tie | Order] = []
+    constraints: list[Tie | Precedence] = []
     for left, right in draw(st.lists(st.tuples(nodes, nodes), max_size=10)):
         distance = round(times[left] - times[right], 9)
         if isinstance(left, Point) and left != right and draw(st.booleans()):
-            if classes.tie(left, right, distance) is None:
+            gap = groups.union(left, right, distance)
+            if gap is None or abs(gap) <= TIE_TOLERANCE:
                 constraints.append(at(left, right, distance))
         elif isinstance(left, Point) or isinstance(right, Point):
             constraints.append(after(left, right, distance - draw(st.sampled_from([0.0, 0.25, 1.0]))))
@@ -142,15 +157,15 @@ def _draw_duration(draw: st.DrawFn, phase: Phase) -> float:
     return phase.duration * draw(st.sampled_from([0.5, 1.0, 1.0, 2.0])) + more
 
 
-def _rigid_classes(items: Sequence[Item], fixed: Sequence[Node]) -> Equalities[Node]:
-    """Points that rigid phases hold together: only one of a class may be tied to a given time."""
-    classes = Equalities[Node](frozenset(fixed))
+def _rigid_groups(items: Sequence[Item], fixed: Sequence[Node]) -> OffsetUnionFind[Node]:
+    """Points that rigid phases hold together: only one of a group may be tied to a given time."""
+    groups = OffsetUnionFind[Node](fixed)
     for each in items:
         points = [Point(each.behavior.id, sync) for sync in each.timing.points]
         for phase, (one, next_) in zip(each.timing.phases, itertools.pairwise(points), strict=True):
             if phase.kind is PhaseKind.RIGID:
-                classes.tie(next_, one, phase.duration)
-    return classes
+                groups.union(next_, one, phase.duration)
+    return groups
 
 
 def _node(node: Node | str) -> Node:

@@ -13,7 +13,7 @@ OpenStill = Callable[..., AbstractAsyncContextManager[RealizerPilot]]
 
 
 @pytest.fixture
-async def pilot():
+async def pilot() -> AsyncIterator[RealizerPilot]:
     """Every plan is verified while it is played: what it breaks is a warning that the test did not expect."""
     async with open_pilot(SceneOptions(voice="text", verify=True)) as pilot:
         yield pilot

@@ -1,12 +1,15 @@
-"""Whatever is planned, cut off or moved: nothing on the figure goes faster than it can, and all of it is a pose."""
+"""The figure keeps its limits and valid poses, whatever is planned, cut or moved."""
 
 import asyncio
+from typing import Any
 
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 
 from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.embodiment.frame import Frame
 from reactive_realizer.testing.pilot import open_pilot
 
 FRAME = 0.02
@@ -38,7 +41,7 @@ TIMES = ("0", "0.2", "0.5", "1.1", "anticipators:t:hit", "anticipators:t:hit+0.3
 
 
 @st.composite
-def bodies(draw):
+def bodies(draw: st.DrawFn) -> str:
     kinds = draw(st.lists(st.sampled_from(KINDS), min_size=1, max_size=4))
     parts = []
     for number, kind in enumerate(kinds):
@@ -56,7 +59,7 @@ moves = st.one_of(
 plays = st.lists(st.tuples(moves, st.sampled_from([0.06, 0.2, 0.5, 0.9])), min_size=1, max_size=6)
 
 
-async def perform(first, play):
+async def perform(first: Any, play: Any) -> tuple[tuple[str, ...], list[Frame], list[NDArray[np.float64]]]:
     """The skeleton's joints, and all frames of a performance with its path of both wrists."""
     async with open_pilot(SceneOptions(voice="text")) as pilot:
         pilot.watch()
@@ -79,12 +82,12 @@ async def perform(first, play):
         return joints, pilot.frames["alice"], [pilot.path(wrist) for wrist in ("l_wrist", "r_wrist")]
 
 
-def steps(path):
+def steps(path: NDArray[np.float64]) -> Any:
     """How far a point goes from each frame to the next, m."""
     return np.linalg.norm(np.diff(path, axis=0), axis=1)
 
 
-def turns(rotations):
+def turns(rotations: NDArray[np.float64]) -> Any:
     """How far each joint turns from each frame to the next, rad, (F - 1, J)."""
     ways = np.linalg.norm(rotations[1:] * np.sign(np.sum(rotations[1:] * rotations[:-1], axis=2))[..., None]
                           - rotations[:-1], axis=2)  # fmt: skip
@@ -93,7 +96,7 @@ def turns(rotations):
 
 @settings(max_examples=25)
 @given(bodies(), plays)
-def test_nothing_goes_faster_than_it_can_whatever_is_planned_cut_off_or_moved(first, play) -> None:
+def test_the_figure_keeps_its_limits_whatever_is_planned_cut_or_moved(first: Any, play: Any) -> None:
     joints, frames, wrists = asyncio.run(perform(first, play))
     rotations = np.array([frame.rotations for frame in frames])
     assert np.isfinite(rotations).all()

@@ -4,6 +4,9 @@ import re
 
 import pytest
 
+from anticipators.metronome import Metronome
+from reactive_realizer.testing.pilot import RealizerPilot
+
 FINE = '<wait id="fine" duration="0.2"/>'
 
 # What stands on line 2 of the block; the id of its warning, its type, and what the reason mentions.
@@ -22,7 +25,7 @@ BAD = [
     ('<head id="x" lexeme="NOD" start="nobody:end"/>', "b:x", "IMPOSSIBLE_TO_SCHEDULE", "nobody"),
     ('<head id="x" lexeme="NOD" start="fine:stroke"/>', "b:x", "IMPOSSIBLE_TO_SCHEDULE", "stroke"),
     ('<head id="x" lexeme="NOD" start="other:fine:end"/>', "b:x", "IMPOSSIBLE_TO_SCHEDULE", "other"),
-    ('<head id="x" lexeme="NOD" start="-1"/>', "b:x", "IMPOSSIBLE_TO_SCHEDULE", "the start of the block, 1 s"),
+    ('<head id="x" lexeme="NOD" start="-1"/>', "b:x", "IMPOSSIBLE_TO_SCHEDULE", "the start of the block by 1 s"),
     ('<head id="x" lexeme="NOD" start="2" end="1"/>', "b:x", "IMPOSSIBLE_TO_SCHEDULE", "x:end = 1 is dropped"),
     ('<head id="x" lexeme="NOD" start="2" end="2"/>', "b:x", "IMPOSSIBLE_TO_SCHEDULE", "no time is left"),
     ('<wait id="x" start="1" end="3" duration="1"/>', "b:x", "IMPOSSIBLE_TO_SCHEDULE", "x:end"),
@@ -43,13 +46,15 @@ BAD = [
 
 
 @pytest.mark.parametrize(("bad", "id_", "kind", "mentions"), BAD, ids=[bad for bad, *_ in BAD])
-async def test_one_bad_thing_is_one_warning_and_the_rest_plays(pilot, bad, id_, kind, mentions) -> None:
+async def test_one_bad_thing_is_one_warning_and_the_rest_plays(
+    pilot: RealizerPilot, bad: str, id_: str, kind: str, mentions: str
+) -> None:
     pilot.block("b", f"{FINE}\n{bad}")
     pilot.block("after", FINE, composition="APPEND")
     await pilot.advance(5)
     told = pilot.feedback
     assert told.warnings == [(id_, kind)]
-    text = told.of("warningFeedback")[0].element.text
+    text = told.of("warningFeedback")[0].text
     assert re.match(r"line [12], column \d+: ", text)
     assert mentions in text
     assert told.reached("b:fine:end")
@@ -69,17 +74,19 @@ REFUSED = [
 
 
 @pytest.mark.parametrize(("text", "id_", "kind", "mentions"), REFUSED, ids=[repr(text) for text, *_ in REFUSED])
-async def test_what_is_no_block_is_refused_with_one_warning(pilot, text, id_, kind, mentions) -> None:
+async def test_what_is_no_block_is_refused_with_one_warning(
+    pilot: RealizerPilot, text: bytes | str, id_: str, kind: str, mentions: str
+) -> None:
     pilot.block("fine", FINE)
     pilot.perform(text)
     await pilot.advance(1)
     assert pilot.feedback.warnings == [(id_, kind)]
-    assert mentions in pilot.feedback.of("warningFeedback")[0].element.text
+    assert mentions in pilot.feedback.of("warningFeedback")[0].text
     assert pilot.feedback.progress == ["fine:start", "fine:fine:start", "fine:fine:end", "fine:end"]
     assert pilot.realizer.scheduler.refused == 1
 
 
-async def test_an_input_that_cannot_be_is_left_out_and_the_others_enter(pilot) -> None:
+async def test_an_input_that_cannot_be_is_left_out_and_the_others_enter(pilot: RealizerPilot) -> None:
     pilot.event("metronome", "tempo", -5)
     pilot.predict("test", "hit", float("nan"))
     pilot.event("nobody", "press")
@@ -87,10 +94,12 @@ async def test_an_input_that_cannot_be_is_left_out_and_the_others_enter(pilot) -
     pilot.block("b", FINE)
     await pilot.advance(1)
     assert pilot.feedback.status("b") == "DONE"
-    assert pilot.realizer.anticipators["metronome"].tempo == 60
+    metronome = pilot.realizer.anticipators["metronome"]
+    assert isinstance(metronome, Metronome)
+    assert metronome.tempo == 60
 
 
-async def test_too_many_blocks_are_refused_and_may_come_again_later(pilot) -> None:
+async def test_too_many_blocks_are_refused_and_may_come_again_later(pilot: RealizerPilot) -> None:
     limit = pilot.realizer.limits.blocks_alive
     pilot.block("first", FINE)
     for number in range(limit):

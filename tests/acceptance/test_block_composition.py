@@ -2,6 +2,8 @@
 
 import pytest
 
+from reactive_realizer.testing.pilot import RealizerPilot
+
 A = 'xmlns:bmla="http://www.asap-project.org/bmla"'
 T = 'xmlns:bmlt="http://hmi.ewi.utwente.nl/bmlt"'
 
@@ -10,13 +12,13 @@ def wait(seconds: float) -> str:
     return f'<wait id="w" duration="{seconds}"/>'
 
 
-def send(pilot, id_: str, inside: str = "", attributes: str = "") -> None:
+def send(pilot: RealizerPilot, id_: str, inside: str = "", attributes: str = "") -> None:
     pilot.perform(
         f'<bml xmlns="http://www.bml-initiative.org/bml/bml-1.0" {A} {T} id="{id_}" {attributes}>{inside}</bml>'
     )
 
 
-async def test_a_block_starts_when_the_blocks_it_is_appended_after_have_ended(pilot) -> None:
+async def test_a_block_starts_when_the_blocks_it_is_appended_after_have_ended(pilot: RealizerPilot) -> None:
     send(pilot, "long", wait(3))
     send(pilot, "one", wait(0.5))
     send(pilot, "two", wait(1.2345))
@@ -26,7 +28,7 @@ async def test_a_block_starts_when_the_blocks_it_is_appended_after_have_ended(pi
 
 
 @pytest.mark.parametrize("words", ["APPEND-AFTER(one)", "append_after( one )"])
-async def test_append_after_may_be_written_as_composition(pilot, words) -> None:
+async def test_append_after_may_be_written_as_composition(pilot: RealizerPilot, words: str) -> None:
     send(pilot, "long", wait(3))
     send(pilot, "one", wait(0.5))
     send(pilot, "new", wait(0.1), f'composition="{words}"')
@@ -34,14 +36,14 @@ async def test_append_after_may_be_written_as_composition(pilot, words) -> None:
     assert pilot.feedback.time("new:start") == 0.5
 
 
-async def test_a_target_that_was_never_seen_counts_as_finished_and_is_told(pilot) -> None:
+async def test_a_target_that_was_never_seen_counts_as_finished_and_is_told(pilot: RealizerPilot) -> None:
     send(pilot, "new", wait(0.1), 'bmla:appendAfter="nobody" bmla:interrupt="none" bmla:chunkAfter="new"')
     await pilot.advance(1)
     assert pilot.feedback.time("new:start") == 0
     assert pilot.feedback.warnings == [("new", "IMPOSSIBLE_TO_SCHEDULE")] * 3
 
 
-async def test_a_target_that_has_ended_counts_as_finished_without_a_word(pilot) -> None:
+async def test_a_target_that_has_ended_counts_as_finished_without_a_word(pilot: RealizerPilot) -> None:
     send(pilot, "old", wait(0.1))
     await pilot.advance(1)
     send(pilot, "new", wait(0.1), 'bmla:appendAfter="old" bmla:interrupt="old" bmla:prependBefore="old"')
@@ -50,7 +52,7 @@ async def test_a_target_that_has_ended_counts_as_finished_without_a_word(pilot) 
     assert pilot.feedback.warnings == []
 
 
-async def test_a_revoked_target_counts_as_finished_though_it_waited_itself(pilot) -> None:
+async def test_a_revoked_target_counts_as_finished_though_it_waited_itself(pilot: RealizerPilot) -> None:
     send(pilot, "first", wait(5))
     send(pilot, "second", wait(1), 'bmla:appendAfter="first"')
     send(pilot, "third", wait(1), 'bmla:appendAfter="second"')
@@ -61,7 +63,7 @@ async def test_a_revoked_target_counts_as_finished_though_it_waited_itself(pilot
     assert pilot.feedback.time("third:start") == pilot.feedback.time("second:end")
 
 
-async def test_a_block_starts_in_retraction_of_the_one_it_is_a_chunk_after(pilot) -> None:
+async def test_a_block_starts_in_retraction_of_the_one_it_is_a_chunk_after(pilot: RealizerPilot) -> None:
     send(pilot, "one", '<gesture id="g" lexeme="BEAT" mode="RIGHT_HAND"/>')
     send(pilot, "two", '<head id="h" lexeme="NOD"/>', 'bmla:chunkAfter="one"')
     await pilot.advance(6)
@@ -69,7 +71,7 @@ async def test_a_block_starts_in_retraction_of_the_one_it_is_a_chunk_after(pilot
     assert pilot.feedback.time("two:start") < pilot.feedback.time("one:end")
 
 
-async def test_what_is_prepended_comes_before_a_block_that_still_waits(pilot) -> None:
+async def test_what_is_prepended_comes_before_a_block_that_still_waits(pilot: RealizerPilot) -> None:
     send(pilot, "first", wait(1))
     send(pilot, "last", wait(1), 'composition="APPEND"')
     await pilot.tick()
@@ -78,7 +80,7 @@ async def test_what_is_prepended_comes_before_a_block_that_still_waits(pilot) ->
     assert pilot.feedback.time("last:start") == pilot.feedback.time("between:end") == pytest.approx(2.01)
 
 
-async def test_a_chunk_put_before_a_block_lets_it_start_when_it_subsides(pilot) -> None:
+async def test_a_chunk_put_before_a_block_lets_it_start_when_it_subsides(pilot: RealizerPilot) -> None:
     send(pilot, "first", wait(1))
     send(pilot, "last", '<head id="h" lexeme="NOD"/>', 'composition="APPEND"')
     await pilot.tick()
@@ -87,7 +89,7 @@ async def test_a_chunk_put_before_a_block_lets_it_start_when_it_subsides(pilot) 
     assert pilot.feedback.time("last:start") == pilot.feedback.time("chunk:g:relax")
 
 
-async def test_nothing_can_be_put_before_a_block_that_plays(pilot) -> None:
+async def test_nothing_can_be_put_before_a_block_that_plays(pilot: RealizerPilot) -> None:
     send(pilot, "plays", wait(1))
     await pilot.tick()
     send(pilot, "late", wait(1), 'bmla:prependBefore="plays"')
@@ -97,7 +99,7 @@ async def test_nothing_can_be_put_before_a_block_that_plays(pilot) -> None:
     assert pilot.feedback.status("late") == "FAILED"
 
 
-async def test_a_block_cannot_come_both_before_and_after_another(pilot) -> None:
+async def test_a_block_cannot_come_both_before_and_after_another(pilot: RealizerPilot) -> None:
     send(pilot, "plays", wait(1))
     send(pilot, "waits", wait(1), 'composition="APPEND"')
     await pilot.tick()
@@ -107,7 +109,7 @@ async def test_a_block_cannot_come_both_before_and_after_another(pilot) -> None:
     assert (pilot.feedback.status("odd"), pilot.feedback.status("waits")) == ("FAILED", "DONE")
 
 
-async def test_a_behavior_cannot_hang_on_a_block_that_waits_for_its_own(pilot) -> None:
+async def test_a_behavior_cannot_hang_on_a_block_that_waits_for_its_own(pilot: RealizerPilot) -> None:
     send(pilot, "plays", wait(1))
     send(pilot, "waits", wait(1), 'composition="APPEND"')
     await pilot.tick()
@@ -118,7 +120,9 @@ async def test_a_behavior_cannot_hang_on_a_block_that_waits_for_its_own(pilot) -
 
 
 @pytest.mark.parametrize("prefix", ["bmla", "bmlt"])
-async def test_a_preplanned_block_waits_until_a_block_activates_it_at_its_start(pilot, prefix) -> None:
+async def test_a_preplanned_block_waits_until_a_block_activates_it_at_its_start(
+    pilot: RealizerPilot, prefix: str
+) -> None:
     send(pilot, "ready", wait(1), f'{prefix}:preplan="true"')
     await pilot.advance(1)
     assert pilot.feedback.progress == []
@@ -130,7 +134,7 @@ async def test_a_preplanned_block_waits_until_a_block_activates_it_at_its_start(
     assert pilot.feedback.time("ready:start") == pilot.feedback.time("go:start")
 
 
-async def test_an_append_does_not_wait_for_what_was_never_activated(pilot) -> None:
+async def test_an_append_does_not_wait_for_what_was_never_activated(pilot: RealizerPilot) -> None:
     send(pilot, "first", wait(1))
     send(pilot, "ready", wait(1), 'bmla:preplan="true" bmla:appendAfter="first"')
     send(pilot, "new", wait(0.1), 'composition="APPEND"')
@@ -138,7 +142,7 @@ async def test_an_append_does_not_wait_for_what_was_never_activated(pilot) -> No
     assert pilot.feedback.time("new:start") == 1.0
 
 
-async def test_an_activated_block_still_waits_for_what_it_is_appended_after(pilot) -> None:
+async def test_an_activated_block_still_waits_for_what_it_is_appended_after(pilot: RealizerPilot) -> None:
     send(pilot, "first", wait(1.005))
     send(pilot, "ready", wait(1), 'bmla:preplan="true" bmla:appendAfter="first"')
     send(pilot, "go", "", 'bmla:onStart="ready"')
@@ -146,7 +150,7 @@ async def test_an_activated_block_still_waits_for_what_it_is_appended_after(pilo
     assert pilot.feedback.time("ready:start") == pytest.approx(1.005)
 
 
-async def test_activating_what_is_not_preplanned_gone_or_active_is_told(pilot) -> None:
+async def test_activating_what_is_not_preplanned_gone_or_active_is_told(pilot: RealizerPilot) -> None:
     send(pilot, "plain", wait(0.1))
     send(pilot, "ready", wait(1), 'bmla:preplan="true"')
     send(pilot, "go", "", 'bmla:onStart="ready,plain,nobody"')
@@ -162,7 +166,7 @@ async def test_activating_what_is_not_preplanned_gone_or_active_is_told(pilot) -
     ]
 
 
-async def test_the_attribute_interrupt_ends_blocks_before_the_new_one_starts(pilot) -> None:
+async def test_the_attribute_interrupt_ends_blocks_before_the_new_one_starts(pilot: RealizerPilot) -> None:
     send(pilot, "plays", wait(5))
     send(pilot, "ready", wait(1), 'bmla:preplan="true"')
     await pilot.advance(0.5)
@@ -173,7 +177,7 @@ async def test_the_attribute_interrupt_ends_blocks_before_the_new_one_starts(pil
     assert (pilot.feedback.status("plays"), pilot.feedback.status("ready")) == ("INTERRUPTED", "REVOKED")
 
 
-async def test_replace_revokes_what_is_prepared(pilot) -> None:
+async def test_replace_revokes_what_is_prepared(pilot: RealizerPilot) -> None:
     send(pilot, "ready", wait(1), 'bmla:preplan="true"')
     await pilot.advance(0.5)
     send(pilot, "new", wait(0.1), 'composition="REPLACE"')
@@ -181,7 +185,7 @@ async def test_replace_revokes_what_is_prepared(pilot) -> None:
     assert pilot.feedback.status("ready") == "REVOKED"
 
 
-async def test_the_incremental_speech_plan_takes_either_of_its_paths(pilot) -> None:
+async def test_the_incremental_speech_plan_takes_either_of_its_paths(pilot: RealizerPilot) -> None:
     """Thesis 6.5.2.3 and example 11."""
 
     def plan() -> None:
@@ -206,7 +210,7 @@ async def test_the_incremental_speech_plan_takes_either_of_its_paths(pilot) -> N
     assert pilot.feedback.time("crowns:start") == pilot.feedback.time("eh:start") + 1.0
 
 
-async def test_a_block_of_more_than_fifty_behaviors_is_solved_aside_and_plays(pilot) -> None:
+async def test_a_block_of_more_than_fifty_behaviors_is_solved_aside_and_plays(pilot: RealizerPilot) -> None:
     waits = "".join(
         f'<wait id="w{i}" start="{"0" if i == 0 else f"w{i - 1}:end"}" duration="0.01"/>' for i in range(60)
     )
@@ -217,7 +221,7 @@ async def test_a_block_of_more_than_fifty_behaviors_is_solved_aside_and_plays(pi
     assert pilot.feedback.time("small:start") < pilot.feedback.time("big:start")
 
 
-async def test_a_block_may_interrupt_the_one_of_its_own_name(pilot) -> None:
+async def test_a_block_may_interrupt_the_one_of_its_own_name(pilot: RealizerPilot) -> None:
     send(pilot, "again", wait(5))
     await pilot.advance(0.5)
     send(pilot, "again", wait(0.1), 'bmla:interrupt="again"')
@@ -228,7 +232,7 @@ async def test_a_block_may_interrupt_the_one_of_its_own_name(pilot) -> None:
     ] * 2
 
 
-async def test_a_block_that_cannot_stand_where_it_wants_to_ends_nothing(pilot) -> None:
+async def test_a_block_that_cannot_stand_where_it_wants_to_ends_nothing(pilot: RealizerPilot) -> None:
     send(pilot, "plays", wait(1))
     send(pilot, "other", wait(1))
     await pilot.tick()
@@ -237,19 +241,23 @@ async def test_a_block_that_cannot_stand_where_it_wants_to_ends_nothing(pilot) -
     assert pilot.feedback.status("other") == "DONE"
 
 
-async def test_of_a_block_that_is_prepared_everything_is_predicted_as_if_it_were_activated_now(pilot) -> None:
+async def test_of_a_block_that_is_prepared_everything_is_predicted_as_if_it_were_activated_now(
+    pilot: RealizerPilot,
+) -> None:
     send(pilot, "ready", '<speech id="s"><text>one two three</text></speech>', 'bmla:preplan="true"')
     await pilot.advance(0.5)
     send(pilot, "plain", '<speech id="s"><text>one two three</text></speech>')
     await pilot.tick()
     ready, plain = (pilot.feedback.predictions(block)[-1].element for block in ("ready", "plain"))
-    spoken = float(plain[0].get("globalEnd")) - float(plain[0].get("globalStart"))
+    spoken = float(plain[0].get("globalEnd", "nan")) - float(plain[0].get("globalStart", "nan"))
     assert spoken > 0.5
-    assert float(ready[0].get("globalEnd")) - float(ready[0].get("globalStart")) == pytest.approx(spoken)
+    assert float(ready[0].get("globalEnd", "nan")) - float(ready[0].get("globalStart", "nan")) == pytest.approx(spoken)
     assert ready[1].get("end") == plain[1].get("end")
 
 
-async def test_a_block_that_waits_and_whose_prediction_was_early_for_a_moment_follows_the_later_one(pilot) -> None:
+async def test_a_block_that_waits_and_whose_prediction_was_early_for_a_moment_follows_the_later_one(
+    pilot: RealizerPilot,
+) -> None:
     pilot.predict("t", "hit", 3.0)
     send(pilot, "first", wait(2))
     send(pilot, "next", '<head id="n" lexeme="NOD" end="anticipators:t:hit"/>', 'composition="APPEND"')
@@ -263,7 +271,9 @@ async def test_a_block_that_waits_and_whose_prediction_was_early_for_a_moment_fo
 
 
 @pytest.mark.parametrize("start", [2.0, 2.0042])
-async def test_what_came_to_lie_before_its_block_is_squeezed_when_the_block_starts(pilot, start) -> None:
+async def test_what_came_to_lie_before_its_block_is_squeezed_when_the_block_starts(
+    pilot: RealizerPilot, start: float
+) -> None:
     pilot.predict("t", "hit", 9.0)
     send(pilot, "first", wait(start))
     send(pilot, "next", '<head id="n" lexeme="NOD" end="anticipators:t:hit"/>', 'composition="APPEND"')
@@ -275,7 +285,7 @@ async def test_what_came_to_lie_before_its_block_is_squeezed_when_the_block_star
     assert pilot.feedback.warnings == []
 
 
-async def test_what_would_have_had_to_begin_before_it_was_known_is_not_played_in_the_past(pilot) -> None:
+async def test_what_would_have_had_to_begin_before_it_was_known_is_not_played_in_the_past(pilot: RealizerPilot) -> None:
     send(pilot, "ready", wait(1), 'bmla:preplan="true"')
     send(pilot, "early", '<head id="n" lexeme="NOD" stroke="ready:start"/>')
     await pilot.advance(0.3)

@@ -2,11 +2,17 @@
 
 import pytest
 
+from reactive_realizer.engine.engine import DefaultEngine
+from reactive_realizer.pegboard.peg_key import PegKey
+from reactive_realizer.pegboard.pegboard import PegBoard
+from reactive_realizer.planunit.plan_unit import PlanUnit
+from reactive_realizer.testing.pilot import RealizerPilot
+
 WAIT = '<wait id="w" duration="{}"/>'
 HIT = "anticipators:test:hit"
 
 
-async def test_merge_starts_a_block_beside_what_plays(pilot) -> None:
+async def test_merge_starts_a_block_beside_what_plays(pilot: RealizerPilot) -> None:
     pilot.block("one", WAIT.format(1))
     await pilot.advance(0.3)
     pilot.block("two", WAIT.format(0.1))
@@ -16,7 +22,7 @@ async def test_merge_starts_a_block_beside_what_plays(pilot) -> None:
     assert told.time("one:end") == 1.0
 
 
-async def test_append_waits_for_every_block_that_is_there_and_for_none_that_comes_later(pilot) -> None:
+async def test_append_waits_for_every_block_that_is_there_and_for_none_that_comes_later(pilot: RealizerPilot) -> None:
     pilot.block("short", WAIT.format(0.2))
     pilot.block("long", WAIT.format(0.5))
     pilot.block("last", WAIT.format(0.1), composition="APPEND")
@@ -25,13 +31,13 @@ async def test_append_waits_for_every_block_that_is_there_and_for_none_that_come
     assert pilot.feedback.time("last:start") == 0.5
 
 
-async def test_append_to_nothing_starts_at_once(pilot) -> None:
+async def test_append_to_nothing_starts_at_once(pilot: RealizerPilot) -> None:
     pilot.block("b", composition="APPEND")
     await pilot.tick()
     assert pilot.feedback.progress == ["b:start", "b:end"]
 
 
-async def test_a_chain_of_appended_blocks_does_not_drift_and_comes_to_rest_in_its_ticks(pilot) -> None:
+async def test_a_chain_of_appended_blocks_does_not_drift_and_comes_to_rest_in_its_ticks(pilot: RealizerPilot) -> None:
     for number in range(50):
         pilot.block(f"b{number}", WAIT.format(0.0123), composition="APPEND")
     await pilot.advance(0.7)
@@ -40,7 +46,7 @@ async def test_a_chain_of_appended_blocks_does_not_drift_and_comes_to_rest_in_it
     assert starts == [pilot.feedback.time(f"b{n}:end") for n in range(49)]
 
 
-async def test_more_than_100_rounds_of_a_tick_fail_the_blocks_concerned_by_name(pilot) -> None:
+async def test_more_than_100_rounds_of_a_tick_fail_the_blocks_concerned_by_name(pilot: RealizerPilot) -> None:
     pilot.block("beside", f'<head id="h" lexeme="NOD" end="{HIT}"/>')
     await pilot.tick()
     for number in range(300):
@@ -55,7 +61,9 @@ async def test_more_than_100_rounds_of_a_tick_fail_the_blocks_concerned_by_name(
     assert told.status("b299") == told.status("beside") == "DONE"
 
 
-async def test_a_block_waits_while_it_hangs_on_an_unknown_point_and_what_is_appended_with_it(pilot) -> None:
+async def test_a_block_waits_while_it_hangs_on_an_unknown_point_and_what_is_appended_with_it(
+    pilot: RealizerPilot,
+) -> None:
     pilot.block("b", f'<head id="h" lexeme="NOD" end="{HIT}"/>')
     pilot.block("next", composition="APPEND")
     await pilot.advance(1)
@@ -65,7 +73,7 @@ async def test_a_block_waits_while_it_hangs_on_an_unknown_point_and_what_is_appe
     assert pilot.feedback.time("next:start") == pilot.feedback.time("b:end") == 2.0
 
 
-async def test_an_id_may_be_used_again_once_its_block_has_ended(pilot) -> None:
+async def test_an_id_may_be_used_again_once_its_block_has_ended(pilot: RealizerPilot) -> None:
     pilot.block("b", WAIT.format(0.1))
     await pilot.advance(0.5)
     pilot.block("b", WAIT.format(0.2))
@@ -74,7 +82,7 @@ async def test_an_id_may_be_used_again_once_its_block_has_ended(pilot) -> None:
     assert pilot.feedback.warnings == []
 
 
-async def test_an_id_that_is_taken_is_refused_and_nothing_else_happens(pilot) -> None:
+async def test_an_id_that_is_taken_is_refused_and_nothing_else_happens(pilot: RealizerPilot) -> None:
     pilot.block("b", WAIT.format(0.3))
     await pilot.advance(0.1)
     pilot.block("b", WAIT.format(5))
@@ -83,14 +91,14 @@ async def test_an_id_that_is_taken_is_refused_and_nothing_else_happens(pilot) ->
     assert pilot.feedback.time("b:end") == 0.3
 
 
-async def test_a_block_whose_behaviors_were_all_dropped_still_starts_and_ends(pilot) -> None:
+async def test_a_block_whose_behaviors_were_all_dropped_still_starts_and_ends(pilot: RealizerPilot) -> None:
     pilot.block("b", '<gesture id="g" lexeme="NO-SUCH"/><head id="h" lexeme="NOD" start="3" end="3"/>')
     await pilot.tick()
     assert pilot.feedback.progress == ["b:start", "b:end"]
     assert pilot.feedback.warnings == [("b:g", "CANNOT_CREATE_BEHAVIOR"), ("b:h", "IMPOSSIBLE_TO_SCHEDULE")]
 
 
-async def test_the_log_has_one_line_a_block_at_info(pilot, caplog) -> None:
+async def test_the_log_has_one_line_a_block_at_info(pilot: RealizerPilot, caplog: pytest.LogCaptureFixture) -> None:
     with caplog.at_level("INFO"):
         pilot.block("one", WAIT.format(0.1))
         pilot.block("two", composition="APPEND")
@@ -104,7 +112,7 @@ async def test_the_log_has_one_line_a_block_at_info(pilot, caplog) -> None:
 # --- points of other blocks
 
 
-async def test_a_behavior_may_hang_on_a_point_of_another_block_and_moves_with_it(pilot) -> None:
+async def test_a_behavior_may_hang_on_a_point_of_another_block_and_moves_with_it(pilot: RealizerPilot) -> None:
     pilot.predict("test", "hit", 1.0)
     pilot.block("one", f'<head id="h" lexeme="NOD" end="{HIT}"/>')
     pilot.block("two", '<head id="h" lexeme="NOD" start="one:h:end+0.5"/>')
@@ -115,7 +123,7 @@ async def test_a_behavior_may_hang_on_a_point_of_another_block_and_moves_with_it
     assert pilot.feedback.time("one:h:end") == 1.4
 
 
-async def test_a_time_may_be_counted_from_the_start_of_another_block(pilot) -> None:
+async def test_a_time_may_be_counted_from_the_start_of_another_block(pilot: RealizerPilot) -> None:
     pilot.block("one", WAIT.format(2))
     await pilot.advance(0.5)
     pilot.block("two", '<head id="h" lexeme="NOD" start="one:1.5"/>')
@@ -123,7 +131,7 @@ async def test_a_time_may_be_counted_from_the_start_of_another_block(pilot) -> N
     assert pilot.feedback.time("two:h:start") == 1.5
 
 
-async def test_what_hangs_on_a_point_that_has_passed_joins_late_without_a_warning(pilot) -> None:
+async def test_what_hangs_on_a_point_that_has_passed_joins_late_without_a_warning(pilot: RealizerPilot) -> None:
     pilot.block("one", WAIT.format(5))
     await pilot.advance(0.5)
     pilot.block("two", '<head id="h" lexeme="NOD" start="one:w:start" end="one:w:start+2"/>')
@@ -136,7 +144,7 @@ async def test_what_hangs_on_a_point_that_has_passed_joins_late_without_a_warnin
     assert told.time("two:h:end") == 2.0
 
 
-async def test_unless_it_would_have_ended_by_now(pilot) -> None:
+async def test_unless_it_would_have_ended_by_now(pilot: RealizerPilot) -> None:
     pilot.block("one", WAIT.format(5))
     await pilot.advance(3)
     pilot.block("two", '<head id="h" lexeme="NOD" start="one:w:start" end="one:w:start+2"/>')
@@ -145,7 +153,7 @@ async def test_unless_it_would_have_ended_by_now(pilot) -> None:
     assert pilot.feedback.status("two") == "DONE"
 
 
-async def test_a_block_that_has_ended_cannot_be_named(pilot) -> None:
+async def test_a_block_that_has_ended_cannot_be_named(pilot: RealizerPilot) -> None:
     pilot.block("one", WAIT.format(0.1))
     await pilot.advance(0.5)
     pilot.block("two", '<head id="h" lexeme="NOD" start="one:w:end"/><head id="i" lexeme="NOD"/>')
@@ -154,7 +162,7 @@ async def test_a_block_that_has_ended_cannot_be_named(pilot) -> None:
     assert pilot.feedback.reached("two:i:end")
 
 
-async def test_absolute_times_count_from_the_start_of_the_block_wherever_that_is(pilot) -> None:
+async def test_absolute_times_count_from_the_start_of_the_block_wherever_that_is(pilot: RealizerPilot) -> None:
     pilot.block("one", WAIT.format(0.7))
     pilot.block("two", '<head id="h" lexeme="NOD" start="0.5" end="1"/>', composition="APPEND")
     await pilot.advance(3)
@@ -185,13 +193,13 @@ LAST_FAILS = """
     ],
 )
 async def test_where_the_last_behavior_of_a_required_block_fails_nothing_of_it_is_anywhere(
-    pilot, last, warning
+    pilot: RealizerPilot, last: str, warning: str
 ) -> None:
     pilot.block("other", WAIT.format(1))
     await pilot.advance(0.1)
     board = pilot.realizer.board
     before, plans, said = board.snapshot(), plans_of(pilot), len(pilot.feedback.lines)
-    dependents = {view.key: len(board.get(view.key).dependents) for view in before}
+    dependents = {view.key: dependents_of(board, view.key) for view in before}
     pilot.block("b", LAST_FAILS.format(last))
     await pilot.tick()
     assert pilot.feedback.warnings == [("b:last", warning)]
@@ -199,17 +207,23 @@ async def test_where_the_last_behavior_of_a_required_block_fails_nothing_of_it_i
     assert pilot.feedback.status("b") == "FAILED"
     assert board.snapshot() == before
     assert plans_of(pilot) == plans
-    assert {view.key: len(board.get(view.key).dependents) for view in before} == dependents
+    assert {view.key: dependents_of(board, view.key) for view in before} == dependents
     await pilot.advance(3)
     assert pilot.feedback.progress[-2:] == ["other:w:end", "other:end"]
 
 
-def plans_of(pilot):
+def dependents_of(board: PegBoard, key: PegKey) -> int:
+    peg = board.get(key)
+    assert peg is not None
+    return len(peg.dependents)
+
+
+def plans_of(pilot: RealizerPilot) -> list[tuple[PlanUnit, ...]]:
     engines = [engine for character in pilot.realizer.characters.values() for engine in character.engines]
-    return [engine.player.units for engine in engines]
+    return [engine.player.units for engine in engines if isinstance(engine, DefaultEngine)]
 
 
-async def test_required_ties_that_contradict_each_other_fail_the_block(pilot) -> None:
+async def test_required_ties_that_contradict_each_other_fail_the_block(pilot: RealizerPilot) -> None:
     pilot.block(
         "b",
         """
@@ -225,7 +239,7 @@ async def test_required_ties_that_contradict_each_other_fail_the_block(pilot) ->
     assert pilot.feedback.warnings == [("b", "IMPOSSIBLE_TO_SCHEDULE")]
 
 
-async def test_a_required_tie_is_kept_and_what_contradicts_it_is_dropped(pilot) -> None:
+async def test_a_required_tie_is_kept_and_what_contradicts_it_is_dropped(pilot: RealizerPilot) -> None:
     pilot.block(
         "b",
         """
@@ -241,7 +255,9 @@ async def test_a_required_tie_is_kept_and_what_contradicts_it_is_dropped(pilot) 
     assert pilot.feedback.status("b") == "DONE"
 
 
-async def test_a_block_appended_to_one_that_fails_still_waits_for_what_that_one_waited_for(pilot) -> None:
+async def test_a_block_appended_to_one_that_fails_still_waits_for_what_that_one_waited_for(
+    pilot: RealizerPilot,
+) -> None:
     pilot.block("long", '<wait id="w" duration="1"/>')
     pilot.block("bad", '<required><gesture id="g" lexeme="NO-SUCH"/></required>', composition="APPEND")
     pilot.block("next", '<wait id="w" duration="0.2"/>', composition="APPEND")
@@ -250,7 +266,7 @@ async def test_a_block_appended_to_one_that_fails_still_waits_for_what_that_one_
     assert pilot.feedback.time("next:start") == pilot.feedback.time("long:end") == 1.0
 
 
-async def test_a_queue_plays_in_order_without_a_gap(pilot) -> None:
+async def test_a_queue_plays_in_order_without_a_gap(pilot: RealizerPilot) -> None:
     for number in range(30):
         pilot.block(f"b{number}", '<wait id="w" duration="0.05"/>', composition="APPEND")
     await pilot.advance(2)

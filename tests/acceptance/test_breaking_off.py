@@ -1,12 +1,15 @@
-"""What ends or is broken off while it moves comes to rest as people do: it neither stops dead nor turns on the spot."""
+"""Motions that end or are interrupted while moving slow down before they return."""
 
 import math
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from reactive_realizer.embodiment.quaternion import difference, rotation_vector
+from reactive_realizer.testing.pilot import RealizerPilot
 
 FRAME = 0.02
 HARDEST = 2.0
@@ -18,24 +21,24 @@ SITTING = '<posture id="m"><stance type="SITTING"/></posture>'
 INTERRUPT = '<bmla:interrupt id="i" target="a"/>'
 
 
-def velocities(pilot, joint: str):
+def velocities(pilot: RealizerPilot, joint: str) -> NDArray[np.float64]:
     """How a joint turns from each frame to the next, (frames - 1, 3), rad/s."""
     turns = [body.rotation(joint) for body in pilot.bodies()]
     return np.array([rotation_vector(difference(a, b)) for a, b in pairwise(turns)]) / FRAME
 
 
-def brakes(pilot, joint: str, since: float):
+def brakes(pilot: RealizerPilot, joint: str, since: float) -> Any:
     """By how much that changes from frame to frame from a time on, rad/s."""
     changes = np.linalg.norm(np.diff(velocities(pilot, joint), axis=0), axis=1)
     return changes[round(since / FRAME) - 2 :].max()
 
 
-def fast(pilot, joint: str, time: float) -> float:
+def fast(pilot: RealizerPilot, joint: str, time: float) -> float:
     """How fast a joint turns just before a time, degrees a second."""
     return math.degrees(np.linalg.norm(velocities(pilot, joint)[round(time / FRAME) - 2]))
 
 
-async def test_an_animation_that_ends_in_motion_does_not_stop_dead(still) -> None:
+async def test_an_animation_that_ends_in_motion_does_not_stop_dead(still: RealizerPilot) -> None:
     still.block("a", CONDUCT)
     await still.advance(4)
     joint = max(("r_elbow", "r_shoulder"), key=lambda joint: fast(still, joint, 2.0))
@@ -56,7 +59,9 @@ async def test_an_animation_that_ends_in_motion_does_not_stop_dead(still) -> Non
         ('<head id="m" lexeme="NOD" amount="1"/>', "skullbase", 0.1),
     ],
 )
-async def test_what_is_interrupted_on_its_way_slows_down_and_then_goes_back(still, motion, joint, time) -> None:
+async def test_an_interrupted_motion_slows_down_and_then_returns(
+    still: RealizerPilot, motion: str, joint: str, time: float
+) -> None:
     still.block("a", motion)
     await still.advance(time)
     still.block("b", INTERRUPT)
@@ -67,7 +72,7 @@ async def test_what_is_interrupted_on_its_way_slows_down_and_then_goes_back(stil
     assert np.linalg.norm(velocities(still, joint)[-1]) < 0.01
 
 
-async def test_so_does_the_pelvis_of_who_is_stopped_from_sitting_down(still) -> None:
+async def test_the_pelvis_of_an_interrupted_change_of_stance_slows_down_and_then_returns(still: RealizerPilot) -> None:
     still.block("a", SITTING)
     await still.advance(0.8)
     still.block("b", INTERRUPT)
@@ -79,10 +84,10 @@ async def test_so_does_the_pelvis_of_who_is_stopped_from_sitting_down(still) -> 
 
 
 @pytest.mark.parametrize("stance", ["CROUCHING", "LYING"])
-async def test_its_feet_are_never_under_the_ground(still, stance) -> None:
+async def test_the_feet_stay_above_the_ground(still: RealizerPilot, stance: str) -> None:
     still.block("a", f'<posture id="m"><stance type="{stance}"/></posture>')
     await still.advance(0.7)
     still.block("b", INTERRUPT)
     await still.advance(2)
-    heels = [min(body.place(f"{side}_ankle").position[1] for side in "lr") for body in still.bodies()]
+    heels = [min(body.transform(f"{side}_ankle").position[1] for side in "lr") for body in still.bodies()]
     assert min(heels) > heels[0] - 0.001

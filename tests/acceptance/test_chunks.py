@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+from reactive_realizer.testing.pilot import RealizerPilot
+
 BMLA = {"xmlns:bmla": "http://www.asap-project.org/bmla"}
 CHUNK = (
     '<speech id="s"><text>this <sync id="m"/>word</text></speech>'
@@ -10,14 +12,14 @@ CHUNK = (
 )
 
 
-def chunk(pilot, id_: str, mode: str = "RIGHT_HAND", **attributes: str) -> None:
+def chunk(pilot: RealizerPilot, id_: str, mode: str = "RIGHT_HAND", **attributes: str) -> None:
     inside = CHUNK.format(mode=mode)
     named = {"bmla:" + name: value for name, value in attributes.items()}
     pairs = " ".join(f'{name}="{value}"' for name, value in (BMLA | named).items())
     pilot.perform(f'<bml xmlns="http://www.bml-initiative.org/bml/bml-1.0" id="{id_}" {pairs}>{inside}</bml>')
 
 
-async def test_the_next_chunk_begins_its_preparation_where_the_hand_is(pilot) -> None:
+async def test_the_next_chunk_begins_its_preparation_where_the_hand_is(pilot: RealizerPilot) -> None:
     chunk(pilot, "one")
     chunk(pilot, "two", chunkAfter="one")
     await pilot.tick()
@@ -28,7 +30,7 @@ async def test_the_next_chunk_begins_its_preparation_where_the_hand_is(pilot) ->
     assert told.time("two:g:stroke") - told.time("two:g:start") < planned - 0.1
 
 
-async def test_stroke_and_word_move_together_when_a_chunk_is_planned_anew(pilot) -> None:
+async def test_stroke_and_word_move_together_when_a_chunk_is_planned_anew(pilot: RealizerPilot) -> None:
     chunk(pilot, "one")
     chunk(pilot, "two", chunkAfter="one")
     await pilot.advance(6)
@@ -36,7 +38,9 @@ async def test_stroke_and_word_move_together_when_a_chunk_is_planned_anew(pilot)
     assert pilot.feedback.warnings == []
 
 
-async def test_the_first_gesture_ends_where_the_next_one_takes_its_arm_and_both_points_are_told(pilot) -> None:
+async def test_the_first_gesture_ends_where_the_next_one_takes_its_arm_and_both_points_are_told(
+    pilot: RealizerPilot,
+) -> None:
     chunk(pilot, "one")
     chunk(pilot, "two", chunkAfter="one")
     await pilot.advance(6)
@@ -45,14 +49,14 @@ async def test_the_first_gesture_ends_where_the_next_one_takes_its_arm_and_both_
     assert told.status("one") == "DONE"
 
 
-async def test_an_arm_that_is_not_needed_retracts_in_full(pilot) -> None:
+async def test_an_arm_that_is_not_needed_retracts_in_full(pilot: RealizerPilot) -> None:
     chunk(pilot, "one", mode="LEFT_HAND")
     chunk(pilot, "two", mode="RIGHT_HAND", chunkAfter="one")
     await pilot.advance(6)
     assert pilot.feedback.time("one:g:end") > pilot.feedback.time("one:g:relax") + 0.1
 
 
-async def test_the_hand_does_not_jump_from_chunk_to_chunk(pilot) -> None:
+async def test_the_hand_does_not_jump_from_chunk_to_chunk(pilot: RealizerPilot) -> None:
     pilot.watch()
     chunk(pilot, "one")
     chunk(pilot, "two", chunkAfter="one")
@@ -62,7 +66,7 @@ async def test_the_hand_does_not_jump_from_chunk_to_chunk(pilot) -> None:
     assert 0.01 < steps.max() < 0.05
 
 
-async def test_what_hangs_on_a_chunk_follows_when_it_is_planned_anew(pilot) -> None:
+async def test_what_hangs_on_a_chunk_follows_when_it_is_planned_anew(pilot: RealizerPilot) -> None:
     chunk(pilot, "one")
     chunk(pilot, "two", chunkAfter="one")
     pilot.block("other", '<head id="n" lexeme="NOD" stroke="two:s:m"/>')
@@ -70,7 +74,7 @@ async def test_what_hangs_on_a_chunk_follows_when_it_is_planned_anew(pilot) -> N
     assert pilot.feedback.time("other:n:stroke") == pilot.feedback.time("two:s:m")
 
 
-async def test_an_append_waits_for_a_chunk_and_for_what_that_is_a_chunk_after(pilot) -> None:
+async def test_an_append_waits_for_a_chunk_and_for_what_that_is_a_chunk_after(pilot: RealizerPilot) -> None:
     chunk(pilot, "one")
     pilot.block("two", '<wait id="w" duration="0.1"/>', **{"bmla:chunkAfter": "one"})
     pilot.block("next", composition="APPEND")

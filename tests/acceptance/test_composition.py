@@ -1,12 +1,13 @@
 """How motions of one figure combine: who lies above whom, who adds to whom, and who comes back (thesis 8.7.5)."""
 
+from collections.abc import AsyncIterator
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
-from reactive_realizer.testing.pilot import open_pilot
+from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 ENTRY = """
 <MotionUnitSpec type="gesture">
@@ -23,7 +24,7 @@ BENT = """
 
 
 @pytest.fixture
-async def pilot(tmp_path: Path):
+async def pilot(tmp_path: Path) -> AsyncIterator[RealizerPilot]:
     """A pilot with three gestures: two that bend the right elbow, more and less, and one for the left elbow."""
     for name, motion in {"MUCH": ("r", 4, 1.2), "LITTLE": ("r", 2, 0.6), "OTHER": ("l", 2, 0.9)}.items():
         (tmp_path / f"{name}.xml").write_text(BENT.format(*motion), encoding="utf-8")
@@ -35,18 +36,19 @@ async def pilot(tmp_path: Path):
         yield pilot
 
 
-def turned(pilot, joint: str) -> np.ndarray:
+def turned(pilot: RealizerPilot, joint: str) -> np.ndarray:
     """How far a joint is turned from the default pose in each frame, rad."""
     joints = pilot.realizer.characters["alice"].humanoid.avatar.skeleton.joints
     w = np.array([frame.rotations for frame in pilot.frames["alice"]])[:, joints.index(joint), 0]
-    return 2.0 * np.arccos(np.clip(np.abs(w), 0.0, 1.0))
+    angles: np.ndarray = 2.0 * np.arccos(np.clip(np.abs(w), 0.0, 1.0))
+    return angles
 
 
 def at(path: np.ndarray, time: float) -> float:
     return float(path[round(time * 50)])
 
 
-async def test_of_a_group_the_one_that_started_last_is_seen_and_then_the_other_again(pilot) -> None:
+async def test_of_a_group_the_one_that_started_last_is_seen_and_then_the_other_again(pilot: RealizerPilot) -> None:
     pilot.block("a", '<gesture id="long" lexeme="MUCH"/>')
     pilot.block("b", '<gesture id="short" lexeme="LITTLE" start="1"/>')
     await pilot.advance(6)
@@ -57,7 +59,7 @@ async def test_of_a_group_the_one_that_started_last_is_seen_and_then_the_other_a
     assert pilot.feedback.time("a:long:end") == begin + 4.0
 
 
-async def test_joints_that_the_later_one_leaves_alone_stay_with_the_earlier(pilot) -> None:
+async def test_joints_that_the_later_one_leaves_alone_stay_with_the_earlier(pilot: RealizerPilot) -> None:
     pilot.block("a", '<gesture id="right" lexeme="MUCH"/><gesture id="left" lexeme="OTHER" start="1"/>')
     await pilot.advance(6)
     begin = pilot.feedback.time("a:right:start")
@@ -65,7 +67,7 @@ async def test_joints_that_the_later_one_leaves_alone_stay_with_the_earlier(pilo
     assert at(turned(pilot, "l_elbow"), begin + 2.0) == pytest.approx(0.9, abs=0.02)
 
 
-async def test_of_two_that_start_together_the_one_that_ends_first_is_seen_until_then(pilot) -> None:
+async def test_of_two_that_start_together_the_one_that_ends_first_is_seen_until_then(pilot: RealizerPilot) -> None:
     pilot.block("a", '<gesture id="long" lexeme="MUCH"/><gesture id="short" lexeme="LITTLE"/>')
     await pilot.advance(6)
     elbow, begin = turned(pilot, "r_elbow"), pilot.feedback.time("a:long:start")
@@ -73,7 +75,7 @@ async def test_of_two_that_start_together_the_one_that_ends_first_is_seen_until_
     assert pilot.feedback.warnings == []
 
 
-async def test_two_that_overlap_wholly_cannot_both_be_and_one_is_dropped_with_one_warning(pilot) -> None:
+async def test_two_that_overlap_wholly_cannot_both_be_and_one_is_dropped_with_one_warning(pilot: RealizerPilot) -> None:
     both = '<gesture id="p" lexeme="MUCH" start="0" end="3"/><gesture id="q" lexeme="LITTLE" start="0" end="3"/>'
     pilot.block("a", both)
     await pilot.advance(6)
@@ -81,7 +83,7 @@ async def test_two_that_overlap_wholly_cannot_both_be_and_one_is_dropped_with_on
     assert at(turned(pilot, "r_elbow"), 1.5) == pytest.approx(1.2, abs=0.02)
 
 
-async def test_one_that_comes_back_does_so_gently(pilot) -> None:
+async def test_one_that_comes_back_does_so_gently(pilot: RealizerPilot) -> None:
     pilot.block("a", '<gesture id="long" lexeme="MUCH"/><gesture id="short" lexeme="LITTLE" start="1"/>')
     await pilot.advance(3.9)
     elbow = turned(pilot, "r_elbow")[round(pilot.feedback.time("a:short:end") * 50) :]
@@ -91,7 +93,7 @@ async def test_one_that_comes_back_does_so_gently(pilot) -> None:
     assert np.diff(elbow).max() < 0.05
 
 
-async def test_one_that_is_cut_off_gives_way_gently_to_the_one_that_it_lay_above(pilot) -> None:
+async def test_one_that_is_cut_off_gives_way_gently_to_the_one_that_it_lay_above(pilot: RealizerPilot) -> None:
     pilot.block("a", '<gesture id="long" lexeme="MUCH"/>')
     pilot.block("b", '<gesture id="short" lexeme="LITTLE" start="0.7"/>')
     await pilot.advance(2)
@@ -103,7 +105,7 @@ async def test_one_that_is_cut_off_gives_way_gently_to_the_one_that_it_lay_above
     assert np.diff(elbow).max() < 0.05
 
 
-async def test_a_behavior_may_name_its_group_itself(pilot) -> None:
+async def test_a_behavior_may_name_its_group_itself(pilot: RealizerPilot) -> None:
     spans = (2.1, 2.4), (2.6, 4.9), (5.7, 6.9)
     group = '<bmlt:parameter name="replacementgroup" value="hands"/>'
     pilot.block(
@@ -122,7 +124,7 @@ async def test_a_behavior_may_name_its_group_itself(pilot) -> None:
     assert pilot.feedback.time("a:beat:end") == begin + 5.0
 
 
-async def test_a_glance_of_the_eyes_leaves_the_head_where_it_was(pilot) -> None:
+async def test_a_glance_of_the_eyes_leaves_the_head_where_it_was(pilot: RealizerPilot) -> None:
     pilot.block("a", '<gazeShift id="there" target="bluebox" influence="HEAD"/>')
     await pilot.advance(3)
     pilot.block("b", '<gaze id="glance" target="greensphere" influence="EYES"/>')
@@ -133,7 +135,7 @@ async def test_a_glance_of_the_eyes_leaves_the_head_where_it_was(pilot) -> None:
     assert np.ptp(eye[145:]) > 0.2
 
 
-async def test_a_nod_adds_to_where_the_head_is_turned_and_leaves_it_there(pilot) -> None:
+async def test_a_nod_adds_to_where_the_head_is_turned_and_leaves_it_there(pilot: RealizerPilot) -> None:
     pilot.block("a", '<gazeShift id="aside" target="bluebox" influence="HEAD"/>')
     await pilot.advance(3)
     before = len(pilot.frames["alice"])
@@ -149,7 +151,7 @@ async def test_a_nod_adds_to_where_the_head_is_turned_and_leaves_it_there(pilot)
     assert np.ptp(pitch[before:]) > 0.1
 
 
-async def test_a_shift_to_less_of_the_body_lets_the_trunk_go_gently(pilot) -> None:
+async def test_a_shift_to_less_of_the_body_lets_the_trunk_go_gently(pilot: RealizerPilot) -> None:
     pilot.block("a", '<gazeShift id="whole" target="bluebox" influence="WAIST"/>')
     await pilot.advance(3)
     trunk = turned(pilot, "vl5")[-1]

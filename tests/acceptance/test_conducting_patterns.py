@@ -22,7 +22,7 @@ async def conduct(pilot: RealizerPilot, beats: int, mode: str, bars: int = 2) ->
 
 @pytest.mark.parametrize("mode", SIDES)
 @pytest.mark.parametrize("beats", [1, 2, 3, 4])
-async def test_each_beat_is_where_the_hand_comes_down_and_turns(still, beats, mode):
+async def test_each_beat_is_where_the_hand_comes_down_and_turns(still: RealizerPilot, beats: int, mode: str) -> None:
     times, path = await conduct(still, beats, mode)
     for beat in range(1, beats + 1):
         time = still.feedback.time(f"c:b1:beat{beat}")
@@ -33,7 +33,7 @@ async def test_each_beat_is_where_the_hand_comes_down_and_turns(still, beats, mo
 
 
 @pytest.mark.parametrize("mode", SIDES)
-async def test_four_beats_go_down_in_out_and_back_to_the_middle(still, mode):
+async def test_four_beats_go_down_in_out_and_back_to_the_middle(still: RealizerPilot, mode: str) -> None:
     times, path = await conduct(still, 4, mode)
     out = [path[np.searchsorted(times, still.feedback.time(f"c:b1:beat{i}"))][0] for i in (1, 2, 3, 4)]
     assert out[1] < out[0] - 0.05
@@ -41,19 +41,19 @@ async def test_four_beats_go_down_in_out_and_back_to_the_middle(still, mode):
     assert out[0] < out[3] < out[2]
 
 
-async def test_the_highest_point_is_before_the_first_beat(still):
+async def test_the_highest_point_is_before_the_first_beat(still: RealizerPilot) -> None:
     times, path = await conduct(still, 3, "RIGHT_HAND")
     second = (times > 2.0) & (times < 4.0)
     assert 3.5 < times[second][path[second][:, UP].argmax()] < 3.85
 
 
-async def test_bars_follow_each_other_without_a_pause_or_a_jump(still):
+async def test_bars_follow_each_other_without_a_pause_or_a_jump(still: RealizerPilot) -> None:
     times, path = await conduct(still, 3, "RIGHT_HAND", bars=3)
     first, second = (path[(times >= start) & (times < start + 1.99)] for start in (2.0, 4.0))
     np.testing.assert_allclose(first[10:-10], second[10:-10], atol=0.01)
 
 
-async def test_size_and_place_are_parameters(still):
+async def test_size_and_place_are_parameters(still: RealizerPilot) -> None:
     behavior = """<bmlt:procanimation id="{id}" name="conduct-1-beat" mode="RIGHT_HAND" start="{start}" end="{end}">
       <bmlt:parameter name="a" value="{a}"/><bmlt:parameter name="yoff" value="{yoff}"/></bmlt:procanimation>"""
     variants = {"small": (0.35, 0.0), "big": (0.7, 0.0), "high": (0.35, 0.08)}

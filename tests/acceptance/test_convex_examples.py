@@ -1,9 +1,11 @@
 """The thesis's examples of scheduling (7.1.3, 7.2.2), as BML, with the strategy that is the default: in any order."""
 
+from collections.abc import AsyncIterator
+
 import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
-from reactive_realizer.testing.pilot import open_pilot
+from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 from .scheduling_examples import BEAT_ON_NOD, BEATS, NOD_3_TO_5, NOD_AROUND, NOD_ON_SPEECH, SPEECH
 
@@ -17,14 +19,16 @@ AFTER = """
 
 
 @pytest.fixture
-async def pilot():
+async def pilot() -> AsyncIterator[RealizerPilot]:
     async with open_pilot(SceneOptions(voice="text", strategy="convex")) as pilot:
         yield pilot
 
 
 @pytest.mark.parametrize("order", [1, -1], ids=["a", "b"])
 @pytest.mark.parametrize(("walk", "first"), [(1.0, "speech1"), (6.0, "point1")])
-async def test_26_speech_and_pointing_come_as_soon_as_both_of_their_afters_allow(pilot, order, walk, first) -> None:
+async def test_26_speech_and_pointing_come_as_soon_as_both_of_their_afters_allow(
+    pilot: RealizerPilot, order: int, walk: float, first: str
+) -> None:
     pilot.block("bml1", "".join([PAINTING, POINT, WALK.format(walk), AFTER][::order]))
     await pilot.advance(12)
     told = pilot.feedback
@@ -38,7 +42,7 @@ async def test_26_speech_and_pointing_come_as_soon_as_both_of_their_afters_allow
 
 
 @pytest.mark.parametrize("order", [1, -1], ids=["a", "b"])
-async def test_27_a_nod_on_words_is_timed_by_them(pilot, order) -> None:
+async def test_27_a_nod_on_words_is_timed_by_them(pilot: RealizerPilot, order: int) -> None:
     pilot.block("bml1", "".join([SPEECH, NOD_ON_SPEECH][::order]))
     await pilot.advance(5)
     told = pilot.feedback
@@ -48,7 +52,7 @@ async def test_27_a_nod_on_words_is_timed_by_them(pilot, order) -> None:
 
 
 @pytest.mark.parametrize("order", [1, -1], ids=["a", "b"])
-async def test_28_a_beat_on_the_stroke_of_a_nod_follows_it(pilot, order) -> None:
+async def test_28_a_beat_on_the_stroke_of_a_nod_follows_it(pilot: RealizerPilot, order: int) -> None:
     pilot.block("bml1", "".join([NOD_3_TO_5, BEAT_ON_NOD][::order]))
     await pilot.advance(8)
     told = pilot.feedback
@@ -58,7 +62,7 @@ async def test_28_a_beat_on_the_stroke_of_a_nod_follows_it(pilot, order) -> None
 
 
 @pytest.mark.parametrize("order", [1, -1], ids=["a", "b"])
-async def test_29_a_nod_around_two_gestures_is_met_and_nothing_collapses(pilot, order) -> None:
+async def test_29_a_nod_around_two_gestures_is_met_and_nothing_collapses(pilot: RealizerPilot, order: int) -> None:
     pilot.block("bml1", "".join([BEATS, NOD_AROUND][::order]))
     await pilot.advance(14)
     told = pilot.feedback

@@ -1,8 +1,10 @@
 """BML in, feedback out: blocks, ties and order."""
 
+from collections.abc import AsyncIterator
+
 import pytest
 
-from reactive_realizer.testing.pilot import open_pilot
+from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 SPEECH_AND_NOD = """
     <speech id="say"><text>Well <sync id="now"/>then, let us begin.</text></speech>
@@ -11,19 +13,19 @@ SPEECH_AND_NOD = """
 
 
 @pytest.fixture
-async def pilot():
+async def pilot() -> AsyncIterator[RealizerPilot]:
     async with open_pilot() as pilot:
         yield pilot
 
 
-async def test_a_nod_between_two_absolute_times_starts_and_ends_there(pilot) -> None:
+async def test_a_nod_between_two_absolute_times_starts_and_ends_there(pilot: RealizerPilot) -> None:
     pilot.block("b", '<head id="nod" lexeme="NOD" start="0" end="5"/>')
     await pilot.advance(6)
     assert (pilot.feedback.time("b:nod:start"), pilot.feedback.time("b:nod:end")) == (0.0, 5.0)
     assert pilot.feedback.time("b:end") == 5.0
 
 
-async def test_a_nod_tied_to_a_word_starts_at_the_word(pilot) -> None:
+async def test_a_nod_tied_to_a_word_starts_at_the_word(pilot: RealizerPilot) -> None:
     pilot.block("b", SPEECH_AND_NOD)
     await pilot.advance(10)
     told = pilot.feedback
@@ -32,7 +34,7 @@ async def test_a_nod_tied_to_a_word_starts_at_the_word(pilot) -> None:
     assert told.time("b:yes:end") - told.time("b:yes:start") < 1.0  # nothing makes it last longer than it likes to
 
 
-async def test_a_synchronize_with_a_number_places_the_whole_cluster(pilot) -> None:
+async def test_a_synchronize_with_a_number_places_the_whole_cluster(pilot: RealizerPilot) -> None:
     pilot.block(
         "b",
         """
@@ -47,14 +49,16 @@ async def test_a_synchronize_with_a_number_places_the_whole_cluster(pilot) -> No
     assert told.time("b:say:start") == told.time("b:nod:start") < 10.0 < told.time("b:say:end")
 
 
-async def test_every_sync_point_is_reported_once_in_order_between_the_start_and_end_of_its_block(pilot) -> None:
+async def test_every_sync_point_is_reported_once_in_order_between_the_start_and_end_of_its_block(
+    pilot: RealizerPilot,
+) -> None:
     pilot.block("b", '<gesture id="g" lexeme="BEAT"/>')
     await pilot.advance(5)
     points = [f"b:g:{sync}" for sync in ("start", "ready", "strokeStart", "stroke", "strokeEnd", "relax", "end")]
     assert [point for point in pilot.feedback.progress if point != "b:relax"] == ["b:start", *points, "b:end"]
 
 
-async def test_a_block_subsides_when_all_that_is_left_of_it_is_on_its_way_back_to_rest(pilot) -> None:
+async def test_a_block_subsides_when_all_that_is_left_of_it_is_on_its_way_back_to_rest(pilot: RealizerPilot) -> None:
     pilot.block("b", '<gesture id="g" lexeme="BEAT"/><wait id="w" duration="0.2"/>')
     await pilot.advance(5)
     assert pilot.feedback.time("b:relax") == pilot.feedback.time("b:g:relax")
@@ -62,20 +66,20 @@ async def test_a_block_subsides_when_all_that_is_left_of_it_is_on_its_way_back_t
     assert pilot.feedback.status("b", "relax") == "SUBSIDING"
 
 
-async def test_a_block_without_a_way_back_to_rest_ends_and_does_not_subside(pilot) -> None:
+async def test_a_block_without_a_way_back_to_rest_ends_and_does_not_subside(pilot: RealizerPilot) -> None:
     pilot.block("b", '<wait id="w" duration="0.2"/>')
     await pilot.advance(1)
     assert pilot.feedback.progress == ["b:start", "b:w:start", "b:w:end", "b:end"]
 
 
-async def test_an_empty_block_starts_and_ends_in_one_tick(pilot) -> None:
+async def test_an_empty_block_starts_and_ends_in_one_tick(pilot: RealizerPilot) -> None:
     pilot.block("b")
     await pilot.tick()
     assert pilot.feedback.progress == ["b:start", "b:end"]
     assert pilot.feedback.status("b") == "DONE"
 
 
-async def test_of_two_gazes_that_coincide_one_is_dropped_with_one_warning(pilot) -> None:
+async def test_of_two_gazes_that_coincide_one_is_dropped_with_one_warning(pilot: RealizerPilot) -> None:
     gaze = '<gaze id="{}" start="1" end="4" influence="HEAD" target="bluebox"/>'
     pilot.block("b", gaze.format("left") + gaze.format("also"))
     await pilot.advance(5)
@@ -84,7 +88,7 @@ async def test_of_two_gazes_that_coincide_one_is_dropped_with_one_warning(pilot)
     assert pilot.feedback.time("b:also:end") == pilot.feedback.time("b:end") == 4.0
 
 
-async def test_a_block_is_appended_at_the_very_time_at_which_the_last_one_ends(pilot) -> None:
+async def test_a_block_is_appended_at_the_very_time_at_which_the_last_one_ends(pilot: RealizerPilot) -> None:
     pilot.block("one", '<wait id="w" duration="0.1234"/>')
     pilot.block("two", '<wait id="w" duration="0.1"/>', composition="APPEND")
     pilot.block("three", '<wait id="w" duration="0.1"/>', composition="APPEND")
@@ -93,7 +97,7 @@ async def test_a_block_is_appended_at_the_very_time_at_which_the_last_one_ends(p
     assert pilot.feedback.time("three:end") == 0.3234
 
 
-async def test_replace_ends_what_plays_and_revokes_what_waits_before_the_new_block_starts(pilot) -> None:
+async def test_replace_ends_what_plays_and_revokes_what_waits_before_the_new_block_starts(pilot: RealizerPilot) -> None:
     pilot.block("old", '<speech id="say"><text>One two three four five six.</text></speech>')
     pilot.block("next", '<wait id="w" duration="1"/>', composition="APPEND")
     await pilot.advance(0.5)
@@ -106,17 +110,21 @@ async def test_replace_ends_what_plays_and_revokes_what_waits_before_the_new_blo
     assert told.progress.index("old:end") < told.progress.index("new:start")
 
 
-async def test_an_interrupted_speech_tells_its_last_word(pilot) -> None:
+async def test_an_interrupted_speech_tells_its_last_word(pilot: RealizerPilot) -> None:
     pilot.block("old", '<speech id="say"><text>One two three four five six.</text></speech>')
     await pilot.advance(0.5)
     pilot.block("stop", composition="REPLACE")
     await pilot.tick()
     end = next(line for line in pilot.feedback.lines if line.id == "old:say:end").element
-    told = {name.partition("}")[2]: value for name, value in end.attrib.items() if name.startswith("{urn:reactive")}
+    told = {
+        str(name).partition("}")[2]: value
+        for name, value in end.attrib.items()
+        if str(name).startswith("{urn:reactive")
+    }
     assert told == {"word": "2", "text": "three", "heard": "13"}
 
 
-async def test_a_required_behavior_that_fails_takes_the_whole_block_with_it(pilot) -> None:
+async def test_a_required_behavior_that_fails_takes_the_whole_block_with_it(pilot: RealizerPilot) -> None:
     before = pilot.realizer.board.snapshot()
     pilot.block(
         "b",
@@ -132,7 +140,7 @@ async def test_a_required_behavior_that_fails_takes_the_whole_block_with_it(pilo
     assert pilot.realizer.board.snapshot() == before
 
 
-async def test_what_is_not_realized_is_named_and_the_rest_plays(pilot) -> None:
+async def test_what_is_not_realized_is_named_and_the_rest_plays(pilot: RealizerPilot) -> None:
     pilot.block("b", '<locomotion id="go" target="bluebox"/><head id="h" lexeme="NOD"/>')
     await pilot.advance(3)
     assert pilot.feedback.warnings == [("b:go", "BEHAVIOR_TYPE_NOT_SUPPORTED")]

@@ -13,7 +13,7 @@ STROKES = [f"conducting:{beat}:stroke" for beat in ("first", "second", "third", 
 
 @pytest.mark.speech
 @pytest.mark.parametrize("tempo", [60, 48, 100])
-async def test_the_performance_plays_without_a_warning_and_its_strokes_fall_on_the_beat(tempo) -> None:
+async def test_the_performance_plays_without_a_warning_and_its_strokes_fall_on_the_beat(tempo: int) -> None:
     async with open_pilot(SceneOptions()) as pilot:
         pilot.event("metronome", "start")
         pilot.perform(PERFORMANCE)

@@ -16,21 +16,23 @@ NOD = '<bmlt:procanimation name="nod"/>'
 @pytest.mark.parametrize(
     ("content", "reason"),
     [
-        (NAMELESS, "no file 'nothere.xml' among the assets"),
+        (NAMELESS, "no asset named 'nothere.xml'"),
         (KEYLESS, "g, line 1, <SkeletonInterpolator>: the attribute encoding is missing"),
     ],
 )
-async def test_of_a_description_that_cannot_be_made_is_said_why_once_and_the_core_behavior_plays(content, reason):
+async def test_of_a_description_that_cannot_be_made_is_said_why_once_and_the_core_behavior_plays(
+    content: str, reason: str
+) -> None:
     async with open_pilot() as pilot:
         pilot.block("b", GESTURE.format(DESCRIPTION.format(2, content)))
         await pilot.advance(3)
         assert pilot.feedback.warnings == [("b:g", "CANNOT_CREATE_BEHAVIOR")]
-        assert reason in str(pilot.feedback.of("warningFeedback")[0].element.text)
+        assert reason in pilot.feedback.of("warningFeedback")[0].text
         assert "b:g:strokeEnd" in pilot.feedback.progress
         assert "b:g:end" in pilot.feedback.progress
 
 
-async def test_a_description_after_the_one_that_plays_is_not_asked_for():
+async def test_a_description_after_the_one_that_plays_is_not_asked_for() -> None:
     async with open_pilot() as pilot:
         pilot.block("b", GESTURE.format(DESCRIPTION.format(1, NAMELESS) + DESCRIPTION.format(2, NOD)))
         await pilot.advance(3)
@@ -38,7 +40,7 @@ async def test_a_description_after_the_one_that_plays_is_not_asked_for():
         assert "b:g:end" in pilot.feedback.progress
 
 
-async def test_what_an_unknown_language_says_is_passed_over():
+async def test_what_an_unknown_language_says_is_passed_over() -> None:
     async with open_pilot() as pilot:
         pilot.block("b", GESTURE.format(DESCRIPTION.format(1, '<x:dance xmlns:x="urn:x"/>')))
         await pilot.advance(3)

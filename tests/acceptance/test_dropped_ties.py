@@ -1,6 +1,10 @@
 """Who hangs on a behavior that is dropped is told by whose loss it is lost too, or that it keeps its last time."""
 
+from typing import Any
+
 import pytest
+
+from reactive_realizer.testing.pilot import RealizerPilot
 
 from .living_time import HIT, after, nod, synchronize, texts, wait
 
@@ -9,9 +13,9 @@ HOLDS = '<gesture id="first" lexeme="BEAT" mode="RIGHT_HAND" start="0" end="2"/>
 LATER = '<gesture id="g" lexeme="BEAT" mode="RIGHT_HAND" start="0.5" stroke="{}" end="3"/>'
 
 
-def told(pilot, id_):
+def told(pilot: RealizerPilot, id_: str) -> list[str]:
     """What was warned of a behavior or block."""
-    return [line.element.text.partition(": ")[2] for line in pilot.feedback.of("warningFeedback") if line.id == id_]
+    return [line.text.partition(": ")[2] for line in pilot.feedback.of("warningFeedback") if line.id == id_]
 
 
 # --- at planning
@@ -22,47 +26,49 @@ def told(pilot, id_):
     [SAMBA, '<locomotion id="g" target="bluebox"/>', '<gesture id="g"/>', nod("g", start="nobody:end")],
     ids=["no such word", "not realized", "not to be read", "its own tie"],
 )
-async def test_a_chain_is_dropped_link_by_link_and_each_names_the_one_behavior_that_is_the_cause(pilot, lost) -> None:
+async def test_a_chain_is_dropped_link_by_link_and_each_names_the_one_behavior_that_is_the_cause(
+    pilot: RealizerPilot, lost: Any
+) -> None:
     chain = nod("n", start="g:end") + nod("m", start="n:end") + nod("o", start="m:end")
     pilot.block("b", wait("w", 1) + lost + chain)
     await pilot.advance(2)
     assert [id_ for id_, _ in pilot.feedback.warnings] == ["b:g", "b:n", "b:m", "b:o"]
     for id_, point in (("b:n", "g:end"), ("b:m", "n:end"), ("b:o", "m:end")):
         assert told(pilot, id_) == [
-            f"{point} never comes, because 'g' is dropped; what hangs on it is dropped, too",
+            f"{point} has no time because 'g' is dropped; what depends on it is dropped too",
         ]
     assert pilot.feedback.status("b") == "DONE"
     assert pilot.feedback.time("b:end") == 1.0
 
 
-async def test_a_constraint_of_the_block_says_so_too(pilot) -> None:
+async def test_a_constraint_of_the_block_says_so_too(pilot: RealizerPilot) -> None:
     pilot.block("b", SAMBA + nod("n", start="g:end") + nod("o") + after("n:end", "o:start"))
     await pilot.advance(2)
-    assert told(pilot, "b") == ["n:end never comes, because 'g' is dropped; what hangs on it is dropped, too"]
+    assert told(pilot, "b") == ["n:end has no time because 'g' is dropped; what depends on it is dropped too"]
     assert pilot.feedback.reached("b:o:end")
 
 
-async def test_a_behavior_that_was_never_written_is_unknown(pilot) -> None:
+async def test_a_behavior_that_was_never_written_is_unknown(pilot: RealizerPilot) -> None:
     pilot.block("b", nod("n", start="nobody:stroke") + nod("m"))
     await pilot.advance(2)
-    assert told(pilot, "b:n") == ["no behavior 'nobody' for nobody:stroke; there are n, m"]
+    assert told(pilot, "b:n") == ["nobody:stroke: there is no behavior 'nobody'; available: n, m"]
 
 
-async def test_the_cause_may_be_in_another_block(pilot) -> None:
+async def test_the_cause_may_be_in_another_block(pilot: RealizerPilot) -> None:
     pilot.block("a", wait("w", 5) + SAMBA)
     pilot.block("b", nod("n", start="a:g:end") + nod("m", start="n:end"))
     await pilot.advance(2)
     for id_, point in (("b:n", "a:g:end"), ("b:m", "n:end")):
-        assert told(pilot, id_) == [f"{point} never comes, because 'a:g' is dropped; what hangs on it is dropped, too"]
+        assert told(pilot, id_) == [f"{point} has no time because 'a:g' is dropped; what depends on it is dropped too"]
 
 
-async def test_in_a_procedure_it_is_the_same(pilot) -> None:
+async def test_in_a_procedure_it_is_the_same(pilot: RealizerPilot) -> None:
     define = '<bmlt:defineproc xmlns:bmlt="http://hmi.ewi.utwente.nl/bmlt" xmlns="{}" id="{}">{}</bmlt:defineproc>'
     core = "http://www.bml-initiative.org/bml/bml-1.0"
     pilot.perform(define.format(core, "p", '<gesture id="g"/>' + nod("n", start="g:end")))
     pilot.perform('<bmlt:useproc xmlns:bmlt="http://hmi.ewi.utwente.nl/bmlt" procid="p" bmlid="b"/>')
     await pilot.advance(1)
-    assert told(pilot, "b:n") == ["g:end never comes, because 'g' is dropped; what hangs on it is dropped, too"]
+    assert told(pilot, "b:n") == ["g:end has no time because 'g' is dropped; what depends on it is dropped too"]
 
 
 # --- while it plays
@@ -70,13 +76,13 @@ async def test_in_a_procedure_it_is_the_same(pilot) -> None:
 
 @pytest.mark.parametrize("tied", ["by itself", "by a constraint"])
 async def test_what_was_tied_to_a_behavior_that_found_the_arm_taken_keeps_its_time_and_is_told_once(
-    pilot, tied
+    pilot: RealizerPilot, tied: str
 ) -> None:
     tie = {"by itself": nod("n", start="g:stroke"), "by a constraint": nod("n") + synchronize("g:stroke", "n:start")}
     pilot.predict("t", "hit", 1.5)
     pilot.block("b", HOLDS + LATER.format(HIT) + tie[tied] + nod("m", start="n:end"))
     await pilot.advance(0.6)
-    assert told(pilot, "b:n") == ["the behavior of b:g:stroke is dropped; this one keeps the time predicted last"]
+    assert told(pilot, "b:n") == ["the behavior of b:g:stroke is dropped; this behavior keeps the last predicted time"]
     pilot.predict("t", "hit", 1.9)
     await pilot.advance(5)
     assert len(told(pilot, "b:g")) == 1
@@ -86,17 +92,19 @@ async def test_what_was_tied_to_a_behavior_that_found_the_arm_taken_keeps_its_ti
     assert pilot.feedback.status("b") == "DONE"
 
 
-async def test_so_does_what_another_block_tied_to_it(pilot) -> None:
+async def test_so_does_what_another_block_tied_to_it(pilot: RealizerPilot) -> None:
     pilot.block("b", HOLDS + LATER.format("1.5"))
     pilot.block("c", nod("n", start="b:g:end"))
     await pilot.advance(0.6)
-    assert told(pilot, "c:n") == ["the behavior of b:g:end is dropped; this one keeps the time predicted last"]
+    assert told(pilot, "c:n") == ["the behavior of b:g:end is dropped; this behavior keeps the last predicted time"]
     await pilot.advance(5)
     assert len(texts(pilot)) == 2
     assert pilot.feedback.time("c:n:start") == 3.0
 
 
-async def test_who_hangs_on_that_other_behavior_in_turn_is_tied_as_before_and_told_nothing(pilot) -> None:
+async def test_who_hangs_on_that_other_behavior_in_turn_is_tied_as_before_and_told_nothing(
+    pilot: RealizerPilot,
+) -> None:
     pilot.predict("t", "hit", 1.5)
     pilot.block("b", HOLDS + LATER.format(HIT))
     pilot.block("c", nod("n", start="b:g:stroke") + nod("m", start="n:end"))
@@ -105,7 +113,7 @@ async def test_who_hangs_on_that_other_behavior_in_turn_is_tied_as_before_and_to
     assert pilot.feedback.time("c:m:start") == pilot.feedback.time("c:n:end")
 
 
-async def test_one_that_was_over_before_its_block_began_leaves_its_ties_as_they_are(pilot) -> None:
+async def test_one_that_was_over_before_its_block_began_leaves_its_ties_as_they_are(pilot: RealizerPilot) -> None:
     pilot.predict("t", "hit", 9)
     pilot.block("a", wait("w", 3))
     pilot.block("b", nod("n", start=HIT, end=f"{HIT}+0.7") + wait("w", 9, start="n:end"), composition="APPEND")
@@ -116,7 +124,7 @@ async def test_one_that_was_over_before_its_block_began_leaves_its_ties_as_they_
     assert pilot.feedback.reached("b:w:start")
 
 
-async def test_who_is_named_by_it_is_told_nothing(pilot) -> None:
+async def test_who_is_named_by_it_is_told_nothing(pilot: RealizerPilot) -> None:
     words = '<speech id="s" start="0.2"><text>Well then, <sync id="m"/>my friend.</text></speech>'
     pilot.block("b", HOLDS + words + '<gesture id="g" lexeme="BEAT" mode="RIGHT_HAND" stroke="s:m"/>')
     await pilot.advance(4)
@@ -124,15 +132,15 @@ async def test_who_is_named_by_it_is_told_nothing(pilot) -> None:
     assert pilot.feedback.reached("b:s:end")
 
 
-async def test_a_block_that_comes_later_does_not_hang_on_it(pilot) -> None:
+async def test_a_block_that_comes_later_does_not_hang_on_it(pilot: RealizerPilot) -> None:
     pilot.block("b", HOLDS + LATER.format("1.5"))
     await pilot.advance(1)
     pilot.block("c", nod("n", start="b:g:end"))
     await pilot.advance(4)
-    assert told(pilot, "c:n") == ["b:g:end never comes, because 'b:g' is dropped; what hangs on it is dropped, too"]
+    assert told(pilot, "c:n") == ["b:g:end has no time because 'b:g' is dropped; what depends on it is dropped too"]
 
 
-async def test_of_a_block_that_fails_by_it_nobody_is_told_beside_that(pilot) -> None:
+async def test_of_a_block_that_fails_by_it_nobody_is_told_beside_that(pilot: RealizerPilot) -> None:
     pilot.block("b", HOLDS + f"<required>{LATER.format('1.5')}</required>" + nod("n", start="g:end"))
     await pilot.advance(1)
     assert [id_ for id_, _ in pilot.feedback.warnings] == ["b:g"]

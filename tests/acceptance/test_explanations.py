@@ -1,10 +1,12 @@
 """Why a sync point is when it is (docs/time.md)."""
 
 import json
+from typing import Any
 
 import pytest
 
 from reactive_realizer.errors import RealizerError
+from reactive_realizer.testing.pilot import RealizerPilot
 
 BLOCK = (
     '<speech id="s"><text>hello <sync id="m"/>there</text></speech>'
@@ -12,15 +14,16 @@ BLOCK = (
 )
 
 
-def explained(pilot, point):
-    return pilot.realizer.scheduler.explain("alice", "b")["points"][point]
+def explained(pilot: RealizerPilot, point: str) -> Any:
+    points: Any = pilot.realizer.scheduler.explain("alice", "b")["points"]
+    return points[point]
 
 
-def names(explanation):
+def names(explanation: Any) -> list[Any]:
     return [explanation["name"], *(name for source in explanation["sources"] for name in names(source))]
 
 
-async def test_a_point_names_its_constraint_and_what_it_hangs_on(pilot) -> None:
+async def test_a_point_names_its_constraint_and_what_it_hangs_on(pilot: RealizerPilot) -> None:
     pilot.block("b", BLOCK)
     await pilot.tick()
     stroke = explained(pilot, "b:n:stroke")
@@ -30,7 +33,7 @@ async def test_a_point_names_its_constraint_and_what_it_hangs_on(pilot) -> None:
     json.dumps(stroke)
 
 
-async def test_a_point_on_a_prediction_names_the_commit_that_moved_it_last(pilot) -> None:
+async def test_a_point_on_a_prediction_names_the_commit_that_moved_it_last(pilot: RealizerPilot) -> None:
     pilot.predict("user", "hit", 2.0)
     pilot.block("b", BLOCK)
     await pilot.advance(0.5)
@@ -43,7 +46,7 @@ async def test_a_point_on_a_prediction_names_the_commit_that_moved_it_last(pilot
     assert stroke["commit"]["time"] == 0.5
 
 
-async def test_a_point_that_has_fired_still_tells_where_its_time_came_from(pilot) -> None:
+async def test_a_point_that_has_fired_still_tells_where_its_time_came_from(pilot: RealizerPilot) -> None:
     pilot.predict("user", "hit", 1.5)
     pilot.block("b", BLOCK)
     await pilot.advance(2.0)
@@ -53,7 +56,7 @@ async def test_a_point_that_has_fired_still_tells_where_its_time_came_from(pilot
 
 
 @pytest.mark.parametrize(("block", "code"), [("old", "block-ended"), ("none", "no-such-block")])
-async def test_of_a_block_that_is_not_alive_nothing_can_be_told(pilot, block, code) -> None:
+async def test_of_a_block_that_is_not_alive_nothing_can_be_told(pilot: RealizerPilot, block: str, code: str) -> None:
     pilot.block("old")
     await pilot.advance(0.1)
     with pytest.raises(RealizerError) as refused:

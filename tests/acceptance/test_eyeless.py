@@ -1,4 +1,6 @@
-"""Figures without eyes are looked at, and look, as far as they can."""
+"""Figures without eyes."""
+
+from pathlib import Path
 
 import pytest
 
@@ -18,7 +20,9 @@ heading = 180
 
 
 @pytest.mark.parametrize("eyes", [["LeftEye"], ["LeftEye", "RightEye"]])
-async def test_who_has_no_eyes_is_looked_at_where_the_neck_ends_and_turns_the_head_to_others(tmp_path, eyes) -> None:
+async def test_figures_without_eyes_look_with_the_head_and_are_looked_at_at_the_top_of_the_neck(
+    tmp_path: Path, eyes: list[str]
+) -> None:
     avatar = (PACKAGE_ASSETS / "avatars" / "female.glb").read_bytes()
     for eye in eyes:
         avatar = avatar.replace(f'"{eye}"'.encode(), f'"{eye[:-1]}X"'.encode())

@@ -1,4 +1,6 @@
-"""A motion that carries the figure away: how it comes back, and that nothing that goes too far stays."""
+"""Motions that displace the figure: the way back, and the limit."""
+
+from pathlib import Path
 
 import pytest
 
@@ -26,41 +28,41 @@ async def walked(pilot: RealizerPilot, far: float, seconds: float, after: float)
 
 
 @pytest.mark.parametrize(("far", "seconds"), [(2.0, 2.0), (5.0, 5.0), (5.0, 1.0)])
-async def test_who_has_walked_away_steps_back_upright(far, seconds) -> None:
+async def test_a_figure_that_moved_away_steps_back_upright(far: float, seconds: float) -> None:
     async with open_pilot() as pilot:
         bodies = await walked(pilot, far, seconds, 14.0)
-    pelvis = [body.place("HumanoidRoot").position for body in bodies]
+    pelvis = [body.transform("HumanoidRoot").position for body in bodies]
     assert pelvis[-1] == pytest.approx((0.0, STANDING, 0.0), abs=0.05)
     assert min(y for _, y, _ in pelvis) > LOWEST
-    feet = [[body.place(f"{side}_ankle").position for side in "lr"] for body in bodies]
+    feet = [[body.transform(f"{side}_ankle").position for side in "lr"] for body in bodies]
     assert max(abs(left[2] - right[2]) for left, right in feet) < 0.85, "no straddling"
     lifted = [y for pair in feet for _, y, _ in pair]
     assert max(lifted) - min(lifted) > 0.05, "feet are lifted"
 
 
 @pytest.mark.parametrize(("far", "takes"), [(0.5, 1.6), (2.0, 3.2), (6.0, 6.3)])
-async def test_the_way_back_takes_three_seconds_and_longer_only_where_one_would_have_to_run(far, takes) -> None:
+async def test_the_way_back_takes_three_seconds_or_longer_at_walking_speed(far: float, takes: float) -> None:
     async with open_pilot() as pilot:
         bodies = await walked(pilot, far, far, takes)
     assert bodies[-1].root[2] == pytest.approx(0.0, abs=0.05)
 
 
-async def test_a_motion_that_outruns_the_figure_is_left_where_the_figure_is() -> None:
+async def test_a_motion_that_outruns_the_figure_fades_out_from_the_figure() -> None:
     async with open_pilot() as pilot:
         bodies = await walked(pilot, 9.0, 1.0, 7.0)
-    ahead = [body.place("HumanoidRoot").position[2] for body in bodies]
+    ahead = [body.transform("HumanoidRoot").position[2] for body in bodies]
     assert max(ahead) < 2.2
     assert ahead[-1] == pytest.approx(0.0, abs=0.05)
 
 
-async def test_nothing_moves_the_root_out_of_sight() -> None:
+async def test_the_displacement_of_the_root_is_limited() -> None:
     async with open_pilot() as pilot:
         await walked(pilot, 10.1, 1.0, 1.0)
         assert pilot.feedback.warnings == [("b:k", "CANNOT_CREATE_BEHAVIOR")]
 
 
-async def test_a_formula_that_leads_the_root_out_of_sight_ends_its_behavior_and_the_figure_is_where_it_was(
-    tmp_path,
+async def test_a_formula_that_moves_the_root_too_far_ends_its_behavior(
+    tmp_path: Path,
 ) -> None:
     far = '<EndEffector target="root" local="true" translation="0;0;1e300*t"/>'
     (tmp_path / "far.xml").write_text(f'<ProcAnimation prefDuration="1">{far}</ProcAnimation>')

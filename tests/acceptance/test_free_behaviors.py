@@ -1,10 +1,12 @@
 """Behaviors without preferences: they follow the others, and what meets at one of their points is tied all the same."""
 
+from collections.abc import AsyncIterator
+
 import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.bml.names import BMLT
-from reactive_realizer.testing.pilot import open_pilot
+from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 TRANSITION = (
     '<bmlt:transition xmlns:bmlt="http://hmi.ewi.utwente.nl/bmlt" id="f" class="SlerpTransition" start="{}" end="{}">'
@@ -16,14 +18,16 @@ SAY = '<speech id="s" start="1"><text>hello you there</text></speech>'
 
 
 @pytest.fixture(params=["convex", "embr"])
-async def pilot(request):
+async def pilot(request: pytest.FixtureRequest) -> AsyncIterator[RealizerPilot]:
     async with open_pilot(SceneOptions(voice="text", strategy=request.param, verify=True)) as pilot:
         yield pilot
 
 
 @pytest.mark.parametrize("free", FREE, ids=["wait", "transition"])
 @pytest.mark.parametrize("turned", [False, True], ids=["", "the other way round"])
-async def test_what_starts_at_its_end_starts_when_that_is_said_to_be(pilot, free, turned) -> None:
+async def test_what_starts_at_its_end_starts_when_that_is_said_to_be(
+    pilot: RealizerPilot, free: str, turned: bool
+) -> None:
     parts = [free.format(1, 3), NOD.format('start="f:end+0.5"')]
     pilot.block("b", "".join(reversed(parts) if turned else parts))
     await pilot.advance(5)
@@ -34,7 +38,7 @@ async def test_what_starts_at_its_end_starts_when_that_is_said_to_be(pilot, free
 
 
 @pytest.mark.parametrize("free", FREE, ids=["wait", "transition"])
-async def test_what_comes_after_its_end_comes_after_what_that_is_tied_to(pilot, free) -> None:
+async def test_what_comes_after_its_end_comes_after_what_that_is_tied_to(pilot: RealizerPilot, free: str) -> None:
     after = '<constraint><after ref="f:end+0.5"><sync ref="n:start"/></after></constraint>'
     pilot.block("b", free.format(1, 3) + NOD.format("") + after)
     await pilot.advance(5)
@@ -44,7 +48,7 @@ async def test_what_comes_after_its_end_comes_after_what_that_is_tied_to(pilot, 
 
 
 @pytest.mark.parametrize("free", FREE, ids=["wait", "transition"])
-async def test_two_that_meet_at_one_of_its_points_are_tied_to_each_other(pilot, free) -> None:
+async def test_two_that_meet_at_one_of_its_points_are_tied_to_each_other(pilot: RealizerPilot, free: str) -> None:
     pilot.block("b", SAY + free.format("s:end", "s:end+2") + NOD.format('end="f:start"'))
     await pilot.advance(6)
     assert pilot.feedback.time("b:n:end") == pytest.approx(pilot.feedback.time("b:s:end"))
@@ -52,7 +56,7 @@ async def test_two_that_meet_at_one_of_its_points_are_tied_to_each_other(pilot, 
 
 
 @pytest.mark.parametrize("free", FREE, ids=["wait", "transition"])
-async def test_what_hangs_on_its_two_ends_is_not_tied_together_by_it(pilot, free) -> None:
+async def test_what_hangs_on_its_two_ends_is_not_tied_together_by_it(pilot: RealizerPilot, free: str) -> None:
     pilot.block("b", NOD.format('start="1"') + SAY.replace('"1"', '"4"') + free.format("n:end", "s:start"))
     await pilot.advance(7)
     assert pilot.feedback.time("b:n:start") == 1
@@ -61,7 +65,7 @@ async def test_what_hangs_on_its_two_ends_is_not_tied_together_by_it(pilot, free
     assert pilot.feedback.warnings == []
 
 
-async def test_a_chain_of_them_is_followed_to_what_it_hangs_on(pilot) -> None:
+async def test_a_chain_of_them_is_followed_to_what_it_hangs_on(pilot: RealizerPilot) -> None:
     waits = '<wait id="v" start="1" end="2"/><wait id="w" start="v:end" end="v:end+1"/>'
     pilot.block("b", NOD.format('start="w:end"') + waits)
     await pilot.advance(5)
@@ -79,7 +83,7 @@ async def test_of_two_that_say_when_one_of_its_points_is_the_required_one_is_kep
         assert pilot.feedback.time("b:f:start") == 0.3
 
 
-async def test_one_that_is_to_come_before_a_time_that_nobody_knows_plays(pilot) -> None:
+async def test_one_that_is_to_come_before_a_time_that_nobody_knows_plays(pilot: RealizerPilot) -> None:
     change = '<x:trajectory type="instant" targetValue="0.2"/>'
     pilot.block(
         "b",

@@ -1,4 +1,4 @@
-"""Gestures, from BML to frames: which hand, from where, back to where, and never a jump."""
+"""Gestures, from BML to frames: choice of the hand, start and return."""
 
 from pathlib import Path
 from random import Random
@@ -60,14 +60,14 @@ def height(pilot: RealizerPilot, side: str, time: float) -> float:
 # --- several motions for one behavior (thesis 8.17)
 
 
-async def test_a_gesture_that_names_no_hand_is_made_with_the_right_one(watched) -> None:
+async def test_a_gesture_without_a_mode_uses_the_right_hand(watched: RealizerPilot) -> None:
     watched.block("b", BEAT.format("g", "", 0, 2))
     await watched.advance(2.5)
     assert moved(watched, "r") > 0.2
     assert moved(watched, "l") < 0.02
 
 
-async def test_it_is_made_with_the_left_hand_while_the_right_one_is_busy(watched) -> None:
+async def test_a_gesture_uses_the_left_hand_while_the_right_one_is_busy(watched: RealizerPilot) -> None:
     watched.block("busy", POINT.format(RIGHT + ' start="0" end="6"'))
     watched.block("b", BEAT.format("g", "", 1.5, 3.5))
     await watched.advance(7)
@@ -76,28 +76,28 @@ async def test_it_is_made_with_the_left_hand_while_the_right_one_is_busy(watched
     assert moved(watched, "l") > 0.2
 
 
-async def test_of_two_that_begin_together_each_gets_a_hand(watched) -> None:
+async def test_two_simultaneous_gestures_use_different_hands(watched: RealizerPilot) -> None:
     watched.block("b", BEAT.format("one", "", 0, 2) + BEAT.format("two", "", 0, 2))
     await watched.advance(2.5)
     assert watched.feedback.warnings == []
     assert moved(watched, "r") > 0.2 < moved(watched, "l")
 
 
-async def test_with_both_hands_busy_it_is_dropped_with_a_warning(watched) -> None:
+async def test_a_gesture_is_dropped_with_a_warning_if_both_hands_are_busy(watched: RealizerPilot) -> None:
     watched.block("busy", BEAT.format("g", BOTH, 0, 3))
     watched.block("b", BEAT.format("g", "", 1, 2.5))
     await watched.advance(4)
     assert watched.feedback.warnings == [("b:g", "IMPOSSIBLE_TO_SCHEDULE")]
 
 
-async def test_a_hand_that_was_asked_for_is_not_exchanged(watched) -> None:
+async def test_a_requested_hand_is_not_exchanged(watched: RealizerPilot) -> None:
     watched.block("busy", BEAT.format("g", RIGHT, 0, 3))
     watched.block("b", BEAT.format("g", RIGHT, 1, 2.5))
     await watched.advance(4)
     assert watched.feedback.warnings == [("b:g", "IMPOSSIBLE_TO_SCHEDULE")]
 
 
-async def test_the_hand_is_chosen_when_the_gesture_begins_and_not_when_it_is_planned(watched) -> None:
+async def test_the_hand_is_chosen_when_the_gesture_starts(watched: RealizerPilot) -> None:
     watched.block("busy", BEAT.format("g", RIGHT, 0, 4))
     watched.block("b", BEAT.format("g", "", 2, 4))
     await watched.advance(1)
@@ -109,7 +109,7 @@ async def test_the_hand_is_chosen_when_the_gesture_begins_and_not_when_it_is_pla
 
 
 @pytest.mark.parametrize(("end", "hand"), [("3", "r"), ("1.4", "l")])
-async def test_with_little_time_the_shortest_of_the_motions_is_played(tmp_path: Path, end, hand) -> None:
+async def test_the_shortest_motion_plays_if_time_is_short(tmp_path: Path, end: str, hand: str) -> None:
     (tmp_path / "gesturebinding.xml").write_text(BINDING)
     async with open_pilot(SceneOptions(voice="text", assets=(tmp_path,))) as pilot:
         pilot.watch()
@@ -126,7 +126,9 @@ async def test_with_little_time_the_shortest_of_the_motions_is_played(tmp_path: 
 
 @pytest.mark.parametrize("seed", range(6))
 @pytest.mark.parametrize("what", ['gesture lexeme="BEAT"', 'pointing target="greensphere"'])
-async def test_a_running_gesture_that_is_retimed_again_and_again_moves_on_without_a_jump(watched, what, seed) -> None:
+async def test_repeated_retiming_of_a_running_gesture_causes_no_jump(
+    watched: RealizerPilot, what: str, seed: int
+) -> None:
     random = Random(seed)
     for name in ("stroke", "end"):
         watched.predict("test", name, {"stroke": 1.5, "end": 3.0}[name])
@@ -149,7 +151,7 @@ async def test_a_running_gesture_that_is_retimed_again_and_again_moves_on_withou
         assert np.linalg.norm(path[-1] - path[0]) < 0.03
 
 
-async def test_a_stroke_that_is_put_off_while_the_hand_goes_up_has_it_go_up_more_slowly(watched) -> None:
+async def test_a_delayed_stroke_slows_the_preparation_down(watched: RealizerPilot) -> None:
     watched.predict("test", "hit", 1.2)
     watched.block("b", f'<gesture id="g" lexeme="BEAT" {RIGHT} start="0.2" stroke="anticipators:test:hit"/>')
     await watched.advance(0.7)
@@ -167,7 +169,7 @@ async def test_a_stroke_that_is_put_off_while_the_hand_goes_up_has_it_go_up_more
 
 @pytest.mark.parametrize("first", [f'<gesture id="g" lexeme="BEAT" {RIGHT}/>', POINT.format(RIGHT)])
 @pytest.mark.parametrize("second", [f'<gesture id="g" lexeme="OFFER" {RIGHT}/>', POINT.format(RIGHT)])
-async def test_the_next_chunk_sets_out_from_where_the_hand_is_on_its_way_back(watched, first, second) -> None:
+async def test_the_next_chunk_starts_from_the_retracting_hand(watched: RealizerPilot, first: str, second: str) -> None:
     watched.block("one", first)
     watched.block("two", second, **{"bmla:chunkAfter": "one"})
     await watched.tick()
@@ -181,7 +183,9 @@ async def test_the_next_chunk_sets_out_from_where_the_hand_is_on_its_way_back(wa
     assert largest_step(watched) < FASTEST_STEP
 
 
-async def test_after_a_gesture_of_both_hands_the_hand_that_is_not_needed_goes_back_in_full(watched) -> None:
+async def test_a_hand_that_the_next_gesture_does_not_use_retracts_completely(
+    watched: RealizerPilot,
+) -> None:
     watched.block("one", BEAT.format("g", BOTH, 0, 3))
     watched.block("two", POINT.format(RIGHT + ' ready="2.6" relax="4"'), **{"bmla:chunkAfter": "one"})
     await watched.advance(8)
@@ -191,7 +195,7 @@ async def test_after_a_gesture_of_both_hands_the_hand_that_is_not_needed_goes_ba
     assert height(watched, "r", watched.feedback.time("two:p:relax")) > rest + 0.1
 
 
-async def test_a_gesture_over_crossed_arms_comes_back_to_crossed_arms(watched) -> None:
+async def test_a_gesture_over_crossed_arms_returns_to_crossed_arms(watched: RealizerPilot) -> None:
     watched.block(
         "base", '<postureShift id="s" start="0" end="1.5"><pose part="ARMS" lexeme="ARMS_CROSSED"/></postureShift>'
     )
@@ -207,7 +211,9 @@ async def test_a_gesture_over_crossed_arms_comes_back_to_crossed_arms(watched) -
         assert np.linalg.norm(path[-1] - before) < 0.03
 
 
-async def test_a_gesture_that_is_planned_in_another_posture_takes_the_time_of_the_way_from_there(watched) -> None:
+async def test_the_preparation_of_a_gesture_depends_on_the_posture(
+    watched: RealizerPilot,
+) -> None:
     watched.block("one", f'<gesture id="g" lexeme="BEAT" {RIGHT}/>')
     await watched.advance(4)
     watched.block(

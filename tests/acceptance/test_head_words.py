@@ -1,10 +1,14 @@
-"""Which way the head goes: each word from the frames it makes."""
+"""Head lexemes, in frames."""
+
+from typing import Any
 
 import numpy as np
 import pytest
 
 from reactive_realizer.embodiment.quaternion import Quat, multiply
 from reactive_realizer.testing.pilot import RealizerPilot
+
+from .conftest import OpenStill
 
 PITCH, YAW, ROLL = 0, 1, 2
 """Components of a turn: positive is down, to the figure's left, and toward its right shoulder."""
@@ -26,7 +30,9 @@ async def nod(pilot: RealizerPilot, behavior: str) -> tuple[np.ndarray, np.ndarr
 def turn(rotation: Quat) -> np.ndarray:
     """Axis times angle, rad, of a turn of less than a half."""
     w, *axis = rotation
-    return 2.0 * np.arccos(np.clip(abs(w), 0.0, 1.0)) * np.sign(w) * np.array(axis) / max(np.linalg.norm(axis), 1e-12)
+    angle = 2.0 * np.arccos(np.clip(abs(w), 0.0, 1.0)) * np.sign(w)
+    turn: np.ndarray = angle * np.array(axis) / max(np.linalg.norm(axis), 1e-12)
+    return turn
 
 
 @pytest.mark.parametrize(
@@ -48,7 +54,9 @@ def turn(rotation: Quat) -> np.ndarray:
         "TILT_BACKWARD": {PITCH: -1},
     }.items(),
 )
-async def test_the_head_goes_where_the_word_says_stays_there_and_comes_back(still, lexeme, way):
+async def test_the_head_moves_as_the_lexeme_says_stays_there_and_returns(
+    still: RealizerPilot, lexeme: str, way: Any
+) -> None:
     times, turns = await nod(still, f'<head id="h" lexeme="{lexeme}" amount="1"/>')
     there = turns[np.searchsorted(times, still.feedback.time("b:h:stroke"))]
     for axis in (PITCH, YAW, ROLL):
@@ -63,7 +71,7 @@ async def test_the_head_goes_where_the_word_says_stays_there_and_comes_back(stil
 @pytest.mark.parametrize(
     ("lexeme", "axis"), [("NOD", PITCH), ("SHAKE", YAW), ("TILT", ROLL), ("TOSS", PITCH), ("UP", PITCH)]
 )
-async def test_it_does_so_as_often_as_it_is_told(still, lexeme, axis):
+async def test_the_head_repeats_as_often_as_requested(still: RealizerPilot, lexeme: str, axis: Any) -> None:
     times, turns = await nod(still, f'<head id="h" lexeme="{lexeme}" repetition="3" amount="1"/>')
     strokes = [still.feedback.time(f"b:h:stroke:{i}") for i in (1, 2, 3)]
     assert np.ptp(np.diff(strokes)) < 1e-6, "evenly"
@@ -71,7 +79,7 @@ async def test_it_does_so_as_often_as_it_is_told(still, lexeme, axis):
     assert min(np.abs(peaks)) > 0.9 * np.abs(turns[:, axis]).max()
 
 
-async def test_half_the_amount_goes_half_the_way(open_still):
+async def test_half_the_amount_turns_half_as_far(open_still: OpenStill) -> None:
     ways = []
     for amount in (0.4, 0.8):
         async with open_still() as pilot:
@@ -80,7 +88,7 @@ async def test_half_the_amount_goes_half_the_way(open_still):
     assert ways[0] / ways[1] == pytest.approx(0.5, abs=0.02)
 
 
-async def test_it_adds_to_where_the_head_looks(still):
+async def test_head_movements_add_to_gaze(still: RealizerPilot) -> None:
     times, turns = await nod(
         still, '<gaze id="g" target="floor" start="0" end="6"/><head id="h" lexeme="TILT_RIGHT" amount="1" start="2"/>'
     )

@@ -1,8 +1,11 @@
 """The behaviors `interrupt` and `activate` (thesis 6.6.1, 6.6.3, 6.6.4; BMLA)."""
 
+from typing import Any
+
 import pytest
 
 from reactive_realizer.clock.ticker import Tick, tick_time
+from reactive_realizer.testing.pilot import RealizerPilot
 
 NAMESPACES = 'xmlns:bmla="http://www.asap-project.org/bmla" xmlns:bmlt="http://hmi.ewi.utwente.nl/bmlt"'
 TALK = '<speech id="s"><text>one two three <sync id="m"/>four five six</text></speech>'
@@ -10,17 +13,17 @@ BEAT = '<gesture id="g" lexeme="BEAT" start="0.2"/>'
 OWN = "{urn:reactive-realizer:1}"
 
 
-def send(pilot, id_: str, inside: str = "", attributes: str = "") -> None:
+def send(pilot: RealizerPilot, id_: str, inside: str = "", attributes: str = "") -> None:
     head = f'xmlns="http://www.bml-initiative.org/bml/bml-1.0" {NAMESPACES}'
     pilot.perform(f'<bml {head} id="{id_}" {attributes}>{inside}</bml>')
 
 
-def line(pilot, point: str):
+def line(pilot: RealizerPilot, point: str) -> Any:
     return next(line for line in pilot.feedback.lines if line.id == point)
 
 
 @pytest.mark.parametrize("prefix", ["bmla", "bmlt"])
-async def test_a_block_is_cut_at_the_start_of_the_interrupt(pilot, prefix) -> None:
+async def test_a_block_is_cut_at_the_start_of_the_interrupt(pilot: RealizerPilot, prefix: str) -> None:
     send(pilot, "talk", TALK + BEAT)
     send(pilot, "stop", f'<{prefix}:interrupt id="i" target="talk" start="0.505"/>')
     await pilot.advance(3)
@@ -31,7 +34,7 @@ async def test_a_block_is_cut_at_the_start_of_the_interrupt(pilot, prefix) -> No
     assert pilot.feedback.status("stop") == "DONE"
 
 
-async def test_what_is_excluded_goes_on_and_its_block_ends_as_done(pilot) -> None:
+async def test_what_is_excluded_goes_on_and_its_block_ends_as_done(pilot: RealizerPilot) -> None:
     send(pilot, "talk", TALK + BEAT)
     send(pilot, "stop", '<bmla:interrupt id="i" target="talk" start="0.5" exclude="g"/>')
     await pilot.advance(4)
@@ -41,7 +44,7 @@ async def test_what_is_excluded_goes_on_and_its_block_ends_as_done(pilot) -> Non
     assert pilot.feedback.status("talk") == "DONE"
 
 
-async def test_only_what_is_included_is_cut(pilot) -> None:
+async def test_only_what_is_included_is_cut(pilot: RealizerPilot) -> None:
     send(pilot, "talk", TALK + BEAT)
     send(pilot, "stop", '<bmla:interrupt id="i" target="talk" start="0.5" include="g"/>')
     await pilot.advance(4)
@@ -49,7 +52,7 @@ async def test_only_what_is_included_is_cut(pilot) -> None:
     assert pilot.feedback.reached("talk:s:m")
 
 
-async def test_a_speech_is_cut_at_its_own_mark_which_is_still_told(pilot) -> None:
+async def test_a_speech_is_cut_at_its_own_mark_which_is_still_told(pilot: RealizerPilot) -> None:
     send(pilot, "talk", TALK)
     send(pilot, "stop", '<bmla:interrupt id="i" target="talk" start="talk:s:m"/>')
     await pilot.advance(3)
@@ -57,7 +60,7 @@ async def test_a_speech_is_cut_at_its_own_mark_which_is_still_told(pilot) -> Non
     assert line(pilot, "talk:s:end").element.get(f"{OWN}text") == "three"
 
 
-async def test_a_speech_may_end_its_word_first(pilot) -> None:
+async def test_a_speech_may_end_its_word_first(pilot: RealizerPilot) -> None:
     send(pilot, "talk", TALK)
     send(pilot, "stop", '<bmla:interrupt id="i" target="talk" start="0.5" speech="word"/>')
     await pilot.advance(3)
@@ -69,7 +72,7 @@ async def test_a_speech_may_end_its_word_first(pilot) -> None:
     assert pilot.feedback.predicted("talk:s:end") == pytest.approx(end)
 
 
-async def test_a_speech_that_may_end_its_word_lets_other_behaviors_go_at_once(pilot) -> None:
+async def test_a_speech_that_may_end_its_word_lets_other_behaviors_go_at_once(pilot: RealizerPilot) -> None:
     send(pilot, "talk", TALK + BEAT)
     send(pilot, "stop", '<bmla:interrupt id="i" target="talk" start="0.5" speech="word"/>')
     await pilot.advance(3)
@@ -78,7 +81,7 @@ async def test_a_speech_that_may_end_its_word_lets_other_behaviors_go_at_once(pi
     )
 
 
-async def test_what_was_tied_to_a_cut_point_keeps_its_time_and_is_told(pilot) -> None:
+async def test_what_was_tied_to_a_cut_point_keeps_its_time_and_is_told(pilot: RealizerPilot) -> None:
     send(pilot, "talk", TALK + '<head id="n" lexeme="NOD" start="s:m"/>')
     await pilot.tick()
     expected = pilot.feedback.predicted("talk:n:start")
@@ -88,7 +91,7 @@ async def test_what_was_tied_to_a_cut_point_keeps_its_time_and_is_told(pilot) ->
     assert pilot.feedback.warnings == [("talk:n", "IMPOSSIBLE_TO_SCHEDULE")]
 
 
-async def test_a_block_that_waits_is_revoked_as_a_whole_or_in_part(pilot) -> None:
+async def test_a_block_that_waits_is_revoked_as_a_whole_or_in_part(pilot: RealizerPilot) -> None:
     send(pilot, "first", '<wait id="w" duration="1"/>')
     send(pilot, "part", TALK + BEAT, 'composition="APPEND"')
     send(pilot, "whole", TALK, 'bmla:preplan="true"')
@@ -104,7 +107,7 @@ async def test_a_block_that_waits_is_revoked_as_a_whole_or_in_part(pilot) -> Non
     assert not pilot.feedback.reached("part:s:start")
 
 
-async def test_an_interrupt_spares_itself_in_its_own_block(pilot) -> None:
+async def test_an_interrupt_spares_itself_in_its_own_block(pilot: RealizerPilot) -> None:
     send(pilot, "own", TALK + '<bmla:interrupt id="i" target="own" start="0.5"/>')
     await pilot.advance(3)
     assert pilot.feedback.time("own:s:end") == pilot.feedback.time("own:i:end") == 0.5
@@ -112,7 +115,7 @@ async def test_an_interrupt_spares_itself_in_its_own_block(pilot) -> None:
 
 
 @pytest.mark.parametrize("prefix", ["bmla", "bmlt"])
-async def test_an_activated_block_starts_at_the_very_time_of_the_activate(pilot, prefix) -> None:
+async def test_an_activated_block_starts_at_the_very_time_of_the_activate(pilot: RealizerPilot, prefix: str) -> None:
     send(pilot, "ready", TALK, 'bmla:preplan="true"')
     await pilot.tick()
     send(pilot, "go", f'<head id="n" lexeme="NOD"/><{prefix}:activate id="a" target="ready" start="n:stroke"/>')
@@ -121,7 +124,7 @@ async def test_an_activated_block_starts_at_the_very_time_of_the_activate(pilot,
     assert pilot.feedback.lines[-1].id == "ready:end"
 
 
-async def test_a_speech_is_interrupted_with_a_prepared_continuation_in_the_same_tick(pilot) -> None:
+async def test_a_speech_is_interrupted_with_a_prepared_continuation_in_the_same_tick(pilot: RealizerPilot) -> None:
     """Thesis example 16."""
     send(pilot, "talk", TALK + BEAT)
     send(pilot, "trail", '<speech id="s"><text>anyway</text></speech>', 'bmla:preplan="true"')
@@ -137,7 +140,7 @@ async def test_a_speech_is_interrupted_with_a_prepared_continuation_in_the_same_
     assert pilot.feedback.warnings == []
 
 
-async def test_a_late_tick_cuts_at_the_time_that_was_meant(pilot) -> None:
+async def test_a_late_tick_cuts_at_the_time_that_was_meant(pilot: RealizerPilot) -> None:
     send(pilot, "talk", TALK)
     send(pilot, "stop", '<bmla:interrupt id="i" target="talk" start="0.5"/>')
     await pilot.tick()
@@ -146,7 +149,7 @@ async def test_a_late_tick_cuts_at_the_time_that_was_meant(pilot) -> None:
     assert not pilot.feedback.reached("talk:s:m")
 
 
-async def test_a_speech_goes_on_whatever_becomes_of_what_is_tied_to_its_words(pilot) -> None:
+async def test_a_speech_goes_on_whatever_becomes_of_what_is_tied_to_its_words(pilot: RealizerPilot) -> None:
     nods = '<head id="n" lexeme="NOD" start="s:m" end="s:m+1"/><head id="o" lexeme="NOD" start="n:end" end="n:end+1"/>'
     send(pilot, "talk", TALK + nods)
     send(pilot, "stop", '<bmla:interrupt id="i" target="talk" exclude="s"/>')
@@ -156,7 +159,7 @@ async def test_a_speech_goes_on_whatever_becomes_of_what_is_tied_to_its_words(pi
     assert pilot.feedback.time("then:i:start") == pilot.feedback.time("talk:s:end") == pilot.feedback.time("talk:s:m")
 
 
-async def test_who_hangs_on_one_that_is_cut_is_told_however_long_the_way(pilot) -> None:
+async def test_who_hangs_on_one_that_is_cut_is_told_however_long_the_way(pilot: RealizerPilot) -> None:
     nods = '<head id="n" lexeme="NOD" start="s:m" end="s:m+1"/><head id="o" lexeme="NOD" start="n:end" end="n:end+1"/>'
     send(pilot, "talk", TALK + nods)
     send(pilot, "stop", '<bmla:interrupt id="i" target="talk" include="n"/>')
@@ -165,7 +168,7 @@ async def test_who_hangs_on_one_that_is_cut_is_told_however_long_the_way(pilot) 
     assert pilot.feedback.reached("talk:s:m")
 
 
-async def test_what_never_began_and_is_cut_is_no_longer_waited_for(pilot) -> None:
+async def test_what_never_began_and_is_cut_is_no_longer_waited_for(pilot: RealizerPilot) -> None:
     send(pilot, "talk", TALK + '<gesture id="g" lexeme="BEAT"/><head id="late" lexeme="NOD" start="3"/>')
     send(pilot, "stop", '<bmla:interrupt id="i" target="talk" start="0.5" include="s,late"/>')
     send(pilot, "next", '<wait id="w" duration="0.1"/>', 'bmla:appendAfter="talk"')
@@ -174,7 +177,9 @@ async def test_what_never_began_and_is_cut_is_no_longer_waited_for(pilot) -> Non
     assert pilot.feedback.status("talk") == "DONE"
 
 
-async def test_a_block_whose_last_behavior_ends_its_word_ends_with_it_though_others_were_to_come(pilot) -> None:
+async def test_a_block_whose_last_behavior_ends_its_word_ends_with_it_though_others_were_to_come(
+    pilot: RealizerPilot,
+) -> None:
     send(pilot, "talk", TALK + '<head id="late" lexeme="NOD" start="3"/>')
     send(pilot, "stop", '<bmla:interrupt id="i" target="talk" start="0.5" speech="word"/>')
     await pilot.advance(4)
@@ -182,7 +187,9 @@ async def test_a_block_whose_last_behavior_ends_its_word_ends_with_it_though_oth
 
 
 @pytest.mark.parametrize("speech", ["now", "word"])
-async def test_all_that_hangs_on_the_end_of_a_cut_speech_is_told_in_its_block_and_in_others(pilot, speech) -> None:
+async def test_all_that_hangs_on_the_end_of_a_cut_speech_is_told_in_its_block_and_in_others(
+    pilot: RealizerPilot, speech: str
+) -> None:
     heads = '<head id="h" lexeme="NOD" start="s:end"/><head id="k" lexeme="NOD" start="s:end+1"/>'
     send(pilot, "talk", TALK + heads + '<head id="free" lexeme="NOD" start="1"/>')
     send(pilot, "other", '<gaze id="z" target="camera" start="talk:s:end"/>')
@@ -197,10 +204,12 @@ async def test_all_that_hangs_on_the_end_of_a_cut_speech_is_told_in_its_block_an
 @pytest.mark.parametrize(
     "hung", ['<bmla:interrupt id="x" target="none" start="w:start"/>', '<head id="x" lexeme="NOD" start="w:start"/>']
 )
-async def test_what_hangs_on_a_cut_point_that_was_never_predicted_is_dropped_and_told(pilot, hung) -> None:
+async def test_what_hangs_on_a_cut_point_that_was_never_predicted_is_dropped_and_told(
+    pilot: RealizerPilot, hung: str
+) -> None:
     send(pilot, "talk", hung + '<wait id="w" start="anticipators:user:nods" duration="1"/>')
     send(pilot, "stop", '<bmla:interrupt id="i" target="talk" include="w"/>')
     await pilot.advance(0.5)
     assert pilot.feedback.warnings == [("talk:x", "IMPOSSIBLE_TO_SCHEDULE")]
-    assert "talk:w:start" in next(line.element.text for line in pilot.feedback.lines if line.id == "talk:x")
+    assert "talk:w:start" in next(line.text for line in pilot.feedback.lines if line.id == "talk:x")
     assert pilot.feedback.status("talk") in ("DONE", "INTERRUPTED")

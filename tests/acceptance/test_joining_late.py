@@ -1,11 +1,12 @@
 """Behaviors on what has passed when they are planned, or when their block starts (docs/semantics.md)."""
 
 from reactive_realizer.testing.assertions import assert_not_played, assert_time
+from reactive_realizer.testing.pilot import RealizerPilot
 
 from .living_time import GO, HIT, moves, nod, wait
 
 
-async def test_a_behavior_on_a_point_that_has_passed_joins_late_without_a_warning(pilot) -> None:
+async def test_a_behavior_on_a_point_that_has_passed_joins_late_without_a_warning(pilot: RealizerPilot) -> None:
     pilot.block("a", wait("w", 3))
     await pilot.advance(0.5)
     pilot.block("b", nod("n", start="a:w:start"))
@@ -15,7 +16,7 @@ async def test_a_behavior_on_a_point_that_has_passed_joins_late_without_a_warnin
     assert pilot.feedback.warnings == []
 
 
-async def test_it_is_dropped_with_a_warning_if_its_end_has_passed_too(pilot) -> None:
+async def test_it_is_dropped_with_a_warning_if_its_end_has_passed_too(pilot: RealizerPilot) -> None:
     pilot.block("a", wait("w", 3))
     await pilot.advance(2)
     pilot.block("b", nod("n", start="a:w:start"))
@@ -25,7 +26,7 @@ async def test_it_is_dropped_with_a_warning_if_its_end_has_passed_too(pilot) -> 
     assert pilot.feedback.status("b") == "DONE"
 
 
-async def test_it_is_dropped_also_if_its_end_passes_while_its_block_waits(pilot) -> None:
+async def test_it_is_dropped_also_if_its_end_passes_while_its_block_waits(pilot: RealizerPilot) -> None:
     pilot.predict("t", "go", 1.5)
     pilot.predict("t", "hit", 2.0)
     pilot.block("a", wait("w", 0.5, start=GO))
@@ -35,7 +36,9 @@ async def test_it_is_dropped_also_if_its_end_passes_while_its_block_waits(pilot)
     assert [line.id for line in pilot.feedback.of("warningFeedback")] == ["b:n"]
 
 
-async def test_a_block_that_waits_is_not_pinned_by_a_prediction_that_is_early_for_a_moment(pilot) -> None:
+async def test_a_block_that_waits_is_not_pinned_by_a_prediction_that_is_early_for_a_moment(
+    pilot: RealizerPilot,
+) -> None:
     pilot.predict("t", "go", 1.5)
     pilot.predict("t", "hit", 3.0)
     pilot.block("a", wait("w", 0.5, start=GO))
@@ -48,7 +51,7 @@ async def test_a_block_that_waits_is_not_pinned_by_a_prediction_that_is_early_fo
     assert pilot.feedback.warnings == []
 
 
-async def test_what_would_begin_before_its_block_is_hurried_and_not_begun_before_it(pilot) -> None:
+async def test_what_would_begin_before_its_block_is_hurried_and_not_begun_before_it(pilot: RealizerPilot) -> None:
     pilot.predict("t", "hit", 5.0)
     pilot.block("a", wait("w", 1))
     pilot.block("b", nod("n", end=HIT), composition="APPEND")

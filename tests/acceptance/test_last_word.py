@@ -1,10 +1,12 @@
 """An interrupted speech tells what was heard of it: the last word that began."""
 
+from typing import Any
+
 import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.bml.names import OWN
-from reactive_realizer.testing.pilot import open_pilot
+from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 VOICES = ["text", pytest.param("espeak", marks=pytest.mark.speech)]
 SCRIPTS = {
@@ -18,7 +20,7 @@ SCRIPTS = {
 }
 
 
-async def last_word(pilot, text, at, **attributes):
+async def last_word(pilot: RealizerPilot, text: str, at: float, **attributes: Any) -> tuple[Any, ...]:
     """Word, text and heard of a speech that is interrupted at a time."""
     pilot.block("b", f'<speech id="s"><text>{text}</text></speech>')
     how = " ".join(f'{name}="{value}"' for name, value in attributes.items())
@@ -39,25 +41,27 @@ async def last_word(pilot, text, at, **attributes):
         (0.77, ("2", "three", "13")),
     ],
 )
-async def test_a_word_counts_once_something_of_it_was_heard(pilot, at, heard) -> None:
+async def test_a_word_counts_once_something_of_it_was_heard(
+    pilot: RealizerPilot, at: float, heard: tuple[str, str, str]
+) -> None:
     assert await last_word(pilot, "one two three", at) == heard
 
 
-async def test_marks_and_punctuation_are_no_words(pilot) -> None:
+async def test_marks_and_punctuation_are_no_words(pilot: RealizerPilot) -> None:
     assert await last_word(pilot, '"One," <sync id="m"/>(two) &#8212; three.', 0.5) == ("1", "two", "11")
 
 
-async def test_a_speech_that_is_to_end_its_word_does_not_begin_the_next_one(pilot) -> None:
+async def test_a_speech_that_is_to_end_its_word_does_not_begin_the_next_one(pilot: RealizerPilot) -> None:
     assert await last_word(pilot, "one two three", 0.3, speech="word") == ("1", "two", "7")
     assert pilot.feedback.time("b:s:end") == 0.48
 
 
-async def test_a_speech_that_is_between_two_words_ends_at_once(pilot) -> None:
+async def test_a_speech_that_is_between_two_words_ends_at_once(pilot: RealizerPilot) -> None:
     assert await last_word(pilot, "one two three", 0.24, speech="word") == ("0", "one", "3")
     assert pilot.feedback.time("b:s:end") == 0.24
 
 
-async def test_a_speech_in_its_last_word_ends_by_itself(pilot) -> None:
+async def test_a_speech_in_its_last_word_ends_by_itself(pilot: RealizerPilot) -> None:
     assert await last_word(pilot, "one two three", 0.5, speech="word") == (None, None, None)
     assert pilot.feedback.time("b:s:end") == pytest.approx(0.78)
     assert pilot.feedback.status("b") == "DONE"
@@ -66,7 +70,9 @@ async def test_a_speech_in_its_last_word_ends_by_itself(pilot) -> None:
 @pytest.mark.parametrize("voice", VOICES)
 @pytest.mark.parametrize("script", SCRIPTS)
 @pytest.mark.parametrize("at", [0.15, 0.6])
-async def test_the_word_stands_in_the_text_up_to_what_was_heard_in_any_script(voice, script, at) -> None:
+async def test_the_word_stands_in_the_text_up_to_what_was_heard_in_any_script(
+    voice: str, script: str, at: float
+) -> None:
     text = SCRIPTS[script]
     async with open_pilot(SceneOptions(voice=voice)) as pilot:
         number, word, heard = await last_word(pilot, text, at)

@@ -1,6 +1,6 @@
-"""Every word of a binding plays: it ends without a warning, and something of the figure moves."""
+"""Every entry of a binding plays without a warning and moves the figure."""
 
-from collections.abc import Sequence
+from collections.abc import Awaitable, Callable, Sequence
 from itertools import groupby
 from pathlib import Path
 from shutil import copy
@@ -10,10 +10,12 @@ import pytest
 
 from reactive_realizer.assembly.assets import PACKAGE_ASSETS
 from reactive_realizer.assembly.scene import SceneOptions
-from reactive_realizer.binding.asking import asking
 from reactive_realizer.binding.gesture_binding import GestureBinding
 from reactive_realizer.bml.names import BMLT
+from reactive_realizer.engines.animation.lexicon import example_behavior
 from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
+
+from .conftest import OpenStill
 
 DATA = Path(__file__).parent.parent / "data"
 BOX = "[target.bluebox]\nposition = [1.2, 1.1, 1.5]"
@@ -25,7 +27,7 @@ NOISE = f"""<b:noise xmlns:b="{BMLT}" id="word" type="perlin" joint="vl5" start=
 
 def asked_of(binding: Path, but: Sequence[str] = ()) -> list[str]:
     """How to ask for each entry of a binding that is a word, shifts last; those of some units left out."""
-    asked = [asking(spec, "bluebox") for spec in GestureBinding.read(binding).specs if spec.unit not in but]
+    asked = [example_behavior(spec, "bluebox") for spec in GestureBinding.read(binding).specs if spec.unit not in but]
     return sorted((text for text in asked if text is not None), key=lambda text: "Shift" in text)
 
 
@@ -43,7 +45,7 @@ OURS = {
 
 
 @pytest.fixture
-def play(open_still):
+def play(open_still: OpenStill) -> Callable[..., Awaitable[None]]:
     async def play(behaviors: Sequence[str], *assets: Path) -> None:
         async with open_still(*assets, scene=BOX) as pilot:
             for i, behavior in enumerate(behaviors):
@@ -71,38 +73,44 @@ def is_still(behavior: str) -> bool:
     return 'lexeme="FRONT"' in behavior or element_of(behavior) in {"posture", "postureShift"}
 
 
-def test_the_package_has_words_for_these_elements():
+def test_the_package_has_lexicon_entries_for_these_elements() -> None:
     shifts = {"gazeShift", "headDirectionShift", "postureShift"}
     assert OURS.keys() == {"gaze", "gesture", "head", "pointing", "posture", "procanimation"} | shifts
     assert sum(map(len, OURS.values())) == 96
 
 
 @pytest.mark.parametrize("element", OURS)
-async def test_every_word_of_the_package_plays(play, element):
+async def test_every_lexicon_entry_of_the_package_plays(play: Callable[..., Awaitable[None]], element: str) -> None:
     await play(OURS[element])
 
 
-async def test_every_word_of_a_published_binding_plays(play, tmp_path):
+async def test_every_lexicon_entry_of_a_published_binding_plays(
+    play: Callable[..., Awaitable[None]], tmp_path: Path
+) -> None:
     copy(DATA / "bindings" / "published.xml", tmp_path / "gesturebinding.xml")
     asked = asked_of(tmp_path / "gesturebinding.xml", ["PhysicalController"])
     assert len(asked) == 9
     await play([*asked, NOISE], tmp_path)
 
 
-async def test_every_word_of_the_binding_of_the_peer_plays_though_its_file_is_as_it_was(play, tmp_path, shared_cases):
+async def test_every_lexicon_entry_of_asaprealizers_binding_plays(
+    play: Callable[..., Awaitable[None]], tmp_path: Path, shared_cases: Path
+) -> None:
     copy(shared_cases / "asap" / "gesturebinding" / "gesturebinding.xml", tmp_path)
     asked = asked_of(tmp_path / "gesturebinding.xml", ["PhysicalController"])
     assert len(asked) == 70
     await play([*asked, NOISE], tmp_path)
 
 
-async def test_what_a_binding_gives_to_a_unit_that_is_not_there_is_played_by_the_package(play, tmp_path, caplog):
+async def test_the_package_plays_entries_with_an_unknown_unit(
+    play: Callable[..., Awaitable[None]], tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
     copy(DATA / "bindings" / "published.xml", tmp_path / "gesturebinding.xml")
     await play(['<posture id="word" end="1"><stance type="STANDING"/></posture>'], tmp_path)
-    assert "this entry does not play: there is no motion unit 'PhysicalController'" in caplog.text
+    assert "this entry is skipped: there is no motion unit 'PhysicalController'" in caplog.text
 
 
-async def test_the_entries_of_a_user_come_before_those_of_the_package(tmp_path):
+async def test_the_entries_of_a_user_come_before_those_of_the_package(tmp_path: Path) -> None:
     (tmp_path / "gesturebinding.xml").write_text(
         """<gesturebinding><MotionUnitSpec type="head">
           <constraints><constraint name="lexeme" value="NOD"/></constraints>
@@ -120,7 +128,9 @@ async def test_the_entries_of_a_user_come_before_those_of_the_package(tmp_path):
         assert np.ptp(head[:, 2]) > 5 * np.ptp(head[:, 1]), "it turned about the vertical axis: it shook its head"
 
 
-async def test_an_entry_whose_file_is_missing_is_passed_over_and_named_in_the_log(tmp_path, caplog):
+async def test_an_entry_with_a_missing_file_is_skipped_and_logged(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
     (tmp_path / "gesturebinding.xml").write_text(
         """<gesturebinding><MotionUnitSpec type="gesture">
           <constraints><constraint name="lexeme" value="BEAT"/></constraints>
@@ -132,11 +142,11 @@ async def test_an_entry_whose_file_is_missing_is_passed_over_and_named_in_the_lo
             await pilot.advance(3)
         assert pilot.feedback.warnings == []
         assert pilot.feedback.reached("b1:g:end")
-    told = [record.message for record in caplog.records if "does not play" in record.message]
-    assert told == ["gesturebinding.xml, line 1: this entry does not play: no file 'nowhere.xml' among the assets"]
+    told = [record.message for record in caplog.records if "is skipped" in record.message]
+    assert told == ["gesturebinding.xml, line 1: this entry is skipped: there is no asset named 'nowhere.xml'"]
 
 
-async def test_where_no_entry_is_left_the_warning_says_what_is_wrong_with_the_first(tmp_path):
+async def test_the_warning_names_the_reason_of_the_best_entry(tmp_path: Path) -> None:
     (tmp_path / "gesturebinding.xml").write_text(
         """<gesturebinding><MotionUnitSpec type="gesture">
           <constraints><constraint name="lexeme" value="HOP"/></constraints>
@@ -146,6 +156,6 @@ async def test_where_no_entry_is_left_the_warning_says_what_is_wrong_with_the_fi
         pilot.block("b", '<gesture id="g" lexeme="HOP"/><gesture id="h" lexeme="SKIP"/>')
         await pilot.advance(1)
         assert pilot.feedback.warnings == [("b:g", "CANNOT_CREATE_BEHAVIOR"), ("b:h", "CANNOT_CREATE_BEHAVIOR")]
-        texts = [str(line.element.text) for line in pilot.feedback.of("warningFeedback")]
+        texts = [line.text for line in pilot.feedback.of("warningFeedback")]
         assert "nowhere.xml" in texts[0]
         assert "SKIP" in texts[1]

@@ -1,10 +1,13 @@
 """Behaviors that hang on each other stay together and in order while some of the times they hang on move."""
 
+from collections.abc import AsyncIterator
+from typing import Any
+
 import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.testing.assertions import assert_linked, assert_order, assert_time
-from reactive_realizer.testing.pilot import open_pilot
+from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 from .living_time import BEAT, GO, HIT, after, moves, nod, synchronize, syncs, texts, wait
 
@@ -13,12 +16,12 @@ WELL = '<speech id="p" start="q:end+0.3"><text>Well <sync id="m"/>then, my frien
 
 
 @pytest.fixture(params=["convex", "embr"])
-async def pilot(request):
+async def pilot(request: pytest.FixtureRequest) -> AsyncIterator[RealizerPilot]:
     async with open_pilot(SceneOptions(voice="text", strategy=request.param, verify=True)) as pilot:
         yield pilot
 
 
-async def test_what_leads_up_to_a_point_stays_with_it_when_that_hangs_on_what_has_passed(pilot) -> None:
+async def test_what_leads_up_to_a_point_stays_with_it_when_that_hangs_on_what_has_passed(pilot: RealizerPilot) -> None:
     pilot.predict("t", "hit", 0.3)
     pilot.block("b", GAZE + nod("q", stroke="p:end+1"))
     await moves(pilot, 1.1, ("hit", 1.8), 4)
@@ -30,7 +33,9 @@ async def test_what_leads_up_to_a_point_stays_with_it_when_that_hangs_on_what_ha
 @pytest.mark.parametrize("planned", [1.0, 2.5])
 @pytest.mark.parametrize("moved", [0.35, 3.0])
 @pytest.mark.parametrize("start", ["1.5", GO])
-async def test_a_point_that_two_lead_up_to_stays_behind_both_whichever_moves(pilot, planned, moved, start) -> None:
+async def test_a_point_that_two_lead_up_to_stays_behind_both_whichever_moves(
+    pilot: RealizerPilot, planned: float, moved: float, start: str
+) -> None:
     pilot.predict("t", "hit", planned)
     pilot.predict("t", "go", 1.5)
     pilot.block("b", BEAT.format(f' strokeEnd="{HIT}" end="n:stroke+0.2"') + nod("n", start=start))
@@ -43,7 +48,7 @@ async def test_a_point_that_two_lead_up_to_stays_behind_both_whichever_moves(pil
     assert texts(pilot) == []
 
 
-async def test_a_point_that_leads_up_to_two_stays_before_both_whichever_moves(pilot) -> None:
+async def test_a_point_that_leads_up_to_two_stays_before_both_whichever_moves(pilot: RealizerPilot) -> None:
     pilot.predict("t", "hit", 2.0)
     pilot.predict("t", "go", 2.5)
     pilot.block("b", nod("n", start="m:start", end=HIT) + nod("m", end=GO))
@@ -55,7 +60,9 @@ async def test_a_point_that_leads_up_to_two_stays_before_both_whichever_moves(pi
     assert texts(pilot) == []
 
 
-async def test_a_cluster_that_would_have_begun_before_now_begins_now_and_stays_in_one_piece(pilot) -> None:
+async def test_a_cluster_that_would_have_begun_before_now_begins_now_and_stays_in_one_piece(
+    pilot: RealizerPilot,
+) -> None:
     pilot.block("b", WELL + wait("q", 0.5) + nod("r", start="q:start+1", end=HIT))
     await moves(pilot, 2, ("hit", 2.2), 5)
     assert_time(pilot.feedback, "b:q:start", 2.0)
@@ -84,16 +91,18 @@ async def test_what_is_tied_to_what_has_begun_stays_with_it_by_all_strategies() 
         ),
     ],
 )
-async def test_each_tie_that_a_rigid_point_cannot_meet_is_told_once_by_its_own_text(behaviors, lost) -> None:
+async def test_each_tie_that_a_rigid_point_cannot_meet_is_told_once_by_its_own_text(
+    behaviors: Any, lost: list[str]
+) -> None:
     async with open_pilot(SceneOptions(voice="text", strategy="smartbody")) as pilot:
         pilot.block("b", behaviors)
         await pilot.advance(1)
-        ties = sorted(said.partition("where ")[2].partition(" wants")[0] for said in texts(pilot))
+        ties = sorted(text.partition(": ")[2].partition(" is dropped")[0] for text in texts(pilot))
         assert len(ties) == len(lost)
         assert all(any(name in tie for tie in ties) for name in lost)
 
 
-async def test_a_circle_of_points_that_hang_on_each_other_by_ties_and_orders_is_planned(pilot) -> None:
+async def test_a_circle_of_points_that_hang_on_each_other_by_ties_and_orders_is_planned(pilot: RealizerPilot) -> None:
     beats = {"p": {"relax": f"{HIT}+1"}, "q": {"stroke": "p:stroke+1", "ready": "r:stroke-0.3"}, "r": {}}
     parts = [f'<gesture id="{id_}" lexeme="BEAT"{syncs(points)}/>' for id_, points in beats.items()]
     pilot.block("b", "".join(parts) + after("q:ready+1", "r:relax"))

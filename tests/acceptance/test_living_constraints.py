@@ -1,17 +1,19 @@
 """Constraints live: what held goes on holding while times move, or it is said, once (docs/time.md)."""
 
+from pathlib import Path
+
 import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.testing.assertions import assert_linked, assert_not_played, assert_order, assert_time
-from reactive_realizer.testing.pilot import open_pilot
+from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 from .living_time import BEAT, GO, HIT, LOST, WELL, after, before, moves, nod, texts, wait
 
 # --- chains, clusters, blocks
 
 
-async def test_a_chain_of_afters_moves_as_a_whole_in_both_directions(pilot) -> None:
+async def test_a_chain_of_afters_moves_as_a_whole_in_both_directions(pilot: RealizerPilot) -> None:
     chain = after(HIT, "w1:start") + after("w1:end", "w2:start") + after("w2:end+0.2", "n:start")
     pilot.predict("t", "hit", 1.0)
     pilot.block("b", wait("w1", 0.5) + wait("w2", 0.5) + nod("n") + chain)
@@ -22,7 +24,7 @@ async def test_a_chain_of_afters_moves_as_a_whole_in_both_directions(pilot) -> N
 
 
 @pytest.mark.parametrize("moved", [0.5, 4.0])
-async def test_a_cluster_starts_as_early_as_it_may_also_after_the_change(pilot, moved) -> None:
+async def test_a_cluster_starts_as_early_as_it_may_also_after_the_change(pilot: RealizerPilot, moved: float) -> None:
     pilot.predict("t", "hit", 2.0)
     pilot.block("b", WELL.format("") + nod("n", stroke="s:m") + wait("w", 0.2) + after(HIT, "s:m", "w:start"))
     await moves(pilot, 0.2, ("hit", moved), 8)
@@ -32,7 +34,7 @@ async def test_a_cluster_starts_as_early_as_it_may_also_after_the_change(pilot, 
     assert pilot.feedback.warnings == []  # verify would say that 7.24 does not hold
 
 
-async def test_constraints_across_blocks_and_characters_follow(tests_data) -> None:
+async def test_constraints_across_blocks_and_characters_follow(tests_data: Path) -> None:
     two = SceneOptions(human=tests_data / "humans" / "two.toml", voice="text", verify=True)
     async with open_pilot(two) as pilot:
         pilot.predict("t", "hit", 1.0)
@@ -47,15 +49,17 @@ async def test_constraints_across_blocks_and_characters_follow(tests_data) -> No
         assert pilot.feedback.warnings == []
 
 
-async def test_whatever_tries_to_come_before_the_block_is_not_pulled_further_than_its_start(pilot) -> None:
+async def test_whatever_tries_to_come_before_the_block_is_not_pulled_further_than_its_start(
+    pilot: RealizerPilot,
+) -> None:
     pilot.block("a", wait("w", 2))
     pilot.block("b", wait("w", 0.5) + before(HIT, "w:end"), composition="APPEND")
     await moves(pilot, 0.2, ("hit", 1.0), 4)
     assert_time(pilot.feedback, "b:w:start", 2.0)
-    assert [f"w:end before {HIT} {LOST}: 1.5 s are missing" in said for said in texts(pilot)] == [True]
+    assert [f"w:end before {HIT} {LOST}: it is off by 1.5 s" in said for said in texts(pilot)] == [True]
 
 
-async def test_who_hangs_on_a_chunk_follows_it_when_that_is_planned_anew(pilot) -> None:
+async def test_who_hangs_on_a_chunk_follows_it_when_that_is_planned_anew(pilot: RealizerPilot) -> None:
     pilot.block("a", BEAT.format(' mode="RIGHT_HAND"'))
     chunk = WELL.format("") + BEAT.format(' mode="RIGHT_HAND" stroke="s:m"')
     pilot.block("b", chunk, **{"bmla:chunkAfter": "a"})
@@ -69,17 +73,17 @@ async def test_who_hangs_on_a_chunk_follows_it_when_that_is_planned_anew(pilot) 
 # --- at
 
 
-async def test_a_point_that_has_come_keeps_its_time_and_the_rest_follows(pilot) -> None:
+async def test_a_point_that_has_come_keeps_its_time_and_the_rest_follows(pilot: RealizerPilot) -> None:
     pilot.predict("t", "hit", 1.0)
     pilot.block("b", nod("n", start=f"{HIT}-0.5", end=f"{HIT}+1"))
     await moves(pilot, 0.7, ("hit", 1.4), 3)
     assert_time(pilot.feedback, "b:n:start", 0.5)
     assert_time(pilot.feedback, "b:n:end", 2.4)
     (said,) = texts(pilot)
-    assert f"n:start = {HIT}-0.5 {LOST}: 0.4 s are missing" in said
+    assert f"n:start = {HIT}-0.5 {LOST}: it is off by 0.4 s" in said
 
 
-async def test_an_anticipator_that_starts_over_breaks_nothing_that_has_come(pilot) -> None:
+async def test_an_anticipator_that_starts_over_breaks_nothing_that_has_come(pilot: RealizerPilot) -> None:
     pilot.predict("t", "hit", 0.5)
     pilot.block("b", nod("n", start=HIT) + wait("w", 5))
     await moves(pilot, 0.7, ("hit", 1.4), 0.2, ("hit", None), 0.2, ("hit", 3.0), 5)
@@ -87,7 +91,7 @@ async def test_an_anticipator_that_starts_over_breaks_nothing_that_has_come(pilo
     assert pilot.feedback.warnings == []
 
 
-async def test_between_two_ties_everything_stretches_alike_while_it_plays(pilot) -> None:
+async def test_between_two_ties_everything_stretches_alike_while_it_plays(pilot: RealizerPilot) -> None:
     pilot.predict("t", "hit", 1.4)
     pilot.block("b", nod("n", start="0", end=HIT) + nod("m", start="0", end="1.4"))
     await moves(pilot, 0.1, ("hit", 2.8), 4)
@@ -96,8 +100,10 @@ async def test_between_two_ties_everything_stretches_alike_while_it_plays(pilot)
 
 
 @pytest.mark.parametrize("turn", [1, -1])
-async def test_a_circle_of_at_that_agrees_is_kept_and_one_that_does_not_is_named(pilot, turn) -> None:
-    def circle(last):
+async def test_a_circle_of_at_that_agrees_is_kept_and_one_that_does_not_is_named(
+    pilot: RealizerPilot, turn: int
+) -> None:
+    def circle(last: str) -> str:
         return "".join([nod("x", start="y:start+1"), nod("y", start="z:start+1"), nod("z", start=last)][::turn])
 
     pilot.block("good", circle("x:start-2"))
@@ -114,7 +120,9 @@ async def test_a_circle_of_at_that_agrees_is_kept_and_one_that_does_not_is_named
 @pytest.mark.parametrize(
     ("moved", "start"), [((0.5, ("go", 1.8)), 2.3), ((1.2, ("hit", 1.3)), 1.5), ((1.6, ("hit", 1.7)), 1.7)]
 )
-async def test_of_two_on_anticipators_that_come_too_close_the_later_one_is_held_back(pilot, moved, start) -> None:
+async def test_of_two_on_anticipators_that_come_too_close_the_later_one_is_held_back(
+    pilot: RealizerPilot, moved: tuple[float, tuple[str, float]], start: float
+) -> None:
     pilot.predict("t", "go", 1.0)
     pilot.predict("t", "hit", 2.0)
     pilot.block("b", wait("w", 0.5, start=GO) + nod("n", start=HIT) + after("w:end", "n:start"))
@@ -124,7 +132,9 @@ async def test_of_two_on_anticipators_that_come_too_close_the_later_one_is_held_
 
 
 @pytest.mark.parametrize("moved", [(0.5, ("go", 1.6)), (1.2, ("hit", 1.7)), (0.5, ("hit", 1.3))])
-async def test_what_lies_between_them_and_can_be_shorter_is_whoever_was_predicted_last(pilot, moved) -> None:
+async def test_what_lies_between_them_and_can_be_shorter_is_whoever_was_predicted_last(
+    pilot: RealizerPilot, moved: tuple[float, tuple[str, float]]
+) -> None:
     pilot.predict("t", "go", 1.0)
     pilot.predict("t", "hit", 2.0)
     pilot.block("b", nod("m", start=GO) + nod("n", start=HIT) + after("m:end", "n:start"))
@@ -136,7 +146,7 @@ async def test_what_lies_between_them_and_can_be_shorter_is_whoever_was_predicte
     assert pilot.feedback.warnings == []
 
 
-async def test_a_point_that_its_successor_overtakes_comes_with_it_and_is_predicted_so(pilot) -> None:
+async def test_a_point_that_its_successor_overtakes_comes_with_it_and_is_predicted_so(pilot: RealizerPilot) -> None:
     pilot.predict("t", "go", 1.5)
     pilot.predict("t", "hit", 1.0)
     pilot.block("b", nod("n", start="0", stroke=HIT, end=GO))
@@ -148,7 +158,9 @@ async def test_a_point_that_its_successor_overtakes_comes_with_it_and_is_predict
 
 
 @pytest.mark.parametrize(("moved", "why"), [(0.8, ": start is at 1 s, end at 0.8 s"), (1.0, "no time is left")])
-async def test_a_behavior_without_time_that_has_not_begun_is_dropped_with_one_warning(pilot, moved, why) -> None:
+async def test_a_behavior_without_time_that_has_not_begun_is_dropped_with_one_warning(
+    pilot: RealizerPilot, moved: float, why: str
+) -> None:
     pilot.predict("t", "go", 1.0)
     pilot.predict("t", "hit", 3.0)
     pilot.block("b", nod("n", start=GO, end=HIT))
@@ -161,7 +173,7 @@ async def test_a_behavior_without_time_that_has_not_begun_is_dropped_with_one_wa
 # --- what is predicted
 
 
-async def test_what_was_predicted_last_is_what_comes_for_every_point_of_a_plan_that_moves(pilot) -> None:
+async def test_what_was_predicted_last_is_what_comes_for_every_point_of_a_plan_that_moves(pilot: RealizerPilot) -> None:
     pilot.predict("t", "go", 1.0)
     pilot.block("b", WELL.format(f' start="{GO}"') + BEAT.format(' stroke="s:m"') + nod("n", start="g:end", end=HIT))
     pilot.block("c", nod("n"), composition="APPEND")

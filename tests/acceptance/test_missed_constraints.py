@@ -1,25 +1,29 @@
 """Constraints that a late prediction breaks: each is said once, with what is missing, unless nobody would see it."""
 
 import re
+from typing import Any
 
 import pytest
 
 from reactive_realizer.testing.assertions import assert_time
+from reactive_realizer.testing.pilot import RealizerPilot
 
 from .living_time import GO, HIT, LOST, after, moves, nod, wait
 
 AHEAD = nod("n", start=f"{HIT}-0.5")
 
 
-def missed(pilot):
+def missed(pilot: RealizerPilot) -> dict[tuple[Any, str | Any], float]:
     """What was said not to be kept, of whom, and by how many seconds."""
-    lines = [(line.id, line.element.text) for line in pilot.feedback.of("warningFeedback")]
-    said = [(id_, re.fullmatch(rf"(?:line .*?: )?(.*?) {LOST}: (.*) s are missing", text)) for id_, text in lines]
-    return {(id_, match[1]): float(match[2]) for id_, match in said}
+    lines = [(line.id, line.text) for line in pilot.feedback.of("warningFeedback")]
+    said = [(id_, re.fullmatch(rf"(?:line .*?: )?(.*?) {LOST}: it is off by (.*) s", text)) for id_, text in lines]
+    return {(id_, match[1]): float(match[2]) for id_, match in said if match is not None}
 
 
 @pytest.mark.parametrize("moved", [2.2, 2.0, 1.2])
-async def test_who_was_to_be_ahead_of_what_comes_at_once_is_late_and_so_is_who_is_tied_to_it(pilot, moved) -> None:
+async def test_who_was_to_be_ahead_of_what_comes_at_once_is_late_and_so_is_who_is_tied_to_it(
+    pilot: RealizerPilot, moved: float
+) -> None:
     pilot.predict("t", "hit", 4.0)
     pilot.block("b", AHEAD + wait("w", 1, start="n:start-0.3"))
     await moves(pilot, 2, ("hit", moved), 4)
@@ -31,7 +35,7 @@ async def test_who_was_to_be_ahead_of_what_comes_at_once_is_late_and_so_is_who_i
     assert len(pilot.feedback.warnings) == 2
 
 
-async def test_what_is_rigid_and_ends_with_what_comes_at_once_is_told_too(pilot) -> None:
+async def test_what_is_rigid_and_ends_with_what_comes_at_once_is_told_too(pilot: RealizerPilot) -> None:
     pilot.predict("t", "hit", 4.0)
     pilot.block("b", AHEAD + wait("w", 1, end="n:start-0.3"))
     await moves(pilot, 3.2, ("hit", 3.0), 4)
@@ -40,7 +44,7 @@ async def test_what_is_rigid_and_ends_with_what_comes_at_once_is_told_too(pilot)
     assert missed(pilot) == pytest.approx(ties)
 
 
-async def test_so_is_what_ends_its_block_by_it(pilot) -> None:
+async def test_so_is_what_ends_its_block_by_it(pilot: RealizerPilot) -> None:
     pilot.predict("t", "hit", 4.0)
     pilot.block("b", nod("n", end=f"{HIT}-0.5"))
     await moves(pilot, 3, ("hit", 1.0), 1)
@@ -49,7 +53,7 @@ async def test_so_is_what_ends_its_block_by_it(pilot) -> None:
     assert pilot.feedback.lines[-1].id == "b:end"
 
 
-async def test_a_tie_between_two_blocks_is_told_as_one_of_the_block_that_has_it(pilot) -> None:
+async def test_a_tie_between_two_blocks_is_told_as_one_of_the_block_that_has_it(pilot: RealizerPilot) -> None:
     pilot.predict("t", "hit", 4.0)
     pilot.block("a", wait("w", 1, start=HIT))
     pilot.block("b", nod("n", start="a:w:start-0.5"))
@@ -60,7 +64,9 @@ async def test_a_tie_between_two_blocks_is_told_as_one_of_the_block_that_has_it(
 @pytest.mark.parametrize(
     ("corrections", "said"), [([1.96], {}), ([1.96, 1.92, 2.05], {}), ([1.96, 1.92, 1.87, 1.8], 0.13)]
 )
-async def test_corrections_that_nobody_sees_are_told_when_somebody_would(pilot, corrections, said) -> None:
+async def test_corrections_that_nobody_sees_are_told_when_somebody_would(
+    pilot: RealizerPilot, corrections: list[float], said: Any
+) -> None:
     pilot.predict("t", "hit", 2.0)
     pilot.block("b", AHEAD)
     await pilot.advance(1.55)
@@ -70,14 +76,16 @@ async def test_corrections_that_nobody_sees_are_told_when_somebody_would(pilot, 
     assert missed(pilot) == pytest.approx(said and {("b:n", f"n:start = {HIT}-0.5"): said})
 
 
-async def test_what_has_come_may_be_predicted_for_the_next_time_without_a_word(pilot) -> None:
+async def test_what_has_come_may_be_predicted_for_the_next_time_without_a_word(pilot: RealizerPilot) -> None:
     pilot.predict("t", "hit", 2.0)
     pilot.block("b", AHEAD + wait("w", 9))
     await moves(pilot, 2.5, ("hit", 5.0), 0.5, ("hit", 4.0), 4)
     assert pilot.feedback.warnings == []
 
 
-async def test_what_is_tied_within_a_block_or_has_to_come_later_is_told_however_little_is_missing(pilot) -> None:
+async def test_what_is_tied_within_a_block_or_has_to_come_later_is_told_however_little_is_missing(
+    pilot: RealizerPilot,
+) -> None:
     pilot.predict("t", "hit", 4.0)
     pilot.predict("t", "go", 2.5)
     pilot.block("b", AHEAD + wait("w", 1, start="n:start-0.05") + wait("v", 1) + after(f"{GO}-0.5", "v:start"))
@@ -86,7 +94,7 @@ async def test_what_is_tied_within_a_block_or_has_to_come_later_is_told_however_
     assert missed(pilot) == pytest.approx(ties | {("b", f"v:start after {GO}-0.5"): 0.05})
 
 
-async def test_so_is_what_has_not_come_yet(pilot) -> None:
+async def test_so_is_what_has_not_come_yet(pilot: RealizerPilot) -> None:
     pilot.predict("t", "go", 1.5)
     pilot.predict("t", "hit", 1.0)
     pilot.block("b", nod("n", start="0", stroke=HIT, end=GO))
@@ -94,7 +102,7 @@ async def test_so_is_what_has_not_come_yet(pilot) -> None:
     assert missed(pilot) == pytest.approx({("b:n", f"n:stroke = {HIT}"): 0.05})
 
 
-async def test_what_was_to_come_after_a_time_that_is_given_anew_and_cannot_follow_is_told(pilot) -> None:
+async def test_what_was_to_come_after_a_time_that_is_given_anew_and_cannot_follow_is_told(pilot: RealizerPilot) -> None:
     pilot.predict("t", "hit", 2.0)
     pilot.block("b", wait("w", 1, end=f"{HIT}+0.8"))
     await moves(pilot, 2.2, ("hit", 5.0), 4)
@@ -102,7 +110,7 @@ async def test_what_was_to_come_after_a_time_that_is_given_anew_and_cannot_follo
     assert missed(pilot) == pytest.approx({("b:w", f"w:end = {HIT}+0.8"): 3.0})
 
 
-async def test_a_time_that_has_come_and_is_withdrawn_may_be_given_anew_for_the_next_time(pilot) -> None:
+async def test_a_time_that_has_come_and_is_withdrawn_may_be_given_anew_for_the_next_time(pilot: RealizerPilot) -> None:
     pilot.predict("t", "hit", 1.0)
     pilot.block("b", wait("w", 4) + nod("n", start=HIT))
     await moves(pilot, 1.5, ("hit", None), 0.5)

@@ -1,8 +1,11 @@
 """Times that a prediction moves into the past: what is brought to now brings all that hangs on it, in any order."""
 
+from typing import Any
+
 import pytest
 
 from reactive_realizer.testing.assertions import assert_linked, assert_time
+from reactive_realizer.testing.pilot import RealizerPilot
 
 from .living_time import HIT, moves
 
@@ -12,12 +15,14 @@ LONG = 1.08
 
 
 @pytest.fixture(params=[1, -1], ids=["in order", "in the other order"])
-def turned(request):
+def turned(request: pytest.FixtureRequest) -> Any:
     return lambda *behaviors: "".join(behaviors[:: request.param])
 
 
 @pytest.mark.parametrize("known", [4.0, None])
-async def test_a_speech_whose_start_is_brought_to_now_stays_whole(pilot, turned, known) -> None:
+async def test_a_speech_whose_start_is_brought_to_now_stays_whole(
+    pilot: RealizerPilot, turned: Any, known: float | None
+) -> None:
     pilot.predict("t", "hit", known)
     speech = SPEECH.format("s", f' end="{HIT}"')
     pilot.block("b", turned(speech, '<head id="h" lexeme="NOD" end="s:start-0.3"/>'))
@@ -25,7 +30,7 @@ async def test_a_speech_whose_start_is_brought_to_now_stays_whole(pilot, turned,
     assert_linked(pilot.feedback, "b:s:end", "b:s:start", LONG)
 
 
-async def test_a_stroke_stays_with_the_word_that_it_is_tied_to(pilot, turned) -> None:
+async def test_a_stroke_stays_with_the_word_that_it_is_tied_to(pilot: RealizerPilot, turned: Any) -> None:
     pilot.predict("t", "hit", 4.0)
     speech = SPEECH.format("s", f' end="{HIT}"')
     pilot.block("b", turned(speech, '<gesture id="g" lexeme="BEAT" stroke="s:k-0.3"/>'))
@@ -34,7 +39,7 @@ async def test_a_stroke_stays_with_the_word_that_it_is_tied_to(pilot, turned) ->
     assert_linked(pilot.feedback, "b:s:end", "b:s:start", LONG)
 
 
-async def test_of_two_speeches_in_a_row_both_are_said(pilot, turned) -> None:
+async def test_of_two_speeches_in_a_row_both_are_said(pilot: RealizerPilot, turned: Any) -> None:
     pilot.predict("t", "hit", 4.0)
     pilot.block("b", turned(SPEECH.format("a", ' end="c:start"'), SPEECH.format("c", f' end="{HIT}"')))
     await moves(pilot, 1, ("hit", 2.0), 4)

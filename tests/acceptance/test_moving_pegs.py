@@ -1,26 +1,30 @@
 """A peg that moves while the body plays."""
 
+from collections.abc import AsyncIterator
+
 import numpy as np
 import pytest
 
-from reactive_realizer.testing.pilot import open_pilot
+from reactive_realizer.reactive.graph import Commit
+from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 HIT = '<gesture id="g" lexeme="BEAT" mode="RIGHT_HAND" stroke="anticipators:test:hit"/>'
 
 
 @pytest.fixture
-async def pilot():
+async def pilot() -> AsyncIterator[RealizerPilot]:
     async with open_pilot() as pilot:
         pilot.watch()
         yield pilot
 
 
-def steps(path):
+def steps(path: np.ndarray) -> np.ndarray:
     """How far a joint moved from each frame to the next, m."""
-    return np.linalg.norm(np.diff(path, axis=0), axis=1)
+    distances: np.ndarray = np.linalg.norm(np.diff(path, axis=0), axis=1)
+    return distances
 
 
-async def test_the_stroke_follows_a_prediction_that_moves_while_the_arm_is_on_its_way(pilot) -> None:
+async def test_the_stroke_follows_a_prediction_that_moves_while_the_arm_is_on_its_way(pilot: RealizerPilot) -> None:
     pilot.predict("test", "hit", 1.5)
     pilot.block("b", HIT)
     pilot.block("next", '<head id="h" lexeme="NOD"/>', composition="APPEND")
@@ -50,7 +54,7 @@ async def test_the_stroke_follows_a_prediction_that_moves_while_the_arm_is_on_it
     assert steps(path).max() < 0.05
 
 
-async def test_a_behavior_waits_for_a_point_that_nobody_has_predicted_yet(pilot) -> None:
+async def test_a_behavior_waits_for_a_point_that_nobody_has_predicted_yet(pilot: RealizerPilot) -> None:
     pilot.block("b", HIT)
     await pilot.advance(2)
     assert pilot.feedback.progress == ["b:start"]
@@ -60,7 +64,7 @@ async def test_a_behavior_waits_for_a_point_that_nobody_has_predicted_yet(pilot)
     assert pilot.feedback.status("b") == "DONE"
 
 
-async def test_a_prediction_that_has_passed_already_means_now(pilot) -> None:
+async def test_a_prediction_that_has_passed_already_means_now(pilot: RealizerPilot) -> None:
     pilot.block("b", '<head id="h" lexeme="NOD" start="anticipators:test:go"/>')
     await pilot.advance(1)
     pilot.predict("test", "go", 0.2)
@@ -68,11 +72,12 @@ async def test_a_prediction_that_has_passed_already_means_now(pilot) -> None:
     assert pilot.feedback.time("b:h:start") == 1.0
 
 
-async def test_the_same_prediction_again_changes_nothing(pilot) -> None:
+async def test_the_same_prediction_again_changes_nothing(pilot: RealizerPilot) -> None:
     pilot.predict("test", "hit", 2.0)
     pilot.block("b", HIT)
     await pilot.advance(0.2)
-    commits, said = [], len(pilot.feedback.lines)
+    commits: list[Commit] = []
+    said = len(pilot.feedback.lines)
     pilot.realizer.board.graph.listen(commits.append)
     pilot.predict("test", "hit", 2.0)
     await pilot.tick()
@@ -80,7 +85,7 @@ async def test_the_same_prediction_again_changes_nothing(pilot) -> None:
     assert len(pilot.feedback.lines) == said
 
 
-async def test_a_point_that_was_reached_keeps_its_time_and_what_is_ahead_still_moves(pilot) -> None:
+async def test_a_point_that_was_reached_keeps_its_time_and_what_is_ahead_still_moves(pilot: RealizerPilot) -> None:
     pilot.predict("test", "stop", 1.0)
     pilot.block(
         "b", '<gesture id="g" lexeme="BEAT" start="anticipators:test:stop-0.5" end="anticipators:test:stop+1"/>'
@@ -92,7 +97,7 @@ async def test_a_point_that_was_reached_keeps_its_time_and_what_is_ahead_still_m
     assert pilot.feedback.time("b:g:end") == pytest.approx(2.4)
 
 
-async def test_strokes_follow_the_tempo_of_the_metronome(pilot) -> None:
+async def test_strokes_follow_the_tempo_of_the_metronome(pilot: RealizerPilot) -> None:
     pilot.block(
         "b",
         """
@@ -107,7 +112,7 @@ async def test_strokes_follow_the_tempo_of_the_metronome(pilot) -> None:
     assert pilot.feedback.time("b:nod:stroke") == pytest.approx(3.0)
 
 
-async def test_times_that_lose_their_order_for_a_while_cost_nothing(pilot) -> None:
+async def test_times_that_lose_their_order_for_a_while_cost_nothing(pilot: RealizerPilot) -> None:
     pilot.predict("test", "hit", 1.0)
     pilot.predict("test", "end", 2.0)
     pilot.block("b", '<head id="n" lexeme="NOD" start="anticipators:test:hit" end="anticipators:test:end"/>')
@@ -120,7 +125,7 @@ async def test_times_that_lose_their_order_for_a_while_cost_nothing(pilot) -> No
     assert pilot.feedback.warnings == []
 
 
-async def test_a_behavior_that_is_to_begin_after_its_end_is_dropped_and_said(pilot) -> None:
+async def test_a_behavior_that_is_to_begin_after_its_end_is_dropped_and_said(pilot: RealizerPilot) -> None:
     pilot.predict("test", "hit", 1.0)
     pilot.predict("test", "end", 2.0)
     pilot.block("b", '<head id="n" lexeme="NOD" start="anticipators:test:hit" end="anticipators:test:end"/>')
@@ -129,3 +134,49 @@ async def test_a_behavior_that_is_to_begin_after_its_end_is_dropped_and_said(pil
     await pilot.advance(2)
     assert pilot.feedback.warnings == [("b:n", "IMPOSSIBLE_TO_SCHEDULE")]
     assert pilot.feedback.status("b") == "DONE"
+
+
+async def test_ties_to_an_overtaken_point_move_with_it_in_its_own_block_and_in_others(
+    pilot: RealizerPilot,
+) -> None:
+    pilot.predict("test", "hit", 1.0)
+    pilot.predict("test", "end", 2.0)
+    nod = '<head id="n" lexeme="NOD" start="0" stroke="anticipators:test:hit" end="anticipators:test:end"/>'
+    pilot.block("a", nod + '<wait id="own" start="n:stroke" duration="5"/>')
+    pilot.block("b", '<wait id="other" start="a:n:stroke+0.5" duration="5"/>')
+    await pilot.advance(0.5)
+    pilot.predict("test", "hit", 3.0)
+    await pilot.tick()
+    told = pilot.feedback
+    assert told.predicted("a:n:stroke") == told.predicted("a:own:start") == 2.0
+    assert told.predicted("b:other:start") == 2.5
+    pilot.predict("test", "end", 4.0)
+    await pilot.tick()
+    assert told.predicted("a:n:stroke") == told.predicted("a:own:start") == 3.0
+    assert told.predicted("b:other:start") == 3.5
+    await pilot.advance(5)
+    assert told.time("a:n:stroke") == told.time("a:own:start") == 3.0
+    assert told.time("b:other:start") == 3.5
+
+
+async def test_a_commit_never_has_a_playing_point_in_the_past_or_after_its_successor(pilot: RealizerPilot) -> None:
+    pilot.predict("test", "hit", 4.0)
+    pilot.predict("test", "end", 6.0)
+    gesture = '<gesture id="g" lexeme="BEAT" stroke="anticipators:test:hit" end="anticipators:test:end"/>'
+    pilot.block("a", gesture + '<head id="n" lexeme="NOD" start="g:ready" end="g:relax"/>')
+    await pilot.tick()
+    board, (block,) = pilot.realizer.board, pilot.realizer.scheduler.blocks.alive
+    seen: list[tuple[bool, bool]] = []
+
+    def check(commit: Commit) -> None:
+        for unit in block.live_units:
+            times = [point.peg.value or 0.0 for point in unit.ahead()]
+            seen.append((min(times) >= board.previous, not unit.begun or times == sorted(times)))
+
+    board.graph.listen(check)
+    for sync, time in [("hit", 1.0), ("end", 0.8), ("hit", 3.0), ("end", 5.0), ("hit", 0.2), ("end", 0.3)]:
+        await pilot.advance(0.1)
+        pilot.predict("test", sync, time)
+    await pilot.advance(4)
+    assert set(seen) == {(True, True)}
+    assert pilot.feedback.status("a") == "DONE"

@@ -1,18 +1,20 @@
 """Parameters, and the words among their values, are said in any case (BML 1.0: words)."""
 
+from collections.abc import AsyncIterator
+
 import pytest
 
-from reactive_realizer.testing.pilot import open_pilot
+from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 
 @pytest.fixture
-async def pilot():
+async def pilot() -> AsyncIterator[RealizerPilot]:
     async with open_pilot() as pilot:
         pilot.watch()
         yield pilot
 
 
-async def raised(pilot, name: str, value: str = "0.5") -> list[float]:
+async def raised(pilot: RealizerPilot, name: str, value: str = "0.5") -> list[float]:
     """How high the right wrist is in a gesture that has a parameter, m."""
     parameter = f'<bmlt:parameter name="{name}" value="{value}"/>'
     pilot.block("b", f'<gesture id="g" lexeme="OFFER" mode="RIGHT_HAND">{parameter}</gesture>')
@@ -33,7 +35,7 @@ async def test_the_amount_of_a_gesture_is_said_in_any_case() -> None:
 
 
 @pytest.mark.parametrize(("hand", "wrist"), [("left_hand", "l_wrist"), ("Right-Hand", "r_wrist")])
-async def test_the_hand_that_points_is_said_in_any_case(pilot, hand, wrist) -> None:
+async def test_the_hand_that_points_is_said_in_any_case(pilot: RealizerPilot, hand: str, wrist: str) -> None:
     pilot.move("t", (0.0, 1.4, 2.0))
     parameter = f'<bmlt:parameter name="Hand" value="{hand}"/>'
     pilot.block("b", f'<pointing id="p" target="t">{parameter}</pointing>')
@@ -43,12 +45,12 @@ async def test_the_hand_that_points_is_said_in_any_case(pilot, hand, wrist) -> N
     assert max(up, key=up.__getitem__) == wrist
 
 
-async def test_a_transition_is_said_in_any_case(pilot) -> None:
+async def test_a_transition_is_said_in_any_case(pilot: RealizerPilot) -> None:
     pilot.block("b", '<bmlt:transition id="t" class="HERMITETRANSITION" start="0" end="1"/>')
     await pilot.advance(1.5)
     assert not pilot.feedback.warnings
 
 
-async def test_what_is_no_parameter_in_any_case_is_told_as_it_was_said(pilot) -> None:
+async def test_what_is_no_parameter_in_any_case_is_told_as_it_was_said(pilot: RealizerPilot) -> None:
     await raised(pilot, "AMOUNTS")
-    assert "AMOUNTS" in pilot.feedback.of("warningFeedback")[0].element.text
+    assert "AMOUNTS" in pilot.feedback.of("warningFeedback")[0].text

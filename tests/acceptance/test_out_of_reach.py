@@ -1,6 +1,7 @@
-"""What a figure does not get to is told, once, and it goes as near as it can."""
+"""Goals out of reach are reported once, and the figure comes as near as possible."""
 
 import math
+from collections.abc import AsyncIterator
 from pathlib import Path
 
 import pytest
@@ -33,7 +34,7 @@ EYES = ("l_eyeball_joint", "r_eyeball_joint")
 
 
 @pytest.fixture
-async def pilot(tmp_path: Path):
+async def pilot(tmp_path: Path) -> AsyncIterator[RealizerPilot]:
     for name, text in {"gesturebinding.xml": BINDING, "twice.xml": TWICE}.items():
         (tmp_path / name).write_text(text)
     (tmp_path / "reach.xml").write_text(REACH.format("false", ABOVE))
@@ -46,7 +47,7 @@ def told(pilot: RealizerPilot) -> list[str]:
     """What is said of behaviors that go on nevertheless."""
     warnings = pilot.feedback.of("warningFeedback")
     assert {warning.element.get("type") for warning in warnings} <= {"EXECUTION_FAILURE"}
-    return [str(warning.element.text).partition(": ")[2] for warning in warnings]
+    return [warning.text.partition(": ")[2] for warning in warnings]
 
 
 @pytest.mark.parametrize(
@@ -57,29 +58,29 @@ def told(pilot: RealizerPilot) -> list[str]:
         '<gesture id="x" lexeme="REACH">{}</gesture>',
     ],
 )
-async def test_a_place_that_no_hand_reaches_is_told_once_and_the_motion_goes_on_to_its_end(pilot, xml) -> None:
+async def test_an_unreachable_goal_is_reported_once_and_the_motion_continues(pilot: RealizerPilot, xml: str) -> None:
     pilot.block("b", xml.format(FAR))
     pilot.block("c", xml.format(""), composition="APPEND")
     await pilot.advance(12)
     (said,) = told(pilot)
-    assert said.startswith("l_wrist does not reach where reach.xml wants it at phase 0.")
+    assert said.startswith("l_wrist cannot reach where reach.xml wants it at phase 0.")
     assert pilot.feedback.warnings == [("b:x", "EXECUTION_FAILURE")]
     assert pilot.feedback.reached("b:x:end")
     assert pilot.feedback.reached("c:x:end")
 
 
-async def test_the_hand_goes_as_near_as_it_can_and_what_is_missing_is_said(pilot) -> None:
+async def test_a_hand_comes_as_near_as_possible_and_its_distance_is_reported(pilot: RealizerPilot) -> None:
     pilot.block("b", f'<bmlt:procanimation id="x" name="reach" start="0">{FAR}</bmlt:procanimation>')
     await pilot.advance(1.5)
     body = pilot.bodies()[60]
-    wrist, shoulder, goal = body.place("l_wrist").position, body.place("l_shoulder").position, (0.2, 3.15, 0.3)
+    wrist, shoulder, goal = body.transform("l_wrist").position, body.transform("l_shoulder").position, (0.2, 3.15, 0.3)
     way = unit(subtract(goal, shoulder))
     assert dot(unit(subtract(wrist, shoulder)), way) > 0.999
     (said,) = told(pilot)
     assert float(said.split()[-4]) == pytest.approx(distance(wrist, goal), abs=0.05)
 
 
-async def test_a_place_that_comes_out_of_reach_while_a_hand_is_on_its_way_is_told_then(pilot) -> None:
+async def test_a_goal_that_gets_out_of_reach_during_the_motion_is_reported(pilot: RealizerPilot) -> None:
     pilot.block(
         "b",
         """
@@ -95,8 +96,8 @@ async def test_a_place_that_comes_out_of_reach_while_a_hand_is_on_its_way_is_tol
 
 
 @pytest.mark.parametrize(("stretch", "warnings"), [(0.0, 0), (0.15, 0), (0.6, 1)])
-async def test_a_place_seen_from_the_shoulder_was_measured_on_an_arm_that_may_be_longer(
-    pilot, tmp_path, stretch, warnings
+async def test_a_local_goal_may_be_that_of_a_longer_arm(
+    pilot: RealizerPilot, tmp_path: Path, stretch: float, warnings: int
 ) -> None:
     """As in the published files: of the female figure shoulder and wrist are 0.45 m apart."""
     (tmp_path / "reach.xml").write_text(REACH.format("true", f"0; 0; {0.4 + stretch}"))
@@ -105,8 +106,8 @@ async def test_a_place_seen_from_the_shoulder_was_measured_on_an_arm_that_may_be
     assert len(told(pilot)) == warnings
 
 
-async def test_a_place_too_near_for_a_folded_arm_is_told_too(pilot, tmp_path) -> None:
-    place = pilot.realizer.characters["alice"].humanoid.body.place("l_shoulder").position
+async def test_a_goal_too_near_for_a_folded_arm_is_reported(pilot: RealizerPilot, tmp_path: Path) -> None:
+    place = pilot.realizer.characters["alice"].humanoid.body.transform("l_shoulder").position
     (tmp_path / "reach.xml").write_text(REACH.format("false", ";".join(f"{at:.3f}" for at in place)))
     pilot.block("b", '<bmlt:procanimation id="x" name="reach"/>')
     await pilot.advance(3)
@@ -115,7 +116,7 @@ async def test_a_place_too_near_for_a_folded_arm_is_told_too(pilot, tmp_path) ->
 
 def missed(body: Body, joint: str, target: tuple[float, float, float]) -> float:
     """How far aside of a target a joint looks or points, degrees."""
-    place = body.place(joint)
+    place = body.transform(joint)
     way = unit(subtract(target, place.position))
     return math.degrees(math.acos(max(-1.0, min(1.0, dot(way, rotate(place.rotation, FORWARD))))))
 
@@ -130,36 +131,38 @@ def missed(body: Body, joint: str, target: tuple[float, float, float]) -> float:
         ('<gazeShift id="x" target="camera" influence="SHOULDER"/>', 170),
     ],
 )
-async def test_what_eyes_do_not_get_to_is_told_once_with_how_far_aside_they_stay(pilot, xml, yaw) -> None:
+async def test_a_gaze_that_falls_short_is_reported_once_with_its_angle(
+    pilot: RealizerPilot, xml: str, yaw: int
+) -> None:
     target = (5.0 * math.sin(math.radians(yaw)), 1.6, 5.0 * math.cos(math.radians(yaw)))
     pilot.move("camera", target)
     pilot.block("b", xml)
     await pilot.advance(4)
     (said,) = told(pilot)
-    assert said.endswith("degrees beside its target: that is too far aside for what takes part in it")
+    assert said.endswith("degrees short of its target, which is too far to the side for the joints that take part")
     nearest = min(max(missed(body, eye, target) for eye in EYES) for body in pilot.bodies())
-    assert int(said.split()[2]) == pytest.approx(nearest, abs=2.5)
+    assert int(said.split()[3]) == pytest.approx(nearest, abs=2.5)
     assert pilot.feedback.reached("b:x:end")
 
 
-async def test_a_head_that_does_not_turn_so_far_is_told_too(pilot) -> None:
+async def test_a_head_direction_that_falls_short_is_reported(pilot: RealizerPilot) -> None:
     pilot.move("camera", (5.0, 1.6, -5.0))
     pilot.block("b", '<headDirectionShift id="x" target="camera"/>')
     await pilot.advance(3)
     (said,) = told(pilot)
-    assert int(said.split()[2]) == pytest.approx(missed(pilot.bodies()[-1], "skullbase", (5.0, 1.6, -5.0)), abs=4.0)
+    assert int(said.split()[3]) == pytest.approx(missed(pilot.bodies()[-1], "skullbase", (5.0, 1.6, -5.0)), abs=4.0)
 
 
 @pytest.mark.parametrize("xml", ['<gaze id="x" target="camera"/>', '<gazeShift id="x" target="camera"/>'])
 @pytest.mark.parametrize("yaw", [0, 60, -110])
-async def test_of_what_eyes_get_to_nothing_is_told(pilot, xml, yaw) -> None:
+async def test_a_gaze_that_reaches_its_target_gives_no_warning(pilot: RealizerPilot, xml: str, yaw: int) -> None:
     pilot.move("camera", (5.0 * math.sin(math.radians(yaw)), 1.6, 5.0 * math.cos(math.radians(yaw))))
     pilot.block("b", xml)
     await pilot.advance(3)
     assert told(pilot) == []
 
 
-async def test_nor_of_a_gaze_that_goes_on_from_one_with_a_turned_trunk_to_the_other_side(pilot) -> None:
+async def test_a_gaze_after_one_with_a_turned_trunk_gives_no_warning(pilot: RealizerPilot) -> None:
     pilot.move("camera", (3.0, 1.6, -3.0))
     pilot.move("viewer", (-3.0, 1.6, -0.8))
     pilot.block(
@@ -173,7 +176,7 @@ async def test_nor_of_a_gaze_that_goes_on_from_one_with_a_turned_trunk_to_the_ot
     assert told(pilot) == []
 
 
-async def test_eyes_that_go_a_part_of_the_way_willingly_miss_nothing(pilot) -> None:
+async def test_partial_eye_weights_give_no_warning(pilot: RealizerPilot) -> None:
     pilot.move("camera", (3.0, 1.6, 3.0))
     half = '<bmlt:parameter name="eyes" value="0.5"/>'
     pilot.block("b", f'<gaze id="x" target="camera" influence="EYES">{half}</gaze>')
@@ -181,7 +184,7 @@ async def test_eyes_that_go_a_part_of_the_way_willingly_miss_nothing(pilot) -> N
     assert told(pilot) == []
 
 
-async def test_a_target_that_goes_where_nobody_sees_it_is_told_when_it_is_there(pilot) -> None:
+async def test_a_target_that_moves_out_of_view_is_reported_then(pilot: RealizerPilot) -> None:
     pilot.move("camera", (0.0, 1.6, 3.0))
     pilot.block("b", '<gaze id="x" target="camera" start="0" ready="0.5" relax="5" end="6" bmlt:dynamic="true"/>')
     await pilot.advance(2)

@@ -1,35 +1,37 @@
 """Parameters of behaviors that play are changed along trajectories, and what is heard and seen follows at once."""
 
+from collections.abc import AsyncIterator
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.embodiment.audio import AudioGain, AudioStart
-from reactive_realizer.testing.pilot import open_pilot
+from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 from .parameter_changes import HEAD, SPEECH, change, points
 
 RAISED = '<gesture id="g" lexeme="OFFER" mode="RIGHT_HAND" start="0" ready="0.8" relax="6" end="7"/>'
 
 
-def warned(pilot):
+def warned(pilot: RealizerPilot) -> tuple[Any, Any, Any]:
     """Id, type and sentence of its only warning."""
     (line,) = pilot.feedback.of("warningFeedback")
-    return line.id, line.element.get("type"), line.element.text
+    return line.id, line.element.get("type"), line.text
 
 
 # --- what is heard
 
 
 @pytest.fixture
-async def voiced():
+async def voiced() -> AsyncIterator[RealizerPilot]:
     async with open_pilot(SceneOptions(voice="espeak")) as pilot:
         yield pilot
 
 
-def gains(pilot):
+def gains(pilot: RealizerPilot) -> list[tuple[float, float]]:
     """Times and gains, the first as announced."""
     (start,) = (change for change in pilot.sounds if isinstance(change, AudioStart))
     return [
@@ -39,7 +41,7 @@ def gains(pilot):
 
 
 @pytest.mark.speech
-async def test_a_volume_sounds_in_the_tick_in_which_it_is_reached(voiced) -> None:
+async def test_a_volume_sounds_in_the_tick_in_which_it_is_reached(voiced: RealizerPilot) -> None:
     voiced.block("b", SPEECH + change("p", 'start="s:start+0.5"', type="instant"))
     await voiced.advance(1)
     started = voiced.feedback.time("b:s:start")
@@ -48,25 +50,25 @@ async def test_a_volume_sounds_in_the_tick_in_which_it_is_reached(voiced) -> Non
 
 
 @pytest.mark.speech
-async def test_a_linear_change_is_told_once_a_tick_and_ends_exactly_at_its_target(voiced) -> None:
+async def test_a_linear_change_is_told_once_a_tick_and_ends_exactly_at_its_target(voiced: RealizerPilot) -> None:
     voiced.block("b", SPEECH + change("p", 'start="0" end="1"'))
     await voiced.advance(2)
     told = gains(voiced)
     begin = voiced.feedback.time("b:p:start")
     assert all(gain == pytest.approx(1 + (time - begin)) for time, gain in told[1:])
     assert len(told) == 101
-    assert told[-1] == (pytest.approx(begin + 1), 2.0)
+    assert told[-1] == pytest.approx((begin + 1, 2.0))
 
 
 @pytest.mark.speech
-async def test_without_a_change_nothing_is_told(voiced) -> None:
+async def test_without_a_change_nothing_is_told(voiced: RealizerPilot) -> None:
     voiced.block("b", SPEECH + change("p", 'start="0" end="1"', targetValue=50))
     await voiced.advance(2)
     assert len(gains(voiced)) == 1
 
 
 @pytest.mark.speech
-async def test_a_change_before_the_speech_begins_is_told_before_it(voiced) -> None:
+async def test_a_change_before_the_speech_begins_is_told_before_it(voiced: RealizerPilot) -> None:
     later = SPEECH.replace("<speech", '<speech start="2"')
     voiced.block("b", later + change("p", 'start="0"', type="instant", targetValue=0))
     await voiced.advance(1)
@@ -74,7 +76,7 @@ async def test_a_change_before_the_speech_begins_is_told_before_it(voiced) -> No
 
 
 @pytest.mark.speech
-async def test_easing_is_slow_at_both_ends(voiced) -> None:
+async def test_easing_is_slow_at_both_ends(voiced: RealizerPilot) -> None:
     voiced.block("b", SPEECH + change("p", 'start="0" end="1"', type="ease-in-ease-out", initialValue=0))
     await voiced.advance(2)
     steps = np.diff([gain for _, gain in gains(voiced)[1:]])
@@ -83,7 +85,7 @@ async def test_easing_is_slow_at_both_ends(voiced) -> None:
 
 
 @pytest.mark.speech
-async def test_of_two_changes_the_later_start_wins_and_sets_out_from_what_is_there(voiced) -> None:
+async def test_of_two_changes_the_later_start_wins_and_sets_out_from_what_is_there(voiced: RealizerPilot) -> None:
     both = change("p", 'start="0" end="2"') + change("q", 'start="1" end="1.5"', targetValue=0)
     voiced.block("b", SPEECH + both)
     await voiced.advance(3)
@@ -96,7 +98,9 @@ async def test_of_two_changes_the_later_start_wins_and_sets_out_from_what_is_the
 
 
 @pytest.mark.speech
-async def test_a_change_that_begins_where_another_one_ends_sets_out_from_the_target_of_that(voiced) -> None:
+async def test_a_change_that_begins_where_another_one_ends_sets_out_from_the_target_of_that(
+    voiced: RealizerPilot,
+) -> None:
     voiced.block("b", SPEECH + change("p", 'start="0" end="1"') + change("q", 'start="p:end" end="2"', targetValue=0))
     await voiced.advance(3)
     told = gains(voiced)
@@ -105,7 +109,7 @@ async def test_a_change_that_begins_where_another_one_ends_sets_out_from_the_tar
 
 
 @pytest.mark.speech
-async def test_a_change_of_what_is_still_being_prepared_waits_for_that(voiced) -> None:
+async def test_a_change_of_what_is_still_being_prepared_waits_for_that(voiced: RealizerPilot) -> None:
     voiced.block("b", SPEECH)
     voiced.block("c", change("p", 'start="0"', type="instant"))
     await voiced.advance(1)
@@ -116,18 +120,18 @@ async def test_a_change_of_what_is_still_being_prepared_waits_for_that(voiced) -
 # --- what is seen
 
 
-def nods(pilot):
+def nods(pilot: RealizerPilot) -> Any:
     """How far the head is turned from where it was at first, rad, in each frame."""
     return _turns(pilot, "skullbase")
 
 
-def _turns(pilot, joint):
+def _turns(pilot: RealizerPilot, joint: str) -> Any:
     joints = pilot.realizer.characters["alice"].humanoid.avatar.skeleton.joints
     path = np.array([frame.rotations for frame in pilot.frames["alice"]])[:, joints.index(joint)]
     return 2 * np.arccos(np.clip(np.abs(path @ path[0]), 0, 1))
 
 
-async def test_the_amount_of_a_nod_is_its_attribute_until_it_is_changed(pilot) -> None:
+async def test_the_amount_of_a_nod_is_its_attribute_until_it_is_changed(pilot: RealizerPilot) -> None:
     pilot.watch()
     pilot.block(
         "b",
@@ -180,7 +184,7 @@ async def test_a_gesture_may_be_of_a_smaller_amount_from_the_beginning() -> None
         (change("p", 'start="1"', parameter="pitch"), "NO_SUCH_TARGET", ["pitch", "volume"]),
         (change("p", 'start="1"', target="b:nobody"), "NO_SUCH_TARGET", ["nobody"]),
         (change("p", 'start="1"', target="nothing:s"), "NO_SUCH_TARGET", ["nothing"]),
-        (change("p", 'start="1"', targetValue=100.5), "EXECUTION_FAILURE", ["100.5", "0 to 100"]),
+        (change("p", 'start="1"', targetValue=100.5), "EXECUTION_FAILURE", ["100.5", "0 and 100"]),
         (change("p", 'start="1"', targetValue=-1), "EXECUTION_FAILURE", ["-1"]),
         (change("p", 'start="1"', initialValue=101), "EXECUTION_FAILURE", ["101"]),
         (
@@ -193,7 +197,9 @@ async def test_a_gesture_may_be_of_a_smaller_amount_from_the_beginning() -> None
         (change("p", 'start="30"'), "IMPOSSIBLE_TO_SCHEDULE", ["ended"]),
     ],
 )
-async def test_a_change_that_cannot_be_is_dropped_with_one_warning_that_says_why(pilot, behavior, kind, words) -> None:
+async def test_a_change_that_cannot_be_is_dropped_with_one_warning_that_says_why(
+    pilot: RealizerPilot, behavior: Any, kind: str, words: list[str]
+) -> None:
     pilot.block("b", f'{SPEECH}<wait id="w" duration="31"/>{behavior}')
     await pilot.advance(32)
     id_, type_, sentence = warned(pilot)
@@ -203,7 +209,7 @@ async def test_a_change_that_cannot_be_is_dropped_with_one_warning_that_says_why
     assert pilot.feedback.status("b") == "DONE"
 
 
-async def test_a_word_for_a_trajectory_is_read_in_any_case(pilot) -> None:
+async def test_a_word_for_a_trajectory_is_read_in_any_case(pilot: RealizerPilot) -> None:
     pilot.block("b", SPEECH + change("p", 'start="0"', type="Ease_in_Ease_out"))
     await pilot.advance(1)
     assert pilot.feedback.warnings == []

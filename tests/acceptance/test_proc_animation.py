@@ -1,4 +1,4 @@
-"""ProcAnimation files, from BML to the frames that are shown: the whole of AsapRealizer's format."""
+"""ProcAnimation files, from BML to frames: all of AsapRealizer's format."""
 
 import math
 import os
@@ -14,7 +14,6 @@ from reactive_realizer.embodiment.quaternion import angle, difference, from_eule
 from reactive_realizer.testing.pilot import RealizerPilot
 
 PACKAGE = Path(__file__).parents[2] / "reactive_realizer" / "assets" / "procanimation"
-PEER = Path(__file__).parents[3] / "shared" / "cases" / "asap" / "procanimation"
 
 ENTRY = """
 <MotionUnitSpec type="gesture">
@@ -61,12 +60,12 @@ def shown(pilot: RealizerPilot, time: float) -> Body:
     return body
 
 
-def gap(a, b) -> float:
+def gap(a: tuple[float, float, float, float], b: tuple[float, float, float, float]) -> float:
     """The angle between two rotations, rad."""
     return angle(difference(a, b))
 
 
-async def test_joints_turn_as_the_formulas_say(opened) -> None:
+async def test_joints_follow_formulas(opened: Open) -> None:
     file = animation(
         '<Rotation target="vc4" rotation="0.4*t^2; 0.2*sin(2*pi*t); if(t &gt; 0.5 &amp;&amp; t &lt; 0.9, 0.1, 0)"/>'
     )
@@ -80,7 +79,7 @@ async def test_joints_turn_as_the_formulas_say(opened) -> None:
             assert gap(shown(pilot, time).rotation("vc4"), wanted) < 0.002
 
 
-async def test_hands_and_feet_are_where_the_formulas_say_within_a_centimeter(opened) -> None:
+async def test_hands_and_feet_follow_formulas_within_a_centimeter(opened: Open) -> None:
     file = animation(
         '<EndEffector target="l_wrist" translation="0.25; 1.1 + 0.2*t; 0.3"/>'
         '<EndEffector target="r_wrist" local="true" translation="-0.1; -0.2; 0.2 + 0.1*t" swivel="0.3"/>'
@@ -93,7 +92,8 @@ async def test_hands_and_feet_are_where_the_formulas_say_within_a_centimeter(ope
         for time in (0.6, 1.2, 2.0):
             t, body = time / 2, shown(pilot, time)
             place = {
-                joint: np.array(body.place(joint).position) for joint in ("l_wrist", "r_wrist", "r_shoulder", "l_ankle")
+                joint: np.array(body.transform(joint).position)
+                for joint in ("l_wrist", "r_wrist", "r_shoulder", "l_ankle")
             }
             assert place["l_wrist"] == pytest.approx((0.25, 1.1 + 0.2 * t, 0.3), abs=0.01)
             assert place["l_ankle"] == pytest.approx((0.15, 0.1 + 0.3 * t, 0.1 * t), abs=0.01)
@@ -102,7 +102,7 @@ async def test_hands_and_feet_are_where_the_formulas_say_within_a_centimeter(ope
             )
 
 
-async def test_the_root_goes_and_turns_where_the_formulas_say_and_comes_back(opened) -> None:
+async def test_the_root_follows_formulas_and_returns(opened: Open) -> None:
     file = animation(
         '<EndEffector target="HumanoidRoot" local="true" translation="0.1*t; 0-0.15*t; 0"/>'
         '<Rotation target="HumanoidRoot" rotation="0;0.5*t;0"/>'
@@ -118,7 +118,7 @@ async def test_the_root_goes_and_turns_where_the_formulas_say_and_comes_back(ope
         assert gap(end.rotation("HumanoidRoot"), from_euler(0.0, 0.5, 0.0)) < 0.01
 
 
-async def test_a_root_that_alone_is_moved_is_let_go_like_an_arm(opened) -> None:
+async def test_an_animation_of_the_root_alone_fades_out_like_one_of_an_arm(opened: Open) -> None:
     file = animation('<EndEffector target="root" local="true" translation="0; 0.1; 0"/>', "1")
     async with opened(entry("PLAY", "play.xml"), play=file) as pilot:
         pilot.block("b", '<gesture id="g" lexeme="PLAY" start="0.5"/>')
@@ -127,7 +127,7 @@ async def test_a_root_that_alone_is_moved_is_let_go_like_an_arm(opened) -> None:
         assert heights == pytest.approx([0.0, 0.1, 0.095, 0.0], abs=0.005)
 
 
-async def test_nothing_jumps_when_it_begins_and_when_it_has_ended(opened) -> None:
+async def test_nothing_jumps_at_the_start_and_at_the_end(opened: Open) -> None:
     file = animation('<EndEffector target="r_wrist" translation="-0.3;1.4;0.3"/>', "1")
     async with opened(entry("PLAY", "play.xml"), play=file) as pilot:
         pilot.block("b", '<gesture id="g" lexeme="PLAY" start="0.5"/>')
@@ -138,7 +138,7 @@ async def test_nothing_jumps_when_it_begins_and_when_it_has_ended(opened) -> Non
         assert pilot.feedback.time("b:g:end") == 1.5
 
 
-async def test_key_positions_of_any_name_are_sync_points_and_others_may_hang_on_them(opened) -> None:
+async def test_key_positions_with_any_name_are_sync_points_for_other_behaviors(opened: Open) -> None:
     file = animation(
         '<Rotation target="vc4" rotation="0.1*t;0;0"/><KeyPosition id="beat1" time="0.25" weight="1"/>'
         '<KeyPosition id="beat2" time="0.5" weight="1"/>'
@@ -151,7 +151,7 @@ async def test_key_positions_of_any_name_are_sync_points_and_others_may_hang_on_
         assert pilot.feedback.time("b:g:beat2") == pilot.feedback.time("b:h:start") == 2.0
 
 
-async def test_parameters_are_changed_while_it_plays(opened) -> None:
+async def test_parameters_may_change_while_it_plays(opened: Open) -> None:
     file = animation('<Rotation target="vc4" rotation="a;0;0"/><Parameter sid="a" value="0.1"/>')
     change = (
         '<bmla:parametervaluechange id="p" target="b:g" paramId="a" start="0.8" end="1.2">'
@@ -166,7 +166,7 @@ async def test_parameters_are_changed_while_it_plays(opened) -> None:
         assert pilot.feedback.time("b:g:end") == 2.0
 
 
-async def test_a_formula_that_loses_its_value_stops_its_unit_and_nothing_else(opened) -> None:
+async def test_a_formula_without_a_value_stops_only_its_unit(opened: Open) -> None:
     broken = animation('<Rotation target="l_elbow" rotation="0-sqrt(a);0;0"/><Parameter sid="a" value="0.5"/>')
     other = animation('<Rotation target="r_elbow" rotation="0-t;0;0"/>')
     change = (
@@ -182,7 +182,7 @@ async def test_a_formula_that_loses_its_value_stops_its_unit_and_nothing_else(op
         assert pilot.feedback.status("b") == "DONE"
 
 
-async def test_in_the_mirror_first_and_then_confined_to_some_joints(opened) -> None:
+async def test_an_animation_is_mirrored_and_then_restricted_to_joints(opened: Open) -> None:
     file = animation('<Rotation target="r_elbow" rotation="0-1;0;0.2"/><Rotation target="vc4" rotation="0.3;0;0"/>')
     specs = entry("PLAY", "play.xml"), entry("PART", "play.xml", mirror="true", joints="l_elbow, l_wrist")
     async with opened(*specs, play=file) as pilot:
@@ -198,17 +198,17 @@ async def test_in_the_mirror_first_and_then_confined_to_some_joints(opened) -> N
         assert gap(part.rotation("r_elbow"), before.rotation("r_elbow")) < 0.01
 
 
-async def test_joints_that_it_does_not_turn_are_an_answer_and_no_silence(opened) -> None:
+async def test_joints_that_an_animation_does_not_turn_are_reported(opened: Open) -> None:
     file = animation('<Rotation target="r_elbow" rotation="t;0;0"/>')
     async with opened(entry("PART", "play.xml", joints="l_elbow"), play=file) as pilot:
         pilot.block("b", '<gesture id="g" lexeme="PART"/>')
         await pilot.advance(1)
         (line,) = pilot.feedback.of("warningFeedback")
         assert (line.id, line.element.get("type")) == ("b:g", "CANNOT_CREATE_BEHAVIOR")
-        assert "play.xml turns none of l_elbow; it turns r_elbow" in line.element.text
+        assert "play.xml turns none of l_elbow; it turns r_elbow" in line.text
 
 
-async def test_a_file_that_was_saved_anew_is_read_anew_by_a_block_that_failed_before(opened, tmp_path) -> None:
+async def test_a_changed_file_is_read_again_by_a_block_that_failed_before(opened: Open, tmp_path: Path) -> None:
     bend = animation('<Rotation target="vc4" rotation="{0};0;0"/>')
     fails = '<required><constraint><before ref="w:start"><sync ref="w:end"/></before></constraint></required>'
     async with opened(entry("PLAY", "play.xml"), play=bend.format(0.1)) as pilot:
@@ -223,7 +223,7 @@ async def test_a_file_that_was_saved_anew_is_read_anew_by_a_block_that_failed_be
         assert gap(last.rotation("vc4"), from_euler(0.3, 0.0, 0.0)) < 0.01
 
 
-async def test_a_file_that_was_saved_anew_is_read_anew_at_its_next_use(opened, tmp_path) -> None:
+async def test_a_changed_file_is_read_again_at_its_next_use(opened: Open, tmp_path: Path) -> None:
     async with opened(
         entry("PLAY", "play.xml"), play=animation('<Rotation target="vc4" rotation="0.1;0;0"/>')
     ) as pilot:
@@ -239,37 +239,37 @@ async def test_a_file_that_was_saved_anew_is_read_anew_at_its_next_use(opened, t
             await pilot.advance(3)
 
 
-async def test_a_formula_that_makes_no_sense_is_refused_by_file_line_element_and_character(opened) -> None:
+async def test_an_invalid_formula_is_refused_with_file_line_element_and_character(opened: Open) -> None:
     file = animation('<Rotation target="vc4" rotation="0;0.1*sin(t;0"/>')
     async with opened(entry("PLAY", "play.xml"), play=file) as pilot:
         pilot.block("b", '<gesture id="g" lexeme="PLAY"/>')
         await pilot.advance(1)
         (line,) = pilot.feedback.of("warningFeedback")
         assert (line.id, line.element.get("type")) == ("b:g", "CANNOT_CREATE_BEHAVIOR")
-        assert (
-            "play.xml, line 2, <Rotation>: rotation: ')' is missing at character 10 of '0.1*sin(t'" in line.element.text
-        )
+        assert "play.xml, line 2, <Rotation>: rotation: ')' is missing at character 10 of '0.1*sin(t'" in line.text
 
 
-async def test_a_file_of_100_megabytes_is_refused_unread(opened, tmp_path) -> None:
+async def test_a_file_of_100_megabytes_is_refused_unread(opened: Open, tmp_path: Path) -> None:
     async with opened(entry("PLAY", "play.xml"), play="") as pilot:
         os.truncate(tmp_path / "play.xml", 100_000_000)
         pilot.block("b", '<gesture id="g" lexeme="PLAY"/>')
         await pilot.advance(1)
         (line,) = pilot.feedback.of("warningFeedback")
-        assert "play.xml has 100000000 bytes, the limit is 8388608" in line.element.text
+        assert "play.xml is 100000000 bytes; the limit is 8388608" in line.text
 
 
-async def test_more_formulas_than_can_be_read_while_figures_move_are_refused(opened) -> None:
+async def test_a_file_with_too_many_formulas_is_refused(opened: Open) -> None:
     file = animation('<Rotation target="vc4" rotation="t*t*t*t*t*t*t*t*t*t*t*t*t*t*t;0;0"/>\n' * 4000)
     async with opened(entry("PLAY", "play.xml"), play=file) as pilot:
         pilot.block("b", '<gesture id="g" lexeme="PLAY"/>')
         await pilot.advance(1)
         (line,) = pilot.feedback.of("warningFeedback")
-        assert "more than 100000 characters of formulas in one file" in line.element.text
+        assert "more than 100000 characters of formulas in one file" in line.text
 
 
-async def test_formulas_may_call_functions_of_plug_ins(opened, tmp_path, monkeypatch) -> None:
+async def test_formulas_may_call_functions_of_plug_ins(
+    opened: Open, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     (tmp_path / "wobbling.py").write_text("def wobble(x, strength=0.2):\n    return strength * x\n")
     about = tmp_path / "wobbling-1.dist-info"
     about.mkdir()
@@ -304,16 +304,14 @@ async def all_play(opened: Open, names: dict[str, str], avatar: str) -> None:
 
 
 @pytest.mark.parametrize("avatar", ["female", "male"])
-async def test_all_of_the_peers_animations_play(opened, avatar) -> None:
-    if not PEER.is_dir():
-        pytest.skip("no ../shared/cases here")
-    peers = texts(PEER)
+async def test_all_animations_of_asaprealizer_play(opened: Open, avatar: str, shared_cases: Path) -> None:
+    peers = texts(shared_cases / "asap" / "procanimation")
     assert len(peers) == 11
     await all_play(opened, peers, avatar)
 
 
 @pytest.mark.parametrize("avatar", ["female", "male"])
-async def test_all_of_our_animations_play(opened, avatar) -> None:
+async def test_all_animations_of_the_package_play(opened: Open, avatar: str) -> None:
     ours = texts(PACKAGE)
     assert len(ours) == 54
     await all_play(opened, ours, avatar)

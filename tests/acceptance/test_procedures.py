@@ -1,11 +1,13 @@
 """Behaviors that are written once and played many times (thesis 6.6.2)."""
 
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
-from reactive_realizer.testing.pilot import open_pilot
+from reactive_realizer.bml.behavior import Behavior
+from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 T = 'xmlns:bmlt="http://hmi.ewi.utwente.nl/bmlt"'
 TWO = Path(__file__).parents[1] / "data" / "humans" / "two.toml"
@@ -21,7 +23,7 @@ def use(block: str, procedure: str = "welcome", more: str = "") -> str:
     return f'<bmlt:useproc {T} procid="{procedure}" bmlid="{block}" {more}/>'
 
 
-async def test_a_use_becomes_a_block_with_the_behaviors_and_constraints_of_the_procedure(pilot) -> None:
+async def test_a_use_becomes_a_block_with_the_behaviors_and_constraints_of_the_procedure(pilot: RealizerPilot) -> None:
     pilot.perform(WELCOME)
     pilot.perform(use("one"))
     await pilot.advance(4)
@@ -29,18 +31,22 @@ async def test_a_use_becomes_a_block_with_the_behaviors_and_constraints_of_the_p
     assert pilot.feedback.status("one") == "DONE"
 
 
-async def test_defining_plays_nothing(pilot) -> None:
+async def test_defining_plays_nothing(pilot: RealizerPilot) -> None:
     pilot.perform(WELCOME)
     await pilot.advance(1)
     assert pilot.feedback.lines == []
 
 
-async def test_a_second_use_asks_no_engine_anew(monkeypatch) -> None:
+async def test_a_second_use_asks_no_engine_anew(monkeypatch: pytest.MonkeyPatch) -> None:
     async with open_pilot() as pilot:
         asked: list[str] = []
         for engine in pilot.realizer.characters["alice"].engines:
-            prepare = engine.prepare
-            monkeypatch.setattr(engine, "prepare", lambda b, p=prepare: asked.append(b.id) or p(b))
+
+            def prepare(behavior: Behavior, original: Callable[[Behavior], object] = engine.prepare) -> object:
+                asked.append(behavior.id)
+                return original(behavior)
+
+            monkeypatch.setattr(engine, "prepare", prepare)
         pilot.perform(WELCOME)
         await pilot.tick()
         assert sorted(asked) == ["n", "s"]
@@ -52,7 +58,7 @@ async def test_a_second_use_asks_no_engine_anew(monkeypatch) -> None:
         assert pilot.feedback.status("two") == "DONE"
 
 
-async def test_uses_are_composed_as_blocks_are(pilot) -> None:
+async def test_uses_are_composed_as_blocks_are(pilot: RealizerPilot) -> None:
     pilot.perform(WELCOME)
     pilot.perform(use("one"))
     pilot.perform(use("two", more='composition="APPEND"'))
@@ -60,7 +66,7 @@ async def test_uses_are_composed_as_blocks_are(pilot) -> None:
     assert pilot.feedback.time("two:start") == pilot.feedback.time("one:end")
 
 
-async def test_procedures_outlive_a_replace_and_an_interrupted_use(pilot) -> None:
+async def test_procedures_outlive_a_replace_and_an_interrupted_use(pilot: RealizerPilot) -> None:
     pilot.perform(WELCOME)
     pilot.perform(use("one"))
     await pilot.advance(0.5)
@@ -69,7 +75,7 @@ async def test_procedures_outlive_a_replace_and_an_interrupted_use(pilot) -> Non
     assert [pilot.feedback.status(block) for block in ("one", "two")] == ["INTERRUPTED", "DONE"]
 
 
-async def test_a_procedure_that_is_defined_again_is_the_new_one(pilot) -> None:
+async def test_a_procedure_that_is_defined_again_is_the_new_one(pilot: RealizerPilot) -> None:
     pilot.perform(WELCOME)
     pilot.perform(WELCOME.replace('lexeme="NOD"', 'lexeme="SHAKE"').replace('id="n"', 'id="m"').replace("n:", "m:"))
     pilot.perform(use("one"))
@@ -78,7 +84,7 @@ async def test_a_procedure_that_is_defined_again_is_the_new_one(pilot) -> None:
     assert not pilot.feedback.reached("one:n:start")
 
 
-async def test_an_unknown_procedure_is_told_and_its_block_refused(pilot) -> None:
+async def test_an_unknown_procedure_is_told_and_its_block_refused(pilot: RealizerPilot) -> None:
     pilot.perform(use("one", "nothing"))
     await pilot.advance(1)
     assert pilot.feedback.warnings == [("one", "NO_SUCH_TARGET")]
@@ -86,7 +92,7 @@ async def test_an_unknown_procedure_is_told_and_its_block_refused(pilot) -> None
 
 
 @pytest.mark.parametrize("character", ["alice", "bob"])
-async def test_every_character_may_use_it(character) -> None:
+async def test_every_character_may_use_it(character: str) -> None:
     async with open_pilot(SceneOptions(voice="text", human=TWO)) as pilot:
         pilot.perform(WELCOME)
         pilot.perform(use("one", more=f'characterId="{character}"'))

@@ -15,10 +15,11 @@ from reactive_realizer.testing.assertions import (
     assert_ended,
     assert_linked,
     assert_order,
+    assert_reported_once,
     assert_time,
-    assert_told_once,
     assert_warnings,
 )
+from reactive_realizer.testing.pilot import RealizerPilot
 
 OWN_SCRIPTS = Path(__file__).parent.parent / "data" / "bml"
 
@@ -120,14 +121,14 @@ def name(script: Script) -> str:
     return script.file
 
 
-async def assert_comes_out(pilot, script: Script) -> None:
+async def assert_comes_out(pilot: RealizerPilot, script: Script) -> None:
     await pilot.advance(40)
     told, block = pilot.feedback, script.block
     assert_warnings(told, *((f"{block}:{id_}", kind) for id_, kind in script.warnings))
-    assert_told_once(told)
+    assert_reported_once(told)
     assert_block_around(told, block)
     assert_ended(told, block)
-    times = [line.at for line in told.of("syncPointProgress")]
+    times = [line.global_time for line in told.of("syncPointProgress")]
     assert times == sorted(times)
     for point, time in script.times.items():
         assert_time(told, f"{block}:{point}", time)
@@ -138,18 +139,20 @@ async def assert_comes_out(pilot, script: Script) -> None:
 
 
 @pytest.mark.parametrize("script", [theirs for theirs, _ in PAIRS], ids=name)
-async def test_a_script_of_the_suite_does_what_its_comments_ask_for(pilot, shared_cases, script) -> None:
+async def test_a_script_of_the_suite_does_what_its_comments_ask_for(
+    pilot: RealizerPilot, shared_cases: Path, script: Script
+) -> None:
     pilot.perform((shared_cases / "realizertester" / "bml-1" / script.file).read_bytes())
     await assert_comes_out(pilot, script)
 
 
 @pytest.mark.parametrize("script", [own for _, own in PAIRS[:-1]], ids=name)
-async def test_a_script_of_our_own_does_what_it_says(pilot, script) -> None:
+async def test_a_script_of_our_own_does_what_it_says(pilot: RealizerPilot, script: Script) -> None:
     pilot.perform((OWN_SCRIPTS / script.file).read_bytes())
     await assert_comes_out(pilot, script)
 
 
-async def test_a_block_without_id_is_refused_and_nothing_else_is_said(pilot) -> None:
+async def test_a_block_without_id_is_refused_and_nothing_else_is_said(pilot: RealizerPilot) -> None:
     pilot.perform((OWN_SCRIPTS / "no_id.xml").read_bytes())
     await pilot.advance(1)
     assert pilot.feedback.warnings == [("bml", "PARSING_FAILURE")]

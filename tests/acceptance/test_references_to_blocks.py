@@ -1,12 +1,15 @@
 """Behaviors that name points of other blocks: whoever of them comes first, in a document or in a tick."""
 
 from itertools import pairwise
+from pathlib import Path
+from typing import Any
 
 import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.testing.assertions import assert_linked, assert_not_played
-from reactive_realizer.testing.pilot import block, open_pilot
+from reactive_realizer.testing.feedback_list import FeedbackList
+from reactive_realizer.testing.pilot import RealizerPilot, block, open_pilot
 
 from .living_time import WELL, nod, synchronize, texts, wait
 from .parameter_changes import change
@@ -16,7 +19,7 @@ LISTEN = block("listen", nod("n", start="talk:s:end"))
 MANY = 1_000
 
 
-async def played(pilot, *documents):
+async def played(pilot: RealizerPilot, *documents: str) -> FeedbackList:
     for document in documents:
         pilot.perform(document)
     await pilot.advance(4)
@@ -24,7 +27,7 @@ async def played(pilot, *documents):
 
 
 @pytest.mark.parametrize("documents", [[TALK + LISTEN], [LISTEN + TALK], [TALK, LISTEN], [LISTEN, TALK]])
-async def test_a_block_is_named_by_one_that_stands_before_it_or_after(pilot, documents) -> None:
+async def test_a_block_is_named_by_one_that_stands_before_it_or_after(pilot: RealizerPilot, documents: Any) -> None:
     told = await played(pilot, *documents)
     assert_linked(told, "listen:n:start", "talk:s:end")
     assert told.warnings == []
@@ -32,7 +35,9 @@ async def test_a_block_is_named_by_one_that_stands_before_it_or_after(pilot, doc
 
 @pytest.mark.parametrize("characters", ["alice bob", "bob alice"])
 @pytest.mark.parametrize("first", ["talk", "listen"])
-async def test_who_of_two_characters_is_heard_first_does_not_matter(tests_data, characters, first) -> None:
+async def test_who_of_two_characters_is_heard_first_does_not_matter(
+    tests_data: Path, characters: str, first: str
+) -> None:
     speaker, listener = characters.split()
     both = [
         block("talk", WELL.format(""), characterId=speaker),
@@ -45,13 +50,13 @@ async def test_who_of_two_characters_is_heard_first_does_not_matter(tests_data, 
     assert told.warnings == []
 
 
-async def test_a_constraint_may_name_what_stands_later(pilot) -> None:
+async def test_a_constraint_may_name_what_stands_later(pilot: RealizerPilot) -> None:
     told = await played(pilot, block("listen", nod("n") + synchronize("n:stroke", "talk:s:m")) + TALK)
     assert_linked(told, "listen:n:stroke", "talk:s:m")
     assert told.warnings == []
 
 
-async def test_what_stands_later_may_be_preplanned(pilot) -> None:
+async def test_what_stands_later_may_be_preplanned(pilot: RealizerPilot) -> None:
     pilot.perform(LISTEN + block("talk", WELL.format(""), **{"bmla:preplan": "true"}))
     await pilot.advance(0.5)
     assert not pilot.feedback.reached("listen:n:start")
@@ -60,41 +65,42 @@ async def test_what_stands_later_may_be_preplanned(pilot) -> None:
     assert told.warnings == []
 
 
-async def test_what_a_later_block_does_not_have_is_told_with_what_it_has(pilot) -> None:
+async def test_what_a_later_block_does_not_have_is_told_with_what_it_has(pilot: RealizerPilot) -> None:
     told = await played(pilot, block("listen", nod("n", start="talk:x:end")) + TALK)
-    assert ["no behavior 'x' for talk:x:end; there are s" in text for text in texts(pilot)] == [True]
+    assert ["talk:x:end: there is no behavior 'x'; available: s" in text for text in texts(pilot)] == [True]
     assert_not_played(told, "listen:n")
 
 
-async def test_who_waits_for_a_block_that_is_interrupted_before_it_was_planned_is_told(pilot) -> None:
+async def test_who_waits_for_a_block_that_is_interrupted_before_it_was_planned_is_told(pilot: RealizerPilot) -> None:
     told = await played(pilot, LISTEN + TALK + block("stop", **{"bmla:interrupt": "talk"}))
-    assert ["no block 'talk' for talk:s:end" in text for text in texts(pilot)] == [True]
+    assert ["'talk'" in text and "talk:s:end" in text for text in texts(pilot)] == [True]
     assert told.status("listen") == "DONE"
 
 
-async def test_a_reference_to_what_has_no_times_before_its_own_block_is_dropped_and_told(pilot) -> None:
+async def test_a_reference_to_what_has_no_times_before_its_own_block_is_dropped_and_told(pilot: RealizerPilot) -> None:
     one = block("one", wait("v", 0.5) + nod("n", start="two:w:end"))
     two = block("two", wait("w", 0.5) + nod("m", start="one:v:end"))
     told = await played(pilot, one + two)
     (said,) = told.of("warningFeedback")
     assert said.id == "two:m"
     assert (
-        "one:v:end is not planned before 'two': 'one' names this one, itself or by way of others" in said.element.text
+        "one:v:end: 'one' is not planned before 'two', because it refers to it directly or through other blocks"
+        in said.text
     )
     assert_not_played(told, "two:m")
     assert_linked(told, "one:n:start", "two:w:end")
 
 
-async def test_of_two_behaviors_that_wait_for_each_other_each_is_told_why(pilot) -> None:
+async def test_of_two_behaviors_that_wait_for_each_other_each_is_told_why(pilot: RealizerPilot) -> None:
     await played(pilot, block("one", nod("n", start="two:m:end")) + block("two", nod("m", start="one:n:end")))
-    told = {line.id: line.element.text for line in pilot.feedback.of("warningFeedback")}
-    assert "one:n:end is not planned before 'two'" in told["two:m"]
+    told = {line.id: line.text for line in pilot.feedback.of("warningFeedback")}
+    assert "one:n:end: 'one' is not planned before 'two'" in told["two:m"]
     assert "two:m" in told["one:n"]
     assert len(texts(pilot)) == len(told) == 2
     assert pilot.feedback.status("one") == pilot.feedback.status("two") == "DONE"
 
 
-async def test_a_block_that_is_being_solved_aside_waits_for_none_that_enters_meanwhile(pilot) -> None:
+async def test_a_block_that_is_being_solved_aside_waits_for_none_that_enters_meanwhile(pilot: RealizerPilot) -> None:
     pilot.block("big", "".join(wait(f"w{number}", 0.1) for number in range(60)) + nod("n", start="late:w:end"))
     await pilot.tick()
     told = await played(pilot, block("late", wait("w", 0.5, start="big:w0:end")))
@@ -102,7 +108,7 @@ async def test_a_block_that_is_being_solved_aside_waits_for_none_that_enters_mea
     assert_linked(told, "late:w:start", "big:w0:end")
 
 
-async def test_a_circle_of_many_loses_one_reference(pilot) -> None:
+async def test_a_circle_of_many_loses_one_reference(pilot: RealizerPilot) -> None:
     ids = ["a", "b", "c", "d"]
     circle = [
         block(each, wait("w", 0.3) + nod("n", start=f"{following}:w:end"))
@@ -115,7 +121,7 @@ async def test_a_circle_of_many_loses_one_reference(pilot) -> None:
 
 
 @pytest.mark.parametrize("first", ["talk", "louder"])
-async def test_to_change_a_parameter_of_a_block_that_names_one_is_no_circle(pilot, first) -> None:
+async def test_to_change_a_parameter_of_a_block_that_names_one_is_no_circle(pilot: RealizerPilot, first: str) -> None:
     talk = block("talk", WELL.format(' start="louder:w:end"'))
     louder = block("louder", wait("w", 0.5) + change("p", 'start="1" end="1.5"', target="talk:s"))
     told = await played(pilot, talk + louder if first == "talk" else louder + talk)
@@ -125,13 +131,13 @@ async def test_to_change_a_parameter_of_a_block_that_names_one_is_no_circle(pilo
 
 
 @pytest.mark.parametrize("step", [1, -1])
-async def test_a_chain_of_blocks_through_a_whole_document_starts_at_once(pilot, step) -> None:
-    def link(number):
+async def test_a_chain_of_blocks_through_a_whole_document_starts_at_once(pilot: RealizerPilot, step: int) -> None:
+    def link(number: int) -> str:
         named = number + step
         return wait("w", 0.2, **({"start": f"b{named}:w:start"} if 0 <= named < MANY else {}))
 
     pilot.perform("".join(block(f"b{number}", link(number)) for number in range(MANY)))
     await pilot.tick()
     starts = [line for line in pilot.feedback.of("syncPointProgress") if line.id.endswith(":w:start")]
-    assert [line.at for line in starts] == [0.0] * MANY
+    assert [line.global_time for line in starts] == [0.0] * MANY
     assert pilot.feedback.warnings == []

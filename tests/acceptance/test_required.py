@@ -4,7 +4,9 @@ from collections import Counter
 
 import pytest
 
+from reactive_realizer.engine.engine import DefaultEngine
 from reactive_realizer.testing.assertions import assert_block_around, assert_ended, assert_time
+from reactive_realizer.testing.pilot import RealizerPilot
 
 from .living_time import HIT, nod
 
@@ -13,7 +15,7 @@ REQUIRED = "<required>{}</required>"
 SAID = [("new:s", "IMPOSSIBLE_TO_SCHEDULE")]
 
 
-async def test_a_required_speech_that_finds_the_voice_taken_fails_its_block(pilot) -> None:
+async def test_a_required_speech_that_finds_the_voice_taken_fails_its_block(pilot: RealizerPilot) -> None:
     pilot.block("talk", TALK.format(""))
     await pilot.advance(0.5)
     pilot.block("new", REQUIRED.format(TALK.format("")) + nod("n"))
@@ -28,7 +30,7 @@ async def test_a_required_speech_that_finds_the_voice_taken_fails_its_block(pilo
     assert pilot.realizer.scheduler.blocks.alive == ()
 
 
-async def test_what_plays_by_then_is_broken_off_and_what_was_to_come_is_gone(pilot) -> None:
+async def test_what_plays_by_then_is_broken_off_and_what_was_to_come_is_gone(pilot: RealizerPilot) -> None:
     pilot.block("talk", TALK.format(""))
     gesture = '<gesture id="g" lexeme="BEAT" start="0" end="3"/>'
     pilot.block("new", gesture + nod("late", start="2") + REQUIRED.format(TALK.format(' start="1"')))
@@ -42,7 +44,7 @@ async def test_what_plays_by_then_is_broken_off_and_what_was_to_come_is_gone(pil
     assert not pilot.feedback.reached("new:s:start")
 
 
-async def test_a_required_change_of_what_is_over_fails_its_block(pilot) -> None:
+async def test_a_required_change_of_what_is_over_fails_its_block(pilot: RealizerPilot) -> None:
     pilot.block("talk", TALK.format(""))
     louder = (
         '<bmla:parametervaluechange id="s" target="talk:s" paramId="volume" start="3">'
@@ -56,7 +58,9 @@ async def test_a_required_change_of_what_is_over_fails_its_block(pilot) -> None:
 
 
 @pytest.mark.parametrize("composition", ["MERGE", "APPEND"])
-async def test_a_required_behavior_on_a_point_that_never_comes_fails_its_block_at_once(pilot, composition) -> None:
+async def test_a_required_behavior_on_a_point_that_never_comes_fails_its_block_at_once(
+    pilot: RealizerPilot, composition: str
+) -> None:
     pilot.block("first", '<wait id="w" duration="1"/>')
     pilot.block("old", nod("n"), composition="APPEND")
     required = REQUIRED.format(nod("s", start="old:n:end"))
@@ -73,7 +77,7 @@ async def test_a_required_behavior_on_a_point_that_never_comes_fails_its_block_a
 
 
 async def test_a_required_behavior_that_is_past_when_its_block_starts_fails_it_and_nothing_of_it_is_played(
-    pilot,
+    pilot: RealizerPilot,
 ) -> None:
     pilot.predict("t", "hit", 5.0)
     pilot.block("long", '<wait id="w" duration="3"/>')
@@ -88,10 +92,16 @@ async def test_a_required_behavior_that_is_past_when_its_block_starts_fails_it_a
     assert_ended(pilot.feedback, "new", "FAILED")
 
 
-async def test_a_required_behavior_that_fails_while_it_plays_fails_its_block(pilot, monkeypatch) -> None:
+async def test_a_required_behavior_that_fails_while_it_plays_fails_its_block(
+    pilot: RealizerPilot, monkeypatch: pytest.MonkeyPatch
+) -> None:
     pilot.block("new", REQUIRED.format(TALK.format("")) + '<wait id="n" duration="3"/>')
     await pilot.advance(0.5)
-    engine = next(each for each in pilot.realizer.characters["alice"].engines if each.player.playing)
+    engine = next(
+        each
+        for each in pilot.realizer.characters["alice"].engines
+        if isinstance(each, DefaultEngine) and each.player.playing
+    )
     monkeypatch.setattr(engine, "audio", lambda tick: 1 / 0)
     await pilot.tick()
     assert pilot.feedback.warnings == [("new:s", "EXECUTION_FAILURE")]
@@ -101,7 +111,7 @@ async def test_a_required_behavior_that_fails_while_it_plays_fails_its_block(pil
 
 
 @pytest.mark.parametrize("required", [True, False])
-async def test_a_required_activation_of_what_is_not_there_fails_its_block(pilot, required) -> None:
+async def test_a_required_activation_of_what_is_not_there_fails_its_block(pilot: RealizerPilot, required: bool) -> None:
     activate = '<bmla:activate id="s" target="nobody" start="0.5"/>'
     pilot.block("new", '<wait id="w" duration="2"/>' + (REQUIRED.format(activate) if required else activate))
     await pilot.advance(3)
@@ -110,7 +120,7 @@ async def test_a_required_activation_of_what_is_not_there_fails_its_block(pilot,
     assert_time(pilot.feedback, "new:w:end", 0.5 if required else 2.0)
 
 
-async def test_blocks_that_fail_each_other_end_once_each(pilot) -> None:
+async def test_blocks_that_fail_each_other_end_once_each(pilot: RealizerPilot) -> None:
     pilot.block("old", nod("n", start=HIT))
     for name, on in (("a", "old"), ("b", "a"), ("c", "b")):
         pilot.block(name, REQUIRED.format(nod("n", start=f"{on}:n:end")) + '<wait id="w" duration="9"/>')
@@ -121,7 +131,7 @@ async def test_blocks_that_fail_each_other_end_once_each(pilot) -> None:
     assert [pilot.feedback.status(name) for name in ("old", "a", "b", "c")] == ["INTERRUPTED", *["FAILED"] * 3]
 
 
-async def test_what_is_broken_off_on_purpose_or_gives_its_arm_away_is_not_lost(pilot) -> None:
+async def test_what_is_broken_off_on_purpose_or_gives_its_arm_away_is_not_lost(pilot: RealizerPilot) -> None:
     beat = '<gesture id="g" lexeme="BEAT" mode="RIGHT_HAND"/>'
     pilot.block("old", REQUIRED.format(TALK.format("") + beat) + nod("n", start="0", end="2"))
     pilot.block("new", beat, **{"bmla:chunkAfter": "old"})

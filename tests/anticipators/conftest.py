@@ -6,12 +6,12 @@ from random import Random
 
 import pytest
 
-from reactive_realizer.testing.anticipator_stand import AnticipatorStand
+from reactive_realizer.testing.anticipator_harness import AnticipatorHarness
 
 
 @pytest.fixture
-def stage() -> AnticipatorStand:
-    return AnticipatorStand()
+def stage() -> AnticipatorHarness:
+    return AnticipatorHarness()
 
 
 def rhythm_of(interval: Callable[[int], float], beats: int, seed: int, noise: float = 0.015) -> list[float]:

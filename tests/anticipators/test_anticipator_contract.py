@@ -11,13 +11,25 @@ from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.pegboard.anticipator import Anticipator
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.testing.anticipator_contract import AnticipatorContract
-from reactive_realizer.testing.anticipator_stand import Told
+from reactive_realizer.testing.anticipator_harness import AnticipatorEvent
 
 
 class TestMetronome(AnticipatorContract):
     points = ("tick0", "tick1", "tick2", "tick3", "tick10", "tick100")
-    events = (Told("tempo", 60), Told("tempo", 90.5), Told("tempo", 400), Told("tempo", 10), Told("start"))
-    refused = (Told("tempo", 9.9), Told("tempo", 401), Told("tempo", -60), Told("tempo", nan), Told("tempo"))
+    events = (
+        AnticipatorEvent("tempo", 60),
+        AnticipatorEvent("tempo", 90.5),
+        AnticipatorEvent("tempo", 400),
+        AnticipatorEvent("tempo", 10),
+        AnticipatorEvent("start"),
+    )
+    refused = (
+        AnticipatorEvent("tempo", 9.9),
+        AnticipatorEvent("tempo", 401),
+        AnticipatorEvent("tempo", -60),
+        AnticipatorEvent("tempo", nan),
+        AnticipatorEvent("tempo"),
+    )
 
     def anticipator(self, id: str, board: PegBoard) -> Anticipator:  # noqa: A002
         return Metronome(id, board)
@@ -25,8 +37,8 @@ class TestMetronome(AnticipatorContract):
 
 class TestSpacebar(AnticipatorContract):
     points = ("press", "release")
-    events = (Told("press"), Told("release"))
-    refused = (Told("press", text="Enter"),)
+    events = (AnticipatorEvent("press"), AnticipatorEvent("release"))
+    refused = (AnticipatorEvent("press", text="Enter"),)
 
     def anticipator(self, id: str, board: PegBoard) -> Anticipator:  # noqa: A002
         return Spacebar(id, board)
@@ -35,22 +47,22 @@ class TestSpacebar(AnticipatorContract):
 class TestSpeechStop(AnticipatorContract):
     points = ("stop",)
     events = (
-        Told("voice", 1.0),
-        Told("voice", 0.0),
-        Told("voice", 0.4),
-        Told("words", text="I live in a"),
-        Told("words", text="I live in a house."),
-        Told("words", text=""),
+        AnticipatorEvent("voice", 1.0),
+        AnticipatorEvent("voice", 0.0),
+        AnticipatorEvent("voice", 0.4),
+        AnticipatorEvent("words", text="I live in a"),
+        AnticipatorEvent("words", text="I live in a house."),
+        AnticipatorEvent("words", text=""),
     )
     refused = (
-        Told("voice", 1.1),
-        Told("voice", -0.1),
-        Told("voice", nan),
-        Told("voice", inf),
-        Told("voice"),
-        Told("voice", text="I live"),
-        Told("words"),
-        Told("words", 1.0),
+        AnticipatorEvent("voice", 1.1),
+        AnticipatorEvent("voice", -0.1),
+        AnticipatorEvent("voice", nan),
+        AnticipatorEvent("voice", inf),
+        AnticipatorEvent("voice"),
+        AnticipatorEvent("voice", text="I live"),
+        AnticipatorEvent("words"),
+        AnticipatorEvent("words", 1.0),
     )
 
     def anticipator(self, id: str, board: PegBoard) -> Anticipator:  # noqa: A002
@@ -59,8 +71,20 @@ class TestSpeechStop(AnticipatorContract):
 
 class TestExercise(AnticipatorContract):
     points = ("1", "2", "3", "4", "9", "down", "up")
-    events = (Told("sample", 9.81), Told("sample", 9.81), Told("sample", 20.0), Told("sample", 12.0), Told("start"))
-    refused = (Told("sample"), Told("sample", -1.0), Told("sample", nan), Told("sample", inf), Told("sample", 1e7))
+    events = (
+        AnticipatorEvent("sample", 9.81),
+        AnticipatorEvent("sample", 9.81),
+        AnticipatorEvent("sample", 20.0),
+        AnticipatorEvent("sample", 12.0),
+        AnticipatorEvent("start"),
+    )
+    refused = (
+        AnticipatorEvent("sample"),
+        AnticipatorEvent("sample", -1.0),
+        AnticipatorEvent("sample", nan),
+        AnticipatorEvent("sample", inf),
+        AnticipatorEvent("sample", 1e7),
+    )
 
     def anticipator(self, id: str, board: PegBoard) -> Anticipator:  # noqa: A002
         return Exercise(id, board, ("down", "up"))
@@ -68,7 +92,7 @@ class TestExercise(AnticipatorContract):
 
 class TestConducting(AnticipatorContract):
     points = ("beat1", "beat2", "beat3", "beat4", "beat9")
-    events = (*[Told("beat")] * 5, Told("start"))
+    events = (*[AnticipatorEvent("beat")] * 5, AnticipatorEvent("start"))
 
     def anticipator(self, id: str, board: PegBoard) -> Anticipator:  # noqa: A002
         return Conducting(id, board)
@@ -86,7 +110,13 @@ class ToldByEvents(Anticipator):
 
 class TestRemote(AnticipatorContract):
     points = ("hit",)
-    events = (Told("hit", -1.0), Told("hit", 0.5), Told("hit", 2.0), Told("hit", 7.0), Told("hit"))
+    events = (
+        AnticipatorEvent("hit", -1.0),
+        AnticipatorEvent("hit", 0.5),
+        AnticipatorEvent("hit", 2.0),
+        AnticipatorEvent("hit", 7.0),
+        AnticipatorEvent("hit"),
+    )
 
     def anticipator(self, id: str, board: PegBoard) -> Anticipator:  # noqa: A002
         return ToldByEvents(id, board)

@@ -9,7 +9,7 @@ from anticipators.peaks import Peaks
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.reactive.graph import Graph
-from reactive_realizer.testing.anticipator_stand import AnticipatorStand
+from reactive_realizer.testing.anticipator_harness import AnticipatorHarness
 
 from .conftest import acceleration, rhythm_of
 
@@ -19,7 +19,7 @@ def squats(repetitions: int, seed: int, drift: float = 0.0) -> list[float]:
     return rhythm_of(lambda n: (1.2 if n % 2 else 0.8) + drift * n, 2 * repetitions, seed, 0.02)
 
 
-def move(stage: AnticipatorStand, exercise: Exercise, samples: list[tuple[float, float]]) -> None:
+def move(stage: AnticipatorHarness, exercise: Exercise, samples: list[tuple[float, float]]) -> None:
     for time, magnitude in samples:
         stage.event(time, exercise, "sample", magnitude)
 
@@ -53,7 +53,7 @@ def peaks_of(*values: float) -> list[float]:
     return [peak for peak in found if peak is not None]
 
 
-def test_a_peak_that_trembles_on_its_way_down_is_one() -> None:
+def test_a_peak_with_noise_on_its_way_down_is_one_peak() -> None:
     assert peaks_of(10, 10, 14, 15, 12.5, 14, 12.5, 14, 10, 10) == [0.3]
 
 
@@ -61,7 +61,7 @@ def test_a_slow_swing_has_its_peak_where_it_is_highest() -> None:
     assert peaks_of(*range(10, 20), 20, *range(19, 9, -1)) == [1.0]
 
 
-def test_somebody_who_stands_still_makes_no_peak() -> None:
+def test_a_resting_user_makes_no_peak() -> None:
     peaks = Peaks(3.0)
     assert not any(peaks.take(value, time) for time, value in acceleration([], 30.0, 1))
 
@@ -79,10 +79,10 @@ def test_peaks_are_counted_and_the_next_ones_predicted(stage, seed) -> None:
 
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("drift", [-0.01, 0.01])
-def test_named_peaks_keep_their_own_intervals_and_follow_who_gets_tired_or_hurries(seed, drift) -> None:
+def test_named_peaks_have_intervals_of_their_own_and_follow_a_drifting_tempo(seed, drift) -> None:
     moments = squats(10, seed, drift)
     for known in range(6, 18):
-        stage = AnticipatorStand()
+        stage = AnticipatorHarness()
         exercise = Exercise("trainer", stage.board, ("down", "up"))
         move(stage, exercise, after(moments[:known], seed))
         first, second = ("down", "up") if known % 2 == 0 else ("up", "down")
@@ -90,7 +90,7 @@ def test_named_peaks_keep_their_own_intervals_and_follow_who_gets_tired_or_hurri
         assert stage.time(exercise, second) == pytest.approx(moments[known + 1], abs=0.2)
 
 
-def test_a_name_is_always_a_moment_ahead_and_what_hangs_on_one_keeps_it(stage) -> None:
+def test_a_name_means_the_next_peak_and_dependents_keep_theirs(stage) -> None:
     moments = squats(8, 1)
     exercise = Exercise("trainer", stage.board, ("down", "up"))
     held = []
@@ -105,7 +105,7 @@ def test_a_name_is_always_a_moment_ahead_and_what_hangs_on_one_keeps_it(stage) -
     assert times == sorted(times)
 
 
-def test_a_user_who_rests_is_not_expected_for_ever_and_is_when_moving_again(stage) -> None:
+def test_predictions_stop_when_the_user_rests_and_resume_later(stage) -> None:
     moments = rhythm_of(lambda n: 1.0 if n != 6 else 20.0, 9, 2, 0.02)
     exercise = Exercise("trainer", stage.board, ("jump",), ahead=3)
     samples = after(moments, 2)
@@ -129,18 +129,18 @@ def test_a_start_begins_a_new_exercise(stage) -> None:
     "wrong",
     [{"rise": 0.0}, {"phase": 0.0}, {"period": float("nan")}, {"ahead": 0.0}],
 )
-def test_a_parameter_out_of_its_range_is_refused(wrong) -> None:
+def test_a_parameter_out_of_range_is_refused(wrong) -> None:
     with pytest.raises(RealizerError, match=next(iter(wrong))):
         Exercise("trainer", PegBoard(Graph()), **wrong)
 
 
 @pytest.mark.parametrize("names", [("3",), ("down", "down"), ("",), ("a b",), ("a:b",), ("a-1",), ("a" * 201,)])
-def test_names_that_cannot_be_told_from_each_other_or_from_numbers_are_refused(names) -> None:
+def test_invalid_and_repeated_names_are_refused(names) -> None:
     with pytest.raises(RealizerError, match="peak"):
         Exercise("trainer", PegBoard(Graph()), names)
 
 
-def test_a_thousand_samples_a_second_are_as_good_as_fifty(stage) -> None:
+def test_a_high_sampling_rate_gives_the_same_peaks(stage) -> None:
     moments = rhythm_of(lambda n: 1.0, 6, 1, 0.0)
     exercise = Exercise("trainer", stage.board)
     for time, magnitude in after(moments, 1):

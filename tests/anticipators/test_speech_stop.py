@@ -11,9 +11,8 @@ from anticipators.turn_model import PauseModel, Turn
 from reactive_realizer.clock.units import Time
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.reactive.cell import Cell
-from reactive_realizer.reactive.graph import Graph
-from reactive_realizer.testing.anticipator_stand import AnticipatorStand
+from reactive_realizer.reactive.graph import Cell, Graph
+from reactive_realizer.testing.anticipator_harness import AnticipatorHarness
 
 PLAIN, FINISHED, OPEN = "I live in a house", "I live in a house.", "I live in a house and"
 
@@ -51,7 +50,7 @@ def silence(words: str, certainty: float = 0.9, pause: float = 0.4) -> float:
     return PauseModel(certainty, pause).end(Turn(words, False, 0.0))
 
 
-def test_it_is_unknown_while_the_voice_sounds_and_predicted_as_soon_as_it_is_gone(user) -> None:
+def test_the_end_is_unknown_while_the_user_speaks_and_predicted_afterwards(user) -> None:
     assert user.time is None
     assert user.voice(1.0, 0.0) is None
     assert user.voice(2.0, 0.9) is None
@@ -64,20 +63,20 @@ def test_silent_frames_change_nothing(user) -> None:
     assert [user.voice(2.0 + n / 50, n / 100) for n in range(40)] == [said] * 40
 
 
-def test_a_user_who_goes_on_takes_it_back(user) -> None:
+def test_a_resumed_turn_withdraws_the_prediction(user) -> None:
     user.voice(1.0, 1.0)
     user.voice(2.0, 0.0)
     assert user.voice(2.4, 1.0) is None
     assert user.voice(3.0, 0.0) == pytest.approx(3.0 + silence(""))
 
 
-def test_finished_words_bring_it_forward_and_open_ones_put_it_off() -> None:
+def test_a_complete_sentence_ends_earlier_and_an_incomplete_one_later() -> None:
     assert silence(FINISHED) < silence(PLAIN) < silence(OPEN)
     assert silence("") == silence(PLAIN)
     assert silence("Wait, um") == silence("I see,") == silence("to the")
 
 
-def test_words_that_are_understood_after_the_voice_is_gone_refine_it(user) -> None:
+def test_words_recognized_after_the_voice_refine_the_prediction(user) -> None:
     user.voice(1.0, 1.0)
     user.words(2.0, OPEN)
     assert user.voice(3.0, 0.0) == pytest.approx(3.0 + silence(OPEN))
@@ -85,14 +84,14 @@ def test_words_that_are_understood_after_the_voice_is_gone_refine_it(user) -> No
     assert user.words(3.1, FINISHED) == pytest.approx(3.0 + silence(FINISHED))
 
 
-def test_an_end_that_should_have_been_is_now(user) -> None:
+def test_a_predicted_end_in_the_past_is_set_to_now(user) -> None:
     user.voice(1.0, 1.0)
     user.voice(3.0, 0.0)
     assert user.words(3.5, FINISHED) == 3.5
 
 
-def test_an_end_that_is_said_to_be_long_ago_can_be_taken_back_as_long_as_any() -> None:
-    user = User(AnticipatorStand())
+def test_an_end_predicted_in_the_past_can_be_withdrawn_like_any_other() -> None:
+    user = User(AnticipatorHarness())
     user.words(1.0, OPEN)
     user.voice(1.0, 1.0)
     user.voice(3.0, 0.0)
@@ -104,14 +103,14 @@ def test_an_end_that_is_said_to_be_long_ago_can_be_taken_back_as_long_as_any() -
     assert stop.value is None
 
 
-def test_words_alone_are_enough_and_every_new_one_puts_it_off(user) -> None:
+def test_words_alone_make_a_turn_and_each_new_word_delays_its_end(user) -> None:
     assert user.words(1.0, "I live") == pytest.approx(1.0 + silence(PLAIN))
     assert user.words(1.4, "I live in a") == pytest.approx(1.4 + silence(OPEN))
     assert user.words(1.9, FINISHED) == pytest.approx(1.9 + silence(FINISHED))
     assert user.words(2.0, f"{FINISHED} ") == pytest.approx(1.9 + silence(FINISHED))
 
 
-def test_once_it_has_come_its_name_means_the_end_of_the_next_turn(user) -> None:
+def test_after_the_end_its_name_means_the_end_of_the_next_turn(user) -> None:
     user.voice(1.0, 1.0)
     came, stop = user.voice(2.0, 0.0), user.hang()
     assert user.voice(came - 0.01, 0.0) == came
@@ -123,7 +122,7 @@ def test_once_it_has_come_its_name_means_the_end_of_the_next_turn(user) -> None:
 
 
 @pytest.mark.parametrize(("after", "resumed"), [(0.0, True), (0.95, True), (1.05, False)])
-def test_for_a_second_after_it_came_a_user_who_goes_on_takes_it_back(user, after, resumed) -> None:
+def test_a_turn_may_be_resumed_for_a_second_after_its_end(user, after, resumed) -> None:
     user.voice(1.0, 1.0)
     came, stop = user.voice(2.0, 0.0), user.hang()
     user.voice(came + after, 1.0)
@@ -132,7 +131,7 @@ def test_for_a_second_after_it_came_a_user_who_goes_on_takes_it_back(user, after
     assert stop.value == (end if resumed else came)
 
 
-def test_all_who_wait_for_the_end_of_a_turn_wait_until_it_is_over_however_often_it_is_resumed(user) -> None:
+def test_all_dependents_wait_for_the_end_of_a_turn_that_is_resumed_several_times(user) -> None:
     user.voice(1.0, 1.0)
     stops = []
     for begin in (2.0, 4.0, 6.0):
@@ -145,7 +144,7 @@ def test_all_who_wait_for_the_end_of_a_turn_wait_until_it_is_over_however_often_
 
 
 @pytest.mark.parametrize("text", ["", PLAIN, OPEN, FINISHED + " Yes."])
-def test_words_that_are_understood_after_it_has_come_move_nothing_while_the_voice_is_gone(user, text) -> None:
+def test_words_after_the_end_move_nothing_without_voice(user, text) -> None:
     user.voice(1.0, 1.0)
     user.words(2.0, FINISHED)
     came, stop = user.voice(3.0, 0.0), user.hang()
@@ -161,21 +160,21 @@ def test_the_words_of_a_turn_do_not_count_for_the_next_one(user) -> None:
     assert user.voice(10.0, 0.0) == pytest.approx(10.0 + silence(""))
 
 
-def test_the_same_words_once_more_are_another_turn_when_the_first_is_over_for_good(user) -> None:
+def test_the_same_words_after_a_closed_turn_are_a_new_turn(user) -> None:
     came, stop = user.words(1.0, FINISHED), user.hang()
     assert user.words(came + 0.9, FINISHED) is None
     assert user.words(came + 1.1, FINISHED) == pytest.approx(came + 1.1 + silence(FINISHED))
     assert stop.value == came
 
 
-def test_words_that_are_taken_back_are_no_turn(user) -> None:
+def test_withdrawn_words_are_no_turn(user) -> None:
     assert user.words(1.0, "") is None
     assert user.words(2.0, "um") is not None
     assert user.words(2.3, " ") is None
     assert user.words(3.0, FINISHED) == pytest.approx(3.0 + silence(FINISHED))
 
 
-def test_who_begins_to_tell_of_a_voice_after_it_has_come_goes_on_with_the_turn_only_if_it_sounds(user) -> None:
+def test_the_first_voice_activity_after_the_end_resumes_the_turn_only_if_the_user_speaks(user) -> None:
     came, stop = user.words(1.0, FINISHED), user.hang()
     user.voice(came + 0.1, 0.0)
     assert stop.value == came
@@ -183,14 +182,14 @@ def test_who_begins_to_tell_of_a_voice_after_it_has_come_goes_on_with_the_turn_o
     assert stop.value is None
 
 
-def test_no_words_after_it_has_come_make_room_for_the_next_turn_at_once(user) -> None:
+def test_an_empty_text_after_the_end_closes_the_turn(user) -> None:
     came, stop = user.words(1.0, FINISHED), user.hang()
     assert user.words(came + 0.1, "") is None
     assert user.words(came + 0.2, FINISHED) == pytest.approx(came + 0.2 + silence(FINISHED))
     assert stop.value == came
 
 
-def test_another_model_of_turns_may_stand_in(stage) -> None:
+def test_another_turn_model_can_be_used(stage) -> None:
     class Punctual:
         def end(self, turn: Turn) -> float:
             return 60.0
@@ -200,7 +199,7 @@ def test_another_model_of_turns_may_stand_in(stage) -> None:
 
 
 @given(st.sampled_from(["", PLAIN, FINISHED, OPEN]), st.floats(0.5, 0.999), st.floats(0.01, 10.0))
-def test_it_is_where_the_certainty_that_grows_with_the_silence_is_enough(words, certainty, pause) -> None:
+def test_the_end_is_where_the_probability_reaches_the_certainty(words, certainty, pause) -> None:
     prior = {FINISHED: 0.85, OPEN: 0.1}.get(words, 0.5)
     waited = silence(words, certainty, pause)
     reached = prior / (prior + (1 - prior) * exp(-waited / pause))
@@ -211,6 +210,6 @@ def test_it_is_where_the_certainty_that_grows_with_the_silence_is_enough(words, 
 @pytest.mark.parametrize(
     "wrong", [{"certainty": 0.4}, {"certainty": 1.0}, {"certainty": float("nan")}, {"pause": 0.0}, {"pause": 11.0}]
 )
-def test_a_parameter_out_of_its_range_is_refused(wrong) -> None:
+def test_a_parameter_out_of_range_is_refused(wrong) -> None:
     with pytest.raises(RealizerError, match=next(iter(wrong))):
         SpeechStop("user", PegBoard(Graph()), **wrong)

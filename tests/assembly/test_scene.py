@@ -1,6 +1,7 @@
 """A scene is what its files say, or says which line of them cannot be."""
 
 import os
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -16,7 +17,7 @@ ALICE = "[character.alice]\n"
 
 
 @pytest.fixture
-def human(tmp_path: Path):
+def human(tmp_path: Path) -> Callable[[str], Path]:
     def write(text: str) -> Path:
         file = tmp_path / "human.toml"
         file.write_text(text)
@@ -32,7 +33,7 @@ def test_the_default_has_one_character_and_the_usual_targets() -> None:
     assert default.limits == Limits()
 
 
-def test_what_a_character_does_not_say_has_its_default(human) -> None:
+def test_what_a_character_does_not_say_has_its_default(human: Callable[[str], Path]) -> None:
     read = read_human_file(human("[character.alice]\nheading = 90\n[limits]\nclients = 3\n"))
     alice = read.characters["alice"]
     assert (alice.heading, alice.position) == (90.0, (0.0, 0.0, 0.0))
@@ -71,7 +72,7 @@ def test_what_a_character_does_not_say_has_its_default(human) -> None:
         (ALICE + "[limits]\ntime_seconds = 0.5", ["limits.time_seconds"]),
     ],
 )
-def test_a_key_that_is_unknown_or_wrong_is_named(human, text, mentions) -> None:
+def test_a_key_that_is_unknown_or_wrong_is_named(human: Callable[[str], Path], text: str, mentions: list[str]) -> None:
     with pytest.raises(RealizerError) as refused:
         read_human_file(human(text))
     assert all(mention in str(refused.value) for mention in mentions)
@@ -79,13 +80,13 @@ def test_a_key_that_is_unknown_or_wrong_is_named(human, text, mentions) -> None:
 
 @pytest.mark.parametrize("id_", ["", "a b", "a:b", "a+b", "a\\u0000", "a\\u007f", "a\\n", "bml", "a" * 201])
 @pytest.mark.parametrize("section", ["character", "target", "anticipator"])
-def test_an_id_that_no_reference_can_name_is_refused(human, section, id_) -> None:
+def test_an_id_that_no_reference_can_name_is_refused(human: Callable[[str], Path], section: str, id_: str) -> None:
     with pytest.raises(RealizerError) as refused:
         read_human_file(human(f'[character.alice]\n[{section}."{id_}"]'))
     assert all(part in str(refused.value) for part in ["human.toml", section, "control character"])
 
 
-def test_a_kind_of_binding_that_is_not_named_has_its_default(human) -> None:
+def test_a_kind_of_binding_that_is_not_named_has_its_default(human: Callable[[str], Path]) -> None:
     assert read_human_file(human(ALICE + "bindings = {}")).characters["alice"].bindings == DEFAULT_BINDINGS
 
 
@@ -110,7 +111,9 @@ def test_every_kind_of_binding_has_a_file_in_the_package() -> None:
         (ALICE + 'avatar = "nobody.glb"', ["nobody.glb"]),
     ],
 )
-async def test_what_a_scene_cannot_be_made_of_is_named(human, text, mentions) -> None:
+async def test_what_a_scene_cannot_be_made_of_is_named(
+    human: Callable[[str], Path], text: str, mentions: list[str]
+) -> None:
     with pytest.raises(RealizerError) as refused:
         async with open_scene(SceneOptions(human(text), voice="text")):
             pass
@@ -121,7 +124,9 @@ def test_the_built_in_plug_ins_stand_where_everybodys_do() -> None:
     assert set(names("engines")) >= {"animation", "face", "speech", "wait"}
     for kind in ("metronome", "remote", "spacebar", "speech_stop", "exercise", "conducting"):
         assert load("anticipators", kind).kind == kind
-    with pytest.raises(RealizerError, match="no 'nothing' among the engines; there are activate, animation"):
+    with pytest.raises(
+        RealizerError, match="the plug-in group engines has no 'nothing'; available: activate, animation"
+    ):
         load("engines", "nothing")
 
 
@@ -138,7 +143,7 @@ def folders(tmp_path: Path) -> tuple[Path, Path]:
     return one, two
 
 
-def test_a_name_is_looked_for_in_the_folders_in_their_order_and_then_in_the_package(folders) -> None:
+def test_a_name_is_looked_for_in_the_folders_in_their_order_and_then_in_the_package(folders: tuple[Path, Path]) -> None:
     one, two = folders
     assets = Assets(folders)
     assert assets("sub/both.xml") == one / "sub" / "both.xml"
@@ -146,11 +151,11 @@ def test_a_name_is_looked_for_in_the_folders_in_their_order_and_then_in_the_pack
     assert assets("gesturebinding.xml") == PACKAGE_ASSETS / "gesturebinding.xml"
 
 
-def test_leading_folders_of_a_name_are_left_out_one_by_one(folders) -> None:
+def test_leading_folders_of_a_name_are_left_out_one_by_one(folders: tuple[Path, Path]) -> None:
     assert Assets(folders)("Humanoids/shared/sub/both.xml") == folders[0] / "sub" / "both.xml"
 
 
-def test_a_name_may_be_looked_for_in_all_folders_of_one_root_after_the_other(folders) -> None:
+def test_a_name_may_be_looked_for_in_all_folders_of_one_root_after_the_other(folders: tuple[Path, Path]) -> None:
     one, two = folders
     assets = Assets(folders)
     assert assets("**/both.xml") == one / "sub" / "both.xml"
@@ -158,21 +163,21 @@ def test_a_name_may_be_looked_for_in_all_folders_of_one_root_after_the_other(fol
     (two / "deep" / "er").mkdir(parents=True)
     (two / "deep" / "er" / "lone*.xml").write_text("")
     assert Assets(folders)("**/er/lone*.xml") == two / "deep" / "er" / "lone*.xml"
-    with pytest.raises(RealizerError, match=r"no file 'l\*\.xml' among the assets"):
+    with pytest.raises(RealizerError, match=r"there is no asset named 'l\*\.xml'"):
         Assets(folders)("**/l*.xml")
 
 
-def test_what_comes_and_goes_in_a_folder_is_noticed(folders) -> None:
+def test_what_comes_and_goes_in_a_folder_is_noticed(folders: tuple[Path, Path]) -> None:
     assets = Assets(folders)
     added = folders[1] / "sub" / "added.xml"
-    with pytest.raises(RealizerError, match=r"no file 'added\.xml'"):
+    with pytest.raises(RealizerError, match=r"no asset named 'added\.xml'"):
         assets("**/added.xml")
     added.write_text("")
     later(added.parent)
     assert assets("**/added.xml") == added
     added.unlink()
     later(added.parent)
-    with pytest.raises(RealizerError, match=r"no file 'added\.xml'"):
+    with pytest.raises(RealizerError, match=r"no asset named 'added\.xml'"):
         assets("**/added.xml")
 
 
@@ -182,10 +187,15 @@ def later(folder: Path) -> None:
     os.utime(folder, ns=(at, at))
 
 
-def test_folders_are_walked_once_for_many_names(folders, monkeypatch) -> None:
+def test_folders_are_walked_once_for_many_names(folders: tuple[Path, Path], monkeypatch: pytest.MonkeyPatch) -> None:
     walks = []
     walk = os.walk
-    monkeypatch.setattr(os, "walk", lambda folder: walks.append(folder) or walk(folder))
+
+    def counted(folder: Path) -> object:
+        walks.append(folder)
+        return walk(folder)
+
+    monkeypatch.setattr(os, "walk", counted)
     assets = Assets(folders)
     for _ in range(10):
         assets("**/only-two.xml")
@@ -194,16 +204,16 @@ def test_folders_are_walked_once_for_many_names(folders, monkeypatch) -> None:
     assert walks == [*folders, PACKAGE_ASSETS]
 
 
-def test_a_name_that_several_files_of_one_root_bear_is_refused_with_all_of_them(folders) -> None:
+def test_a_name_that_several_files_of_one_root_bear_is_refused_with_all_of_them(folders: tuple[Path, Path]) -> None:
     (folders[0] / "both.xml").write_text("")
-    with pytest.raises(RealizerError, match=r"'both\.xml' is the name of several files .*: both\.xml, sub/both\.xml"):
+    with pytest.raises(RealizerError, match=r"several assets are named 'both\.xml': both\.xml, sub/both\.xml"):
         Assets(folders)("**/both.xml")
 
 
-def test_a_link_that_leads_out_of_its_folder_is_not_found_in_any(folders, tmp_path) -> None:
+def test_a_link_that_leads_out_of_its_folder_is_not_found_in_any(folders: tuple[Path, Path], tmp_path: Path) -> None:
     (tmp_path / "secret.xml").write_text("")
     (folders[0] / "link.xml").symlink_to(tmp_path / "secret.xml")
-    with pytest.raises(RealizerError, match=r"no file 'link\.xml'"):
+    with pytest.raises(RealizerError, match=r"no asset named 'link\.xml'"):
         Assets(folders)("**/link.xml")
 
 
@@ -211,28 +221,28 @@ def test_a_link_that_leads_out_of_its_folder_is_not_found_in_any(folders, tmp_pa
     "name",
     ["../one/only-one.xml", "**/../only-one.xml", "sub/../only-one.xml", "/etc/passwd", "..", "sub\\both.xml", "", "."],
 )
-def test_a_name_that_leaves_the_folders_is_refused(folders, name) -> None:
+def test_a_name_that_leaves_the_folders_is_refused(folders: tuple[Path, Path], name: str) -> None:
     with pytest.raises(RealizerError) as refused:
         Assets(folders)(name)
     assert refused.value.fault.code == "forbidden-path"
 
 
-def test_a_link_that_leads_out_of_its_folder_is_no_file_of_it(folders, tmp_path) -> None:
+def test_a_link_that_leads_out_of_its_folder_is_no_file_of_it(folders: tuple[Path, Path], tmp_path: Path) -> None:
     (tmp_path / "secret.xml").write_text("")
     (folders[0] / "link.xml").symlink_to(tmp_path / "secret.xml")
     (folders[0] / "inner.xml").symlink_to(folders[0] / "only-one.xml")
     assets = Assets(folders)
     assert assets("inner.xml") == folders[0] / "only-one.xml"
-    with pytest.raises(RealizerError, match=r"no file 'link\.xml'"):
+    with pytest.raises(RealizerError, match=r"no asset named 'link\.xml'"):
         assets("link.xml")
 
 
 @pytest.mark.parametrize("name", ["nothing.xml", "sub", "x" * 1000, "a\0b", "**", "**/sub", "**/a\0b", "**/**"])
-def test_a_name_that_nothing_has_is_answered(folders, name) -> None:
+def test_a_name_that_nothing_has_is_answered(folders: tuple[Path, Path], name: str) -> None:
     with pytest.raises(RealizerError):
         Assets(folders)(name)
 
 
-def test_a_folder_that_is_not_there_is_named(tmp_path) -> None:
+def test_a_folder_that_is_not_there_is_named(tmp_path: Path) -> None:
     with pytest.raises(RealizerError, match="nowhere"):
         Assets((tmp_path / "nowhere",))

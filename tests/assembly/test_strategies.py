@@ -18,7 +18,7 @@ def test_the_built_in_ones_are_found_by_their_names() -> None:
 
 
 @pytest.mark.parametrize(("strategy", "warnings", "start"), [("convex", 0, 0.5), ("smartbody", 1, 0.0)])
-async def test_a_scene_is_timed_by_the_one_that_was_chosen(strategy, warnings, start) -> None:
+async def test_a_scene_is_timed_by_the_one_that_was_chosen(strategy: str, warnings: int, start: float) -> None:
     async with open_pilot(SceneOptions(voice="text", strategy=strategy)) as pilot:
         pilot.block("x", AFTER)
         await pilot.advance(2)
@@ -31,6 +31,8 @@ def test_convex_is_the_default() -> None:
 
 
 async def test_one_that_does_not_exist_is_refused_with_those_that_do() -> None:
-    with pytest.raises(RealizerError, match="no 'best' among the strategies; there are convex, embr, smartbody"):
+    with pytest.raises(
+        RealizerError, match="the plug-in group strategies has no 'best'; available: convex, embr, smartbody"
+    ):
         async with open_pilot(SceneOptions(voice="text", strategy="best")):
             pass

@@ -1,4 +1,4 @@
-"""What holds for every animation file of the package, on every avatar of the package."""
+"""Properties of every animation file of the package, on every avatar."""
 
 import math
 from pathlib import Path
@@ -7,11 +7,10 @@ import numpy as np
 import pytest
 
 from reactive_realizer.embodiment.avatar import Avatar
-from reactive_realizer.embodiment.body import Body
-from reactive_realizer.embodiment.skeleton import Skeleton
+from reactive_realizer.embodiment.body import Body, Skeleton
 from reactive_realizer.embodiment.vector import distance
-from reactive_realizer.engines.animation.procedural.animation_cache import animation_in
-from reactive_realizer.engines.animation.procedural.proc_animation import ProcAnimation
+from reactive_realizer.engines.animation.procedural.procedural_animation import ProceduralAnimation
+from reactive_realizer.engines.animation.procedural.procedural_animation_reader import load_animation
 
 ASSETS = Path(__file__).resolve().parents[2] / "reactive_realizer" / "assets"
 FOLDER = ASSETS / "procanimation"
@@ -30,59 +29,64 @@ def skeleton(request) -> Skeleton:
     return SKELETONS[request.param]
 
 
-def bodies(animation: ProcAnimation, skeleton: Skeleton) -> list[Body]:
+def bodies(animation: ProceduralAnimation, skeleton: Skeleton) -> list[Body]:
     """The figure at 41 phases, with the parameters as they stand in the file."""
     stand, values = Body(skeleton), animation.values({})
     return [stand.posed(animation.sample(i / 40, values, stand).rotations) for i in range(41)]
 
 
-def rotations(animation: ProcAnimation, skeleton: Skeleton) -> np.ndarray:
+def rotations(animation: ProceduralAnimation, skeleton: Skeleton) -> np.ndarray:
     return np.array([[body.rotation(joint) for joint in skeleton.joints] for body in bodies(animation, skeleton)])
 
 
-@pytest.mark.parametrize("file", FILES)
-def test_it_has_a_pose_at_every_phase(file, skeleton):
-    poses = rotations(animation_in(FILES[file], skeleton), skeleton)
-    np.testing.assert_allclose(np.linalg.norm(poses, axis=-1), 1.0, atol=1e-9)
+def test_an_animation_has_a_pose_at_every_phase(skeleton, subtests):
+    for file in FILES:
+        with subtests.test(file):
+            poses = rotations(load_animation(FILES[file], skeleton), skeleton)
+            np.testing.assert_allclose(np.linalg.norm(poses, axis=-1), 1.0, atol=1e-9)
 
 
-@pytest.mark.parametrize("file", FILES)
-def test_no_arm_is_stretched_out_or_folded_as_far_as_it_goes(file, skeleton):
-    animation = animation_in(FILES[file], skeleton)
-    for side in "lr":
-        if f"{side}_elbow" in animation.joints:
-            spans = [
-                distance(b.place(f"{side}_shoulder").position, b.place(f"{side}_wrist").position)
-                for b in bodies(animation, skeleton)
-            ]
-            length = math.dist(skeleton.offset(f"{side}_elbow"), (0, 0, 0)) + math.dist(
-                skeleton.offset(f"{side}_wrist"), (0, 0, 0)
-            )
-            assert 0.3 * length < min(spans)
-            assert max(spans) < 0.985 * length
+def test_no_arm_is_fully_stretched_or_folded(skeleton, subtests):
+    for file in FILES:
+        with subtests.test(file):
+            animation = load_animation(FILES[file], skeleton)
+            for side in "lr":
+                if f"{side}_elbow" in animation.joints:
+                    spans = [
+                        distance(b.transform(f"{side}_shoulder").position, b.transform(f"{side}_wrist").position)
+                        for b in bodies(animation, skeleton)
+                    ]
+                    length = math.dist(skeleton.offset(f"{side}_elbow"), (0, 0, 0)) + math.dist(
+                        skeleton.offset(f"{side}_wrist"), (0, 0, 0)
+                    )
+                    assert 0.3 * length < min(spans)
+                    assert max(spans) < 0.985 * length
 
 
-@pytest.mark.parametrize("file", FILES)
-def test_in_the_time_that_it_prefers_no_joint_turns_faster_than_people_turn_theirs(file, skeleton):
+def test_no_joint_turns_faster_than_in_people_at_the_preferred_duration(skeleton, subtests):
     """8 rad/s is what an elbow does in a quick beat; eyes are quicker."""
-    animation = animation_in(FILES[file], skeleton)
-    poses = rotations(animation, skeleton)
-    steps = 2.0 * np.arccos(np.clip(np.abs((poses[1:] * poses[:-1]).sum(-1)), 0.0, 1.0))
-    assert steps.max() * 40 / animation.timing(animation.values({})).duration < 8.0
+    for file in FILES:
+        with subtests.test(file):
+            animation = load_animation(FILES[file], skeleton)
+            poses = rotations(animation, skeleton)
+            steps = 2.0 * np.arccos(np.clip(np.abs((poses[1:] * poses[:-1]).sum(-1)), 0.0, 1.0))
+            assert steps.max() * 40 / animation.timing(animation.values({})).duration < 8.0
 
 
-@pytest.mark.parametrize(("right", "left"), PAIRS)
-def test_what_the_left_hand_does_is_the_mirror_of_the_right_hand(right, left, skeleton):
-    mirrored = rotations(animation_in(FILES[right], skeleton, mirror=True), skeleton)
-    np.testing.assert_allclose(rotations(animation_in(FILES[left], skeleton), skeleton), mirrored, atol=2e-3)
+def test_animations_of_the_left_hand_mirror_those_of_the_right_hand(skeleton, subtests):
+    for right, left in PAIRS:
+        with subtests.test(left):
+            mirrored = rotations(load_animation(FILES[right], skeleton, mirror=True), skeleton)
+            np.testing.assert_allclose(rotations(load_animation(FILES[left], skeleton), skeleton), mirrored, atol=2e-3)
 
 
-def test_an_animation_can_be_asked_for_by_the_name_of_its_file_alone():
+def test_an_animation_can_be_chosen_by_file_name_alone():
     names = [Path(name).name for name in FILES]
     assert len(names) == len(set(names))
 
 
-@pytest.mark.parametrize("i", [1, 2, 3, 4])
-def test_a_bar_begins_and_ends_at_its_first_beat(i, skeleton):
-    poses = rotations(animation_in(FILES[f"conductor/{i}-beat_pattern_RH.xml"], skeleton), skeleton)
-    np.testing.assert_allclose(poses[-1], poses[0], atol=1e-9)
+def test_a_bar_begins_and_ends_at_its_first_beat(skeleton, subtests):
+    for i in [1, 2, 3, 4]:
+        with subtests.test(f"{i} beats"):
+            poses = rotations(load_animation(FILES[f"conductor/{i}-beat_pattern_RH.xml"], skeleton), skeleton)
+            np.testing.assert_allclose(poses[-1], poses[0], atol=1e-9)

@@ -1,4 +1,4 @@
-"""What the realizer and the page rely on in the default avatars."""
+"""Properties of the default avatars on which the realizer and the page rely."""
 
 import json
 import struct
@@ -121,7 +121,7 @@ def test_the_face_has_the_52_blend_shapes_of_arkit_in_the_order_of_their_names(a
     assert {len(primitive["targets"]) for primitive in face["primitives"]} == {52}
 
 
-def test_only_the_face_is_moved_by_blend_shapes(avatar):
+def test_blend_shapes_move_only_the_face(avatar):
     deformed = {mesh["name"] for mesh in avatar["meshes"] for part in mesh["primitives"] if "targets" in part}
     assert deformed == {"Face"}
 

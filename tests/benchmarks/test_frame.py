@@ -1,4 +1,4 @@
-"""``python -m benchmarks`` measures what is named, prints it, and compares it with the last time."""
+"""Runs benchmarks by name, prints their results, and compares them with the last ones."""
 
 import importlib
 import json
@@ -15,7 +15,7 @@ MODULES = sorted(path.stem for path in (ROOT / "benchmarks").glob("*.py") if not
 
 @pytest.fixture
 def frame(monkeypatch, tmp_path):
-    """The frame, with a history of its own and a benchmark that takes no time."""
+    """The command, with a history of its own and a benchmark that takes no time."""
     monkeypatch.syspath_prepend(ROOT)
     frame = importlib.import_module("benchmarks.__main__")
     values = iter(range(1, 9))
@@ -27,14 +27,14 @@ def frame(monkeypatch, tmp_path):
     return frame
 
 
-def test_the_last_line_is_one_json_object_with_machine_and_commit(frame, capsys) -> None:
+def test_the_json_output_has_the_numbers_the_machine_and_the_commit(frame, capsys) -> None:
     frame.run("quick", as_json=True, keep=False)
     said = json.loads(capsys.readouterr().out.splitlines()[-1])
     assert said == {"a": {"b": 2.0}, "c": None, "machine": {"cpu": "abacus", "load": 0.5}, "commit": "1234567"}
     assert not frame.HISTORY.exists()
 
 
-def test_a_table_shows_aims_and_the_ratio_to_the_last_time(frame, capsys) -> None:
+def test_the_table_shows_aims_and_ratios_to_the_last_result(frame, capsys) -> None:
     frame.run("other", as_json=True, keep=True)
     frame.run("quick", as_json=True, keep=True)
     frame.run("quick", as_json=False, keep=True)
@@ -47,14 +47,14 @@ def test_a_table_shows_aims_and_the_ratio_to_the_last_time(frame, capsys) -> Non
     assert [json.loads(line)["a"]["b"] for line in frame.HISTORY.read_text().splitlines()] == [2.0, 4.0, 6.0]
 
 
-def test_a_benchmark_that_is_not_there_is_an_error_that_names_those_that_are() -> None:
+def test_the_error_of_an_unknown_benchmark_lists_the_known_ones() -> None:
     command = [sys.executable, "-m", "benchmarks", "nonsense"]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
     assert done.returncode == 2
     assert f"no benchmark nonsense; there are {', '.join(MODULES)}" in done.stderr
 
 
-def test_the_machine_is_told_whole(monkeypatch) -> None:
+def test_the_description_of_the_machine_is_complete(monkeypatch) -> None:
     monkeypatch.syspath_prepend(ROOT)
     machine = importlib.import_module("benchmarks.__main__").machine()
     assert list(machine) == ["cpu", "cores", "load", "python"]

@@ -1,4 +1,4 @@
-"""Each benchmark gives all its numbers, or None for one that could not be taken, under the names that the pages use."""
+"""Each benchmark has all its numbers, or None, under the names that the pages use."""
 
 import importlib
 from collections.abc import Iterator, Mapping
@@ -41,7 +41,7 @@ KEYS = {
 
 
 @pytest.mark.parametrize("name", SMALLEST)
-def test_a_benchmark_gives_all_its_numbers_and_has_aims_for_some(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_benchmark_has_all_its_numbers_and_aims_only_for_these(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.syspath_prepend(ROOT)
     module = importlib.import_module(f"benchmarks.{name}")
     numbers = dict(_numbers(module.measure(**SMALLEST[name])))
@@ -50,7 +50,7 @@ def test_a_benchmark_gives_all_its_numbers_and_has_aims_for_some(name: str, monk
     assert set(module.AIMS) <= numbers.keys()
 
 
-def test_every_benchmark_is_among_them() -> None:
+def test_every_benchmark_is_tested() -> None:
     modules = {path.stem for path in (ROOT / "benchmarks").glob("*.py") if not path.stem.startswith("__")}
     assert modules == set(SMALLEST)
 

@@ -1,4 +1,4 @@
-"""What the words of faceLexeme mean on a face."""
+"""Morph weights of face lexemes."""
 
 import json
 from importlib.resources import files
@@ -14,7 +14,7 @@ ASSETS = Path(str(files("reactive_realizer"))) / "assets"
 OURS = read_face_lexemes(ASSETS / "face" / "lexemes.json")
 
 
-def test_every_word_of_bml_is_there():
+def test_every_lexeme_of_bml_is_defined() -> None:
     sides = ["RAISE_{}_BROW", "LOWER_{}_BROW", "LOWER_{}_MOUTH_CORNER", "RAISE_{}_MOUTH_CORNER"]
     both = (
         "OBLIQUE_BROWS RAISE_BROWS LOWER_BROWS LOWER_MOUTH_CORNERS RAISE_MOUTH_CORNERS OPEN_MOUTH OPEN_LIPS WIDEN_EYES"
@@ -25,12 +25,12 @@ def test_every_word_of_bml_is_there():
 
 
 @pytest.mark.parametrize("name", ["female", "male"])
-def test_every_morph_that_a_word_moves_is_on_the_avatars(name):
+def test_every_morph_of_a_lexeme_exists_on_the_avatars(name: str) -> None:
     morphs = set(Avatar.read(ASSETS / "avatars" / f"{name}.glb").morphs)
     assert all(weights and weights.keys() <= morphs for weights in OURS.values())
 
 
-def test_a_word_of_one_side_moves_the_brow_or_the_corner_of_that_side():
+def test_one_sided_lexemes_move_only_that_side() -> None:
     assert "browOuterUpLeft" in OURS["RAISE_LEFT_BROW"]
     assert "browOuterUpRight" not in OURS["RAISE_LEFT_BROW"]
     for left, weights in OURS.items():
@@ -49,7 +49,7 @@ def test_a_word_of_one_side_moves_the_brow_or_the_corner_of_that_side():
         ('{"lexemes": {"SMILE": {"mouthSmileLeft": NaN}}}', r"<SMILE>"),
     ],
 )
-def test_a_wrong_table_is_refused_by_file_and_word(tmp_path, content, message):
+def test_an_invalid_table_is_refused_with_file_and_lexeme(tmp_path: Path, content: str, message: str) -> None:
     path = tmp_path / "face.json"
     path.write_text(content)
     with pytest.raises(RealizerError, match=message):

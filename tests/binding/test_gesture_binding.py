@@ -1,12 +1,14 @@
-"""Which motion plays which behavior."""
+"""Which entries of a gesture binding match a behavior."""
 
+from collections.abc import Callable
 from importlib.resources import files
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-from reactive_realizer.binding.class_names import CLASS_NAMES
-from reactive_realizer.binding.gesture_binding import GestureBinding, numbers
+from reactive_realizer.binding.gesture_binding import GestureBinding, finite_numbers
+from reactive_realizer.binding.unit_spec import CLASS_NAMES
 from reactive_realizer.bml.names import BML, BMLT
 from reactive_realizer.errors import RealizerError
 
@@ -38,7 +40,7 @@ TWO = """<gesturebinding>
 
 
 @pytest.fixture
-def read(tmp_path):
+def read(tmp_path: Path) -> Callable[[str], GestureBinding]:
     def read_text(content: str) -> GestureBinding:
         path = tmp_path / "binding.xml"
         path.write_text(content)
@@ -53,7 +55,7 @@ def files_of(binding: GestureBinding, **attributes: str) -> list[str | None]:
 
 
 @pytest.fixture
-def hands(read) -> GestureBinding:
+def hands(read: Callable[[str], GestureBinding]) -> GestureBinding:
     """One gesture, by three entries: for any hands, for the left one, for the right one."""
     entry = """<MotionUnitSpec type="gesture">
       <constraints><constraint name="lexeme" value="X"/>{mode}</constraints>
@@ -64,28 +66,28 @@ def hands(read) -> GestureBinding:
     return read(f"<gesturebinding>{content}</gesturebinding>")
 
 
-def test_an_entry_fits_only_if_every_constraint_is_met(read):
+def test_an_entry_fits_only_if_every_constraint_is_met(read: Callable[[str], GestureBinding]) -> None:
     binding = read(TWO)
     assert files_of(binding, lexeme="BEAT", mode="LEFT_HAND", **{"{urn:x}mood": "glad"}) == ["beat.xml"]
     assert files_of(binding, lexeme="BEAT", mode="LEFT_HAND", mood="glad") == ["other.xml"]
     assert files_of(binding, lexeme="OTHER") == []
 
 
-def test_without_a_mode_entries_for_certain_hands_come_after_those_that_want_none(hands):
+def test_without_a_mode_entries_for_specific_hands_come_last(hands: GestureBinding) -> None:
     assert files_of(hands, lexeme="X") == ["any.xml", "left.xml", "right.xml"]
 
 
-def test_with_a_mode_no_entry_for_any_hands_comes_second(hands):
+def test_with_a_mode_entries_for_any_hands_are_no_second_choice(hands: GestureBinding) -> None:
     assert files_of(hands, lexeme="X", mode="LEFT_HAND") == ["any.xml", "left.xml"]
     assert files_of(GestureBinding(hands.specs[::-1], {}), lexeme="X", mode="LEFT_HAND") == ["left.xml"]
 
 
-def test_words_compare_in_any_case_and_with_either_hyphen(read):
+def test_values_compare_without_case_and_with_either_hyphen(read: Callable[[str], GestureBinding]) -> None:
     (spec,) = read(TWO).match("gesture", BML, {"lexeme": "beat", "mode": "Left-Hand", "{urn:x}mood": "GLAD"})
     assert spec.file == "beat.xml"
 
 
-def test_what_bml_calls_by_two_names_is_one_word(read):
+def test_synonyms_of_bml_are_equal(read: Callable[[str], GestureBinding]) -> None:
     binding = read(
         """<gesturebinding><MotionUnitSpec type="gaze">
           <constraints><constraint name="influence" value="neck"/></constraints>
@@ -95,7 +97,7 @@ def test_what_bml_calls_by_two_names_is_one_word(read):
     assert not binding.match("gaze", BML, {"influence": "EYES"})
 
 
-def test_of_several_files_the_entries_of_the_first_come_first(tmp_path):
+def test_entries_of_earlier_files_come_first(tmp_path: Path) -> None:
     for name in ("user", "package"):
         entry = f'<MotionUnitSpec type="gesture"><MotionUnit type="Gesture" file="{name}.xml"/></MotionUnitSpec>'
         (tmp_path / f"{name}_binding.xml").write_text(f"<gesturebinding>{entry}</gesturebinding>")
@@ -103,28 +105,30 @@ def test_of_several_files_the_entries_of_the_first_come_first(tmp_path):
     assert files_of(binding, lexeme="X") == ["user.xml", "package.xml"]
 
 
-def test_an_entry_is_for_one_element_of_one_namespace(read):
+def test_an_entry_is_for_one_element_of_one_namespace(read: Callable[[str], GestureBinding]) -> None:
     binding = read(TWO)
     assert [spec.unit for spec in binding.match("noise", BMLT, {})] == ["Perlin"]
     assert binding.match("noise", BML, {}) == ()
     assert binding.match("head", BML, {"lexeme": "BEAT"}) == ()
 
 
-def test_parameters_are_what_the_behavior_says_or_else_the_defaults(read):
+def test_parameters_come_from_the_behavior_or_the_defaults(read: Callable[[str], GestureBinding]) -> None:
     spec = read(TWO).specs[0]
     assert spec.parameters({"lexeme": "BEAT"}) == {"a": "0.3", "hold": "long"}
     assert spec.parameters({"amount": "0.9"}) == {"a": "0.9", "hold": "long"}
-    assert numbers({"a": "0.9", "hold": "long", "b": "nan", "c": "1e999"}) == {"a": 0.9}
+    assert finite_numbers({"a": "0.9", "hold": "long", "b": "nan", "c": "1e999"}) == {"a": 0.9}
 
 
-def test_a_behavior_may_name_a_parameter_of_the_unit_which_no_map_knows(read):
+def test_a_behavior_may_use_the_names_of_the_units_parameters(read: Callable[[str], GestureBinding]) -> None:
     spec = read(TWO).specs[0]
     assert spec.parameters({}, {"hold": "short", "b": "1"}) == {"a": "0.3", "hold": "short", "b": "1"}
     assert spec.parameters({"amount": "0.9"}, {"a": "0.1"})["a"] == "0.9"
 
 
 @pytest.mark.parametrize(("name", "unit"), CLASS_NAMES.items())
-def test_a_class_of_a_published_binding_is_a_unit_here(read, name, unit):
+def test_a_class_of_a_published_binding_is_a_unit_here(
+    read: Callable[[str], GestureBinding], name: str, unit: Any
+) -> None:
     assert (
         read(
             f"""<gesturebinding><MotionUnitSpec type="gaze">
@@ -136,7 +140,7 @@ def test_a_class_of_a_published_binding_is_a_unit_here(read, name, unit):
     )
 
 
-def test_a_stance_has_its_rest_pose_from_the_first_entry_that_names_one(read):
+def test_a_stance_has_its_rest_pose_from_the_first_entry_that_names_one(read: Callable[[str], GestureBinding]) -> None:
     pose = """<RestPoseSpec><constraints><constraint name="stance" value="{stance}"/></constraints>
       <RestPose type="SkeletonPose" file="{file}"/></RestPoseSpec>"""
     poses = [pose.format(stance="sitting", file="a.xml"), pose.format(stance="SITTING", file="b.xml")]
@@ -152,13 +156,15 @@ def test_a_stance_has_its_rest_pose_from_the_first_entry_that_names_one(read):
          "stance='SITING': known are SITTING, CROUCHING, STANDING, LYING"),
     ],
 )  # fmt: skip
-def test_a_rest_pose_without_a_file_or_a_stance_that_bml_knows_is_left_out_and_noted(read, caplog, content, reason):
+def test_a_rest_pose_without_a_file_or_a_known_stance_is_skipped_and_logged(
+    read: Callable[[str], GestureBinding], caplog: pytest.LogCaptureFixture, content: str, reason: str
+) -> None:
     binding = read(f"<gesturebinding>\n<RestPoseSpec>{content}</RestPoseSpec></gesturebinding>")
     assert binding.rest_poses == {}
-    assert f"line 2, <RestPoseSpec>: {reason}; it is left out" in caplog.text
+    assert f"line 2, <RestPoseSpec>: {reason}; it is skipped" in caplog.text
 
 
-def test_a_rest_gaze_is_what_plays_a_gaze_shift(read):
+def test_a_rest_gaze_plays_gaze_shifts(read: Callable[[str], GestureBinding]) -> None:
     binding = read(
         """<gesturebinding><RestGazeSpec>
           <parametermap><parameter src="target" dst="target"/></parametermap>
@@ -194,23 +200,25 @@ def test_a_rest_gaze_is_what_plays_a_gaze_shift(read):
         (
             '<gesturebinding>\n<MotionUnitSpec type="gesture"><constraints><constraint name="mode" value="FOOT"/>'
             '</constraints><MotionUnit type="Gesture" file="y"/></MotionUnitSpec></gesturebinding>',
-            r"line 2, <MotionUnitSpec>: a constraint: known are LEFT_HAND, RIGHT_HAND, BOTH_HANDS",
+            r"line 2, <MotionUnitSpec>: a constraint: not one of LEFT_HAND, RIGHT_HAND, BOTH_HANDS",
         ),
         (
             '<gesturebinding><MotionUnitSpec type="a b">'
             '<MotionUnit type="x" file="y"/></MotionUnitSpec></gesturebinding>',
-            r"<MotionUnitSpec>: 'a b' of 'http://www.bml-initiative.org/bml/bml-1.0' is no name",
+            r"<MotionUnitSpec>: 'a b' of 'http://www.bml-initiative.org/bml/bml-1.0' is not a valid name",
         ),
         ("<gesturebinding><RestGazeSpec/></gesturebinding>", r"<RestGazeSpec>: no RestGaze inside"),
     ],
 )
-def test_a_wrong_binding_is_refused_by_file_line_element_and_reason(read, content, message):
+def test_an_invalid_binding_is_refused_with_file_line_element_and_reason(
+    read: Callable[[str], GestureBinding], content: str, message: str
+) -> None:
     with pytest.raises(RealizerError, match=message) as caught:
         read(content)
     assert caught.value.fault.code == "bad-asset"
 
 
-def test_the_binding_of_the_peer_is_read_and_finds_its_nod(shared_cases):
+def test_asaprealizers_binding_is_read_and_finds_its_nod(shared_cases: Path) -> None:
     binding = GestureBinding.read(shared_cases / "asap" / "gesturebinding" / "gesturebinding.xml")
     assert len(binding.specs) == 79
     assert binding.rest_poses.keys() == {"SITTING"}
@@ -225,7 +233,9 @@ OURS = GestureBinding.read(ASSETS / "gesturebinding.xml")
 
 @pytest.mark.parametrize("lexeme", ["BEAT", "OFFER", "GREET", "WAVE", "CONDUCT", "SELF", "ONE", "REFUSE"])
 @pytest.mark.parametrize(("mode", "mirror"), [("RIGHT_HAND", None), ("LEFT_HAND", "true"), (None, None)])
-def test_our_binding_has_every_gesture_for_either_hand_and_the_right_one_by_default(lexeme, mode, mirror):
+def test_the_default_binding_has_every_gesture_for_either_hand_and_prefers_the_right_one(
+    lexeme: str, mode: str | None, mirror: str | None
+) -> None:
     attributes = {"lexeme": lexeme} | ({"mode": mode} if mode else {})
     spec = OURS.match("gesture", BML, attributes)[0]
     assert spec.file is not None
@@ -234,26 +244,26 @@ def test_our_binding_has_every_gesture_for_either_hand_and_the_right_one_by_defa
 
 
 @pytest.mark.parametrize("lexeme", ["BEAT", "OFFER"])
-def test_our_binding_has_beat_and_offer_for_both_hands(lexeme):
+def test_the_default_binding_has_beat_and_offer_for_both_hands(lexeme: str) -> None:
     assert OURS.match("gesture", BML, {"lexeme": lexeme, "mode": "BOTH_HANDS"})[0].file == (
         f"procanimation/{lexeme.lower()}_both.xml"
     )
 
 
 @pytest.mark.parametrize("lexeme", ["NOD", "SHAKE", "TILT", "TOSS", "WIGGLE"])
-def test_our_binding_maps_amount_and_repetition_of_head_movements(lexeme):
+def test_the_default_binding_maps_amount_and_repetition_of_head_movements(lexeme: str) -> None:
     attributes = {"lexeme": lexeme, "amount": "0.7", "repetition": "3"}
     (spec,) = OURS.match("head", BML, attributes)
-    assert numbers(spec.parameters(attributes)) == {"a": 0.7, "r": 3.0}
+    assert finite_numbers(spec.parameters(attributes)) == {"a": 0.7, "r": 3.0}
 
 
-def test_every_file_that_our_binding_names_is_there():
+def test_every_file_of_the_default_binding_exists() -> None:
     files = [spec.file for spec in OURS.specs if spec.file is not None]
     assert files
     assert all((ASSETS / file).is_file() for file in files)
 
 
-def test_a_binding_of_100_megabytes_is_refused_before_it_is_read(tmp_path):
+def test_a_binding_of_100_megabytes_is_refused_before_it_is_read(tmp_path: Path) -> None:
     path = tmp_path / "binding.xml"
     with path.open("wb") as file:
         file.truncate(100_000_000)

@@ -1,4 +1,4 @@
-"""How the tests of this room read BML."""
+"""Fixtures that read BML."""
 
 from collections.abc import Callable
 
@@ -14,7 +14,7 @@ Read = Callable[[str], Parsed]
 
 @pytest.fixture
 def read() -> Read:
-    """What came of the one block with the id b and these elements inside; prefixes ext, bmla and bmlt are declared."""
+    """Reads the content of a block b, with the prefixes ext, bmla and bmlt declared."""
 
     def read_inside(inside: str) -> Parsed:
         (parsed,) = parse(
@@ -28,7 +28,7 @@ def read() -> Read:
 
 @pytest.fixture
 def block(read: Read) -> Callable[[str], BehaviorBlock]:
-    """The same where nothing is wrong with it."""
+    """The block, which must have no problems."""
 
     def block_inside(inside: str) -> BehaviorBlock:
         parsed = read(inside)

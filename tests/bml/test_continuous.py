@@ -1,4 +1,4 @@
-"""Continuous interaction: what BMLA and BMLT write at a block and in it."""
+"""Continuous interaction: the attributes and elements of BMLA and BMLT."""
 
 from collections.abc import Callable
 
@@ -6,11 +6,11 @@ import pytest
 
 from reactive_realizer.bml.behavior import ForeignBehavior
 from reactive_realizer.bml.block import BehaviorBlock, Parsed
-from reactive_realizer.bml.continuous import Activate, ParameterValueChange
 from reactive_realizer.bml.document import parse
+from reactive_realizer.bml.extensions import Activate, ParameterValueChange
 from reactive_realizer.bml.names import BML, BMLA, BMLT
 from reactive_realizer.bml.references import check_references
-from reactive_realizer.bml.words import Composition
+from reactive_realizer.bml.vocabulary import Composition
 from reactive_realizer.errors import WarningType
 from reactive_realizer.limits import Limits
 
@@ -25,92 +25,97 @@ def block_with(attributes: str, namespace: str = BMLA) -> Parsed:
     return parsed
 
 
-@TWICE
-@pytest.mark.parametrize(
-    ("attribute", "field"),
-    [
-        ("appendAfter", "append_after"),
-        ("chunkAfter", "chunk_after"),
-        ("prependBefore", "prepend_before"),
-        ("chunkBefore", "chunk_before"),
-        ("interrupt", "interrupts"),
-        ("onStart", "on_start"),
-    ],
-)
-def test_a_block_lists_other_blocks_in_either_namespace(attribute: str, field: str, namespace: str) -> None:
-    parsed = block_with(f'x:{attribute}=" b1, b-2,b1 "', namespace)
-    assert not parsed.problems
-    assert getattr(parsed.block, field) == ("b1", "b-2")
-    assert parsed.block
-    assert not parsed.block.extensions
+BLOCK_LISTS = [
+    ("appendAfter", "append_after"),
+    ("chunkAfter", "chunk_after"),
+    ("prependBefore", "prepend_before"),
+    ("chunkBefore", "chunk_before"),
+    ("interrupt", "interrupts"),
+    ("onStart", "on_start"),
+]
 
 
 @TWICE
-@pytest.mark.parametrize(("word", "planned"), [("true", True), ("FALSE", False), ("1", True), (" 0 ", False)])
-def test_a_block_may_be_planned_ahead(word: str, planned: bool, namespace: str) -> None:
-    parsed = block_with(f'x:preplan="{word}" x:allowexternalrefs="{word}"', namespace)
-    assert not parsed.problems
-    assert parsed.block
-    assert (parsed.block.preplan, parsed.block.external_refs) == (planned, planned)
+def test_a_block_lists_other_blocks_in_either_namespace(namespace: str, subtests: pytest.Subtests) -> None:
+    for attribute, field in BLOCK_LISTS:
+        with subtests.test(attribute):
+            parsed = block_with(f'x:{attribute}=" b1, b-2,b1 "', namespace)
+            assert not parsed.problems
+            assert getattr(parsed.block, field) == ("b1", "b-2")
+            assert parsed.block
+            assert not parsed.block.extensions
 
 
-def test_without_any_of_it_a_block_waits_for_nobody() -> None:
+BOOLEANS = [("true", True), ("FALSE", False), ("1", True), (" 0 ", False)]
+
+
+@TWICE
+def test_a_block_may_be_preplanned(namespace: str, subtests: pytest.Subtests) -> None:
+    for word, planned in BOOLEANS:
+        with subtests.test(word):
+            parsed = block_with(f'x:preplan="{word}" x:allowexternalrefs="{word}"', namespace)
+            assert not parsed.problems
+            assert parsed.block
+            assert (parsed.block.preplan, parsed.block.external_refs) == (planned, planned)
+
+
+def test_a_block_without_attributes_waits_for_no_other_block() -> None:
     (block,) = (parsed.block for parsed in parse('<bml id="b"/>', Limits()))
     assert block
     assert (block.append_after, block.chunk_after, block.prepend_before, block.chunk_before) == ((), (), (), ())
     assert (block.interrupts, block.on_start, block.preplan) == ((), (), False)
 
 
-@pytest.mark.parametrize(
-    ("written", "sentence"),
-    [
-        ('x:preplan="maybe"', "preplan='maybe' of <bml>: known are true, false"),
-        ('x:onStart="a,b c"', "onStart='a,b c' of <bml>: an id has 1 to 200 characters"),
-        ('x:chunkAfter="a,"', "chunkAfter='a,' of <bml>: an id has 1 to 200 characters"),
-        ('composition="APPEND-AFTER(a"', "composition='APPEND-AFTER(a' of <bml>: known are MERGE"),
-        ('composition="APPEND-AFTER(a b)"', "composition='APPEND-AFTER(a b)' of <bml>: an id has 1 to 200"),
-        ('appendAfter="a"', "unknown attribute appendAfter of <bml>; known are id, characterId, composition"),
-    ],
-)
-def test_a_bad_one_is_named_and_has_its_default(written: str, sentence: str) -> None:
-    parsed = block_with(written)
-    (problem,) = parsed.problems
-    assert problem.fault.kind.warning is WarningType.PARSING_FAILURE
-    assert problem.fault.sentence.startswith(sentence)
-    default = block_with("").block
-    assert default
-    assert parsed.block
-    assert (parsed.block.composition, parsed.block.append_after) == (default.composition, default.append_after)
+BAD_ATTRIBUTES = [
+    ('x:preplan="maybe"', "preplan='maybe' of <bml>: not one of true, false"),
+    ('x:onStart="a,b c"', "onStart='a,b c' of <bml>: an id must have 1 to 200 characters"),
+    ('x:chunkAfter="a,"', "chunkAfter='a,' of <bml>: an id must have 1 to 200 characters"),
+    ('composition="APPEND-AFTER(a"', "composition='APPEND-AFTER(a' of <bml>: not one of MERGE"),
+    ('composition="APPEND-AFTER(a b)"', "composition='APPEND-AFTER(a b)' of <bml>: an id must have 1 to 200"),
+    ('appendAfter="a"', "unknown attribute appendAfter of <bml>; known: id, characterId, composition"),
+]
 
 
-@pytest.mark.parametrize(
-    ("word", "appended", "chunked"),
-    [
-        ("APPEND-AFTER(b1,b2)", ("b1", "b2"), ()),
-        ("append_after( b1 , b2 )", ("b1", "b2"), ()),
-        ("Append-After (b1)", ("b1",), ()),
-        ("APPENDAFTER()", (), ()),
-        ("CHUNK-AFTER(b1)", (), ("b1",)),
-    ],
-)
-def test_a_composition_may_name_the_blocks_it_waits_for(
-    word: str, appended: tuple[str, ...], chunked: tuple[str, ...]
-) -> None:
-    parsed = block_with(f'composition="{word}"')
-    assert not parsed.problems
-    assert parsed.block
-    assert parsed.block.composition is Composition.MERGE
-    assert (parsed.block.append_after, parsed.block.chunk_after) == (appended, chunked)
+def test_a_bad_attribute_is_reported_and_has_its_default(subtests: pytest.Subtests) -> None:
+    for written, sentence in BAD_ATTRIBUTES:
+        with subtests.test(written):
+            parsed = block_with(written)
+            (problem,) = parsed.problems
+            assert problem.fault.warning is WarningType.PARSING_FAILURE
+            assert problem.fault.sentence.startswith(sentence)
+            default = block_with("").block
+            assert default
+            assert parsed.block
+            assert (parsed.block.composition, parsed.block.append_after) == (default.composition, default.append_after)
 
 
-def test_blocks_named_by_composition_and_attribute_are_waited_for_together() -> None:
+COMPOSITIONS = [
+    ("APPEND-AFTER(b1,b2)", ("b1", "b2"), ()),
+    ("append_after( b1 , b2 )", ("b1", "b2"), ()),
+    ("Append-After (b1)", ("b1",), ()),
+    ("APPENDAFTER()", (), ()),
+    ("CHUNK-AFTER(b1)", (), ("b1",)),
+]
+
+
+def test_a_composition_may_list_the_blocks_for_which_it_waits(subtests: pytest.Subtests) -> None:
+    for word, appended, chunked in COMPOSITIONS:
+        with subtests.test(word):
+            parsed = block_with(f'composition="{word}"')
+            assert not parsed.problems
+            assert parsed.block
+            assert parsed.block.composition is Composition.MERGE
+            assert (parsed.block.append_after, parsed.block.chunk_after) == (appended, chunked)
+
+
+def test_the_blocks_of_composition_and_attribute_are_combined() -> None:
     block = block_with('composition="APPEND-AFTER(b1,b2)" x:appendAfter="b2,b3"').block
     assert block
     assert block.append_after == ("b1", "b2", "b3")
 
 
 @TWICE
-def test_the_elements_are_the_same_in_either_namespace_and_keep_it(block: Block, namespace: str) -> None:
+def test_elements_of_either_namespace_are_read_alike_and_keep_it(block: Block, namespace: str) -> None:
     (change,) = block(
         f'<parametervaluechange xmlns="{namespace}" id="p" target="s" paramId="volume" stroke="2">'
         '<trajectory type="instant" targetValue="90"/></parametervaluechange>'
@@ -121,19 +126,20 @@ def test_the_elements_are_the_same_in_either_namespace_and_keep_it(block: Block,
     assert (change.trajectory.type, change.trajectory.initial_value) == ("instant", None)
 
 
-@pytest.mark.parametrize("prefix", ["bmla:", "bmlt:", ""])
-def test_the_trajectory_may_do_without_the_prefix(block: Block, prefix: str) -> None:
-    (change,) = block(
-        '<bmlt:parametervaluechange id="p" target="s" paramId="volume">'
-        f'<{prefix}trajectory type="instant" targetValue="90"/></bmlt:parametervaluechange>'
-    ).behaviors
-    assert isinstance(change, ParameterValueChange)
+def test_a_trajectory_needs_no_prefix(block: Block, subtests: pytest.Subtests) -> None:
+    for prefix in ["bmla:", "bmlt:", ""]:
+        with subtests.test(prefix):
+            (change,) = block(
+                '<bmlt:parametervaluechange id="p" target="s" paramId="volume">'
+                f'<{prefix}trajectory type="instant" targetValue="90"/></bmlt:parametervaluechange>'
+            ).behaviors
+            assert isinstance(change, ParameterValueChange)
 
 
-def test_the_elements_of_continuous_interaction_are_none_of_the_core(read: Read) -> None:
+def test_elements_of_continuous_interaction_are_not_part_of_bml_1_0(read: Read) -> None:
     parsed = read('<activate id="a" target="b1"/>')
     (problem,) = parsed.problems
-    assert problem.fault.kind.warning is WarningType.BEHAVIOR_TYPE_NOT_SUPPORTED
+    assert problem.fault.warning is WarningType.BEHAVIOR_TYPE_NOT_SUPPORTED
     assert "parametervaluechange" not in problem.fault.sentence
 
 
@@ -149,14 +155,14 @@ def test_elements_without_an_id_get_the_next_free_one(block: Block) -> None:
     assert 'id="activate1"' in behaviors[1].source
 
 
-def test_other_blocks_have_sync_points_where_no_behavior_has_their_name(block: Block) -> None:
+def test_a_name_that_is_no_behavior_of_the_block_is_another_block(block: Block) -> None:
     read = block('<wait id="w" start="b1:relax" end="g:end"/><wait id="g" start="b1:end+1" end="b1:w:end"/>')
     named = [(ref.block, ref.behavior, ref.sync) for each in read.behaviors for ref in each.syncs.values()]
     assert named == [("b1", None, "relax"), (None, "g", "end"), ("b1", None, "end"), ("b1", "w", "end")]
     assert check_references(read) == ()
 
 
-def test_a_behavior_that_cannot_be_read_is_no_block(read: Read) -> None:
+def test_the_name_of_an_unreadable_behavior_is_not_read_as_a_block(read: Read) -> None:
     parsed = read('<wait id="w" start="lost:end"/><wait id="lost" duration="long"/>')
     assert parsed.block
     assert [problem.fault.code for problem in check_references(parsed.block)] == ["lost-with"]

@@ -1,34 +1,41 @@
-"""Documents without a namespace: what the drafts of BML wrote otherwise."""
+"""Documents without a namespace, which are read as drafts before BML 1.0."""
 
 from pathlib import Path
 
 import pytest
 
 from reactive_realizer.bml.behavior import Behavior
-from reactive_realizer.bml.behaviors import Gaze, Gesture, Head, Pointing, Speech
-from reactive_realizer.bml.block import BehaviorBlock, Parsed
-from reactive_realizer.bml.constraint import Order, Synchronize
+from reactive_realizer.bml.behaviors import (
+    Face,
+    FaceFacs,
+    FaceLexeme,
+    Gaze,
+    Gesture,
+    Head,
+    Pointing,
+    Pose,
+    Posture,
+    PostureShift,
+    Speech,
+)
+from reactive_realizer.bml.block import BehaviorBlock, Order, Parsed, Synchronize
 from reactive_realizer.bml.document import parse
-from reactive_realizer.bml.face import Face, FaceFacs, FaceLexeme
 from reactive_realizer.bml.names import BML, BMLT, Location
-from reactive_realizer.bml.posture import Pose, Posture, PostureShift
 from reactive_realizer.bml.references import check_references
-from reactive_realizer.bml.words import Composition, Influence, Mode, PosePart, Side, StanceType
+from reactive_realizer.bml.vocabulary import Composition, Influence, Mode, PosePart, Side, StanceType
 from reactive_realizer.limits import Limits
 
 OWN = Path(__file__).parents[1] / "data" / "bml" / "drafts"
-CASES = Path(__file__).parents[3] / "shared" / "cases" / "realizertester"
-PEERS = [path for draft in ("draft1", "viennadraft") for path in sorted((CASES / draft).rglob("*.xml"))]
 
 
 def read(inside: str, attributes: str = "") -> Parsed:
-    """What came of the block b of a draft; the prefix bmlt is declared."""
+    """The result of reading the block b of a draft, with the prefix bmlt declared."""
     (parsed,) = parse(f'<bml xmlns:bmlt="{BMLT}" id="b" {attributes}>{inside}</bml>', Limits())
     return parsed
 
 
 def block(inside: str, attributes: str = "") -> BehaviorBlock:
-    """The same where nothing is wrong with it."""
+    """The block, which must have no problems."""
     parsed = read(inside, attributes)
     assert parsed.block is not None
     assert not parsed.problems
@@ -81,26 +88,26 @@ WRITTEN: dict[str, tuple[type[Behavior], dict[str, object]]] = {
 }
 
 
-@pytest.mark.parametrize("xml", WRITTEN)
-def test_what_a_draft_writes_is_a_behavior_of_bml_1_0(xml: str) -> None:
-    kind, values = WRITTEN[xml]
-    (behavior,) = block(xml).behaviors
-    assert type(behavior) is kind
-    assert {name: getattr(behavior, name) for name in values} == values
+def test_a_behavior_of_a_draft_becomes_one_of_bml_1_0(subtests: pytest.Subtests) -> None:
+    for xml, (kind, values) in WRITTEN.items():
+        with subtests.test(xml):
+            (behavior,) = block(xml).behaviors
+            assert type(behavior) is kind
+            assert {name: getattr(behavior, name) for name in values} == values
 
 
-def test_a_description_stays_as_it_is_written() -> None:
+def test_the_content_of_a_description_is_not_rewritten() -> None:
     (speech,) = block(
         '<speech id="s"><text>Hi</text><description priority="1" type="t"><tm id="a"/></description></speech>'
     ).behaviors
     assert speech.descriptions[0].content == f'<tm xmlns:bmlt="{BMLT}" id="a"/>'
 
 
-def test_a_draft_has_the_elements_of_bml_1_0_too() -> None:
+def test_a_draft_may_have_elements_of_bml_1_0() -> None:
     assert len(block('<gesture id="g" lexeme="BEAT" mode="LEFT_HAND"/><wait id="w" duration="1"/>').behaviors) == 2
 
 
-def test_sync_points_may_be_spelled_with_an_underscore() -> None:
+def test_sync_points_of_drafts_may_be_spelled_with_an_underscore() -> None:
     (one, two) = block(
         '<gesture id="g" type="BEAT" stroke_start="1"/><head id="h" type="NOD" start="g:stroke_end+1"/>'
     ).behaviors
@@ -108,7 +115,7 @@ def test_sync_points_may_be_spelled_with_an_underscore() -> None:
     assert str(two.syncs["start"]) == "g:strokeEnd+1"
 
 
-def test_a_mark_keeps_the_name_that_it_has() -> None:
+def test_a_mark_keeps_its_name() -> None:
     read = block('<speech id="s">Oh <tm id="stroke_start"/>no</speech><head id="h" type="NOD" start="s:stroke_start"/>')
     assert check_references(read) == ()
 
@@ -124,37 +131,40 @@ def test_the_reference_of_a_synchronize_is_one_of_its_points() -> None:
     assert [str(ref) for ref in order.refs] == ["h:strokeStart"]
 
 
-@pytest.mark.parametrize(
-    ("written", "composition", "appended", "chunked"),
-    [
-        ('scheduling="append"', Composition.APPEND, (), ()),
-        ('scheduling="append-after(b1,b2)"', Composition.MERGE, ("b1", "b2"), ()),
-        ('start="b1:end"', Composition.MERGE, ("b1",), ()),
-        ('start="b1:relax" bmlt:chunkAfter="b2"', Composition.MERGE, (), ("b2", "b1")),
-    ],
-)
-def test_a_block_says_how_it_joins_others_in_the_words_of_the_drafts(
-    written: str, composition: Composition, appended: tuple[str, ...], chunked: tuple[str, ...]
-) -> None:
-    read = block("", written)
-    assert (read.composition, read.append_after, read.chunk_after) == (composition, appended, chunked)
+COMPOSITIONS = [
+    ('scheduling="append"', Composition.APPEND, (), ()),
+    ('scheduling="append-after(b1,b2)"', Composition.MERGE, ("b1", "b2"), ()),
+    ('start="b1:end"', Composition.MERGE, ("b1",), ()),
+    ('start="b1:relax" bmlt:chunkAfter="b2"', Composition.MERGE, (), ("b2", "b1")),
+]
 
 
-@pytest.mark.parametrize("end", ['relax="3"', 'end="3"'])
-@pytest.mark.parametrize("element", ['gaze id="x" target="box"', 'posture id="x" stance="sitting"'])
-def test_a_gaze_or_posture_of_which_nothing_says_the_end_persists(element: str, end: str) -> None:
-    assert [getattr(each, "persistent", None) for each in block(f"<{element}/>").behaviors] == [True]
-    assert [getattr(each, "persistent", None) for each in block(f"<{element} {end}/>").behaviors] == [False]
+def test_the_composition_of_a_draft_is_read(subtests: pytest.Subtests) -> None:
+    for written, composition, appended, chunked in COMPOSITIONS:
+        with subtests.test(written):
+            read = block("", written)
+            assert (read.composition, read.append_after, read.chunk_after) == (composition, appended, chunked)
 
 
-def test_a_tie_to_its_end_is_an_end_and_what_begins_there_is_none() -> None:
+ELEMENTS_WITHOUT_END = ['gaze id="x" target="box"', 'posture id="x" stance="sitting"']
+
+
+def test_a_gaze_or_posture_without_an_end_persists(subtests: pytest.Subtests) -> None:
+    for element in ELEMENTS_WITHOUT_END:
+        for end in ['relax="3"', 'end="3"']:
+            with subtests.test(f"{element} {end}"):
+                assert [getattr(each, "persistent", None) for each in block(f"<{element}/>").behaviors] == [True]
+                assert [getattr(each, "persistent", None) for each in block(f"<{element} {end}/>").behaviors] == [False]
+
+
+def test_a_constraint_on_the_end_of_a_gaze_ends_it_and_a_behavior_that_starts_there_does_not() -> None:
     tie = '<constraint><synchronize ref="b1:two:end"><sync ref="one:end"/></synchronize></constraint>'
     gazes = '<gaze id="one" target="box"/><gaze id="two" target="box"/>'
     read = block(f'{gazes}<head id="h" type="NOD" start="two:end"/>{tie}', 'bmlt:allowexternalrefs="true"')
     assert [each.persistent for each in read.behaviors if isinstance(each, Gaze)] == [False, True]
 
 
-def test_nothing_persists_in_bml_1_0_and_no_shift_in_a_draft() -> None:
+def test_nothing_persists_in_bml_1_0_and_no_shift_persists_in_a_draft() -> None:
     gaze = '<gaze id="g" target="box"/>'
     (parsed,) = parse(f'<bml xmlns="{BML}" id="b">{gaze}</bml>', Limits())
     assert parsed.block is not None
@@ -166,49 +176,54 @@ def test_nothing_persists_in_bml_1_0_and_no_shift_in_a_draft() -> None:
 OUTSIDE = '<head id="h" type="NOD" start="{}"/>'
 
 
-def test_behaviors_of_other_blocks_may_be_named_where_the_block_says_so() -> None:
+def test_a_draft_may_refer_to_behaviors_of_other_blocks_only_if_it_says_so() -> None:
     (problem,) = read(OUTSIDE.format("b1:g:end")).problems
     assert problem.id == "b:h"
     assert problem.fault.sentence.endswith(
-        "a behavior of another block; a draft has to say bmlt:allowexternalrefs='true'"
+        "this behavior belongs to another block; a draft must set bmlt:allowexternalrefs='true' to refer to it"
     )
     assert block(OUTSIDE.format("b1:g:end"), 'bmlt:allowexternalrefs="true"').external_refs
 
 
-@pytest.mark.parametrize("ref", ["anticipators:a:stop+1", "b1:relax", "b1:end", "b:h:end", "b1:2"])
-def test_blocks_anticipators_and_the_own_block_may_always_be_named(ref: str) -> None:
-    block(OUTSIDE.format(ref))
+ALWAYS_ALLOWED = ["anticipators:a:stop+1", "b1:relax", "b1:end", "b:h:end", "b1:2"]
 
 
-def test_bml_1_0_names_behaviors_of_other_blocks_without_saying_so() -> None:
+def test_blocks_anticipators_and_the_own_block_may_always_be_referenced(subtests: pytest.Subtests) -> None:
+    for ref in ALWAYS_ALLOWED:
+        with subtests.test(ref):
+            block(OUTSIDE.format(ref))
+
+
+def test_bml_1_0_may_always_refer_to_behaviors_of_other_blocks() -> None:
     (parsed,) = parse(f'<bml xmlns="{BML}" id="b"><wait id="w" start="b1:g:end"/></bml>', Limits())
     assert not parsed.problems
 
 
 DROPPED = {
-    '<gaze id="x" type="AVERT" target="box"/>': "type='AVERT' of <gaze>: known are AT",
-    '<head id="x" action="ORIENTATION" rotation="NOD"/>': "action='ORIENTATION' of <head>: known are ROTATION",
-    '<head id="x" action="ROTATION"/>': "<head> needs the attribute 'lexeme'",
-    '<gesture id="x" type="LEXICALIZED"/>': "<gesture> needs the attribute 'lexeme'",
-    '<gesture id="x" type="POINT"/>': "<pointing> needs the attribute 'target'",
-    '<gesture id="x" type="BEAT" hand="THIRD"/>': "mode='THIRD' of <gesture>: known are LEFT_HAND, RIGHT_HAND, "
+    '<gaze id="x" type="AVERT" target="box"/>': "type='AVERT' of <gaze>: not one of AT",
+    '<head id="x" action="ORIENTATION" rotation="NOD"/>': "action='ORIENTATION' of <head>: not one of ROTATION",
+    '<head id="x" action="ROTATION"/>': "<head> requires the attribute 'lexeme'",
+    '<gesture id="x" type="LEXICALIZED"/>': "<gesture> requires the attribute 'lexeme'",
+    '<gesture id="x" type="POINT"/>': "<pointing> requires the attribute 'target'",
+    '<gesture id="x" type="BEAT" hand="THIRD"/>': "mode='THIRD' of <gesture>: not one of LEFT_HAND, RIGHT_HAND, "
     "BOTH_HANDS",
-    '<face id="x" type="EYEBROWS"/>': "type='EYEBROWS' of <face>: known are FACS, LEXICALIZED",
-    '<face id="x" type="FACS"/>': "<faceFacs> needs the attribute 'au'",
-    '<posture id="x" part="lower"/>': "<posture> needs <stance> or <pose> in it",
-    '<posture id="x" stance="flying"/>': "type='flying' of <stance>: known are SITTING, CROUCHING, STANDING, LYING",
-    '<speech id="x"/>': "<speech> needs <text> in it",
-    '<constraint id="x"><synchronize ref="1"/></constraint>': "<synchronize> needs <sync> and <sync> in it",
+    '<face id="x" type="EYEBROWS"/>': "type='EYEBROWS' of <face>: not one of FACS, LEXICALIZED",
+    '<face id="x" type="FACS"/>': "<faceFacs> requires the attribute 'au'",
+    '<posture id="x" part="lower"/>': "<posture> must contain <stance> or <pose>",
+    '<posture id="x" stance="flying"/>': "type='flying' of <stance>: not one of SITTING, CROUCHING, STANDING, LYING",
+    '<speech id="x"/>': "<speech> must contain <text>",
+    '<constraint id="x"><synchronize ref="1"/></constraint>': "<synchronize> must contain <sync> and <sync>",
 }
 
 
-@pytest.mark.parametrize("bad", DROPPED)
-def test_what_cannot_be_said_in_bml_1_0_is_dropped_with_one_problem_in_its_place(bad: str) -> None:
-    (parsed,) = parse(f'<bml id="b">\n {bad}\n <wait id="after"/></bml>', Limits())
-    assert parsed.block is not None
-    assert [each.id for each in parsed.block.behaviors] == ["after"]
-    (problem,) = parsed.problems
-    assert (problem.id, problem.fault.sentence, problem.fault.line) == ("b:x", DROPPED[bad], 2)
+def test_what_bml_1_0_cannot_express_is_dropped_with_one_problem_at_its_location(subtests: pytest.Subtests) -> None:
+    for bad in DROPPED:
+        with subtests.test(bad):
+            (parsed,) = parse(f'<bml id="b">\n {bad}\n <wait id="after"/></bml>', Limits())
+            assert parsed.block is not None
+            assert [each.id for each in parsed.block.behaviors] == ["after"]
+            (problem,) = parsed.problems
+            assert (problem.id, problem.fault.sentence, problem.fault.line) == ("b:x", DROPPED[bad], 2)
 
 
 KEPT = {
@@ -217,20 +232,21 @@ KEPT = {
     '<head id="x" rotation="NOD" type="SHAKE"/>': "unknown attribute type of <head>",
     '<posture id="x" stance="sitting" part="upper"/>': "unknown attribute part of <posture>",
     '<speech id="x" type="application/ssml+xml">Hi</speech>': "unknown attribute type of <speech>",
-    '<speech id="x">Hi <b>you</b></speech>': "unknown b in <text>; known are sync",
+    '<speech id="x">Hi <b>you</b></speech>': "unknown b in <text>; known: sync",
 }
 
 
-@pytest.mark.parametrize("odd", KEPT)
-def test_what_is_not_known_is_passed_over_with_one_problem(odd: str) -> None:
-    parsed = read(odd)
-    assert parsed.block is not None
-    assert len(parsed.block.behaviors) == 1
-    (problem,) = parsed.problems
-    assert problem.fault.sentence.startswith(KEPT[odd])
+def test_unknown_content_of_a_draft_is_ignored_with_one_problem(subtests: pytest.Subtests) -> None:
+    for odd in KEPT:
+        with subtests.test(odd):
+            parsed = read(odd)
+            assert parsed.block is not None
+            assert len(parsed.block.behaviors) == 1
+            (problem,) = parsed.problems
+            assert problem.fault.sentence.startswith(KEPT[odd])
 
 
-def test_a_composition_comes_before_a_scheduling() -> None:
+def test_composition_takes_precedence_over_scheduling() -> None:
     parsed = read("", 'scheduling="append" composition="replace"')
     (problem,) = parsed.problems
     assert problem.fault.sentence.startswith("unknown attribute scheduling of <bml>")
@@ -238,14 +254,14 @@ def test_a_composition_comes_before_a_scheduling() -> None:
     assert parsed.block.composition is Composition.REPLACE
 
 
-def test_a_start_of_a_block_elsewhere_is_not_understood() -> None:
+def test_a_block_cannot_start_at_the_stroke_of_a_behavior() -> None:
     (problem,) = read("", 'start="g:stroke"').problems
     assert problem.fault.sentence.startswith("unknown attribute start of <bml>")
 
 
-def test_what_is_made_anew_stands_where_it_was_written() -> None:
+def test_rewritten_elements_keep_their_location() -> None:
     (problem,) = read('<wait id="w"/>\n <speech id="x">Hi<tm/></speech>').problems
-    assert problem.fault.sentence == "<sync> needs the attribute 'id'"
+    assert problem.fault.sentence == "<sync> requires the attribute 'id'"
     assert problem.fault.line == 2
     (parsed,) = parse('<bml id="b">\n  <posture id="p" stance="sitting"/></bml>', Limits())
     assert parsed.block is not None
@@ -263,19 +279,23 @@ DRAFTED = {
 }
 
 
-@pytest.mark.parametrize("name", DRAFTED)
-def test_a_script_of_our_own_is_read(name: str) -> None:
-    (parsed,) = parse((OWN / f"{name}.xml").read_bytes(), Limits())
-    assert parsed.block is not None
-    assert not parsed.problems
-    assert check_references(parsed.block) == ()
-    assert " ".join(type(each).__name__ for each in parsed.block.behaviors) == DRAFTED[name]
+def test_a_script_in_a_draft_is_read(subtests: pytest.Subtests) -> None:
+    for name in DRAFTED:
+        with subtests.test(name):
+            (parsed,) = parse((OWN / f"{name}.xml").read_bytes(), Limits())
+            assert parsed.block is not None
+            assert not parsed.problems
+            assert check_references(parsed.block) == ()
+            assert " ".join(type(each).__name__ for each in parsed.block.behaviors) == DRAFTED[name]
 
 
-@pytest.mark.skipif(not PEERS, reason="the scripts of the RealizerTester are not at hand")
-@pytest.mark.parametrize("path", PEERS, ids=lambda path: path.stem)
-def test_a_script_of_the_drafts_of_the_realizer_tester_is_read(path: Path) -> None:
-    (parsed,) = parse(path.read_bytes(), Limits())
-    assert parsed.block is not None
-    assert not parsed.problems
-    assert check_references(parsed.block) == ()
+def test_the_draft_scripts_of_the_realizer_tester_are_read(shared_cases: Path, subtests: pytest.Subtests) -> None:
+    suite = shared_cases / "realizertester"
+    paths = sorted(path for draft in ("draft1", "viennadraft") for path in (suite / draft).rglob("*.xml"))
+    assert paths
+    for path in paths:
+        with subtests.test(path.stem):
+            (parsed,) = parse(path.read_bytes(), Limits())
+            assert parsed.block is not None
+            assert not parsed.problems
+            assert check_references(parsed.block) == ()

@@ -6,6 +6,10 @@ import pytest
 
 from reactive_realizer.bml.behavior import Behavior, ForeignBehavior
 from reactive_realizer.bml.behaviors import (
+    Face,
+    FaceFacs,
+    FaceLexeme,
+    FaceShift,
     Gaze,
     GazeShift,
     Gesture,
@@ -14,17 +18,35 @@ from reactive_realizer.bml.behaviors import (
     Locomotion,
     Mark,
     Pointing,
+    Pose,
+    Posture,
+    PostureShift,
     Speech,
     Wait,
 )
 from reactive_realizer.bml.block import BehaviorBlock
-from reactive_realizer.bml.continuous import Activate, Interrupt, ParameterValueChange, Trajectory
-from reactive_realizer.bml.elements import ELEMENTS, Element
-from reactive_realizer.bml.face import Face, FaceFacs, FaceLexeme, FaceShift
+from reactive_realizer.bml.elements import ELEMENTS
+from reactive_realizer.bml.extensions import (
+    Activate,
+    Interrupt,
+    Keyframe,
+    Noise,
+    ParameterValueChange,
+    ProcAnimation,
+    ProcAnimationGesture,
+    Trajectory,
+    Transition,
+)
 from reactive_realizer.bml.names import BML, BML_EXT, BMLA, BMLT, Location
-from reactive_realizer.bml.posture import Pose, Posture, PostureShift
-from reactive_realizer.bml.twente import Keyframe, Noise, ProcAnimation, ProcAnimationGesture, Transition
-from reactive_realizer.bml.words import Influence, InterruptSpeech, Mode, OffsetDirection, PosePart, Side, StanceType
+from reactive_realizer.bml.vocabulary import (
+    Influence,
+    InterruptSpeech,
+    Mode,
+    OffsetDirection,
+    PosePart,
+    Side,
+    StanceType,
+)
 
 Block = Callable[[str], BehaviorBlock]
 
@@ -152,19 +174,19 @@ WRITTEN: dict[str, tuple[type[Behavior], dict[str, object], tuple[str, ...]]] = 
 }
 
 
-@pytest.mark.parametrize("xml", WRITTEN)
-def test_an_element_becomes_its_behavior(block: Block, xml: str) -> None:
-    kind, values, sync_points = WRITTEN[xml]
-    (behavior,) = block(xml).behaviors
-    assert type(behavior) is kind
-    assert {name: getattr(behavior, name) for name in values} == values
-    assert behavior.sync_points == sync_points
-    assert (behavior.id, behavior.required, behavior.order) == ("x", False, 0)
-    assert behavior.namespace == kind.NAMESPACE
-    assert xml.startswith(f"<{PREFIXES[kind.NAMESPACE]}{behavior.name} ")
+def test_an_element_becomes_its_behavior(block: Block, subtests: pytest.Subtests) -> None:
+    for xml, (kind, values, sync_points) in WRITTEN.items():
+        with subtests.test(xml):
+            (behavior,) = block(xml).behaviors
+            assert type(behavior) is kind
+            assert {name: getattr(behavior, name) for name in values} == values
+            assert behavior.sync_points == sync_points
+            assert (behavior.id, behavior.required, behavior.order) == ("x", False, 0)
+            assert behavior.namespace == kind.NAMESPACE
+            assert xml.startswith(f"<{PREFIXES[kind.NAMESPACE]}{behavior.name} ")
 
 
-def test_the_table_of_elements_has_all_of_the_core_and_the_tests_above_all_of_the_table() -> None:
+def test_these_tests_cover_every_element_and_attribute_of_the_table() -> None:
     assert {kind for kind, _, _ in WRITTEN.values()} == {element.behavior for element in ELEMENTS.values()}
     written = " ".join(WRITTEN)
     for element in ELEMENTS.values():
@@ -172,7 +194,7 @@ def test_the_table_of_elements_has_all_of_the_core_and_the_tests_above_all_of_th
             assert f" {attribute.name}=" in written, f"{attribute.name} of <{element.name}>"
 
 
-def test_the_table_says_names_types_defaults_and_sync_points() -> None:
+def test_the_table_has_names_types_defaults_and_sync_points() -> None:
     gaze = ELEMENTS["gaze"]
     assert (gaze.name, gaze.namespace, gaze.behavior, gaze.sync_points) == ("gaze", BML, Gaze, HOLD)
     assert [(each.name, each.field, each.required, each.default) for each in gaze.attributes] == [
@@ -187,45 +209,56 @@ def test_the_table_says_names_types_defaults_and_sync_points() -> None:
     assert ELEMENTS["posture"].children == ("stance", "pose")
 
 
-@pytest.mark.parametrize("element", ELEMENTS.values(), ids=lambda element: element.name)
-def test_every_default_sync_point_is_an_attribute_that_holds_a_reference(block: Block, element: Element) -> None:
-    needed = {"text": "<text>Hi</text>", "faceLexeme": PARTS, "stance": STANCE, "trajectory": CHANGE}
-    inside = "".join(needed.get(child, "") for child in element.children)
-    prefix = PREFIXES[element.namespace]
-    values = {"lexeme": "NOD", "target": "box", "au": "1", "paramId": "volume"}
-    values |= {"type": "perlin", "joint": "vl5", "class": "SlerpTransition"}
-    attributes = "".join(f' {each.name}="{values[each.name]}"' for each in element.attributes[1:] if each.required)
-    ties = "".join(f' {point}="other:h:start+{number}"' for number, point in enumerate(element.sync_points))
-    xml = f'<{prefix}{element.name} id="x"{attributes}{ties}>{inside}</{prefix}{element.name}>'
-    (behavior,) = block(xml).behaviors
-    assert {point: str(ref) for point, ref in behavior.syncs.items()} == {
-        point: "other:h:start" + (f"+{number}" if number else "") for number, point in enumerate(element.sync_points)
-    }
+def test_every_default_sync_point_is_an_attribute_with_a_reference(block: Block, subtests: pytest.Subtests) -> None:
+    for element in ELEMENTS.values():
+        with subtests.test(element.name):
+            needed = {"text": "<text>Hi</text>", "faceLexeme": PARTS, "stance": STANCE, "trajectory": CHANGE}
+            inside = "".join(needed.get(child, "") for child in element.children)
+            prefix = PREFIXES[element.namespace]
+            values = {"lexeme": "NOD", "target": "box", "au": "1", "paramId": "volume"}
+            values |= {"type": "perlin", "joint": "vl5", "class": "SlerpTransition"}
+            attributes = "".join(
+                f' {each.name}="{values[each.name]}"' for each in element.attributes[1:] if each.required
+            )
+            ties = "".join(f' {point}="other:h:start+{number}"' for number, point in enumerate(element.sync_points))
+            xml = f'<{prefix}{element.name} id="x"{attributes}{ties}>{inside}</{prefix}{element.name}>'
+            (behavior,) = block(xml).behaviors
+            assert {point: str(ref) for point, ref in behavior.syncs.items()} == {
+                point: "other:h:start" + (f"+{number}" if number else "")
+                for number, point in enumerate(element.sync_points)
+            }
 
 
-def test_constrained_sync_points_keep_the_order_of_writing(block: Block) -> None:
+def test_constrained_sync_points_are_in_the_order_of_writing(block: Block) -> None:
     (gesture,) = block('<gesture relax="3" id="g" start="1" lexeme="BEAT" stroke="2"/>').behaviors
     assert list(gesture.syncs) == ["relax", "start", "stroke"]
 
 
-@pytest.mark.parametrize("word", ["LEFT_HAND", "left_hand", "Left-Hand", "lefthand", " LEFT_HAND "])
-def test_words_of_closed_vocabularies_come_in_any_case_and_with_any_hyphen(block: Block, word: str) -> None:
-    (gesture,) = block(f'<gesture id="g" lexeme="BEAT" mode="{word}"/>').behaviors
-    assert isinstance(gesture, Gesture)
-    assert gesture.mode is Mode.LEFT_HAND
+SPELLINGS = ["LEFT_HAND", "left_hand", "Left-Hand", "lefthand", " LEFT_HAND "]
 
 
-def test_words_of_open_vocabularies_stay_as_written(block: Block) -> None:
+def test_words_of_closed_vocabularies_may_be_in_any_case_and_with_any_hyphen(
+    block: Block, subtests: pytest.Subtests
+) -> None:
+    for word in SPELLINGS:
+        with subtests.test(word):
+            (gesture,) = block(f'<gesture id="g" lexeme="BEAT" mode="{word}"/>').behaviors
+            assert isinstance(gesture, Gesture)
+            assert gesture.mode is Mode.LEFT_HAND
+
+
+def test_words_of_open_vocabularies_are_not_changed(block: Block) -> None:
     (head,) = block('<head id="h" lexeme="tilt-Left"/>').behaviors
     assert isinstance(head, Head)
     assert head.lexeme == "tilt-Left"
 
 
-@pytest.mark.parametrize(("word", "influence"), [("NECK", Influence.HEAD), ("torso", Influence.WAIST)])
-def test_influence_knows_the_words_of_other_realizers(block: Block, word: str, influence: Influence) -> None:
-    (gaze,) = block(f'<gaze id="g" target="box" influence="{word}"/>').behaviors
-    assert isinstance(gaze, Gaze)
-    assert gaze.influence is influence
+def test_influence_takes_the_words_of_other_realizers(block: Block, subtests: pytest.Subtests) -> None:
+    for word, influence in [("NECK", Influence.HEAD), ("torso", Influence.WAIST)]:
+        with subtests.test(word):
+            (gaze,) = block(f'<gaze id="g" target="box" influence="{word}"/>').behaviors
+            assert isinstance(gaze, Gaze)
+            assert gaze.influence is influence
 
 
 TEXTS: dict[str, tuple[str, dict[str, int]]] = {
@@ -244,17 +277,19 @@ TEXTS: dict[str, tuple[str, dict[str, int]]] = {
 }
 
 
-@pytest.mark.parametrize("inside", TEXTS)
-def test_a_mark_stands_before_its_character_of_a_text_with_single_spaces(block: Block, inside: str) -> None:
-    text, marks = TEXTS[inside]
-    (speech,) = block(f'<speech id="s"><text>{inside}</text></speech>').behaviors
-    assert isinstance(speech, Speech)
-    assert speech.text == text
-    assert speech.marks == tuple(Mark(id=name, char_index=index) for name, index in marks.items())
-    assert speech.sync_points == ("start", *marks, "end")
+def test_a_text_has_single_spaces_and_its_marks_have_the_indices_of_characters(
+    block: Block, subtests: pytest.Subtests
+) -> None:
+    for inside, (text, marks) in TEXTS.items():
+        with subtests.test(inside):
+            (speech,) = block(f'<speech id="s"><text>{inside}</text></speech>').behaviors
+            assert isinstance(speech, Speech)
+            assert speech.text == text
+            assert speech.marks == tuple(Mark(id=name, char_index=index) for name, index in marks.items())
+            assert speech.sync_points == ("start", *marks, "end")
 
 
-def test_the_parts_of_a_face_may_do_without_ids(block: Block) -> None:
+def test_the_parts_of_a_face_need_no_ids(block: Block) -> None:
     (face,) = block(f'<face id="f">{PARTS}</face>').behaviors
     assert isinstance(face, Face)
     smile, wink = face.parts
@@ -263,7 +298,7 @@ def test_the_parts_of_a_face_may_do_without_ids(block: Block) -> None:
     assert (smile.lexeme, smile.amount, wink.au, wink.side) == ("OPEN_MOUTH", 1.0, 12, Side.LEFT)
 
 
-def test_descriptions_keep_priority_type_and_content(block: Block) -> None:
+def test_descriptions_have_priority_type_and_content(block: Block) -> None:
     (speech,) = block(
         '<speech id="s"><text>Hi</text>'
         '<description priority="2" type="application/ssml+xml">'
@@ -277,7 +312,7 @@ def test_descriptions_keep_priority_type_and_content(block: Block) -> None:
     assert (second.priority, second.type, second.content) == (1, "audiofile", "")
 
 
-def test_a_behavior_keeps_its_place_its_source_and_the_attributes_of_other_namespaces(block: Block) -> None:
+def test_a_behavior_has_its_location_its_source_and_the_attributes_of_other_namespaces(block: Block) -> None:
     one, two = block('\n  <wait id="w"/>\n <head id="h" lexeme="NOD" bmla:mood="calm"/> ').behaviors
     assert (one.order, one.location, two.order, two.location) == (0, Location(2, 3), 1, Location(3, 2))
     assert two.extensions == {(BMLA, "mood"): "calm"}
@@ -285,7 +320,7 @@ def test_a_behavior_keeps_its_place_its_source_and_the_attributes_of_other_names
     assert two.source.endswith('id="h" lexeme="NOD" bmla:mood="calm"/>')
 
 
-def test_a_keyframe_animation_keeps_the_keys_that_stand_in_it(block: Block) -> None:
+def test_a_keyframe_animation_has_the_interpolator_inside_it(block: Block) -> None:
     keys = '<SkeletonInterpolator xmlns="" parts="skullbase">0 1 0 0 0</SkeletonInterpolator>'
     (keyframe,) = block(f'<bmlt:keyframe id="k">{keys}</bmlt:keyframe>').behaviors
     assert isinstance(keyframe, Keyframe)
@@ -293,25 +328,26 @@ def test_a_keyframe_animation_keeps_the_keys_that_stand_in_it(block: Block) -> N
     assert keyframe.interpolator.endswith(">0 1 0 0 0</SkeletonInterpolator>")
 
 
-@pytest.mark.parametrize(
-    "xml",
-    [
-        '<head id="x" lexeme="NOD">{}</head>',
-        '<speech id="x"><text>Hi</text>{}</speech>',
-        '<bmlt:noise id="x" type="perlin" joint="vl5">{}</bmlt:noise>',
-    ],
-)
-def test_any_behavior_may_hold_parameters_for_what_plays_it(block: Block, xml: str) -> None:
-    parameters = '<bmlt:parameter name="a" value="0.5"/><bmlt:parameter name="joints" value="vl5 vt6"/>'
-    assert block(xml.format(parameters)).behaviors[0].parameters == {"a": "0.5", "joints": "vl5 vt6"}
-    assert block(xml.format("")).behaviors[0].parameters == {}
+WITH_PARAMETERS = [
+    '<head id="x" lexeme="NOD">{}</head>',
+    '<speech id="x"><text>Hi</text>{}</speech>',
+    '<bmlt:noise id="x" type="perlin" joint="vl5">{}</bmlt:noise>',
+]
 
 
-def test_the_elements_of_bmlt_are_none_of_bmlas(block: Block) -> None:
+def test_any_behavior_may_have_parameters_for_its_engine(block: Block, subtests: pytest.Subtests) -> None:
+    for xml in WITH_PARAMETERS:
+        with subtests.test(xml):
+            parameters = '<bmlt:parameter name="a" value="0.5"/><bmlt:parameter name="joints" value="vl5 vt6"/>'
+            assert block(xml.format(parameters)).behaviors[0].parameters == {"a": "0.5", "joints": "vl5 vt6"}
+            assert block(xml.format("")).behaviors[0].parameters == {}
+
+
+def test_elements_of_bmlt_are_not_elements_of_bmla(block: Block) -> None:
     assert isinstance(block('<bmla:noise id="n" type="perlin" joint="vl5"/>').behaviors[0], ForeignBehavior)
 
 
-def test_a_behavior_of_another_namespace_is_kept_for_who_knows_it(block: Block) -> None:
+def test_a_behavior_of_another_namespace_is_kept_as_a_foreign_behavior(block: Block) -> None:
     (motor,) = block(
         '<bmlt:motor id="n" joint="vl5" start="s1:start" end="4" bmla:x="1"><bmlt:parameter/>text</bmlt:motor>'
     ).behaviors

@@ -41,61 +41,66 @@ MEANINGS = {
 }
 
 
-@pytest.mark.parametrize(("text", "meaning"), MEANINGS.items(), ids=repr)
-def test_a_reference_means_what_it_says(text: str, meaning: SyncRef) -> None:
-    assert SyncRef.parse(text, LIMITS) == meaning
+def test_a_reference_is_parsed(subtests: pytest.Subtests) -> None:
+    for text, meaning in MEANINGS.items():
+        with subtests.test(text):
+            assert SyncRef.parse(text, LIMITS) == meaning
 
 
-def test_a_known_name_that_looks_like_an_offset_is_a_name() -> None:
+def test_a_known_name_that_looks_like_an_offset_is_read_as_a_name() -> None:
     assert SyncRef.parse("speech1:s-1", LIMITS) == SyncRef(None, "speech1", "s", -1.0)
     assert SyncRef.parse("speech1:s-1", LIMITS, {"s-1"}) == SyncRef(None, "speech1", "s-1", 0.0)
     assert SyncRef.parse("speech1:s-1-0.5", LIMITS, {"s-1"}) == SyncRef(None, "speech1", "s-1", -0.5)
     assert SyncRef.parse("speech1:s-1+0", LIMITS) == SyncRef(None, "speech1", "s-1", 0.0)
 
 
-def test_a_reference_is_written_so_that_it_reads_back_the_same() -> None:
+def test_the_text_of_a_reference_is_unambiguous() -> None:
     assert str(SyncRef(None, "speech1", "s-1", 0.0)) == "speech1:s-1+0"
     assert str(SyncRef("b", "speech1", "end", -2.0)) == "b:speech1:end-2"
     assert str(SyncRef.parse("-0", LIMITS)) == "0"
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "",
-        " ",
-        "speech1",
-        ":",
-        "speech1:",
-        ":start",
-        "speech1:start+",
-        "speech1:start+x",
-        "speech1:start+nan",
-        "speech1:st art",
-        "a:b:c:d",
-        "a:b:c:stroke:1",
-        "nan",
-        "inf",
-        "-infinity",
-        "1_000",
-        "٣",
-        "1,5",
-        "x:stroke:" + "9" * 5_000,
-        "x:y" + " " * 100_000 + "z",
-    ],
-    ids=lambda text: repr(text[:20]),
-)
-def test_what_is_no_reference_is_refused(text: str) -> None:
-    with pytest.raises(RealizerError) as refused:
-        SyncRef.parse(text, LIMITS)
-    assert refused.value.fault.code == "not-a-reference"
+NO_REFERENCES = [
+    "",
+    " ",
+    "speech1",
+    ":",
+    "speech1:",
+    ":start",
+    "speech1:start+",
+    "speech1:start+x",
+    "speech1:start+nan",
+    "speech1:st art",
+    "a:b:c:d",
+    "a:b:c:stroke:1",
+    "nan",
+    "inf",
+    "-infinity",
+    "1_000",
+    "٣",
+    "1,5",
+    "x:stroke:" + "9" * 5_000,
+    "x:y" + " " * 100_000 + "z",
+]
 
 
-@pytest.mark.parametrize("text", ["bml:end", "bml:relax", "b:bml:end", "b:end", "b1:bml:ready", "bml:bml:relax"])
-def test_the_end_of_its_own_block_cannot_be_named_and_the_answer_says_so(text: str) -> None:
-    with pytest.raises(RealizerError) as refused:
-        SyncRef.parse(text, LIMITS).read_in("b", {"g1"})
-    assert refused.value.fault.code == "only-block-start"
+def test_a_text_that_is_not_a_reference_is_refused(subtests: pytest.Subtests) -> None:
+    for text in NO_REFERENCES:
+        with subtests.test(repr(text[:20])):
+            with pytest.raises(RealizerError) as refused:
+                SyncRef.parse(text, LIMITS)
+            assert refused.value.fault.code == "not-a-reference"
+
+
+ENDS_OF_ITS_BLOCK = ["bml:end", "bml:relax", "b:bml:end", "b:end", "b1:bml:ready", "bml:bml:relax"]
+
+
+def test_a_reference_to_the_end_of_its_own_block_is_refused(subtests: pytest.Subtests) -> None:
+    for text in ENDS_OF_ITS_BLOCK:
+        with subtests.test(text):
+            with pytest.raises(RealizerError) as refused:
+                SyncRef.parse(text, LIMITS).read_in("b", {"g1"})
+            assert refused.value.fault.code == "only-block-start"
 
 
 BLOCK_POINTS = {
@@ -113,22 +118,24 @@ BLOCK_POINTS = {
 }
 
 
-@pytest.mark.parametrize(("text", "meaning"), BLOCK_POINTS.items(), ids=repr)
-def test_a_block_has_sync_points_and_behaviors_of_the_own_block_come_before_it(text: str, meaning: SyncRef) -> None:
-    assert SyncRef.parse(text, LIMITS).read_in("b", {"g1"}) == meaning
+def test_behaviors_of_the_own_block_take_precedence_over_other_blocks(subtests: pytest.Subtests) -> None:
+    for text, meaning in BLOCK_POINTS.items():
+        with subtests.test(text):
+            assert SyncRef.parse(text, LIMITS).read_in("b", {"g1"}) == meaning
 
 
-def test_a_point_of_a_block_is_written_by_its_name_without_the_word_bml() -> None:
+def test_the_text_of_a_point_of_a_block_has_no_bml() -> None:
     assert str(SyncRef("b1", None, "relax", 0.5)) == "b1:relax+0.5"
     assert str(SyncRef("b1", None, None, 0.25)) == "b1:start+0.25"
     assert str(SyncRef("b1", None, None)) == "b1:start"
 
 
-@pytest.mark.parametrize("text", ["1e999", "-86401", "g1:end+1e9", "bml1:100000"])
-def test_an_absurd_offset_is_refused(text: str) -> None:
-    with pytest.raises(RealizerError) as refused:
-        SyncRef.parse(text, LIMITS)
-    assert refused.value.fault.code == "absurd-time"
+def test_an_offset_above_the_limit_is_refused(subtests: pytest.Subtests) -> None:
+    for text in ["1e999", "-86401", "g1:end+1e9", "bml1:100000"]:
+        with subtests.test(text):
+            with pytest.raises(RealizerError) as refused:
+                SyncRef.parse(text, LIMITS)
+            assert refused.value.fault.code == "absurd-time"
 
 
 ids = st.from_regex(r"[A-Za-z_][A-Za-z0-9_.-]{0,12}", fullmatch=True).filter(lambda name: name not in {"bml", "stroke"})
@@ -138,22 +145,22 @@ absolute = st.builds(SyncRef, st.none() | ids, st.none(), st.none(), offsets)
 relative = st.builds(SyncRef, st.none() | ids, ids, points, offsets | st.just(0.0))
 
 
-def where_it_stands(read: SyncRef, written: SyncRef) -> SyncRef:
-    """What it names in a block that has the behavior that was meant."""
+def read_in_a_block(read: SyncRef, written: SyncRef) -> SyncRef:
+    """The reference as read in a block that has its behavior."""
     return read.read_in("stands-here", {written.behavior} if written.behavior else ())
 
 
 @settings(derandomize=True, max_examples=300)
 @given(absolute | relative)
-def test_a_reference_reads_back_as_it_was_written(ref: SyncRef) -> None:
-    assert where_it_stands(SyncRef.parse(str(ref), LIMITS), ref) == ref
+def test_the_text_of_a_reference_is_parsed_to_the_same_reference(ref: SyncRef) -> None:
+    assert read_in_a_block(SyncRef.parse(str(ref), LIMITS), ref) == ref
 
 
 @settings(derandomize=True, max_examples=300)
 @given(st.text() | st.text("ab1:+-. e", max_size=20))
-def test_any_text_is_a_reference_or_a_realizer_error(text: str) -> None:
+def test_any_text_is_parsed_or_raises_a_realizer_error(text: str) -> None:
     try:
         ref = SyncRef.parse(text, LIMITS)
     except RealizerError:
         return
-    assert where_it_stands(SyncRef.parse(str(ref), LIMITS), ref) == where_it_stands(ref, ref)
+    assert read_in_a_block(SyncRef.parse(str(ref), LIMITS), ref) == read_in_a_block(ref, ref)

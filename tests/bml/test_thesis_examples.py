@@ -1,7 +1,7 @@
-"""The BML examples of the thesis (van Welbergen 2011, examples 2 to 57), each beside one of our own that says the same.
+"""The BML examples of the thesis (van Welbergen 2011, examples 2 to 57), each with one of our own that means the same.
 
-The thesis prints many of them as fragments, and some with slips. What is printed is read from the thesis where that is
-at hand. Every repair has a name here; the parser makes none.
+The thesis prints many of them as fragments, and some with slips. Where the text of the thesis is available, the printed
+examples are tested too. Every repair has a name here; the parser makes none.
 """
 
 import re
@@ -14,43 +14,41 @@ import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.bml.behavior import Behavior, ForeignBehavior
-from reactive_realizer.bml.behaviors import Locomotion
+from reactive_realizer.bml.behaviors import FaceFacs, Locomotion
 from reactive_realizer.bml.block import Parsed
 from reactive_realizer.bml.document import parse
-from reactive_realizer.bml.face import FaceFacs
 from reactive_realizer.bml.names import BMLT
 from reactive_realizer.bml.references import check_references
 from reactive_realizer.limits import Limits
 from reactive_realizer.testing.pilot import open_pilot
 
 OWN = Path(__file__).parents[1] / "data" / "bml" / "drafts"
-THESIS = next((Path(__file__).parents[3] / "shared" / "seeds").glob("000_*.txt"), None)
 
 Repair = Callable[[str], str]
 
 
 def declare_bmlt(text: str) -> str:
-    """The thesis leaves the namespace out for clarity."""
+    """Declares the namespace, which the thesis omits for clarity."""
     return re.sub(r"<(bml|bmlt:defineproc|bmlt:useproc) ", rf'<\1 xmlns:bmlt="{BMLT}" ', text)
 
 
 def put_into_a_block(text: str, beside: str = "") -> str:
-    """A fragment plays in a block, beside the behaviors that it refers to."""
+    """Puts a fragment into a block, with the behaviors to which it refers."""
     return f'<bml id="b" xmlns:bmlt="{BMLT}" bmlt:allowexternalrefs="true">{beside}{text}</bml>'
 
 
 def take_out_ellipses(text: str, there: str = "") -> str:
-    """Dots and words on a line of their own stand for what does not matter."""
+    """Replaces lines of dots, which stand for omitted content."""
     return re.sub(r"^(?:\.{2,3}|bmlNew content)$", there, text, flags=re.MULTILINE)
 
 
 def close(text: str, element: str) -> str:
-    """A start tag without its end."""
+    """Closes a start tag that has no end tag."""
     return re.sub(rf"<({element} [^<>]*[^/<>])>", r"<\1/>", text)
 
 
 def write(text: str, wrong: str, right: str) -> str:
-    """A slip of the pen."""
+    """Corrects a slip."""
     assert wrong in text
     return text.replace(wrong, right, 1)
 
@@ -70,10 +68,10 @@ class Part:
     Attributes:
         first: its first line in the thesis.
         last: its last line there.
-        means: the classes of what it holds once it is repaired.
-        repairs: what has to be done to what is printed.
-        printed: the first thing that is wrong with what is printed, and in which of its lines.
-        still: what is wrong after all repairs, and with our own example too.
+        means: the classes of its content after the repairs.
+        repairs: of the printed text.
+        printed: the first problem of the printed text, with its line.
+        still: the problems after all repairs, which our own example has too.
     """
 
     first: int
@@ -83,16 +81,15 @@ class Part:
     printed: tuple[str, int] | None = None
     still: str = ""
 
-    def read(self) -> str:
-        """As it is printed."""
-        assert THESIS is not None
-        lines = THESIS.read_text(encoding="utf-8").split("\n")[self.first - 1 : self.last]
-        # Where a page of the thesis begins there is a mark.
+    def read(self, thesis: list[str]) -> str:
+        """The printed text."""
+        lines = thesis[self.first - 1 : self.last]
+        # The text has a mark at each page break.
         return "\n".join(re.sub(r"<\|.*?\|>", "", line) for line in lines)
 
-    def repaired(self) -> str:
-        """As it is meant."""
-        text = self.read()
+    def repaired(self, thesis: list[str]) -> str:
+        """The text after the repairs."""
+        text = self.read(thesis)
         for repair in self.repairs:
             text = repair(text)
         return text
@@ -268,25 +265,26 @@ EXAMPLES: dict[int, tuple[Part, ...]] = {
     ),
 }
 SAYS_THE_SAME = {44: 9, 55: 20, 56: 21, 57: 22}
-"""Examples that the thesis prints twice: our own stands under the earlier number."""
-PARTS = [
-    pytest.param(part, id=f"{number}-{chr(97 + at)}")
-    for number, parts in EXAMPLES.items()
-    for at, part in enumerate(parts)
-]
+"""Examples that the thesis prints twice; our own has the earlier number."""
+PARTS = {f"{number}-{chr(97 + at)}": part for number, parts in EXAMPLES.items() for at, part in enumerate(parts)}
 
 LATER: dict[type[Behavior], str] = {
     ForeignBehavior: "CUSTOM_BEHAVIOUR_NOT_SUPPORTED",
     FaceFacs: "BEHAVIOR_TYPE_NOT_SUPPORTED",
     Locomotion: "BEHAVIOR_TYPE_NOT_SUPPORTED",
 }
-"""What is read and not yet realized, and its warning."""
+"""The behaviors that are read but not realized yet, with their warnings."""
 
-at_hand = pytest.mark.skipif(THESIS is None, reason="the thesis is not at hand")
+
+@pytest.fixture(scope="module")
+def thesis(shared: Path) -> list[str]:
+    """The lines of the thesis."""
+    (path,) = (shared / "seeds").glob("000_*.txt")
+    return path.read_text(encoding="utf-8").split("\n")
 
 
 def meaning(text: str) -> list[str]:
-    """For each top-level element the classes of what it holds."""
+    """The classes of the content of each top-level element."""
     return [_meaning(parsed) for parsed in parse(text, Limits())]
 
 
@@ -300,7 +298,7 @@ def _meaning(parsed: Parsed) -> str:
 
 
 def faults(text: str) -> list[tuple[str, int]]:
-    """What is wrong with it, with lines: what the parser says, then references to nothing."""
+    """The problems with their lines: those of the parser, then missing references."""
     found = []
     for parsed in parse(text, Limits()):
         held = parsed.procedure or parsed.block
@@ -314,24 +312,25 @@ def codes(text: str) -> str:
     return " ".join(code for code, _ in faults(text))
 
 
-def test_there_is_a_row_for_every_example() -> None:
+def test_every_example_has_a_row() -> None:
     assert list(EXAMPLES) == list(range(2, 58))
     assert {path.stem for path in OWN.glob("[0-9]*.xml")} == {
         f"{number:02}" for number in EXAMPLES if number not in SAYS_THE_SAME
     }
 
 
-@pytest.mark.parametrize("number", EXAMPLES)
-def test_our_own_example_means_what_the_thesis_means(number: int) -> None:
-    text = (OWN / f"{SAYS_THE_SAME.get(number, number):02}.xml").read_text()
-    parts = EXAMPLES[number]
-    means = ", ".join(part.means for part in parts)
-    assert ", ".join(meaning(text)).replace("greet", "proc1") == means
-    assert codes(text) == " ".join(filter(None, (part.still for part in parts)))
+def test_our_own_examples_mean_the_same_as_those_of_the_thesis(subtests: pytest.Subtests) -> None:
+    for number in EXAMPLES:
+        with subtests.test(f"example {number}"):
+            text = (OWN / f"{SAYS_THE_SAME.get(number, number):02}.xml").read_text()
+            parts = EXAMPLES[number]
+            means = ", ".join(part.means for part in parts)
+            assert ", ".join(meaning(text)).replace("greet", "proc1") == means
+            assert codes(text) == " ".join(filter(None, (part.still for part in parts)))
 
 
 @pytest.mark.parametrize("text", [pytest.param(path.read_text(), id=path.stem) for path in sorted(OWN.glob("*.xml"))])
-async def test_what_is_not_realized_yet_gets_one_warning(text: str) -> None:
+async def test_a_behavior_that_is_not_realized_yet_gets_one_warning(text: str) -> None:
     blocks = [parsed.block for parsed in parse(text, Limits()) if parsed.block]
     expected = [
         (f"{held.id}:{each.id}", LATER[type(each)]) for held in blocks for each in held.behaviors if type(each) in LATER
@@ -342,19 +341,21 @@ async def test_what_is_not_realized_yet_gets_one_warning(text: str) -> None:
         assert [warning for warning in pilot.feedback.warnings if warning[1] in LATER.values()] == expected
 
 
-@at_hand
-@pytest.mark.parametrize("part", PARTS)
-def test_an_example_of_the_thesis_is_read_after_its_repairs(part: Part) -> None:
-    text = part.repaired()
-    assert ", ".join(meaning(text)) == part.means
-    assert codes(text) == part.still
+def test_the_examples_of_the_thesis_are_read_after_their_repairs(thesis: list[str], subtests: pytest.Subtests) -> None:
+    for name, part in PARTS.items():
+        with subtests.test(name):
+            text = part.repaired(thesis)
+            assert ", ".join(meaning(text)) == part.means
+            assert codes(text) == part.still
 
 
-@at_hand
-@pytest.mark.parametrize("part", PARTS)
-def test_what_is_printed_is_read_or_refused_in_its_line(part: Part) -> None:
-    found = faults(part.read())
-    if part.repairs:
-        assert found[0] == part.printed
-    else:
-        assert [code for code, _ in found] == part.still.split()
+def test_the_printed_examples_are_read_or_refused_at_the_right_line(
+    thesis: list[str], subtests: pytest.Subtests
+) -> None:
+    for name, part in PARTS.items():
+        with subtests.test(name):
+            found = faults(part.read(thesis))
+            if part.repairs:
+                assert found[0] == part.printed
+            else:
+                assert [code for code, _ in found] == part.still.split()

@@ -8,25 +8,25 @@ from pathlib import Path
 
 import pytest
 from aiohttp import web
-from playwright.async_api import Browser, Page, async_playwright
+from playwright.async_api import Browser, Page, ViewportSize, async_playwright
 
 from reactive_realizer.assembly.scene import SceneOptions, open_scene
 from reactive_realizer.clock.clock import SystemClock
 from reactive_realizer.server.app import create_app
-from reactive_realizer.server.live import Live
+from reactive_realizer.server.live_scene import LiveScene
 from reactive_realizer.server.security import Security
 
 # Without a graphics card: Mesa's software renderer, which is quicker than the browser's own.
 FLAGS = ["--no-sandbox", "--use-gl=angle", "--use-angle=gl-egl", "--ignore-gpu-blocklist"]
 WITH_SOUND = "--autoplay-policy=no-user-gesture-required"
-SMALL = {"width": 900, "height": 500}
+SMALL: ViewportSize = {"width": 900, "height": 500}
 
 
 @dataclass
 class Theater:
     """A live scene, and a browser to see it in."""
 
-    live: Live
+    live: LiveScene
     address: str
     browser: Browser
     complaints: list[str] = field(default_factory=list)
@@ -58,7 +58,7 @@ def theater(chromium: str, tmp_path: Path) -> Open:
         file.write_text(human, encoding="utf-8")
         async with (
             open_scene(SceneOptions(file, voice)) as scene,
-            served(Live(scene, SystemClock())) as (live, address),
+            served(LiveScene(scene, SystemClock())) as (live, address),
             async_playwright() as playwright,
         ):
             browser = await playwright.chromium.launch(executable_path=chromium, args=[*FLAGS, WITH_SOUND])
@@ -71,7 +71,7 @@ def theater(chromium: str, tmp_path: Path) -> Open:
 
 
 @asynccontextmanager
-async def served(live: Live) -> AsyncIterator[tuple[Live, str]]:
+async def served(live: LiveScene) -> AsyncIterator[tuple[LiveScene, str]]:
     async with asyncio.TaskGroup() as group:
         ticking = group.create_task(live.run())
         runner = web.AppRunner(create_app(live, Security()), handler_cancellation=True, shutdown_timeout=1)

@@ -3,6 +3,8 @@
 import pytest
 from playwright.async_api import Page, expect
 
+from anticipators.metronome import Metronome
+
 from .conftest import Open
 
 pytestmark = [pytest.mark.browser, pytest.mark.timeout(120)]
@@ -98,6 +100,7 @@ async def test_the_tempo_of_the_metronome_is_dragged_in_the_page(theater: Open) 
         await page.locator("#tempo").fill("120")
         await expect(page.locator("#tempo-value")).to_contain_text("120")
         metronome = stage.live.realizer.anticipators["metronome"]
+        assert isinstance(metronome, Metronome)
         while round(metronome.tempo) != 120:
             await page.wait_for_function("last => viewer.lastFrameTime > last", arg=stage.live.now)
 

@@ -1,6 +1,7 @@
 """Files to give to the command line, and what it answers."""
 
 import json
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -19,7 +20,7 @@ HELLO = block(
 
 
 @pytest.fixture
-def bml(tmp_path: Path):
+def bml(tmp_path: Path) -> Callable[..., str]:
     def write(text: str, name: str = "a.xml") -> str:
         (tmp_path / name).write_text(text)
         return str(tmp_path / name)
@@ -28,10 +29,12 @@ def bml(tmp_path: Path):
 
 
 @pytest.fixture
-def realize(tmp_path: Path, capsys):
+def realize(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> Callable[..., tuple[int, list[tuple[float, str]], str]]:
     """Runs ``realize``: exit status, feedback as (time, xml), stderr."""
 
-    def run(*arguments: str):
+    def run(*arguments: str) -> tuple[int, list[tuple[float, str]], str]:
         file = tmp_path / "feedback.jsonl"
         status = main(["realize", *arguments, "--voice", "text", "--feedback", str(file)])
         lines = [json.loads(line) for line in file.read_text().splitlines()] if file.is_file() else []

@@ -1,81 +1,103 @@
 """`check`: what is wrong with a file, with its place."""
 
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
 import pytest
 
 from reactive_realizer.__main__ import main
 from reactive_realizer.assembly.assets import PACKAGE_ASSETS
 from reactive_realizer.bml.names import BML
-from reactive_realizer.engines.wait.wait_engine import WaitEngine
+from reactive_realizer.engines.wait_engine import WaitEngine
 from reactive_realizer.testing.pilot import block
 
 from .conftest import HELLO
 
 
-def check(capsys, *files):
+def check(capsys: pytest.CaptureFixture[str], *files: str) -> tuple[int, Any]:
     status = main(["check", *files])
     return status, capsys.readouterr().out.splitlines()
 
 
-def test_a_file_that_is_fine_is_answered_by_nothing(bml, capsys) -> None:
+def test_a_file_that_is_fine_is_answered_by_nothing(
+    bml: Callable[..., str], capsys: pytest.CaptureFixture[str]
+) -> None:
     assert check(capsys, bml(HELLO)) == (0, [])
 
 
-def test_what_is_legal_and_not_yet_realized_is_no_problem(bml, capsys) -> None:
+def test_what_is_legal_and_not_yet_realized_is_no_problem(
+    bml: Callable[..., str], capsys: pytest.CaptureFixture[str]
+) -> None:
     assert check(capsys, bml(block("b", '<locomotion id="go" target="bluebox"/>'))) == (0, [])
 
 
-def test_an_element_that_bml_does_not_have_is_a_problem(bml, capsys) -> None:
+def test_an_element_that_bml_does_not_have_is_a_problem(
+    bml: Callable[..., str], capsys: pytest.CaptureFixture[str]
+) -> None:
     status, (line,) = check(capsys, bml(block("b", '<speach id="s"/>')))
     assert status == 1
-    assert "<speach> is no behavior" in line
+    assert "<speach> is not a behavior" in line
 
 
-def test_a_block_may_refer_to_those_of_its_file_and_of_earlier_files(bml, capsys) -> None:
+def test_a_block_may_refer_to_those_of_its_file_and_of_earlier_files(
+    bml: Callable[..., str], capsys: pytest.CaptureFixture[str]
+) -> None:
     late = block("zero", '<head id="h" lexeme="NOD" start="two:h:end"/>')
     first = bml(late + block("one") + block("two", '<head id="h" lexeme="NOD" start="one:0.5"/>'), "first.xml")
     second = bml(block("three", '<head id="h" lexeme="NOD" start="two:h:end" stroke="anticipators:m:hit"/>'), "2.xml")
     assert check(capsys, first, second) == (0, [])
     status, lines = check(capsys, second, first)
     assert status == 1
-    assert lines == [f"{second}:1:{lines[0].split(':')[2]}: no block 'two' for two:h:end: it is unknown or has ended"]
+    assert lines == [f"{second}:1:{lines[0].split(':')[2]}: two:h:end: the block 'two' is unknown or has ended"]
 
 
-def test_who_hangs_on_what_cannot_be_read_is_told_that_this_is_why(bml, capsys) -> None:
+def test_who_hangs_on_what_cannot_be_read_is_told_that_this_is_why(
+    bml: Callable[..., str], capsys: pytest.CaptureFixture[str]
+) -> None:
     status, lines = check(capsys, bml(block("b", '<head id="h"/><head id="i" lexeme="NOD" start="h:end"/>')))
     assert status == 1
-    assert "<head> needs the attribute 'lexeme'" in lines[0]
-    assert "h:end never comes, because 'h' is dropped" in lines[1]
+    assert "<head> requires the attribute 'lexeme'" in lines[0]
+    assert "h:end has no time because 'h' is dropped" in lines[1]
 
 
-def test_a_reference_to_a_block_that_there_is_not_is_a_problem_also_in_a_constraint(bml, capsys) -> None:
+def test_a_reference_to_a_block_that_there_is_not_is_a_problem_also_in_a_constraint(
+    bml: Callable[..., str], capsys: pytest.CaptureFixture[str]
+) -> None:
     tie = '<constraint><synchronize><sync ref="h:start"/><sync ref="{}:w:end"/></synchronize></constraint>'
     written = block("b", '<head id="h" lexeme="NOD"/>' + tie) + block("later", '<wait id="w" duration="1"/>')
     assert check(capsys, bml(written.format("later"))) == (0, [])
     status, (line,) = check(capsys, bml(written.format("never")))
     assert status == 1
-    assert "no block 'never'" in line
+    assert "the block 'never' is unknown" in line
 
 
 BMLT = 'xmlns:x="http://hmi.ewi.utwente.nl/bmlt"'
 
 
-def test_a_sync_point_that_what_plays_a_behavior_does_not_know_is_a_problem(bml, capsys) -> None:
+def test_a_sync_point_that_what_plays_a_behavior_does_not_know_is_a_problem(
+    bml: Callable[..., str], capsys: pytest.CaptureFixture[str]
+) -> None:
     nod = '<head id="h" lexeme="NOD"/><wait id="w" start="h:{}"/>'
     assert check(capsys, bml(block("b", nod.format("strokeStart")))) == (0, [])
     status, (line,) = check(capsys, bml(block("b", nod.format("apex"))))
     assert status == 1
-    assert "'h' has no sync point 'apex' for h:apex; it has start, ready" in line
+    assert "h:apex: 'h' has no sync point 'apex'; it has start, ready" in line
 
 
-def test_an_attribute_that_ties_a_point_which_its_motion_has_not_is_a_problem(bml, capsys) -> None:
+def test_an_attribute_that_ties_a_point_which_its_motion_has_not_is_a_problem(
+    bml: Callable[..., str], capsys: pytest.CaptureFixture[str]
+) -> None:
     conduct = f'<x:procanimation {BMLT} id="p" name="conduct-3-beat" {{}}="2"/>'
     assert check(capsys, bml(block("b", conduct.format("beat2")))) == (0, [])
     status, (line,) = check(capsys, bml(block("b", conduct.format("beat9"))))
     assert status == 1
-    assert "'p' has no sync point 'beat9' for 2; it has start, beat1, beat2, beat3, end" in line
+    assert "2: 'p' has no sync point 'beat9'; it has start, beat1, beat2, beat3, end" in line
 
 
-def test_a_change_of_a_behavior_that_its_block_has_not_is_a_problem(bml, capsys) -> None:
+def test_a_change_of_a_behavior_that_its_block_has_not_is_a_problem(
+    bml: Callable[..., str], capsys: pytest.CaptureFixture[str]
+) -> None:
     change = (
         f'<head id="h" lexeme="NOD"/><x:parametervaluechange {BMLT} id="c" target="{{}}" paramId="amount">'
         '<x:trajectory type="linear" targetValue="1"/></x:parametervaluechange>'
@@ -89,17 +111,19 @@ def test_a_change_of_a_behavior_that_its_block_has_not_is_a_problem(bml, capsys)
 @pytest.mark.parametrize(
     ("parameter", "problem"),
     [
-        ('name="amount"', "<parameter> needs the attribute 'value'"),
-        ('name="amount" value="1" unit="m"', "unknown attribute unit of <parameter>; known are name, value"),
+        ('name="amount"', "<parameter> requires the attribute 'value'"),
+        ('name="amount" value="1" unit="m"', "unknown attribute unit of <parameter>; known: name, value"),
         (
             'name="amount" value="1" xmlns:u="urn:units" u:unit="m"',
-            "the attribute unit of urn:units means nothing here",
+            "the attribute unit of urn:units has no effect here",
         ),
         ('name="amount" value="7"', None),
         ('name="amuont" value="1"', None),
     ],
 )
-def test_of_a_parameter_it_is_judged_how_it_is_written_not_what_it_says(bml, capsys, parameter, problem) -> None:
+def test_of_a_parameter_it_is_judged_how_it_is_written_not_what_it_says(
+    bml: Callable[..., str], capsys: pytest.CaptureFixture[str], parameter: str, problem: str | None
+) -> None:
     inside = f'<head id="h" lexeme="NOD"><x:parameter {BMLT} {parameter}/></head>'
     _, lines = check(capsys, bml(block("b", inside)))
     assert [line.partition(": ")[2] for line in lines] == [problem] * (problem is not None)
@@ -117,19 +141,23 @@ FOREIGN = 'xmlns:f="urn:f" f:mood="glad"'
         (f'<bml xmlns="{BML}" id="b">\n <locomotion id="l" target="bluebox" {FOREIGN}/></bml>', "2:2"),
     ],
 )
-def test_an_attribute_of_another_namespace_that_means_nothing_here_is_told_on_stderr(bml, capsys, text, place) -> None:
+def test_an_attribute_of_another_namespace_that_means_nothing_here_is_told_on_stderr(
+    bml: Callable[..., str], capsys: pytest.CaptureFixture[str], text: str, place: str
+) -> None:
     file = bml(text)
     assert main(["check", file]) == 0
     captured = capsys.readouterr()
     assert captured.out == ""
-    assert f"{file}:{place}: the attribute mood of urn:f means nothing here" in captured.err.splitlines()
+    assert f"{file}:{place}: the attribute mood of urn:f has no effect here" in captured.err.splitlines()
 
 
 @pytest.mark.parametrize(
     "inside",
     ['<f:dance id="d" xmlns:f="urn:f" f:mood="glad"/>', f'<gaze id="g" target="bluebox" {BMLT} x:dynamic="true"/>'],
 )
-def test_one_that_whoever_plays_its_behavior_knows_or_may_know_is_none(bml, capsys, inside) -> None:
+def test_one_that_whoever_plays_its_behavior_knows_or_may_know_is_none(
+    bml: Callable[..., str], capsys: pytest.CaptureFixture[str], inside: str
+) -> None:
     assert main(["check", bml(block("b", inside))]) == 0
     assert capsys.readouterr() == ("", "")
 
@@ -137,17 +165,19 @@ def test_one_that_whoever_plays_its_behavior_knows_or_may_know_is_none(bml, caps
 @pytest.mark.parametrize(
     ("inside", "reason"),
     [
-        ('<gesture id="g" lexeme="BAET"/>', "nothing in the binding plays <gesture> with lexeme='BAET'"),
-        ('<faceLexeme id="f" lexeme="GRIN" amount="1"/>', "no face for the lexeme 'GRIN'; known are "),
+        ('<gesture id="g" lexeme="BAET"/>', "no entry of the binding plays <gesture> with lexeme='BAET'"),
+        ('<faceLexeme id="f" lexeme="GRIN" amount="1"/>', "there is no face lexeme 'GRIN'; available: "),
         (
             '<postureShift id="p"><pose part="ARMS" lexeme="ARMS_CROSED"/></postureShift>',
-            "no pose 'ARMS_CROSED' of the",
+            "there is no ARMS pose 'ARMS_CROSED'",
         ),
-        (f'<x:procanimation {BMLT} id="p" name="samba"/>', "no file 'samba.xml' among the assets"),
-        ('<speech id="s"><text>...</text></speech>', "there is no word in its text"),
+        (f'<x:procanimation {BMLT} id="p" name="samba"/>', "there is no asset named 'samba.xml'"),
+        ('<speech id="s"><text>...</text></speech>', "its text contains no words"),
     ],
 )
-def test_what_this_scene_has_nothing_for_is_told_on_stderr_and_is_no_mistake(bml, capsys, inside, reason) -> None:
+def test_what_this_scene_has_nothing_for_is_told_on_stderr_and_is_no_mistake(
+    bml: Callable[..., str], capsys: pytest.CaptureFixture[str], inside: str, reason: str
+) -> None:
     file = bml(block("b", inside))
     assert main(["check", file]) == 0
     captured = capsys.readouterr()
@@ -157,7 +187,9 @@ def test_what_this_scene_has_nothing_for_is_told_on_stderr_and_is_no_mistake(bml
     assert f": {reason}" in line
 
 
-def test_the_words_of_a_folder_of_assets_are_known_with_it(bml, capsys, tmp_path) -> None:
+def test_the_words_of_a_folder_of_assets_are_known_with_it(
+    bml: Callable[..., str], capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
     file = bml(block("b", f'<x:procanimation {BMLT} id="p" name="hop"/>'))
     (tmp_path / "assets").mkdir()
     animation = (PACKAGE_ASSETS / "procanimation" / "beat_right.xml").read_text()
@@ -166,56 +198,70 @@ def test_the_words_of_a_folder_of_assets_are_known_with_it(bml, capsys, tmp_path
     assert capsys.readouterr().err == ""
 
 
-def test_a_description_that_can_be_made_plays_for_what_nobody_has_a_motion_for(bml, capsys) -> None:
+def test_a_description_that_can_be_made_plays_for_what_nobody_has_a_motion_for(
+    bml: Callable[..., str], capsys: pytest.CaptureFixture[str]
+) -> None:
     inside = f"""<gesture id="g" lexeme="BAET"><description priority="1" type="application/bmlt">
       <x:procanimation {BMLT} id="p" name="conduct-3-beat"/></description></gesture>"""
     assert main(["check", bml(block("b", inside))]) == 0
     assert capsys.readouterr().err == ""
 
 
-def test_an_engine_that_fails_is_told_of_and_the_rest_is_checked(bml, capsys, monkeypatch) -> None:
+def test_an_engine_that_fails_is_told_of_and_the_rest_is_checked(
+    bml: Callable[..., str], capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(WaitEngine, "plan", lambda *_: 1 / 0)
     file = bml(block("b", '<wait id="w" duration="1"/><gaze id="g" target="nowhere"/>'))
     assert main(["check", file]) == 1
     captured = capsys.readouterr()
-    assert "no target 'nowhere'" in captured.out
+    assert "there is no target 'nowhere'" in captured.out
     assert "its preparation failed: division by zero" in captured.err
     assert "nowhere" not in captured.err
 
 
-def test_blocks_that_are_activated_and_interrupted_are_no_targets_of_the_world(bml, capsys) -> None:
+def test_blocks_that_are_activated_and_interrupted_are_no_targets_of_the_world(
+    bml: Callable[..., str], capsys: pytest.CaptureFixture[str]
+) -> None:
     inside = f'<x:activate {BMLT} id="a" target="later"/><x:interrupt {BMLT} id="i" target="later"/>'
     assert check(capsys, bml(block("b", inside))) == (0, [])
 
 
-def test_a_block_that_joins_one_that_never_was_is_a_problem(bml, capsys) -> None:
+def test_a_block_that_joins_one_that_never_was_is_a_problem(
+    bml: Callable[..., str], capsys: pytest.CaptureFixture[str]
+) -> None:
     after = f'<bml {BMLT} id="b" x:appendAfter="one,two" scheduling="chunk-after(one)"/>'
     status, (line,) = check(capsys, bml(block("one") + after))
     assert status == 1
-    assert "appendAfter: there never was a block 'two'" in line
+    assert "appendAfter: there has never been a block 'two'" in line
 
 
-def test_a_procedure_is_defined_before_it_is_used_and_judged_where_it_is_defined(bml, capsys) -> None:
+def test_a_procedure_is_defined_before_it_is_used_and_judged_where_it_is_defined(
+    bml: Callable[..., str], capsys: pytest.CaptureFixture[str]
+) -> None:
     definition = f'<x:defineproc {BMLT} id="p"><gaze id="look" target="{{}}"/></x:defineproc>'
     use = f'<x:useproc {BMLT} procid="p" bmlid="b"/>'
     assert check(capsys, bml(definition.format("bluebox") + use)) == (0, [])
     status, (early, target) = check(capsys, bml(use + definition.format("nowhere")))
     assert status == 1
-    assert "no procedure 'p'; there are none" in early
-    assert "no target 'nowhere'" in target
+    assert "there is no procedure 'p'; available: none" in early
+    assert "there is no target 'nowhere'" in target
 
 
-def test_two_blocks_of_one_file_have_two_ids_unless_a_replace_ends_the_first(bml, capsys) -> None:
+def test_two_blocks_of_one_file_have_two_ids_unless_a_replace_ends_the_first(
+    bml: Callable[..., str], capsys: pytest.CaptureFixture[str]
+) -> None:
     twice = bml(f"{block('b')}\n{block('b')}", "twice.xml")
     status, lines = check(capsys, twice)
     assert status == 1
-    assert lines == [f"{twice}:2:1: a block with id 'b' has not ended yet; this one is refused"]
+    assert lines == [f"{twice}:2:1: there is already a block 'b' that has not ended; this one is refused"]
     replaced = bml(block("b") + block("c", composition="REPLACE") + block("b"), "replaced.xml")
     assert check(capsys, replaced) == (0, [])
     assert check(capsys, bml(block("b"), "one.xml"), bml(block("b"), "two.xml")) == (0, [])
 
 
-def test_every_problem_has_file_line_and_column_of_its_start_tag(bml, capsys) -> None:
+def test_every_problem_has_file_line_and_column_of_its_start_tag(
+    bml: Callable[..., str], capsys: pytest.CaptureFixture[str]
+) -> None:
     file = bml(
         block(
             "b",
@@ -236,12 +282,14 @@ def test_every_problem_has_file_line_and_column_of_its_start_tag(bml, capsys) ->
     assert all(reason in line for reason, line in zip(reasons, lines, strict=True))
 
 
-def test_targets_are_those_of_the_human_file(bml, capsys, tests_data) -> None:
+def test_targets_are_those_of_the_human_file(
+    bml: Callable[..., str], capsys: pytest.CaptureFixture[str], tests_data: Path
+) -> None:
     file = bml(block("b", '<gaze id="g" target="bob"/>'))
     assert check(capsys, file)[0] == 1
     assert check(capsys, file, "--human", str(tests_data / "humans" / "two.toml"))[0] == 0
 
 
-def test_check_answers_2_where_a_file_is_not_there(capsys) -> None:
+def test_check_answers_2_where_a_file_is_not_there(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["check", "no-such-file.xml"]) == 2
     assert "no-such-file.xml" in capsys.readouterr().err

@@ -1,5 +1,7 @@
 """What all commands do alike."""
 
+from collections.abc import Callable
+
 import pytest
 
 from reactive_realizer.__main__ import main
@@ -7,7 +9,7 @@ from reactive_realizer.testing.pilot import block
 
 
 @pytest.mark.parametrize("command", ["realize", "check"])
-def test_every_command_has_help_with_an_example(command, capsys) -> None:
+def test_every_command_has_help_with_an_example(command: str, capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as ended:
         main([command, "--help"])
     assert ended.value.code == 0
@@ -16,7 +18,9 @@ def test_every_command_has_help_with_an_example(command, capsys) -> None:
 
 @pytest.mark.parametrize("command", ["realize", "check"])
 @pytest.mark.parametrize("mistake", ["bindings = { foo = 'x' }", "[limits]\nblocks_alive = -1"])
-def test_a_human_file_that_cannot_be_is_2_and_one_line_says_why(bml, capsys, command, mistake) -> None:
+def test_a_human_file_that_cannot_be_is_2_and_one_line_says_why(
+    bml: Callable[..., str], capsys: pytest.CaptureFixture[str], command: str, mistake: str
+) -> None:
     human = bml(f"[character.alice]\n{mistake}", "human.toml")
     assert main([command, bml(block("b")), "--human", human]) == 2
     (line,) = capsys.readouterr().err.splitlines()

@@ -3,6 +3,9 @@
 import os
 import subprocess
 import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -12,13 +15,13 @@ from reactive_realizer.__main__ import main
 from .conftest import HELLO
 
 
-def frames_of(bml, tmp_path, *options):
+def frames_of(bml: Callable[..., str], tmp_path: Path, *options: str) -> Any:
     file = tmp_path / "frames.npz"
     assert main(["realize", bml(HELLO), "--voice", "text", "--frames", str(file), *options]) == 0
     return np.load(file)
 
 
-def test_frames_have_the_names_shapes_and_times_that_are_promised(bml, tmp_path) -> None:
+def test_frames_have_the_names_shapes_and_times_that_are_promised(bml: Callable[..., str], tmp_path: Path) -> None:
     frames = frames_of(bml, tmp_path)
     assert set(frames) == {"time", "joints", "parents", "offsets", "rotations", "root", "morphs", "weights"}
     count, joints, morphs = len(frames["time"]), len(frames["joints"]), len(frames["morphs"])
@@ -35,7 +38,9 @@ def test_frames_have_the_names_shapes_and_times_that_are_promised(bml, tmp_path)
     assert {"r_wrist", "skullbase"} <= set(frames["joints"])
 
 
-def test_with_two_characters_every_name_has_the_character_before_it(bml, tmp_path, tests_data) -> None:
+def test_with_two_characters_every_name_has_the_character_before_it(
+    bml: Callable[..., str], tmp_path: Path, tests_data: Path
+) -> None:
     frames = frames_of(bml, tmp_path, "--human", str(tests_data / "humans" / "two.toml"))
     assert {name.partition("/")[0] for name in frames} == {"alice", "bob"}
     assert np.array_equal(frames["alice/time"], frames["bob/time"])
@@ -44,7 +49,7 @@ def test_with_two_characters_every_name_has_the_character_before_it(bml, tmp_pat
 # --- the same every time
 
 
-def session(bml, tmp_path, name, seed, *voice):
+def session(bml: Callable[..., str], tmp_path: Path, name: str, seed: str, *voice: str) -> tuple[Any, dict[Any, Any]]:
     feedback, frames = tmp_path / f"{name}.jsonl", tmp_path / f"{name}.npz"
     command = [sys.executable, "-m", "reactive_realizer", "realize", bml(HELLO), *voice]
     command += ["--feedback", str(feedback), "--frames", str(frames)]
@@ -54,7 +59,9 @@ def session(bml, tmp_path, name, seed, *voice):
 
 
 @pytest.mark.parametrize("voice", ["text", pytest.param("espeak", marks=pytest.mark.speech)])
-def test_the_same_input_gives_the_same_bytes_whatever_the_hash_seed(bml, tmp_path, voice) -> None:
+def test_the_same_input_gives_the_same_bytes_whatever_the_hash_seed(
+    bml: Callable[..., str], tmp_path: Path, voice: str
+) -> None:
     one = session(bml, tmp_path, "one", "0", "--voice", voice)
     assert session(bml, tmp_path, "two", "1", "--voice", voice) == one
     assert len(one[0].splitlines()) > 10

@@ -1,7 +1,9 @@
 """`lexicon`, as whoever calls it sees it."""
 
 import json
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -26,7 +28,7 @@ BINDING = """<gesturebinding>
 
 
 @pytest.fixture
-def lexicon(capsys):
+def lexicon(capsys: pytest.CaptureFixture[str]) -> Callable[..., tuple[list[str], list[str]]]:
     """Runs ``lexicon``: what it says and what it complains of, in lines."""
 
     def run(*arguments: str | Path) -> tuple[list[str], list[str]]:
@@ -38,28 +40,31 @@ def lexicon(capsys):
 
 
 @pytest.fixture
-def words(lexicon):
+def words(lexicon: Callable[..., tuple[list[str], list[str]]]) -> Callable[..., list[dict[str, Any]]]:
     """The words of the default scene, as ``--json`` has them."""
 
-    def run(*arguments: str | Path) -> list[dict]:
+    def run(*arguments: str | Path) -> list[dict[str, Any]]:
         (text,), _ = lexicon("--json", *arguments)
-        return json.loads(text)["alice"]
+        found: list[dict[str, Any]] = json.loads(text)["alice"]
+        return found
 
     return run
 
 
-def word(words: list[dict], element: str, lexeme: str, **constraints: str) -> dict:
+def word(words: list[dict[str, Any]], element: str, lexeme: str, **constraints: str) -> dict[str, Any]:
     (found,) = [w for w in words if (w["element"], w["lexeme"], w["constraints"]) == (element, lexeme, constraints)]
     return found
 
 
-def test_all_words_of_the_package_play(lexicon):
+def test_all_words_of_the_package_play(lexicon: Callable[..., tuple[list[str], list[str]]]) -> None:
     said, complaints = lexicon()
     assert complaints == []
     assert {"alice:", "  gesture", "  head", "  faceLexeme", "  pose", "  procanimation"} <= set(said)
 
 
-def test_a_line_has_the_word_its_constraints_duration_points_parameters_and_file(lexicon):
+def test_a_line_has_the_word_its_constraints_duration_points_parameters_and_file(
+    lexicon: Callable[..., tuple[list[str], list[str]]],
+) -> None:
     said, _ = lexicon()
     (beat,) = [line for line in said if line.split()[:2] == ["BEAT", "mode=BOTH_HANDS"]]
     assert beat.endswith(
@@ -67,7 +72,7 @@ def test_a_line_has_the_word_its_constraints_duration_points_parameters_and_file
     )
 
 
-def test_json_has_the_same(words):
+def test_json_has_the_same(words: Callable[..., list[dict[str, Any]]]) -> None:
     nod = word(words(), "head", "NOD")
     assert nod["syncPoints"] == ["start", "ready", "strokeStart", "stroke", "strokeEnd", "relax", "end"]
     assert nod["duration"] == pytest.approx(0.7)
@@ -77,30 +82,34 @@ def test_json_has_the_same(words):
     assert word(words(), "faceLexeme", "RAISE_BROWS")["syncPoints"] == ["start", "attackPeak", "relax", "end"]
 
 
-def test_a_conducting_pattern_has_its_beats(words):
+def test_a_conducting_pattern_has_its_beats(words: Callable[..., list[dict[str, Any]]]) -> None:
     bar = word(words(), "procanimation", "conduct-3-beat", mode="RIGHT_HAND")
     assert [point for point in bar["syncPoints"] if point.startswith("beat")] == ["beat1", "beat2", "beat3"]
 
 
-def test_what_a_user_adds_comes_first_and_what_does_not_play_is_told_on_stderr(lexicon, tmp_path):
+def test_what_a_user_adds_comes_first_and_what_does_not_play_is_told_on_stderr(
+    lexicon: Callable[..., tuple[list[str], list[str]]], tmp_path: Path
+) -> None:
     (tmp_path / "gesturebinding.xml").write_text(BINDING)
     said, complaints = lexicon("--assets", tmp_path)
     jump, beat = (next(i for i, line in enumerate(said) if line.split()[:1] == [name]) for name in ("JUMP", "BEAT"))
     assert jump < beat
     assert not any(line.split()[0] in ("HOP", "SKIP") for line in said)
     assert complaints == [
-        "alice: gesture HOP mode=LEFT_HAND: no file 'nowhere.xml' among the assets",
+        "alice: gesture HOP mode=LEFT_HAND: there is no asset named 'nowhere.xml'",
         "alice: gesture SKIP: there is no motion unit 'PhysicalController'",
     ]
 
 
-def test_parameters_have_the_names_and_defaults_of_the_binding(words, tmp_path):
+def test_parameters_have_the_names_and_defaults_of_the_binding(
+    words: Callable[..., list[dict[str, Any]]], tmp_path: Path
+) -> None:
     (tmp_path / "gesturebinding.xml").write_text(BINDING)
     jump = word(words("--assets", tmp_path), "gesture", "JUMP", mood="glad")
     assert {"name": "how_high", "default": 0.25, "low": None, "high": None} in jump["parameters"]
 
 
-def test_each_character_has_its_own_words(lexicon, tmp_path):
+def test_each_character_has_its_own_words(lexicon: Callable[..., tuple[list[str], list[str]]], tmp_path: Path) -> None:
     human = tmp_path / "two.toml"
     human.write_text('[character.alice]\n[character.bob]\nengines = ["face"]')
     said, _ = lexicon("--human", human)
@@ -108,13 +117,15 @@ def test_each_character_has_its_own_words(lexicon, tmp_path):
     assert not any(line.startswith("  gesture") for line in said[said.index("bob:") :])
 
 
-def test_a_binding_that_is_not_well_formed_is_named_with_its_line(tmp_path, capsys):
+def test_a_binding_that_is_not_well_formed_is_named_with_its_line(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     (tmp_path / "gesturebinding.xml").write_text("<gesturebinding>\n<MotionUnitSpec>\n</gesturebinding>")
     assert main(["lexicon", "--assets", str(tmp_path)]) == 2
     assert "gesturebinding.xml, line 3" in capsys.readouterr().err
 
 
-def test_help_has_an_example(capsys):
+def test_help_has_an_example(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit):
         main(["lexicon", "--help"])
     assert "example: reactive-realizer lexicon" in capsys.readouterr().out

@@ -1,6 +1,9 @@
 """`realize`, as whoever calls it sees it: when files enter, what is told, and how it ends."""
 
 import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -10,11 +13,13 @@ from reactive_realizer.testing.pilot import block
 from .conftest import HELLO
 
 
-def ids(feedback, kind="Progress"):
+def ids(feedback: Any, kind: str = "Progress") -> list[Any]:
     return [xml.partition('id="')[2].partition('"')[0] for _, xml in feedback if f"{kind} " in xml]
 
 
-def test_a_session_ends_with_its_last_block(realize, bml) -> None:
+def test_a_session_ends_with_its_last_block(
+    realize: Callable[..., tuple[int, list[tuple[float, str]], str]], bml: Callable[..., str]
+) -> None:
     status, feedback, errors = realize(bml(HELLO))
     assert status == 0
     assert ids(feedback)[0] == "hello:start"
@@ -22,42 +27,52 @@ def test_a_session_ends_with_its_last_block(realize, bml) -> None:
     assert errors == ""
 
 
-def test_files_enter_at_their_times_in_order(realize, bml) -> None:
+def test_files_enter_at_their_times_in_order(
+    realize: Callable[..., tuple[int, list[tuple[float, str]], str]], bml: Callable[..., str]
+) -> None:
     one, two = bml(block("one"), "one.xml"), bml(block("two"), "two@.xml")
     _, feedback, _ = realize(f"{two}@1.5", one)
     starts = [(time, xml) for time, xml in feedback if ":start" in xml]
     assert [(time, "two" in xml) for time, xml in starts] == [(0.0, False), (1.5, True)]
 
 
-def test_a_file_enters_also_when_all_before_it_has_ended_long_ago(realize, bml) -> None:
+def test_a_file_enters_also_when_all_before_it_has_ended_long_ago(
+    realize: Callable[..., tuple[int, list[tuple[float, str]], str]], bml: Callable[..., str]
+) -> None:
     one, two = bml(block("one"), "one.xml"), bml(block("two"), "two.xml")
     status, feedback, errors = realize(one, f"{two}@30")
     assert (status, errors) == (0, "")
     assert [time for time, xml in feedback if "two:start" in xml] == [30.0]
 
 
-def test_a_file_that_would_enter_after_the_end_of_the_session_is_told_of(realize, bml) -> None:
+def test_a_file_that_would_enter_after_the_end_of_the_session_is_told_of(
+    realize: Callable[..., tuple[int, list[tuple[float, str]], str]], bml: Callable[..., str]
+) -> None:
     one, two = bml(block("one"), "one.xml"), bml(block("two"), "two.xml")
     status, feedback, errors = realize(one, f"{two}@2", "--until", "1")
     assert (status, ids(feedback)) == (0, ["one:start", "one:end"])
-    assert errors == f"{two} does not enter: the session ended at 1 s, before 2 s\n"
+    assert errors == f"{two} was not played: the session ended at 1 s, before its time of 2 s\n"
     assert realize(one, f"{two}@1", "--until", "1")[2] == ""
 
 
 @pytest.mark.parametrize("name", ["me@home", "me@", "me@inf", "me@nan", "me@1_000", "me@1.2.3", "me@1e", "me@ 1"])
-def test_only_a_suffix_that_is_a_number_is_a_time(realize, bml, name) -> None:
+def test_only_a_suffix_that_is_a_number_is_a_time(
+    realize: Callable[..., tuple[int, list[tuple[float, str]], str]], bml: Callable[..., str], name: str
+) -> None:
     assert realize(bml(block("b"), name))[0] == 0
 
 
 @pytest.mark.parametrize(
     ("suffix", "time"), [("2", 2), ("0.5", 0.5), (".5", 0.5), ("2.", 2), ("2e0", 2), ("5E-1", 0.5)]
 )
-def test_a_number_may_be_written_in_any_way(realize, bml, suffix, time) -> None:
+def test_a_number_may_be_written_in_any_way(
+    realize: Callable[..., tuple[int, list[tuple[float, str]], str]], bml: Callable[..., str], suffix: str, time: float
+) -> None:
     _, feedback, _ = realize(f"{bml(block('b'))}@{suffix}")
     assert [when for when, xml in feedback if "b:start" in xml] == [time]
 
 
-def test_a_time_that_is_never_is_a_wrong_option(bml, capsys) -> None:
+def test_a_time_that_is_never_is_a_wrong_option(bml: Callable[..., str], capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as end:
         main(["realize", f"{bml(block('b'))}@1e999"])
     assert end.value.code == 2
@@ -81,11 +96,15 @@ def test_a_time_that_is_never_is_a_wrong_option(bml, capsys) -> None:
         (block("b") + "<bml id='c'><oops></bml>" + block("d"), 1),
     ],
 )
-def test_the_exit_status_says_whether_every_block_was_taken_and_none_failed(realize, bml, text, status) -> None:
+def test_the_exit_status_says_whether_every_block_was_taken_and_none_failed(
+    realize: Callable[..., tuple[int, list[tuple[float, str]], str]], bml: Callable[..., str], text: str, status: int
+) -> None:
     assert realize(bml(text))[0] == status
 
 
-def test_a_malformed_block_is_told_with_its_own_line_and_reading_goes_on(realize, bml) -> None:
+def test_a_malformed_block_is_told_with_its_own_line_and_reading_goes_on(
+    realize: Callable[..., tuple[int, list[tuple[float, str]], str]], bml: Callable[..., str]
+) -> None:
     text = f"<?xml version='1.0'?>\n<!-- one -->\n{block('a')}\n<bml id='bad'>\n<oops>\n</bml>\n{block('z')}"
     _, feedback, _ = realize(bml(text))
     assert [id_ for id_ in ids(feedback) if id_.endswith("end")] == ["a:end", "z:end"]
@@ -93,7 +112,9 @@ def test_a_malformed_block_is_told_with_its_own_line_and_reading_goes_on(realize
     assert "line 6" in warning
 
 
-def test_what_still_waits_when_nothing_can_move_is_named(realize, bml) -> None:
+def test_what_still_waits_when_nothing_can_move_is_named(
+    realize: Callable[..., tuple[int, list[tuple[float, str]], str]], bml: Callable[..., str]
+) -> None:
     text = block("b", '<head id="h" lexeme="NOD" start="anticipators:never:comes" end="2"/>')
     text += block("next", composition="APPEND")
     status, feedback, _ = realize(bml(text))
@@ -105,7 +126,9 @@ def test_what_still_waits_when_nothing_can_move_is_named(realize, bml) -> None:
     assert feedback[-1][0] < 3
 
 
-def test_until_ends_a_session(realize, bml) -> None:
+def test_until_ends_a_session(
+    realize: Callable[..., tuple[int, list[tuple[float, str]], str]], bml: Callable[..., str]
+) -> None:
     status, feedback, _ = realize(bml(block("b", '<wait id="w" duration="50"/>')), "--until", "1")
     assert status == 0
     assert ids(feedback) == ["b:start", "b:w:start"]
@@ -126,8 +149,11 @@ def test_until_ends_a_session(realize, bml) -> None:
         [],
     ],
 )
-def test_a_file_that_is_not_there_and_a_wrong_option_are_2(bml, arguments, capsys) -> None:
+def test_a_file_that_is_not_there_and_a_wrong_option_are_2(
+    bml: Callable[..., str], arguments: Any, capsys: pytest.CaptureFixture[str]
+) -> None:
     file = bml(block("b"))
+    status: object
     try:
         status = main(["realize", "--voice", "text", *(argument.format(file=file) for argument in arguments)])
     except SystemExit as ended:
@@ -139,14 +165,18 @@ def test_a_file_that_is_not_there_and_a_wrong_option_are_2(bml, arguments, capsy
     assert "Traceback" not in captured.err
 
 
-def test_feedback_goes_to_stdout_when_asked_and_nothing_else_does(bml, capsys) -> None:
+def test_feedback_goes_to_stdout_when_asked_and_nothing_else_does(
+    bml: Callable[..., str], capsys: pytest.CaptureFixture[str]
+) -> None:
     assert main(["realize", bml(HELLO), "--voice", "text", "--feedback", "-"]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert len(lines) > 10
     assert all(set(json.loads(line)) == {"time", "xml"} for line in lines)
 
 
-def test_explain_writes_why_each_point_of_each_block_was_when_it_was(bml, realize, tmp_path) -> None:
+def test_explain_writes_why_each_point_of_each_block_was_when_it_was(
+    bml: Callable[..., str], realize: Callable[..., tuple[int, list[tuple[float, str]], str]], tmp_path: Path
+) -> None:
     script = bml(block("one", '<wait id="w" duration="0.5"/>') + block("two", composition="APPEND"))
     out = tmp_path / "why.json"
     status, _, _ = realize(script, "--explain", str(out))

@@ -4,6 +4,7 @@ import asyncio
 import json
 import logging
 from pathlib import Path
+from typing import Any
 
 import aiohttp
 import numpy as np
@@ -15,7 +16,7 @@ from reactive_realizer.clock.clock import SystemClock
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.feedback.feedback_manager import Report
 from reactive_realizer.server import serve as serving
-from reactive_realizer.server.posix import with_posix_times
+from reactive_realizer.server.feedback_log import with_posix_times
 from reactive_realizer.server.recording import read_recording
 from reactive_realizer.server.serve import ServerOptions, serve
 from reactive_realizer.testing.pilot import block
@@ -110,7 +111,9 @@ def test_a_live_session_with_late_ticks_is_the_same_again_to_the_last_byte(
     assert any(entered.work for entered in recording.ticks) == (voice == "espeak")
 
     feedback, frames = replayed(file, tmp_path, "one")
-    stamped = [(time, with_posix_times(Report(time, None, xml), recording.started)) for time, xml in feedback]
+    message: Any = None  # only the XML is read
+    reports = [Report(GlobalTime(time), message, xml) for time, xml in feedback]
+    stamped = [(report.time, with_posix_times(report, recording.started)) for report in reports]
     assert stamped == told
     assert len(told) > 30
     assert replayed(file, tmp_path, "two") == (feedback, frames)
@@ -118,7 +121,7 @@ def test_a_live_session_with_late_ticks_is_the_same_again_to_the_last_byte(
     assert (tmp_path / "unseen.jsonl").read_bytes() == (tmp_path / "one.jsonl").read_bytes(), "whoever looks on"
 
 
-def test_without_a_recording_and_without_items_there_is_nothing_to_realize(capsys) -> None:
+def test_without_a_recording_and_without_items_there_is_nothing_to_realize(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as ended:
         main(["realize"])
     assert ended.value.code == 2
@@ -126,26 +129,32 @@ def test_without_a_recording_and_without_items_there_is_nothing_to_realize(capsy
 
 
 @pytest.mark.parametrize("beside", [["a.xml"], ["--voice", "text"], ["--seed", "3"], ["--clock", "real"]])
-def test_what_a_recording_has_itself_cannot_be_said_beside_it(tmp_path: Path, capsys, beside) -> None:
+def test_what_a_recording_has_itself_cannot_be_said_beside_it(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], beside: list[str]
+) -> None:
     with pytest.raises(SystemExit) as ended:
         main(["realize", "--replay", str(tmp_path / "session.jsonl"), *beside])
     assert ended.value.code == 2
-    assert "a recording has its own" in capsys.readouterr().err
+    assert "the recording sets them" in capsys.readouterr().err
 
 
-def test_a_recording_that_is_not_there_is_2(capsys) -> None:
+def test_a_recording_that_is_not_there_is_2(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["realize", "--replay", "no-such-file.jsonl"]) == 2
     assert "no-such-file.jsonl" in capsys.readouterr().err
 
 
-def test_a_file_that_is_no_recording_is_2_and_one_line_says_where(tmp_path: Path, capsys) -> None:
+def test_a_file_that_is_no_recording_is_2_and_one_line_says_where(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     file = tmp_path / "session.jsonl"
     file.write_text("<bml/>\n")
     assert main(["realize", "--replay", str(file)]) == 2
     (line,) = capsys.readouterr().err.splitlines()
-    assert line.startswith("session.jsonl, line 1: not JSON")
+    assert line.startswith("session.jsonl, line 1: not valid JSON")
 
 
-def test_a_recording_that_cannot_be_written_keeps_the_server_from_starting(tmp_path: Path, capsys) -> None:
+def test_a_recording_that_cannot_be_written_keeps_the_server_from_starting(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert main(["serve", "--port", "0", "--voice", "text", "--record", str(tmp_path / "none" / "session.jsonl")]) == 2
     assert "session.jsonl" in capsys.readouterr().err

@@ -29,7 +29,7 @@ async def ticks(clock, count):
     raise AssertionError
 
 
-async def test_ticks_are_hundredths_of_a_second_themselves_and_no_sums() -> None:
+async def test_tick_times_are_exact_hundredths_of_a_second() -> None:
     _, found = await ticks(ManualClock(), 1001)
     assert [tick.time for tick in found[:4]] == [0.0, 0.01, 0.02, 0.03]
     assert found[1000].time == 10.0
@@ -46,7 +46,7 @@ async def test_every_second_tick_has_a_frame() -> None:
     assert [tick.frame for tick in found] == [True, False, True, False, True, False]
 
 
-async def test_a_late_tick_covers_the_whole_interval_and_what_was_left_out_is_counted() -> None:
+async def test_a_late_tick_covers_the_whole_interval_and_skipped_ticks_are_counted() -> None:
     ticker, found = await ticks(LateClock(0.0, 0.0, 0.053), 4)
     assert [tick.number for tick in found] == [0, 1, 7, 8]
     assert [tick.previous for tick in found] == [-1.0, 0.0, 0.01, 0.07]
@@ -54,31 +54,31 @@ async def test_a_late_tick_covers_the_whole_interval_and_what_was_left_out_is_co
     assert max(ticker.lateness) == pytest.approx(0.053)
 
 
-def test_a_tick_knows_which_were_left_out_before_it() -> None:
+def test_a_tick_knows_the_skipped_ticks_before_it() -> None:
     assert list(Tick(7, GlobalTime(0.01)).left_out) == [2, 3, 4, 5, 6]
     assert not Tick(8, GlobalTime(0.07)).left_out
     assert not Tick.on_time(29).left_out
     assert list(Tick.following(None, 2).left_out) == [0, 1]
 
 
-async def test_a_frame_that_was_missed_comes_with_the_next_tick_and_the_rhythm_goes_on() -> None:
+async def test_a_skipped_frame_comes_with_the_next_tick() -> None:
     _, found = await ticks(LateClock(0.0, 0.02), 5)
     assert [(tick.number, tick.frame) for tick in found] == [(0, True), (3, True), (4, True), (5, False), (6, True)]
 
 
-async def test_a_tick_a_hair_early_is_not_the_one_before() -> None:
+async def test_a_tick_that_is_early_by_rounding_has_its_own_number() -> None:
     _, found = await ticks(LateClock(*[1e-12] * 3), 3)
     assert [tick.number for tick in found] == [0, 1, 2]
 
 
-async def test_the_manual_clock_does_not_go_back() -> None:
+async def test_the_manual_clock_cannot_go_back() -> None:
     clock = ManualClock()
     await clock.wait_until(GlobalTime(1.0))
-    with pytest.raises(ValueError, match="does not go back"):
+    with pytest.raises(ValueError, match="cannot go back"):
         await clock.wait_until(GlobalTime(0.5))
 
 
-async def test_the_system_clock_never_waits_for_what_has_passed() -> None:
+async def test_the_system_clock_does_not_wait_for_a_past_moment() -> None:
     clock = SystemClock()
     await clock.wait_until(GlobalTime(-1.0))
     assert clock.now() >= 0.0

@@ -14,7 +14,7 @@ from reactive_realizer.assembly.scene import SceneOptions, open_scene
 from reactive_realizer.clock.clock import SystemClock
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.server.app import create_app
-from reactive_realizer.server.live import Live
+from reactive_realizer.server.live_scene import LiveScene
 from reactive_realizer.server.security import Security
 
 _SPEED = 5
@@ -34,7 +34,7 @@ class QuickClock(SystemClock):
 async def realizer() -> AsyncIterator[str]:
     """The address of our own."""
     async with open_scene(SceneOptions(voice="text")) as scene, asyncio.TaskGroup() as group:
-        live = Live(scene, QuickClock())
+        live = LiveScene(scene, QuickClock())
         ticking = group.create_task(live.run())
         async with TestServer(create_app(live, Security())) as server:
             yield str(server.make_url(""))

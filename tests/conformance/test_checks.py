@@ -6,7 +6,7 @@ from collections.abc import Iterator
 import pytest
 
 from reactive_realizer.bml.document import parse
-from reactive_realizer.conformance.case import Case, read_case, read_suite
+from reactive_realizer.conformance.case import ConformanceCase, read_case, read_suite
 from reactive_realizer.conformance.derive import checks_of
 from reactive_realizer.limits import Limits
 from reactive_realizer.testing.feedback_list import FeedbackList
@@ -26,11 +26,11 @@ SCRIPT = block(
 )
 
 
-def case_of(script: str, rest: str = "") -> Case:
+def case_of(script: str, rest: str = "") -> ConformanceCase:
     return read_case("own", f'<case title="It is so"><send>{script}</send>{rest}</case>'.encode())
 
 
-def problems(case: Case, told: Told) -> list[str]:
+def problems(case: ConformanceCase, told: Told) -> list[str]:
     feedback = FeedbackList()
     for time, xml in told:
         feedback.add(time, xml)
@@ -113,7 +113,7 @@ async def test_a_prediction_that_does_not_come_true_is_a_problem(attribute: str,
 async def test_a_prediction_counts_only_for_what_is_told_after_it() -> None:
     told = await played(SCRIPT)
     late = sorted(told, key=lambda line: "<predictionFeedback" in line[1])
-    assert "nothing was predicted of b before b:start was told (the last prediction before it)" in problems(
+    assert "nothing was predicted of b before b:start was reported (the last prediction before it)" in problems(
         case_of(SCRIPT), late
     )
 
@@ -132,7 +132,9 @@ async def test_the_time_of_progress_is_that_since_the_start_of_its_block() -> No
     script = waiting("a") + waiting("b", "composition", "APPEND")
     told = await played(script)
     wrong = [(at, moved(xml, "time", 0.5) if "syncPointProgress" in xml else xml) for at, xml in told]
-    assert any("b:w:start was told with the time 0.6 where 0.1 s" in each for each in problems(case_of(script), wrong))
+    assert any(
+        "b:w:start was reported with the time 0.6 but 0.1 s" in each for each in problems(case_of(script), wrong)
+    )
 
 
 RETRACTING = block("a", '<gesture id="g" lexeme="BEAT"/><wait id="w" duration="0.2"/>')
@@ -159,7 +161,7 @@ async def test_what_waits_starts_with_the_last_that_it_waits_for(script: str, la
         return moved(xml, "global(?:Start|Time|End)", seconds) if ' id="b' in xml else xml
 
     found = problems(case_of(script), [(at, shifted(xml)) for at, xml in told])
-    assert any(f"b:start was reached {seconds:g} s after {last} where 0 s was to come" in each for each in found), found
+    assert any(f"b:start was reached {seconds:g} s after {last} instead of 0 s" in each for each in found), found
 
 
 @pytest.mark.parametrize(
@@ -193,13 +195,14 @@ async def test_a_warning_that_was_not_to_come_is_a_problem_and_one_that_did_not_
     assert problems(case_of(script, warned), without) == ["no warning of b:g NO_SUCH_TARGET (warnings)"]
 
 
-@pytest.mark.parametrize("case", read_suite(), ids=lambda case: case.name)
-def test_every_case_of_the_suite_has_a_title_and_blocks_of_its_own(case: Case) -> None:
-    assert case.title[0].isupper()
-    ids = [parsed.block.id for send in case.sends for parsed in parse(send.xml, Limits()) if parsed.block]
-    assert ids or case.warnings
-    assert set(case.ends) <= set(ids)
-    assert len(list(checks_of(case))) > 1
+def test_every_case_of_the_suite_has_a_title_and_blocks_of_its_own(subtests: pytest.Subtests) -> None:
+    for case in read_suite():
+        with subtests.test(case.name):
+            assert case.title[0].isupper()
+            ids = [parsed.block.id for send in case.sends for parsed in parse(send.xml, Limits()) if parsed.block]
+            assert ids or case.warnings
+            assert set(case.ends) <= set(ids)
+            assert len(list(checks_of(case))) > 1
 
 
 def test_no_two_cases_use_one_id() -> None:

@@ -75,7 +75,7 @@ async def test_that_a_case_failed_is_1_and_the_table_says_why(capsys) -> None:
         assert await conformance(url, "--case", "empty") == 1
     out = capsys.readouterr().out
     assert out.startswith("failed")
-    assert "  nothing was predicted of nothing before nothing:end was told (the last prediction before it)\n" in out
+    assert "  nothing was predicted of nothing before nothing:end was reported (the last prediction before it)\n" in out
 
 
 async def test_json_says_the_same(realizer: str, capsys) -> None:
@@ -92,7 +92,7 @@ async def test_that_nobody_is_there_is_2(capsys) -> None:
     assert await conformance(url) == 2
     captured = capsys.readouterr()
     assert captured.out == ""
-    assert captured.err.startswith(f"no realizer at {url}: ")
+    assert captured.err.startswith(f"no realizer can be reached at {url}: ")
 
 
 @pytest.mark.parametrize("url", ["nonsense", "http://", "ftp://127.0.0.1:1", "http://127.0.0.1:notaport"])
@@ -107,7 +107,7 @@ async def test_a_server_of_something_else_is_2(capsys) -> None:
 
     async with address_of(page) as url:
         assert await conformance(url) == 2
-    assert "no realizer at" in capsys.readouterr().err
+    assert "no realizer can be reached at" in capsys.readouterr().err
 
 
 async def test_a_realizer_of_another_protocol_is_2(capsys) -> None:

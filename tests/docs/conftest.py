@@ -12,7 +12,7 @@ from aiohttp.test_utils import TestServer
 from reactive_realizer.assembly.scene import SceneOptions, open_scene
 from reactive_realizer.clock.clock import SystemClock
 from reactive_realizer.server.app import create_app
-from reactive_realizer.server.live import Live
+from reactive_realizer.server.live_scene import LiveScene
 from reactive_realizer.server.security import Security
 
 ADDRESS = "http://127.0.0.1:8088"
@@ -50,7 +50,7 @@ class Fence:
 async def server() -> AsyncIterator[str]:
     """The address of a scene that is served, on the machine's clock."""
     async with open_scene(SceneOptions(voice="text")) as scene, asyncio.TaskGroup() as group:
-        live = Live(scene, SystemClock())
+        live = LiveScene(scene, SystemClock())
         ticking = group.create_task(live.run())
         async with TestServer(create_app(live, Security())) as server:
             yield str(server.make_url("")).rstrip("/")

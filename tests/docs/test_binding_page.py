@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from reactive_realizer.assembly.scene import DEFAULT_HUMAN, SceneOptions
-from reactive_realizer.binding.class_names import CLASS_NAMES
 from reactive_realizer.binding.gesture_binding import GestureBinding
-from reactive_realizer.engines.animation.makers import MAKERS
+from reactive_realizer.binding.unit_spec import CLASS_NAMES
+from reactive_realizer.engines.animation.motion_library import MAKERS
 from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 from .conftest import fences, page
@@ -75,7 +75,7 @@ def test_the_binding_with_rests_is_read(tmp_path: Path) -> None:
 
 
 def test_the_page_has_every_kind_of_motion() -> None:
-    table = TEXT.partition("## Kinds of motions")[2].partition("## Rest")[0]
+    table = TEXT.partition("## Kinds of motion")[2].partition("## Rest")[0]
     firsts = [line.split(" | ")[0] for line in table.splitlines() if line.startswith("| `")]
     named = [name for first in firsts for name in re.findall(r"`([\w-]+)`", first)]
     assert sorted(set(named) - {"type", "class"}) == sorted({*MAKERS, "Sequence"})

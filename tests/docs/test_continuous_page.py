@@ -7,9 +7,9 @@ import pytest
 
 from reactive_realizer.bml.document import parse
 from reactive_realizer.bml.names import BML, BMLA, BMLT, OWN
-from reactive_realizer.errors import ERRORS
+from reactive_realizer.errors import FAULTS
 from reactive_realizer.limits import Limits
-from reactive_realizer.scheduler.bml_block import BlockState
+from reactive_realizer.scheduler.block_state import BlockState
 from reactive_realizer.testing.pilot import open_pilot
 
 from .conftest import Fence, fences, page
@@ -111,8 +111,8 @@ async def test_the_rest_of_a_speech_that_was_broken_off_is_found_as_the_page_say
 
 @pytest.mark.parametrize(("code", "warning"), ROWS)
 async def test_what_can_go_wrong_is_told_in_the_words_of_its_code(code: str, warning: str) -> None:
-    assert ERRORS[code].warning == warning
-    sentence = re.sub(r"\\\{.*?\\\}", ".*", re.escape(ERRORS[code].sentence))
+    assert FAULTS[code].warning == warning
+    sentence = re.sub(r"\\\{.*?\\\}", ".*", re.escape(FAULTS[code].template))
     async with open_pilot() as pilot:
         for each in WRONG[code]:
             pilot.perform(block(*each))

@@ -18,9 +18,13 @@ def test_the_program_on_the_page_prints_what_the_page_says() -> None:
     assert f"It prints {printed.strip()}." in DESIGN
 
 
-@pytest.mark.parametrize("path", sorted(set(re.findall(r"`([a-z_]+/(?:[a-z_]+\.py)?|[a-z]+\.py)`", DESIGN))))
-def test_what_the_page_names_is_there(path: str) -> None:
-    assert (PACKAGE / path).exists() or (REPOSITORY / path).exists()
+NAMED_FILES = sorted(set(re.findall(r"`([a-z_]+/(?:[a-z_]+\.py)?|[a-z]+\.py)`", DESIGN)))
+
+
+def test_the_files_on_the_page_exist(subtests: pytest.Subtests) -> None:
+    for path in NAMED_FILES:
+        with subtests.test(path):
+            assert (PACKAGE / path).exists() or (REPOSITORY / path).exists()
 
 
 def test_the_page_lists_every_room() -> None:

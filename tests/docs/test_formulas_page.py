@@ -9,8 +9,8 @@ import pytest
 from reactive_realizer.assembly.scene import DEFAULT_HUMAN, SceneOptions
 from reactive_realizer.engines.animation.expression.compiler import compile_formulas
 from reactive_realizer.engines.animation.expression.functions import FUNCTIONS
-from reactive_realizer.engines.animation.expression.parser import DEEPEST, LONGEST, parse
-from reactive_realizer.engines.animation.procedural.proc_animation_reader import LONGEST as LONGEST_OF_A_FILE
+from reactive_realizer.engines.animation.expression.syntax import DEEPEST, LONGEST, parse
+from reactive_realizer.engines.animation.procedural.procedural_animation_reader import LONGEST as LONGEST_OF_A_FILE
 from reactive_realizer.testing.pilot import open_pilot
 
 from .conftest import EXAMPLES, fences, page

@@ -8,8 +8,8 @@ import pytest
 from lxml import etree
 
 from reactive_realizer.assembly.scene import SceneOptions, open_scene
-from reactive_realizer.bml.twente import BEHAVIORS
-from reactive_realizer.engine.lexicon import Word, words_of
+from reactive_realizer.bml.extensions import MOTIONS
+from reactive_realizer.engine.lexicon import LexiconEntry, words_of
 from reactive_realizer.testing.pilot import open_pilot
 
 from .conftest import DOCS, page
@@ -29,7 +29,7 @@ async def entries(gallery):
     return await gallery.known(SCENE)
 
 
-async def words() -> list[Word]:
+async def words() -> list[LexiconEntry]:
     async with open_scene(SCENE) as scene:
         return [word for word in words_of(scene.realizer.characters["alice"].engines) if word.problem is None]
 
@@ -43,7 +43,7 @@ def shown(entry) -> set[tuple[str, str]]:
 async def test_whatever_plays_has_a_strip(entries):
     there = {pair for entry in entries for pair in shown(entry)}
     assert {(word.element, word.lexeme) for word in await words()} <= there
-    assert {behavior.__name__.lower() for behavior in BEHAVIORS} <= {element.lower() for element, _ in there}
+    assert {behavior.__name__.lower() for behavior in MOTIONS} <= {element.lower() for element, _ in there}
 
 
 async def test_strips_have_names_of_their_own_and_all_of_them_are_there(entries):

@@ -12,7 +12,7 @@ from lxml import etree
 
 from reactive_realizer.assembly.scene import DEFAULT_HUMAN, SceneOptions
 from reactive_realizer.embodiment.body import Body
-from reactive_realizer.engines.animation.procedural.proc_animation_reader import read_proc_animation
+from reactive_realizer.engines.animation.procedural.procedural_animation_reader import read_procedural_animation
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
@@ -29,7 +29,9 @@ def above_shoulder(pilot: RealizerPilot, side: str) -> np.ndarray:
         Body(skeleton, dict(zip(skeleton.joints, map(tuple, frame.rotations), strict=True)))
         for frame in pilot.frames["alice"]
     ]
-    return np.array([b.place(f"{side}_wrist").position[1] - b.place(f"{side}_shoulder").position[1] for b in bodies])
+    return np.array(
+        [b.transform(f"{side}_wrist").position[1] - b.transform(f"{side}_shoulder").position[1] for b in bodies]
+    )
 
 
 async def play(text: str, assets: Path = GESTURE) -> RealizerPilot:
@@ -105,7 +107,7 @@ def test_the_page_has_a_row_for_every_element_of_an_animation(tmp_path: Path) ->
     file = tmp_path / "x.xml"
     file.write_text('<ProcAnimation prefDuration="1"><Nothing/></ProcAnimation>', encoding="utf-8")
     with pytest.raises(RealizerError) as refused:
-        read_proc_animation(file)
+        read_procedural_animation(file)
     known = refused.value.fault.sentence.rpartition("known are ")[2].split(", ")
     rows = re.findall(r"^\| `(\w+)` \|", page("docs/gesture.md"), re.MULTILINE)
     assert set(rows) == {"ProcAnimation", *known}

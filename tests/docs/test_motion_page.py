@@ -7,7 +7,7 @@ import sys
 import pytest
 
 from reactive_realizer.embodiment.speed_limit import ROOT_SPEED, WRIST_ACCELERATION, WRIST_SPEED
-from reactive_realizer.engines.animation.transition.curves import CURVES
+from reactive_realizer.engines.animation.motions.rotation_curves import CURVES
 from reactive_realizer.testing.pilot import open_pilot
 
 from .conftest import REPOSITORY, Fence, fences, page
@@ -43,6 +43,7 @@ def test_the_speeds_are_those_of_the_code() -> None:
     assert f"| the root | {ROOT_SPEED:g} m/s |" in TEXT
 
 
-@pytest.mark.parametrize("file", sorted(set(re.findall(r"`([\w/]+\.py)`", LAWS))))
-def test_a_law_is_seen_in_a_test_that_is_there(file: str) -> None:
-    assert (REPOSITORY / "tests" / file).is_file()
+def test_the_tests_of_the_laws_exist(subtests: pytest.Subtests) -> None:
+    for file in sorted(set(re.findall(r"`([\w/]+\.py)`", LAWS))):
+        with subtests.test(file):
+            assert (REPOSITORY / "tests" / file).is_file()

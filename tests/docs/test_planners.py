@@ -48,8 +48,8 @@ async def run_program(text: str, server: str, last: str, command: tuple[str, ...
     return printed
 
 
-async def test_the_planner_of_the_readme_has_its_block_played_and_is_told(server: str) -> None:
-    printed = await run("planner.py", server, 'id="hello:end"')
+async def test_the_first_planner_prints_feedback_until_its_block_ends(server: str) -> None:
+    printed = await run("planner.py", server, TO_ITS_END)
     assert printed[0] == "connected\n"
     assert 'bmla:status="DONE"' in printed[-1]
     assert [line for line in printed if "warningFeedback" in line] == []
@@ -63,9 +63,10 @@ async def test_the_moving_peg_is_reached_where_it_was_moved_to(server: str) -> N
     assert times["together:end"] == times["together:clap:end"] > times["together:clap:stroke"]
 
 
-def test_the_readme_shows_the_planner_as_it_is() -> None:
+def test_the_program_of_the_readme_prints_what_the_readme_says() -> None:
     (program,) = fences("README.md", "python")
-    assert program.text == (EXAMPLES / "planner.py").read_text(encoding="utf-8")
+    printed = subprocess.run([*PYTHON, program.text], capture_output=True, text=True, check=True).stdout
+    assert f"It prints `{printed.strip()}`." in page("README.md")
 
 
 # --- docs/planners.md
@@ -129,10 +130,11 @@ def test_a_planner_is_tested_without_a_server() -> None:
 
 
 def test_the_page_shows_the_programs_as_they_are() -> None:
-    barge_in, over_http, _ = fences(PLANNERS, "python")
+    planner, barge_in, over_http, _ = fences(PLANNERS, "python")
     in_javascript, _ = fences(PLANNERS, "javascript")
-    for shown, name in ((barge_in, "barge_in.py"), (over_http, "over_http.py"), (in_javascript, "barge_in.mjs")):
-        assert shown.text == (EXAMPLES / name).read_text(encoding="utf-8")
+    shown = {"planner.py": planner, "barge_in.py": barge_in, "over_http.py": over_http, "barge_in.mjs": in_javascript}
+    for name, program in shown.items():
+        assert program.text == (EXAMPLES / name).read_text(encoding="utf-8")
 
 
 def test_the_page_names_programs_that_are_there() -> None:

@@ -13,6 +13,7 @@ from reactive_realizer.__main__ import main
 from reactive_realizer.assembly.registry import load, names
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.embodiment.audio import AudioGain
+from reactive_realizer.errors import FAULTS
 from reactive_realizer.testing.pilot import open_pilot
 
 from .conftest import EXAMPLES, REPOSITORY, fences
@@ -28,8 +29,8 @@ def installed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.usefixtures("installed")
-async def test_all_four_have_their_part_in_the_block_of_the_page() -> None:
-    options = SceneOptions(PLUGIN / "human.toml", "beep", strategy="quick_first")
+async def test_engine_voice_and_trajectory_have_their_part_in_the_block_of_the_page() -> None:
+    options = SceneOptions(PLUGIN / "human.toml", "beep")
     async with open_pilot(options) as pilot:
         pilot.watch()
         pilot.perform((PLUGIN / "wink.xml").read_bytes())
@@ -48,8 +49,19 @@ async def test_all_four_have_their_part_in_the_block_of_the_page() -> None:
 
 
 @pytest.mark.usefixtures("installed")
+async def test_the_strategy_stretches_nothing_and_says_what_it_drops() -> None:
+    async with open_pilot(SceneOptions(voice="text", strategy="earliest")) as pilot:
+        pilot.block("b", '<gesture id="g" lexeme="BEAT" start="1" end="9"/><head id="n" lexeme="NOD" start="g:end"/>')
+        await pilot.advance(5)
+        told = pilot.feedback
+        assert told.warnings == [("b:g", "IMPOSSIBLE_TO_SCHEDULE")]
+        assert told.time("b:g:start") == pytest.approx(1.0)
+        assert told.time("b:n:start") == told.time("b:g:end") < 5.0
+
+
+@pytest.mark.usefixtures("installed")
 def test_the_command_line_takes_them_by_their_names(capsys: pytest.CaptureFixture[str]) -> None:
-    options = ["--human", str(PLUGIN / "human.toml"), "--voice", "beep", "--strategy", "quick_first", "--feedback", "-"]
+    options = ["--human", str(PLUGIN / "human.toml"), "--voice", "beep", "--strategy", "earliest", "--feedback", "-"]
     assert main(["realize", str(PLUGIN / "wink.xml"), *options]) == 0
     assert "hint:eye:end" in capsys.readouterr().out
 
@@ -61,12 +73,12 @@ def test_the_help_of_a_command_names_them(command: str, capsys: pytest.CaptureFi
         main([command, "--help"])
     told = capsys.readouterr().out
     assert "--voice {beep,espeak,text}" in told
-    assert "quick_first" in told
+    assert "earliest" in told
 
 
 @pytest.mark.usefixtures("installed")
 def test_each_is_found_under_the_name_of_the_page() -> None:
-    for group, name in [("engines", "wink"), ("tts", "beep"), ("strategies", "quick_first")]:
+    for group, name in [("engines", "wink"), ("tts", "beep"), ("strategies", "earliest")]:
         assert name in names(group)
         assert load(group, name).__module__
     assert load("trajectories", "overshoot")(1.0) == pytest.approx(1.0)
@@ -78,7 +90,9 @@ async def test_what_the_engine_cannot_play_is_told_in_a_warning() -> None:
         pilot.block("b", '<wink xmlns="urn:example:wink" id="w" eye="third"/>')
         await pilot.advance(0.1)
         assert pilot.feedback.warnings == [("b:w", "CANNOT_CREATE_BEHAVIOR")]
-        assert "nobody has an eye 'third'" in pilot.feedback.of("warningFeedback")[0].element.text
+        text = pilot.feedback.of("warningFeedback")[0].element.text
+        assert "there is no eye 'third'; available: left, right" in text
+        assert FAULTS["wink-no-such-eye"].warning == "CANNOT_CREATE_BEHAVIOR"
 
 
 @pytest.mark.timeout(300)

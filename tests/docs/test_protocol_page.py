@@ -14,8 +14,8 @@ from reactive_realizer.assembly.scene import SceneOptions, open_scene
 from reactive_realizer.clock.clock import ManualClock
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.server.app import create_app
-from reactive_realizer.server.frame_codec import encode_frame
-from reactive_realizer.server.live import Live
+from reactive_realizer.server.frame_stream import encode_frame
+from reactive_realizer.server.live_scene import LiveScene
 from reactive_realizer.server.protocol import DOCUMENT
 from reactive_realizer.server.routes_page import STATIC
 from reactive_realizer.server.security import Security
@@ -32,27 +32,29 @@ ANSWERS = [example for example in EXAMPLES if example.note]
 @pytest.fixture
 async def client() -> AsyncIterator[TestClient[Any, Any]]:
     async with open_scene(SceneOptions(voice="text")) as scene:
-        app = create_app(Live(scene, ManualClock()), Security())
+        app = create_app(LiveScene(scene, ManualClock()), Security())
         async with TestClient(TestServer(app)) as client:
             yield client
 
 
-@pytest.mark.parametrize("example", MESSAGES, ids=str)
-def test_every_message_of_the_page_keeps_to_the_schema(example: Fence) -> None:
-    Draft202012Validator(SCHEMA).validate(json.loads(example.text))
+def test_every_message_on_the_pages_is_valid(subtests: pytest.Subtests) -> None:
+    for example in MESSAGES:
+        with subtests.test(str(example)):
+            Draft202012Validator(SCHEMA).validate(json.loads(example.text))
 
 
-@pytest.mark.parametrize("direction", ["ClientMessage", "ServerMessage"])
-def test_there_is_an_example_of_every_message(direction: str) -> None:
-    validator = Draft202012Validator({"$ref": f"#/$defs/{direction}", "$defs": SCHEMA["$defs"]})
-    messages = [json.loads(example.text) for example in MESSAGES]
-    shown = {message["type"] for message in messages if validator.is_valid(message)}
-    names = [alternative["$ref"].rpartition("/")[2] for alternative in SCHEMA["$defs"][direction]["oneOf"]]
-    assert shown == {SCHEMA["$defs"][name]["properties"]["type"]["const"] for name in names}
+def test_every_message_has_an_example(subtests: pytest.Subtests) -> None:
+    for direction in ["ClientMessage", "ServerMessage"]:
+        with subtests.test(direction):
+            validator = Draft202012Validator({"$ref": f"#/$defs/{direction}", "$defs": SCHEMA["$defs"]})
+            messages = [json.loads(example.text) for example in MESSAGES]
+            shown = {message["type"] for message in messages if validator.is_valid(message)}
+            names = [alternative["$ref"].rpartition("/")[2] for alternative in SCHEMA["$defs"][direction]["oneOf"]]
+            assert shown == {SCHEMA["$defs"][name]["properties"]["type"]["const"] for name in names}
 
 
 @pytest.mark.parametrize("example", ANSWERS, ids=str)
-async def test_a_request_is_answered_with_the_fields_that_the_page_shows(client: TestClient, example: Fence) -> None:
+async def test_the_answer_to_a_request_has_the_fields_on_the_page(client: TestClient, example: Fence) -> None:
     method, path, status = example.note.removeprefix("answer: ").split()
     options = {"data": "<bml/>", "headers": {"Content-Type": "text/xml"}} if method == "POST" else {}
     answer = await client.request(method, path, **options)

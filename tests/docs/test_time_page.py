@@ -50,7 +50,7 @@ async def test_the_later_of_the_words_and_the_hit_decides_when_the_nod_is() -> N
 def test_the_page_lists_every_kind_of_peg() -> None:
     classes = [each for each in vars(time_peg).values() if isinstance(each, type) and issubclass(each, TimePeg)]
     kinds = {each.kind for each in classes if "kind" in vars(each)}
-    listed = re.findall(r"^\| `(\w+)` \| ", page(PAGE).partition("## Unknown")[0], re.MULTILINE)
+    listed = re.findall(r"^\| `(\w+)` \| ", page(PAGE).partition("## States")[0], re.MULTILINE)
     assert set(listed) == {*kinds, "predicted"}
 
 

@@ -1,4 +1,4 @@
-"""The avatars, seen by their own bones."""
+"""Avatars and their bones."""
 
 import json
 import math
@@ -10,10 +10,9 @@ import numpy as np
 import pytest
 
 from reactive_realizer.embodiment.avatar import Avatar, Bone
-from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.body import Body, Pose
 from reactive_realizer.embodiment.frame import rotation_array
 from reactive_realizer.embodiment.quaternion import IDENTITY, from_axis_angle, multiply, rotate
-from reactive_realizer.embodiment.skeleton import Pose
 from reactive_realizer.embodiment.two_bone_ik import Arm
 from reactive_realizer.embodiment.vector import add, distance, subtract, unit
 from reactive_realizer.errors import RealizerError
@@ -76,7 +75,7 @@ def test_every_joint_is_where_its_bone_is_in_any_pose(avatar):
     places = bone_places(avatar, turns)
     positions = sorted(place[0] for place in places.values())
     body = Body(avatar.skeleton, turns)
-    joints = sorted(body.place(joint).position for joint in avatar.skeleton.joints)
+    joints = sorted(body.transform(joint).position for joint in avatar.skeleton.joints)
     assert len(joints) == len(avatar.bones)
     assert np.allclose(positions, joints, atol=1e-9)
 
@@ -104,7 +103,7 @@ def bones() -> list[Bone]:
     return [*out, Bone("RightForeArm", 8, (-0.3, 0.0, 0.0)), Bone("RightHand", 9, (-0.3, 0.0, 0.0))]
 
 
-def test_a_bone_that_is_no_joint_keeps_its_rest_and_its_length_counts_for_the_joint_below():
+def test_a_bone_without_a_joint_stays_at_rest_and_its_length_counts_for_the_joint_below():
     avatar = Avatar.of_bones(bones(), [], "some.glb")
     assert "Twist" not in avatar.skeleton.joints
     assert distance(avatar.skeleton.offset("l_shoulder"), (0.2, 0.4, 0.0)) < 1e-9
@@ -118,17 +117,17 @@ def test_an_avatar_without_an_arm_is_refused_by_name():
 
 
 @pytest.mark.parametrize(("way", "said"), [((0.0, 0.0, 0.0), "0 m"), ((math.nan, 0.0, 0.0), "nan m")])
-def test_a_forearm_that_leads_nowhere_is_refused_by_name(way, said):
+def test_a_forearm_without_a_length_is_refused_by_name(way, said):
     *others, hand = bones()
     with pytest.raises(RealizerError, match=rf"some\.glb .* r_wrist is {said} from the joint above"):
         Avatar.of_bones([*others, Bone(hand.name, hand.parent, way)], [], "some.glb")
 
 
-def test_other_bones_may_lie_on_those_above_them():
+def test_other_bones_may_have_no_length():
     parts = [Bone(bone.name, bone.parent, (0.0, 0.0, 0.0)) if bone.name == "Spine" else bone for bone in bones()]
     skeleton = Avatar.of_bones(parts, [], "some.glb").skeleton
     body = Body(skeleton, {"vl5": from_axis_angle((0.0, 1.0, 0.0), 0.5)})
-    assert body.place("vl5").position == body.place("HumanoidRoot").position
+    assert body.transform("vl5").position == body.transform("HumanoidRoot").position
     Arm.of(skeleton, "l").solve((0.0, 0.0, 0.0))
 
 
@@ -143,14 +142,14 @@ def glb(scene: dict | bytes) -> bytes:
         (b"", "too short"),
         (b"<html>no avatar here</html>", "not a binary glTF 2"),
         (glb(b"{nonsense"), "cannot be read"),
-        (glb(b"[]"), "no object"),
+        (glb(b"[]"), "not an object"),
         (glb({"nodes": []}), "unusable skin"),
-        (glb({"nodes": [{"name": "Hips", "rotation": [0, 0, 1, 0]}], "skins": [{"joints": [0]}]}), "rests rotated"),
+        (glb({"nodes": [{"name": "Hips", "rotation": [0, 0, 1, 0]}], "skins": [{"joints": [0]}]}), "rotation at rest"),
         (glb({"nodes": [{"name": "Hips"}], "skins": [{"joints": [0]}], "meshes": []}), "no bone for skullbase"),
     ],
 )
-def test_a_file_that_is_no_avatar_is_refused_with_its_name_and_the_reason(tmp_path, content, reason):
+def test_an_invalid_avatar_file_is_refused_with_its_name_and_the_reason(tmp_path, content, reason):
     path = tmp_path / "wrong.glb"
     path.write_bytes(content)
-    with pytest.raises(RealizerError, match=rf"wrong\.glb is no usable avatar: .*{reason}"):
+    with pytest.raises(RealizerError, match=rf"wrong\.glb cannot be used as an avatar: .*{reason}"):
         Avatar.read(path)

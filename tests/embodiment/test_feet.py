@@ -1,4 +1,4 @@
-"""Feet that are put into places, by the legs that bring them there."""
+"""Inverse kinematics of legs."""
 
 from importlib.resources import files
 from pathlib import Path
@@ -8,11 +8,10 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from reactive_realizer.embodiment.avatar import Avatar
-from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.body import Body, Skeleton, Transform
 from reactive_realizer.embodiment.feet import LEG_JOINTS, drawn, feet, legs, reach, walks
 from reactive_realizer.embodiment.joints import SIDES
 from reactive_realizer.embodiment.quaternion import angle, difference, from_euler
-from reactive_realizer.embodiment.skeleton import Place, Skeleton
 from reactive_realizer.embodiment.vector import ZERO, add, distance
 
 AVATARS = Path(str(files("reactive_realizer"))) / "assets" / "avatars"
@@ -23,14 +22,16 @@ ways = st.tuples(st.floats(-0.2, 0.2), st.floats(0.02, 0.3), st.floats(-0.3, 0.3
 turns = st.builds(from_euler, *[st.floats(-0.4, 0.4)] * 3)
 
 
-def far(body: Body, side: str, foot: Place) -> float:
-    return distance(body.place(f"{side}_hip").position, foot.position)
+def far(body: Body, side: str, foot: Transform) -> float:
+    return distance(body.transform(f"{side}_hip").position, foot.position)
 
 
 @given(skeletons, st.tuples(ways, ways), st.tuples(turns, turns), turns)
-def test_legs_bring_both_feet_to_any_places_within_their_reach(skeleton, moved, turned, pelvis):
+def test_legs_place_both_feet_anywhere_within_reach(skeleton, moved, turned, pelvis):
     body = Body(skeleton, {"HumanoidRoot": pelvis})
-    places = [Place(add(foot.position, way), turn) for foot, way, turn in zip(feet(body), moved, turned, strict=True)]
+    places = [
+        Transform(add(foot.position, way), turn) for foot, way, turn in zip(feet(body), moved, turned, strict=True)
+    ]
     assume(all(far(body, side, foot) < 0.99 * reach(skeleton, side) for side, foot in zip(SIDES, places, strict=True)))
     for foot, place in zip(feet(body.posed(legs(body, places))), places, strict=True):
         assert distance(foot.position, place.position) < 1e-6
@@ -46,9 +47,9 @@ def test_a_knee_stays_turned_as_it_was(skeleton, hip):
 
 
 @pytest.mark.parametrize("skeleton", SKELETONS)
-def test_a_leg_points_at_a_place_that_it_does_not_reach(skeleton):
+def test_a_leg_points_at_a_goal_out_of_reach(skeleton):
     body = Body(skeleton)
-    places = [Place(add(foot.position, (0.0, -0.2, 0.4)), foot.rotation) for foot in feet(body)]
+    places = [Transform(add(foot.position, (0.0, -0.2, 0.4)), foot.rotation) for foot in feet(body)]
     for side, foot, place in zip(SIDES, feet(body.posed(legs(body, places))), places, strict=True):
         assert distance(foot.position, place.position) == pytest.approx(
             far(body, side, place) - reach(skeleton, side), abs=0.005
@@ -56,9 +57,9 @@ def test_a_leg_points_at_a_place_that_it_does_not_reach(skeleton):
 
 
 @given(skeletons, st.floats(-3.0, 3.0), st.floats(-3.0, 3.0))
-def test_feet_that_are_out_of_reach_are_drawn_near_together(skeleton, x, z):
+def test_feet_out_of_reach_are_dragged_along_together(skeleton, x, z):
     body = Body(skeleton, {}, (0.0, -0.1, 0.0))
-    places = [Place(add(foot.position, (-x, 0.0, -z)), foot.rotation) for foot in feet(Body(skeleton))]
+    places = [Transform(add(foot.position, (-x, 0.0, -z)), foot.rotation) for foot in feet(Body(skeleton))]
     near = drawn(body, places, (x, 0.5, z))
     (left, right), (to_left, to_right) = places, near
     assert max(far(body, side, foot) - reach(skeleton, side) for side, foot in zip(SIDES, near, strict=True)) < 1e-6
@@ -72,17 +73,17 @@ def test_feet_that_are_out_of_reach_are_drawn_near_together(skeleton, x, z):
 
 
 @pytest.mark.parametrize("skeleton", SKELETONS)
-def test_feet_that_are_within_reach_are_not_drawn_and_none_further_than_to_the_end_of_the_way(skeleton):
+def test_feet_within_reach_are_not_dragged_and_none_beyond_the_end_of_the_path(skeleton):
     body = Body(skeleton, {}, (0.0, -0.1, 0.0))
     here = feet(Body(skeleton))
     assert tuple(drawn(body, here, (1.0, 0.0, 0.0))) == here
     assert tuple(drawn(body, here, ZERO)) == here
-    ahead = [Place(add(foot.position, (0.0, 0.0, 2.0)), foot.rotation) for foot in here]
+    ahead = [Transform(add(foot.position, (0.0, 0.0, 2.0)), foot.rotation) for foot in here]
     assert drawn(body, ahead, (0.0, 0.0, -0.5))[0].position[2] == pytest.approx(here[0].position[2] + 1.5)
 
 
 @pytest.mark.parametrize("joint", sorted(LEG_JOINTS))
-def test_who_lacks_a_part_of_a_leg_or_its_length_does_not_walk(joint):
+def test_a_figure_without_complete_legs_does_not_walk(joint):
     whole = SKELETONS[0]
     assert walks(whole)
     flat = tuple((0.0, 0.0, 0.0) if each == joint else whole.offset(each) for each in whole.joints)
@@ -91,7 +92,7 @@ def test_who_lacks_a_part_of_a_leg_or_its_length_does_not_walk(joint):
 
 
 @pytest.mark.parametrize("skeleton", SKELETONS)
-def test_a_leg_whose_foot_is_to_be_at_its_hip_stays_as_it_is(skeleton):
+def test_a_leg_with_its_goal_at_the_hip_stays_as_it_is(skeleton):
     body = Body(skeleton, {"l_knee": from_euler(0.5, 0.0, 0.0)})
-    hips = [body.place(f"{side}_hip") for side in SIDES]
+    hips = [body.transform(f"{side}_hip") for side in SIDES]
     assert legs(body, hips) == {joint: body.rotation(joint) for joint in LEG_JOINTS}

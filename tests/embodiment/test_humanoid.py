@@ -1,4 +1,4 @@
-"""A figure from layers to frames, over time."""
+"""A figure over time: from layers to frames."""
 
 import math
 from importlib.resources import files
@@ -9,7 +9,7 @@ import pytest
 
 from reactive_realizer.embodiment.avatar import Avatar
 from reactive_realizer.embodiment.body import Body
-from reactive_realizer.embodiment.humanoid import Humanoid, Look
+from reactive_realizer.embodiment.humanoid import EyePose, Humanoid
 from reactive_realizer.embodiment.joints import EYES
 from reactive_realizer.embodiment.pose import Layer, LayerKind
 from reactive_realizer.embodiment.quaternion import angle, conjugate, difference, from_axis_angle
@@ -37,21 +37,21 @@ def frames(layers, eyes=None, count=30, **place):
 
 def looking_ahead(body):
     """Eyes that look to +z whatever the head does."""
-    return Look(dict.fromkeys(EYES, conjugate(body.place("skullbase").rotation)), {})
+    return EyePose(dict.fromkeys(EYES, conjugate(body.transform("skullbase").rotation)), {})
 
 
-def test_the_eyes_look_from_where_the_head_is_held_back_to_and_not_from_where_it_is_wanted():
+def test_the_eyes_look_from_the_head_as_limited_and_not_as_requested():
     aside = Layer(LayerKind.GAZE, {"skullbase": from_axis_angle(UP, 0.5), "vc4": from_axis_angle(UP, 0.3)})
     shown = frames([aside], looking_ahead)
-    turned = [angle(body.place("skullbase").rotation) for body in shown]
+    turned = [angle(body.transform("skullbase").rotation) for body in shown]
     assert turned[1] < 0.4 < turned[-1], "held back at first"
     # Two joints of the neck at 8 rad/s are no faster than an eye at 16.
     for body in shown:
-        assert angle(body.place(EYES[0]).rotation) < math.radians(0.5)
+        assert angle(body.transform(EYES[0]).rotation) < math.radians(0.5)
 
 
-def test_an_eye_turns_no_faster_than_in_a_saccade_also_back_when_nobody_looks_any_more():
-    figure, aside = Humanoid(AVATAR), Look(dict.fromkeys(EYES, from_axis_angle(UP, 0.6)), {})
+def test_an_eye_turns_no_faster_than_in_a_saccade_in_either_direction():
+    figure, aside = Humanoid(AVATAR), EyePose(dict.fromkeys(EYES, from_axis_angle(UP, 0.6)), {})
     eyes = []
     for i in range(20):
         frame(figure, i * FRAME, [], (lambda body: aside) if 1 <= i < 10 else None)
@@ -62,7 +62,7 @@ def test_an_eye_turns_no_faster_than_in_a_saccade_also_back_when_nobody_looks_an
     assert angle(eyes[-1]) == pytest.approx(0.0, abs=1e-9)
 
 
-def test_the_first_frame_is_as_it_is_asked_for():
+def test_the_first_frame_is_as_requested():
     figure = Humanoid(AVATAR)
     frame(figure, 3.0, [Layer(LayerKind.BASE, {"r_elbow": from_axis_angle(UP, 1.5)}, root=(0.0, -0.4, 0.0))])
     assert angle(figure.shown.rotation("r_elbow")) == pytest.approx(1.5)
@@ -81,22 +81,22 @@ def test_a_frame_has_the_root_in_the_world_and_the_pose_in_the_order_of_the_skel
     assert shown.root == pytest.approx((1.1 + z, y, 2.0 - x))
 
 
-def test_faces_and_lids_add_up_to_what_a_morph_can_show():
-    figure, lids = Humanoid(AVATAR), Look({}, {"eyeBlinkLeft": 0.25, "jawOpen": -0.5})
+def test_faces_and_lids_add_up_within_the_range_of_a_morph():
+    figure, lids = Humanoid(AVATAR), EyePose({}, {"eyeBlinkLeft": 0.25, "jawOpen": -0.5})
     faces = {"jawOpen": 0.75, "noSuchMorph": 1.0}, {"jawOpen": 0.5, "mouthSmileLeft": 2.0}
     shown = frame(figure, 0.0, [], lambda body: lids, *faces)
     weights = {morph: shown.weights[i] for i, morph in enumerate(AVATAR.morphs) if shown.weights[i] != 0.0}
     assert weights == {"jawOpen": 0.75, "eyeBlinkLeft": 0.25, "mouthSmileLeft": 1.0}
 
 
-def test_a_figure_that_has_moved_is_there_for_who_looks_at_it_before_it_looks_itself():
+def test_a_figure_that_has_moved_is_located_there_before_it_looks():
     figure = Humanoid(AVATAR)
     frame(figure, 0.0, [])
     before = figure.locate("r_wrist")
     figure.move(FRAME, [Layer(LayerKind.BASE, {"r_elbow": from_axis_angle((1.0, 0.0, 0.0), -0.1)})])
     moved = figure.locate("r_wrist")
     seen = []
-    figure.look(lambda body: seen.append(body.place("r_wrist").position) or Look({}, {}), ())
+    figure.look(lambda body: seen.append(body.transform("r_wrist").position) or EyePose({}, {}), ())
     assert moved != before
     assert seen == [moved] == [figure.locate("r_wrist")]
 
@@ -106,15 +106,15 @@ def bent(angle_):
     return [Layer(LayerKind.BASE, {"r_shoulder": from_axis_angle((1.0, 0.0, 0.0), -angle_)})]
 
 
-def test_before_its_first_frame_it_is_at_rest_for_who_looks_at_it_and_for_what_begins():
+def test_a_figure_is_at_rest_before_its_first_frame():
     figure = Humanoid(AVATAR)
     rest = Body(AVATAR.skeleton, {"r_shoulder": from_axis_angle(UP, 0.3)}, (0.0, -0.1, 0.0))
     figure.rest(rest)
     assert figure.body is figure.shown is rest
-    assert figure.locate("r_wrist") == rest.place("r_wrist").position
+    assert figure.locate("r_wrist") == rest.transform("r_wrist").position
 
 
-def test_where_a_joint_will_be_in_the_next_frame_follows_from_how_it_moves():
+def test_the_position_of_a_joint_in_the_next_frame_is_extrapolated():
     figure = Humanoid(AVATAR, position=(1.0, 0.0, 0.0), heading=1.0)
     for i in range(5):
         frame(figure, i * FRAME, bent(0.1 * i))
@@ -127,7 +127,7 @@ def test_where_a_joint_will_be_in_the_next_frame_follows_from_how_it_moves():
     assert figure.locate("r_no_such", 6 * FRAME) is None
 
 
-def test_who_has_not_been_shown_for_a_while_is_not_expected_far_away():
+def test_positions_are_extrapolated_by_one_frame_at_most():
     figure = Humanoid(AVATAR)
     for i in range(3):
         frame(figure, i * FRAME, bent(0.1 * i))

@@ -15,11 +15,11 @@ def test_each_joint_of_an_avatar_belongs_to_one_part_of_the_body():
 @pytest.mark.parametrize(
     ("name", "other"), [("l_wrist", "r_wrist"), ("r_eyeball_joint", "l_eyeball_joint"), ("vl5", "vl5"), ("l", "r")]
 )
-def test_what_is_left_on_one_side_is_right_on_the_other(name, other):
+def test_other_side_exchanges_left_and_right(name, other):
     assert other_side(name) == other
     assert other_side(other) == name
 
 
-def test_the_arms_and_legs_of_the_two_sides_are_each_others_mirror():
+def test_arms_and_legs_of_both_sides_have_the_same_joints():
     assert set(map(other_side, LEFT_ARM)) == RIGHT_ARM
     assert set(map(other_side, LEFT_LEG)) == RIGHT_LEG

@@ -1,12 +1,12 @@
-"""Layers of motion become one pose."""
+"""Composition of layers."""
 
 import math
 
 import pytest
 
+from reactive_realizer.embodiment.body import Skeleton
 from reactive_realizer.embodiment.pose import Layer, LayerKind, checked, compose
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, from_axis_angle, multiply
-from reactive_realizer.embodiment.skeleton import Skeleton
 from reactive_realizer.errors import RealizerError
 
 SKELETON = Skeleton(
@@ -26,7 +26,7 @@ def test_without_layers_the_figure_is_in_the_default_pose():
     assert compose(SKELETON, []).shown.pose == dict.fromkeys(SKELETON.joints, IDENTITY)
 
 
-def test_a_gesture_replaces_what_gaze_does_to_a_joint_whatever_the_order_they_come_in():
+def test_a_gesture_lies_over_a_gaze_in_any_order_of_layers():
     gaze = Layer(LayerKind.GAZE, {"skullbase": about_y(40), "vl5": about_y(10)})
     gesture = Layer(LayerKind.GESTURE, {"skullbase": about_x(5)})
     for layers in ([gaze, gesture], [gesture, gaze]):
@@ -37,23 +37,23 @@ def test_a_gesture_replaces_what_gaze_does_to_a_joint_whatever_the_order_they_co
         }
 
 
-def test_of_two_gestures_the_one_of_higher_priority_lies_above():
+def test_a_layer_with_a_higher_priority_lies_above():
     low = Layer(LayerKind.GESTURE, {"vl5": about_x(10)}, priority=1)
     high = Layer(LayerKind.GESTURE, {"vl5": about_x(20)}, priority=2)
     assert compose(SKELETON, [high, low]).shown.pose["vl5"] == about_x(20)
 
 
-def test_a_layer_of_half_weight_goes_half_the_way():
+def test_a_layer_with_half_weight_turns_half_as_far():
     layers = [Layer(LayerKind.BASE, {"vl5": about_x(10)}), Layer(LayerKind.GESTURE, {"vl5": about_x(50)}, weight=0.5)]
     assert compose(SKELETON, layers).shown.pose["vl5"] == pytest.approx(about_x(30))
 
 
-def test_a_nod_turns_a_head_that_looks_aside_about_its_own_ears():
+def test_a_nod_turns_a_head_that_looks_aside_about_its_own_axis():
     layers = [Layer(LayerKind.ADDITIVE, {"skullbase": about_x(10)}), Layer(LayerKind.GAZE, {"skullbase": about_y(60)})]
     assert compose(SKELETON, layers).shown.pose["skullbase"] == pytest.approx(multiply(about_y(60), about_x(10)))
 
 
-def test_two_additive_layers_add_up_and_weigh_in():
+def test_additive_layers_add_up_by_their_weights():
     layers = [
         Layer(LayerKind.ADDITIVE, {"vl5": about_x(10)}),
         Layer(LayerKind.ADDITIVE, {"vl5": about_x(8)}, weight=0.5),
@@ -70,13 +70,13 @@ def test_joints_that_the_skeleton_lacks_are_left_out():
     assert "l_pinky1" not in compose(SKELETON, [Layer(LayerKind.GESTURE, {"l_pinky1": about_x(10)})]).shown.pose
 
 
-def test_what_lies_above_the_additive_layers_is_neither_added_to_nor_left_out_of_the_steady_pose():
+def test_layers_above_the_additive_ones_are_part_of_the_steady_pose():
     layers = [Layer(LayerKind.END_EFFECTOR, {"vl5": about_y(30)}), Layer(LayerKind.ADDITIVE, {"vl5": about_x(10)})]
     composed = compose(SKELETON, layers)
     assert composed.shown.pose["vl5"] == composed.steady.pose["vl5"] == about_y(30)
 
 
-def test_the_root_is_moved_by_weight_and_further_by_additive_layers():
+def test_the_root_is_displaced_by_weight_and_further_by_additive_layers():
     layers = [
         Layer(LayerKind.POSTURE, {}, weight=0.5, root=(0.0, -0.4, 0.0)),
         Layer(LayerKind.ADDITIVE, {}, root=(0.02, 0.0, 0.0)),
@@ -90,14 +90,14 @@ def test_the_root_is_moved_by_weight_and_further_by_additive_layers():
 @pytest.mark.parametrize(
     ("layer", "said"),
     [
-        (Layer(LayerKind.GESTURE, {"vl5": about_x(10), "skullbase": (math.nan, 0.0, 0.0, 0.0)}), "asks skullbase for"),
-        (Layer(LayerKind.GESTURE, {"skullbase": (0.0, 0.0, 0.0, 0.0)}), "asks skullbase for"),
-        (Layer(LayerKind.GESTURE, {"skullbase": (math.inf, 0.0, 0.0, 0.0)}), "asks skullbase for"),
-        (Layer(LayerKind.GESTURE, {}, weight=math.nan), "asks its weight for nan"),
-        (Layer(LayerKind.GESTURE, {}, root=(0.0, math.inf, 0.0)), "asks HumanoidRoot's place for"),
+        (Layer(LayerKind.GESTURE, {"vl5": about_x(10), "skullbase": (math.nan, 0.0, 0.0, 0.0)}), "sets skullbase to"),
+        (Layer(LayerKind.GESTURE, {"skullbase": (0.0, 0.0, 0.0, 0.0)}), "sets skullbase to"),
+        (Layer(LayerKind.GESTURE, {"skullbase": (math.inf, 0.0, 0.0, 0.0)}), "sets skullbase to"),
+        (Layer(LayerKind.GESTURE, {}, weight=math.nan), "sets its weight to nan"),
+        (Layer(LayerKind.GESTURE, {}, root=(0.0, math.inf, 0.0)), "sets HumanoidRoot's place to"),
     ],
 )
-def test_what_is_no_rotation_is_refused_with_the_name_of_the_joint(layer, said):
+def test_an_invalid_rotation_is_refused_with_the_name_of_the_joint(layer, said):
     with pytest.raises(RealizerError, match=said):
         checked(layer)
 
@@ -109,6 +109,6 @@ def test_joints_may_weigh_less_than_their_layer():
     assert composed["skullbase"] == pytest.approx(about_x(20))
 
 
-def test_a_root_that_comes_goes_with_the_joint_of_its_name():
+def test_the_weight_of_the_root_joint_applies_to_its_displacement():
     layer = Layer(LayerKind.GESTURE, {}, root=(0.0, 0.0, 1.0), weights={"HumanoidRoot": 0.25})
     assert compose(SKELETON, [layer]).shown.root == pytest.approx((0.0, 0.0, 0.25))

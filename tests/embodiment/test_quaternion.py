@@ -1,4 +1,4 @@
-"""Rotations: laws that hold for every quaternion, and the conventions that files rely on."""
+"""Laws of quaternions, and conventions of files."""
 
 import math
 
@@ -35,7 +35,7 @@ def test_the_conjugate_turns_back(a, v):
 
 
 @given(rotation, rotation)
-def test_after_the_first_of_two_rotations_their_difference_makes_the_second(a, b):
+def test_a_rotation_followed_by_its_difference_to_another_is_the_other(a, b):
     assert same(q.multiply(a, q.difference(a, b)), b)
 
 
@@ -63,7 +63,7 @@ def test_slerp_takes_opposite_quaternions_for_the_same_rotation(a, b):
 
 
 @given(direction, direction)
-def test_between_takes_one_direction_to_the_other_the_short_way(a, b):
+def test_between_is_the_smallest_turn_from_one_direction_to_another(a, b):
     turn = q.between(a, b)
     assert near(q.rotate(turn, a), b)
     assert q.angle(turn) == pytest.approx(math.acos(max(-1.0, min(1.0, dot(a, b)))), abs=1e-6)
@@ -81,7 +81,7 @@ def test_from_frames_finds_the_rotation_that_moved_a_frame(a, v, helper):
 
 
 @given(rotation, direction)
-def test_what_is_left_without_the_twist_does_not_turn_about_the_axis(a, axis):
+def test_the_swing_does_not_turn_about_the_axis(a, axis):
     twist = q.twist(a, axis)
     swing = q.multiply(a, q.conjugate(twist))
     assert abs(swing[1] * axis[0] + swing[2] * axis[1] + swing[3] * axis[2]) < 1e-9

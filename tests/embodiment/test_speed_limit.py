@@ -1,4 +1,4 @@
-"""The last safety net: nothing on the figure jumps."""
+"""The speed limits of a figure."""
 
 from importlib.resources import files
 from itertools import pairwise
@@ -9,8 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from reactive_realizer.embodiment.avatar import Avatar
-from reactive_realizer.embodiment.body import Body
-from reactive_realizer.embodiment.ground import depth, grounded, soles
+from reactive_realizer.embodiment.body import Body, Skeleton
+from reactive_realizer.embodiment.feet import depth, grounded, soles
 from reactive_realizer.embodiment.joints import LEGS
 from reactive_realizer.embodiment.quaternion import (
     IDENTITY,
@@ -20,7 +20,6 @@ from reactive_realizer.embodiment.quaternion import (
     from_euler,
     rotate,
 )
-from reactive_realizer.embodiment.skeleton import Skeleton
 from reactive_realizer.embodiment.speed_limit import SpeedLimit, slowed
 from reactive_realizer.embodiment.vector import UP, distance, length
 
@@ -47,12 +46,12 @@ def followed(begin, *calls):
 
 def steps(shown, joint):
     """By how much a joint moved from each frame to the next, m."""
-    return [distance(a.place(joint).position, b.place(joint).position) for a, b in pairwise(shown)]
+    return [distance(a.transform(joint).position, b.transform(joint).position) for a, b in pairwise(shown)]
 
 
 @settings(max_examples=50)
 @given(pose, pose)
-def test_no_wrist_moves_5_cm_in_20_ms_whatever_is_asked_for(begin, wanted):
+def test_no_wrist_moves_5_cm_in_20_ms(begin, wanted):
     shown = followed(body(begin), (body(wanted), 6))
     for wrist in WRISTS:
         assert max(steps(shown, wrist)) < 0.05
@@ -64,7 +63,7 @@ def test_a_small_step_passes_unchanged():
     assert {joint: limited.rotation(joint) for joint in MOVING} == wanted
 
 
-def test_a_pose_far_away_is_reached_after_a_while_and_kept():
+def test_a_distant_pose_is_reached_and_kept():
     wanted = {"l_shoulder": from_axis_angle((1.0, 0.0, 0.0), -2.5), "skullbase": from_axis_angle((0.0, 1.0, 0.0), 1.0)}
     shown = followed(body(), (body(wanted), 60), (body(), 60))
     for joint, goal in wanted.items():
@@ -72,12 +71,12 @@ def test_a_pose_far_away_is_reached_after_a_while_and_kept():
         assert shown[-1].rotation(joint) == pytest.approx(IDENTITY)
 
 
-def test_the_head_turns_no_faster_than_a_neck_can():
+def test_the_head_stays_within_the_limit_of_a_neck():
     limited = SpeedLimit(body())(body({"skullbase": from_axis_angle((0.0, 1.0, 0.0), 1.5)}), FRAME)
     assert angle(limited.rotation("skullbase")) == pytest.approx(8.0 * FRAME)
 
 
-def test_a_joint_that_turns_the_long_way_round_is_the_same_rotation_and_passes():
+def test_the_sign_of_a_quaternion_has_no_effect_on_the_limit():
     turned = from_axis_angle((1.0, 0.0, 0.0), 0.4)
     w, x, y, z = from_axis_angle((1.0, 0.0, 0.0), 0.41)
     assert slowed({"l_elbow": turned}, {"l_elbow": (-w, -x, -y, -z)}, FRAME) == {"l_elbow": (-w, -x, -y, -z)}
@@ -85,7 +84,7 @@ def test_a_joint_that_turns_the_long_way_round_is_the_same_rotation_and_passes()
 
 @settings(max_examples=25)
 @given(st.lists(st.tuples(pose, st.integers(1, 4)), min_size=2, max_size=3))
-def test_a_wrist_never_goes_much_faster_than_before_however_often_it_is_called_elsewhere(calls):
+def test_the_acceleration_of_a_wrist_is_limited(calls):
     shown = followed(body(), *((body(wanted), frames) for wanted, frames in calls))
     for wrist in WRISTS:
         moved = [0.0, *steps(shown, wrist)]
@@ -94,14 +93,14 @@ def test_a_wrist_never_goes_much_faster_than_before_however_often_it_is_called_e
 
 @settings(max_examples=10)
 @given(pose)
-def test_a_wrist_comes_to_where_it_is_wanted_and_never_goes_past(wanted):
+def test_a_wrist_reaches_its_goal_without_overshooting(wanted):
     shown = followed(body(), (body(wanted), 60))
     shares = [angle(difference(each.rotation("r_elbow"), wanted["r_elbow"])) for each in shown]
     assert all(after < before + 1e-9 for before, after in pairwise(shares))
     assert shares[-1] < 1e-6
 
 
-def test_a_wrist_that_is_called_back_sets_out_anew():
+def test_a_wrist_that_reverses_starts_from_rest():
     there = {"r_elbow": from_axis_angle((1.0, 0.0, 0.0), -2.0)}
     moved = steps(followed(body(), (body(there), 5), (body(), 2)), "r_wrist")
     assert moved[0] < 0.0151
@@ -109,12 +108,12 @@ def test_a_wrist_that_is_called_back_sets_out_anew():
     assert moved[5] < 0.0151, "and back slowly"
 
 
-def test_a_hand_turns_about_its_wrist_so_slowly_that_its_fingertips_move_less_than_3_cm():
+def test_fingertips_move_less_than_3_cm_by_a_turn_of_the_wrist():
     shown = followed(body(), (body({"r_wrist": from_axis_angle((1.0, 0.0, 0.0), 1.5)}), 1))
     assert steps(shown, "r_middle3")[0] < 0.03
 
 
-def test_the_root_goes_no_faster_than_2_m_a_second_and_takes_the_arms_along():
+def test_the_root_stays_below_2_m_per_second_and_carries_the_arms():
     shown = followed(body(), (body(root=(0.3, -0.4, 0.0)), 20))
     places = [each.root for each in shown]
     assert max(distance(a, b) for a, b in pairwise(places)) == pytest.approx(0.04)
@@ -134,14 +133,14 @@ def bent(knees, root):
     return body(pose, (0.0, root, 0.0))
 
 
-def test_who_is_asked_to_get_up_too_fast_does_not_push_his_feet_into_the_ground():
+def test_getting_up_too_fast_does_not_push_the_feet_into_the_ground():
     low = grounded(bent(2.0, 0.0))
     shown = followed(low, (body(), 40))
     assert max(map(sunk, shown)) < 0.001
     assert shown[-1].root == (0.0, 0.0, 0.0)
 
 
-def test_feet_that_are_wanted_under_the_ground_come_there():
+def test_feet_may_be_requested_below_the_ground():
     shown = followed(body(), (bent(0.0, -0.3), 40))
     assert sunk(shown[-1]) == pytest.approx(0.3)
     assert steps(shown, "HumanoidRoot")[0] == pytest.approx(0.04)
@@ -154,10 +153,10 @@ def squat(knees):
 def slid(shown):
     """The furthest that an ankle was from where it stood at first, m."""
     ankles = ("l_ankle", "r_ankle")
-    return max(distance(b.place(j).position, shown[0].place(j).position) for b in shown for j in ankles)
+    return max(distance(b.transform(j).position, shown[0].transform(j).position) for b in shown for j in ankles)
 
 
-def test_knees_make_up_for_a_root_that_is_late_and_the_feet_stay():
+def test_knees_compensate_for_a_root_that_lags_behind():
     low, high = squat(2.0), squat(0.3)
     for begin, end in ((low, high), (high, low)):
         shown = followed(begin, (end, 40))
@@ -167,23 +166,23 @@ def test_knees_make_up_for_a_root_that_is_late_and_the_feet_stay():
         assert shown[-1].root == end.root
 
 
-def test_a_leg_that_is_late_goes_as_one_so_that_its_sole_stays_level():
+def test_a_leg_is_slowed_as_a_whole_so_that_its_sole_stays_level():
     kneeling = bent(2.4, 0.0)
     shown = followed(body(), (kneeling, 3))
     for each in shown:
-        assert rotate(each.place("l_ankle").rotation, UP)[1] > 0.9999
+        assert rotate(each.transform("l_ankle").rotation, UP)[1] > 0.9999
     assert (
         max(angle(difference(a.rotation("l_knee"), b.rotation("l_knee"))) for a, b in pairwise(shown)) < 15.01 * FRAME
     )
 
 
-def test_whose_feet_are_wanted_farther_ahead_than_the_legs_reach_keeps_them_below_the_pelvis():
+def test_feet_out_of_reach_stay_below_the_pelvis():
     ahead = followed(body(), (body(root=(0.0, 0.0, 5.0)), 30))
-    assert max(abs(b.place("l_ankle").position[2] - b.place("l_hip").position[2]) for b in ahead) < 0.15
+    assert max(abs(b.transform("l_ankle").position[2] - b.transform("l_hip").position[2]) for b in ahead) < 0.15
     assert max(map(sunk, ahead)) < 0.001
 
 
-def test_a_figure_without_legs_is_held_back_as_it_is():
+def test_a_figure_without_legs_is_limited_too():
     kept = [joint for joint in SKELETON.joints if joint not in LEGS]
     parents = [-1 if (above := SKELETON.parent(joint)) is None else kept.index(above) for joint in kept]
     bust = Skeleton(tuple(kept), tuple(parents), tuple(map(SKELETON.offset, kept)))
@@ -198,7 +197,7 @@ places = st.tuples(*[st.floats(-0.5, 0.5)] * 3)
 
 @settings(max_examples=50)
 @given(st.lists(st.tuples(lower, places, st.integers(1, 10)), min_size=2, max_size=4))
-def test_the_root_keeps_its_limit_whatever_legs_and_root_are_asked_for(calls):
+def test_the_root_keeps_its_limit_for_any_request(calls):
     shown = followed(body(), *((body(pose, root), frames) for pose, root, frames in calls))
     assert max(steps(shown, "HumanoidRoot")) < 1.001 * 2.0 * FRAME
     for joint, most in {"HumanoidRoot": 4.0, **dict.fromkeys(LEGS, 15.0)}.items():

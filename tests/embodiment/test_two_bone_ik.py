@@ -30,7 +30,7 @@ def reached(arm: Limb, goal, swivel=0.0) -> tuple:
 
 @settings(derandomize=True)
 @given(arms, forward, st.floats(0.3, 0.99), swivel)
-def test_the_wrist_comes_to_any_goal_in_reach_within_a_millimeter(arm, way, share, swivel):
+def test_the_wrist_reaches_any_goal_in_reach_within_a_millimeter(arm, way, share, swivel):
     goal = scale(way, share * arm.reach)
     _, wrist = reached(arm, goal, swivel)
     assert distance(wrist, goal) < 0.001
@@ -55,7 +55,7 @@ def test_the_arm_stretches_toward_a_goal_out_of_reach_and_keeps_the_direction(wa
     assert STRAIGHT.reach - 1e-9 <= length(wrist) <= 0.48 + 1e-9
 
 
-def test_toward_full_extension_the_elbow_opens_without_a_snap():
+def test_the_elbow_opens_smoothly_toward_full_extension():
     goals = [(0.0, 0.0, 0.40 + 0.001 * i) for i in range(120)]
     bends = [angle(STRAIGHT.solve(goal)[1]) for goal in goals]
     steps = [before - after for before, after in pairwise(bends)]
@@ -85,7 +85,7 @@ def test_positive_swivel_turns_the_elbow_to_the_figures_right():
     assert elbow[0] < -0.05
 
 
-def test_a_goal_in_the_shoulder_folds_the_arm_in_front():
+def test_a_goal_at_the_shoulder_folds_the_arm_in_front():
     _, wrist = reached(STRAIGHT, (0.0, 0.0, 0.0))
     assert wrist[2] > 0.05
 
@@ -107,7 +107,7 @@ below = direction.filter(lambda v: v[1] < 0.5)
 
 @settings(derandomize=True)
 @given(below, st.floats(0.3, 0.999), swivel)
-def test_the_ankle_comes_to_any_goal_in_reach_within_a_millimeter(way, share, swivel):
+def test_the_ankle_reaches_any_goal_in_reach_within_a_millimeter(way, share, swivel):
     goal = scale(way, share * THIGH_AND_SHANK.reach)
     _, ankle = reached(THIGH_AND_SHANK, goal, swivel)
     assert distance(ankle, goal) < 0.001
@@ -133,12 +133,12 @@ def test_positive_swivel_turns_the_knee_to_the_figures_left():
     assert knee[0] > 0.1
 
 
-def test_a_leg_that_stands_is_as_good_as_straight():
+def test_a_standing_leg_is_almost_straight():
     leg = Leg((0.0, -0.43, 0.0), (0.0, -0.42, 0.0))
     assert distance(reached(leg, (0.0, -0.85, 0.0))[1], (0.0, -0.85, 0.0)) < 0.001
 
 
-def test_a_limb_whose_lower_half_lies_along_its_hinge_is_as_it_is():
+def test_a_limb_with_its_lower_half_along_its_hinge_stays_as_it_is():
     turn, end = Leg((0.0, -0.4, 0.0), (0.4, 0.0, 0.0)).bent(Leg.HINGE, 0.3)
     assert sum(part * part for part in turn) == pytest.approx(1.0)
     assert end == pytest.approx((0.4, -0.4, 0.0))

@@ -63,14 +63,14 @@ async def test_effects_come_in_the_order_of_the_engines(play) -> None:
     assert [reached(each) for each in plays] == [[("a", "start", 0.0)], [("b", "start", 0.5), ("b", "end", 0.7)]]
 
 
-async def test_who_plays_keeps_what_it_owns_and_the_newer_leaves(play) -> None:
+async def test_a_playing_unit_keeps_its_resource_and_the_newer_one_is_dropped(play) -> None:
     arms = engine("arms", unit("late", 0.5, 2.0, "arm"), unit("early", 0.0, 2.0, "arm"), unit("other", 0.5, 2.0, "leg"))
     (played,) = await play(100, arms)
     assert dropped(played) == [("late", "resource-taken")]
     assert [each.behavior.id for each in arms.player.playing] == ["early", "other"]
 
 
-async def test_what_ends_makes_room_for_what_starts_in_the_same_tick(play) -> None:
+async def test_a_unit_that_ends_frees_its_resource_for_one_that_starts_in_the_same_tick(play) -> None:
     arms = engine("arms", unit("first", 0.0, 0.9, "arm"))
     await play(10, arms)
     arms.add(unit("second", 0.9, 2.0, "arm"))
@@ -92,7 +92,7 @@ async def test_an_engine_that_raises_drops_its_units_and_the_others_play(play) -
     assert reached(second) == [("c", "start", 0.0)]
 
 
-async def test_an_engine_that_fails_to_show_what_it_plays_has_said_what_was_reached(play) -> None:
+async def test_an_engine_that_fails_after_firing_reports_the_points_reached(play) -> None:
     class Broken(DefaultEngine):
         def audio(self, tick):
             raise ZeroDivisionError
@@ -106,7 +106,7 @@ async def test_an_engine_that_fails_to_show_what_it_plays_has_said_what_was_reac
     assert arms.fail(1.0, played.dropped[0].fault) == Play()
 
 
-async def test_a_round_that_was_given_up_leaves_the_engines_playing() -> None:
+async def test_engines_go_on_after_a_cancelled_round() -> None:
     tasks = [EngineTask(engine("one")), EngineTask(engine("two"))]
     running = [asyncio.ensure_future(task.run()) for task in tasks]
     given_up = asyncio.ensure_future(play_all(tasks, Tick(0, 0.0)))

@@ -38,7 +38,12 @@ def play(player: Player, now: float) -> list[str]:
     return [f"{each.unit.behavior.id}:{each.point.id}" for each in player.play(tick)]
 
 
-def test_one_that_is_past_its_relax_ends_when_the_next_begins_which_waits_a_round_for_that(player) -> None:
+def interrupt(unit: PlanUnit, time: float) -> None:
+    with unit.points[0].peg.graph.transaction("interrupt"):
+        unit.interrupt(GlobalTime(time))
+
+
+def test_a_unit_past_its_relax_ends_when_the_next_begins_one_round_later(player) -> None:
     first, second = arm("first", start=0.0, relax=1.0, end=2.0), arm("second", start=1.25, end=3.0)
     player.add(first)
     player.add(second)
@@ -46,12 +51,12 @@ def test_one_that_is_past_its_relax_ends_when_the_next_begins_which_waits_a_roun
     assert play(player, 1.3) == []
     assert player.take_ending() == (EndUnit(first, 1.25),)
     assert player.take_ending() == ()
-    first.interrupt(1.25)
+    interrupt(first, 1.25)
     assert play(player, 1.3) == ["second:start"]
     assert player.take_dropped() == ()
 
 
-def test_both_may_be_due_in_one_tick(player) -> None:
+def test_the_relax_and_the_next_start_may_be_due_in_one_tick(player) -> None:
     first, second = arm("first", start=0.0, relax=1.001, end=2.0), arm("second", start=1.004, end=3.0)
     player.add(first)
     player.add(second)
@@ -69,7 +74,7 @@ def test_both_may_be_due_in_one_tick(player) -> None:
     ],
     ids=["it is not that far", "BML says when it ends", "it has no way back"],
 )
-def test_in_any_other_case_the_one_that_plays_keeps_it(player, first) -> None:
+def test_a_unit_before_its_relax_keeps_its_resource(player, first) -> None:
     second = arm("second", start=1.25, end=3.0)
     player.add(first)
     player.add(second)
@@ -90,12 +95,12 @@ def test_a_relax_that_comes_after_the_start_of_the_next_within_a_tick_is_too_lat
 
 
 @pytest.mark.parametrize("interrupted", [None, 1.25])
-def test_one_that_has_ended_by_the_time_of_the_tick_had_it_when_the_next_was_to_begin(player, interrupted) -> None:
+def test_a_unit_that_ended_in_a_late_tick_still_had_its_resource_before(player, interrupted) -> None:
     first, second = arm("first", start=0.0, end=1.25), arm("second", start=1.2, end=3.0)
     player.add(first)
     play(player, 1.0)
     if interrupted is not None:
-        first.interrupt(interrupted)
+        interrupt(first, interrupted)
         player.remove(first)
     play(player, 1.3)
     player.add(second)  # in a later round
@@ -103,7 +108,7 @@ def test_one_that_has_ended_by_the_time_of_the_tick_had_it_when_the_next_was_to_
     assert [(each.unit, each.fault.code) for each in player.take_dropped()] == [(second, "resource-taken")]
 
 
-def test_what_it_gave_away_before_it_ended_is_free(player) -> None:
+def test_a_resource_given_away_before_the_end_is_free(player) -> None:
     first, second = arm("first", start=0.0, relax=1.0, end=1.25), arm("second", start=1.2, end=3.0)
     player.add(first)
     player.add(second)
@@ -111,7 +116,7 @@ def test_what_it_gave_away_before_it_ended_is_free(player) -> None:
     assert play(player, 1.3) == ["first:relax", "first:end", "second:start"]
 
 
-def test_what_ended_before_the_last_tick_is_forgotten(player) -> None:
+def test_a_unit_that_ended_before_the_last_tick_is_forgotten(player) -> None:
     unit = arm("first", start=0.0, end=1.0)
     forgotten = weakref.ref(unit)
     player.add(unit)
@@ -121,7 +126,7 @@ def test_what_ended_before_the_last_tick_is_forgotten(player) -> None:
     assert forgotten() is None
 
 
-def test_who_joins_late_asks_who_has_it_now(player) -> None:
+def test_a_unit_that_joins_late_competes_with_those_that_play_now(player) -> None:
     first, second = arm("first", start=0.0, end=1.25), arm("second", start=0.5, relax=1.3, end=3.0)
     third = arm("third", start=0.9, end=3.0)
     player.add(first)

@@ -1,24 +1,23 @@
-"""All engines under the contract that plug-ins are tested by."""
+"""Runs the contract for engines on all built-in engines."""
 
 from dataclasses import replace
 
 from reactive_realizer.engine.context import EngineContext
 from reactive_realizer.engine.engine import Engine
 from reactive_realizer.engine.tts import Utterance
-from reactive_realizer.engines.activate.activate_engine import ActivateEngine
 from reactive_realizer.engines.animation.animation_engine import AnimationEngine
-from reactive_realizer.engines.face.face_engine import FaceEngine
-from reactive_realizer.engines.interrupt.interrupt_engine import InterruptEngine
-from reactive_realizer.engines.parameter_value_change.parameter_value_change_engine import ParameterValueChangeEngine
+from reactive_realizer.engines.block_control import ActivateEngine, InterruptEngine
+from reactive_realizer.engines.face_engine import FaceEngine
+from reactive_realizer.engines.parameter_value_change import ParameterValueChangeEngine
 from reactive_realizer.engines.speech.speech_engine import SpeechEngine
 from reactive_realizer.engines.speech.text_voice import TextVoice
-from reactive_realizer.engines.wait.wait_engine import WaitEngine
+from reactive_realizer.engines.wait_engine import WaitEngine
 from reactive_realizer.testing.engine_contract import EngineContract
-from reactive_realizer.testing.lone_context import lone_context
+from reactive_realizer.testing.engine_harness import minimal_context
 
 
 class SlowVoice(TextVoice):
-    """Takes its time and hums."""
+    """A voice that synthesizes asynchronously, with audio (silence)."""
 
     async def synthesize(self, text, marks, voice=None) -> Utterance:
         utterance = super().synthesize(text, marks, voice)
@@ -61,9 +60,9 @@ class TestSpeech(EngineContract):
         return SpeechEngine(context)
 
 
-class TestSpeechThatSoundsAndHasToBePrepared(TestSpeech):
+class TestSpeechWithAudio(TestSpeech):
     def context(self) -> EngineContext:
-        return lone_context(SlowVoice())
+        return minimal_context(SlowVoice())
 
 
 class TestWait(EngineContract):

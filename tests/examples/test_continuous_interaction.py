@@ -24,48 +24,48 @@ def example(monkeypatch: pytest.MonkeyPatch) -> Play:
     """What a program of the examples defines, by its name."""
     monkeypatch.syspath_prepend(str(EXAMPLES))
     yield lambda name: runpy.run_path(str(EXAMPLES / f"{name}.py"))
-    sys.modules.pop("stage", None)
+    sys.modules.pop("example_scene", None)
 
 
-def well(stage: RealizerPilot, *blocks: str) -> None:
+def well(scene: RealizerPilot, *blocks: str) -> None:
     """Every one of these blocks was played without a warning."""
-    assert stage.feedback.warnings == []
-    assert {block: stage.feedback.status(block) for block in blocks} == dict.fromkeys(blocks, "DONE")
+    assert scene.feedback.warnings == []
+    assert {block: scene.feedback.status(block) for block in blocks} == dict.fromkeys(blocks, "DONE")
 
 
-def last_word(stage: RealizerPilot, speech: str) -> str | None:
+def last_word(scene: RealizerPilot, speech: str) -> str | None:
     """The word that was heard last of an interrupted speech; None if it was not interrupted."""
-    end = next(line.element for line in stage.feedback.lines if line.id == f"{speech}:end")
+    end = next(line.element for line in scene.feedback.lines if line.id == f"{speech}:end")
     return end.get(f"{{{OWN}}}text")
 
 
 async def test_the_trainer_is_ahead_of_a_user_who_hurries_and_slows_down(example: Play) -> None:
     trainer = example("trainer")
-    stage = await trainer["main"]()
+    scene = await trainer["main"]()
     jumps = trainer["when_the_user_jumps"]()
     numbers = range(trainer["FIRST"], trainer["LAST"] + 1)
-    ahead = [jumps[n - 1] - stage.feedback.time(f"jump{n}:arms:stroke") for n in numbers]
+    ahead = [jumps[n - 1] - scene.feedback.time(f"jump{n}:arms:stroke") for n in numbers]
     assert all(0.1 < each < 0.5 for each in ahead)
     assert np.mean(ahead) == pytest.approx(trainer["AHEAD"], abs=0.05)
-    well(stage, *(f"jump{n}" for n in numbers))
+    well(scene, *(f"jump{n}" for n in numbers))
 
 
 async def test_the_conductor_is_ahead_of_the_music_also_where_a_beat_was_not_heard_or_heard_twice(
     example: Play,
 ) -> None:
     conductor = example("conductor")
-    stage = await conductor["main"]()
+    scene = await conductor["main"]()
     beats = conductor["when_the_music_beats"]()
     numbers = range(conductor["FIRST"], conductor["LAST"] + 1)
-    ahead = [beats[n - 1] - stage.feedback.time(f"bar{n}:beat:stroke") for n in numbers]
+    ahead = [beats[n - 1] - scene.feedback.time(f"bar{n}:beat:stroke") for n in numbers]
     assert all(0.03 < each < 0.16 for each in ahead)
-    well(stage, *(f"bar{n}" for n in numbers))
+    well(scene, *(f"bar{n}" for n in numbers))
 
 
 async def test_the_turn_is_taken_after_its_end_and_not_in_a_pause(
     example: Play, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    stage = await example("taking_the_turn")["main"]()
+    scene = await example("taking_the_turn")["main"]()
     told = [
         line.rpartition("the answer is ")[2] for line in capsys.readouterr().out.splitlines() if "answer is" in line
     ]
@@ -73,19 +73,19 @@ async def test_the_turn_is_taken_after_its_end_and_not_in_a_pause(
     in_the_pause, with_more_words, after_voice, after_sentence = (float(told[i].split()[-1]) for i in (1, 2, 4, 5))
     assert in_the_pause < with_more_words
     assert after_sentence < after_voice
-    assert stage.feedback.time("reply:words:start") == pytest.approx(after_sentence, abs=0.01)
-    assert stage.feedback.time("reply:nod:start") == pytest.approx(after_sentence - 0.2, abs=0.01)
-    well(stage, "reply")
+    assert scene.feedback.time("reply:words:start") == pytest.approx(after_sentence, abs=0.01)
+    assert scene.feedback.time("reply:nod:start") == pytest.approx(after_sentence - 0.2, abs=0.01)
+    well(scene, "reply")
 
 
 @pytest.mark.speech
 async def test_the_turn_is_kept_by_a_voice_that_rises_from_a_word_on_and_falls_again(example: Play) -> None:
-    stage = await example("keeping_the_turn")["main"]()
-    well(stage, "talk", "louder", "as_before")
-    rising, risen = stage.feedback.time("talk:words:important"), stage.feedback.time("louder:up:end")
+    scene = await example("keeping_the_turn")["main"]()
+    well(scene, "talk", "louder", "as_before")
+    rising, risen = scene.feedback.time("talk:words:important"), scene.feedback.time("louder:up:end")
     assert risen == pytest.approx(rising + 0.5)
-    gains = [(each.time, each.gain) for each in stage.sounds if isinstance(each, AudioGain)]
-    assert len([each for each in stage.sounds if isinstance(each, AudioStart)]) == 1
+    gains = [(each.time, each.gain) for each in scene.sounds if isinstance(each, AudioGain)]
+    assert len([each for each in scene.sounds if isinstance(each, AudioStart)]) == 1
     assert all(rising <= time <= risen + 0.02 for time, gain in gains if time < risen + 0.1)
     assert max(gain for _, gain in gains) == pytest.approx(90 / 50)
     assert gains[-1][1] == pytest.approx(1.0)
@@ -95,16 +95,16 @@ async def test_the_turn_is_kept_by_a_voice_that_rises_from_a_word_on_and_falls_a
 
 async def test_the_turn_is_yielded_as_far_as_the_gesture_is(example: Play) -> None:
     before, amid, after = await example("yielding_the_turn")["main"]()
-    assert [last_word(stage, "talk:words") for stage in (before, amid, after)] == ["the", "left", "there"]
+    assert [last_word(scene, "talk:words") for scene in (before, amid, after)] == ["the", "left", "there"]
     assert not before.feedback.reached("talk:left:start")
     assert amid.feedback.time("talk:left:end") == amid.feedback.time("yield:please:start") == 3.0
     assert not amid.feedback.reached("talk:left:strokeEnd")
     assert not after.feedback.reached("yield:please:start")
     assert 3.8 < after.feedback.time("talk:words:end") < after.feedback.time("talk:left:end")
-    assert [stage.feedback.status("talk") for stage in (before, amid, after)] == ["INTERRUPTED", "INTERRUPTED", "DONE"]
-    for stage in (before, amid, after):
-        assert stage.feedback.status("yield") == "DONE"
-        assert stage.feedback.warnings == []
+    assert [scene.feedback.status("talk") for scene in (before, amid, after)] == ["INTERRUPTED", "INTERRUPTED", "DONE"]
+    for scene in (before, amid, after):
+        assert scene.feedback.status("yield") == "DONE"
+        assert scene.feedback.warnings == []
 
 
 @pytest.mark.speech
@@ -113,36 +113,36 @@ async def test_a_path_of_the_plan_is_spoken_without_a_gap_and_the_others_are_giv
     example: Play, path: tuple[str, ...]
 ) -> None:
     speech_plan = example("speech_plan")
-    stage = await speech_plan["answer"](*path)
-    well(stage, "path", *path)
-    assert stage.feedback.time(f"{path[0]}:start") == stage.feedback.time("path:start")
+    scene = await speech_plan["answer"](*path)
+    well(scene, "path", *path)
+    assert scene.feedback.time(f"{path[0]}:start") == scene.feedback.time("path:start")
     for piece, after in itertools.pairwise(path):
-        assert stage.feedback.time(f"{after}:words:start") == stage.feedback.time(f"{piece}:words:end")
+        assert scene.feedback.time(f"{after}:words:start") == scene.feedback.time(f"{piece}:words:end")
     others = [piece for piece in speech_plan["PIECES"] if piece not in path]
-    assert {piece: stage.feedback.status(piece) for piece in others} == dict.fromkeys(others, "REVOKED")
-    assert len([each for each in stage.sounds if isinstance(each, AudioStart)]) == len(path)
+    assert {piece: scene.feedback.status(piece) for piece in others} == dict.fromkeys(others, "REVOKED")
+    assert len([each for each in scene.sounds if isinstance(each, AudioStart)]) == len(path)
 
 
 async def test_each_part_is_broken_off_where_it_was_said_and_goes_on_as_it_was_prepared(example: Play) -> None:
-    stage = await example("graceful_interruption")["main"]()
-    told = stage.feedback
+    scene = await example("graceful_interruption")["main"]()
+    told = scene.feedback
     assert told.time("explain:nod:end") == told.time("stop:start") == pytest.approx(0.7)
     assert told.time("explain:show:end") == told.time("explain:show:strokeEnd") == told.time("give_way:please:start")
     assert told.time("explain:words:end") == told.time("explain:words:here") == told.time("trail_off:words:start")
     assert told.time("explain:show:end") < told.time("explain:words:end")
-    assert last_word(stage, "explain:words") == "that"
+    assert last_word(scene, "explain:words") == "that"
     assert told.status("explain") == "INTERRUPTED"
-    well(stage, "stop", "trail_off", "give_way")
+    well(scene, "stop", "trail_off", "give_way")
 
 
 @pytest.mark.speech
 async def test_an_example_may_be_watched_on_a_page_in_real_time(example: Play, monkeypatch: pytest.MonkeyPatch) -> None:
-    stage = example("stage")
-    monkeypatch.setattr(sys, "argv", ["stage.py", "--watch"])
+    module = example("example_scene")
+    monkeypatch.setattr(sys, "argv", ["example_scene.py", "--watch"])
     monkeypatch.setattr("builtins.input", lambda _: "")
-    stage["open_stage"].__wrapped__.__globals__["PORT"] = 0
-    async with stage["open_stage"]() as watched:
+    module["open_example"].__wrapped__.__globals__["PORT"] = 0
+    async with module["open_example"]() as watched:
         watched.block("b", '<wait id="w" duration="0.05"/>')
         await watched.until(0.2)
-        assert type(watched).__name__ == "WatchedStage"
+        assert type(watched).__name__ == "WatchedExample"
         assert watched.feedback.status("b") == "DONE"

@@ -10,7 +10,7 @@ from lxml import etree
 from reactive_realizer.bml.document import parse
 from reactive_realizer.bml.names import BML, BMLA, BMLT, OWN, is_sync_id
 from reactive_realizer.errors import WarningType
-from reactive_realizer.feedback.feedback_manager import FeedbackManager, Place
+from reactive_realizer.feedback.feedback_manager import FeedbackManager, ProgressOrder
 from reactive_realizer.feedback.messages import (
     BehaviorPrediction,
     BlockProgress,
@@ -51,7 +51,7 @@ def test_sync_point_progress_has_the_time_in_its_block_and_on_the_clock() -> Non
     }
 
 
-def test_a_warning_has_a_type_and_says_why() -> None:
+def test_a_warning_has_a_type_and_a_reason() -> None:
     element = read(WarningFeedback("alice", "b:h", WarningType.NO_SUCH_TARGET, "there is no <such> target & no other"))
     assert dict(element.attrib) == {"id": "b:h", "type": "NO_SUCH_TARGET", "characterId": "alice"}
     assert element.text == "there is no <such> target & no other"
@@ -62,7 +62,7 @@ def test_a_warning_of_a_document_names_no_character() -> None:
 
 
 @given(st.text(), st.text(), st.text(), st.text())
-def test_whatever_things_are_called_and_whatever_the_reason_it_can_be_told(character, block, name, text) -> None:
+def test_any_name_and_any_reason_can_be_written_as_xml(character, block, name, text) -> None:
     read(BlockProgress(character, block, name, 1.0, "IN_EXEC"))
     read(SyncPointProgress(character, block, name, text, 0.0, 1.0, {"word": text}))
     read(WarningFeedback(character, block, WarningType.EXECUTION_FAILURE, text))
@@ -84,7 +84,7 @@ PREDICTED = """
 
 
 @pytest.mark.parametrize("namespace", [f' xmlns="{BML}"', ""])
-def test_a_prediction_gives_every_behavior_with_all_it_was_written_with_and_its_known_times(namespace) -> None:
+def test_a_prediction_has_every_behavior_as_it_was_written_with_its_known_times(namespace) -> None:
     (parsed,) = parse(f'<bml{namespace} id="b">{PREDICTED}</bml>', Limits())
     say, head = parsed.block.behaviors
     predicted = (
@@ -120,7 +120,7 @@ def predicted(times):
 @given(
     st.text() | st.sampled_from(["id", "name", "xmlns", "xmlns:a", "a b", "1x", "{x}", "{urn:x}y", "a+b", "", "é-1.a"])
 )
-def test_a_point_is_predicted_by_an_attribute_of_its_name_or_where_that_cannot_be_not_at_all(sync) -> None:
+def test_a_point_is_predicted_by_an_attribute_of_its_name_or_left_out_if_that_is_no_attribute_name(sync) -> None:
     attributes = predicted({sync: 0.5})
     assert attributes.pop("id") == "b:k"
     assert attributes.pop("name") == "wave"
@@ -137,7 +137,7 @@ def test_a_point_is_predicted_by_an_attribute_of_its_name_or_where_that_cannot_b
         ),
     ],
 )
-def test_a_sync_id_is_what_the_name_of_an_attribute_can_be(name, may) -> None:
+def test_a_sync_id_is_a_legal_attribute_name(name, may) -> None:
     assert is_sync_id(name) is may
 
 
@@ -153,19 +153,19 @@ def progress(name, time):
     return SyncPointProgress("alice", "b", name, "start", 0.0, time)
 
 
-def test_within_a_tick_progress_is_told_by_time_then_block_then_behavior_then_sync_point(told) -> None:
+def test_within_a_tick_progress_is_sent_by_time_then_block_then_behavior_then_sync_point(told) -> None:
     manager, reports = told
     places = {
-        "late": Place(2.0, 0.0, 1, 0, 0),
-        "second block": Place(1.0, 1.0, 1, 0, 0),
-        "arrived later": Place(1.0, 0.0, 2, 0, 0),
-        "second behavior": Place(1.0, 0.0, 1, 1, 0),
-        "second point": Place(1.0, 0.0, 1, 0, 1),
-        "first": Place(1.0, 0.0, 1, 0, 0),
+        "late": ProgressOrder(2.0, 0.0, 1, 0, 0),
+        "second block": ProgressOrder(1.0, 1.0, 1, 0, 0),
+        "arrived later": ProgressOrder(1.0, 0.0, 2, 0, 0),
+        "second behavior": ProgressOrder(1.0, 0.0, 1, 1, 0),
+        "second point": ProgressOrder(1.0, 0.0, 1, 0, 1),
+        "first": ProgressOrder(1.0, 0.0, 1, 0, 0),
     }
     for name, place in places.items():
-        manager.progress(progress(name, place.time), place)
-    manager.say(WarningFeedback("alice", "b", WarningType.NO_SUCH_TARGET, "said last, told first"))
+        manager.add_progress(progress(name, place.time), place)
+    manager.add(WarningFeedback("alice", "b", WarningType.NO_SUCH_TARGET, "said last, told first"))
     manager.flush(2.0)
     told_ids = [getattr(report.message, "behavior", "warning") for report in reports]
     assert told_ids == ["warning", *reversed(places)]
@@ -174,13 +174,13 @@ def test_within_a_tick_progress_is_told_by_time_then_block_then_behavior_then_sy
     assert len(reports) == 7, "nothing is told twice"
 
 
-def test_a_listener_that_fails_keeps_nothing_from_the_others(told, caplog) -> None:
+def test_a_listener_that_fails_does_not_stop_the_others(told, caplog) -> None:
     manager, reports = told
     stop = manager.listen(lambda report: 1 / 0)
     manager.listen(lambda report: stop())
     with caplog.at_level(logging.CRITICAL):
         for _ in range(2):
-            manager.progress(progress("h", 0.0), Place(0.0, 0.0, 1, 0, 0))
+            manager.add_progress(progress("h", 0.0), ProgressOrder(0.0, 0.0, 1, 0, 0))
             manager.flush(0.0)
     assert len(reports) == 2
     stop()

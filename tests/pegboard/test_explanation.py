@@ -4,6 +4,7 @@ import json
 
 import pytest
 
+from reactive_realizer.clock.ticker import RATE, Tick
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.pegboard.peg_key import BlockKey, PegKey
 from reactive_realizer.pegboard.pegboard import PegBoard
@@ -26,7 +27,7 @@ START, STROKE, END = (PegKey(*BLOCK, "clap", sync) for sync in ("start", "stroke
 def board() -> PegBoard:
     """A clap whose stroke hangs on a predicted point."""
     board = PegBoard(Graph())
-    board.time = 0.1
+    board.begin(Tick.on_time(10))
     with board.graph.transaction("plan b"):
         stroke = OffsetPeg(board.graph, "b:clap:stroke", board.predicted("partner", "hit"), 0.0)
         stroke.why = "clap:stroke = anticipators:partner:hit"
@@ -38,13 +39,13 @@ def board() -> PegBoard:
 
 
 def predict(board, time, at):
-    board.time = at
+    board.begin(Tick.on_time(round(at * RATE)))
     with board.graph.transaction("partner predicts hit"):
         board.predicted("partner", "hit").set(time)
 
 
 def pin(board, key, at):
-    board.time = at
+    board.begin(Tick.on_time(round(at * RATE)))
     with board.graph.transaction("reached"):
         board.get(key).pin(board.get(key).value)
 
@@ -58,7 +59,7 @@ def chain(explanation):
     return links
 
 
-def test_a_point_tells_the_chain_of_pegs_that_set_its_time(board) -> None:
+def test_an_explanation_has_the_chain_of_pegs_that_determined_a_time(board) -> None:
     assert chain(board.explain(START)) == [
         ("b:clap:start", 1.5),
         ("b:clap:stroke", 2.0),
@@ -66,7 +67,7 @@ def test_a_point_tells_the_chain_of_pegs_that_set_its_time(board) -> None:
     ]
 
 
-def test_each_link_tells_its_rule_its_constraint_and_the_commit_that_gave_it_its_time(board) -> None:
+def test_each_explained_peg_has_its_rule_its_constraint_and_its_commit(board) -> None:
     start = board.explain(START)
     stroke, hit = start.sources[0], start.sources[0].sources[0]
     assert (start.kind, start.state, start.rule, start.tie) == ("offset", "moving", "b:clap:stroke -0.5 s", None)
@@ -75,26 +76,26 @@ def test_each_link_tells_its_rule_its_constraint_and_the_commit_that_gave_it_its
     assert {(each.commit.cause, each.commit.time) for each in (start, stroke, hit)} == {("partner predicts hit", 0.4)}
 
 
-def test_a_point_that_was_never_moved_tells_the_commit_that_made_it(board) -> None:
+def test_a_point_that_never_moved_has_the_commit_that_made_it(board) -> None:
     with board.graph.transaction("plan c"):
         board.add(PegKey("alice", "c", None, "start"), BMLBlockPeg(board.graph, "c:start", 3.0, ()))
     explanation = board.explain(PegKey("alice", "c", None, "start"))
     assert (explanation.kind, explanation.rule, explanation.commit.cause) == ("block", "latest of 3 s", "plan c")
 
 
-def test_a_write_that_changes_nothing_takes_no_credit(board) -> None:
+def test_a_commit_without_a_change_is_no_explanation(board) -> None:
     predict(board, 2.0, at=0.9)
     assert board.explain(START).commit.time == 0.4
 
 
-def test_an_unknown_point_tells_what_it_waits_for(board) -> None:
+def test_an_unknown_time_is_explained_by_what_it_waits_for(board) -> None:
     predict(board, None, at=0.5)
     assert board.explain(START).state == "unknown"
     assert chain(board.explain(START))[-1] == ("anticipators:partner:hit", None)
     assert board.explain(START).commit.time == 0.5
 
 
-def test_a_point_that_has_fired_tells_what_it_hung_on_then(board) -> None:
+def test_a_fired_point_is_explained_by_its_dependencies_at_that_time(board) -> None:
     pin(board, START, at=1.5)
     assert chain(board.explain(START))[1:] == [("b:clap:stroke", 2.0), ("anticipators:partner:hit", 2.0)]
     predict(board, 2.4, at=1.6)
@@ -105,14 +106,14 @@ def test_a_point_that_has_fired_tells_what_it_hung_on_then(board) -> None:
     assert chain(board.explain(END)) == [("b:clap:end", 2.9), ("b:clap:stroke", 2.4), ("anticipators:partner:hit", 2.4)]
 
 
-def test_a_source_that_came_back_to_its_old_time_is_told_with_the_commit_that_counted(board) -> None:
+def test_a_source_that_returned_to_its_time_has_the_commit_that_determined_the_point(board) -> None:
     pin(board, START, at=1.5)
     for time in (2.4, 2.0):
         predict(board, time, at=1.6)
     assert board.explain(START).sources[0].commit.time == 0.4
 
 
-def test_what_a_fired_point_hung_on_is_not_kept_alive_by_it(board) -> None:
+def test_a_fired_point_does_not_keep_its_former_dependencies_alive(board) -> None:
     with board.graph.transaction("plan c"):
         peg = OffsetPeg(board.graph, "c:x:start", OffsetPeg(board.graph, "b:clap:gone", board.get(STROKE), 0.0), 1.0)
         board.add(PegKey("alice", "c", "x", "start"), peg)
@@ -123,7 +124,7 @@ def test_what_a_fired_point_hung_on_is_not_kept_alive_by_it(board) -> None:
     assert (gone.name, gone.time, gone.state) == ("b:clap:gone", 2.0, "past")
 
 
-def test_a_block_tells_all_its_points_when_it_has_ended_too(board) -> None:
+def test_all_points_of_a_block_are_explained_also_when_it_has_ended(board) -> None:
     predict(board, 3.0, at=1.0)
     with board.graph.transaction("end b"):
         board.pin_block(BLOCK)
@@ -155,7 +156,7 @@ def sources(board, peg):
     return [source.name for source in explain(board, peg).sources]
 
 
-def test_of_several_points_the_one_that_sets_the_time_is_followed(board) -> None:
+def test_only_the_dependency_that_determines_the_time_is_explained(board) -> None:
     times = (("low", 1.0), ("high", 4.0), ("as high", 4.0))
     low, high, as_high = (AnticipatorPeg(board.graph, name, time) for name, time in times)
     assert sources(board, LatestPeg(board.graph, "latest", 0.0, (low, high, as_high))) == ["high"]
@@ -166,13 +167,13 @@ def test_of_several_points_the_one_that_sets_the_time_is_followed(board) -> None
     assert sources(board, RatioPeg(board.graph, "ratio", low, high, 0.5)) == ["low", "high"]
 
 
-def test_of_an_unknown_time_what_is_unknown_is_followed(board) -> None:
+def test_only_the_unknown_dependencies_of_an_unknown_time_are_explained(board) -> None:
     known, unknown = AnticipatorPeg(board.graph, "known", 1.0), AnticipatorPeg(board.graph, "unknown", None)
     assert sources(board, LatestPeg(board.graph, "latest", 0.0, (known, unknown))) == ["unknown"]
     assert sources(board, AfterPeg(board.graph, "after", known, [(unknown, 0.0)])) == ["unknown"]
 
 
-def test_a_peg_that_comes_twice_is_followed_once(board) -> None:
+def test_a_peg_that_occurs_twice_is_explained_once(board) -> None:
     peg = board.get(STROKE)
     for level in range(40):
         left, right = (OffsetPeg(board.graph, f"{side}{level}", peg, 0.0) for side in ("left", "right"))
@@ -183,7 +184,7 @@ def test_a_peg_that_comes_twice_is_followed_once(board) -> None:
     assert right.sources[0].rule.endswith(" ...")
 
 
-def test_a_chain_of_any_length_is_told_as_far_as_a_document_may_be_nested(board) -> None:
+def test_a_long_chain_is_explained_to_a_limited_depth(board) -> None:
     peg = board.get(STROKE)
     for number in range(2000):
         peg = OffsetPeg(board.graph, f"p{number}", peg, 0.0)
@@ -192,6 +193,6 @@ def test_a_chain_of_any_length_is_told_as_far_as_a_document_may_be_nested(board)
     assert json.dumps(explanation.as_json())
 
 
-def test_a_point_that_is_not_there_is_named(board) -> None:
+def test_the_name_of_an_unknown_point_is_reported(board) -> None:
     with pytest.raises(RealizerError, match=r"^there is no point b:clap:relax$"):
         board.explain(PegKey(*BLOCK, "clap", "relax"))

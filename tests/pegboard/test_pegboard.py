@@ -6,6 +6,7 @@ import math
 
 import pytest
 
+from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.pegboard.anticipator import Anticipator
 from reactive_realizer.pegboard.peg_key import BlockKey, PegKey
@@ -40,12 +41,12 @@ def hang(board, sync, peg):
     return own
 
 
-def test_a_name_says_block_behavior_and_sync_point() -> None:
+def test_a_key_is_written_as_block_behavior_and_sync_point() -> None:
     assert str(PegKey("alice", "b", "h", "start")) == "b:h:start"
     assert str(PegKey("alice", "b", None, "start")) == "b:start"
 
 
-def test_a_point_that_is_named_for_the_first_time_is_asked_for(board) -> None:
+def test_an_anticipator_is_asked_for_a_point_that_is_named_for_the_first_time(board) -> None:
     Clockwork("clock", board)
     assert board.predicted("clock", "seven").value == 7.0
     assert board.predicted("clock", "eight").value is None
@@ -53,9 +54,9 @@ def test_a_point_that_is_named_for_the_first_time_is_asked_for(board) -> None:
     assert set(board.predictions("clock")) == {"seven", "eight"}
 
 
-def test_one_that_predicts_by_itself_takes_no_predictions_from_outside(board) -> None:
+def test_an_anticipator_with_its_own_predictions_accepts_none_from_outside(board) -> None:
     Anticipator("partner", board).check_prediction()
-    with pytest.raises(RealizerError, match="'clock' is a clockwork, which makes its own predictions"):
+    with pytest.raises(RealizerError, match="'clock' is a clockwork: it makes its own predictions"):
         Clockwork("clock", board).check_prediction()
 
 
@@ -63,7 +64,7 @@ def test_one_point_has_one_peg(board) -> None:
     assert board.predicted("a", "hit") is board.predicted("a", "hit")
 
 
-def test_a_snapshot_tells_name_time_state_and_source(board) -> None:
+def test_a_snapshot_has_name_time_state_and_source(board) -> None:
     hit = board.predicted("a", "hit")
     peg = hang(board, "start", hit)
     assert [(str(v.key), v.time, v.state, v.source) for v in board.snapshot()] == [
@@ -79,7 +80,7 @@ def test_a_snapshot_tells_name_time_state_and_source(board) -> None:
 
 
 def test_a_snapshot_is_complete_and_is_written_as_json(board) -> None:
-    board.time = 1.25
+    board.begin(Tick.on_time(125))
     with board.graph.transaction("plan b"):
         start = BMLBlockPeg(board.graph, "b:start", 0.5, ())
         end = OffsetPeg(board.graph, "b:h:end", start, 2.0)
@@ -128,7 +129,7 @@ def test_a_snapshot_may_be_of_the_newest_only(board) -> None:
     assert [view.key.sync for view in board.snapshot(newest=2)] == ["3", "4"]
 
 
-def test_a_block_that_is_cut_hangs_on_nothing_and_says_what_did(board) -> None:
+def test_a_pinned_block_has_no_dependencies_and_reports_the_pegs_that_had(board) -> None:
     hit = board.predicted("a", "hit")
     start, end = hang(board, "start", hit), hang(board, "end", hit)
     board.add(PegKey(*BLOCK, "also", "end"), end)
@@ -138,7 +139,7 @@ def test_a_block_that_is_cut_hangs_on_nothing_and_says_what_did(board) -> None:
     assert hit.dependents == {}
 
 
-def test_a_block_that_is_removed_leaves_nothing_behind_that_can_be_known_again(board) -> None:
+def test_a_removed_block_leaves_nothing_that_can_be_predicted_again(board) -> None:
     Clockwork("clock", board)
     told = Anticipator("told", board)
     predict(told, "hit", 3.0)
@@ -151,7 +152,7 @@ def test_a_block_that_is_removed_leaves_nothing_behind_that_can_be_known_again(b
     assert board.predicted("clock", "seven").value == 7.0
 
 
-def test_a_predicted_point_that_others_hang_on_stays(board) -> None:
+def test_a_predicted_point_with_dependents_stays(board) -> None:
     hang(board, "start", board.predicted("a", "hit"))
     board.remove_block(BlockKey("alice", "another"))
     assert len(board.snapshot()) == 2
@@ -200,21 +201,21 @@ def test_a_prediction_moves_a_point_until_it_has_passed(board) -> None:
     assert predict(told, "hit", 4.0, now=2.5) == 4.0, "it is to happen again"
 
 
-def test_whatever_comes_late_comes_now(board) -> None:
+def test_a_late_prediction_is_set_to_now(board) -> None:
     told = Anticipator("told", board)
     assert predict(told, "hit", 1.0, now=2.0) == 2.0
     assert predict(told, "other", 5.0, now=2.0) == 5.0
     assert predict(told, "other", 1.0, now=3.0) == 3.0
 
 
-def test_what_was_said_can_be_withdrawn(board) -> None:
+def test_a_prediction_can_be_withdrawn(board) -> None:
     told = Anticipator("told", board)
     predict(told, "hit", 3.0)
     assert predict(told, "hit", None) is None
 
 
 @pytest.mark.parametrize("time", [math.nan, math.inf, -math.inf])
-def test_a_time_that_is_none_is_refused(board, time) -> None:
+def test_a_time_that_is_not_finite_is_refused(board, time) -> None:
     told = Anticipator("told", board)
     predict(told, "hit", 3.0)
     with pytest.raises(RealizerError, match="not a finite number"):

@@ -17,7 +17,7 @@ def predict(board: PegBoard, key: Anticipator, time: float | None, now: float = 
         key.predict("press", time, now)
 
 
-def test_a_renewed_point_is_another_one_and_those_that_hang_on_the_old_one_stay_there() -> None:
+def test_dependents_of_a_renewed_point_keep_the_old_peg() -> None:
     board, key = anticipator()
     early = OffsetPeg(board.graph, "early", board.predicted("key", "press"), 0.5)
     predict(board, key, 2.0)
@@ -28,7 +28,7 @@ def test_a_renewed_point_is_another_one_and_those_that_hang_on_the_old_one_stay_
     assert (early.value, late.value) == (2.5, 7.5)
 
 
-def test_a_renewed_point_belongs_to_whom_it_belonged() -> None:
+def test_a_renewed_point_keeps_its_owner() -> None:
     board, key = anticipator()
     old = board.predicted("key", "press")
     owner = board.owner(old)
@@ -49,7 +49,7 @@ def test_points_that_passed_are_not_revised() -> None:
     assert [board.predicted("key", sync).value for sync in times] == [1.0, 9.0]
 
 
-def test_a_renewed_point_is_asked_for_anew() -> None:
+def test_an_anticipator_is_asked_for_a_renewed_point() -> None:
     board, key = anticipator()
     times = iter([1.0, 2.0])
     board.ask("key", lambda sync: next(times))
@@ -58,7 +58,7 @@ def test_a_renewed_point_is_asked_for_anew() -> None:
     assert board.predicted("key", "press").value == 2.0
 
 
-def test_a_point_that_nobody_named_needs_no_renewal() -> None:
+def test_a_point_that_was_never_named_needs_no_renewal() -> None:
     board, key = anticipator()
     key.renew("press")
     assert board.snapshot() == ()
@@ -78,7 +78,7 @@ def test_renewing_leaves_nothing_behind() -> None:
     assert board.snapshot() == ()
 
 
-def test_what_was_said_of_all_points_is_taken_back() -> None:
+def test_the_predictions_of_all_points_are_withdrawn() -> None:
     board, key = anticipator()
     predict(board, key, 2.0)
     other = Anticipator("other", board)

@@ -2,7 +2,7 @@
 
 import pytest
 
-from reactive_realizer.pegboard.following import followers_of, unknown_sources
+from reactive_realizer.pegboard.peg_view import followers_of, unknown_sources
 from reactive_realizer.pegboard.time_peg import (
     AfterPeg,
     AnticipatorPeg,
@@ -39,7 +39,7 @@ def test_an_offset_peg_keeps_its_distance(graph) -> None:
     assert peg.describe() == "hit -0.5 s"
 
 
-def test_a_ratio_peg_keeps_its_part_of_the_way(graph) -> None:
+def test_a_ratio_peg_keeps_its_fraction(graph) -> None:
     start, end = AnticipatorPeg(graph, "start", 1.0), AnticipatorPeg(graph, "end", 3.0)
     stroke = RatioPeg(graph, "stroke", start, end, 0.25)
     assert stroke.value == 1.5
@@ -49,7 +49,7 @@ def test_a_ratio_peg_keeps_its_part_of_the_way(graph) -> None:
 
 
 @pytest.mark.parametrize("unknown", ["start", "end"])
-def test_what_hangs_on_the_unknown_is_unknown_and_comes_back(graph, unknown) -> None:
+def test_dependents_of_an_unknown_peg_are_unknown_until_it_is_known(graph, unknown) -> None:
     pegs = {name: AnticipatorPeg(graph, name, 1.0) for name in ("start", "end")}
     between = RatioPeg(graph, "between", pegs["start"], pegs["end"], 0.5)
     after = OffsetPeg(graph, "after", between, 1.0)
@@ -62,7 +62,7 @@ def test_what_hangs_on_the_unknown_is_unknown_and_comes_back(graph, unknown) -> 
     assert unknown_sources([latest]) == []
 
 
-def test_a_block_is_predicted_for_the_latest_of_what_it_waits_for_and_not_before_its_floor(graph) -> None:
+def test_a_block_starts_at_the_latest_peg_it_waits_for_and_not_before_its_floor(graph) -> None:
     one, two = AnticipatorPeg(graph, "one", 1.0), AnticipatorPeg(graph, "two", 2.0)
     block = BMLBlockPeg(graph, "b:start", 1.5, (one, two))
     assert block.value == 2.0
@@ -75,7 +75,7 @@ def test_a_block_is_predicted_for_the_latest_of_what_it_waits_for_and_not_before
     assert two.dependents == {}
 
 
-def test_a_pinned_peg_is_cut_from_its_source_and_the_rest_goes_on(graph) -> None:
+def test_a_pinned_peg_is_cut_from_its_source_and_others_follow_it(graph) -> None:
     hit = AnticipatorPeg(graph, "hit", 2.0)
     start, end = OffsetPeg(graph, "start", hit, -1.0), OffsetPeg(graph, "end", hit, 1.0)
     between = RatioPeg(graph, "between", start, end, 0.5)
@@ -116,7 +116,7 @@ def test_a_before_peg_stays_in_front_of_its_bound_in_another_block(graph) -> Non
     assert peg.describe() == "two:h:start, not after one:h:start +2 s"
 
 
-def test_of_several_bounds_the_tightest_holds(graph) -> None:
+def test_the_tightest_of_several_bounds_holds(graph) -> None:
     natural, low, high = (AnticipatorPeg(graph, name, time) for name, time in (("n", 1.0), ("low", 2.0), ("high", 5.0)))
     after = AfterPeg(graph, "after", natural, [(low, 0.0), (high, 1.0)])
     before = BeforePeg(graph, "before", high, [(low, 0.0), (natural, 3.0)])
@@ -125,7 +125,7 @@ def test_of_several_bounds_the_tightest_holds(graph) -> None:
     assert (after.value, before.value) == (7.0, 4.0)
 
 
-def test_a_bound_of_a_before_peg_in_front_of_a_floor_binds_nothing(graph) -> None:
+def test_a_bound_of_a_before_peg_before_a_floor_has_no_effect(graph) -> None:
     natural, bound, other, floor = (
         AnticipatorPeg(graph, name, None) for name in ("natural", "bound", "other", "floor")
     )
@@ -139,7 +139,7 @@ def test_a_bound_of_a_before_peg_in_front_of_a_floor_binds_nothing(graph) -> Non
         assert peg.value == expected, (cell.name, time)
 
 
-def test_a_bound_of_an_after_peg_behind_a_ceiling_binds_nothing_and_an_unknown_one_is_waited_for(graph) -> None:
+def test_a_bound_of_an_after_peg_after_a_ceiling_has_no_effect_and_it_waits_for_an_unknown_one(graph) -> None:
     natural, bound, other, ceiling = (
         AnticipatorPeg(graph, name, None) for name in ("natural", "bound", "other", "ceiling")
     )
@@ -155,7 +155,7 @@ def test_a_bound_of_an_after_peg_behind_a_ceiling_binds_nothing_and_an_unknown_o
     assert [link.name for link in peg.deciding] == ["bound"]
 
 
-def test_a_bound_that_moves_within_its_distance_wakes_nobody(graph) -> None:
+def test_a_bound_that_moves_without_effect_notifies_no_observer(graph) -> None:
     natural, bound = AnticipatorPeg(graph, "natural", 5.0), AnticipatorPeg(graph, "bound", 1.0)
     told = []
     AfterPeg(graph, "after", natural, [(bound, 0.0)]).observe(told.append)
@@ -165,7 +165,7 @@ def test_a_bound_that_moves_within_its_distance_wakes_nobody(graph) -> None:
     assert told == [6.0]
 
 
-def test_after_an_unknown_time_is_waited_for_and_before_one_binds_nothing(graph) -> None:
+def test_after_an_unknown_time_waits_and_before_one_has_no_effect(graph) -> None:
     natural, bound = AnticipatorPeg(graph, "natural", 5.0), AnticipatorPeg(graph, "bound", None)
     after = AfterPeg(graph, "after", natural, [(bound, 0.0)])
     before = BeforePeg(graph, "before", natural, [(bound, 0.0)])
@@ -178,7 +178,7 @@ def test_after_an_unknown_time_is_waited_for_and_before_one_binds_nothing(graph)
 
 
 @pytest.mark.parametrize("kind", [AfterPeg, BeforePeg])
-def test_a_clamped_peg_that_is_pinned_is_cut_from_what_clamps_it_too(graph, kind) -> None:
+def test_a_pinned_peg_is_cut_from_its_bounds_too(graph, kind) -> None:
     natural, bound = AnticipatorPeg(graph, "natural", 5.0), AnticipatorPeg(graph, "bound", 5.0)
     peg = kind(graph, "peg", natural, [(bound, 0.0)])
     pin(peg, 5.0)
@@ -189,7 +189,7 @@ def test_a_clamped_peg_that_is_pinned_is_cut_from_what_clamps_it_too(graph, kind
     assert [link.name for link in peg.links] == ["natural", "bound"]
 
 
-def test_a_pinned_bound_holds_still(graph) -> None:
+def test_a_pinned_bound_stays_in_effect(graph) -> None:
     _, two, natural, bound = blocks(graph)
     peg = AfterPeg(graph, "after", natural, [(bound, 0.0)])
     pin(bound, 8.5)
@@ -208,21 +208,45 @@ def test_an_offset_peg_across_blocks_is_computed_once_when_both_blocks_move(grap
     assert told == [3.5]
 
 
-def test_what_the_latest_waits_for_is_told_by_a_few_names(graph) -> None:
+def test_a_latest_peg_is_described_by_its_first_names(graph) -> None:
     pegs = [AnticipatorPeg(graph, f"p{i}", float(i)) for i in range(9)]
     assert LatestPeg(graph, "end", 0.0, pegs).describe() == "latest of 0 s, p0, p1, p2, p3, p4, 4 more"
 
 
-def test_a_peg_of_its_own_leaves_the_shared_one_where_it_was(graph) -> None:
+def test_a_detached_peg_leaves_the_shared_one_where_it_was(graph) -> None:
     shared = OffsetPeg(graph, "shared", AnticipatorPeg(graph, "hit", 2.0), 0.0)
     with graph.transaction("test"):
-        own = shared.apart("own", 0.7)
+        own = shared.detached("own", 0.7)
     assert (own.value, own.pinned, shared.value, shared.dependents) == (0.7, True, 2.0, {})
 
 
-def test_what_moves_with_a_peg_ends_at_starts_and_ends_of_blocks(graph) -> None:
+def test_starts_and_ends_of_blocks_are_no_followers_of_a_peg(graph) -> None:
     hit = AnticipatorPeg(graph, "hit", 2.0)
     near = OffsetPeg(graph, "near", hit, 0.0)
     far = OffsetPeg(graph, "far", near, 0.0)
     OffsetPeg(graph, "of the next block", LatestPeg(graph, "end", 0.0, (far,)), 0.0)
     assert followers_of(hit) == {near, far}
+
+
+def test_a_peg_that_is_kept_before_another_one_moves_with_it_while_that_is_earlier(graph) -> None:
+    hit, end = AnticipatorPeg(graph, "hit", 3.0), AnticipatorPeg(graph, "end", 2.0)
+    stroke, last = OffsetPeg(graph, "stroke", hit, 0.0), OffsetPeg(graph, "last", end, 0.0)
+    follower = OffsetPeg(graph, "follower", stroke, 0.5)
+    with graph.transaction("test"):
+        stroke.keep_before(last)
+    assert (stroke.value, follower.value) == (2.0, 2.5)
+    assert stroke.describe() == "hit +0 s, not after last"
+    assert [link.name for link in stroke.deciding] == ["last"]
+    with graph.transaction("test"):
+        end.set(4.0)
+    assert (stroke.value, follower.value) == (3.0, 3.5)
+    assert [link.name for link in stroke.deciding] == ["hit"]
+
+
+def test_a_peg_that_is_kept_before_one_that_depends_on_it_is_pinned_there(graph) -> None:
+    stroke = OffsetPeg(graph, "stroke", AnticipatorPeg(graph, "hit", 3.0), 0.0)
+    natural = OffsetPeg(graph, "natural", stroke, 1.0)
+    last = BeforePeg(graph, "last", natural, [(AnticipatorPeg(graph, "limit", 2.0), 0.0)])
+    with graph.transaction("test"):
+        stroke.keep_before(last)
+    assert (stroke.value, stroke.pinned, last.value) == (2.0, True, 2.0)

@@ -5,7 +5,7 @@ import pytest
 from reactive_realizer.bml.behaviors import Wait
 from reactive_realizer.bml.names import BML, Location
 from reactive_realizer.pegboard.peg_key import BlockKey
-from reactive_realizer.pegboard.time_peg import AnticipatorPeg, OffsetPeg
+from reactive_realizer.pegboard.time_peg import AnticipatorPeg, BeforePeg, OffsetPeg
 from reactive_realizer.planunit.phase_clock import PhaseClock
 from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint, UnitState
 from reactive_realizer.planunit.timing import Phase, PhaseKind, Timing, timing_at
@@ -20,9 +20,9 @@ class Told(PlanUnit):
         known = {sync: float(i) for i, sync in enumerate(times)}
         super().__init__(BlockKey("alice", "b"), behavior, timing_at(known))
         self.told: list[tuple] = []
-        graph = Graph()
-        self.sources = {sync: AnticipatorPeg(graph, sync, time) for sync, time in times.items()}
-        self.points = [SyncPoint(sync, OffsetPeg(graph, sync, peg, 0.0)) for sync, peg in self.sources.items()]
+        self.graph = Graph()
+        self.sources = {sync: AnticipatorPeg(self.graph, sync, time) for sync, time in times.items()}
+        self.points = [SyncPoint(sync, OffsetPeg(self.graph, sync, peg, 0.0)) for sync, peg in self.sources.items()]
         self.release()
 
     def on_start(self, time):
@@ -35,12 +35,21 @@ class Told(PlanUnit):
         self.told.append(("finished", time))
 
     def move(self, sync, time):
-        peg = self.sources[sync]
-        with peg.graph.transaction("move"):
-            peg.set(time)
+        with self.graph.transaction("move"):
+            self.sources[sync].set(time)
+            self.keep_order()
 
     def fired(self, now):
-        return [(point.id, point.fired) for point in self.fire(now)]
+        due = self.due_points(now)
+        self.fire(due, now)
+        with self.graph.transaction("reached"):
+            for point, time in due:
+                point.peg.pin(time)
+        return [(point.id, time) for point, time in due]
+
+    def cut(self, now):
+        with self.graph.transaction("interrupt"):
+            return [(point.id, point.peg.value) for point in self.interrupt(now)]
 
 
 def test_a_unit_begins_when_its_block_plays_and_its_start_is_due() -> None:
@@ -62,10 +71,31 @@ def test_points_fire_with_the_time_of_their_peg_and_only_once() -> None:
     assert unit.state is UnitState.DONE
 
 
-def test_a_point_that_its_successor_overtook_fires_with_it() -> None:
-    unit = Told(start=1.0, stroke=5.0, end=2.0)
+def test_a_point_that_its_successor_overtakes_moves_and_fires_with_it() -> None:
+    unit = Told(start=1.0, stroke=2.0, end=5.0)
     unit.begin()
-    assert unit.fired(2.0) == [("start", 1.0), ("stroke", 2.0), ("end", 2.0)]
+    unit.fired(1.0)
+    unit.move("end", 1.5)
+    assert (unit.time("stroke"), unit.time("end")) == (1.5, 1.5)
+    unit.move("end", 1.75)
+    assert unit.fired(1.8) == [("stroke", 1.75), ("end", 1.75)]
+
+
+def test_a_point_that_was_overtaken_returns_when_its_successor_is_late_again() -> None:
+    unit = Told(start=1.0, stroke=2.0, relax=3.0, end=5.0)
+    unit.move("end", 1.5)
+    unit.move("end", 4.0)
+    assert [unit.time(sync) for sync in ("stroke", "relax", "end")] == [2.0, 3.0, 4.0]
+
+
+def test_a_point_is_overtaken_by_one_that_depends_on_it_too() -> None:
+    unit = Told(start=1.0, stroke=2.0, end=9.0)
+    limit = AnticipatorPeg(unit.graph, "limit", 8.0)
+    natural = OffsetPeg(unit.graph, "natural", unit.point("stroke").peg, 1.0)
+    unit.point("end").peg = BeforePeg(unit.graph, "end", natural, [(limit, 0.0)])
+    unit.sources["limit"] = limit
+    unit.move("limit", 1.5)
+    assert (unit.time("stroke"), unit.time("end")) == (1.5, 1.5)
 
 
 def test_an_unknown_point_waits_unless_its_successor_is_due() -> None:
@@ -75,23 +105,23 @@ def test_an_unknown_point_waits_unless_its_successor_is_due() -> None:
     assert unit.fired(3.0) == [("stroke", 3.0), ("end", 3.0)]
 
 
-def test_of_an_interrupted_unit_only_relax_and_end_are_told_at_the_interruption() -> None:
+def test_an_interrupted_unit_reports_only_relax_and_end() -> None:
     unit = Told(start=0.0, ready=1.0, stroke=2.0, relax=3.0, end=4.0)
     unit.begin()
-    unit.fire(1.5)
-    assert [(point.id, point.fired) for point in unit.interrupt(1.5)] == [("relax", 1.5), ("end", 1.5)]
+    unit.fired(1.5)
+    assert unit.cut(1.5) == [("relax", 1.5), ("end", 1.5)]
     assert unit.told[-1] == ("finished", 1.5)
     assert [point.id for point in unit.points] == ["start", "ready", "relax", "end"]
 
 
-def test_past_its_relax_only_the_end_is_left_to_tell() -> None:
+def test_a_unit_interrupted_after_its_relax_reports_only_its_end() -> None:
     unit = Told(start=0.0, relax=3.0, end=4.0)
     unit.begin()
-    unit.fire(3.5)
-    assert [(point.id, point.fired) for point in unit.interrupt(3.6)] == [("end", 3.6)]
+    unit.fired(3.5)
+    assert unit.cut(3.6) == [("end", 3.6)]
 
 
-def test_a_unit_that_is_dropped_while_it_plays_goes_back_to_rest_and_one_that_waits_has_nothing_to_do() -> None:
+def test_a_unit_is_finished_when_it_is_dropped_only_if_it_plays() -> None:
     playing, waiting = Told(start=0.0, end=4.0), Told(start=0.0, end=4.0)
     playing.begin()
     playing.drop(1.0)
@@ -101,7 +131,7 @@ def test_a_unit_that_is_dropped_while_it_plays_goes_back_to_rest_and_one_that_wa
     assert not playing.live
 
 
-def test_a_unit_leaves_even_if_it_fails_to_go_back_to_rest() -> None:
+def test_a_unit_is_dropped_even_if_on_finish_raises() -> None:
     unit = Told(start=0.0, end=4.0)
     unit.on_finish = lambda time: 1 / 0
     unit.begin()
@@ -109,12 +139,12 @@ def test_a_unit_leaves_even_if_it_fails_to_go_back_to_rest() -> None:
     assert unit.state is UnitState.DROPPED
 
 
-def test_order_is_judged_by_what_is_known() -> None:
+def test_order_is_checked_among_known_times() -> None:
     assert Told(start=0.0, stroke=None, end=1.0).overtaken() is None
     assert Told(start=2.0, stroke=None, end=1.0).overtaken() == (("start", 2.0), ("end", 1.0))
 
 
-def test_it_has_no_other_points() -> None:
+def test_an_unknown_point_of_a_unit_is_a_key_error() -> None:
     with pytest.raises(KeyError):
         Told(start=0.0, end=1.0).time("stroke")
 
@@ -124,7 +154,7 @@ def test_a_timing_knows_its_offsets_and_whether_it_can_be_stretched() -> None:
     assert timing.offsets == (0.0, 0.4, 1.5)
     assert timing.rigid
     assert not Timing(("start", "stroke", "end"), (Phase(1.0, PhaseKind.RIGID), Phase(1.0))).rigid
-    with pytest.raises(ValueError, match="2 points want 1 phases"):
+    with pytest.raises(ValueError, match="2 points need 1 phases"):
         Timing(("start", "end"), ())
 
 
@@ -139,7 +169,7 @@ def test_the_phase_walks_evenly_from_key_to_key() -> None:
     assert phases(unit, clock, 0.0, 0.5, 1.0, 2.0, 3.0, 4.0) == [0.0, 0.25, 0.5, 0.75, 1.0, 1.0]
 
 
-def test_a_key_that_moves_changes_the_pace_and_never_the_phase() -> None:
+def test_a_key_that_moves_changes_the_rate_and_never_the_phase() -> None:
     unit = Told(start=0.0, stroke=1.0, end=3.0)
     clock = PhaseClock({"start": 0.0, "stroke": 0.5, "end": 1.0})
     unit.begin()
@@ -148,7 +178,7 @@ def test_a_key_that_moves_changes_the_pace_and_never_the_phase() -> None:
     assert phases(unit, clock, 0.5, 1.0, 1.5) == [0.25, 0.375, 0.5]
 
 
-def test_the_phase_waits_where_the_next_key_is_unknown() -> None:
+def test_the_phase_stands_still_while_the_next_key_is_unknown() -> None:
     unit = Told(start=0.0, stroke=None, end=None)
     clock = PhaseClock({"start": 0.0, "stroke": 0.5, "end": 1.0})
     unit.begin()

@@ -16,7 +16,7 @@ def top(trace):
     return trace.source("top", 1)
 
 
-async def test_it_gives_each_value_to_one_who_waits(trace, top) -> None:
+async def test_changes_gives_each_value_to_a_waiting_reader(trace, top) -> None:
     changes = top.changes()
     for value in (2, 3):
         waiting = coming(changes)
@@ -26,7 +26,7 @@ async def test_it_gives_each_value_to_one_who_waits(trace, top) -> None:
         assert await waiting == value
 
 
-async def test_one_who_comes_late_gets_the_last_value_only(trace, top) -> None:
+async def test_a_slow_reader_gets_only_the_latest_value(trace, top) -> None:
     changes = top.changes()
     for value in (2, 3, 4):
         trace.write(top, value)
@@ -37,7 +37,7 @@ async def test_one_who_comes_late_gets_the_last_value_only(trace, top) -> None:
     waiting.cancel()
 
 
-async def test_the_value_at_the_time_of_asking_is_no_change(trace, top) -> None:
+async def test_the_present_value_is_no_change(trace, top) -> None:
     trace.write(top, 2)
     changes = top.changes()
     trace.write(top, 3)
@@ -48,21 +48,21 @@ async def test_the_value_at_the_time_of_asking_is_no_change(trace, top) -> None:
     waiting.cancel()
 
 
-async def test_it_ends_when_the_cell_is_disposed_of(trace, top) -> None:
+async def test_changes_ends_when_the_cell_is_disposed_of(trace, top) -> None:
     waiting = coming(top.changes())
     await asyncio.sleep(0)
     top.dispose()
     assert await waiting is NOTHING_MORE
 
 
-async def test_the_last_value_before_that_is_given_still(trace, top) -> None:
+async def test_the_last_value_before_the_disposal_is_given(trace, top) -> None:
     changes = top.changes()
     trace.write(top, 2)
     top.dispose()
     assert [value async for value in changes] == [2]
 
 
-async def test_each_of_two_gets_all_of_it(trace, top) -> None:
+async def test_two_readers_get_all_values_each(trace, top) -> None:
     waiting = [coming(top.changes()), coming(top.changes())]
     await asyncio.sleep(0)
     trace.write(top, 2)
@@ -83,7 +83,7 @@ async def test_a_failure_is_given_like_a_value_and_nan_once(trace, top) -> None:
     waiting.cancel()
 
 
-async def test_one_who_goes_away_leaves_no_observer_and_no_task(trace, top) -> None:
+async def test_a_reader_that_stops_leaves_no_observer_and_no_task(trace, top) -> None:
     changes = top.changes()
     waiting = coming(changes)
     await asyncio.sleep(0)

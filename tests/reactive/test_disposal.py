@@ -8,7 +8,7 @@ from reactive_realizer.reactive.cell import Derived
 from reactive_realizer.reactive.errors import DisposedCellError
 
 
-def test_it_keeps_its_value_and_follows_nothing_any_more(trace) -> None:
+def test_a_disposed_cell_keeps_its_value(trace) -> None:
     top = trace.source("top", 1)
     cell = trace.derived("cell", top)
     cell.dispose()
@@ -18,7 +18,7 @@ def test_it_keeps_its_value_and_follows_nothing_any_more(trace) -> None:
     assert cell.disposed
 
 
-def test_what_hangs_on_it_goes_on_with_that_value(trace) -> None:
+def test_dependents_of_a_disposed_cell_go_on_with_its_value(trace) -> None:
     one, two = trace.source("one", 1), trace.source("two", 10)
     both = trace.derived("both", one, two)
     one.dispose()
@@ -26,7 +26,7 @@ def test_what_hangs_on_it_goes_on_with_that_value(trace) -> None:
     assert both.value == 21
 
 
-def test_its_observers_are_told_no_more_and_that_it_has_ended(trace) -> None:
+def test_observers_of_a_disposed_cell_are_notified_of_its_end_only(trace) -> None:
     top = trace.source("top")
     cell = trace.derived("cell", top)
     told = []
@@ -38,7 +38,7 @@ def test_its_observers_are_told_no_more_and_that_it_has_ended(trace) -> None:
     assert told == ["ended"]
 
 
-def test_in_the_middle_of_a_transaction_it_keeps_what_was_written_so_far(trace) -> None:
+def test_a_cell_disposed_of_in_a_transaction_keeps_what_was_written_before(trace) -> None:
     top = trace.source("top", 1)
     cell = trace.derived("cell", top)
     below = trace.derived("below", cell)
@@ -50,7 +50,7 @@ def test_in_the_middle_of_a_transaction_it_keeps_what_was_written_so_far(trace) 
     assert trace.changed() == ["top", "cell", "below"]
 
 
-def test_an_observer_may_dispose_of_cells_that_are_still_to_be_told(trace) -> None:
+def test_an_observer_may_dispose_of_cells_whose_observers_come_later(trace) -> None:
     top = trace.source("top")
     cells = [trace.derived(f"c{i}", top) for i in range(3)]
     told = []
@@ -64,7 +64,7 @@ def test_an_observer_may_dispose_of_cells_that_are_still_to_be_told(trace) -> No
 
 
 @pytest.mark.parametrize("write", ["set", "pin", "rebind"])
-def test_it_is_not_written_any_more(trace, write) -> None:
+def test_a_disposed_cell_cannot_be_written(trace, write) -> None:
     top = trace.source("top", 1)
     cell = trace.derived("cell", top)
     top.dispose()
@@ -75,7 +75,7 @@ def test_it_is_not_written_any_more(trace, write) -> None:
     assert (top.value, cell.value, top.dependents) == (1, 1, {})
 
 
-def test_nothing_is_left_of_it(trace) -> None:
+def test_a_disposed_cell_is_freed(trace) -> None:
     top = trace.source("top")
     for _ in range(1000):
         trace.write(top, top.value + 1)

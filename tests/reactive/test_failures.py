@@ -2,8 +2,7 @@
 
 import pytest
 
-from reactive_realizer.reactive.errors import CellError
-from reactive_realizer.reactive.failure import Failure
+from reactive_realizer.reactive.errors import CellError, Failure
 
 
 @pytest.fixture
@@ -22,12 +21,12 @@ def test_a_formula_that_raises_fails_its_cell_and_what_depends_on_it_and_nothing
     assert (top.value, sibling.value) == (0, 0)
 
 
-def test_a_formula_is_not_asked_while_what_it_needs_has_failed(trace, half) -> None:
+def test_a_formula_is_not_called_while_a_dependency_has_failed(trace, half) -> None:
     trace.write(half[0], 0)
     assert trace.computed == ["quotient", "sibling"]
 
 
-def test_reading_a_failed_cell_says_which_it_is_and_what_happened(trace, half) -> None:
+def test_reading_a_failed_cell_raises_with_its_name_and_the_reason(trace, half) -> None:
     top, quotient, below, _ = half
     trace.write(top, 0)
     with pytest.raises(CellError, match=r"^'quotient' has failed: ZeroDivisionError: .*by zero$"):
@@ -37,14 +36,14 @@ def test_reading_a_failed_cell_says_which_it_is_and_what_happened(trace, half) -
     assert isinstance(raised.value.failure.error, ZeroDivisionError)
 
 
-def test_it_heals_with_the_next_value_that_can_be_computed(trace, half) -> None:
+def test_a_failed_cell_heals_with_the_next_value_that_can_be_computed(trace, half) -> None:
     top, quotient, below, _ = half
     trace.write(top, 0)
     trace.write(top, 5)
     assert (quotient.value, below.value) == (2, 2)
 
 
-def test_a_pin_heals_too(trace, half) -> None:
+def test_a_pin_heals_a_failed_cell(trace, half) -> None:
     top, quotient, below, _ = half
     trace.write(top, 0)
     with trace.graph.transaction("test"):
@@ -64,7 +63,7 @@ def test_the_commit_and_the_observers_see_the_failure(trace, half) -> None:
     assert told[1:] == [10]
 
 
-def test_a_failure_that_repeats_itself_wakes_nobody(trace) -> None:
+def test_a_repeated_failure_is_no_change(trace) -> None:
     top = trace.source("top", "1")
     number = trace.derived("number", top, formula=lambda text: len(text) // 0)
     told = []

@@ -2,7 +2,7 @@
 
 import pytest
 
-from reactive_realizer.reactive.cell import Derived
+from reactive_realizer.reactive.cell import Derived, replace_cell
 from reactive_realizer.reactive.errors import (
     PropagationCycleError,
     WriteDuringCommitError,
@@ -30,7 +30,7 @@ def test_a_jagged_diamond_waits_for_its_longest_side(trace) -> None:
     assert bottom.value == 2
 
 
-def test_among_equals_the_order_is_that_of_creation_whatever_was_written_first(trace) -> None:
+def test_cells_of_one_rank_are_computed_in_order_of_creation(trace) -> None:
     one, two = trace.source("one"), trace.source("two")
     for name in ("a", "b", "c"):
         trace.derived(name, one if name == "b" else two)
@@ -59,7 +59,7 @@ def test_nothing_is_computed_beyond_a_cell_that_keeps_its_value(trace) -> None:
     assert trace.changed() == ["top"]
 
 
-def test_there_and_back_again_tells_nobody(trace) -> None:
+def test_a_value_that_changes_and_returns_notifies_no_observer(trace) -> None:
     top = trace.source("top", 1)
     told = []
     top.observe(told.append)
@@ -69,7 +69,7 @@ def test_there_and_back_again_tells_nobody(trace) -> None:
     assert trace.commits == []
 
 
-def test_even_where_what_lies_between_was_read(trace) -> None:
+def test_a_value_that_returns_is_no_change_even_if_it_was_read_between(trace) -> None:
     top = trace.source("top", 1)
     below = trace.derived("below", top)
     with trace.graph.transaction("test"):
@@ -79,7 +79,7 @@ def test_even_where_what_lies_between_was_read(trace) -> None:
     assert trace.commits == []
 
 
-def test_a_source_that_repeats_itself_costs_nothing_downstream(trace) -> None:
+def test_an_equal_write_recomputes_nothing(trace) -> None:
     top = trace.source("top", 1.5)
     trace.derived("below", top)
     for _ in range(100):
@@ -88,7 +88,7 @@ def test_a_source_that_repeats_itself_costs_nothing_downstream(trace) -> None:
     assert trace.commits == []
 
 
-def test_each_cell_bears_the_stamp_of_the_commit_that_gave_it_its_value(trace) -> None:
+def test_each_cell_has_the_stamp_of_the_commit_that_gave_it_its_value(trace) -> None:
     one, two = trace.source("one"), trace.source("two")
     below = trace.derived("below", one)
     assert below.stamp is None
@@ -101,7 +101,7 @@ def test_each_cell_bears_the_stamp_of_the_commit_that_gave_it_its_value(trace) -
     assert two.stamp.sequence == 2
 
 
-def test_a_cell_that_is_made_in_a_transaction_bears_its_stamp(trace) -> None:
+def test_a_cell_that_is_made_in_a_transaction_has_its_stamp(trace) -> None:
     top = trace.source("top")
     with trace.graph.transaction("plan"):
         made = trace.derived("made", top)
@@ -121,7 +121,7 @@ def test_a_read_inside_a_transaction_is_never_stale(trace) -> None:
         assert (below.value, made.value) == (6, 12)
 
 
-def test_a_cell_made_while_others_wait_to_be_computed_is_made_of_what_they_will_be(trace) -> None:
+def test_a_new_cell_is_computed_from_settled_values(trace) -> None:
     top = trace.source("top")
     below = trace.derived("below", trace.derived("between", top))
     with trace.graph.transaction("test"):
@@ -139,10 +139,10 @@ def test_a_transaction_within_a_transaction_joins_it(trace) -> None:
             top.set(1)
         assert trace.commits == []
         top.set(2)
-    assert [commit.cause for commit in trace.commits] == ["outer"]
+    assert [commit.stamp.cause for commit in trace.commits] == ["outer"]
 
 
-def test_observers_are_told_after_the_commit_and_see_all_of_it(trace) -> None:
+def test_observers_are_notified_after_the_commit_and_see_all_of_it(trace) -> None:
     one, two = trace.source("one"), trace.source("two")
     total = trace.derived("total", one, two)
     told = []
@@ -183,19 +183,19 @@ def test_a_listener_may_not_write_either(trace, caplog) -> None:
     top, other = trace.source("top"), trace.source("other")
     trace.graph.listen(lambda commit: trace.write(other, 1))
     trace.write(top, 1)
-    assert "WriteDuringCommitError: 'test' writes while a commit is being told" in caplog.text
+    assert "WriteDuringCommitError: 'test' writes during a commit" in caplog.text
     assert other.value == 0
     trace.graph._listeners.pop()
     trace.write(other, 2)
     assert other.value == 2
 
 
-def test_one_that_raises_does_not_keep_the_others_from_being_told(trace, caplog) -> None:
+def test_other_observers_are_notified_when_one_raises(trace, caplog) -> None:
     top = trace.source("top")
     told = []
     top.observe(lambda value: [][value])
     top.observe(told.append)
-    trace.graph._listeners.insert(0, lambda commit: {}[commit.cause])
+    trace.graph._listeners.insert(0, lambda commit: {}[commit.stamp.cause])
     trace.write(top, 1)
     assert told == [1]
     assert len(trace.commits) == 1
@@ -211,12 +211,12 @@ def test_a_formula_that_writes_fails(trace, caplog) -> None:
     assert other.value == 0
 
 
-def test_a_write_wants_a_transaction(trace) -> None:
+def test_a_write_requires_a_transaction(trace) -> None:
     with pytest.raises(WriteOutsideTransactionError, match="top"):
         trace.source("top").set(1)
 
 
-def test_an_observer_disposed_of_while_others_are_told_is_told_no_more(trace) -> None:
+def test_an_observer_disposed_of_by_another_one_is_not_notified(trace) -> None:
     top = trace.source("top")
     told = []
     top.observe(lambda value: second.dispose())
@@ -226,7 +226,7 @@ def test_an_observer_disposed_of_while_others_are_told_is_told_no_more(trace) ->
     second.dispose()
 
 
-def test_an_observer_that_disposes_of_itself_was_told_once(trace) -> None:
+def test_an_observer_that_disposes_of_itself_is_notified_once(trace) -> None:
     top = trace.source("top")
     told = []
     subscription = top.observe(lambda value: (told.append(value), subscription.dispose()))
@@ -255,7 +255,7 @@ def test_a_cell_may_not_depend_on_itself(trace) -> None:
     assert refused.value.path == ("cell", "cell")
 
 
-def test_a_cell_that_hangs_on_others_now_follows_them_in_order(trace) -> None:
+def test_a_rebound_cell_is_computed_after_its_new_dependencies(trace) -> None:
     top, other = trace.source("top", 1), trace.source("other", 1)
     low = trace.derived("low", top)
     high = trace.derived("high", trace.derived("between", other))
@@ -268,7 +268,7 @@ def test_a_cell_that_hangs_on_others_now_follows_them_in_order(trace) -> None:
     assert low.value == 7
 
 
-def test_a_pinned_cell_keeps_its_value_and_still_moves_what_hangs_on_it(trace) -> None:
+def test_a_pinned_cell_keeps_its_value_and_updates_its_dependents(trace) -> None:
     top = trace.source("top", 1)
     cell = trace.derived("cell", top)
     below = trace.derived("below", cell)
@@ -292,7 +292,7 @@ def test_a_cell_that_was_touched_and_then_pinned_is_not_computed(trace) -> None:
     assert cell.value == 1
 
 
-def test_a_cell_bound_anew_twice_is_computed_once(trace) -> None:
+def test_a_cell_that_is_rebound_twice_is_computed_once(trace) -> None:
     one, two = trace.source("one", 1), trace.source("two", 2)
     cell = trace.derived("cell", one)
     trace.derived("below", cell)
@@ -306,20 +306,20 @@ def test_a_cell_bound_anew_twice_is_computed_once(trace) -> None:
     assert cell.value == 7
 
 
-def test_a_cell_is_bound_to_nothing_by_a_formula_of_nothing(trace) -> None:
+def test_a_cell_may_be_rebound_to_no_dependencies(trace) -> None:
     cell = trace.derived("cell", trace.source("top", 1))
     with trace.graph.transaction("test"):
         cell.rebind((), lambda: 9)
     assert cell.value == 9
 
 
-def test_all_that_hangs_on_a_cell_hangs_on_another_one_instead(trace) -> None:
+def test_replacing_a_cell_moves_its_dependents_to_the_other(trace) -> None:
     old, new, other = trace.source("old", 1), trace.source("new", 2), trace.source("other", 10)
     first, both = trace.derived("first", old), trace.derived("both", old, other)
     last = trace.derived("last", first, both)
     trace.computed.clear()
     with trace.graph.transaction("test"):
-        old.replace_by(new)
+        replace_cell(old, new)
     assert trace.computed == ["first", "both", "last"]
     assert (first.value, both.value, last.value) == (2, 12, 14)
     assert both.dependencies == (new, other)
@@ -328,12 +328,12 @@ def test_all_that_hangs_on_a_cell_hangs_on_another_one_instead(trace) -> None:
     assert last.value == 20
 
 
-def test_a_cell_is_not_replaced_by_one_that_hangs_on_it(trace) -> None:
+def test_a_cell_cannot_be_replaced_by_its_dependent(trace) -> None:
     old = trace.source("old", 1)
     first = trace.derived("first", old)
     last = trace.derived("last", first)
     with trace.graph.transaction("test"), pytest.raises(PropagationCycleError) as refused:
-        old.replace_by(last)
+        replace_cell(old, last)
     assert refused.value.path == ("first", "last", "first")
     trace.write(old, 2)
     assert last.value == 2
@@ -355,7 +355,7 @@ def test_a_body_that_raises_leaves_a_graph_that_works(trace) -> None:
     assert below.value == 2
 
 
-def test_a_chain_of_100_000_cells_is_no_matter_of_recursion(trace) -> None:
+def test_a_chain_of_100_000_cells_needs_no_recursion(trace) -> None:
     top = cell = trace.source("top")
     for _ in range(100_000):
         cell = Derived(trace.graph, "link", (cell,), lambda value: value + 1)
@@ -366,3 +366,29 @@ def test_a_chain_of_100_000_cells_is_no_matter_of_recursion(trace) -> None:
     with trace.graph.transaction("lengthen at the front"):
         link.rebind((trace.derived("new", before),), lambda value: value + 1)
     assert cell.value == 100_010
+
+
+def test_a_rule_writes_within_the_transaction_that_it_checks_and_sees_what_it_changes(trace) -> None:
+    top, limit = trace.source("top"), trace.source("limit", 5)
+    below = trace.derived("below", top)
+    seen = []
+
+    def keep_below_limit(changed):
+        if below.value > limit.value:
+            top.set(limit.value)
+        seen.append([cell.name for cell in changed])
+
+    trace.graph.before_commit(keep_below_limit)
+    trace.write(top, 9)
+    changes = [(each.cell.name, each.old, each.new) for each in trace.commits[-1].changes]
+    assert changes == [("top", 0, 5), ("below", 0, 5)]
+    trace.write(top, 5)
+    assert seen == [["top", "below"]], "nothing has changed since"
+
+
+def test_a_rule_that_raises_leaves_a_graph_that_works(trace) -> None:
+    top = trace.source("top")
+    trace.graph.before_commit(lambda changed: {}[top.value])
+    with pytest.raises(KeyError):
+        trace.write(top, 1)
+    assert (top.value, len(trace.commits)) == (1, 1)

@@ -1,4 +1,4 @@
-"""A unit that fails drops itself, an engine that fails drops its units; all else goes on."""
+"""A unit that fails is dropped, an engine that fails drops its units; everything else goes on."""
 
 import asyncio
 
@@ -15,7 +15,7 @@ from reactive_realizer.planunit.timing import timing_at
 from reactive_realizer.realizer.character import Character
 from reactive_realizer.realizer.inputs import BmlText
 from reactive_realizer.realizer.realizer import Realizer
-from reactive_realizer.scheduler.smartbody_strategy import SmartBodyStrategy
+from reactive_realizer.scheduler.smartbody.smartbody_strategy import SmartBodyStrategy
 from reactive_realizer.testing.pilot import RealizerPilot, block
 
 TESTS = "urn:tests"
@@ -112,7 +112,7 @@ WAIT = '<wait id="w" duration="2"/>'
         ("stroke on_finish", ["start", "stroke", "end"]),
     ],
 )
-async def test_a_unit_that_fails_is_warned_of_ends_and_leaves_the_rest_alone(pilot, fail, reached) -> None:
+async def test_a_unit_that_fails_ends_with_a_warning_and_leaves_the_rest_alone(pilot, fail, reached) -> None:
     pilot.block("b", own(fail) + WAIT + own("", "fine"))
     await pilot.advance(3)
     told = pilot.feedback
@@ -124,7 +124,7 @@ async def test_a_unit_that_fails_is_warned_of_ends_and_leaves_the_rest_alone(pil
 
 
 @pytest.mark.parametrize("fail", ["end_details", "on_finish"])
-async def test_a_unit_that_fails_at_its_interruption_is_gone_all_the_same(pilot, fail) -> None:
+async def test_a_unit_that_fails_at_its_interruption_ends_nevertheless(pilot, fail) -> None:
     pilot.block("b", own(fail) + WAIT)
     await pilot.advance(0.2)
     pilot.block("new", composition="REPLACE")
@@ -136,7 +136,7 @@ async def test_a_unit_that_fails_at_its_interruption_is_gone_all_the_same(pilot,
 
 
 @pytest.mark.parametrize("fail", ["prepare", "work", "plan"])
-async def test_a_behavior_that_cannot_be_made_is_left_out_whatever_went_wrong(pilot, fail) -> None:
+async def test_a_behavior_that_cannot_be_made_is_left_out_with_a_warning(pilot, fail) -> None:
     pilot.block("b", own(fail, takes=1) + WAIT)
     await pilot.advance(3)
     assert pilot.feedback.warnings == [("b:x", "CANNOT_CREATE_BEHAVIOR")]
@@ -163,13 +163,13 @@ async def test_what_hangs_on_behaviors_of_an_engine_that_fails_is_lost_with_them
     await pilot.advance(5)
     told = {line.id: line.element.text for line in pilot.feedback.of("warningFeedback")}
     assert set(told) == {"b:x", "b:w", "c:z", "c:v"}
-    assert "the behavior of b:x:end is dropped; this one keeps the time predicted last" in told["b:w"]
-    assert "it hangs on c:z:end, which never comes; it is dropped" in told["c:v"]
+    assert "the behavior of b:x:end is dropped; this behavior keeps the last predicted time" in told["b:w"]
+    assert "it is dropped: it depends on c:z:end, which will never come" in told["c:v"]
     assert pilot.feedback.time("b:w:start") == 2.0
     assert pilot.feedback.status("c") == "DONE"
 
 
-async def test_results_of_slow_work_enter_in_order_of_request_whichever_was_first(pilot) -> None:
+async def test_results_of_background_work_enter_in_order_of_request(pilot) -> None:
     pilot.block("slow", own("", takes=50))
     pilot.block("quick", own("", takes=1))
     await pilot.tick()
@@ -180,7 +180,7 @@ async def test_results_of_slow_work_enter_in_order_of_request_whichever_was_firs
     assert pilot.feedback.time("slow:start") == pilot.feedback.time("quick:start") == 0.01
 
 
-async def test_what_is_appended_to_a_block_in_preparation_waits_for_it(pilot) -> None:
+async def test_a_block_appended_to_one_in_preparation_waits_for_it(pilot) -> None:
     pilot.block("slow", own("", takes=5))
     pilot.block("next", WAIT, composition="APPEND")
     await pilot.advance(4)
@@ -200,7 +200,7 @@ async def test_a_block_that_names_points_of_one_in_preparation_waits_for_its_pla
     assert pilot.feedback.time("next:w:start") == pilot.feedback.time("slow:x:stroke")
 
 
-async def test_work_for_a_block_that_is_replaced_meanwhile_is_given_up(pilot) -> None:
+async def test_background_work_for_a_block_that_is_replaced_is_cancelled(pilot) -> None:
     pilot.block("slow", own("", takes=1_000_000))
     await pilot.realizer.step(_tick(0))
     pilot.block("new", composition="REPLACE")
@@ -218,7 +218,7 @@ async def test_inputs_of_a_tick_enter_by_time_and_then_in_the_order_in_which_the
     assert pilot.realizer.busy
 
 
-async def test_nothing_is_composed_where_nobody_looks(pilot) -> None:
+async def test_no_frame_is_composed_without_a_listener(pilot) -> None:
     asked = []
     engine = pilot.realizer.characters["alice"].engines[0]
     engine.layers = lambda tick: asked.append(tick.number) or ()
@@ -237,7 +237,7 @@ def _tick(number):
 
 
 @pytest.mark.parametrize("number", [1, 60])
-async def test_a_strategy_that_raises_costs_the_block_that_it_was_to_plan(pilot, monkeypatch, number) -> None:
+async def test_a_strategy_that_raises_fails_the_block_that_it_was_to_plan(pilot, monkeypatch, number) -> None:
     def fail(problem):
         raise StopIteration("a test")
 

@@ -1,4 +1,4 @@
-"""What enters: a document that somebody has read already is not read again."""
+"""Inputs: a document that was parsed before it is put is not parsed again."""
 
 from reactive_realizer.assembly.scene import SceneOptions, open_scene
 from reactive_realizer.bml.document import parse
@@ -6,23 +6,23 @@ from reactive_realizer.clock.clock import ManualClock
 from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.realizer.inputs import BmlText
 from reactive_realizer.server.intake import Intake
-from reactive_realizer.server.live import Live
+from reactive_realizer.server.live_scene import LiveScene
 from reactive_realizer.testing.pilot import block, open_pilot
 
 WAIT = '<wait id="w" duration="1"/>'
 
 
-async def test_what_came_of_a_document_enters_with_it() -> None:
+async def test_a_parsed_document_enters_as_it_was_parsed() -> None:
     async with open_pilot() as pilot:
         pilot.realizer.put(BmlText("read before", parse(block("b", WAIT), pilot.realizer.limits)))
         await pilot.advance(2)
         assert pilot.feedback.progress == ["b:start", "b:w:start", "b:w:end", "b:end"]
 
 
-async def test_the_door_of_a_server_reads_a_document_for_the_realizer_too() -> None:
+async def test_the_server_parses_a_document_for_the_realizer_too() -> None:
     entered = []
     async with open_scene(SceneOptions(voice="text")) as scene:
-        live = Live(scene, ManualClock())
+        live = LiveScene(scene, ManualClock())
         live.realizer.record(lambda each: entered.extend(each.inputs))
         for name, enter in (("b", Intake(live).document), ("c", Intake(live).blocks)):
             assert await enter(block(name, WAIT)) == [name]

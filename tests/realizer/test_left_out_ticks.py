@@ -1,4 +1,4 @@
-"""A tick that comes late takes up what was due before it, and pays for nothing else."""
+"""A late tick plays the ticks that were left out, but only those in which something was due."""
 
 import pytest
 
@@ -16,7 +16,7 @@ async def pilot():
 
 @pytest.fixture
 def played(pilot):
-    """The ticks that the waits of Alice are asked to play."""
+    """The ticks that Alice's wait engine is asked to play."""
     engine = next(engine for engine in pilot.realizer.characters["alice"].engines if engine.name.endswith("/wait"))
     ticks, play = [], engine.play
 
@@ -28,7 +28,7 @@ def played(pilot):
     return ticks
 
 
-async def test_of_the_ticks_that_were_left_out_those_are_played_in_which_something_was_due(pilot, played) -> None:
+async def test_ticks_that_were_left_out_are_played_if_something_was_due_in_them(pilot, played) -> None:
     pilot.block("b", '<wait id="v" start="0.5" duration="0.734"/><wait id="w" start="3" duration="1"/>')
     await pilot.tick()
     played.clear()
@@ -37,7 +37,7 @@ async def test_of_the_ticks_that_were_left_out_those_are_played_in_which_somethi
     assert [tick for tick in played if tick.left_out] == []
 
 
-async def test_of_a_long_sleep_through_which_nothing_was_due_nothing_is_played(pilot, played) -> None:
+async def test_no_tick_of_a_long_pause_is_played_if_nothing_was_due(pilot, played) -> None:
     pilot.block("b", '<wait id="w" start="4000" duration="1"/>')
     await pilot.tick()
     played.clear()
@@ -45,7 +45,7 @@ async def test_of_a_long_sleep_through_which_nothing_was_due_nothing_is_played(p
     assert {tick.number for tick in played} == {360_000}
 
 
-async def test_only_the_late_tick_itself_is_seen(pilot) -> None:
+async def test_only_the_late_tick_itself_makes_a_frame(pilot) -> None:
     pilot.watch()
     pilot.block("b", '<gesture id="g" lexeme="BEAT"/>')
     await pilot.tick()
@@ -54,7 +54,7 @@ async def test_only_the_late_tick_itself_is_seen(pilot) -> None:
     assert pilot.realizer.time == pilot.realizer.board.time == 1.01
 
 
-async def test_a_point_that_cannot_be_reached_yet_does_not_have_every_tick_played(pilot, played) -> None:
+async def test_a_point_that_cannot_be_reached_yet_does_not_cause_every_tick_to_be_played(pilot, played) -> None:
     pilot.block("b", '<wait id="v" duration="9"/><wait id="w" start="anticipators:user:ready" end="1"/>')
     await pilot.tick()
     played.clear()

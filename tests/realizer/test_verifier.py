@@ -1,4 +1,4 @@
-"""Plans checked while they are played (`--verify`): what breaks is said, once."""
+"""Plans are verified while they are played (`--verify`): each violation is a warning, once."""
 
 import pytest
 
@@ -10,7 +10,7 @@ WAIT = '<wait id="w" duration="1" start="2"/>'
 
 
 async def broken(pilot, lengths=(3.0,)) -> None:
-    """Somebody who knows nothing of constraints makes a wait longer than it wants to be, once a tick."""
+    """Makes a wait longer than its constraints allow, once a tick, behind the scheduler's back."""
     pilot.block("b", WAIT)
     await pilot.advance(0.1)
     assert pilot.feedback.warnings == []
@@ -37,7 +37,7 @@ def put_off(realizer) -> None:
 
 
 def said(pilot) -> list[str]:
-    """What was said with a number of the thesis."""
+    """The warnings that have an equation number of the thesis."""
     texts = [line.element.text for line in pilot.feedback.of("warningFeedback")]
     return [text for text in texts if "; thesis " in text]
 
@@ -51,13 +51,13 @@ async def test_an_equation_that_does_not_hold_is_a_warning_of_its_block(caplog) 
     assert [record.levelname for record in caplog.records if record.name.endswith("verifier")] == ["ERROR"]
 
 
-async def test_it_is_said_once_however_often_the_plan_moves() -> None:
+async def test_a_violation_is_reported_once_however_often_the_plan_moves() -> None:
     async with open_pilot(SceneOptions(voice="text", verify=True)) as pilot:
         await broken(pilot, lengths=(3.0, 4.0, 5.0))
         assert len(pilot.feedback.warnings) == 1
 
 
-async def test_a_block_of_the_same_name_is_judged_anew() -> None:
+async def test_a_new_block_of_the_same_name_is_verified_again() -> None:
     async with open_pilot(SceneOptions(voice="text", verify=True)) as pilot:
         await broken(pilot)
         pilot.block("next", composition="REPLACE")
@@ -67,7 +67,7 @@ async def test_a_block_of_the_same_name_is_judged_anew() -> None:
         assert len(pilot.feedback.warnings) == 1
 
 
-async def test_a_constraint_that_is_missed_though_nothing_moved_is_one_too() -> None:
+async def test_a_constraint_that_is_missed_although_nothing_moved_is_a_violation() -> None:
     async with open_pilot(SceneOptions(voice="text", verify=True)) as pilot:
         pilot.block("b", WAIT)
         await pilot.advance(0.1)
@@ -76,7 +76,7 @@ async def test_a_constraint_that_is_missed_though_nothing_moved_is_one_too() -> 
         assert said(pilot) == ["'w:start = 2' is missed by 0.5 s (w:start, block start; thesis 7.8)"]
 
 
-async def test_one_that_a_time_from_outside_breaks_is_not() -> None:
+async def test_a_constraint_that_a_time_from_outside_breaks_is_no_violation() -> None:
     async with open_pilot(SceneOptions(voice="text", verify=True)) as pilot:
         pilot.predict("partner", "one", 1.0)
         pilot.predict("partner", "two", 3.0)
@@ -89,7 +89,7 @@ async def test_one_that_a_time_from_outside_breaks_is_not() -> None:
         assert said(pilot) == []
 
 
-async def test_nor_is_the_start_of_a_block_at_a_time_that_is_corrected_a_little_when_it_has_come() -> None:
+async def test_a_start_at_a_time_that_is_corrected_a_little_after_it_has_come_is_no_violation() -> None:
     async with open_pilot(SceneOptions(voice="text", verify=True)) as pilot:
         pilot.predict("partner", "go", 1.0)
         begun = (
@@ -104,14 +104,14 @@ async def test_nor_is_the_start_of_a_block_at_a_time_that_is_corrected_a_little_
         assert said(pilot) == []
 
 
-async def test_nobody_looks_unless_asked_to() -> None:
+async def test_plans_are_not_verified_by_default() -> None:
     async with open_pilot() as pilot:
         await broken(pilot)
         assert pilot.feedback.warnings == []
 
 
 @pytest.mark.parametrize("strategy", ["smartbody", "embr", "convex"])
-async def test_a_plan_that_follows_what_moves_breaks_nothing(strategy) -> None:
+async def test_a_plan_that_follows_moving_times_has_no_violation(strategy) -> None:
     async with open_pilot(SceneOptions(voice="text", strategy=strategy, verify=True)) as pilot:
         pilot.predict("partner", "hit", 2.0)
         pilot.block("b", '<gesture id="g" lexeme="BEAT" stroke="anticipators:partner:hit"/>')

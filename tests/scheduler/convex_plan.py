@@ -1,13 +1,12 @@
 """What tests of the strategy `convex` plan: some timings, and a plan whose times follow its pegs."""
 
-from dataclasses import replace
 from itertools import pairwise
 
 from reactive_realizer.planunit.timing import Phase, PhaseKind, Timing, timing_at
 from reactive_realizer.scheduler.convex.convex_strategy import ConvexStrategy
-from reactive_realizer.scheduler.plan_view import PlanView
 from reactive_realizer.scheduler.problem import Origin, Point
-from reactive_realizer.testing.problems import item, problem
+from reactive_realizer.scheduler.strategy import solve
+from reactive_realizer.testing.problems import item, pegs_of, problem
 
 START = Origin.BLOCK_START
 NOD = timing_at({"start": 0.0, "stroke": 0.4, "end": 1.0})
@@ -18,18 +17,18 @@ CHANGE = timing_at({"start": 0.0, "end": 1.0}, PhaseKind.FREE)
 
 
 class Plan:
-    """What came out, as times that are computed anew from the pegs each time they are asked for."""
+    """What came out, as times of pegs, which move with times from outside."""
 
     def __init__(self, items, *constraints) -> None:
         self.asked = problem([item(id_, timing) for id_, timing in items.items()], *constraints)
-        self.solution = ConvexStrategy().solve(self.asked)
+        self.solution = solve(ConvexStrategy(), self.asked)
+        self.pegs = pegs_of(self.asked, self.solution)
 
     def __getitem__(self, point):
-        behavior, sync = point.split(":")
-        return self._view.times[Point(behavior, sync)]
+        return self.pegs[Point(*point.split(":"))].value
 
     def times(self, behavior):
-        return [self._view.times[Point(behavior, sync)] for sync in self.solution.pegs[behavior]]
+        return [peg.value for point, peg in self.pegs.items() if point.behavior == behavior]
 
     def lengths(self, behavior):
         return [after - before for before, after in pairwise(self.times(behavior))]
@@ -41,11 +40,6 @@ class Plan:
     @property
     def lost(self):
         return [loss.constraint.text for loss in self.solution.losses if loss.constraint]
-
-    @property
-    def _view(self):
-        times = {cell: cell.value for cell in self.asked.times}
-        return PlanView.of_solution(replace(self.asked, times=times), self.solution)
 
 
 def move(cell, time):

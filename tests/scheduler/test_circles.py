@@ -7,8 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from reactive_realizer.planunit.timing import PhaseKind
-from reactive_realizer.scheduler.convex.causes import GIVEN
 from reactive_realizer.scheduler.convex.circles import solve_circles
+from reactive_realizer.scheduler.convex.conflict import GIVEN
 from reactive_realizer.scheduler.convex.costs import SLACK, STIFFNESS
 from reactive_realizer.scheduler.convex.span import Bound, Row, Span
 

@@ -7,7 +7,8 @@ from hypothesis import strategies as st
 from reactive_realizer.planunit.timing import Phase, PhaseKind, Timing, timing_at
 from reactive_realizer.scheduler.convex.convex_strategy import ConvexStrategy
 from reactive_realizer.scheduler.plan_view import PlanView
-from reactive_realizer.scheduler.problem import Point, Problem
+from reactive_realizer.scheduler.problem import Point, SchedulingProblem
+from reactive_realizer.scheduler.strategy import solve
 from reactive_realizer.testing.problems import at, problems
 
 from .convex_plan import BEAT, HELD, NOD, START, Plan
@@ -54,11 +55,11 @@ def test_a_hold_gives_all_its_time_before_elastic_phases_give_a_tenth_of_theirs(
 
 
 @given(problems())
-def test_no_elastic_phase_is_pressed_under_a_tenth_while_its_neighbors_could_give(asked: Problem) -> None:
-    solution = ConvexStrategy().solve(asked)
+def test_no_elastic_phase_is_pressed_under_a_tenth_while_its_neighbors_could_give(asked: SchedulingProblem) -> None:
+    solution = solve(ConvexStrategy(), asked)
     view = PlanView.of_solution(asked, solution)
     named = {node for each in (*asked.ties, *asked.orders) for node in each.nodes}
-    for each in (each for each in asked.items if each.behavior.id in solution.pegs):
+    for each in (each for each in asked.items if each.behavior.id in solution.behaviors):
         points = [Point(each.behavior.id, sync) for sync in each.timing.points]
         for k, phase in enumerate(each.timing.phases):
             inside = {points[k], points[k + 1]}.isdisjoint(named)

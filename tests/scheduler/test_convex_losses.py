@@ -6,7 +6,8 @@ from hypothesis import given
 
 from reactive_realizer.planunit.timing import Phase, PhaseKind, Timing
 from reactive_realizer.scheduler.convex.convex_strategy import ConvexStrategy
-from reactive_realizer.scheduler.problem import Problem
+from reactive_realizer.scheduler.problem import SchedulingProblem
+from reactive_realizer.scheduler.strategy import solve
 from reactive_realizer.testing.problems import TIMINGS, after, at, feasible_problems, item, outer, problem, problems
 from reactive_realizer.testing.strategy_contract import violations
 
@@ -76,7 +77,7 @@ def test_two_times_of_the_outside_cannot_be_made_one() -> None:
 def test_a_behavior_without_any_time_is_dropped_and_the_others_are_not() -> None:
     plan = Plan({"a": NOD, "b": NOD}, at("a:start", START, 1.0), at("a:end", START, 1.0))
     assert plan.losses == [("a", "too-short", True)]
-    assert set(plan.solution.pegs) == {"b"}
+    assert plan.solution.behaviors == {"b"}
 
 
 def test_what_hangs_on_a_point_that_has_passed_joins_late_unless_it_is_over() -> None:
@@ -94,15 +95,15 @@ def test_contradictions_that_have_nothing_to_do_with_each_other_are_all_told() -
 
 
 @given(problems(most=12))
-def test_all_that_is_kept_holds_after_whatever_was_dropped(asked: Problem) -> None:
-    assert violations(asked, ConvexStrategy().solve(asked)) == []
+def test_all_that_is_kept_holds_after_whatever_was_dropped(asked: SchedulingProblem) -> None:
+    assert violations(asked, solve(ConvexStrategy(), asked)) == []
 
 
 @given(feasible_problems())
-def test_a_plan_is_found_also_where_the_solver_finds_none(asked: Problem) -> None:
+def test_a_plan_is_found_also_where_the_solver_finds_none(asked: SchedulingProblem) -> None:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(daqp, "solve", lambda *_, **__: (None, 0.0, -1, {}))
-        solution = ConvexStrategy().solve(asked)
+        solution = solve(ConvexStrategy(), asked)
     assert solution.losses == ()
     assert violations(asked, solution) == []
 

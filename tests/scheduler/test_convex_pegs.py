@@ -2,6 +2,7 @@
 
 import pytest
 
+from reactive_realizer.scheduler.problem import Point
 from reactive_realizer.testing.problems import after, at, outer
 
 from .convex_plan import BEAT, HELD, NOD, SPEECH, START, Plan, move
@@ -77,8 +78,8 @@ def test_a_before_does_not_pull_what_hangs_on_another_time_from_outside() -> Non
 
 def test_who_is_tied_to_a_behavior_hangs_on_that_and_not_on_what_that_is_tied_to() -> None:
     hit = outer("hit", 1.0)
-    pegs = Plan({"a": NOD, "b": NOD}, at("a:start", hit), at("b:start", "a:start", 1.0)).solution.pegs
-    assert pegs["b"]["start"].link is pegs["a"]["start"]
+    pegs = Plan({"a": NOD, "b": NOD}, at("a:start", hit), at("b:start", "a:start", 1.0)).pegs
+    assert pegs[Point("b", "start")].dependencies == (pegs[Point("a", "start")],)
 
 
 def test_an_order_within_a_cluster_does_not_keep_it_from_beginning_earlier() -> None:

@@ -1,6 +1,5 @@
 """EMBR's scheduling: the least sum of deviations in seconds, before/after kept (thesis 7.2.3)."""
 
-from dataclasses import replace
 from itertools import pairwise
 
 import pytest
@@ -10,8 +9,11 @@ from reactive_realizer.scheduler.embr.differences import Differences, Row
 from reactive_realizer.scheduler.embr.embr_strategy import EmbrStrategy
 from reactive_realizer.scheduler.plan_view import PlanView
 from reactive_realizer.scheduler.problem import Origin, Point
-from reactive_realizer.testing.problems import TIMINGS, after, at, item, outer, problem
+from reactive_realizer.scheduler.strategy import solve
+from reactive_realizer.testing.problems import TIMINGS, after, at, item, outer, pegs_of, problem
 from reactive_realizer.testing.strategy_contract import violations
+
+from .convex_plan import move
 
 START = Origin.BLOCK_START
 NOD, BEAT, SPEECH, CHANGE = TIMINGS["nod"], TIMINGS["beat"], TIMINGS["speech"], TIMINGS["change"]
@@ -22,7 +24,7 @@ class Plan:
 
     def __init__(self, items, *constraints) -> None:
         asked = problem([item(id_, timing) for id_, timing in items.items()], *constraints)
-        self.solution = EmbrStrategy().solve(asked)
+        self.solution = solve(EmbrStrategy(), asked)
         self.view = PlanView.of_solution(asked, self.solution)
         self.timings = items
         assert violations(asked, self.solution) == []
@@ -117,8 +119,11 @@ def moved(point, hit, moves, *constraints):
     asked = problem([item("n", NOD)], *constraints)
     solution = EmbrStrategy().solve(asked)
     assert solution.losses == ()
-    views = [PlanView.of_solution(replace(asked, times={hit: time}), solution) for time in moves]
-    return [view.times[Point(*point.split(":"))] for view in views]
+    peg, times = pegs_of(asked, solution)[Point(*point.split(":"))], []
+    for time in moves:
+        move(hit, time)
+        times.append(peg.value)
+    return times
 
 
 def test_a_cluster_after_a_time_that_moves_follows_it() -> None:
@@ -134,8 +139,8 @@ def test_a_point_of_a_grounded_behavior_follows_too() -> None:
 
 
 def test_a_before_stays_alive_until_its_bound_moves_in_front_of_what_must_come_first() -> None:
-    hit = outer("hit", 3.0)
     for grounded in ([at("n:start", START, 1.0)], [after("n:start", START, 1.0)]):
+        hit = outer("hit", 3.0)
         ends = moved("n:end", hit, (3.0, 1.5, None, 0.9, -1.0), *grounded, after(hit, "n:end"))
         assert ends == [2.0, 1.5, 2.0, 2.0, 2.0]
 

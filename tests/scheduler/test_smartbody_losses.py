@@ -4,7 +4,7 @@ import pytest
 
 from reactive_realizer.scheduler.plan_view import PlanView
 from reactive_realizer.scheduler.problem import Origin, Point
-from reactive_realizer.scheduler.smartbody_strategy import SmartBodyStrategy
+from reactive_realizer.scheduler.smartbody.smartbody_strategy import SmartBodyStrategy
 from reactive_realizer.testing.problems import TIMINGS, at, item, outer, problem
 
 START = Origin.BLOCK_START

@@ -11,9 +11,11 @@ from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.names import BML, Location
 from reactive_realizer.pegboard.time_peg import AnticipatorPeg
 from reactive_realizer.planunit.timing import PhaseKind, timing_at
+from reactive_realizer.reactive.cell import Source
 from reactive_realizer.reactive.graph import Graph
-from reactive_realizer.scheduler.problem import AtBlock, AtOffset, AtRatio, Item, Origin, Point, Problem, Tie
-from reactive_realizer.scheduler.smartbody_strategy import SmartBodyStrategy
+from reactive_realizer.scheduler.peg_layout.peg_layout import PegLayout
+from reactive_realizer.scheduler.problem import Item, Origin, Point, SchedulingProblem, Tie
+from reactive_realizer.scheduler.smartbody.smartbody_strategy import SmartBodyStrategy
 
 LINE = Location(7, 3)
 START = Origin.BLOCK_START
@@ -51,35 +53,24 @@ class Plan:
 
     def __init__(self, items, *ties, **times) -> None:
         cells = {n for t in ties for n in (t.left, t.right) if isinstance(n, AnticipatorPeg)}
-        self.problem = Problem(tuple(items), ties, {cell: cell.value for cell in cells})
+        self.problem = SchedulingProblem(tuple(items), ties, {cell: cell.value for cell in cells})
         self.solution = SmartBodyStrategy().solve(self.problem)
+        start = Source(GRAPH, "start", 0.0)
+        self.pegs = PegLayout(self.problem, self.solution).build(GRAPH, "b", start).pegs
 
     def __getitem__(self, point):
-        behavior, sync = point.split(":")
-        return time_of(self.solution.pegs[behavior][sync])
+        return self.pegs[Point(*point.split(":"))].value
 
     @property
     def kept(self):
-        return set(self.solution.pegs)
+        return self.solution.behaviors
 
     @property
     def losses(self):
         return [(loss.behavior, loss.fault.code, loss.dropped) for loss in self.solution.losses]
 
     def times(self, behavior):
-        return [time_of(spec) for spec in self.solution.pegs[behavior].values()]
-
-
-def time_of(spec):
-    match spec:
-        case AtBlock(anchor, offset):
-            return anchor.time + offset
-        case AtOffset(link, offset):
-            time = link.value if isinstance(link, AnticipatorPeg) else time_of(link)
-            return None if time is None else time + offset
-        case AtRatio(before, after, ratio):
-            a, b = time_of(before), time_of(after)
-            return None if a is None or b is None else a + ratio * (b - a)
+        return [peg.value for point, peg in self.pegs.items() if point.behavior == behavior]
 
 
 # --- the thesis's examples
@@ -342,7 +333,7 @@ def test_whatever_is_kept_keeps_its_order_its_ties_and_does_not_start_before_its
 
 def value(plan, side):
     if isinstance(side, Point):
-        return time_of(plan.solution.pegs[side.behavior][side.sync])
+        return plan.pegs[side].value
     return 0.0 if side is START else side.value
 
 

@@ -6,7 +6,8 @@ from reactive_realizer.planunit.timing import PhaseKind, timing_at
 from reactive_realizer.scheduler.convex.convex_strategy import ConvexStrategy
 from reactive_realizer.scheduler.embr.embr_strategy import EmbrStrategy
 from reactive_realizer.scheduler.problem import Origin
-from reactive_realizer.scheduler.smartbody_strategy import SmartBodyStrategy
+from reactive_realizer.scheduler.smartbody.smartbody_strategy import SmartBodyStrategy
+from reactive_realizer.scheduler.strategy import solve
 from reactive_realizer.testing.problems import TIMINGS, after, at, item, problem
 from reactive_realizer.testing.strategy_contract import CompleteStrategyContract, StrategyContract, violations
 
@@ -67,6 +68,6 @@ def test_the_examples_of_the_thesis_in_both_orders(strategy, name) -> None:
     items, constraints = EXAMPLES[name.removesuffix("b")]
     turn = -1 if name.endswith("b") else 1
     asked = problem(items[::turn], *constraints)
-    solution = strategy.solve(asked)
+    solution = solve(strategy, asked)
     assert len(solution.losses) == LOST[strategy.name].get(name, 0)
     assert violations(asked, solution) == []

@@ -7,18 +7,7 @@ import pytest
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.planunit.timing import PhaseKind, timing_at
 from reactive_realizer.scheduler.plan_view import PlanView
-from reactive_realizer.scheduler.problem import (
-    Anchor,
-    AtBlock,
-    AtLeast,
-    AtMost,
-    AtOffset,
-    AtRatio,
-    Origin,
-    Point,
-    Solution,
-)
-from reactive_realizer.scheduler.spec_times import SpecTimes
+from reactive_realizer.scheduler.problem import Origin, Point, Solution
 from reactive_realizer.scheduler.verify import verify
 from reactive_realizer.testing.pilot import open_pilot
 from reactive_realizer.testing.problems import TIMINGS, after, at, item, outer, problem
@@ -170,36 +159,20 @@ def test_a_constraint_of_a_point_that_was_cut_is_not_judged() -> None:
 # --- views
 
 
-def test_a_view_of_a_solution_has_what_was_kept_and_the_times_of_its_pegs() -> None:
+def test_a_view_of_a_solution_has_its_times_and_what_was_kept() -> None:
     kept, lost = at("a:start", START, 1.0), at("a:end", START, 9.0)
     asked = problem([item("a", NOD)], kept, lost)
-    start = AtBlock(Anchor(1.0), 0.0)
-    pegs = {"a": {"start": start, "stroke": AtOffset(start, 0.4), "end": AtOffset(start, 1.0)}}
-    plan = PlanView.of_solution(asked, Solution(pegs, (SimpleNamespace(constraint=lost),)))
+    times = {Point("a", "start"): 1.0, Point("a", "stroke"): 1.4, Point("a", "end"): 2.0}
+    plan = PlanView.of_solution(asked, Solution(times, (SimpleNamespace(constraint=lost),)))
     assert plan.kept == (kept,)
-    assert plan.times == {Point("a", "start"): 1.0, Point("a", "stroke"): 1.4, Point("a", "end"): 2.0}
+    assert plan.times == times
     assert verify(plan) == []
 
 
-def test_the_time_of_a_peg_is_worked_out_from_what_it_hangs_on() -> None:
-    hit, unknown = outer("hit", 3.0), outer("later", None)
-    time_of = SpecTimes({hit: 3.0, unknown: None})
-    start = AtBlock(Anchor(1.0), 0.5)
-    assert time_of(AtRatio(start, hit, 0.5)) == 2.25
-    assert time_of(AtLeast(start, ((hit, -1.0),))) == 2.0
-    assert time_of(AtMost(start, ((hit, -2.0), (unknown, 0.0)))) == 1.0
-    assert time_of(AtLeast(start, ((unknown, 0.0),))) is time_of(AtOffset(unknown, 1.0)) is None
-
-
-def test_a_long_chain_of_pegs_is_no_trouble_and_a_circle_is_an_error() -> None:
-    spec = AtBlock(Anchor(), 0.0)
-    for _ in range(5_000):
-        spec = AtOffset(spec, 0.5)
-    assert SpecTimes({})(spec) == 2_500.0
-    circle = AtOffset(spec, 1.0)
-    object.__setattr__(circle, "link", AtOffset(circle, 1.0))
-    with pytest.raises(ValueError, match="hangs on itself"):
-        SpecTimes({})(circle)
+def test_in_a_view_of_a_solution_what_hangs_on_unknown_times_is_unknown() -> None:
+    asked = problem([item("a", NOD), item("b", NOD)], at("a:start", outer("hit", None)), after("b:start", "a:end"))
+    times = {Point(id_, sync): time for id_ in "ab" for sync, time in zip(NOD.points, NOD.offsets, strict=True)}
+    assert set(PlanView.of_solution(asked, Solution(times, ())).times.values()) == {None}
 
 
 async def test_a_view_of_a_block_has_its_times_as_it_plays() -> None:

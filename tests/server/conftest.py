@@ -16,7 +16,7 @@ from reactive_realizer.assembly.scene import SceneOptions, open_scene
 from reactive_realizer.clock.clock import ManualClock
 from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.server.app import create_app
-from reactive_realizer.server.live import Live
+from reactive_realizer.server.live_scene import LiveScene
 from reactive_realizer.server.protocol import DOCUMENT
 from reactive_realizer.server.security import Security
 
@@ -95,7 +95,7 @@ class Socket:
 class OnAir:
     """A live scene and somebody who talks to it."""
 
-    live: Live
+    live: LiveScene
     client: TestClient[Any, Any]
     ticks: AsyncIterator[Tick]
 
@@ -133,7 +133,7 @@ def on_air(tmp_path: Path) -> Open:
         file = tmp_path / "human.toml"
         file.write_text(human, encoding="utf-8")
         async with open_scene(SceneOptions(file, "text")) as scene:
-            live = Live(scene, ManualClock(), performance)
+            live = LiveScene(scene, ManualClock(), performance)
             async with TestClient(TestServer(create_app(live, security))) as client:
                 yield OnAir(live, client, live.ticker.ticks())
 

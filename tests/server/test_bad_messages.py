@@ -55,7 +55,7 @@ BAD = {
 
 async def still_listens(socket: Socket) -> bool:
     await socket.say(type="ping", t=1)
-    return (await socket.hear("pong"))["t"] == 1
+    return bool((await socket.hear("pong"))["t"] == 1)
 
 
 @pytest.mark.parametrize("name", BAD)
@@ -187,6 +187,52 @@ async def test_more_predicted_points_than_the_limit_are_refused_and_known_ones_m
             assert (await socket.ask(type="predict", anticipator="t", sync=sync, time=1))["type"] == "accepted"
         assert (await socket.ask(type="predict", anticipator="t", sync="c", time=1))["code"] == "too-many-names"
         assert (await socket.ask(type="predict", anticipator="t", sync="a", time=2))["type"] == "accepted"
+
+
+async def test_points_that_have_passed_make_room_for_new_ones(on_air: Open) -> None:
+    async with on_air(ALICE + "[limits]\npredicted_points = 5\n") as air:
+        socket = await air.connect()
+        for turn in range(20):
+            bml = f'<bml {BML} id="b{turn}"><wait id="w" start="anticipators:user:turn{turn}" duration="0.02"/></bml>'
+            await socket.say(type="bml", xml=bml)
+            time = air.live.realizer.time + 0.04
+            answer = await socket.ask(type="predict", anticipator="user", sync=f"turn{turn}", time=time)
+            assert answer["type"] == "accepted"
+            await air.tick_until(time + 0.04)
+            assert f'globalTime="{time:g}' in (await socket.hear_feedback(f'"b{turn}:w:start"'))["xml"]
+        assert list(air.live.realizer.board.predictions("user")) == [f"turn{turn}" for turn in range(15, 20)]
+
+
+async def test_points_that_were_withdrawn_make_room_for_new_ones(on_air: Open) -> None:
+    async with on_air(ALICE + "[limits]\npredicted_points = 5\n") as air:
+        socket = await air.connect()
+        for number in range(20):
+            for time in (100, None):
+                answer = await socket.ask(type="predict", anticipator="user", sync=f"p{number}", time=time)
+                assert answer["type"] == "accepted"
+                await air.tick()
+
+
+async def test_points_that_a_block_waits_for_make_no_room(on_air: Open) -> None:
+    async with on_air(ALICE + "[limits]\npredicted_points = 2\n") as air:
+        socket = await air.connect()
+        waits = "".join(f'<wait id="{sync}" start="anticipators:user:{sync}" duration="1"/>' for sync in ("a", "b"))
+        await socket.ask(type="bml", xml=f'<bml {BML} id="b1">{waits}</bml>')
+        await air.tick()
+        answer = await socket.ask(type="predict", anticipator="user", sync="c", time=1)
+        assert (answer["type"], answer["code"]) == ("error", "too-many-names")
+        assert (await socket.ask(type="predict", anticipator="user", sync="a", time=0.1))["type"] == "accepted"
+
+
+async def test_more_anticipators_than_points_are_refused(on_air: Open) -> None:
+    async with on_air(ALICE + "[limits]\npredicted_points = 2\n") as air:
+        socket = await air.connect()
+        answers = []
+        for name in ("user", "partner"):
+            answers.append(await socket.ask(type="predict", anticipator=name, sync="a", time=None))
+            await air.tick()
+        assert [answer["type"] for answer in answers] == ["accepted", "error"], "the metronome is one of two"
+        assert "anticipators" in answers[1]["message"]
 
 
 async def test_more_targets_than_the_limit_are_refused_and_known_ones_may_still_move(on_air: Open) -> None:

@@ -7,8 +7,7 @@ import pytest
 from reactive_realizer.clock.clock import ManualClock
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.limits import Limits
-from reactive_realizer.server.client_queue import ClientQueue
-from reactive_realizer.server.rate_limit import RateLimit
+from reactive_realizer.server.client_limits import ClientQueue, RateLimit
 
 FEW = Limits(queued_messages=3, queued_bytes=100)
 

@@ -49,7 +49,9 @@ async def test_words_are_heard(on_air: Open) -> None:
         ("metronome", "tempo", None),
     ],
 )
-async def test_a_value_that_cannot_be_is_answered_with_its_range(on_air: Open, anticipator, event, value) -> None:
+async def test_a_value_that_cannot_be_is_answered_with_its_range(
+    on_air: Open, anticipator: str, event: str, value: float | None
+) -> None:
     async with on_air(HUMAN) as air:
         socket = await air.connect()
         said = {} if value is None else {"value": value}
@@ -59,16 +61,21 @@ async def test_a_value_that_cannot_be_is_answered_with_its_range(on_air: Open, a
 
 
 NOT_KNOWN = {
-    "kick": ({"anticipator": "spacebar", "event": "kick"}, "known are press, release"),
-    "press in words": ({"anticipator": "spacebar", "event": "press", "text": "on"}, "no event press with a text"),
-    "words without any": ({"anticipator": "user", "event": "words"}, "known are voice, words with a text"),
-    "a beat": ({"anticipator": "metronome", "event": "beat"}, "known are tempo, start"),
+    "kick": ({"anticipator": "spacebar", "event": "kick"}, "known events: press, release"),
+    "press in words": (
+        {"anticipator": "spacebar", "event": "press", "text": "on"},
+        "not know the event press with a text",
+    ),
+    "words without any": ({"anticipator": "user", "event": "words"}, "known events: voice, words with a text"),
+    "a beat": ({"anticipator": "metronome", "event": "beat"}, "known events: tempo, start"),
     "an event of a partner": ({"anticipator": "partner", "event": "clap"}, "is said by predict"),
 }
 
 
 @pytest.mark.parametrize("name", NOT_KNOWN)
-async def test_an_event_that_its_anticipator_does_not_know_is_answered_with_those_that_it_knows(on_air, name) -> None:
+async def test_an_event_that_its_anticipator_does_not_know_is_answered_with_those_that_it_knows(
+    on_air: Open, name: str
+) -> None:
     said, known = NOT_KNOWN[name]
     async with on_air(HUMAN) as air:
         socket = await air.connect()
@@ -82,7 +89,7 @@ async def test_an_event_that_its_anticipator_does_not_know_is_answered_with_thos
 @pytest.mark.parametrize(
     ("anticipator", "sync"), [("spacebar", "press"), ("user", "stop"), ("trainee", "1"), ("orchestra", "beat1")]
 )
-async def test_nobody_else_predicts_for_an_anticipator_of_the_scene(on_air: Open, anticipator, sync) -> None:
+async def test_nobody_else_predicts_for_an_anticipator_of_the_scene(on_air: Open, anticipator: str, sync: str) -> None:
     async with on_air(HUMAN) as air:
         socket = await air.connect()
         answer = await socket.ask(type="predict", anticipator=anticipator, sync=sync, **{"in": 1})

@@ -55,7 +55,7 @@ async def test_a_reader_that_does_not_read_loses_its_connection(on_air: Open) ->
     async with on_air(ALICE + "[limits]\nqueued_bytes = 1000000\n") as air:
         quick = await air.connect("?streams=feedback")
         async with air.client.get("/feedback") as slow:
-            while len(air.live.feedback.audience) == 2:
+            while len(air.live.feedback.subscribers) == 2:
                 air.live.feedback.append(report("x" * 100_000))
                 await quick.hear("feedback")
             assert slow.status == 200
@@ -69,4 +69,4 @@ async def test_a_reader_that_goes_is_forgotten(on_air: Open) -> None:
             assert air.live.clients.number == 2
         while air.live.clients.number > 1:
             await socket.ask(type="clock")
-        assert len(air.live.feedback.audience) == 1
+        assert len(air.live.feedback.subscribers) == 1

@@ -5,7 +5,7 @@ import struct
 import numpy as np
 
 from reactive_realizer.clock.units import GlobalTime
-from reactive_realizer.server.frame_codec import encode_frame
+from reactive_realizer.server.frame_stream import encode_frame
 
 ROOT = np.array([0.5, 1.0, -2.0])
 ROTATIONS = np.array([[1.0, 0.0, 0.0, 0.0], [0.0, -1.0, 0.0, 0.0], [0.5, 0.5, -0.5, 0.5]])

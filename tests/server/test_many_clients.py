@@ -143,7 +143,7 @@ async def slow_reader(air: OnAir, text: str) -> tuple[int, int | None]:
     """How many messages a client got that did not read until it was given up, and its close code."""
     slow, quick = await air.connect("?streams=feedback"), await air.connect("?streams=feedback")
     sent = 0
-    while len(air.live.feedback.audience) == 2:
+    while len(air.live.feedback.subscribers) == 2:
         air.live.feedback.append(report(text))
         sent += 1
         assert (await quick.hear("feedback"))["seq"] == sent, "the quick client misses nothing"

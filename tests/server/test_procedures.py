@@ -2,6 +2,8 @@
 
 import pytest
 
+from reactive_realizer.realizer.inputs import BmlText
+
 from .conftest import ALICE, BML, Open, post, wait
 
 BMLT = 'xmlns:bmlt="http://hmi.ewi.utwente.nl/bmlt"'
@@ -42,11 +44,12 @@ async def test_a_procedure_is_known_as_soon_as_its_definition_was_taken_in(
 ) -> None:
     async with on_air() as air:
         socket = await air.connect()
+        answer = None
         for document in documents:
-            status, body = await post(air, "/bml", document)
+            answer = await post(air, "/bml", document)
             for _ in range(ticks):
                 await air.tick()
-        assert (status, body) == (202, {"blocks": ["b1"]})
+        assert answer == (202, {"blocks": ["b1"]})
         await air.tick_until(0.3)
         assert "DONE" in (await socket.hear_feedback('"b1:end"'))["xml"]
 
@@ -55,6 +58,16 @@ async def test_a_definition_that_was_refused_with_its_document_is_none(on_air: O
     async with on_air() as air:
         assert (await post(air, "/bml", define("p") + wait("b1") + wait("b1")))[0] == 409
         assert (await post(air, "/bml", use("p", "b2")))[0] == 404
+
+
+async def test_a_definition_that_was_refused_when_it_entered_is_none(on_air: Open) -> None:
+    async with on_air(ALICE + "[limits]\nprocedures = 1\n") as air:
+        air.live.realizer.put(BmlText(define("first")))
+        assert (await post(air, "/bml", define("p")))[0] == 202
+        await air.tick()
+        status, body = await post(air, "/bml", use("p", "b1"))
+        assert (status, body["error"]["code"]) == (404, "unknown-procedure")
+        assert (await post(air, "/bml", use("first", "b2")))[0] == 202
 
 
 async def test_more_procedures_than_the_limit_are_refused_at_the_door_unless_they_take_the_place_of_others(

@@ -2,18 +2,20 @@
 
 import io
 import json
+from collections.abc import Callable
 from dataclasses import fields
 from pathlib import Path
-from typing import get_args
+from typing import Any, get_args
 
 import pytest
 from jsonschema import Draft202012Validator
 
 from reactive_realizer.assembly.scene import DEFAULT_HUMAN, SceneOptions, open_scene
 from reactive_realizer.clock.ticker import Tick
-from reactive_realizer.errors import Fault, RealizerError
-from reactive_realizer.realizer.entered import Delivery, Entered
-from reactive_realizer.realizer.inputs import BmlText, Event, Input, Prediction, TargetMoved
+from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.engines.speech.espeak_voice import VoiceFailed
+from reactive_realizer.errors import RealizerError
+from reactive_realizer.realizer.inputs import BmlText, Delivery, Event, Input, Prediction, TargetMoved, TickInputs
 from reactive_realizer.server import recording as room
 from reactive_realizer.server.recorder import Recorder
 from reactive_realizer.server.recording import Recording, read_recording
@@ -23,7 +25,7 @@ INPUTS: list[Input] = [
     BmlText("a half of a pair: \ud800"),
     BmlText('<bml id="ü"/>'.encode()),
     BmlText('<?xml version="1.0" encoding="UTF-16"?><bml id="ü"/>'.encode("utf-16")),
-    Prediction("partner", "hit", 0.1 + 0.2),
+    Prediction("partner", "hit", GlobalTime(0.1 + 0.2)),
     Prediction("partner", "hit", None),
     Event("metronome", "start"),
     Event("metronome", "tempo", 92.5, "faster"),
@@ -31,14 +33,14 @@ INPUTS: list[Input] = [
     TargetMoved("bluebox", None),
 ]
 SESSION = [
-    Entered(0, tuple(INPUTS)),
-    Entered(1),
-    Entered(7, (), (Delivery(2), Delivery(1, Fault("voice-failed", {"reason": "killed"}, 3, 4)))),
-    Entered(9, (Event("metronome", "start"),)),
+    TickInputs(0, tuple(INPUTS)),
+    TickInputs(1),
+    TickInputs(7, (), (Delivery(2), Delivery(1, VoiceFailed(reason="killed", line=3, column=4)))),
+    TickInputs(9, (Event("metronome", "start"),)),
 ]
 
 
-def recorded(session: list[Entered], options: SceneOptions | None = None) -> str:
+def recorded(session: list[TickInputs], options: SceneOptions | None = None) -> str:
     stream = io.StringIO()
     recorder = Recorder(stream, options or SceneOptions(), 1234.5)
     for entered in session:
@@ -47,7 +49,7 @@ def recorded(session: list[Entered], options: SceneOptions | None = None) -> str
 
 
 @pytest.fixture
-def read(tmp_path: Path):
+def read(tmp_path: Path) -> Callable[[str | bytes], Recording]:
     def read(text: str | bytes) -> Recording:
         file = tmp_path / "session.jsonl"
         file.write_bytes(text if isinstance(text, bytes) else text.encode())
@@ -56,7 +58,7 @@ def read(tmp_path: Path):
     return read
 
 
-def test_a_session_is_read_as_it_was_recorded(read) -> None:
+def test_a_session_is_read_as_it_was_recorded(read: Callable[[str | bytes], Recording]) -> None:
     recording = read(recorded(SESSION))
     assert list(recording.ticks) == SESSION
     assert recording.started == 1234.5
@@ -70,7 +72,7 @@ def test_every_kind_of_input_is_tried_with_all_that_it_can_hold() -> None:
         assert any(all(getattr(entry, name) is not None for name in said) for entry in own)
 
 
-def test_every_option_of_a_scene_is_read_as_it_was(read, tmp_path: Path) -> None:
+def test_every_option_of_a_scene_is_read_as_it_was(read: Callable[[str | bytes], Recording], tmp_path: Path) -> None:
     options = SceneOptions(DEFAULT_HUMAN, "text", (tmp_path,), 7)
     again = read(recorded([], options)).options(tmp_path)
     assert again.human.read_text("utf-8") == DEFAULT_HUMAN.read_text("utf-8")
@@ -92,8 +94,12 @@ def test_every_line_keeps_to_the_schema() -> None:
         Draft202012Validator({"$ref": f"#/$defs/{kind}", "$defs": schema["$defs"]}).validate(line)
 
 
-def test_wherever_a_file_is_cut_off_all_ticks_that_are_whole_are_read(read) -> None:
-    session = [Entered(0, (Event("metronome", "start"),)), Entered(3), Entered(9, (BmlText("<bml/>"),), (Delivery(1),))]
+def test_wherever_a_file_is_cut_off_all_ticks_that_are_whole_are_read(read: Callable[[str | bytes], Recording]) -> None:
+    session = [
+        TickInputs(0, (Event("metronome", "start"),)),
+        TickInputs(3),
+        TickInputs(9, (BmlText("<bml/>"),), (Delivery(1),)),
+    ]
     text = recorded(session).encode()
     for size in range(text.index(b"\n") + 1, len(text)):
         ticks = list(read(text[:size]).ticks)
@@ -108,34 +114,40 @@ EVENT = '{"seq": 12, "tick": 10, "time": 0.1, "input": {"type": "event", "antici
 @pytest.mark.parametrize(
     ("lines", "row", "part"),
     [
-        ([], 1, "not JSON"),
-        (["<bml/>"], 1, "not JSON"),
+        ([], 1, "not valid JSON"),
+        (["<bml/>"], 1, "not valid JSON"),
         (["{}"], 1, "required"),
         ([GOOD[0].replace('"recording": 1', '"recording": 2')], 1, "recording: 2"),
         ([GOOD[0].replace('"seed"', '"sead"')], 1, "scene"),
         ([GOOD[0], "[]"], 2, "Tick: []"),
         ([GOOD[0], '{"tick": -1}'], 2, "minimum 0"),
-        ([GOOD[0], '{"tick": 3}', '{"tick": 3}'], 3, "tick 3 stands after tick 3"),
-        ([GOOD[0], EVENT.replace("12", "2")], 2, "input 2 stands where input 1"),
-        ([*GOOD, EVENT.replace("10", "9")], len(GOOD) + 1, "tick 9 stands after tick 9"),
-        ([*GOOD, EVENT, '{"tick": 11}'], len(GOOD) + 2, "tick 11 stands after tick 10"),
+        ([GOOD[0], '{"tick": 3}', '{"tick": 3}'], 3, "tick 3 follows tick 3"),
+        ([GOOD[0], EVENT.replace("12", "2")], 2, "input 2 follows where input 1"),
+        ([*GOOD, EVENT.replace("10", "9")], len(GOOD) + 1, "tick 9 follows tick 9"),
+        ([*GOOD, EVENT, '{"tick": 11}'], len(GOOD) + 2, "tick 11 follows tick 10"),
         ([*GOOD, EVENT.replace("event", "ping")], len(GOOD) + 1, "ping"),
         ([*GOOD, EVENT.replace('"event": "e"', '"event": 4')], len(GOOD) + 1, "event: 4"),
         ([*GOOD, '{"tick": 11, "work": [{"request": 0}]}'], len(GOOD) + 1, "work.0.request"),
         ([*GOOD, '{"tick": 11, "work": [{"request": 1, "failure": {"code": "x"}}]}'], len(GOOD) + 1, "failure"),
-        ([*GOOD, GOOD[-3].replace("reason", "x").replace(": 7", ": 11")], len(GOOD) + 1, "table"),
-        ([*GOOD, GOOD[-3].replace("voice-failed", "x").replace(": 7", ": 11")], len(GOOD) + 1, "table"),
+        ([*GOOD, GOOD[-3].replace("reason", "x").replace(": 7", ": 11")], len(GOOD) + 1, "faults that are defined"),
+        (
+            [*GOOD, GOOD[-3].replace("voice-failed", "x").replace(": 7", ": 11")],
+            len(GOOD) + 1,
+            "faults that are defined",
+        ),
     ],
 )
-def test_a_file_that_is_no_session_is_refused_with_the_line_and_the_reason(read, lines, row, part) -> None:
+def test_a_file_that_is_no_session_is_refused_with_the_line_and_the_reason(
+    read: Callable[[str | bytes], Recording], lines: Any, row: int, part: str
+) -> None:
     with pytest.raises(RealizerError) as refused:
         read("".join(line + "\n" for line in lines))
     assert refused.value.fault.details["row"] == row
     assert part in str(refused.value)
 
 
-def test_bytes_that_are_no_text_are_refused_with_the_line(read) -> None:
-    with pytest.raises(RealizerError, match="line 2: not JSON"):
+def test_bytes_that_are_no_text_are_refused_with_the_line(read: Callable[[str | bytes], Recording]) -> None:
+    with pytest.raises(RealizerError, match="line 2: not valid JSON"):
         read(GOOD[0].encode() + b"\n\xff\xff\n")
 
 

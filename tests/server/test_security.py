@@ -67,9 +67,14 @@ async def test_an_exposed_server_is_known_by_its_numbers_and_by_the_hosts_of_all
 
 async def test_where_a_token_is_wanted_nobody_comes_in_without(on_air: Open) -> None:
     async with on_air(security=Security(token="s3cret")) as air:
-        for options in ({}, {"headers": {"Authorization": "Bearer other"}}, {"params": {"token": "ö"}}):
+        wrong: list[tuple[dict[str, str], dict[str, str]]] = [
+            ({}, {}),
+            ({"Authorization": "Bearer other"}, {}),
+            ({}, {"token": "ö"}),
+        ]
+        for headers, params in wrong:
             for path in ("/", "/status", "/nothing", "/avatars/female.glb"):
-                async with air.client.get(path, **options) as answer:
+                async with air.client.get(path, headers=headers, params=params) as answer:
                     assert answer.status == 401
                     assert (await answer.json())["error"]["code"] == "no-token"
         with pytest.raises(aiohttp.WSServerHandshakeError) as refused:

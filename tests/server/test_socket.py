@@ -4,6 +4,8 @@ import struct
 
 import pytest
 
+from anticipators.metronome import Metronome
+
 from .conftest import ALICE, BML, Open, wait
 
 TWO = ALICE + '[character.bert]\navatar = "avatars/male.glb"\nposition = [1.0, 0.0, 0.0]\n'
@@ -142,7 +144,9 @@ async def test_the_tempo_of_the_metronome_is_an_event_with_a_value(on_air: Open)
         answer = await socket.ask(type="event", anticipator="metronome", event="tempo", value=120)
         assert answer["type"] == "accepted"
         await air.tick()
-        assert air.live.realizer.anticipators["metronome"].tempo == pytest.approx(120)
+        metronome = air.live.realizer.anticipators["metronome"]
+        assert isinstance(metronome, Metronome)
+        assert metronome.tempo == pytest.approx(120)
 
 
 async def test_a_block_for_the_second_character_is_played_by_it(on_air: Open) -> None:

@@ -1,9 +1,9 @@
-"""What the tests of contracts share."""
+"""Shared by the tests of contracts."""
 
 import pytest
 
 
 def broken(contract: type, test: str, *arguments: object) -> None:
-    """Run one test of a contract, which is to fail."""
+    """Runs one test of a contract, and expects it to fail."""
     with pytest.raises((AssertionError, ArithmeticError, KeyError)):
         getattr(contract(), test)(*arguments)

@@ -1,20 +1,20 @@
-"""The contract of anticipators finds what breaks it: each of these is wrong in one way."""
+"""Each of these anticipators breaks its contract in one way, and the test for that fails."""
 
 from collections.abc import Callable
 from itertools import count
 
 import pytest
 
-from reactive_realizer.errors import error
+from reactive_realizer.errors import NotANumber, RealizerError
 from reactive_realizer.pegboard.anticipator import Anticipator
 from reactive_realizer.testing.anticipator_contract import AnticipatorContract
-from reactive_realizer.testing.anticipator_stand import Told
+from reactive_realizer.testing.anticipator_harness import AnticipatorEvent
 
 from .conftest import broken
 
 
 class Clock(Anticipator):
-    """Predicts a hit in a second when it is told of a throw."""
+    """Predicts a hit one second after a throw."""
 
     kind = "clock"
     events = ("throw",)
@@ -25,7 +25,7 @@ class Clock(Anticipator):
 
 
 class Late(Clock):
-    """Says when it was, around the base."""
+    """Sets a time in the past, without the base class."""
 
     def event(self, name, value, now):
         if name == "throw":
@@ -33,7 +33,7 @@ class Late(Clock):
 
 
 class Magic(Clock):
-    """Has a number for what it does not know."""
+    """Uses a number for an unknown time."""
 
     def forecast(self, sync):
         return -1.0
@@ -43,14 +43,14 @@ class Magic(Clock):
 
 
 class Intruder(Clock):
-    """Knows when others' points are."""
+    """Writes points of another anticipator."""
 
     def event(self, name, value, now):
         self._board.predicted("other", "hit").set(now + 1.0)
 
 
 class Trembling(Clock):
-    """Predicts anew what it has predicted."""
+    """Changes its prediction without a new event."""
 
     def event(self, name, value, now):
         self.calls = getattr(self, "calls", 0) + 1
@@ -58,14 +58,14 @@ class Trembling(Clock):
 
 
 class Restless(Clock):
-    """Predicts as time goes by."""
+    """Predicts without an event."""
 
     def advance(self, now):
         self.predict("hit", now + 1.0, now)
 
 
 class Excitable(Clock):
-    """Takes any event for its own."""
+    """Takes unknown events."""
 
     def check(self, name, value):
         pass
@@ -76,7 +76,7 @@ class Lenient(Clock):
 
 
 class Resentful(Clock):
-    """Is another one after it has refused."""
+    """Changes after it has refused an event."""
 
     patience = 1.0
 
@@ -84,35 +84,35 @@ class Resentful(Clock):
         super().check(name, value)
         if value is not None and value < 0:
             self.patience = 2.0
-            raise error("not-a-number")
+            raise RealizerError(NotANumber())
 
     def event(self, name, value, now):
         self.predict("hit", now + self.patience, now)
 
 
 class Littering(Clock):
-    """Has a name for each event."""
+    """Makes a point for each event."""
 
     def event(self, name, value, now):
         self.predict(f"hit{now}", now + 1.0, now)
 
 
 class Gullible(Clock):
-    """Takes predictions from others though it makes its own."""
+    """Takes predictions of others although it makes its own."""
 
     def check_prediction(self):
         pass
 
 
 class Demanding(Clock):
-    """Cannot be made without a word."""
+    """Has an option without a default."""
 
     def __init__(self, id, board, word):  # noqa: A002
         super().__init__(id, board)
 
 
 class Chancy(Clock):
-    """Is never the same."""
+    """Predicts other times in every session."""
 
     chances = count()
 
@@ -123,8 +123,8 @@ class Chancy(Clock):
 def anticipator_contract(kind: Callable) -> type[AnticipatorContract]:
     class Contract(AnticipatorContract):
         points = ("hit",)
-        events = (Told("throw"), Told("throw", 1.0))
-        refused = (Told("throw", -1.0),)
+        events = (AnticipatorEvent("throw"), AnticipatorEvent("throw", 1.0))
+        refused = (AnticipatorEvent("throw", -1.0),)
 
         def anticipator(self, id, board):  # noqa: A002
             return kind(id, board, "word") if kind is Demanding else kind(id, board)
@@ -135,14 +135,14 @@ def anticipator_contract(kind: Callable) -> type[AnticipatorContract]:
 @pytest.mark.parametrize(
     ("kind", "test"),
     [
-        (Late, "test_no_point_is_ever_set_before_now_and_unknown_is_none"),
-        (Magic, "test_a_name_that_it_does_not_know_is_never_known"),
-        (Intruder, "test_it_writes_no_points_but_its_own"),
-        (Trembling, "test_an_event_that_is_told_twice_at_once_moves_nothing_the_second_time"),
-        (Restless, "test_what_is_never_told_anything_changes_nothing_as_time_goes_by"),
-        (Resentful, "test_what_it_refuses_is_refused_with_a_reason_and_leaves_it_as_it_was"),
-        (Littering, "test_a_thousand_events_a_second_are_taken_and_leave_nothing_lying_about"),
-        (Demanding, "test_what_the_human_file_may_say_of_it_are_numbers_and_names_with_defaults"),
+        (Late, "test_no_point_is_set_before_now_and_an_unknown_time_is_none"),
+        (Magic, "test_a_point_with_an_unknown_name_has_no_time"),
+        (Intruder, "test_it_writes_only_its_own_points"),
+        (Trembling, "test_the_same_event_twice_at_one_time_moves_nothing_the_second_time"),
+        (Restless, "test_without_events_nothing_changes"),
+        (Resentful, "test_a_refused_event_has_a_reason_and_no_effect"),
+        (Littering, "test_a_thousand_events_a_second_leave_no_points_on_the_board"),
+        (Demanding, "test_its_options_are_numbers_and_names_with_defaults"),
         (Chancy, "test_the_same_events_make_the_same_predictions"),
     ],
 )
@@ -153,9 +153,9 @@ def test_an_anticipator_that_breaks_its_contract_is_found(kind, test) -> None:
 @pytest.mark.parametrize(
     ("kind", "test"),
     [
-        (Lenient, "test_what_it_refuses_is_refused_with_a_reason_and_leaves_it_as_it_was"),
-        (Excitable, "test_events_that_it_does_not_know_are_refused"),
-        (Gullible, "test_others_may_say_when_its_points_are_only_if_it_is_of_the_kind_that_is_told"),
+        (Lenient, "test_a_refused_event_has_a_reason_and_no_effect"),
+        (Excitable, "test_unknown_events_are_refused"),
+        (Gullible, "test_only_a_remote_anticipator_takes_predictions_of_others"),
     ],
 )
 def test_an_anticipator_that_refuses_nothing_is_found(kind, test) -> None:

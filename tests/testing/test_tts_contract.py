@@ -1,4 +1,4 @@
-"""The contract of voices finds what breaks it: each of these is wrong in one way, and the test that says so fails."""
+"""Each of these voices breaks its contract in one way, and the test for that fails."""
 
 import asyncio
 from dataclasses import replace
@@ -11,11 +11,9 @@ from reactive_realizer.testing.tts_contract import Speaker, TTSContract
 
 from .conftest import broken
 
-TEXT = "Please put the red box on the green table, Dr. Smith."
-
 
 class Shifted(TextVoice):
-    """Counts characters from one."""
+    """Counts characters from 1."""
 
     def synthesize(self, text, marks, voice=None):
         said = super().synthesize(text, marks, voice)
@@ -23,7 +21,7 @@ class Shifted(TextVoice):
 
 
 class Backward(TextVoice):
-    """Says the last word first."""
+    """Lists the words in reverse order."""
 
     def synthesize(self, text, marks, voice=None):
         said = super().synthesize(text, marks, voice)
@@ -31,14 +29,14 @@ class Backward(TextVoice):
 
 
 class Markless(TextVoice):
-    """Leaves out the marks at the end."""
+    """Omits marks at the end."""
 
     def synthesize(self, text, marks, voice=None):
         return super().synthesize(text, tuple(mark for mark in marks if mark[1] < len(text)), voice)
 
 
 class Tired(TextVoice):
-    """Speaks ever slower."""
+    """Speaks more slowly every time."""
 
     spoken = count(1)
 
@@ -48,14 +46,14 @@ class Tired(TextVoice):
 
 
 class Short(TextVoice):
-    """Has too little sound."""
+    """Has too little audio."""
 
     def synthesize(self, text, marks, voice=None):
         return replace(super().synthesize(text, marks, voice), audio=bytes(100))
 
 
 class Confused(TextVoice):
-    """Answers with what was asked for last."""
+    """Answers every request with the last text."""
 
     async def synthesize(self, text, marks, voice=None):
         self.asked = text
@@ -64,14 +62,14 @@ class Confused(TextVoice):
 
 
 class Unsorted(TextVoice):
-    """Lists its voices as they come."""
+    """Lists its voices in arbitrary order."""
 
     async def voices(self):
         return ("b", "a")
 
 
 class Mute(TextVoice):
-    """Never speaks again after it did not know a voice."""
+    """Fails after a request for an unknown voice."""
 
     refused = False
 
@@ -86,19 +84,19 @@ class Mute(TextVoice):
 
 
 @pytest.mark.parametrize(
-    ("voice", "test", "arguments"),
+    ("voice", "test"),
     [
-        (Shifted, "test_words_stand_in_the_text_in_its_order_and_begin_in_time", (TEXT,)),
-        (Backward, "test_words_stand_in_the_text_in_its_order_and_begin_in_time", (TEXT,)),
-        (Markless, "test_a_mark_at_every_place_has_a_time_in_their_order", (TEXT,)),
-        (Tired, "test_the_same_text_is_the_same_utterance_whatever_was_said_between", ()),
-        (Tired, "test_a_speech_that_is_called_off_leaves_the_next_one_alone", ()),
-        (Short, "test_sound_and_sounds_last_as_long_as_the_utterance", (TEXT,)),
-        (Confused, "test_what_is_asked_for_at_once_is_not_mixed_up", ()),
-        (Unsorted, "test_the_names_of_voices_are_sorted_and_speak", ()),
-        (Mute, "test_an_unknown_voice_is_named_in_an_error_and_the_next_text_is_spoken", ()),
+        (Shifted, "test_words_are_in_the_text_and_their_times_in_its_order"),
+        (Backward, "test_words_are_in_the_text_and_their_times_in_its_order"),
+        (Markless, "test_marks_at_all_indices_have_times_in_their_order"),
+        (Tired, "test_the_same_text_gives_the_same_utterance_after_another_one"),
+        (Tired, "test_canceling_a_request_does_not_affect_the_next_one"),
+        (Short, "test_audio_and_phonemes_last_as_long_as_the_utterance"),
+        (Confused, "test_concurrent_requests_are_not_mixed_up"),
+        (Unsorted, "test_the_listed_voices_are_sorted_and_can_speak"),
+        (Mute, "test_an_unknown_voice_raises_an_error_and_does_not_affect_the_next_text"),
     ],
 )
-def test_a_voice_that_breaks_its_contract_is_found(voice, test, arguments) -> None:
+def test_a_voice_that_breaks_its_contract_is_found(voice, test) -> None:
     with asyncio.Runner() as runner:
-        broken(TTSContract, test, Speaker(voice(), runner), *arguments)
+        broken(TTSContract, test, Speaker(voice(), runner))

@@ -12,9 +12,9 @@ import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 
 import type { Pose } from "./frame";
 import type { Character, Position } from "./protocol";
-import type { Quality } from "./quality";
+import type { Quality } from "./viewport";
 
-/** One place that a morph's weight is written to; a face is several meshes that share their targets. */
+/** One mesh's entry for a morph's weight: a face consists of several meshes that share their morphs. */
 interface MorphSlot {
   influences: number[];
   index: number;
@@ -22,7 +22,7 @@ interface MorphSlot {
 
 /** A loaded avatar: bones and morphs in the order of the character's frames. */
 export class Avatar {
-  /** The bone that all others hang on: it carries the root's position. */
+  /** The topmost bone, which carries the root's position. */
   private readonly root: Object3D | undefined;
 
   private constructor(
@@ -34,7 +34,7 @@ export class Avatar {
     this.root = bones.find((bone) => !bones.includes(bone?.parent ?? undefined));
   }
 
-  /** Loads the character's model; rejects when it cannot be had. */
+  /** Loads the character's model; rejects when it cannot be loaded. */
   static async load(character: Character, quality: Quality): Promise<Avatar> {
     const { scene } = await new GLTFLoader().loadAsync(character.avatar);
     const meshes = meshesOf(scene);
@@ -44,7 +44,7 @@ export class Avatar {
     return new Avatar(scene, character, bones, slots);
   }
 
-  /** Takes a pose: rotations on the bones, the root's position, weights on the morphs. */
+  /** Applies a pose: the root's position, rotations to the bones, weights to the morphs. */
   apply(pose: Pose): void {
     this.root?.position.fromArray(pose.root);
     for (const [i, bone] of this.bones.entries()) bone?.quaternion.fromArray(pose.rotations, 4 * i);
@@ -105,7 +105,7 @@ function slotsOf(meshes: Mesh[], morph: string): MorphSlot[] {
 }
 
 function prepare(mesh: Mesh, quality: Quality): void {
-  // The bounds of a skinned mesh are those of its rest pose, which may be out of sight while the figure is not.
+  // The bounds of a skinned mesh are those of its rest pose, which may be out of view while the avatar is not.
   mesh.frustumCulled = false;
   mesh.castShadow = true;
   mesh.receiveShadow = true;
@@ -115,7 +115,7 @@ function prepare(mesh: Mesh, quality: Quality): void {
   else if (material.alphaTest > 0) material.alphaToCoverage = true;
 }
 
-/** The same look by the cheapest lit shading. */
+/** The same material with the cheapest lit shading. */
 function plain(material: MeshStandardMaterial): MeshLambertMaterial {
   const { name, color, map, alphaTest, transparent, side } = material;
   return new MeshLambertMaterial({ name, color, map, alphaTest, transparent, side });

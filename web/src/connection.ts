@@ -1,6 +1,5 @@
-import type { ServerClock } from "./clock";
+import { Pings, type ServerClock } from "./clock";
 import { decodeFrame, type Frame } from "./frame";
-import { Pings } from "./pings";
 import type {
   AudioGain,
   AudioMove,
@@ -21,21 +20,22 @@ import type {
   ServerMessage,
 } from "./protocol";
 
+/** Time before the first and the last attempts to reconnect, ms. */
 const FIRST_RETRY = 500;
 const LONGEST_RETRY = 8000;
 
-/** What concerns speech that sounds. */
+/** A message about speech audio. */
 export type AudioMessage = AudioStart | AudioMove | AudioGain | AudioStop;
 
-/** What carries something out, and is answered. */
+/** A message that the realizer answers. */
 export type Request = Bml | Predict | Event | Demo;
 
-/** What needs no answer. */
+/** A message without an answer. */
 export type Notice = Ping | Camera;
 
-/** What the rest of the page hears of the connection. */
+/** Receives what arrives on the connection. */
 export interface ConnectionListener {
-  /** The socket greeted; `renewed` when the realizer is another one than before, and nothing of it holds any more. */
+  /** The realizer greeted; `renewed` when this is a new session, so that all earlier state is void. */
   onHello(hello: Hello, renewed: boolean): void;
   onLost(): void;
   onFrame(frame: Frame): void;
@@ -44,7 +44,7 @@ export interface ConnectionListener {
   onBoard(board: Board): void;
 }
 
-/** A request that the realizer refused, or that a lost connection left without an answer. */
+/** A request that the realizer refused, or that lost its answer with the connection. */
 export class RequestError extends Error {
   constructor(
     readonly code: string,
@@ -60,8 +60,8 @@ interface Pending {
 }
 
 /**
- * The socket to the realizer. It comes back by itself, waiting longer each time, and asks for the feedback after the
- * last it saw, so that none is lost or seen twice.
+ * The socket to the realizer. It reconnects by itself, waits longer each time, and asks for the feedback after the
+ * last it received, so that none is lost or repeated.
  */
 export class Connection {
   private socket: WebSocket | null = null;
@@ -82,7 +82,7 @@ export class Connection {
     });
   }
 
-  /** Whether the realizer has greeted on the present socket. */
+  /** Whether the realizer has greeted on the current socket. */
   get connected(): boolean {
     return this.pings.running;
   }
@@ -99,7 +99,7 @@ export class Connection {
     this.socket = socket;
   }
 
-  /** Sends a request; settles with its answer: a RequestError if it is refused or the connection breaks before. */
+  /** Sends a request; rejects with a RequestError if it is refused or the connection breaks before the answer. */
   request(request: Request): Promise<void> {
     if (!this.connected) return Promise.reject(new RequestError("not_connected", "Not connected to the realizer."));
     const ref = String(++this.requests);
@@ -109,7 +109,7 @@ export class Connection {
     });
   }
 
-  /** Sends a message that needs no answer; without a connection it is left out. */
+  /** Sends a message that needs no answer; does nothing without a connection. */
   notify(message: Notice): void {
     if (this.connected) this.transmit(message);
   }
@@ -164,7 +164,7 @@ export class Connection {
     this.session = hello.session;
     if (renewed) this.lastFeedback = null;
     if (resumedElsewhere) {
-      // The realizer was restarted: it understood `after` as a number of its own session, so ask again without.
+      // The realizer was restarted and took `after` for a number of its own session: ask again without it.
       this.session = null;
       this.socket?.close();
       return;

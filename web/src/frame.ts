@@ -1,4 +1,4 @@
-/** The binary frame: one composed pose of one character. */
+/** The binary frame: one pose of one character. */
 
 const KIND = 1;
 const VERSION = 1;
@@ -8,7 +8,7 @@ const WEIGHT_BYTES = 2;
 const QUATERNION_SCALE = 32767;
 const WEIGHT_SCALE = 65535;
 
-/** A pose in the avatar's own bones, in the order of the character's `joints` and `morphs`. */
+/** A pose of the avatar's own bones, in the order of the character's `joints` and `morphs`. */
 export interface Pose {
   /** HumanoidRoot in the world, m. */
   root: Float32Array;
@@ -18,7 +18,7 @@ export interface Pose {
   weights: Float32Array;
 }
 
-/** A pose with its stamp. */
+/** A pose with its time. */
 export interface Frame extends Pose {
   /** Index of the character in `hello`. */
   character: number;
@@ -32,7 +32,7 @@ export function emptyPose(joints: number, morphs: number): Pose {
   return { root: new Float32Array(3), rotations: new Float32Array(4 * joints), weights: new Float32Array(morphs) };
 }
 
-/** Reads a binary frame; throws a RangeError that says what is wrong with one that is not. */
+/** Reads a binary frame; throws a RangeError that says what is wrong with a malformed one. */
 export function decodeFrame(data: ArrayBuffer): Frame {
   const view = new DataView(data);
   const [joints, morphs] = checkedCounts(view);
@@ -49,14 +49,15 @@ export function decodeFrame(data: ArrayBuffer): Frame {
 }
 
 function checkedCounts(view: DataView): [joints: number, morphs: number] {
-  if (view.byteLength < HEADER_BYTES) throw new RangeError(`a frame of ${view.byteLength} bytes has no whole header`);
+  if (view.byteLength < HEADER_BYTES)
+    throw new RangeError(`a frame of ${view.byteLength} bytes has no complete header`);
   const kind = view.getUint8(0);
   const version = view.getUint8(1);
   if (kind !== KIND || version !== VERSION) throw new RangeError(`unknown frame kind ${kind} version ${version}`);
   const joints = view.getUint16(16, true);
   const morphs = view.getUint16(18, true);
   const expected = HEADER_BYTES + joints * QUATERNION_BYTES + morphs * WEIGHT_BYTES;
-  if (view.byteLength !== expected) throw new RangeError(`a frame has ${view.byteLength} bytes and not ${expected}`);
+  if (view.byteLength !== expected) throw new RangeError(`a frame has ${view.byteLength} bytes instead of ${expected}`);
   return [joints, morphs];
 }
 

@@ -1,17 +1,63 @@
-import { sentenceOf } from "./errors";
-import { stateOf } from "./hooks";
+import { makeTabs } from "./dom";
 import { StatusPanel } from "./panels/status";
-import { makeTabs } from "./panels/tabs";
-import { qualityOf } from "./quality";
+import type { Position } from "./protocol";
+import type { SpeechRecord } from "./speech";
 import { Viewer } from "./viewer";
+import { type Quality, qualityOf } from "./viewport";
 
 const STREAMS = "feedback,audio,frames,board";
+
+/** The state of the page as browser tests read it, from `window.viewer`; nothing in it can be changed. */
+export interface ViewerState {
+  readonly quality: Quality;
+  readonly connected: boolean;
+  /** Number of frames whose time has come, over all characters. */
+  readonly framesPlayed: number;
+  /** Realizer time of the newest frame shown, s. */
+  readonly lastFrameTime: number | null;
+  readonly feedbackCount: number;
+  /** The last utterances, oldest first. */
+  readonly speech: SpeechRecord[];
+  /** World position of a bone, m. */
+  bone(characterId: string, name: string): Position | null;
+  /** Present weight of a morph. */
+  morph(characterId: string, name: string): number | null;
+}
+
+declare global {
+  interface Window {
+    viewer?: ViewerState;
+  }
+}
 
 function socketAddress(): URL {
   const address = new URL("ws", document.baseURI);
   address.protocol = address.protocol.replace("http", "ws");
   address.search = new URLSearchParams({ streams: STREAMS }).toString();
   return address;
+}
+
+function stateOf(viewer: Viewer): ViewerState {
+  return Object.freeze({
+    quality: viewer.quality,
+    get connected() {
+      return viewer.connection.connected;
+    },
+    get framesPlayed() {
+      return viewer.characters.framesPlayed;
+    },
+    get lastFrameTime() {
+      return viewer.characters.lastFrameTime;
+    },
+    get feedbackCount() {
+      return viewer.feedback.count;
+    },
+    get speech() {
+      return viewer.speech.records;
+    },
+    bone: (characterId: string, name: string) => viewer.characters.bone(characterId, name),
+    morph: (characterId: string, name: string) => viewer.characters.morph(characterId, name),
+  });
 }
 
 makeTabs(["feedback-tab", "pegs-tab"]);
@@ -22,6 +68,6 @@ try {
   viewer.start();
 } catch (error) {
   // Most likely the browser has no WebGL 2.
-  status.failed(sentenceOf(error));
+  status.failed(error);
   throw error;
 }

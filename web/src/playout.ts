@@ -2,19 +2,19 @@ import { MathUtils, Quaternion } from "three";
 
 import { emptyPose, type Frame, type Pose } from "./frame";
 
-/** Two seconds at 50 frames a second: ample for the playout delay, little for a tab that sleeps. */
+/** Most frames kept: two seconds at 50 frames a second, far more than the playout delay needs. */
 const CAPACITY = 100;
 
 /**
- * The playout buffer of one character: frames come as the network brings them, poses leave at any time asked for.
+ * The playout buffer of one character: takes frames as they arrive, and gives the pose at any time.
  *
- * Between two frames the pose is interpolated by their stamps; after the last one it holds. Frames of the past are
- * dropped, as are the oldest when nobody samples.
+ * Between two frames the pose is interpolated by their times; after the last one it holds. Past frames are dropped;
+ * without samples, the oldest ones.
  */
 export class Playout {
-  /** Number of frames whose time has come, those passed over between two samples included. */
+  /** Number of frames whose time has come, including those skipped between two samples. */
   played = 0;
-  /** Stamp of the newest frame whose time has come, s. */
+  /** Time of the newest frame whose time has come, s. */
   lastTime: number | null = null;
 
   private frames: Frame[] = [];
@@ -22,7 +22,7 @@ export class Playout {
   private readonly rotation = new Quaternion();
   private readonly target = new Quaternion();
 
-  /** Takes a frame; one that is not newer than the last is a repetition and is left out. */
+  /** Takes a frame; ignores one that is not newer than the last. */
   push(frame: Frame): void {
     const newest = this.frames.at(-1);
     if (newest !== undefined && frame.time <= newest.time) return;
@@ -31,9 +31,9 @@ export class Playout {
   }
 
   /**
-   * The pose at a realizer time (s), null before any frame came. Time goes forward: what lies before is forgotten.
+   * The pose at a realizer time (s); null before the first frame. The next call overwrites it.
    *
-   * The pose is overwritten by the next call.
+   * Time must not go back: earlier frames are dropped.
    */
   sample(time: number): Pose | null {
     this.dropPassed(time);

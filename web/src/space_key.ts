@@ -1,16 +1,16 @@
-/** What the space bar does. */
+/** The events of the space bar. */
 export type KeyMove = "press" | "release";
 
-/** What a keyboard event says; of a KeyboardEvent no more is needed. */
+/** The part of a KeyboardEvent that is needed here. */
 interface KeyEvent extends Event {
   readonly code: string;
   readonly repeat: boolean;
 }
 
 /**
- * The space bar as an anticipator sees it: pressed once, however long it is held, and released for every press.
+ * The space bar as an anticipator's input: one press however long it is held, and one release for every press.
  *
- * While a field, a button or a list has the focus the key belongs to that: `idle` says whether nothing has it.
+ * A press counts only while `idle` returns true: otherwise the key belongs to the control that has the focus.
  */
 export class SpaceKey {
   private down = false;
@@ -26,7 +26,7 @@ export class SpaceKey {
     keys.addEventListener("keyup", (event) => {
       if ((event as KeyEvent).code === "Space") this.release();
     });
-    // A key that is let go in another window is never heard of.
+    // A key released in another window sends no event here.
     keys.addEventListener("blur", () => {
       this.release();
     });

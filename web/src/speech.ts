@@ -1,13 +1,12 @@
 import { heardTime, type PlayoutClock } from "./clock";
 import type { AudioMessage } from "./connection";
-import { sentenceOf } from "./errors";
 import type { AudioStart } from "./protocol";
 import { Utterance } from "./utterance";
 
-/** Speech of the past that is remembered for who asks what was played. */
+/** Number of utterances kept as records. */
 const REMEMBERED = 20;
 
-/** How one piece of speech was played, s: `start` and `end` realizer time, `begin` audio time of its first sample. */
+/** How an utterance was played, s: `start` and `end` in realizer time, `begin` the audio time of its first sample. */
 export interface SpeechRecord {
   id: string;
   character: string;
@@ -17,9 +16,9 @@ export interface SpeechRecord {
 }
 
 /**
- * All speech of the scene, each piece scheduled on the audio clock such that it is heard at its realizer time.
+ * Plays all speech of the scene, scheduled on the audio clock such that it is heard at its realizer time.
  *
- * While one sounds it is the master of the playout clock: what is seen is what belongs to what is heard.
+ * While speech plays, it is the master of the playout clock, so that lips and sound stay together.
  */
 export class SpeechPlayer {
   private utterances = new Map<string, Utterance>();
@@ -27,14 +26,14 @@ export class SpeechPlayer {
   constructor(
     private readonly context: AudioContext,
     private readonly clock: PlayoutClock,
-    private readonly onFailure: (sentence: string) => void,
+    private readonly onFailure: (reason: unknown) => void,
   ) {
     context.addEventListener("statechange", () => {
       this.rescheduleAll();
     });
   }
 
-  /** The last pieces of speech, oldest first. */
+  /** The last utterances, oldest first. */
   get records(): SpeechRecord[] {
     return [...this.utterances.values()].map(({ announced, start, end, begin }) => {
       return { id: announced.id, character: announced.character, start, end, begin };
@@ -62,7 +61,7 @@ export class SpeechPlayer {
     }
   }
 
-  /** The realizer time that is heard at this moment, s; null when nothing sounds. */
+  /** The realizer time of the speech heard now, s; null when none plays. */
   heard(): number | null {
     const heard = heardTime(this.context);
     for (const utterance of this.utterances.values()) {
@@ -73,7 +72,7 @@ export class SpeechPlayer {
     return null;
   }
 
-  /** Forgets all: the realizer that announced it is gone. */
+  /** Stops and removes all utterances: the realizer is new. */
   clear(): void {
     for (const utterance of this.utterances.values()) utterance.silence();
     this.utterances.clear();
@@ -84,14 +83,9 @@ export class SpeechPlayer {
     const utterance = new Utterance(message, this.context);
     this.utterances.set(message.id, utterance);
     this.forgetOldest();
-    utterance.load().then(
-      () => {
-        if (this.utterances.get(message.id) === utterance) this.schedule(utterance);
-      },
-      (reason: unknown) => {
-        this.onFailure(sentenceOf(reason));
-      },
-    );
+    utterance.load().then(() => {
+      if (this.utterances.get(message.id) === utterance) this.schedule(utterance);
+    }, this.onFailure);
   }
 
   private schedule(utterance: Utterance): void {
@@ -101,7 +95,7 @@ export class SpeechPlayer {
     utterance.schedule(heardTime(this.context) + utterance.start - shown);
   }
 
-  /** The audio clock stood still or runs again: what was scheduled by it no longer holds. */
+  /** Schedules all utterances again, because the audio clock has stopped or resumed. */
   private rescheduleAll(): void {
     for (const utterance of this.utterances.values()) this.schedule(utterance);
   }

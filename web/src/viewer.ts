@@ -1,33 +1,28 @@
-import { CameraReport } from "./camera_report";
-import { Cast } from "./cast";
+import { Characters } from "./characters";
 import { PLAYOUT_DELAY, PlayoutClock, ServerClock } from "./clock";
 import { type AudioMessage, Connection, type ConnectionListener } from "./connection";
 import { element } from "./dom";
-import { sentenceOf } from "./errors";
 import type { Frame } from "./frame";
+import { AnticipatorsPanel } from "./panels/anticipators";
 import { BmlPanel } from "./panels/bml";
 import { FeedbackPanel } from "./panels/feedback";
 import { PegsPanel } from "./panels/pegs";
-import { bindPrediction } from "./panels/prediction";
-import { bindSpaceBar } from "./panels/space_bar";
 import type { StatusPanel } from "./panels/status";
-import { TempoPanel } from "./panels/tempo";
 import type { Board, Feedback, Hello } from "./protocol";
-import type { Quality } from "./quality";
 import { SpeechPlayer } from "./speech";
-import { Stage } from "./stage";
+import { CameraReport, type Quality, Viewport } from "./viewport";
 import { World, type WorldState } from "./world";
 
-/** The page as a whole: hands what the connection brings to whom it concerns, and shows every animation frame. */
+/** The page: passes messages of the connection to its parts, and draws every animation frame. */
 export class Viewer implements ConnectionListener {
   readonly connection: Connection;
-  readonly cast: Cast;
+  readonly characters: Characters;
   readonly speech: SpeechPlayer;
   readonly feedback = new FeedbackPanel();
   private readonly serverClock = new ServerClock();
   private readonly clock = new PlayoutClock();
   private readonly audio = new AudioContext();
-  private readonly stage: Stage;
+  private readonly viewport: Viewport;
   private readonly world: World;
   private readonly cameraReport: CameraReport;
   private readonly pegs = new PegsPanel();
@@ -39,22 +34,20 @@ export class Viewer implements ConnectionListener {
     readonly quality: Quality,
     private readonly status: StatusPanel,
   ) {
-    this.stage = new Stage(element("stage", HTMLElement), quality);
-    this.world = new World(this.stage.scene);
-    this.cast = new Cast(this.stage.scene, quality, status.say);
-    this.speech = new SpeechPlayer(this.audio, this.clock, status.say);
+    this.viewport = new Viewport(element("viewport", HTMLElement), quality);
+    this.world = new World(this.viewport.scene);
+    this.characters = new Characters(this.viewport.scene, quality, status.report);
+    this.speech = new SpeechPlayer(this.audio, this.clock, status.report);
     this.connection = new Connection(socket, this.serverClock, this);
     this.cameraReport = new CameraReport((position) => {
       this.connection.notify({ type: "camera", position });
     });
     new BmlPanel(this.connection);
-    new TempoPanel(this.connection, status.say);
-    bindPrediction(this.connection, status.say);
-    bindSpaceBar(this.connection, status.say);
+    new AnticipatorsPanel(this.connection, status.report);
     this.bindButtons();
   }
 
-  /** Connects, and plays from now on. */
+  /** Connects, and starts to play. */
   start(): void {
     this.connection.open();
     const animate = (page: number): void => {
@@ -78,7 +71,7 @@ export class Viewer implements ConnectionListener {
   }
 
   onFrame(frame: Frame): void {
-    this.cast.push(frame);
+    this.characters.push(frame);
   }
 
   onFeedback(feedback: Feedback): void {
@@ -94,7 +87,7 @@ export class Viewer implements ConnectionListener {
   }
 
   private renew(hello: Hello): void {
-    this.cast.assign(hello.characters);
+    this.characters.assign(hello.characters);
     this.speech.clear();
     this.pegs.clear();
     this.feedback.mark(`Session ${hello.session.slice(0, 8)}`);
@@ -102,13 +95,13 @@ export class Viewer implements ConnectionListener {
 
   private play(page: number): void {
     const time = this.followMaster();
-    if (time !== null) this.cast.show(time);
-    if (this.cast.complete) this.stage.frame(this.cast.roots());
-    this.stage.draw(page);
-    this.cameraReport.update(page, this.stage.eye);
+    if (time !== null) this.characters.show(time);
+    if (this.characters.complete) this.viewport.frame(this.characters.roots());
+    this.viewport.draw(page);
+    this.cameraReport.update(page, this.viewport.eye);
   }
 
-  /** Lets the playout clock follow what is heard, or else the realizer; gives the time to show, s. */
+  /** Moves the playout clock towards the speech that is heard, or else the realizer; returns the time to show, s. */
   private followMaster(): number | null {
     const page = performance.now() / 1000;
     const server = this.serverClock.at(page);
@@ -120,7 +113,7 @@ export class Viewer implements ConnectionListener {
   private async loadWorld(): Promise<void> {
     const response = await fetch(new URL("world", document.baseURI));
     if (response.ok) this.world.show((await response.json()) as WorldState);
-    else this.status.say(`The world could not be loaded (HTTP ${response.status}).`);
+    else this.status.report(`The world could not be loaded (HTTP ${response.status}).`);
   }
 
   private bindButtons(): void {
@@ -129,13 +122,11 @@ export class Viewer implements ConnectionListener {
     };
     this.audio.addEventListener("statechange", showSound);
     showSound();
-    // A browser lets a page sound only after its user touched it: any gesture will do, the button says so.
+    // Browsers allow sound only after the user has interacted with the page: any click or key will do.
     const resume = (): void => void this.audio.resume();
     for (const gesture of ["pointerdown", "keydown"]) document.addEventListener(gesture, resume);
     this.demoButton.addEventListener("click", () => {
-      this.connection.request({ type: "demo" }).catch((error: unknown) => {
-        this.status.say(sentenceOf(error));
-      });
+      this.connection.request({ type: "demo" }).catch(this.status.report);
     });
   }
 }

@@ -2,24 +2,24 @@ import { BoxGeometry, Mesh, MeshLambertMaterial, type Object3D, SphereGeometry }
 
 import type { Position } from "./protocol";
 
-/** Targets of the world that can be seen; all others (the viewer, the camera, the characters) need no marker. */
+/** Makers of the visible targets' markers; the viewer, the camera and the characters need none. */
 const MARKERS = {
   bluebox: () => marker(new BoxGeometry(0.12, 0.12, 0.12), "#2f6fed"),
   greensphere: () => marker(new SphereGeometry(0.07, 32, 24), "#35a853"),
 };
 
-/** What `GET /world` tells: the position (m) of each named target. */
+/** The answer to `GET /world`: the position (m) of each named target. */
 export interface WorldState {
   targets: Record<string, { position: Position }>;
 }
 
-/** The things in the scene that a virtual human can look at and point to. */
+/** The visible targets that a virtual human can look at and point to. */
 export class World {
   private readonly markers = new Map<string, Mesh>();
 
   constructor(private readonly scene: Object3D) {}
 
-  /** Puts every marker where its target is, and takes away those whose target is gone. */
+  /** Moves every marker to its target, and removes markers without a target. */
   show({ targets }: WorldState): void {
     for (const [name, make] of Object.entries(MARKERS)) {
       const position = targets[name]?.position;

@@ -40,6 +40,6 @@ describe("a binary frame", () => {
 
   it("is refused when its length is not that of its counts", () => {
     const data = encodeFrame({});
-    expect(() => decodeFrame(data.slice(0, -2))).toThrow(`not ${data.byteLength}`);
+    expect(() => decodeFrame(data.slice(0, -2))).toThrow(`instead of ${data.byteLength}`);
   });
 });

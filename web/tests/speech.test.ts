@@ -13,7 +13,7 @@ function playerAt(shown: number, audioTime: number): { player: SpeechPlayer; aud
   clock.follow(performance.now() / 1000, shown);
   const audio = new FakeAudio(audioTime, LATENCY);
   const failures: string[] = [];
-  const player = new SpeechPlayer(audio as unknown as AudioContext, clock, (sentence) => failures.push(sentence));
+  const player = new SpeechPlayer(audio as unknown as AudioContext, clock, (reason) => failures.push(String(reason)));
   return { player, audio, failures };
 }
 
@@ -154,7 +154,7 @@ describe("speech", () => {
     const { player, failures } = playerAt(10, 3);
     player.handle(announced(10.5));
     await played.settled();
-    expect(failures).toEqual(["the sound of s1 is not there (HTTP 404)"]);
+    expect(failures).toEqual(["Error: The audio of s1 could not be loaded (HTTP 404)."]);
   });
 
   it("remembers the last twenty pieces", async () => {

@@ -1,5 +1,5 @@
-"""What the body does: gestures, head movements, gaze, breath, and the way back to rest.
+"""Body animation: gestures, head movements, gaze, posture, and idle animation.
 
-Motion here is a function of phase (0..1), parameters and body; which phase it is when, the pegs say. Per-frame motion
-is plain floats and tuples; arrays begin where a pose becomes a frame (docs/design.md).
+A motion is a function of phase (0 to 1), parameters and body; pegs determine its phase. Per-frame motion uses plain
+floats and tuples; arrays start where a pose becomes a frame (docs/design.md).
 """

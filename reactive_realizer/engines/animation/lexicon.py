@@ -1,66 +1,102 @@
-"""What the binding of a character says, tried: its entries as words of a lexicon."""
+"""The lexicon of a character: the entries of its binding and the poses of postures, as words."""
 
 from collections.abc import Iterator
 
-from reactive_realizer.binding.asking import asking
-from reactive_realizer.binding.seen import seen
-from reactive_realizer.binding.unit_spec import UnitSpec
+from lxml import etree
+
+from reactive_realizer.binding.unit_spec import UnitSpec, behavior_attributes
+from reactive_realizer.bml.attribute_types import Target
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.document import parse
-from reactive_realizer.bml.names import BML
-from reactive_realizer.engine.lexicon import Changeable, Word
+from reactive_realizer.bml.elements import ELEMENTS
+from reactive_realizer.bml.names import BML, BMLT
+from reactive_realizer.engine.lexicon import Changeable, LexiconEntry
 from reactive_realizer.engines.animation.animation_unit import keys_of, motion_timing
 from reactive_realizer.engines.animation.motion_library import MotionLibrary
 from reactive_realizer.engines.animation.posture.posture_library import LEXEMES
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.limits import Limits
 
+_FROM_BEHAVIOR = frozenset({"file", "name"})
+"""Parameters that a unit without a file of its own needs."""
+
+
+def example_behavior(spec: UnitSpec, target: str) -> str | None:
+    """Return the XML of a minimal behavior that an entry plays.
+
+    Args:
+        spec: the entry.
+        target: something to look and point at.
+
+    Returns:
+        The element, with id "word". None if the entry needs more from the behavior, such as a file or a joint.
+    """
+    element = ELEMENTS.get(spec.behavior)
+    attributes = element.attributes if element and element.namespace == spec.namespace else ()
+    targets = {each.name: target for each in attributes if isinstance(each.type, Target)}
+    said = {"id": "word", **targets, **spec.constraints}
+    known = {"id", *(each.name for each in attributes)}
+    missing = {each.name for each in attributes if each.required} - said.keys()
+    mapped = {to for source, to in spec.parameter_map.items() if source not in said}
+    if missing or mapped & _FROM_BEHAVIOR:
+        return None
+    tree = etree.Element(f"{{{spec.namespace}}}{spec.behavior}")
+    for name, value in said.items():
+        if name in known or name.startswith("{"):
+            tree.set(name, value)
+        elif name != "stance":
+            etree.SubElement(tree, f"{{{BMLT}}}parameter", name=name, value=value)
+    if element and "stance" in element.children:
+        etree.SubElement(tree, f"{{{BML}}}stance", type=said.get("stance", "STANDING").upper())
+    return etree.tostring(tree, encoding="unicode")
+
+
 _WORDS = ("lexeme", "name")
 """The attributes that hold the word of a behavior."""
 
 
-def binding_words(library: MotionLibrary, target: str) -> Iterator[Word]:
-    """The entries of its binding, in order, and the poses of postures.
+def binding_words(library: MotionLibrary, target: str) -> Iterator[LexiconEntry]:
+    """Yield the entries of the binding, in order, and the poses of postures.
 
-    An entry that a behavior has to complete by more than a target, such as one that plays any file, is no word.
+    Entries that need more from a behavior than a target, such as those that play any file, are left out.
 
     Args:
-        library: what makes the motions.
+        library: creates the motions.
         target: something to look and point at.
     """
     for spec in library.binding.specs:
-        text = asking(spec, target)
+        text = example_behavior(spec, target)
         if text is not None:
             yield _word(spec, text, library)
-    yield from (Word("pose", lexeme) for lexeme in LEXEMES)
+    yield from (LexiconEntry("pose", lexeme) for lexeme in LEXEMES)
 
 
-def _word(spec: UnitSpec, text: str, library: MotionLibrary) -> Word:
+def _word(spec: UnitSpec, text: str, library: MotionLibrary) -> LexiconEntry:
     said = dict(spec.constraints)
     lexeme = next((said.pop(name) for name in _WORDS if name in said), "")
     try:
         behavior = _behavior(text)
-        choice = library.choice(spec, behavior, seen(behavior))
+        candidate = library.candidate(spec, behavior, behavior_attributes(behavior))
     except RealizerError as problem:
-        return Word(spec.behavior, lexeme, said, file=spec.file, problem=problem.fault.sentence)
-    motion = choice.motion
+        return LexiconEntry(spec.behavior, lexeme, said, file=spec.file, problem=problem.fault.sentence)
+    motion = candidate.motion
     timing = motion_timing(behavior, motion, keys_of(behavior, motion))
-    return Word(
+    return LexiconEntry(
         spec.behavior,
         lexeme,
         said,
         timing.points,
         sum(phase.duration for phase in timing.phases),
-        {name: Changeable(motion.parameters[own], motion.ranges[own]) for name, own in choice.names.items()},
+        {name: Changeable(motion.parameters[own], motion.ranges[own]) for name, own in candidate.names.items()},
         spec.file,
     )
 
 
 def _behavior(text: str) -> Behavior:
-    """The behavior of an element.
+    """Parse a behavior element.
 
     Raises:
-        RealizerError: it is none.
+        RealizerError: it is invalid.
     """
     (parsed,) = parse(f'<bml xmlns="{BML}" id="lexicon">{text}</bml>', Limits())
     if parsed.problems or parsed.block is None:

@@ -1,24 +1,74 @@
-"""From a behavior to the motions that could play it: the gesture binding, and who makes what it names."""
+"""Finds the motions that could play a behavior: entries of the gesture binding, and the makers that they name."""
 
 import logging
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import replace
+from functools import partial
+from types import MappingProxyType
 
 from reactive_realizer.binding.gesture_binding import GestureBinding
-from reactive_realizer.binding.seen import seen
-from reactive_realizer.binding.unit_spec import UnitSpec
+from reactive_realizer.binding.unit_spec import UnitSpec, behavior_attributes
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.behaviors import Head
-from reactive_realizer.engines.animation.actor import Actor, LookingMaker, SlowMaker, Wanted
-from reactive_realizer.engines.animation.choice import Choice, Choices
-from reactive_realizer.engines.animation.gaze.gaze_maker import DYNAMIC
-from reactive_realizer.engines.animation.in_vain import GROUP, left_out, listed, named_in_vain, said_in_vain
-from reactive_realizer.engines.animation.makers import makers_of
+from reactive_realizer.bml.vocabulary import Influence
+from reactive_realizer.engines.animation.candidates import Candidate, Candidates
+from reactive_realizer.engines.animation.faults import NoMotionFor, NoUnit
+from reactive_realizer.engines.animation.motion_maker import (
+    MakerContext,
+    MotionMaker,
+    MotionRequest,
+    PreloadingMaker,
+    RefreshingMaker,
+)
+from reactive_realizer.engines.animation.motion_parameters import (
+    REPLACEMENT_GROUP,
+    listed,
+    missing_joints_fault,
+    parameter_values,
+    unused_behavior_parameters,
+    unused_entry_parameters,
+)
 from reactive_realizer.engines.animation.motion_unit import FILE, MotionUnit
-from reactive_realizer.engines.animation.values import values_of
-from reactive_realizer.errors import Fault, RealizerError, error
+from reactive_realizer.engines.animation.motions.gaze import DYNAMIC, GazeMaker, HeadDirectionMaker
+from reactive_realizer.engines.animation.motions.gesture import GestureMaker
+from reactive_realizer.engines.animation.motions.keyframe import KeyframeMaker
+from reactive_realizer.engines.animation.motions.noise import NoiseMaker
+from reactive_realizer.engines.animation.motions.pointing import PointingMaker
+from reactive_realizer.engines.animation.motions.posture import PostureMaker
+from reactive_realizer.engines.animation.motions.procedural import ProceduralMotionMaker
+from reactive_realizer.engines.animation.motions.sequence_maker import SequenceMaker
+from reactive_realizer.engines.animation.motions.transition import TransitionMaker
+from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.planunit.parameter import spelled
+
+MAKERS: Mapping[str, Callable[[MakerContext], MotionMaker]] = MappingProxyType(
+    {
+        "ProcAnimation": ProceduralMotionMaker,
+        "Gesture": GestureMaker,
+        "gaze": GazeMaker,
+        "dynamic-gaze": partial(GazeMaker, follow=True),
+        "eye-gaze": partial(GazeMaker, influence=Influence.EYES),
+        "gaze-shift": GazeMaker,
+        "rest-gaze": partial(GazeMaker, follow=True),
+        "head-direction": HeadDirectionMaker,
+        "pointing": PointingMaker,
+        "Keyframe": KeyframeMaker,
+        "noise": NoiseMaker,
+        "transition": TransitionMaker,
+        "posture": PostureMaker,
+        "posture-shift": PostureMaker,
+    }
+)
+"""Id of a kind of motion -> creates its maker for a figure."""
+
+
+def makers_of(context: MakerContext) -> Mapping[str, MotionMaker]:
+    """Return the makers of a figure by the id of their kind. Sequences are made of the motions of the others."""
+    makers: dict[str, MotionMaker] = {kind: maker(context) for kind, maker in MAKERS.items()}
+    makers["Sequence"] = SequenceMaker(context, makers)
+    return makers
+
 
 _log = logging.getLogger(__name__)
 
@@ -27,129 +77,143 @@ class MotionLibrary:
     """Makes motions for one character.
 
     Attributes:
-        binding: what the entries say.
-        extensions: namespaced attributes that it understands.
+        binding: with the entries to choose from.
+        extensions: namespaced attributes that motions use.
     """
 
     extensions = frozenset({DYNAMIC})
 
-    def __init__(self, binding: GestureBinding, actor: Actor) -> None:
+    def __init__(self, binding: GestureBinding, context: MakerContext) -> None:
         self.binding = binding
-        self._makers = makers_of(actor)
+        self._makers = makers_of(context)
         makers: Mapping[str, object] = self._makers
-        self._slow = {unit: maker for unit, maker in makers.items() if isinstance(maker, SlowMaker)}
-        self._looking = [maker for maker in makers.values() if isinstance(maker, LookingMaker)]
-        self._reads = {(spec.behavior, spec.namespace) for spec in binding.specs if spec.unit in self._slow}
-        self._noted: set[UnitSpec] = set()
-        self._judged: set[UnitSpec] = set()
+        self._preloading = {unit: maker for unit, maker in makers.items() if isinstance(maker, PreloadingMaker)}
+        self._refreshing = [maker for maker in makers.values() if isinstance(maker, RefreshingMaker)]
+        self._preloaded = {(spec.behavior, spec.namespace) for spec in binding.specs if spec.unit in self._preloading}
+        self._refused_specs: set[UnitSpec] = set()
+        self._checked_specs: set[UnitSpec] = set()
 
-    def choices(self, behavior: Behavior) -> Choices:
-        """The motions that could play a behavior.
+    def candidates(self, behavior: Behavior) -> Candidates:
+        """Return the motions that could play a behavior.
 
-        An entry of the binding whose file or unit is not there is passed over; one without constraints is for what no
-        entry before it plays.
+        An entry of the binding whose file or unit is missing is skipped; an entry without constraints is used only if
+        no entry before it plays.
 
         Raises:
-            RealizerError: no entry fits, or none of those that do can be made: what is wrong with the best one.
+            RealizerError: no entry fits, or none of those that fit can be made; the error of the best one is raised.
         """
-        attributes = seen(behavior)
+        attributes = behavior_attributes(behavior)
         specs = self.binding.match(behavior.name, behavior.namespace, attributes)
         if not specs:
-            said = self.binding.chooses_by(behavior.name, behavior.namespace) & attributes.keys()
+            said = self.binding.constrained_attributes(behavior.name, behavior.namespace) & attributes.keys()
             words = " and ".join(f"{name}='{attributes[name]}'" for name in sorted(said))
-            raise error("no-motion-for", element=behavior.name, said=f" with {words}" if words else "")
-        return Choices(self._made(specs, behavior, attributes))
+            raise RealizerError(NoMotionFor(element=behavior.name, said=f" with {words}" if words else ""))
+        return Candidates(self._made(specs, behavior, attributes))
 
-    def look_again(self) -> None:
-        """Files are looked at once for all behaviors of a block: the next ones are of another."""
-        for maker in self._looking:
-            maker.look_again()
+    def refresh(self) -> None:
+        """Look for changed files. This happens once for all behaviors of a block."""
+        for maker in self._refreshing:
+            maker.refresh()
 
-    def _made(self, specs: Iterable[UnitSpec], behavior: Behavior, attributes: Mapping[str, str]) -> Iterator[Choice]:
+    def _made(
+        self, specs: Iterable[UnitSpec], behavior: Behavior, attributes: Mapping[str, str]
+    ) -> Iterator[Candidate]:
         refused: dict[UnitSpec, Fault] = {}
         some = False
         for spec in specs:
             if some and not spec.constraints:
                 continue
             try:
-                choice = self.choice(spec, behavior, attributes)
+                candidate = self.candidate(spec, behavior, attributes)
             except RealizerError as problem:
                 refused[spec] = problem.fault
             else:
                 some = True
-                self._note(refused)
-                yield choice
+                self._log_refused(refused)
+                yield candidate
         if not some:
             raise RealizerError(next(iter(refused.values())))
-        self._note(refused)
+        self._log_refused(refused)
 
-    def readings(self, behavior: Behavior) -> list[Callable[[], object]]:
-        """The work of `SlowMaker`s for a behavior; what they cannot make is told when it is made."""
-        if (behavior.name, behavior.namespace) not in self._reads:
+    def preloads(self, behavior: Behavior) -> list[Callable[[], object]]:
+        """Return the loading work of `PreloadingMaker`s for a behavior.
+
+        Its errors are raised again when the motion is made.
+        """
+        if (behavior.name, behavior.namespace) not in self._preloaded:
             return []
-        attributes = seen(behavior)
+        attributes = behavior_attributes(behavior)
         works: list[Callable[[], object] | None] = []
         for spec in self.binding.match(behavior.name, behavior.namespace, attributes):
-            if spec.unit in self._slow:
+            if spec.unit in self._preloading:
                 with suppress(RealizerError):
-                    works.append(self._slow[spec.unit].reading(_wanted(spec, behavior, attributes)))
+                    works.append(self._preloading[spec.unit].preload(_request(spec, behavior, attributes)))
         return [work for work in works if work is not None]
 
-    def _note(self, refused: Mapping[UnitSpec, Fault]) -> None:
-        """Log entries that are passed over, each once."""
-        # One without constraints promises nothing: that it has nothing for this behavior is no fault of it.
-        new = [spec for spec in refused if spec.constraints and spec not in self._noted]
+    def _log_refused(self, refused: Mapping[UnitSpec, Fault]) -> None:
+        """Log skipped entries, each once."""
+        # An entry without constraints does not promise to play every behavior.
+        new = [spec for spec in refused if spec.constraints and spec not in self._refused_specs]
         for spec in new:
-            _log.warning("%s: this entry does not play: %s", spec.place, refused[spec].sentence)
-        self._noted.update(new)
+            _log.warning("%s: this entry is skipped: %s", spec.location, refused[spec].sentence)
+        self._refused_specs.update(new)
 
-    def _judge(self, spec: UnitSpec, motion: MotionUnit) -> None:
-        """Log what an entry says in vain, once."""
-        self._judged.add(spec)
-        if names := named_in_vain(spec, motion):
-            lacks, has = listed(names), listed(motion.known)
-            _log.warning("%s: the motion of this entry has no parameter %s; it has %s", spec.place, lacks, has)
+    def _log_unused(self, spec: UnitSpec, motion: MotionUnit) -> None:
+        """Log unused parameters of an entry, once."""
+        self._checked_specs.add(spec)
+        if names := unused_entry_parameters(spec, motion):
+            lacks, has = listed(names), listed(motion.parameter_names)
+            _log.warning("%s: the motion of this entry has no parameter %s; it has %s", spec.location, lacks, has)
 
-    def choice(self, spec: UnitSpec, behavior: Behavior, attributes: Mapping[str, str]) -> Choice:
-        """The motion that an entry of the binding has for a behavior with these attributes.
+    def candidate(self, spec: UnitSpec, behavior: Behavior, attributes: Mapping[str, str]) -> Candidate:
+        """Return the motion of an entry for a behavior.
+
+        Args:
+            spec: the entry.
+            behavior: to play.
+            attributes: of the behavior (`behavior_attributes`).
 
         Raises:
-            RealizerError: it cannot be made, or what is said for a parameter is none of its values.
+            RealizerError: the motion cannot be made, or a parameter has an invalid value.
         """
         maker = self._makers.get(spec.unit)
         if maker is None:
-            raise error("no-unit", unit=spec.unit)
-        wanted = _wanted(spec, behavior, attributes)
-        motion, parameters = maker(wanted), wanted.parameters
+            raise RealizerError(NoUnit(unit=spec.unit))
+        request = _request(spec, behavior, attributes)
+        motion, parameters = maker(request), request.parameters
         if behavior.parameters:
-            own = _spelled(behavior.parameters, motion.known | {GROUP} | spec.parameter_map.keys())
+            own = _spelled(
+                behavior.parameters, motion.parameter_names | {REPLACEMENT_GROUP} | spec.parameter_map.keys()
+            )
             if own != behavior.parameters:
                 renamed = replace(behavior, parameters=own)
-                return self.choice(spec, renamed, seen(renamed))
-        if spec not in self._judged and wanted.file == spec.file:
-            self._judge(spec, motion)
-        group = parameters.get(GROUP)
-        yields = group is not None or motion.lasts is not None or behavior.persistent
-        notes = filter(None, (said_in_vain(spec, behavior, motion), left_out(spec, behavior, motion)))
-        choice = Choice(motion, _names(spec, motion), group, yields, tuple(notes))
-        said = {name: parameters[own] for name, own in choice.names.items() if own in parameters}
-        values_of(said, {name: choice.range(name) for name in said})
-        return choice
+                return self.candidate(spec, renamed, behavior_attributes(renamed))
+        if spec not in self._checked_specs and request.file == spec.file:
+            self._log_unused(spec, motion)
+        group = parameters.get(REPLACEMENT_GROUP)
+        yields = group is not None or motion.persists_as is not None or behavior.persistent
+        notes = filter(
+            None, (unused_behavior_parameters(spec, behavior, motion), missing_joints_fault(spec, behavior, motion))
+        )
+        candidate = Candidate(motion, _names(spec, motion), group, yields, tuple(notes))
+        said = {name: parameters[own] for name, own in candidate.names.items() if own in parameters}
+        parameter_values(said, {name: candidate.range(name) for name in said})
+        return candidate
 
 
-def _wanted(spec: UnitSpec, behavior: Behavior, attributes: Mapping[str, str]) -> Wanted:
+def _request(spec: UnitSpec, behavior: Behavior, attributes: Mapping[str, str]) -> MotionRequest:
     parameters = spec.parameters(attributes, behavior.parameters)
     file = parameters.get(FILE, spec.file)
-    # Nodding adds to whatever the head does.
-    return Wanted(behavior, parameters, file, added=isinstance(behavior, Head))
+    # Head movements add to other motion of the head.
+    return MotionRequest(behavior, parameters, file, added=isinstance(behavior, Head))
 
 
 def _spelled(said: Mapping[str, str], known: Collection[str]) -> Mapping[str, str]:
-    """What is said, by names as those spell them who know them."""
+    """Return parameters by names in the spelling of the known ones."""
     return {spelled(name, known): value for name, value in said.items()}
 
 
 def _names(spec: UnitSpec, motion: MotionUnit) -> Mapping[str, str]:
-    """The motion's parameters as BML calls them."""
+    """Return the parameters of a motion that may change: name in BML -> name in the motion."""
     mapped = {own: name for name, own in spec.parameter_map.items()}
     return {mapped.get(own, own): own for own in motion.ranges}

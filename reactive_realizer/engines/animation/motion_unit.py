@@ -1,4 +1,4 @@
-"""A motion as a function of phase: what the animation engine plays between pegs (thesis 4.2)."""
+"""A motion as a function of phase, which the animation engine plays between pegs (thesis 4.2)."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
@@ -14,7 +14,7 @@ from reactive_realizer.embodiment.joints import LEFT_ARM, LOWER_BODY, RIGHT_ARM
 from reactive_realizer.embodiment.pose import Layer, LayerKind, checked
 from reactive_realizer.embodiment.quaternion import Quat
 from reactive_realizer.embodiment.vector import Vec3
-from reactive_realizer.engines.animation.moving import Moving
+from reactive_realizer.engines.animation.kinematics import KinematicState
 from reactive_realizer.errors import Fault
 from reactive_realizer.planunit.parameter import Range
 
@@ -22,31 +22,31 @@ GESTURE_POINTS = ("start", "ready", "strokeStart", "stroke", "strokeEnd", "relax
 """Sync points of gesture, head and pointing, in order (BML 1.0)."""
 
 START_TO_END: Mapping[str, float] = MappingProxyType({"start": 0.0, "end": 1.0})
-"""Key positions of a motion without other points."""
+"""Key positions of a motion without inner points."""
 
 AMOUNT = "amount"
-"""How much of a motion is shown, as BML calls it."""
+"""Parameter that scales a motion, as BML calls it."""
 
 AMOUNT_RANGE = Range(0.0, 1.0)
 
 ANY_VALUE = Range(-inf, inf)
-"""Of parameters whose meaning an animation's author knows."""
+"""Range of parameters that an animation's author defines."""
 
 FILE, NAME, MIRROR, JOINTS = "file", "name", "mirror", "joints"
-"""Parameters of what is made of a file: which file, or one of which name; whether left is to be right; to which joints
-it is confined, as they are called in the mirror (thesis C.1.2, C.1.5)."""
+"""Parameters of motions from files: the file or its name; whether left and right are exchanged; the joints to which the
+motion is restricted, by their names after mirroring (thesis C.1.2, C.1.5)."""
 
-OF_FILES = frozenset({FILE, NAME, MIRROR, JOINTS})
+FILE_PARAMETERS = frozenset({FILE, NAME, MIRROR, JOINTS})
 
 
 class Moment(NamedTuple):
-    """When a motion is asked for its pose.
+    """The moment at which a motion is sampled.
 
     Attributes:
-        phase: how far the motion has come, 0 to 1.
+        phase: progress of the motion, 0 to 1.
         time: of the frame, s.
         body: as shown last, without additive motion.
-        shown: as shown last, with it; None where nothing is shown, but asked what would be.
+        shown: as shown last, with additive motion; None if the motion is sampled for a prediction and not shown.
     """
 
     phase: float
@@ -55,15 +55,16 @@ class Moment(NamedTuple):
     shown: Body | None = None
 
 
-class Posed(NamedTuple):
-    """What a motion asks for.
+class MotionPose(NamedTuple):
+    """The pose that a motion asks for.
 
     Attributes:
-        rotations: joint -> rotation local to the parent; of additive motions, the turn to be added.
-        weight: how much of it is shown, 0 to 1: motions come and go by it, over whatever lies below them.
-        root: how far HumanoidRoot is moved from its place in the default pose, m; None leaves it where it is.
-        weights: of joints that come and go for themselves, the share of the weight; HumanoidRoot's is the root's too.
-        fault: what it should do and cannot, though this is as near as it comes.
+        rotations: joint -> rotation local to the parent; for additive motions, the turn to be added.
+        weight: 0 to 1; motions come and go over the layers below by their weight.
+        root: displacement of HumanoidRoot from its position in the default pose, m; None leaves it.
+        weights: joint -> factor of the weight, for joints that come and go separately; HumanoidRoot's also applies to
+            `root`.
+        fault: a goal that the motion misses, though this pose is as near as possible.
     """
 
     rotations: Mapping[str, Quat]
@@ -73,54 +74,53 @@ class Posed(NamedTuple):
     fault: Fault | None = None
 
 
-class Foreseen(Enum):
-    """When it is known what a motion will show, as long as its plan stands."""
+class Predictability(Enum):
+    """When the poses of a motion can be predicted, as long as its plan does not change."""
 
     NEVER = "never"
-    ONCE_BEGUN = "once begun"
-    """It depends on where the body is when it begins."""
+    ONCE_STARTED = "once begun"
+    """They depend on the body at the start."""
     ALWAYS = "always"
 
 
-class Gazing(Protocol):
-    """What leads the eyes."""
+class GazeGoal(Protocol):
+    """Directs the eyes."""
 
     @property
     def eyes(self) -> float:
-        """The part that the eyes go of the way to what is looked at, 0 to 1."""
+        """Share by which the eyes turn to the target, 0 to 1."""
         ...
 
     def point(self, eyes: Vec3) -> Vec3:
-        """Where it looks from between the eyes, both in the figure's frame, m."""
+        """Return the point to look at from the midpoint between the eyes, both in the figure's frame, m."""
         ...
 
 
 class MotionUnit(ABC):
-    """One motion of one character; a kind of motions is a subclass, and says what it has otherwise than here.
+    """One motion of one character. Each kind of motion is a subclass, which overrides what differs from the defaults.
 
-    Which phase it is when is not its business: phases are spread between key positions as their pegs say.
+    A motion does not know when it has which phase: pegs distribute the phases between its key positions.
 
     Attributes:
-        kind: where it lies among the layers of a frame.
-        joints: the joints that it turns, while it plays.
-        lacking: those that it was to turn, too, and cannot, of this figure or at all.
-        resources: what of the body it owns while it plays (`Resource`); units that share one exclude each other.
-        group: its replacement group, if it has one of its own: see `PlanUnit.group`.
-        lasts: the name under which its last pose stays when it has ended, until another of that name has ended or
-            everything is replaced; None for what goes when it ends.
-        parameters: name -> value; a value may be changed while the motion plays.
-        ranges: the parameters that may be changed, with the values that mean something.
-        fixed: the names of the parameters that are read when it is made, and stay as they were said.
-        key_positions: sync id -> phase, 0 to 1; "start" is 0 and "end" is 1, and later points never lie at earlier
-            phases.
-        exits: the sync ids of the points where it may well be left, in order.
-        preferred_duration: how long it takes where nothing else is asked for, s.
-        limits: shortest and longest duration, s, if its author named any; given up before any constraint is.
-        foreseen: when it is known what it will show.
-        entrance: how long it takes to come in if it joins late, s; None: it is there at once, or sees to that itself.
-        joined: when it was started, s, if that was after its time: it is seen from then on; None if it was in time.
-        led: whether it goes to where others go on, and is told of them (`lead`).
-        fault: what is wrong with it though it plays on, None as long as nothing is.
+        kind: of its layer.
+        joints: that it turns.
+        lacking: joints that it should turn, but cannot, of this figure or at all.
+        resources: parts of the body that it owns while it plays (`Resource`); units that share one exclude each other.
+        group: its own replacement group, if any (`PlanUnit.group`).
+        persists_as: name under which its last pose stays after its end, until another motion with that name has ended
+            or everything is replaced; None for a motion that goes at its end.
+        parameters: name -> value; may change while the motion plays.
+        ranges: parameter that may change -> valid values.
+        fixed: names of parameters that are read only when the motion is made.
+        key_positions: sync id -> phase, 0 to 1; "start" is 0 and "end" is 1, and phases never decrease.
+        exits: sync ids of points at which it may be left gracefully, in order.
+        preferred_duration: s.
+        limits: shortest and longest duration, s, if the author set any; these are relaxed before any constraint.
+        predictability: when its poses can be predicted.
+        entrance: duration of its fade-in if it joins late, s; None if it appears at once or handles this itself.
+        joined: time at which it joined late, s; None if it started in time.
+        connects: whether it leads to the start of other motions (`connect`).
+        fault: that occurred while playing; None if there is none.
     """
 
     kind: LayerKind
@@ -128,7 +128,7 @@ class MotionUnit(ABC):
     lacking: frozenset[str] = frozenset()
     resources: frozenset[str] = frozenset()
     group: str | None = None
-    lasts: str | None = None
+    persists_as: str | None = None
     parameters: dict[str, float]
     ranges: Mapping[str, Range] = MappingProxyType({})
     fixed: frozenset[str] = frozenset()
@@ -136,71 +136,71 @@ class MotionUnit(ABC):
     exits: tuple[str, ...] = ()
     preferred_duration: float
     limits: tuple[float, float] | None = None
-    foreseen: Foreseen = Foreseen.NEVER
-    entrance: float | None = None
+    predictability: Predictability = Predictability.NEVER
+    fade_in: float | None = None
     joined: GlobalTime | None = None
-    led: bool = False
+    connects: bool = False
     fault: Fault | None = None
 
     @property
-    def known(self) -> frozenset[str]:
-        """The names of all parameters that mean something to it."""
+    def parameter_names(self) -> frozenset[str]:
+        """Names of all parameters that have an effect."""
         return self.fixed.union(self.ranges)
 
     @abstractmethod
     def start(self, body: Body) -> None:
-        """The motion begins from here: the body as shown last, without additive layers."""
+        """Start from a body: the one shown last, without additive layers."""
 
     @abstractmethod
-    def pose(self, moment: Moment) -> Posed:
-        """What it asks for at a moment.
+    def pose(self, moment: Moment) -> MotionPose:
+        """Return the pose at a moment.
 
         Raises:
-            RealizerError: "no-motion": there is none at this phase; the unit should be stopped.
+            RealizerError: "no-motion": there is no pose at this phase; the unit should be stopped.
         """
 
     def preparation(self, body: Body) -> float | None:
-        """How long its first phase would take from where a body is, s; None where that makes no difference."""
+        """Return the duration of the first phase from a body, s; None if it does not depend on the body."""
         return None
 
-    def another(self) -> Self:
-        """The same once more, of one that has not begun: how long it would like to take need not be found out again."""
+    def copy(self) -> Self:
+        """Return a copy of a motion that has not started. This avoids computing its durations again."""
         motion = object.__new__(type(self))
-        motion.__dict__.update(self.__dict__)  # as `copy` does, in a fifth of the time
+        motion.__dict__.update(self.__dict__)  # five times as fast as copy.copy
         motion.parameters = dict(self.parameters)
         return motion
 
-    def lead(self, begin: Moving, goal: Moving, duration: float) -> None:
-        """Where to; only motions that are `led` are told.
+    def connect(self, begin: KinematicState, goal: KinematicState, duration: float) -> None:
+        """Set the ends of a motion that `connects` others.
 
         Args:
-            begin: how the body moves at phase 0.
-            goal: how it will move at phase 1.
-            duration: s between the two.
+            begin: state of the body at phase 0.
+            goal: state of the body at phase 1.
+            duration: between the two, s.
         """
         raise NotImplementedError
 
-    def gaze(self, phase: float) -> Gazing | None:
-        """What leads the eyes at a phase, if it does."""
+    def gaze(self, phase: float) -> GazeGoal | None:
+        """Return what directs the eyes at a phase; None if the motion does not."""
         return None
 
     def becomes_rest(self) -> bool:
-        """It has ended, and stays: whether the figure rests so from now on, and nothing is to be shown for it."""
+        """Return whether a motion that has ended becomes the rest posture, so that nothing persists as a layer."""
         return False
 
 
 def layer_of(motion: MotionUnit, moment: Moment, priority: int = 0) -> Layer:
-    """What a motion shows at a moment, as a layer of a frame.
+    """Return the layer of a motion at a moment.
 
     Raises:
-        RealizerError: "no-motion", "bad-pose": nothing, or not what can be shown: the unit should be stopped.
+        RealizerError: "no-motion", "bad-pose": there is no layer, or an invalid one; the unit should be stopped.
     """
     posed = motion.pose(moment)
     return checked(Layer(motion.kind, posed.rotations, posed.weight, priority, posed.root, posed.weights))
 
 
 class Resource:
-    """What of a body has one owner at a time; an additive motion owns nothing."""
+    """Parts of a body with one owner at a time; additive motions own nothing."""
 
     LEFT_ARM = "left arm"
     RIGHT_ARM = "right arm"
@@ -208,30 +208,30 @@ class Resource:
     STANCE = "stance"
 
 
-def arms_of(joints: frozenset[str]) -> frozenset[str]:
-    """The arms, as resources, that a motion of these joints owns."""
+def arms_used(joints: frozenset[str]) -> frozenset[str]:
+    """Return the arms, as resources, that a motion of these joints owns."""
     arms = ((LEFT_ARM, Resource.LEFT_ARM), (RIGHT_ARM, Resource.RIGHT_ARM))
     return frozenset(arm for its_joints, arm in arms if not its_joints.isdisjoint(joints))
 
 
-def owned(joints: frozenset[str]) -> frozenset[str]:
-    """What a motion of these joints owns: the arms, and with a leg or the root the stance."""
-    return arms_of(joints) | (frozenset() if LOWER_BODY.isdisjoint(joints) else {Resource.STANCE})
+def resources_used(joints: frozenset[str]) -> frozenset[str]:
+    """Return the resources that a motion of these joints owns: the arms, and the stance for legs and root."""
+    return arms_used(joints) | (frozenset() if LOWER_BODY.isdisjoint(joints) else {Resource.STANCE})
 
 
-def in_order(key_positions: Mapping[str, float]) -> dict[str, float]:
-    """Key positions as authored, from start to end.
+def ordered(key_positions: Mapping[str, float]) -> dict[str, float]:
+    """Return authored key positions in order, with start and end.
 
-    None are added: points that nobody authored would be holds, which take what time there is.
+    No points are added: points that were not authored would become holds, which absorb time.
     """
     inner = ((sync, phase) for sync, phase in key_positions.items() if sync not in START_TO_END)
     return {"start": 0.0, **dict(sorted(inner, key=itemgetter(1))), "end": 1.0}
 
 
-def completed(key_positions: Mapping[str, float]) -> dict[str, float]:
-    """Key positions with the seven points of a gesture, in order; those that the author left out coincide with others.
+def with_gesture_points(key_positions: Mapping[str, float]) -> dict[str, float]:
+    """Return key positions with the seven points of a gesture, in order. Missing points coincide with others.
 
-    ready = start, relax = end, strokeStart = ready, strokeEnd = relax, stroke = strokeStart. Other points stay.
+    ready = start, relax = end, strokeStart = ready, strokeEnd = relax, stroke = strokeStart. Other points are kept.
     """
     keys = {"start": 0.0, "end": 1.0, **key_positions}
     ready = keys.get("ready", keys["start"])

@@ -1,6 +1,5 @@
-"""Speech: text becomes an utterance with the times of its words, marks and phonemes; phonemes become mouth shapes.
+"""Speech: turns a text into an utterance with the times of its words, marks and phonemes, and phonemes into visemes.
 
-Every voice gives the same frozen `Utterance`. espeak-ng is reached only through a worker process, so that its license,
-its crashes and its global state stay outside. The mouth shapes are pure functions of time; who moves a face with them
-is not known here.
+espeak-ng runs in a worker process only, which isolates its license, its crashes and its global state. Visemes are pure
+functions of time; the face engine applies them.
 """

@@ -1,4 +1,4 @@
-"""espeak-ng through its C interface (speak_lib.h of espeak-ng 1.52); only the worker process may import this."""
+"""Calls espeak-ng by its C interface (speak_lib.h of espeak-ng 1.52); only the worker process may import this."""
 
 import ctypes
 from collections.abc import Iterator
@@ -50,11 +50,11 @@ _Callback = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.POINTER(ctypes.c_short), ctype
 
 @dataclass(frozen=True, slots=True)
 class Spoken:
-    """What the library made of one document; times are counted in samples.
+    """The output of the library for one document; times are in samples.
 
     Attributes:
         audio: mono int16 PCM.
-        words: (time, 1-based position in the document) of each spoken word.
+        words: time, and 1-based position in the document, of each spoken word.
         marks: (name, time).
         phonemes: (time, IPA symbol).
     """
@@ -65,8 +65,8 @@ class Spoken:
     phonemes: list[tuple[int, str]] = field(default_factory=list)
 
     def add(self, event: Any) -> None:
-        """Takes one event of the library."""
-        if event.type == _WORD and event.length > 0:  # without a length: a pause at a bracket or quotation mark
+        """Adds one event of the library."""
+        if event.type == _WORD and event.length > 0:  # length 0: a pause at a bracket or quotation mark
             self.words.append((event.sample, event.text_position))
         elif event.type == _MARK:
             self.marks.append((event.id.name.decode(), event.sample))
@@ -75,7 +75,7 @@ class Spoken:
 
 
 def _symbol(event: Any) -> str:
-    """Up to eight bytes of UTF-8, without a terminating zero if there are eight."""
+    """The symbol of a phoneme event: up to eight bytes of UTF-8, not terminated if there are eight."""
     symbol = ctypes.string_at(ctypes.addressof(event) + _Event.id.offset, 8)
     return symbol.split(b"\0")[0].decode(errors="ignore")
 
@@ -85,10 +85,10 @@ class EspeakError(Exception):
 
 
 class EspeakLibrary:
-    """The library, initialized; it is a singleton of its process.
+    """The initialized library, a singleton of its process.
 
     Attributes:
-        sample_rate: of the audio, Hz.
+        sample_rate: sample rate of the audio, Hz.
     """
 
     def __init__(self) -> None:
@@ -97,28 +97,32 @@ class EspeakLibrary:
         data = str(Path(espeakng_loader.get_data_path()).parent).encode()
         options = _PHONEME_EVENTS | _PHONEME_IPA | _DONT_EXIT
         self.sample_rate: int = self._library.espeak_Initialize(_SYNCHRONOUS_RETRIEVAL, 0, data, options)
-        _check("espeak_Initialize", min(self.sample_rate, 0))  # in place of a rate it returns a negative status
-        self._library.espeak_ng_SetRandSeed(1)  # else breath is seeded with the second in which it starts
+        _check("espeak_Initialize", min(self.sample_rate, 0))  # a negative status in place of a rate
+        self._library.espeak_ng_SetRandSeed(1)  # the default seed, for breath, is the present second
         self._spoken = Spoken()
         self._callback = _Callback(self._collect)  # the library keeps only the pointer
         self._library.espeak_SetSynthCallback(self._callback)
 
     def voices(self) -> dict[str, str]:
-        """The library's own identifier of each voice, by the name that people use, in lower case: ``en-us``, ``nl``."""
+        """The library's identifier of each voice by its common name, in lower case: ``en-us``, ``nl``."""
         identifiers = [(voice.identifier.decode(), voice.languages[1:].decode()) for voice in self._listed(None)]
         names = {identifier.rpartition("/")[2].lower(): identifier for identifier, _ in identifiers}
         return {language.lower(): identifier for identifier, language in identifiers} | names
 
     def variants(self) -> tuple[str, ...]:
-        """Names of the variants that a voice can have, sorted: ``f3`` of ``en-us+f3`` and its like."""
+        """The sorted names of the variants that any voice can have, such as ``f3`` in ``en-us+f3``."""
         wanted = _Voice(languages=b"variant")
         return tuple(sorted({voice.identifier.decode().rpartition("/")[2] for voice in self._listed(wanted)}))
 
     def synthesize(self, ssml: str, voice: str) -> Spoken:
-        """Speaks an SSML document with the voice of an identifier.
+        """Speaks an SSML document.
+
+        Args:
+            ssml: the document.
+            voice: the library's identifier of a voice.
 
         Raises:
-            EspeakError: if the library refuses the voice or the document.
+            EspeakError: the library refuses the voice or the document.
         """
         self._spoken = Spoken()
         _check("espeak_SetVoiceByName", self._library.espeak_SetVoiceByName(voice.encode()))
@@ -134,7 +138,7 @@ class EspeakLibrary:
             index += 1
 
     def _collect(self, audio: Any, samples: int, events: Any) -> int:
-        """Takes what the library has made so far; the return value 0 asks it to go on."""
+        """Receives audio and events from the library; the return value 0 tells it to continue."""
         if samples > 0:
             self._spoken.audio.extend(ctypes.string_at(audio, samples * 2))
         index = 0

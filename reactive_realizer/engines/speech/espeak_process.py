@@ -1,4 +1,4 @@
-"""The realizer's end of the speech worker."""
+"""Runs the speech worker and exchanges messages with it."""
 
 import asyncio
 import logging
@@ -9,32 +9,31 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any, Self, cast
 
-from reactive_realizer.engines.speech.messages import Message, MessageDecoder, failure
+from reactive_realizer.engines.speech.espeak_messages import Message, MessageDecoder, failure
 
 _WORKER = "reactive_realizer.engines.speech.espeak_worker"
 _START_PATIENCE = 30.0
-"""s for a worker to say hello: it has to load the library first."""
+"""Time limit for the first message of a worker, which has to load the library, s."""
 _log = logging.getLogger(__name__)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Request:
-    """What the worker is to be asked, and where its answer goes."""
+    """A request to the worker, with the future of its reply."""
 
     header: dict[str, Any]
     reply: asyncio.Future[Message]
 
 
 class EspeakProcess(asyncio.SubprocessProtocol):
-    """One run of the worker: requests go in one by one, each when the one before it is answered.
+    """One run of the worker. Requests are sent one by one, each when the previous one is answered.
 
-    So a request that nobody waits for any more costs nothing if it is still to be sent; else its reply is dropped. When
-    the process ends, every request that is not answered gets a failure. A worker that keeps its answer back for longer
-    than the patience hangs, and is killed.
+    A request that is canceled before it is sent costs nothing; after that, its reply is discarded. When the process
+    ends, all open requests fail. A worker that takes longer for a reply than the time limit is killed.
 
     Attributes:
         hello: the first message of the worker: its voices and their variants.
-        ended: done when the process has ended.
+        ended: is done when the process has ended.
     """
 
     _transport: asyncio.SubprocessTransport
@@ -52,10 +51,10 @@ class EspeakProcess(asyncio.SubprocessProtocol):
 
     @classmethod
     async def start(cls, patience: float) -> Self:
-        """A new worker process, in a session of its own: an interrupt from the terminal is the realizer's affair.
+        """Starts a worker process in a session of its own, so that Ctrl-C in the terminal reaches only the realizer.
 
         Args:
-            patience: how long it may take over one answer, s.
+            patience: time limit for one reply, s.
         """
         loop = asyncio.get_running_loop()
         command = (sys.executable, "-m", _WORKER)
@@ -68,7 +67,7 @@ class EspeakProcess(asyncio.SubprocessProtocol):
         return self._transport.get_pid()
 
     def request(self, header: dict[str, Any]) -> asyncio.Future[Message]:
-        """Sends a request; the future is its reply."""
+        """Sends a request, and returns the future of its reply."""
         request = _Request(header, asyncio.get_running_loop().create_future())
         self._waiting.append(request)
         if self.ended.done():
@@ -78,34 +77,34 @@ class EspeakProcess(asyncio.SubprocessProtocol):
         return request.reply
 
     async def close(self) -> None:
-        """Ends the process, whatever it is doing."""
+        """Kills the process."""
         self._kill()
         await asyncio.shield(self.ended)
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
-        """The process runs."""
+        """The process has started."""
         self._transport = cast("asyncio.SubprocessTransport", transport)
         self._watch = asyncio.get_running_loop().call_later(_START_PATIENCE, self._give_up)
 
     def pipe_data_received(self, fd: int, data: bytes) -> None:
-        """A piece of a reply came."""
+        """A part of a reply has arrived."""
         for message in self._decoder.feed(data):
             if self._awaited is not None:
                 _answer(self._awaited, message)
             self._send_next()
 
     def process_exited(self) -> None:
-        """The worker ended; a child of it may still hold its pipes."""
+        """The worker has ended; one of its children may still hold the pipes."""
         self._transport.close()
 
     def connection_lost(self, exc: Exception | None) -> None:
-        """Nothing can come any more."""
+        """The pipes are closed: no reply will arrive."""
         _log.info("the speech worker %d ended, exit status %s", self.pid, self._transport.get_returncode())
         self.ended.set_result(None)
         self._fail_unanswered()
 
     def _send_next(self) -> None:
-        """What somebody still waits for, if there is such a request."""
+        """Sends the next request that is not canceled."""
         self._watch.cancel()
         while self._waiting and self._waiting[0].reply.done():
             self._waiting.popleft()

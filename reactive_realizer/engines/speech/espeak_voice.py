@@ -4,30 +4,50 @@ import asyncio
 from importlib.util import find_spec
 
 from reactive_realizer.engine.tts import Utterance
+from reactive_realizer.engines.speech.espeak_messages import Message
 from reactive_realizer.engines.speech.espeak_process import EspeakProcess
-from reactive_realizer.engines.speech.espeak_reply import as_utterance
-from reactive_realizer.engines.speech.messages import Message
-from reactive_realizer.engines.speech.ssml import marked_up
-from reactive_realizer.errors import error
+from reactive_realizer.engines.speech.espeak_utterance import as_utterance, marked_up
+from reactive_realizer.errors import CreationFault, RealizerError
 
 _PATIENCE = 10.0
-"""s; the worker itself ends after 5 s what the library does not come to an end with."""
+"""Time limit for one utterance, s; the worker itself stops an utterance after 5 s."""
+
+
+class VoiceNotInstalled(CreationFault):
+    """The package with espeak-ng is not installed."""
+
+    code = "voice-not-installed"
+    template = "speech requires espeak-ng: pip install 'reactive-realizer[espeak]'"
+
+
+class UnknownVoice(CreationFault):
+    """A name that no voice of espeak-ng has."""
+
+    code = "unknown-voice"
+    template = "there is no voice '{voice}'; voices have names such as en-us, en-gb, fr, nl or en-us+f3"
+    voice: str
+
+
+class VoiceFailed(CreationFault):
+    """The speech worker failed or was killed during synthesis."""
+
+    code = "voice-failed"
+    template = "the speech worker failed during synthesis: {reason}"
+    reason: str
 
 
 class EspeakVoice:
-    """A `TTSBinding` over the speech worker.
+    """A `TTSBinding` that uses the speech worker.
 
-    A worker that ended, for whatever reason, or hangs costs the utterances it was asked for; the next request starts
-    another.
-    Names of voices are those of espeak-ng, upper or lower case, with or without a variant: ``en-us``, ``nl``,
-    ``en-gb+f3``.
+    When a worker ends or hangs, the utterances requested of it fail, and the next request starts a new worker. Names of
+    voices are those of espeak-ng, in any case, with or without a variant: ``en-us``, ``nl``, ``en-gb+f3``.
 
     Args:
-        default_voice: what speaks where a character names no voice.
-        patience: how long the worker may take over one utterance, s.
+        default_voice: the voice of characters that name none.
+        patience: time limit of the worker for one utterance, s.
 
     Attributes:
-        restarts: how many workers were started after the first.
+        restarts: number of workers started after the first.
     """
 
     def __init__(self, default_voice: str = "en-us", patience: float = _PATIENCE) -> None:
@@ -39,19 +59,19 @@ class EspeakVoice:
 
     @property
     def alive(self) -> bool:
-        """Whether a worker runs."""
+        """Whether a worker is running."""
         return self._process is not None and not self._process.ended.done()
 
     async def start(self) -> None:
         """Starts the worker.
 
         Raises:
-            RealizerError: if espeak-ng is not installed or its worker ends at once.
+            RealizerError: espeak-ng is not installed, or its worker ends at once.
         """
         await self._running()
 
     async def voices(self) -> tuple[str, ...]:
-        """The names that `synthesize` takes, without variants, sorted.
+        """The sorted names that `synthesize` takes, without variants.
 
         Raises:
             RealizerError: as `start`.
@@ -73,7 +93,7 @@ class EspeakVoice:
             await self._process.close()
 
     async def _running(self) -> tuple[EspeakProcess, Message]:
-        """A worker that runs, and what it said first."""
+        """A running worker, and its first message."""
         async with self._starting:
             if self._process is None or self._process.ended.done():
                 _require_espeak()
@@ -83,20 +103,20 @@ class EspeakVoice:
 
 
 def _require_espeak() -> None:
-    """Looks for the package without importing it: that is for the worker alone."""
+    """Finds the package without importing it: only the worker may."""
     if find_spec("espeakng_loader") is None:
-        raise error("voice-not-installed")
+        raise RealizerError(VoiceNotInstalled())
 
 
 def _succeeded(reply: Message) -> Message:
     if "failed" in reply.header:
-        raise error("voice-failed", reason=reply.header["failed"])
+        raise RealizerError(VoiceFailed(reason=reply.header["failed"]))
     return reply
 
 
 def _identifier(hello: Message, voice: str) -> str:
-    """The library's identifier of a voice; no other name reaches the library, which would look for a file of it."""
+    """The library's identifier of a voice; the library would take an unknown name for the name of a file."""
     name, plus, variant = voice.partition("+")
     if name.lower() not in hello.header["voices"] or (plus and variant not in hello.header["variants"]):
-        raise error("unknown-voice", voice=voice)
+        raise RealizerError(UnknownVoice(voice=voice))
     return str(hello.header["voices"][name.lower()]) + plus + variant

@@ -1,8 +1,8 @@
-"""The speech worker, ``python -m`` of this module: it answers requests until its input ends.
+"""The speech worker, ``python -m`` of this module: answers requests until its input ends.
 
-It says first which voices there are. Then each request is answered by a child forked from the same pristine state: the
-same text gives the same bytes, which espeak-ng does not promise for the second utterance of a process, and a text that
-brings the library down costs one child.
+Its first message lists the voices. It forks a child for each request, always from the same initial state: so the same
+text gives the same bytes, which espeak-ng does not guarantee for the second utterance of a process, and a text that
+crashes the library ends one child only.
 """
 
 import os
@@ -13,16 +13,16 @@ from functools import partial
 from typing import BinaryIO
 
 from reactive_realizer.engines.speech.espeak_library import EspeakLibrary
-from reactive_realizer.engines.speech.messages import Message, MessageDecoder, failure
+from reactive_realizer.engines.speech.espeak_messages import Message, MessageDecoder, failure
 
 _TIME_LIMIT = 5
-"""s for one child, less than anyone's patience with the worker; the longest text that is taken takes less than one."""
+"""Time limit of one child, s, shorter than that of the worker; the longest text allowed takes less than one."""
 
 
 def main() -> None:
-    """Answers the requests on the standard input, in order, on what was the standard output."""
+    """Answers the requests on standard input, in order, on standard output."""
     replies = os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)  # what the library prints must not get between the replies
+    os.dup2(2, 1)  # keeps what the library prints out of the replies
     library = EspeakLibrary()
     _send(replies, Message({"voices": library.voices(), "variants": library.variants()}).encode())
     for request in _requests():
@@ -47,7 +47,7 @@ def _speak(library: EspeakLibrary, request: Message) -> bytes:
 
 
 def _in_child(work: Callable[[], bytes]) -> bytes:
-    """What the work gives when it is done in a child process, or the failure of that process."""
+    """The result of work done in a child process, or the failure of that process."""
     reading, writing = os.pipe()
     child = os.fork()
     if child == 0:
@@ -68,11 +68,11 @@ def _be_child(work: Callable[[], bytes], writing: int) -> None:
             pipe.write(work())
         exit_status = 0
     except BrokenPipeError:
-        pass  # the worker was killed, nobody waits for this
+        pass  # the worker was killed
     except BaseException:
         traceback.print_exc()
     finally:
-        os._exit(exit_status)  # the child must not fall back into the loop of its parent
+        os._exit(exit_status)  # the child must not return to the loop of its parent
 
 
 if __name__ == "__main__":

@@ -11,15 +11,22 @@ from reactive_realizer.embodiment.audio import AudioChange
 from reactive_realizer.engine.context import EngineContext
 from reactive_realizer.engine.engine import DefaultEngine
 from reactive_realizer.engine.tts import Utterance
-from reactive_realizer.engines.speech.announcer import Announcer
+from reactive_realizer.engines.speech.speech_audio import SpeechAudio
 from reactive_realizer.engines.speech.speech_unit import VOLUME_RANGE, SpeechUnit
-from reactive_realizer.engines.speech.viseme_track import VisemeTrack
-from reactive_realizer.errors import error
+from reactive_realizer.engines.speech.visemes import VisemeTrack
+from reactive_realizer.errors import CreationFault, RealizerError
 from reactive_realizer.pegboard.peg_key import BlockKey
 
 
+class NothingToSay(CreationFault):
+    """A speech without words."""
+
+    code = "nothing-to-say"
+    template = "its text contains no words"
+
+
 class SpeechEngine(DefaultEngine):
-    """Speaks with the voice of its character; offers what the mouth does (`LipSyncProvider`)."""
+    """Speaks with the voice of its character, and provides its lip sync (`LipSyncProvider`)."""
 
     behaviors = frozenset({Speech})
     parameters = MappingProxyType({Speech: {"volume": VOLUME_RANGE}})
@@ -29,30 +36,34 @@ class SpeechEngine(DefaultEngine):
         self._tts = context.tts
         self._voice = context.voice
         self._graph = context.graph
-        self._announcer = Announcer(context.character)
+        self._audio = SpeechAudio(context.character)
         self._tracks: dict[SpeechUnit, VisemeTrack] = {}
 
     def prepare(self, behavior: Behavior) -> Awaitable[object] | None:
-        """Synthesis, unless the voice answers at once."""
+        """The synthesis, unless the voice answers at once."""
         spoken = self._speak(behavior)
         return None if isinstance(spoken, Utterance) else spoken
 
     def plan(self, block: BlockKey, behavior: Behavior, prepared: object) -> SpeechUnit:
-        """A unit as long as the utterance is."""
+        """A unit with the duration of the utterance.
+
+        Raises:
+            RealizerError: ``nothing-to-say``.
+        """
         utterance = self._speak(behavior) if prepared is None else prepared
         if not isinstance(behavior, Speech) or not isinstance(utterance, Utterance):
             raise TypeError(behavior, utterance)
         if not utterance.words:
-            raise error("nothing-to-say")
+            raise RealizerError(NothingToSay())
         return SpeechUnit(block, behavior, utterance, self._graph)
 
     def audio(self, tick: Tick) -> tuple[AudioChange, ...]:
-        """What became audible, moved, got louder or fell silent."""
+        """The changes of sounds since the last call: starts, moves, stops, and changes of their gain."""
         units = (unit for unit in self.player.units if isinstance(unit, SpeechUnit))
-        return self._announcer.changes(units, tick.time)
+        return self._audio.changes(units, tick.time)
 
     def mouth(self, time: GlobalTime) -> Mapping[str, float] | None:
-        """Weights of ARKit morphs for what is being said, None while nothing sounds, at once when a speech is cut."""
+        """Weights of ARKit morphs for the present speech, None without one; an interrupted speech ends at once."""
         for unit in self.player.playing:
             if isinstance(unit, SpeechUnit) and unit.started is not None and unit.utterance.phonemes:
                 return self._track(unit).weights(time - unit.started)

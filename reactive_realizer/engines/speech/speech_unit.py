@@ -1,4 +1,4 @@
-"""A speech in a plan."""
+"""The plan unit of a speech."""
 
 from collections.abc import Mapping
 
@@ -15,17 +15,17 @@ from reactive_realizer.reactive.graph import Graph
 VOICE = "voice"
 VOLUME_RANGE = Range(0.0, 100.0)
 
-_AS_RECORDED = 50.0
-"""The volume at which a speech sounds as its voice made it."""
+_VOLUME_OF_GAIN_1 = 50.0
+"""The volume with a gain of 1."""
 
 
 class SpeechUnit(PlanUnit):
-    """An utterance: rigid, as the voice spoke it; one character speaks one at a time.
+    """An utterance. Its timing is rigid, and a character speaks one at a time.
 
     Attributes:
-        utterance: words, sounds and their times.
-        started: when it began, None before.
-        cut: when it was interrupted, None if it was not.
+        utterance: words and audio, with their times.
+        started: time of its start, None before.
+        cut: time at which it was interrupted, None if it was not.
     """
 
     def __init__(self, block: BlockKey, behavior: Speech, utterance: Utterance, graph: Graph) -> None:
@@ -35,31 +35,31 @@ class SpeechUnit(PlanUnit):
         self.utterance = utterance
         self.started: GlobalTime | None = None
         self.cut: GlobalTime | None = None
-        self._volume = Source(graph, str(self.key("volume")), _AS_RECORDED)
-        self.parameters["volume"] = Parameter(self, self._volume, VOLUME_RANGE)
+        self._volume = Source(graph, str(self.key("volume")), _VOLUME_OF_GAIN_1)
+        self.parameters["volume"] = Parameter(self._volume, VOLUME_RANGE)
 
     @property
     def gain(self) -> float:
-        """How loud it is; 1 is as recorded."""
-        return self._volume.value / _AS_RECORDED
+        """The gain of its audio; 1 is as synthesized."""
+        return self._volume.value / _VOLUME_OF_GAIN_1
 
     def on_start(self, time: GlobalTime) -> None:
-        """The voice begins."""
+        """Notes the time of the start."""
         self.started = time
 
     def on_finish(self, time: GlobalTime) -> None:
-        """The voice ends, before its time if it was interrupted."""
+        """Notes whether the speech ends early."""
         if self.started is not None and time < self.started + self.utterance.duration - RESOLUTION:
             self.cut = time
 
     def gentle_end(self, time: GlobalTime) -> GlobalTime:
-        """The end of the word that sounds, which is the start of the next one or the end of the speech."""
+        """The end of the present word: the start of the next one, or the end of the speech."""
         if self.started is None:
             return time
         return GlobalTime(self.started + self.utterance.next_word(time - self.started))
 
     def end_details(self, time: GlobalTime) -> Mapping[str, str]:
-        """The last word that began: what a listener has heard of an interrupted speech."""
+        """The last word that began, and the number of characters heard up to its end."""
         begun = self.utterance.words_begun(time - self.started) if self.started is not None else ()
         if not begun:
             return {"word": "-1", "text": "", "heard": "0"}

@@ -1,34 +1,33 @@
-"""The voice that makes no sound: a text with plausible times (thesis 8.10, TextEngine)."""
+"""The silent voice: gives a text plausible times (thesis 8.10, TextEngine)."""
 
 from dataclasses import replace
 from itertools import pairwise
 from types import MappingProxyType
 
-from reactive_realizer.engine.tts import Utterance, Word
-from reactive_realizer.engines.speech.words import word_spans
+from reactive_realizer.engine.tts import Utterance, Word, word_spans
 
 _CHARACTER = 0.06
-"""s; English words average five letters and a space: about 170 a minute, near the 175 that espeak-ng speaks."""
+"""Duration of a character, s; with five letters and a space a word, about 170 words a minute (espeak-ng: 175)."""
 _CLAUSE = 0.2
-"""s of silence after a comma and its like."""
+"""Silence after a comma or a similar mark, s."""
 _SENTENCE = 0.4
-"""s of silence after the end of a sentence."""
+"""Silence after a sentence, s."""
 
 
 class TextVoice:
-    """A `TTSBinding` that speaks by showing: every character takes the same time, punctuation takes a pause.
+    """A `TTSBinding` without sound: every character takes the same time, and punctuation adds a pause.
 
-    The times depend on the text alone, so they are the same on every machine. They come without waiting.
+    The times depend on the text only, so they are the same on every machine. `synthesize` returns at once.
     """
 
     async def start(self) -> None:
-        """Nothing has to be made ready."""
+        """Does nothing."""
 
     async def close(self) -> None:
-        """Nothing was taken."""
+        """Does nothing."""
 
     async def voices(self) -> tuple[str, ...]:
-        """There is one voice, whatever the name that is asked for."""
+        """None: there is one voice, which answers to every name."""
         return ()
 
     def synthesize(self, text: str, marks: tuple[tuple[str, int], ...], voice: str | None = None) -> Utterance:
@@ -36,9 +35,9 @@ class TextVoice:
 
         Args:
             text: plain text, no markup; runs of white space count as one space.
-            marks: (name, index into the text) of the places whose times are wanted; each gets the start of the word at
-                or after it, or the end of the utterance.
-            voice: not read.
+            marks: (name, index into the text) of each mark; its time is the start of the word at or after it, or the
+                end of the utterance.
+            voice: ignored.
         """
         words = _timed(text)
         duration = words[-1].start + _CHARACTER * len(words[-1].text) if words else 0.0
@@ -57,7 +56,7 @@ def _timed(text: str) -> tuple[Word, ...]:
 
 
 def _pause(between: str) -> float:
-    """Silence for what stands between two words, s."""
+    """Silence for the text between two words, s."""
     if any(mark in between for mark in ".!?…"):
         return _SENTENCE
     return _CLAUSE if any(mark in between for mark in ",;:\u2013\u2014") else 0.0

@@ -6,7 +6,7 @@ from itertools import pairwise
 from math import inf
 
 from reactive_realizer.planunit.timing import PhaseKind, Timing
-from reactive_realizer.scheduler.convex.causes import Cause, Rank
+from reactive_realizer.scheduler.convex.conflict import Rank, Requirement
 from reactive_realizer.scheduler.convex.span import Span
 
 
@@ -38,7 +38,7 @@ class BehaviorSpans:
         knots: Mapping[int, int],
         named: AbstractSet[int],
         tied: AbstractSet[int],
-        lifted: AbstractSet[Cause],
+        lifted: AbstractSet[Requirement],
         node: Callable[[], int],
     ) -> None:
         self._index = index
@@ -46,7 +46,7 @@ class BehaviorSpans:
         self._knots = knots
         self._named = named
         self._lifted = lifted
-        self._limited = {k for k in timing.limited if Cause(Rank.LIMIT, index, k) not in lifted}
+        self._limited = {k for k in timing.limited if Requirement(Rank.LIMIT, index, k) not in lifted}
         self._node = node
         self.spans: list[Span] = []
         self.rigid: list[tuple[int, int, float]] = []
@@ -98,7 +98,7 @@ class BehaviorSpans:
         return Span(self._index, tuple(group), kind, preferred, start, end, rigid, low, high, goal=preferred)
 
     def _may_vanish(self, phase: int, preferred: float) -> bool:
-        short = preferred == 0 or Cause(Rank.LENGTH, self._index, phase) in self._lifted
+        short = preferred == 0 or Requirement(Rank.LENGTH, self._index, phase) in self._lifted
         return self._phases[phase].kind is PhaseKind.ELASTIC and short
 
     def _follow(self, first: int, last: int) -> None:

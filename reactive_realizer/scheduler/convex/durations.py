@@ -1,4 +1,4 @@
-"""Stage 1: how long phases last, for every group of roots that have to agree on it."""
+"""The durations of phases, for each group of roots that have to agree on them."""
 
 from collections import defaultdict
 from collections.abc import Sequence

@@ -2,32 +2,32 @@
 
 from collections.abc import Iterator, Mapping
 
-from reactive_realizer.scheduler.convex.case import Stage
-from reactive_realizer.scheduler.convex.roots import Roots
+from reactive_realizer.scheduler.convex.explained_groups import ExplainedGroups
+from reactive_realizer.scheduler.convex.relaxed_problem import RelaxedProblem
 from reactive_realizer.scheduler.problem import Node, Origin, Point
 
 
-def late_behaviors(stage: Stage, nodes: Mapping[Node, int], roots: Roots) -> set[int]:
+def late_behaviors(relaxed: RelaxedProblem, nodes: Mapping[Node, int], groups: ExplainedGroups) -> set[int]:
     """The indices of the behaviors with a tied point before the block's start that the outside brought there."""
-    times = [fixed.time for fixed in stage.fixed.values()]
+    times = list(relaxed.fixed.values())
 
     def passed(node: Node) -> bool:
-        root, distance = roots.find(nodes[node])
+        root, distance = groups.find(nodes[node])
         time = times[root] if root < len(times) else None
         return time is not None and time + distance < 0
 
-    outside = {node for node in stage.fixed if node is not Origin.BLOCK_START}
+    outside = {node for node in relaxed.fixed if node is not Origin.BLOCK_START}
     late = {nodes[node] for node in outside if passed(node)}
-    for node in _tied_to_outside(stage):
+    for node in _tied_to_outside(relaxed):
         if passed(node):
-            late.add(roots.find(nodes[node])[0])
-    tied = {node for tie in stage.ties.values() for node in tie.nodes if isinstance(node, Point) and passed(node)}
-    names = {node.behavior for node in tied if roots.find(nodes[node])[0] in late}
-    return {index for index, item in stage.items.items() if item.behavior.id in names}
+            late.add(groups.find(nodes[node])[0])
+    tied = {node for tie in relaxed.ties.values() for node in tie.nodes if isinstance(node, Point) and passed(node)}
+    names = {node.behavior for node in tied if groups.find(nodes[node])[0] in late}
+    return {index for index, item in relaxed.items.items() if item.behavior.id in names}
 
 
-def _tied_to_outside(stage: Stage) -> Iterator[Node]:
+def _tied_to_outside(relaxed: RelaxedProblem) -> Iterator[Node]:
     """The points that a tie names together with a peg of another block or of an anticipator."""
-    for tie in stage.ties.values():
+    for tie in relaxed.ties.values():
         if any(not isinstance(node, Point | Origin) for node in tie.nodes):
             yield from tie.nodes

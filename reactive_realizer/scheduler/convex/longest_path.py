@@ -3,6 +3,8 @@
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Generic, NamedTuple, TypeVar
 
+from reactive_realizer.scheduler.offset_union_find import OffsetUnionFind
+
 TOLERANCE = 1e-9
 """Inequalities that miss by less (s) are met."""
 
@@ -40,17 +42,12 @@ def longest_path(size: int, arcs: Sequence[Arc[L]]) -> tuple[list[float], list[A
 
 def components(size: int, pairs: Iterable[tuple[int, int]]) -> list[int]:
     """For each of ``size`` nodes the least node that it is connected with."""
-    parents = list(range(size))
-
-    def top(node: int) -> int:
-        while parents[node] != node:
-            parents[node] = node = parents[parents[node]]
-        return node
-
+    groups = OffsetUnionFind[int](())
+    for node in range(size):
+        groups.add(node)
     for one, other in pairs:
-        one, other = top(one), top(other)
-        parents[max(one, other)] = min(one, other)
-    return [top(node) for node in range(size)]
+        groups.union(one, other)
+    return [groups.find(node)[0] for node in range(size)]
 
 
 def _in_turn(size: int, arcs: Sequence[Arc[L]]) -> list[Arc[L]]:

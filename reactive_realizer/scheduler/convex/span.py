@@ -5,10 +5,8 @@ from math import inf
 from typing import NamedTuple
 
 from reactive_realizer.planunit.timing import PhaseKind
-from reactive_realizer.scheduler.convex.causes import Cause, Rank
-
-LEAST = 1.6e-5
-"""What an elastic phase has at least, s: enough for a behavior to be played (`SHORTEST`), whatever rounding takes."""
+from reactive_realizer.scheduler.convex.conflict import Rank, Requirement
+from reactive_realizer.scheduler.problem import LEAST
 
 
 @dataclass(slots=True, eq=False)
@@ -65,14 +63,14 @@ class Span:
         return LEAST if self.elastic else 0.0
 
     @property
-    def cause(self) -> Cause:
+    def requirement(self) -> Requirement:
         """Its behavior, as one that wants something."""
-        return Cause(Rank.BEHAVIOR, self.behavior)
+        return Requirement(Rank.BEHAVIOR, self.behavior)
 
     @property
-    def length_cause(self) -> Cause:
+    def length_requirement(self) -> Requirement:
         """That it lasts at all."""
-        return Cause(Rank.LENGTH, self.behavior, self.phases[0])
+        return Requirement(Rank.LENGTH, self.behavior, self.phases[0])
 
     @property
     def closed(self) -> bool:
@@ -91,7 +89,7 @@ class Row(NamedTuple):
     later: int
     earlier: int
     distance: float
-    cause: Cause
+    requirement: Requirement
 
 
 class Bound(NamedTuple):

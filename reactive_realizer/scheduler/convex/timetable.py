@@ -5,9 +5,9 @@ from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
 
 from reactive_realizer.planunit.timing import SHORTEST, PhaseKind
-from reactive_realizer.scheduler.convex.causes import Cause, Clash, Rank
+from reactive_realizer.scheduler.convex.conflict import Conflict, Rank, Requirement
 from reactive_realizer.scheduler.convex.durations import Durations
-from reactive_realizer.scheduler.convex.feasibility import clashes
+from reactive_realizer.scheduler.convex.feasibility import conflicts
 from reactive_realizer.scheduler.convex.longest_path import TOLERANCE, Arc, components, longest_path
 from reactive_realizer.scheduler.convex.model import START, Model
 from reactive_realizer.scheduler.convex.span import Bound
@@ -20,51 +20,28 @@ class Timetable:
     Attributes:
         times: of the variables, s after the block's start.
         points: times of all points of each behavior, s after the block's start.
-        clusters: of each variable the least one that phases connect it with; what is fixed connects nothing.
-        grounded: the clusters that phases connect with something known.
-        waiting: those that hang on something unknown; times of theirs are a guess.
     """
 
     model: Model
     times: Sequence[float]
     points: Mapping[int, Sequence[float]]
-    clusters: Sequence[int]
-    grounded: AbstractSet[int]
-    waiting: AbstractSet[int]
-
-    def time(self, node: int) -> float:
-        """Of a node, s after the block's start."""
-        return _time(self.model, self.times, node)
-
-    def waits(self, node: int) -> bool:
-        """Whether it hangs on something unknown."""
-        return self.clusters[self.model.place(node)[0]] in self.waiting
 
 
-def find_times(model: Model) -> Timetable | list[Clash]:
+def find_times(model: Model) -> Timetable | list[Conflict]:
     """Times that meet everything, at least cost and as early as that allows; or what cannot be met together."""
-    if model.clashes:
-        return model.clashes
+    if model.conflicts:
+        return model.conflicts
     connecting = [span for span in model.spans if span.costs and not span.closed]
     clusters = components(model.size, [(s.tail, s.head) for s in connecting if START not in (s.tail, s.head)])
     grounded = {START, *(clusters[s.tail or s.head] for s in connecting if START in (s.tail, s.head))}
-    if found := clashes(model):
+    if found := conflicts(model):
         return found
     times = _earliest(model, clusters, grounded)
     for span in model.spans:
         span.duration = times[span.head] - times[span.tail] + span.shift
     points = {index: _points(model, times, index) for index in model.knots}
-    unplayable = [clash for index, each in points.items() for clash in _unplayable(model, index, each)]
-    return unplayable or Timetable(model, times, points, clusters, grounded, _waiting(model, clusters))
-
-
-def _waiting(model: Model, clusters: Sequence[int]) -> set[int]:
-    """Clusters with an unknown time, and those that are to come after a waiting one."""
-    waiting, size = {clusters[variable] for variable in model.unknown}, -1
-    while size < len(waiting):
-        size = len(waiting)
-        waiting |= {clusters[bound.later] for bound in model.bounds if clusters[bound.earlier] in waiting} - {START}
-    return waiting
+    unplayable = [conflict for index, each in points.items() for conflict in _unplayable(model, index, each)]
+    return unplayable or Timetable(model, times, points)
 
 
 def _earliest(model: Model, clusters: Sequence[int], grounded: AbstractSet[int]) -> list[float]:
@@ -108,7 +85,7 @@ def _lengths(model: Model, behavior: int) -> list[float]:
     """Durations of phases, s; those behind the last knot take over the stretch of what is before it."""
     part, last = model.parts[behavior], max(model.knots[behavior])
     tempo = 1.0 if part.tempo is None else part.tempo.ratio
-    phases = model.stage.items[behavior].timing.phases
+    phases = model.relaxed.items[behavior].timing.phases
     lengths = [phase.duration for phase in phases]
     for k in range(last, len(phases)):
         lengths[k] *= tempo if phases[k].kind is PhaseKind.ELASTIC else 1.0
@@ -120,10 +97,10 @@ def _lengths(model: Model, behavior: int) -> list[float]:
     return lengths
 
 
-def _unplayable(model: Model, behavior: int, points: Sequence[float]) -> Iterator[Clash]:
+def _unplayable(model: Model, behavior: int, points: Sequence[float]) -> Iterator[Conflict]:
     """A behavior that has no time at all (thesis 7.14), or none after the start of its block."""
-    causes = frozenset({Cause(Rank.BEHAVIOR, behavior)})
-    if points[-1] - points[0] < SHORTEST and not model.stage.items[behavior].timing.instant:
-        yield Clash(causes, 0.0)
+    requirements = frozenset({Requirement(Rank.BEHAVIOR, behavior)})
+    if points[-1] - points[0] < SHORTEST and not model.relaxed.items[behavior].timing.instant:
+        yield Conflict(requirements, 0.0)
     elif behavior in model.late and points[-1] < -SHORTEST:
-        yield Clash(causes, -points[-1], late=True)
+        yield Conflict(requirements, -points[-1], late=True)

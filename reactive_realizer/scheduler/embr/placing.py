@@ -5,22 +5,22 @@ from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from math import inf
 
-from reactive_realizer.scheduler.embr.case import Case
 from reactive_realizer.scheduler.embr.differences import TOLERANCE, Differences, Row
+from reactive_realizer.scheduler.embr.embr_problem import EmbrProblem
 from reactive_realizer.scheduler.embr.keeping import Kept
 from reactive_realizer.scheduler.embr.linear_program import Wish, least_deviations
 from reactive_realizer.scheduler.embr.spans import Span
-from reactive_realizer.scheduler.equalities import Equalities
+from reactive_realizer.scheduler.offset_union_find import TIE_TOLERANCE, OffsetUnionFind
 from reactive_realizer.scheduler.problem import Node, Origin, Point, Tie
 
 _STIFFEST = 0.1
 """s; what prefers less time than this is no stiffer."""
 
 
-def place(case: Case, kept: Kept) -> dict[Node, float]:
+def place(problem: EmbrProblem, kept: Kept) -> dict[Node, float]:
     """The time (s after the block's start) of every knot; unknown given times are taken to be where that suits best."""
     times: dict[Node, float] = {}
-    for group in _groups(case, kept):
+    for group in _groups(problem, kept):
         times |= group.place()
     return times
 
@@ -34,8 +34,8 @@ class _Group:
         rows: all else that its times have to meet.
     """
 
-    def __init__(self, case: Case, kept: Kept) -> None:
-        self._case = case
+    def __init__(self, problem: EmbrProblem, kept: Kept) -> None:
+        self._problem = problem
         self._kept = kept
         self.spans: list[Span] = []
         self.ties: list[Tie] = []
@@ -64,33 +64,36 @@ class _Group:
             return None
         return {node: least[root] + later for node in self._nodes() for root, later in [bodies.find(node)]}
 
-    def _bodies(self, durations: Sequence[float]) -> Equalities[Node] | None:
+    def _bodies(self, durations: Sequence[float]) -> OffsetUnionFind[Node] | None:
         """Nodes at known distances from each other, the known times at theirs from the start of the block."""
         distances: list[tuple[Node, Node, float]] = [
-            (node, Origin.BLOCK_START, time) for node in self._nodes() if (time := self._case.known(node)) is not None
+            (node, Origin.BLOCK_START, time)
+            for node in self._nodes()
+            if (time := self._problem.known(node)) is not None
         ]
         distances += [(span.end, span.start, duration) for span, duration in zip(self.spans, durations, strict=True)]
         distances += [(tie.left, tie.right, tie.offset) for tie in self.ties]
-        bodies = Equalities[Node](frozenset())
-        return bodies if all(bodies.tie(*distance) is None for distance in distances) else None
+        bodies = OffsetUnionFind[Node]()
+        gaps = (bodies.union(*distance) for distance in distances)
+        return bodies if all(gap is None or abs(gap) <= TIE_TOLERANCE for gap in gaps) else None
 
     def _least_deviating(self) -> dict[Node, float]:
-        """Times by the linear program; its variables are the classes of points tied to each other."""
-        classes = self._kept.classes
-        bounds = {root: (floor, inf) for root, floor in self._floors(classes).items()}
-        bounds |= {root: (time, time) for root in bounds if (time := self._case.known(root)) is not None}
+        """Times by the linear program; its variables are the groups of points tied to each other."""
+        groups = self._kept.groups
+        bounds = {root: (floor, inf) for root, floor in self._floors(groups).items()}
+        bounds |= {root: (time, time) for root in bounds if (time := self._problem.known(root)) is not None}
         numbers = {root: number for number, root in enumerate(bounds)}
-        rows = (_numbered(classes, row, numbers) for row in self.rows)
+        rows = (_numbered(groups, row, numbers) for row in self.rows)
         bounding = [row for row in rows if row is not None]
         times = least_deviations(list(bounds.values()), bounding, self._wishes(numbers))
         if times is None:
             return {node: self._kept.least[node] for node in self._nodes()}
-        return {node: times[numbers[root]] + later for node in self._nodes() for root, later in [classes.find(node)]}
+        return {node: times[numbers[root]] + later for node in self._nodes() for root, later in [groups.find(node)]}
 
     def _wishes(self, numbers: Mapping[Node, int]) -> list[Wish]:
         wishes = []
         for span in self.spans:
-            row = _numbered(self._kept.classes, Row[Node](span.end, span.start, span.preferred), numbers)
+            row = _numbered(self._kept.groups, Row[Node](span.end, span.start, span.preferred), numbers)
             if row is not None:
                 wishes.append(Wish(row, max(span.preferred, _STIFFEST)))
         return wishes
@@ -101,31 +104,31 @@ class _Group:
         pairs += [(row.later, row.earlier) for row in self.rows]
         return list(dict.fromkeys(itertools.chain(*pairs, *(tie.nodes for tie in self.ties))))
 
-    def _floors(self, classes: Equalities[Node]) -> dict[Node, float]:
+    def _floors(self, groups: OffsetUnionFind[Node]) -> dict[Node, float]:
         """The time before which the root of each class may not be; minus infinity where it may be any."""
         floors: dict[Node, float] = {}
         for node in self._nodes():
-            root, later = classes.find(node)
+            root, later = groups.find(node)
             late = isinstance(node, Point) and node.behavior in self._kept.late
-            bound = not late and self._case.known(node) is None
+            bound = not late and self._problem.known(node) is None
             floors[root] = max(floors.get(root, -inf), -later if bound else -inf)
         return floors
 
 
-def _groups(case: Case, kept: Kept) -> Iterable[_Group]:
-    linked = Equalities[Node | str](frozenset())
+def _groups(problem: EmbrProblem, kept: Kept) -> Iterable[_Group]:
+    linked = OffsetUnionFind[Node | str]()
     for constraint in kept.constraints:
-        moved = [each for node in constraint.nodes if (each := case.movable(node)) is not None]
+        moved = [each for node in constraint.nodes if (each := problem.movable(node)) is not None]
         if len(moved) > 1:
-            linked.tie(moved[0], moved[1], 0.0)
-    groups: dict[Node | str, _Group] = defaultdict(lambda: _Group(case, kept))
+            linked.union(moved[0], moved[1])
+    found: dict[Node | str, _Group] = defaultdict(lambda: _Group(problem, kept))
 
     def concerned(*nodes: Node) -> Iterable[_Group]:
         """The group of some nodes; none if all their times are given and known."""
-        moved = [each for node in nodes if (each := case.movable(node)) is not None]
-        return [groups[linked.find(each)[0]] for each in moved[:1]]
+        moved = [each for node in nodes if (each := problem.movable(node)) is not None]
+        return [found[linked.find(each)[0]] for each in moved[:1]]
 
-    for span in case.spans:
+    for span in problem.spans:
         for group in concerned(span.start):
             group.spans.append(span)
     for row in kept.rows:
@@ -134,16 +137,16 @@ def _groups(case: Case, kept: Kept) -> Iterable[_Group]:
     for tie in (each for each in kept.constraints if isinstance(each, Tie)):
         for group in concerned(*tie.nodes):
             group.ties.append(tie)
-    return groups.values()
+    return found.values()
 
 
-def _between_roots(classes: Equalities[Node], row: Row[Node]) -> Row[Node]:
-    """The same, said of the roots of classes."""
-    (root, later), (other, earlier) = classes.find(row.later), classes.find(row.earlier)
+def _between_roots(groups: OffsetUnionFind[Node], row: Row[Node]) -> Row[Node]:
+    """The same, said of the roots of groups."""
+    (root, later), (other, earlier) = groups.find(row.later), groups.find(row.earlier)
     return Row(root, other, row.distance + earlier - later)
 
 
-def _numbered(classes: Equalities[Node], row: Row[Node], numbers: Mapping[Node, int]) -> Row[int] | None:
+def _numbered(groups: OffsetUnionFind[Node], row: Row[Node], numbers: Mapping[Node, int]) -> Row[int] | None:
     """The same, said of variables; None if both sides are one."""
-    later, earlier, distance = _between_roots(classes, row)
+    later, earlier, distance = _between_roots(groups, row)
     return None if later == earlier else Row(numbers[later], numbers[earlier], distance)

@@ -5,7 +5,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple
 
 from reactive_realizer.planunit.timing import PhaseKind
-from reactive_realizer.scheduler.problem import Item, Order, Point, Tie
+from reactive_realizer.scheduler.problem import Item, Point, Precedence, Tie
 
 
 class Span(NamedTuple):
@@ -24,7 +24,7 @@ class Span(NamedTuple):
     rigid: bool
 
 
-def knots_of(items: Iterable[Item], constraints: Iterable[Tie | Order]) -> dict[str, tuple[int, ...]]:
+def knots_of(items: Iterable[Item], constraints: Iterable[Tie | Precedence]) -> dict[str, tuple[int, ...]]:
     """Of each behavior, the indices of its first and last point, those that are named, and those of rigid phases."""
     named = {node for each in constraints for node in each.nodes}
     knots = {}

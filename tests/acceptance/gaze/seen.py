@@ -1,4 +1,4 @@
-"""Who looks, as frames show it."""
+"""Gaze as frames show it."""
 
 import math
 from bisect import bisect_left
@@ -7,7 +7,7 @@ from itertools import pairwise
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.quaternion import from_euler, rotate
 from reactive_realizer.embodiment.vector import FORWARD, Vec3, add, dot, scale, subtract, unit
-from reactive_realizer.engines.animation.gaze.saccade import saccade_progress
+from reactive_realizer.engines.animation.gaze.eye_controller import saccade_progress
 from reactive_realizer.testing.pilot import RealizerPilot
 
 EYES = ("l_eyeball_joint", "r_eyeball_joint")
@@ -25,18 +25,18 @@ def between(a: Vec3, b: Vec3) -> float:
 
 def sight(body: Body, joint: str = EYES[0]) -> Vec3:
     """Where an eye looks or the nose points."""
-    return rotate(body.place(joint).rotation, FORWARD)
+    return rotate(body.transform(joint).rotation, FORWARD)
 
 
 def miss(body: Body, target: Vec3) -> float:
     """By how much the worse of the two eyes misses a target, degrees."""
-    return max(between(sight(body, eye), unit(subtract(target, body.place(eye).position))) for eye in EYES)
+    return max(between(sight(body, eye), unit(subtract(target, body.transform(eye).position))) for eye in EYES)
 
 
 def place(pilot: RealizerPilot, yaw: float, pitch: float, far: float = 2.0) -> Vec3:
     """A point to the left and up as Alice sees it before she looks anywhere."""
     body = pilot.bodies()[0]
-    middle = scale(add(*(body.place(eye).position for eye in EYES)), 0.5)
+    middle = scale(add(*(body.transform(eye).position for eye in EYES)), 0.5)
     return add(middle, scale(rotate(from_euler(-math.radians(pitch), math.radians(yaw), 0.0), FORWARD), far))
 
 

@@ -1,6 +1,8 @@
-"""A gaze that a shift has covered comes back when the shift has ended."""
+"""A gaze that a shift covered becomes visible again after the shift."""
 
 import pytest
+
+from reactive_realizer.testing.pilot import RealizerPilot
 
 from .seen import at, between, miss, put, sight, speeds
 
@@ -13,8 +15,8 @@ SHIFTS = (
 
 @pytest.mark.parametrize("shift", SHIFTS)
 @pytest.mark.parametrize("influence", ["SHOULDER", "WAIST"])
-async def test_the_head_turns_back_to_a_gaze_that_plays_on_when_a_shift_ends_and_does_not_flick(
-    pilot, influence, shift
+async def test_the_head_returns_smoothly_to_a_continuing_gaze_when_a_shift_ends(
+    pilot: RealizerPilot, influence: str, shift: str
 ) -> None:
     left = put(pilot, "left", 35, -10)
     put(pilot, "right", -35, 5)

@@ -1,4 +1,4 @@
-"""The eyes of who looks at something (BML 1.0: gaze; thesis 4.2.2), seen in frames."""
+"""Eyes in gazes (BML 1.0: gaze; thesis 4.2.2), in frames."""
 
 import math
 from itertools import pairwise
@@ -7,14 +7,17 @@ import pytest
 
 from reactive_realizer.embodiment.quaternion import angle, difference, rotate
 from reactive_realizer.embodiment.vector import FORWARD
+from reactive_realizer.engines.animation.gaze.eye_controller import saccade_duration, saccade_progress
 from reactive_realizer.engines.animation.gaze.eyes import EYE_RANGE
-from reactive_realizer.engines.animation.gaze.saccade import saccade_duration, saccade_progress
+from reactive_realizer.testing.pilot import RealizerPilot
 
 from .seen import EYES, FAR, FRAME, GLANCE, PLATEAU, at, between, miss, put, sight, speeds
 
 
 @pytest.mark.parametrize("influence", ["EYES", "HEAD", "SHOULDER", "WAIST", "WHOLE"])
-async def test_the_eyes_are_on_the_target_while_the_head_still_turns_and_until_it_relaxes(pilot, influence) -> None:
+async def test_the_eyes_are_on_the_target_while_the_head_still_turns_and_until_it_relaxes(
+    pilot: RealizerPilot, influence: str
+) -> None:
     target = put(pilot, "t", 25, 10)
     pilot.block("b", f'<gaze id="g" target="t" influence="{influence}" start="0.2"/>')
     await pilot.advance(4)
@@ -24,7 +27,7 @@ async def test_the_eyes_are_on_the_target_while_the_head_still_turns_and_until_i
 
 
 @pytest.mark.parametrize("head", ['lexeme="NOD" repetition="4" amount="1"', 'lexeme="SHAKE" repetition="4" amount="1"'])
-async def test_the_eyes_stay_on_the_target_while_the_head_nods_and_shakes(pilot, head) -> None:
+async def test_the_eyes_stay_on_the_target_while_the_head_nods_and_shakes(pilot: RealizerPilot, head: str) -> None:
     target = put(pilot, "t", -15, 5)
     pilot.block("b", f'<gaze id="g" target="t" start="0" end="8"/><head id="h" {head} start="g:ready"/>')
     await pilot.advance(6)
@@ -34,7 +37,7 @@ async def test_the_eyes_stay_on_the_target_while_the_head_nods_and_shakes(pilot,
     assert max(miss(body, target) for body in shown) < 0.5
 
 
-async def test_the_eyes_are_there_before_the_head_and_it_overtakes_them_not(pilot) -> None:
+async def test_the_eyes_arrive_before_the_head_and_it_does_not_overshoot(pilot: RealizerPilot) -> None:
     target = put(pilot, "t", 30, 0)
     pilot.block("b", '<gaze id="g" target="t" start="0"/>')
     await pilot.advance(2)
@@ -49,7 +52,7 @@ async def test_the_eyes_are_there_before_the_head_and_it_overtakes_them_not(pilo
 
 
 @pytest.mark.parametrize("degrees", [3, 8, 15, 25, 35])
-async def test_a_saccade_takes_time_in_proportion_to_its_way_and_keeps_below_the_plateau(pilot, degrees) -> None:
+async def test_the_duration_of_a_saccade_is_linear_and_its_speed_is_limited(pilot: RealizerPilot, degrees: int) -> None:
     put(pilot, "t", degrees, 0, FAR)
     pilot.block("b", '<gaze id="g" target="t" influence="EYES" start="0.5"/>')
     await pilot.advance(1.2)
@@ -62,7 +65,7 @@ async def test_a_saccade_takes_time_in_proportion_to_its_way_and_keeps_below_the
     assert max(speeds(shown)) < PLATEAU
 
 
-async def test_the_eyes_stay_on_the_target_while_a_head_that_is_hurried_falls_behind(pilot) -> None:
+async def test_the_eyes_stay_on_the_target_while_a_hurried_head_falls_behind(pilot: RealizerPilot) -> None:
     target = put(pilot, "t", 38, 0)
     pilot.block("b", '<gaze id="g" target="t" influence="WAIST" start="0" ready="0.06" relax="1" end="1.5"/>')
     await pilot.advance(1)
@@ -72,7 +75,7 @@ async def test_the_eyes_stay_on_the_target_while_a_head_that_is_hurried_falls_be
     assert max(angle(difference(a.rotation("vc4"), b.rotation("vc4"))) for a, b in pairwise(shown)) < 0.17
 
 
-async def test_what_the_eyes_cannot_reach_they_come_to_with_the_head(pilot) -> None:
+async def test_the_eyes_reach_a_far_target_with_the_head(pilot: RealizerPilot) -> None:
     target = put(pilot, "t", 100, 10)
     pilot.block("b", '<gaze id="g" target="t" influence="SHOULDER" start="0" end="4"/>')
     await pilot.advance(3)
@@ -81,7 +84,7 @@ async def test_what_the_eyes_cannot_reach_they_come_to_with_the_head(pilot) -> N
     assert miss(shown[at(pilot, 2)], target) < 0.5
 
 
-async def test_a_gaze_ends_with_a_saccade_and_the_head_follows(pilot) -> None:
+async def test_a_gaze_ends_with_a_saccade_and_the_head_follows(pilot: RealizerPilot) -> None:
     put(pilot, "t", 30, -30)
     pilot.block("b", '<gaze id="g" target="t" start="0"/>')
     await pilot.advance(4)
@@ -94,7 +97,7 @@ async def test_a_gaze_ends_with_a_saccade_and_the_head_follows(pilot) -> None:
     assert between(sight(shown[end + 1], "skullbase"), FORWARD) < 2
 
 
-def lids(pilot, *morphs: str) -> list[float]:
+def lids(pilot: RealizerPilot, *morphs: str) -> list[float]:
     """The weights of morphs in the last frame."""
     names = pilot.realizer.characters["alice"].humanoid.avatar.morphs
     return [float(pilot.frames["alice"][-1].weights[names.index(morph)]) for morph in morphs]
@@ -108,7 +111,9 @@ def lids(pilot, *morphs: str) -> list[float]:
         (-25, "eyeLookDown", "eyeLookUp", 0.6),
     ],
 )
-async def test_the_lids_go_with_the_eyes(pilot, pitch, morph, other, weight) -> None:
+async def test_the_lids_follow_the_eyes(
+    pilot: RealizerPilot, pitch: int, morph: str, other: str, weight: float
+) -> None:
     put(pilot, "t", 0, pitch)
     pilot.block("b", '<gaze id="g" target="t" influence="EYES" start="0" end="4"/>')
     await pilot.advance(1)
@@ -117,7 +122,7 @@ async def test_the_lids_go_with_the_eyes(pilot, pitch, morph, other, weight) -> 
     assert lids(pilot, f"{other}Left", f"{other}Right") == [0, 0]
 
 
-async def test_in_each_frame_a_lid_is_where_its_eye_is(pilot) -> None:
+async def test_a_lid_follows_its_eye_within_the_same_frame(pilot: RealizerPilot) -> None:
     put(pilot, "t", 0, -25)
     pilot.block("b", '<gaze id="g" target="t" influence="EYES" start="0.2" end="4"/>')
     await pilot.advance(0.5)

@@ -5,6 +5,8 @@ from itertools import pairwise
 
 import pytest
 
+from reactive_realizer.testing.pilot import RealizerPilot
+
 from .seen import FAR, FRAME, between, miss, put, sight, speeds
 
 PLANNED = 1.0
@@ -12,8 +14,8 @@ PLANNED = 1.0
 
 @pytest.mark.parametrize("late", [0.1, 0.3, 0.4])
 @pytest.mark.parametrize("kind", ["gaze", "gazeShift"])
-async def test_the_head_turns_as_it_would_have_turned_in_time_while_the_eyes_are_there_at_once(
-    pilot, kind, late
+async def test_a_late_gaze_turns_the_head_at_its_usual_pace_and_the_eyes_at_once(
+    pilot: RealizerPilot, kind: str, late: float
 ) -> None:
     await pilot.advance(0.1)
     target = put(pilot, "t", 36, 8, FAR)

@@ -1,10 +1,11 @@
-"""A saccade begins when its peg says, whenever frames are: what they show is a curve of time (thesis 4.2.2)."""
+"""Saccades start at the times of pegs, independently of frames (thesis 4.2.2)."""
 
 import math
 
 import pytest
 
-from reactive_realizer.engines.animation.gaze.saccade import saccade_progress
+from reactive_realizer.engines.animation.gaze.eye_controller import saccade_progress
+from reactive_realizer.testing.pilot import RealizerPilot
 
 from .seen import FAR, FRAME, at, leaving, put, sight
 
@@ -14,7 +15,9 @@ ODD = [0.0, 0.003, 0.0081, 0.013, 0.017]
 
 @pytest.mark.parametrize("later", ODD)
 @pytest.mark.parametrize("element", ["gaze", "gazeShift"])
-async def test_eyes_set_out_at_the_time_of_the_start_and_not_with_a_frame(pilot, element, later) -> None:
+async def test_a_saccade_starts_at_the_time_of_the_start_and_not_with_a_frame(
+    pilot: RealizerPilot, element: str, later: float
+) -> None:
     put(pilot, "t", 25, 5, FAR)
     pilot.block("b", f'<{element} id="g" target="t" start="{0.5 + later}" end="3"/>')
     await pilot.advance(1.2)
@@ -23,7 +26,7 @@ async def test_eyes_set_out_at_the_time_of_the_start_and_not_with_a_frame(pilot,
 
 
 @pytest.mark.parametrize("later", ODD)
-async def test_they_come_back_from_the_time_at_which_a_gaze_relaxes(pilot, later) -> None:
+async def test_eyes_return_at_the_time_of_relax(pilot: RealizerPilot, later: float) -> None:
     put(pilot, "rest", -10, 0, FAR)
     put(pilot, "t", 20, 5, FAR)
     glance = f'<gaze id="g" target="t" influence="EYES" start="1" relax="{2 + later}" end="3"/>'
@@ -34,7 +37,7 @@ async def test_they_come_back_from_the_time_at_which_a_gaze_relaxes(pilot, later
 
 
 @pytest.mark.parametrize("later", ODD)
-async def test_they_come_back_from_the_time_at_which_a_gaze_is_broken_off(pilot, later) -> None:
+async def test_eyes_return_at_the_time_of_an_interruption(pilot: RealizerPilot, later: float) -> None:
     put(pilot, "rest", -10, 0, FAR)
     put(pilot, "t", 20, 5, FAR)
     pilot.block("a", '<gazeShift id="s" target="rest" influence="EYES" start="0" end="0.5"/>')
@@ -46,7 +49,7 @@ async def test_they_come_back_from_the_time_at_which_a_gaze_is_broken_off(pilot,
 
 
 @pytest.mark.parametrize("later", [0.0, 0.01])
-async def test_they_come_back_from_the_tick_at_which_a_block_replaces_all(still, later) -> None:
+async def test_eyes_return_at_the_tick_in_which_a_block_replaces_everything(still: RealizerPilot, later: float) -> None:
     await still.advance(0.02)
     put(still, "t", 20, 5, FAR)
     still.block("b", '<gazeShift id="s" target="t" influence="EYES" start="0" end="0.5"/>')
@@ -56,7 +59,9 @@ async def test_they_come_back_from_the_tick_at_which_a_block_replaces_all(still,
     assert leaving(still, 1.4) == pytest.approx(1.0 + later, abs=5e-4)
 
 
-async def test_eyes_that_are_led_elsewhere_in_the_middle_of_a_saccade_set_out_from_where_they_are_then(pilot) -> None:
+async def test_a_saccade_to_a_new_target_starts_from_the_current_eyes(
+    pilot: RealizerPilot,
+) -> None:
     put(pilot, "one", -30, 0, FAR)
     put(pilot, "two", 30, 0, FAR)
     shift = '<gazeShift id="{}" target="{}" influence="EYES" start="{}" end="{}"/>'

@@ -1,4 +1,4 @@
-"""What of a gaze stays, and which gaze is seen of several (BML 1.0: gazeShift, headDirectionShift; thesis 8.7.5)."""
+"""Shifts of gaze and head, and gazes on top of each other (BML 1.0: gazeShift, headDirectionShift; thesis 8.7.5)."""
 
 import math
 
@@ -6,11 +6,12 @@ import pytest
 
 from reactive_realizer.embodiment.quaternion import angle
 from reactive_realizer.embodiment.vector import FORWARD, subtract, unit
+from reactive_realizer.testing.pilot import RealizerPilot
 
 from .seen import EYES, FAR, GLANCE, PLATEAU, at, between, miss, place, put, sight, speeds
 
 
-async def test_a_gaze_shift_stays_and_a_gaze_comes_back_to_it_by_a_saccade(pilot) -> None:
+async def test_a_gaze_shift_stays_and_a_gaze_comes_back_to_it_by_a_saccade(pilot: RealizerPilot) -> None:
     rest, glance = put(pilot, "rest", 20, 0), put(pilot, "glance", -15, 10)
     pilot.block("b", '<gazeShift id="s" target="rest" start="0" end="0.6"/><gaze id="g" target="glance" start="2"/>')
     await pilot.advance(6)
@@ -25,7 +26,7 @@ async def test_a_gaze_shift_stays_and_a_gaze_comes_back_to_it_by_a_saccade(pilot
     assert not pilot.feedback.warnings
 
 
-async def test_a_glance_of_the_eyes_leaves_the_head_to_the_gaze_below(pilot) -> None:
+async def test_a_glance_of_the_eyes_leaves_the_head_to_the_gaze_below(pilot: RealizerPilot) -> None:
     put(pilot, "rest", 25, 0)
     glance = put(pilot, "glance", 5, 0)
     gaze = '<gaze id="g" target="glance" influence="EYES" start="2" end="3"/>'
@@ -37,7 +38,7 @@ async def test_a_glance_of_the_eyes_leaves_the_head_to_the_gaze_below(pilot) -> 
     assert max(between(nose, noses[0]) for nose in noses) < 1.5
 
 
-async def test_of_two_shifts_the_later_one_stays_and_a_block_that_replaces_all_ends_it(pilot) -> None:
+async def test_the_later_shift_stays_until_a_block_replaces_everything(pilot: RealizerPilot) -> None:
     put(pilot, "one", 20, 0)
     two = put(pilot, "two", -20, 0)
     pilot.block("a", '<gazeShift id="s" target="one" start="0" end="0.5"/>')
@@ -52,7 +53,7 @@ async def test_of_two_shifts_the_later_one_stays_and_a_block_that_replaces_all_e
     assert max(speeds(pilot.bodies())) < PLATEAU + 0.2
 
 
-async def test_a_shift_of_the_eyes_alone_leaves_the_head(pilot) -> None:
+async def test_a_shift_of_the_eyes_alone_leaves_the_head(pilot: RealizerPilot) -> None:
     target = put(pilot, "t", 20, 0)
     pilot.block("b", '<gazeShift id="s" target="t" influence="EYES" start="0"/>')
     await pilot.advance(2)
@@ -60,7 +61,7 @@ async def test_a_shift_of_the_eyes_alone_leaves_the_head(pilot) -> None:
     assert between(sight(pilot.bodies()[-1], "skullbase"), FORWARD) < 2
 
 
-async def test_the_direction_of_the_head_is_shifted_without_the_eyes(pilot) -> None:
+async def test_a_shift_of_the_head_direction_leaves_the_eyes(pilot: RealizerPilot) -> None:
     target = put(pilot, "t", 35, 10, FAR)
     pilot.block("b", '<headDirectionShift id="s" target="t" start="0" end="0.8"/>')
     await pilot.advance(3)
@@ -71,7 +72,7 @@ async def test_the_direction_of_the_head_is_shifted_without_the_eyes(pilot) -> N
     assert not pilot.feedback.warnings
 
 
-async def test_a_gaze_looks_elsewhere_than_the_head_was_turned_and_gives_it_back(pilot) -> None:
+async def test_a_gaze_overrides_a_head_direction_until_it_ends(pilot: RealizerPilot) -> None:
     put(pilot, "side", 35, 0, FAR)
     front = put(pilot, "front", 0, 0)
     pilot.block("b", '<headDirectionShift id="s" target="side" start="0" end="0.8"/>')
@@ -83,7 +84,7 @@ async def test_a_gaze_looks_elsewhere_than_the_head_was_turned_and_gives_it_back
     assert math.degrees(angle(pilot.bodies()[-1].rotation(EYES[0]))) < GLANCE
 
 
-async def test_of_shifts_of_the_head_and_of_gaze_the_latest_has_the_head(pilot) -> None:
+async def test_the_latest_shift_of_head_or_gaze_has_the_head(pilot: RealizerPilot) -> None:
     for name, yaw in (("first", 30), ("second", 5), ("third", -25)):
         put(pilot, name, yaw, 0, FAR)
     shifts = (
@@ -101,7 +102,7 @@ async def test_of_shifts_of_the_head_and_of_gaze_the_latest_has_the_head(pilot) 
     assert max(speeds(shown, "skullbase")) < 3
 
 
-async def test_the_head_may_be_turned_while_the_eyes_look_at_something(pilot) -> None:
+async def test_the_head_may_be_turned_while_the_eyes_look_at_something(pilot: RealizerPilot) -> None:
     front = put(pilot, "front", 5, 0)
     put(pilot, "side", -25, 0)
     shift = '<headDirectionShift id="s" target="side" start="1" end="2"/>'

@@ -1,14 +1,15 @@
-"""What is looked at (BML 1.0: target, offsetAngle, offsetDirection; BMLT: dynamic), seen in frames."""
+"""Targets of gazes (BML 1.0: target, offsetAngle, offsetDirection; BMLT: dynamic), in frames."""
 
 import math
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.embodiment.vector import distance, subtract, unit
-from reactive_realizer.testing.pilot import open_pilot
+from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 from .seen import EYES, FAR, GLANCE, PLATEAU, between, miss, place, put, sight, speeds
 
@@ -25,7 +26,7 @@ OFFSETS = [
 
 
 @pytest.mark.parametrize(("side", "left", "up"), OFFSETS)
-async def test_an_offset_is_so_many_degrees_to_its_side(pilot, side, left, up) -> None:
+async def test_an_offset_is_an_angle_to_a_side(pilot: RealizerPilot, side: str, left: int, up: int) -> None:
     put(pilot, "t", 10, 5, FAR)
     offset = f'offsetAngle="12" offsetDirection="{side}"'
     pilot.block("b", f'<gaze id="g" target="t" {offset} start="0" end="4"/>')
@@ -37,12 +38,13 @@ async def test_an_offset_is_so_many_degrees_to_its_side(pilot, side, left, up) -
     assert [round((b - a) / 12) for a, b in zip(before, after, strict=True)] == [left, up]
 
 
-async def test_a_target_that_moves_is_followed_if_the_gaze_is_dynamic_and_only_then(pilot) -> None:
+async def test_only_a_dynamic_gaze_follows_a_moving_target(pilot: RealizerPilot) -> None:
     for follow in ("true", "false"):
         pilot.move("t", place(pilot, 0, 0))
         pilot.block(f"b-{follow}", f'<gaze id="g" target="t" bmlt:dynamic="{follow}" start="0" end="4"/>')
         await pilot.advance(1)
         first = len(pilot.bodies())
+        there = place(pilot, 0, 0)
         for degrees in range(1, 21):
             there = place(pilot, degrees, 0)
             pilot.move("t", there)
@@ -54,16 +56,16 @@ async def test_a_target_that_moves_is_followed_if_the_gaze_is_dynamic_and_only_t
         await pilot.advance(4)
 
 
-async def test_whether_a_gaze_is_dynamic_has_to_be_said_by_yes_or_no(pilot) -> None:
+async def test_dynamic_must_be_true_or_false(pilot: RealizerPilot) -> None:
     pilot.move("t", place(pilot, 0, 0))
     pilot.block("b", '<gaze id="g" target="t" bmlt:dynamic="TRUE"/><gaze id="h" target="t" bmlt:dynamic="maybe"/>')
     await pilot.advance(0.1)
     assert pilot.feedback.warnings == [("b:h", "CANNOT_CREATE_BEHAVIOR")]
-    assert "dynamic='maybe' is neither true nor false" in pilot.feedback.of("warningFeedback")[0].element.text
+    assert "dynamic='maybe' must be true or false" in pilot.feedback.of("warningFeedback")[0].text
 
 
 @pytest.mark.parametrize(("shift", "joint"), [("gazeShift", EYES[0]), ("headDirectionShift", "skullbase")])
-async def test_a_dynamic_shift_goes_on_following_when_it_has_ended(pilot, shift, joint) -> None:
+async def test_a_dynamic_shift_keeps_following_after_its_end(pilot: RealizerPilot, shift: str, joint: str) -> None:
     put(pilot, "t", 20, 0, FAR)
     pilot.block("b", f'<{shift} id="s" target="t" bmlt:dynamic="true" start="0"/>')
     await pilot.advance(2)
@@ -73,7 +75,7 @@ async def test_a_dynamic_shift_goes_on_following_when_it_has_ended(pilot, shift,
     assert between(sight(pilot.bodies()[-1], joint), toward) < 3
 
 
-async def test_a_target_that_jumps_is_caught_by_a_saccade_and_a_turn_of_the_head(pilot) -> None:
+async def test_a_target_that_jumps_is_caught_by_a_saccade_and_a_turn_of_the_head(pilot: RealizerPilot) -> None:
     put(pilot, "t", -25, 0)
     pilot.block("b", '<gaze id="g" target="t" bmlt:dynamic="true" start="0" end="6"/>')
     await pilot.advance(2)
@@ -86,7 +88,7 @@ async def test_a_target_that_jumps_is_caught_by_a_saccade_and_a_turn_of_the_head
     assert 1.5 < max(speeds(shown, "skullbase")) < 5
 
 
-async def test_a_target_that_is_gone_is_still_looked_at_where_it_was(pilot) -> None:
+async def test_a_gaze_stays_where_a_removed_target_was(pilot: RealizerPilot) -> None:
     there = put(pilot, "t", 25, 0)
     pilot.block("b", '<gaze id="g" target="t" bmlt:dynamic="true" start="0" end="4"/>')
     await pilot.advance(1)
@@ -95,7 +97,7 @@ async def test_a_target_that_is_gone_is_still_looked_at_where_it_was(pilot) -> N
     assert miss(pilot.bodies()[-1], there) < 0.5
 
 
-async def test_a_static_gaze_looks_where_its_target_is_when_it_begins(pilot) -> None:
+async def test_a_static_gaze_looks_where_its_target_is_when_it_begins(pilot: RealizerPilot) -> None:
     put(pilot, "t", -25, 0)
     pilot.block("b", '<gaze id="g" target="t" start="1" end="4"/>')
     await pilot.advance(0.5)
@@ -104,7 +106,7 @@ async def test_a_static_gaze_looks_where_its_target_is_when_it_begins(pilot) -> 
     assert miss(pilot.bodies()[-1], there) < 0.5
 
 
-async def test_figures_look_at_each_other_and_at_each_others_joints(tests_data) -> None:
+async def test_figures_look_at_each_other_and_at_each_others_joints(tests_data: Path) -> None:
     two = SceneOptions(human=tests_data / "humans" / "two.toml", voice="text")
     async with open_pilot(two) as pilot:
         pilot.watch()
@@ -114,24 +116,24 @@ async def test_figures_look_at_each_other_and_at_each_others_joints(tests_data) 
         pilot.block("b", gaze.format(f"{alice}:skullbase"), characterId=bob)
         await pilot.advance(2)
         hers, his = pilot.bodies(alice)[-1], pilot.bodies(bob)[-1]
-    assert miss(hers, his.place("r_shoulder").position) < 0.5
-    assert miss(his, hers.place("skullbase").position) < 0.5
+    assert miss(hers, his.transform("r_shoulder").position) < 0.5
+    assert miss(his, hers.transform("skullbase").position) < 0.5
 
 
-async def test_a_gaze_that_begins_before_anything_was_shown_is_at_a_hand_of_a_figure_at_rest(tests_data) -> None:
+async def test_a_gaze_before_the_first_frame_looks_at_a_hand_at_rest(tests_data: Path) -> None:
     two = SceneOptions(human=tests_data / "humans" / "two.toml", voice="text")
     async with open_pilot(two) as pilot:
         pilot.watch()
         alice, bob = pilot.realizer.characters
         pilot.block("a", f'<gaze id="g" target="{bob}:r_wrist" start="0" end="4"/>', characterId=alice)
         await pilot.advance(2)
-        assert miss(pilot.bodies(alice)[-1], pilot.bodies(bob)[0].place("r_wrist").position) < 1
+        assert miss(pilot.bodies(alice)[-1], pilot.bodies(bob)[0].transform("r_wrist").position) < 1
 
 
 @pytest.mark.parametrize("target", ["alice", "alice:l_eyeball_joint"])
 @pytest.mark.parametrize("element", ["gaze", "gazeShift", "headDirectionShift"])
-async def test_who_is_to_look_into_its_own_eyes_looks_straight_ahead_and_it_is_told_once(
-    pilot, element, target
+async def test_a_gaze_at_ones_own_eyes_looks_straight_ahead_with_one_warning(
+    pilot: RealizerPilot, element: str, target: str
 ) -> None:
     pilot.block("b", f'<{element} id="g" target="{target}" start="0"/>')
     await pilot.advance(3)
@@ -140,15 +142,15 @@ async def test_who_is_to_look_into_its_own_eyes_looks_straight_ahead_and_it_is_t
     assert max(ahead) < GLANCE
 
 
-async def test_a_figure_may_look_at_its_own_hand_as_far_as_it_can(pilot) -> None:
+async def test_a_figure_may_look_at_its_own_hand_as_far_as_it_can(pilot: RealizerPilot) -> None:
     pilot.block("b", '<gaze id="g" target="alice:l_wrist" bmlt:dynamic="true" start="0" end="4"/>')
     await pilot.advance(2)
     body = pilot.bodies()[-1]
     # A hand that hangs is below and behind the eyes.
-    assert miss(body, body.place("l_wrist").position) < 10
+    assert miss(body, body.transform("l_wrist").position) < 10
 
 
-async def misses(pilot, speed: float) -> list[float]:
+async def misses(pilot: RealizerPilot, speed: float) -> list[float]:
     """Degrees by which eyes miss a target, frame by frame, that turns to and fro at a speed at most, rad/s."""
     put(pilot, "t", 0, 0)
     pilot.block("b", '<gaze id="g" target="t" bmlt:dynamic="true" start="0"  ready="0.3" end="6"/>')
@@ -163,11 +165,11 @@ async def misses(pilot, speed: float) -> list[float]:
     return missed
 
 
-async def test_eyes_follow_what_moves_no_faster_than_they_can_without_a_lag(pilot) -> None:
+async def test_eyes_follow_a_slow_target_without_a_lag(pilot: RealizerPilot) -> None:
     assert max(await misses(pilot, 1.7)) < 0.01
 
 
-async def test_behind_what_moves_faster_they_fall_and_catch_up_by_saccades(pilot) -> None:
+async def test_eyes_catch_up_with_a_fast_target_by_saccades(pilot: RealizerPilot) -> None:
     """C. H. Meyer, A. G. Lasker and D. A. Robinson (1985): eyes pursue at 100 degrees a second at most."""
     missed = await misses(pilot, 5.0)
     behind = [number for number, degrees in enumerate(missed) if degrees > 0.5]
@@ -176,36 +178,36 @@ async def test_behind_what_moves_faster_they_fall_and_catch_up_by_saccades(pilot
     assert max(speeds(pilot.bodies())) < PLATEAU
 
 
-async def test_eyes_see_where_the_hand_of_another_one_is_in_the_same_frame(tests_data) -> None:
+async def test_eyes_look_at_the_hand_of_another_figure_in_the_same_frame(tests_data: Path) -> None:
     two = SceneOptions(human=tests_data / "humans" / "two.toml", voice="text")
     async with open_pilot(two) as pilot:
         pilot.watch()
+        names = list(pilot.realizer.characters)
         for looker, other in ((0, 1), (1, 0)):
-            names = list(pilot.realizer.characters)
             gaze = f'<gazeShift id="g" target="{names[other]}:r_wrist" bmlt:dynamic="true" start="0"/>'
             gesture = '<gesture id="o" lexeme="OFFER" mode="RIGHT_HAND" start="1"/>'
             pilot.block(f"b{looker}", gaze + gesture, characterId=names[looker])
         await pilot.advance(2.5)
         shown = [pilot.bodies(name)[50:] for name in names]
     for lookers, others in (shown, shown[::-1]):
-        wrists = [body.place("r_wrist").position for body in others]
+        wrists = [body.transform("r_wrist").position for body in others]
         assert max(distance(a, b) for a, b in pairwise(wrists)) > 0.015
         assert max(miss(body, wrist) for body, wrist in zip(lookers, wrists, strict=True)) < 0.01
 
 
-async def test_eyes_see_where_their_own_hand_is_in_the_same_frame(pilot) -> None:
+async def test_eyes_look_at_their_own_hand_in_the_same_frame(pilot: RealizerPilot) -> None:
     put(pilot, "t", 30, -5)
     gaze = '<gazeShift id="g" target="alice:l_wrist" bmlt:dynamic="true" influence="WAIST" start="0"/>'
     pilot.block("b", f'{gaze}<pointing id="p" target="t" mode="LEFT_HAND" start="1" ready="2.5" relax="3"/>')
     await pilot.advance(3)
     near = pilot.bodies()[100:]
-    wrists = [body.place("l_wrist").position for body in near]
+    wrists = [body.transform("l_wrist").position for body in near]
     assert max(distance(a, b) for a, b in pairwise(wrists)) > 0.01
     assert max(miss(body, wrist) for body, wrist in zip(near, wrists, strict=True)) < 0.01
 
 
 @pytest.mark.parametrize("element", ["gaze", "gazeShift", "headDirectionShift"])
-async def test_what_is_not_there_cannot_be_looked_at(pilot, element) -> None:
+async def test_a_gaze_at_an_unknown_target_is_dropped(pilot: RealizerPilot, element: str) -> None:
     pilot.block("b", f'<{element} id="g" target="nobody" start="0"/>')
     await pilot.advance(1)
     assert pilot.feedback.warnings == [("b:g", "NO_SUCH_TARGET")]
@@ -213,7 +215,9 @@ async def test_what_is_not_there_cannot_be_looked_at(pilot, element) -> None:
 
 @pytest.mark.parametrize(("yaw", "pitch", "far"), [(180, 0, 2), (0, 0, 0), (0, 0, 0.02), (0, 90, 1), (0, -90, 1)])
 @pytest.mark.parametrize("element", ['gaze influence="WAIST"', "headDirectionShift"])
-async def test_wherever_a_target_is_the_figure_stays_in_one_piece(pilot, element, yaw, pitch, far) -> None:
+async def test_frames_are_valid_for_any_target(
+    pilot: RealizerPilot, element: str, yaw: int, pitch: int, far: float
+) -> None:
     put(pilot, "t", yaw, pitch, far)
     pilot.block("b", f'<{element} id="g" target="t" start="0"/>')
     await pilot.advance(2.5)

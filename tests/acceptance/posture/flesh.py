@@ -1,4 +1,4 @@
-"""Limbs with flesh around their bones, as frames show them."""
+"""Clearance between limbs, in frames."""
 
 from collections.abc import Iterable
 
@@ -58,5 +58,5 @@ def _depth(body: Body, a: tuple[str, str, float], b: tuple[str, str, float]) -> 
 
 
 def _ends(body: Body, limb: tuple[str, str, float]) -> tuple[Vector, Vector]:
-    begin, end = (np.array(body.place(joint).position) for joint in limb[:2])
+    begin, end = (np.array(body.transform(joint).position) for joint in limb[:2])
     return begin, end

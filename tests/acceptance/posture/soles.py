@@ -1,4 +1,4 @@
-"""Soles of feet, as frames show them."""
+"""Soles of feet, in frames."""
 
 import math
 
@@ -20,14 +20,16 @@ Values = npt.NDArray[np.float64]
 def heights(bodies: list[Body]) -> Values:
     """How much higher than in standing the lower end of each foot is, (frames, 2), m."""
     standing = Body(bodies[0].skeleton)
-    thick = [[standing.place(f"{side}_{part}").position[1] for part in _PARTS] for side in "lr"]
-    return (_places(bodies)[..., 1] - np.array(thick)).min(axis=2)
+    thick = [[standing.transform(f"{side}_{part}").position[1] for part in _PARTS] for side in "lr"]
+    lowest: Values = (_places(bodies)[..., 1] - np.array(thick)).min(axis=2)
+    return lowest
 
 
 def speeds(bodies: list[Body]) -> Values:
     """How fast the faster end of each foot goes over the ground from each frame to the next, (frames - 1, 2), m/s."""
     ways = np.diff(_places(bodies)[..., [0, 2]], axis=0)
-    return np.linalg.norm(ways, axis=3).max(axis=2) / FRAME
+    fastest: Values = np.linalg.norm(ways, axis=3).max(axis=2) / FRAME
+    return fastest
 
 
 def slides(bodies: list[Body]) -> Values:
@@ -39,15 +41,17 @@ def slides(bodies: list[Body]) -> Values:
 def planted(bodies: list[Body]) -> float:
     """The furthest that a foot was from where it stood at first, m."""
     first = bodies[0]
-    return max(distance(body.place(foot).position, first.place(foot).position) for body in bodies for foot in FEET)
+    return max(
+        distance(body.transform(foot).position, first.transform(foot).position) for body in bodies for foot in FEET
+    )
 
 
 def flat(bodies: list[Body]) -> float:
     """The steepest that a sole was, degrees."""
-    ups = (rotate(body.place(foot).rotation, UP)[1] for body in bodies for foot in FEET)
+    ups = (rotate(body.transform(foot).rotation, UP)[1] for body in bodies for foot in FEET)
     return max(math.degrees(math.acos(min(1.0, up))) for up in ups)
 
 
 def _places(bodies: list[Body]) -> Values:
-    places = [[[body.place(f"{side}_{part}").position for part in _PARTS] for side in "lr"] for body in bodies]
+    places = [[[body.transform(f"{side}_{part}").position for part in _PARTS] for side in "lr"] for body in bodies]
     return np.array(places)

@@ -1,13 +1,15 @@
-"""What a shift has covered comes back when it ends, and what joins late comes in: by easing, and on its feet."""
+"""Postures that become visible again after a shift, and postures that join late."""
 
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.embodiment.vector import distance
-from reactive_realizer.testing.pilot import open_pilot
+from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 from .soles import FRAME, heights, slides, speeds
 from .standing import CROSSED, SIT, STAND, body, crossed, sits
@@ -19,17 +21,17 @@ UNHURRIED = 1.2
 """m/s of a pelvis that nobody hurries."""
 
 
-def root_speeds(pilot):
+def root_speeds(pilot: RealizerPilot) -> NDArray[np.float64]:
     """How fast the root goes from each frame to the next, m/s."""
     return np.array([distance(a.root, b.root) for a, b in pairwise(pilot.bodies())]) / FRAME
 
 
-def jolts(pilot):
+def jolts(pilot: RealizerPilot) -> NDArray[np.float64]:
     """By how much the speed of the root changes from frame to frame, m/s."""
     return np.abs(np.diff(root_speeds(pilot)))
 
 
-async def shifted(pilot, below: str, above: str) -> float:
+async def shifted(pilot: RealizerPilot, below: str, above: str) -> float:
     """When a shift has ended above a posture that goes on."""
     pilot.block("a", f'<posture id="p" start="0" end="12">{below}</posture>')
     await pilot.advance(4)
@@ -42,7 +44,9 @@ async def shifted(pilot, below: str, above: str) -> float:
 # --- what a shift has covered
 
 
-async def test_who_got_up_by_a_shift_while_he_was_to_sit_sits_down_again_and_does_not_fall(either) -> None:
+async def test_a_figure_that_got_up_by_a_shift_sits_down_again_smoothly(
+    either: RealizerPilot,
+) -> None:
     end = await shifted(either, SIT, STAND)
     assert not sits(body(either, end))
     assert root_speeds(either).max() < UNHURRIED
@@ -51,16 +55,16 @@ async def test_who_got_up_by_a_shift_while_he_was_to_sit_sits_down_again_and_doe
 
 
 @pytest.mark.parametrize("legs", [OPEN, CROSSED_LEGS])
-async def test_the_feet_step_back_to_where_a_posture_wants_them(either, legs) -> None:
+async def test_the_feet_step_back_to_the_place_of_a_posture(either: RealizerPilot, legs: str) -> None:
     await shifted(either, legs, STAND)
-    wide, narrow, again = (body(either, time).place("l_ankle").position for time in (3.9, 6.0, 8.9))
+    wide, narrow, again = (body(either, time).transform("l_ankle").position for time in (3.9, 6.0, 8.9))
     assert distance(wide, narrow) > 0.05
     assert distance(wide, again) < 0.005
     assert slides(either.bodies()).max() < 0.1
     assert heights(either.bodies()).min() > -0.001
 
 
-async def test_arms_that_a_shift_has_let_down_cross_again_without_a_flick(either) -> None:
+async def test_arms_that_a_shift_has_lowered_cross_again_smoothly(either: RealizerPilot) -> None:
     await shifted(either, STAND + CROSSED, STAND)
     assert [crossed(body(either, time)) for time in (3.9, 6.0, 8.9)] == [True, False, True]
     ways = np.linalg.norm(np.diff(either.path("r_wrist"), axis=0), axis=1)
@@ -68,7 +72,9 @@ async def test_arms_that_a_shift_has_let_down_cross_again_without_a_flick(either
 
 
 @pytest.mark.parametrize("shift", [LEANING, STAND])
-async def test_a_shift_that_began_together_with_the_posture_below_it_leaves_it_in_the_same_way(either, shift) -> None:
+async def test_a_shift_that_starts_with_the_posture_below_uncovers_it_in_the_same_way(
+    either: RealizerPilot, shift: Any
+) -> None:
     either.block(
         "b", f'<posture id="p" start="0" end="5">{CROSSED_LEGS}</posture><postureShift id="s">{shift}</postureShift>'
     )
@@ -77,7 +83,7 @@ async def test_a_shift_that_began_together_with_the_posture_below_it_leaves_it_i
     assert speeds(either.bodies()).max() < 2.5
 
 
-async def test_who_has_got_up_in_a_hurry_does_not_sink_again(either) -> None:
+async def test_a_figure_that_got_up_quickly_does_not_sink_again(either: RealizerPilot) -> None:
     """To stand is to take the place of sitting, which is left in its own time."""
     either.block("a", f'<postureShift id="s">{SIT}</postureShift>')
     await either.advance(3)
@@ -87,7 +93,7 @@ async def test_who_has_got_up_in_a_hurry_does_not_sink_again(either) -> None:
     assert min(heights_of_root[185:]) > heights_of_root[-1] - 0.01
 
 
-async def test_who_is_getting_up_is_not_thrown_when_everything_is_replaced_again(either) -> None:
+async def test_replacing_everything_while_getting_up_causes_no_jump(either: RealizerPilot) -> None:
     either.block("a", f'<postureShift id="s">{SIT}</postureShift>')
     await either.advance(3)
     either.block("b", f'<postureShift id="s" start="0.1" end="0.3">{CROSSED}</postureShift>', composition="REPLACE")
@@ -100,7 +106,7 @@ async def test_who_is_getting_up_is_not_thrown_when_everything_is_replaced_again
 # --- what joins late
 
 
-async def late(pilot, kind: str, stance: str, begun: float = 1.0) -> None:
+async def late(pilot: RealizerPilot, kind: str, stance: str, begun: float = 1.0) -> None:
     """A posture whose start has passed by as much."""
     pilot.predict("t", "hit", 1.0)
     await pilot.advance(1.0 + begun)
@@ -112,7 +118,7 @@ async def late(pilot, kind: str, stance: str, begun: float = 1.0) -> None:
 
 @pytest.mark.parametrize("begun", [0.3, 1.5])
 @pytest.mark.parametrize("legs", [OPEN, CROSSED_LEGS])
-async def test_the_feet_step_into_a_posture_that_joins_late(either, legs, begun) -> None:
+async def test_the_feet_step_into_a_posture_that_joins_late(either: RealizerPilot, legs: str, begun: float) -> None:
     await late(either, "posture", legs, begun)
     assert slides(either.bodies()).max() < 0.1
     assert heights(either.bodies()).min() > -0.001
@@ -120,7 +126,7 @@ async def test_the_feet_step_into_a_posture_that_joins_late(either, legs, begun)
 
 @pytest.mark.parametrize("begun", [0.5, 1.0, 1.5])
 @pytest.mark.parametrize("kind", ["posture", "postureShift"])
-async def test_who_is_late_to_sit_down_does_not_fall_onto_the_seat(either, kind, begun) -> None:
+async def test_a_late_figure_does_not_fall_onto_the_seat(either: RealizerPilot, kind: str, begun: float) -> None:
     await late(either, kind, SIT, begun)
     assert root_speeds(either).max() < UNHURRIED
     assert jolts(either).max() < 0.15
@@ -128,7 +134,7 @@ async def test_who_is_late_to_sit_down_does_not_fall_onto_the_seat(either, kind,
     assert lowest == pytest.approx(body(either, 4.5).root[1], abs=0.01)
 
 
-async def test_whoever_looks_later_at_a_posture_that_began_in_time_sees_all_of_it() -> None:
+async def test_a_posture_that_started_in_time_is_complete_in_a_later_first_frame() -> None:
     async with open_pilot(SceneOptions(voice="text")) as pilot:
         pilot.block("b", f'<posture id="p" start="0" end="9">{SIT}</posture>')
         await pilot.advance(4)
@@ -137,7 +143,7 @@ async def test_whoever_looks_later_at_a_posture_that_began_in_time_sees_all_of_i
         assert sits(pilot.bodies()[0])
 
 
-async def test_nor_does_who_is_to_sit_down_in_no_time(either) -> None:
+async def test_sitting_down_in_no_time_is_no_fall_either(either: RealizerPilot) -> None:
     """A shift that starts and ends between two frames is never shown, and yet stays."""
     either.predict("t", "hit", 1.01)
     either.block("b", f'<postureShift id="s" start="1.005" end="anticipators:t:hit">{SIT}</postureShift>')

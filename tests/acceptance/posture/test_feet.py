@@ -1,4 +1,4 @@
-"""Feet in exported frames: they stay where they stand, or step."""
+"""Feet in frames: they stand still, or step."""
 
 from collections.abc import Iterator
 
@@ -7,6 +7,7 @@ import pytest
 
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.quaternion import angle
+from reactive_realizer.testing.pilot import RealizerPilot
 
 from .soles import FRAME, flat, heights, planted, slides
 from .standing import FEET, SIT, sits
@@ -29,7 +30,7 @@ def shift(stance: str) -> str:
 # --- they stay
 
 
-async def test_the_feet_stay_where_they_are_while_a_figure_sits_down_and_gets_up(either) -> None:
+async def test_the_feet_stay_in_place_while_a_figure_sits_down_and_gets_up(either: RealizerPilot) -> None:
     either.block("b", f'<posture id="p" start="0.5">{SIT}</posture>')
     await either.advance(10)
     assert any(map(sits, either.bodies()))
@@ -37,7 +38,7 @@ async def test_the_feet_stay_where_they_are_while_a_figure_sits_down_and_gets_up
     assert flat(either.bodies()) < 0.5
 
 
-async def test_the_feet_stay_where_they_are_when_sitting_down_is_cut_short(either) -> None:
+async def test_the_feet_stay_in_place_when_sitting_down_is_interrupted(either: RealizerPilot) -> None:
     either.block("a", f'<postureShift id="s">{SIT}</postureShift>')
     await either.advance(0.9)
     either.block("b", composition="REPLACE")
@@ -45,7 +46,7 @@ async def test_the_feet_stay_where_they_are_when_sitting_down_is_cut_short(eithe
     assert planted(either.bodies()) < 0.003
 
 
-async def test_the_feet_stay_where_they_are_while_the_weight_goes_from_one_to_the_other(either) -> None:
+async def test_the_feet_stay_in_place_during_weight_shifts(either: RealizerPilot) -> None:
     await either.advance(90)
     pelvis = [body.root[0] for body in either.bodies()]
     assert max(pelvis) - min(pelvis) > 0.025
@@ -61,7 +62,9 @@ def stir(joint: str) -> str:
 
 @pytest.mark.parametrize("joint", ["HumanoidRoot", "l_hip", "l_knee", "l_ankle"])
 @pytest.mark.parametrize("stance", ["STANDING", "SITTING", "SITTING CROSSED"])
-async def test_the_feet_stay_where_they_are_whatever_is_added_to_pelvis_and_legs(either, stance, joint) -> None:
+async def test_the_feet_stay_in_place_under_additive_motion_of_pelvis_and_legs(
+    either: RealizerPilot, stance: str, joint: str
+) -> None:
     either.block("a", shift(stance))
     await either.advance(3)
     either.block("b", stir(joint))
@@ -71,7 +74,7 @@ async def test_the_feet_stay_where_they_are_whatever_is_added_to_pelvis_and_legs
     assert np.ptp([body.rotation("l_ankle") for body in shown], axis=0).max() < 0.3
 
 
-async def test_what_is_added_to_a_leg_is_seen_at_its_knee(either) -> None:
+async def test_additive_motion_of_a_leg_is_visible_at_its_knee(either: RealizerPilot) -> None:
     await either.advance(3)
     either.block("b", stir("l_knee"))
     await either.advance(7)
@@ -97,7 +100,7 @@ CHANGES = [
 
 
 @pytest.mark.parametrize(("before", "after"), CHANGES)
-async def test_a_foot_that_comes_to_stand_elsewhere_goes_there_through_the_air(either, before, after) -> None:
+async def test_a_foot_moves_to_another_place_through_the_air(either: RealizerPilot, before: str, after: str) -> None:
     """No law of others: how it is done, `engines/animation/posture/steps.py` says."""
     either.block("a", shift(before))
     await either.advance(4)
@@ -110,12 +113,12 @@ async def test_a_foot_that_comes_to_stand_elsewhere_goes_there_through_the_air(e
     assert high.min() > -0.001
     assert high.min(axis=1).max() < 0.001 or "LYING" in (before, after), "one foot at a time"
     for foot, name in enumerate(FEET):
-        x, _, z = np.subtract(shown[-1].place(name).position, shown[0].place(name).position)
+        x, _, z = np.subtract(shown[-1].transform(name).position, shown[0].transform(name).position)
         lifted = high[:, foot].max() - max(high[0, foot], high[-1, foot])
         assert lifted > 0.03 or np.hypot(x, z) < 0.01
 
 
-async def test_a_foot_leaves_the_ground_and_comes_back_to_it_gently(either) -> None:
+async def test_a_foot_leaves_and_touches_the_ground_gently(either: RealizerPilot) -> None:
     either.block("b", shift("STANDING CROSSED"))
     await either.advance(3)
     climbs = np.abs(np.diff(heights(either.bodies()), axis=0)) / FRAME
@@ -136,7 +139,7 @@ LARGEST = 120.0
 
 
 @pytest.mark.parametrize(("before", "after"), CHANGES)
-async def test_no_knee_locks_when_a_foot_comes_down_or_unlocks_when_it_leaves(either, before, after) -> None:
+async def test_no_knee_locks_or_unlocks_abruptly_in_a_step(either: RealizerPilot, before: str, after: str) -> None:
     """No law of others: how it is done, `engines/animation/posture/footing.py` says."""
     either.block("a", shift(before))
     await either.advance(4)
@@ -145,7 +148,7 @@ async def test_no_knee_locks_when_a_foot_comes_down_or_unlocks_when_it_leaves(ei
     assert max(hurries(either.bodies())) < LARGEST
 
 
-async def test_who_changes_the_stance_while_changing_it_does_not_slide_either(either) -> None:
+async def test_a_change_of_stance_during_another_does_not_slide(either: RealizerPilot) -> None:
     for after in ("STANDING OPEN", "STANDING CROSSED", "CROUCHING", "STANDING"):
         either.block(after.lower().replace(" ", ""), shift(after), composition="REPLACE")
         await either.advance(0.6)
@@ -166,7 +169,7 @@ OVERLAPS = [
 @pytest.mark.parametrize("composition", ["MERGE", "REPLACE"])
 @pytest.mark.parametrize(("before", "between", "after", "passed"), OVERLAPS)
 async def test_a_change_of_stance_that_begins_during_another_leaves_one_foot_on_the_ground(
-    either, before, between, after, passed, composition
+    either: RealizerPilot, before: str, between: str, after: str, passed: float, composition: str
 ) -> None:
     """No law of others: how it is done, `engines/animation/posture/carrying.py` says."""
     either.block("a", shift(before))

@@ -1,6 +1,10 @@
-"""Limbs in exported frames: they do not go through each other. No laws of others."""
+"""Limbs in frames do not pass through each other. The clearances are our choice."""
+
+from typing import Any
 
 import pytest
+
+from reactive_realizer.testing.pilot import RealizerPilot
 
 from .flesh import deepest_in_each_other, deepest_in_legs, deepest_in_trunk
 from .standing import CROSSED
@@ -19,7 +23,7 @@ POSES = ["", LEANING.format("LEANING_FORWARD"), LEANING.format("LEANING_BACKWARD
 
 @pytest.mark.parametrize("stance", ["SITTING", "CROUCHING"])
 @pytest.mark.parametrize("poses", POSES)
-async def test_no_hand_goes_through_a_thigh_on_the_way_down_or_up_or_stays_there(either, stance, poses) -> None:
+async def test_no_hand_passes_through_a_thigh(either: RealizerPilot, stance: str, poses: Any) -> None:
     either.block("b", f'<posture id="p" start="0"><stance type="{stance}"/>{poses}</posture>')
     await either.advance(9)
     assert either.feedback.reached("b:p:end")
@@ -27,7 +31,7 @@ async def test_no_hand_goes_through_a_thigh_on_the_way_down_or_up_or_stays_there
 
 
 @pytest.mark.parametrize("stance", ["STANDING", "SITTING", "CROUCHING", "LYING"])
-async def test_hands_at_the_hips_lie_on_them(either, stance) -> None:
+async def test_hands_at_the_hips_touch_them(either: RealizerPilot, stance: str) -> None:
     """Touching the hip is to be within a few centimeters of the thigh below it, and hardly in it."""
     either.block("b", f'<postureShift id="s" start="0"><stance type="{stance}"/>{AKIMBO}</postureShift>')
     await either.advance(5)
@@ -37,7 +41,7 @@ async def test_hands_at_the_hips_lie_on_them(either, stance) -> None:
 
 
 @pytest.mark.parametrize("lexeme", BEFORE_THE_BELLY)
-async def test_who_crouches_has_room_for_gestures_before_the_belly(either, lexeme) -> None:
+async def test_a_crouching_figure_has_room_for_gestures(either: RealizerPilot, lexeme: str) -> None:
     either.block("a", '<postureShift id="s"><stance type="CROUCHING"/></postureShift>')
     await either.advance(3)
     either.block("b", f'<gesture id="g" lexeme="{lexeme}" mode="BOTH_HANDS"/>')
@@ -46,14 +50,14 @@ async def test_who_crouches_has_room_for_gestures_before_the_belly(either, lexem
     assert deepest_in_legs(either.bodies()[150::2]) < SOFT
 
 
-async def test_crossed_arms_lie_before_the_trunk(either) -> None:
+async def test_crossed_arms_lie_before_the_trunk(either: RealizerPilot) -> None:
     either.block("b", f'<posture id="p" start="0">{CROSSED}</posture>')
     await either.advance(5)
     assert deepest_in_trunk(either.bodies()[::2]) < SOFT
 
 
 @pytest.mark.parametrize("stance", ["STANDING", "SITTING"])
-async def test_no_leg_goes_through_the_other_on_the_way_into_crossed_legs_or_back(either, stance) -> None:
+async def test_no_leg_passes_through_the_other_when_legs_are_crossed(either: RealizerPilot, stance: str) -> None:
     crossed = '<pose part="LEGS" lexeme="LEGS_CROSSED"/>'
     either.block("b", f'<posture id="p" start="0"><stance type="{stance}"/>{crossed}</posture>')
     await either.advance(9)

@@ -7,6 +7,7 @@ import pytest
 
 from reactive_realizer.embodiment.speed_limit import ROOT_SPEED
 from reactive_realizer.embodiment.vector import distance
+from reactive_realizer.testing.pilot import RealizerPilot
 
 from .soles import FRAME, heights, planted
 from .standing import SIT
@@ -14,12 +15,12 @@ from .standing import SIT
 STANCES = ("SITTING", "LYING", "STANDING", "CROUCHING", "LYING", "SITTING", "STANDING")
 
 
-def fastest(pilot) -> float:
+def fastest(pilot: RealizerPilot) -> float:
     """The fastest that the root was, m/s."""
     return max(distance(a.root, b.root) for a, b in pairwise(pilot.bodies())) / FRAME
 
 
-async def test_nothing_jumps_on_the_way_between_stances(either) -> None:
+async def test_nothing_jumps_on_the_way_between_stances(either: RealizerPilot) -> None:
     stances = ("SITTING", "CROUCHING", "LYING", "STANDING")
     shifts = (
         f'<postureShift id="{s}" start="{3 * i}"><stance type="{s}"/></postureShift>' for i, s in enumerate(stances)
@@ -28,14 +29,16 @@ async def test_nothing_jumps_on_the_way_between_stances(either) -> None:
     await either.advance(15)
     assert either.feedback.warnings == []
     joints = ("HumanoidRoot", "skullbase", "l_knee", "r_knee", "l_wrist", "r_ankle")
-    ways = [distance(a.place(j).position, b.place(j).position) for a, b in pairwise(either.bodies()) for j in joints]
+    ways = [
+        distance(a.transform(j).position, b.transform(j).position) for a, b in pairwise(either.bodies()) for j in joints
+    ]
     assert max(ways) < 0.06
 
 
 @pytest.mark.parametrize("lasts", [0.3, 0.5, 0.8])
 @pytest.mark.parametrize("stance", ["SITTING", "CROUCHING", "LYING"])
-async def test_however_hurried_a_posture_is_the_root_keeps_its_limit_and_no_foot_goes_into_the_ground(
-    either, stance, lasts
+async def test_a_hurried_posture_keeps_the_limit_of_the_root_and_the_feet_above_the_ground(
+    either: RealizerPilot, stance: str, lasts: float
 ) -> None:
     either.block("b", f'<posture id="p" start="0" end="{lasts}"><stance type="{stance}"/></posture>')
     await either.advance(2)
@@ -43,7 +46,7 @@ async def test_however_hurried_a_posture_is_the_root_keeps_its_limit_and_no_foot
     assert heights(either.bodies()).min() > -0.001
 
 
-async def test_nor_does_one_when_postures_chase_each_other(either) -> None:
+async def test_postures_in_quick_succession_keep_the_feet_above_the_ground(either: RealizerPilot) -> None:
     for number, stance in enumerate(STANCES):
         shift = f'<postureShift id="s" start="0" end="0.3"><stance type="{stance}"/></postureShift>'
         either.block(f"b{number}", shift)
@@ -54,14 +57,14 @@ async def test_nor_does_one_when_postures_chase_each_other(either) -> None:
 
 
 @pytest.mark.parametrize("lasts", [0.3, 0.5, 0.8])
-async def test_the_knees_bend_for_a_root_that_is_late_so_that_the_feet_stay(either, lasts) -> None:
+async def test_the_knees_bend_for_a_root_that_lags_behind(either: RealizerPilot, lasts: float) -> None:
     either.block("b", f'<posture id="p" start="0" end="{lasts}">{SIT}</posture>')
     await either.advance(2)
     assert planted(either.bodies()) < 0.01
     assert heights(either.bodies()).max() < 0.005
 
 
-async def test_who_is_asked_to_run_faster_than_he_can_keeps_his_feet_below_him(either) -> None:
+async def test_a_figure_that_cannot_follow_keeps_its_feet_below_the_pelvis(either: RealizerPilot) -> None:
     rows = "0 0 0 0 1 0 0 0  1 0 0 5 1 0 0 0"
     interpolator = f'<SkeletonInterpolator xmlns="" parts="HumanoidRoot" encoding="T1R">{rows}</SkeletonInterpolator>'
     either.block("b", f'<bmlt:keyframe id="k">{interpolator}</bmlt:keyframe>')

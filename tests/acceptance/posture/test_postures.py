@@ -3,11 +3,12 @@
 import pytest
 
 from reactive_realizer.embodiment.vector import distance, subtract
+from reactive_realizer.testing.pilot import RealizerPilot
 
 from .standing import CROSSED, SIT, STAND, apart, body, crossed, sits
 
 
-async def test_a_posture_comes_holds_and_goes_back(pilot) -> None:
+async def test_a_posture_comes_holds_and_goes_back(pilot: RealizerPilot) -> None:
     pilot.block("b", f'<posture id="p" start="1" ready="2" relax="4" end="5">{CROSSED}</posture>')
     await pilot.advance(6)
     assert pilot.feedback.progress == ["b:start", "b:p:start", "b:p:ready", "b:p:relax", "b:relax", "b:p:end", "b:end"]
@@ -15,7 +16,7 @@ async def test_a_posture_comes_holds_and_goes_back(pilot) -> None:
     assert apart(body(pilot, 5.5), body(pilot, 0.5), "l_shoulder") < 2.0
 
 
-async def test_a_posture_without_times_takes_its_own(pilot) -> None:
+async def test_a_posture_without_times_takes_its_own(pilot: RealizerPilot) -> None:
     pilot.block("b", f'<posture id="p">{CROSSED}</posture>')
     await pilot.advance(8)
     start, ready, relax, end = (pilot.feedback.time(f"b:p:{sync}") for sync in ("start", "ready", "relax", "end"))
@@ -24,7 +25,7 @@ async def test_a_posture_without_times_takes_its_own(pilot) -> None:
     assert end - relax == pytest.approx(ready - start)
 
 
-async def test_one_stance_has_one_owner(pilot) -> None:
+async def test_one_stance_has_one_owner(pilot: RealizerPilot) -> None:
     pilot.block("a", f'<posture id="p" start="0" end="4">{CROSSED}</posture>')
     await pilot.advance(0.5)
     pilot.block("b", f'<posture id="p">{SIT}</posture>')
@@ -34,7 +35,7 @@ async def test_one_stance_has_one_owner(pilot) -> None:
     assert not any(map(sits, pilot.bodies()))
 
 
-async def test_a_posture_of_a_draft_without_an_end_goes_on_and_gives_way_to_the_next(pilot) -> None:
+async def test_a_posture_of_a_draft_without_an_end_continues_until_the_next(pilot: RealizerPilot) -> None:
     pilot.perform(f'<bml id="a"><posture id="p">{SIT}</posture></bml>')
     await pilot.advance(20)
     assert not pilot.feedback.reached("a:p:end")
@@ -53,19 +54,19 @@ async def test_a_posture_of_a_draft_without_an_end_goes_on_and_gives_way_to_the_
         ('<pose part="LEGS" lexeme="ARMS_CROSSED"/>', "arms_crossed"),
     ],
 )
-async def test_a_posture_that_cannot_be_is_dropped_and_says_why(pilot, children, says) -> None:
+async def test_an_impossible_posture_is_dropped_with_the_reason(pilot: RealizerPilot, children: str, says: str) -> None:
     pilot.block("b", f'<posture id="p">{children}</posture><head id="n" lexeme="NOD"/>')
     await pilot.advance(3)
     (line,) = pilot.feedback.of("warningFeedback")
     assert (line.id, line.element.get("type")) == ("b:p", "CANNOT_CREATE_BEHAVIOR")
-    assert says in line.element.text
+    assert says in line.text
     assert pilot.feedback.reached("b:n:end")
 
 
 DRAFT = '<bml id="a"><posture id="p" stance="sitting" shape="crossed" part="arms" end="4"/></bml>'
 
 
-async def test_a_posture_of_a_draft_says_its_shape_and_part(pilot) -> None:
+async def test_a_posture_of_a_draft_says_its_shape_and_part(pilot: RealizerPilot) -> None:
     pilot.perform(DRAFT)
     await pilot.advance(6)
     assert pilot.feedback.warnings == []
@@ -76,7 +77,9 @@ CROSSED_LEGS = '<pose part="LEGS" lexeme="LEGS_CROSSED"/>'
 CROUCH = '<stance type="CROUCHING"/>'
 
 
-async def test_what_cannot_be_kept_in_another_stance_is_left_out_and_is_there_again_after_it(pilot) -> None:
+async def test_a_pose_that_does_not_exist_in_a_stance_is_left_out_during_it(
+    pilot: RealizerPilot,
+) -> None:
     pilot.block("a", f'<postureShift id="s" end="2">{SIT}{CROSSED_LEGS}{CROSSED}</postureShift>')
     await pilot.advance(3)
     pilot.block("b", f'<posture id="p" start="0" ready="2" relax="4" end="6">{CROUCH}</posture>')
@@ -88,7 +91,7 @@ async def test_what_cannot_be_kept_in_another_stance_is_left_out_and_is_there_ag
     assert apart(body(pilot, 10.5), body(pilot, 2.9), "r_hip") < 2.0
 
 
-async def test_a_pose_whose_stance_never_comes_is_left_out(pilot) -> None:
+async def test_a_pose_whose_stance_never_comes_is_left_out(pilot: RealizerPilot) -> None:
     pilot.block("a", f'<postureShift id="s" end="2">{CROUCH}</postureShift>')
     await pilot.advance(3)
     pilot.block("b", f'<postureShift id="s" start="0" end="3">{SIT}</postureShift>')
@@ -100,7 +103,7 @@ async def test_a_pose_whose_stance_never_comes_is_left_out(pilot) -> None:
     assert "c:p:end" in pilot.feedback.progress
 
 
-async def test_a_gesture_goes_out_of_crossed_arms_and_comes_back_to_them(pilot) -> None:
+async def test_a_gesture_starts_from_crossed_arms_and_returns_to_them(pilot: RealizerPilot) -> None:
     pilot.block("a", f'<postureShift id="s">{CROSSED}</postureShift>')
     await pilot.advance(2)
     pilot.block("b", '<gesture id="g" lexeme="BEAT" mode="RIGHT_HAND"/>')
@@ -112,7 +115,7 @@ async def test_a_gesture_goes_out_of_crossed_arms_and_comes_back_to_them(pilot) 
     assert crossed(body(pilot, 5.9))
 
 
-async def test_who_sits_gestures_in_front_of_the_same_chest(pilot) -> None:
+async def test_gestures_of_a_sitting_figure_are_in_front_of_its_chest(pilot: RealizerPilot) -> None:
     gesture = '<gesture id="g" lexeme="OFFER" mode="RIGHT_HAND"/>'
     pilot.block("a", gesture)
     await pilot.advance(5)
@@ -123,5 +126,5 @@ async def test_who_sits_gestures_in_front_of_the_same_chest(pilot) -> None:
     ways = []
     for block in "ac":
         shown = body(pilot, pilot.feedback.time(f"{block}:g:stroke"))
-        ways.append(subtract(shown.place("r_wrist").position, shown.place("r_shoulder").position))
+        ways.append(subtract(shown.transform("r_wrist").position, shown.transform("r_shoulder").position))
     assert distance(*ways) < 0.05

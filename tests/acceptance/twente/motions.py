@@ -49,7 +49,7 @@ def angles(pilot: RealizerPilot, joint: str, axis: int = 1) -> dict[float, float
 
 def told(pilot: RealizerPilot) -> str:
     """The text of the first warning."""
-    return str(pilot.feedback.of("warningFeedback")[0].element.text)
+    return pilot.feedback.of("warningFeedback")[0].text
 
 
 def after_start(pilot: RealizerPilot, *points: str) -> list[float]:

@@ -1,15 +1,17 @@
-"""The elements of BMLT that play animations as they were made (thesis app. C)."""
+"""Elements of BMLT that play animations as authored (thesis app. C)."""
+
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
-from reactive_realizer.testing.pilot import open_pilot
+from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 from .motions import angles, told
 
 
-async def test_a_procedural_animation_is_found_by_its_name_and_takes_parameters(pilot) -> None:
+async def test_a_procedural_animation_is_found_by_its_name_and_takes_parameters(pilot: RealizerPilot) -> None:
     pilot.block(
         "b",
         '<bmlt:procanimation id="p" name="swing" start="0"><bmlt:parameter name="a" value="0.2"/></bmlt:procanimation>',
@@ -20,14 +22,14 @@ async def test_a_procedural_animation_is_found_by_its_name_and_takes_parameters(
     assert angles(pilot, "r_shoulder")[0.5] == pytest.approx(-0.8, abs=0.01)
 
 
-async def test_a_procedural_animation_is_found_by_its_file_too(pilot) -> None:
+async def test_a_procedural_animation_is_found_by_its_file_too(pilot: RealizerPilot) -> None:
     pilot.block("b", '<bmlt:procanimation id="p" fileName="Humanoids/moves/swing.xml" start="0"/>')
     await pilot.advance(3)
     assert not pilot.feedback.warnings
     assert angles(pilot, "r_shoulder")[0.5] == pytest.approx(-1.1, abs=0.01)
 
 
-async def test_the_key_positions_of_an_animation_are_sync_points_that_others_name(pilot) -> None:
+async def test_the_key_positions_of_an_animation_are_sync_points_that_others_name(pilot: RealizerPilot) -> None:
     """Thesis, example 47: beats of a conducting pattern on ticks."""
     pilot.block(
         "b",
@@ -49,7 +51,9 @@ async def test_the_key_positions_of_an_animation_are_sync_points_that_others_nam
     assert angles(pilot, "r_shoulder")[2.4] == pytest.approx(-0.1, abs=0.02)
 
 
-async def test_a_sync_point_that_the_animation_does_not_know_is_told_with_those_that_it_knows(pilot) -> None:
+async def test_an_unknown_sync_point_is_reported_with_the_known_ones(
+    pilot: RealizerPilot,
+) -> None:
     pilot.block("b", '<bmlt:procanimation id="p" name="swing"/><head id="nod" lexeme="NOD" start="p:beat3"/>')
     await pilot.advance(3)
     assert pilot.feedback.warnings == [("b:nod", "IMPOSSIBLE_TO_SCHEDULE")]
@@ -57,7 +61,7 @@ async def test_a_sync_point_that_the_animation_does_not_know_is_told_with_those_
     assert "beat1" in told(pilot)
 
 
-async def test_a_point_of_its_own_may_be_tied_by_an_attribute_of_its_name(pilot) -> None:
+async def test_a_point_of_its_own_may_be_tied_by_an_attribute_of_its_name(pilot: RealizerPilot) -> None:
     pilot.block("b", '<bmlt:procanimation id="a" name="conduct-3-beat" start="0.3" beat2="2.5"/>')
     await pilot.advance(6)
     assert pilot.feedback.time("b:a:start") == 0.3
@@ -65,15 +69,17 @@ async def test_a_point_of_its_own_may_be_tied_by_an_attribute_of_its_name(pilot)
     assert pilot.feedback.warnings == []
 
 
-async def test_an_attribute_that_names_no_point_of_it_drops_it_and_says_which_there_are(pilot) -> None:
+async def test_an_attribute_that_names_no_sync_point_drops_the_behavior_with_the_known_ones(
+    pilot: RealizerPilot,
+) -> None:
     pilot.block("b", '<bmlt:procanimation id="a" name="conduct-3-beat" beat9="2.5"/>')
     await pilot.advance(1)
     (warning,) = pilot.feedback.of("warningFeedback")
-    assert "beat9" in str(warning.element.text)
-    assert "beat1, beat2, beat3" in str(warning.element.text)
+    assert "beat9" in warning.text
+    assert "beat1, beat2, beat3" in warning.text
 
 
-async def test_an_animation_played_as_a_gesture_has_a_preparation_and_a_retraction(pilot) -> None:
+async def test_an_animation_played_as_a_gesture_has_a_preparation_and_a_retraction(pilot: RealizerPilot) -> None:
     pilot.block("b", '<bmlt:procanimationgesture id="p" name="swing" start="0"/>')
     await pilot.advance(6)
     assert not pilot.feedback.warnings
@@ -83,7 +89,7 @@ async def test_an_animation_played_as_a_gesture_has_a_preparation_and_a_retracti
     assert times[3] > times[2] + 0.2
 
 
-async def test_the_peers_own_examples_play(shared_cases) -> None:
+async def test_asaprealizers_examples_play(shared_cases: Path) -> None:
     for path, joint in {
         "bmlt-internalkeyframe.xml": "skullbase",
         "bmlt-perlin_noise_random_movement.xml": "vl5",

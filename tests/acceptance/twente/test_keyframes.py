@@ -1,22 +1,23 @@
-"""Keys and captures, of files or of BML itself (thesis C.1.2)."""
+"""Keyframe animations and captures, from files or from BML (thesis C.1.2)."""
 
 from pathlib import Path
 from threading import current_thread
+from typing import Any
 
 import numpy as np
 import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
-from reactive_realizer.engines.animation.keyframe import clip_cache
+from reactive_realizer.engines.animation.keyframe.bvh_reader import read_capture
 from reactive_realizer.engines.animation.keyframe.capture import Capture
-from reactive_realizer.engines.animation.keyframe.capture_reader import read_capture
-from reactive_realizer.testing.pilot import open_pilot
+from reactive_realizer.engines.animation.motions import keyframe
+from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 from .motions import BOW, WAVE, after_start, angles, told
 
 
 @pytest.mark.parametrize("inside", ["", WAVE, WAVE.replace("<SkeletonInterpolator", '<SkeletonInterpolator xmlns=""')])
-async def test_keys_of_a_file_or_of_bml_itself_are_played(pilot, inside) -> None:
+async def test_keys_of_a_file_or_of_bml_itself_are_played(pilot: RealizerPilot, inside: Any) -> None:
     name = "" if inside else 'name="wave"'
     pilot.block("b", f'<bmlt:keyframe id="k" {name} start="0">{inside}</bmlt:keyframe>')
     await pilot.advance(3)
@@ -26,13 +27,13 @@ async def test_keys_of_a_file_or_of_bml_itself_are_played(pilot, inside) -> None
     assert [shown[time] for time in (0.5, 1.0, 1.5)] == pytest.approx([-0.4, -0.8, -0.5], abs=0.01)
 
 
-async def test_keys_are_played_in_the_time_that_bml_gives_them(pilot) -> None:
+async def test_keys_are_played_in_the_time_that_bml_gives_them(pilot: RealizerPilot) -> None:
     pilot.block("b", '<bmlt:keyframe id="k" name="wave" start="0" end="4"/>')
     await pilot.advance(5)
     assert angles(pilot, "r_shoulder")[2.0] == pytest.approx(-0.8, abs=0.01)
 
 
-async def test_a_capture_is_played_by_its_name(pilot) -> None:
+async def test_a_capture_is_played_by_its_name(pilot: RealizerPilot) -> None:
     pilot.block("b", '<bmlt:keyframe id="k" name="bow" start="1"/>')
     await pilot.advance(3)
     assert not pilot.feedback.warnings
@@ -45,8 +46,8 @@ async def test_a_capture_is_played_by_its_name(pilot) -> None:
 
 
 @pytest.mark.parametrize(("frames", "warnings"), [("3", []), ("9", [("b:k", "CANNOT_CREATE_BEHAVIOR")])])
-async def test_a_capture_is_read_once_and_aside_of_the_ticks_also_if_it_is_wrong(
-    pilot, tmp_path, monkeypatch, frames, warnings
+async def test_a_capture_is_read_once_in_another_thread_even_if_it_is_invalid(
+    pilot: RealizerPilot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, frames: str, warnings: Any
 ) -> None:
     threads = []
 
@@ -54,7 +55,7 @@ async def test_a_capture_is_read_once_and_aside_of_the_ticks_also_if_it_is_wrong
         threads.append(current_thread())
         return read_capture(path)
 
-    monkeypatch.setattr(clip_cache, "read_capture", read)
+    monkeypatch.setattr(keyframe, "read_capture", read)
     (tmp_path / "captures" / "bow.bvh").write_text(BOW.replace("Frames: 3", f"Frames: {frames}"))
     pilot.block("b", '<bmlt:keyframe id="k" name="bow" start="0"/><wait id="w" start="0" end="1"/>')
     await pilot.advance(2)
@@ -64,7 +65,7 @@ async def test_a_capture_is_read_once_and_aside_of_the_ticks_also_if_it_is_wrong
     assert current_thread() not in threads
 
 
-async def test_a_keyframe_animation_is_mirrored_first_and_then_confined_to_joints(pilot) -> None:
+async def test_a_keyframe_animation_is_mirrored_and_then_restricted_to_joints(pilot: RealizerPilot) -> None:
     """Thesis C.1.2."""
     mirror = '<bmlt:parameter name="mirror" value="true"/><bmlt:parameter name="joints" value="l_shoulder"/>'
     pilot.block("b", f'<bmlt:keyframe id="k" name="wave" start="0">{mirror}</bmlt:keyframe>')
@@ -74,14 +75,14 @@ async def test_a_keyframe_animation_is_mirrored_first_and_then_confined_to_joint
     assert angles(pilot, "r_shoulder")[1.0] > -0.2
 
 
-async def test_a_gentle_interrupt_lets_it_go_on_to_the_next_point_where_it_may_be_left(pilot) -> None:
+async def test_a_gentle_interrupt_ends_it_at_its_next_exit(pilot: RealizerPilot) -> None:
     pilot.block("b", '<bmlt:keyframe id="k" name="wave" start="0"/>')
     pilot.block("c", '<bmla:interrupt id="i" target="b" start="0.5" speech="WORD"/>')
     await pilot.advance(3)
     assert after_start(pilot, "k:up", "k:end") == [1.0, 1.0]
 
 
-async def test_another_interrupt_breaks_it_off(pilot) -> None:
+async def test_another_interrupt_ends_it_at_once(pilot: RealizerPilot) -> None:
     pilot.block("b", '<bmlt:keyframe id="k" name="wave" start="0"/>')
     pilot.block("c", '<bmla:interrupt id="i" target="b" start="0.5"/>')
     await pilot.advance(3)
@@ -89,7 +90,7 @@ async def test_another_interrupt_breaks_it_off(pilot) -> None:
     assert "b:k:up" not in pilot.feedback.progress
 
 
-async def test_a_successor_may_take_over_at_such_a_point(pilot) -> None:
+async def test_a_successor_may_take_over_at_an_exit(pilot: RealizerPilot) -> None:
     pilot.block(
         "b", '<bmlt:keyframe id="k" name="wave" start="0"/><bmlt:procanimation id="p" name="swing" start="k:up"/>'
     )
@@ -100,7 +101,7 @@ async def test_a_successor_may_take_over_at_such_a_point(pilot) -> None:
     assert np.abs(np.diff(turns)).max() < 0.12
 
 
-async def test_where_it_may_not_be_left_the_arm_is_taken(pilot) -> None:
+async def test_elsewhere_the_arm_is_busy(pilot: RealizerPilot) -> None:
     pilot.block(
         "b", '<bmlt:keyframe id="k" name="wave" start="0"/><bmlt:procanimation id="p" name="swing" start="1.2"/>'
     )
@@ -108,8 +109,8 @@ async def test_where_it_may_not_be_left_the_arm_is_taken(pilot) -> None:
     assert pilot.feedback.warnings == [("b:p", "IMPOSSIBLE_TO_SCHEDULE")]
 
 
-async def test_what_a_clip_turns_and_the_figure_has_not_is_told_of_each_behavior_and_logged_once(
-    tmp_path, caplog
+async def test_joints_of_a_clip_that_the_figure_lacks_are_reported_and_logged_once(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
     rows = "0 1 0 0 0 1 0 0 0 1 1 0 0 0 1 0 0 0"
     wagging = f'<SkeletonInterpolator parts="skullbase tail" encoding="R">{rows}</SkeletonInterpolator>'
@@ -119,13 +120,15 @@ async def test_what_a_clip_turns_and_the_figure_has_not_is_told_of_each_behavior
             pilot.block(f"b{number}", '<bmlt:keyframe id="k" name="wagging"/>')
             await pilot.advance(1.5)
         assert pilot.feedback.warnings == [("b0:k", "EXECUTION_FAILURE"), ("b1:k", "EXECUTION_FAILURE")]
-        assert told(pilot).endswith("tail are left out: what plays <keyframe> does not turn them, or the figure cannot")
+        assert told(pilot).endswith(
+            "tail stay still: the motion of <keyframe> does not turn them, or the character does not have them"
+        )
         assert {"b0:k:end", "b1:k:end"} <= set(pilot.feedback.progress)
-    assert caplog.text.count("wagging.xml leaves out what it has not, or the figure has not: tail") == 1
+    assert caplog.text.count("wagging.xml: joints that the clip or the figure lacks are left out: tail") == 1
 
 
-async def test_what_a_procedural_animation_turns_and_the_figure_has_not_is_told_where_a_planner_names_the_file(
-    tmp_path,
+async def test_joints_of_an_animation_that_the_figure_lacks_are_reported_if_the_behavior_names_the_file(
+    tmp_path: Path,
 ) -> None:
     turns = "".join(f'<Rotation target="{joint}" rotation="0.2*t;0;0"/>' for joint in ("vc4", "tail", "r_ear"))
     (tmp_path / "wagging.xml").write_text(f'<ProcAnimation prefDuration="1">{turns}</ProcAnimation>')
@@ -139,5 +142,5 @@ async def test_what_a_procedural_animation_turns_and_the_figure_has_not_is_told_
         pilot.block("b", '<bmlt:procanimation id="p" name="wagging"/><gesture id="g" lexeme="WAG" start="2"/>')
         await pilot.advance(4)
         assert pilot.feedback.warnings == [("b:p", "EXECUTION_FAILURE")]
-        assert "r_ear, tail are left out" in told(pilot)
+        assert "r_ear, tail stay still" in told(pilot)
         assert {"b:p:end", "b:g:end"} <= set(pilot.feedback.progress)

@@ -3,12 +3,12 @@
 import numpy as np
 
 from reactive_realizer.assembly.scene import SceneOptions
-from reactive_realizer.testing.pilot import open_pilot
+from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 from .motions import angles
 
 
-async def test_noise_stirs_a_joint_as_long_as_it_plays(pilot) -> None:
+async def test_noise_moves_a_joint_while_it_plays(pilot: RealizerPilot) -> None:
     stir = '<bmlt:parameter name="basefreqx" value="0.5"/><bmlt:parameter name="baseamplitudex" value="0.3"/>'
     pilot.block("b", f'<bmlt:noise id="n" type="perlin" joint="vl5" start="1" end="9">{stir}</bmlt:noise>')
     await pilot.advance(10.5)
@@ -20,7 +20,7 @@ async def test_noise_stirs_a_joint_as_long_as_it_plays(pilot) -> None:
     assert np.abs(np.diff(list(shown.values()))).max() < 0.05
 
 
-async def test_noise_grows_while_it_plays(pilot) -> None:
+async def test_noise_grows_while_it_plays(pilot: RealizerPilot) -> None:
     pilot.block(
         "b",
         """
@@ -37,7 +37,7 @@ async def test_noise_grows_while_it_plays(pilot) -> None:
     assert np.ptp(late) > 3.0 * np.ptp(early)
 
 
-async def test_two_sessions_of_the_same_seed_stir_alike_and_two_noises_differently() -> None:
+async def test_noise_is_equal_in_sessions_with_equal_seeds_and_differs_between_behaviors() -> None:
     async def session(id_: str) -> list[float]:
         async with open_pilot(SceneOptions(voice="text")) as pilot:
             pilot.watch()

@@ -1,7 +1,11 @@
-"""A Hermite transition is felt neither where it begins nor where it ends (thesis 4.2.4), seen in frames."""
+"""Hermite transitions are smooth at both ends (thesis 4.2.4), in frames."""
+
+from pathlib import Path
 
 import numpy as np
 import pytest
+
+from reactive_realizer.testing.pilot import RealizerPilot
 
 from .motions import ARM, angles
 
@@ -30,8 +34,8 @@ def limits(turns: dict[float, float], time: float) -> tuple[float, float]:
 
 @pytest.mark.parametrize(("start", "end"), [(1.6, 3.0), (1.613, 3.007), (1.25, 2.657)])
 @pytest.mark.parametrize("joint", ["r_shoulder", "r_elbow"])
-async def test_its_acceleration_is_that_of_the_motions_around_it_whenever_frames_are(
-    pilot, tmp_path, joint, start, end
+async def test_a_hermite_transition_has_the_acceleration_of_the_motions_around_it(
+    pilot: RealizerPilot, tmp_path: Path, joint: str, start: float, end: float
 ) -> None:
     (tmp_path / "moves" / "sway.xml").write_text(SWAY)
     pilot.block(

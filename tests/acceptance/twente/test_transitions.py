@@ -1,7 +1,9 @@
-"""Transitions in BML: from where joints are to where the motions after them find them (thesis 4.2.4, C.1.6)."""
+"""Transitions in BML (thesis 4.2.4, C.1.6)."""
 
 import numpy as np
 import pytest
+
+from reactive_realizer.testing.pilot import RealizerPilot
 
 from .motions import ARM, angles
 
@@ -18,7 +20,9 @@ def transition(kind: str) -> str:
     "kind", ["SlerpTransition", "HermiteTransition", "hmi.animation.transitions.HermiteTransitionMU"]
 )
 @pytest.mark.parametrize("joint", ["r_shoulder", "r_elbow"])
-async def test_a_transition_leads_from_the_last_pose_of_one_motion_to_the_first_of_the_next(pilot, kind, joint) -> None:
+async def test_a_transition_leads_from_the_last_pose_of_one_motion_to_the_first_of_the_next(
+    pilot: RealizerPilot, kind: str, joint: str
+) -> None:
     pilot.block("b", transition(kind))
     await pilot.advance(3.2)
     assert not pilot.feedback.warnings
@@ -29,7 +33,9 @@ async def test_a_transition_leads_from_the_last_pose_of_one_motion_to_the_first_
 
 
 @pytest.mark.parametrize("joint", ["r_shoulder", "r_elbow"])
-async def test_a_hermite_transition_leaves_and_arrives_as_fast_as_the_motions_around_it(pilot, joint) -> None:
+async def test_a_hermite_transition_has_the_velocities_of_the_motions_around_it(
+    pilot: RealizerPilot, joint: str
+) -> None:
     """Thesis 4.2.4: continuous in rotation and angular velocity, as frames show it."""
     pilot.block("b", transition("HermiteTransition"))
     await pilot.advance(4)
@@ -40,7 +46,7 @@ async def test_a_hermite_transition_leaves_and_arrives_as_fast_as_the_motions_ar
     assert changes.max() < 0.35  # rad/s from frame to frame; the speeds at the ends are near 2 and 1.6 rad/s
 
 
-async def test_what_follows_a_transition_is_not_held_back_by_it(pilot) -> None:
+async def test_a_transition_does_not_delay_the_next_motion(pilot: RealizerPilot) -> None:
     """What is left of a transition lies below, also where a clip follows."""
     pilot.block(
         "b",
@@ -56,7 +62,7 @@ async def test_what_follows_a_transition_is_not_held_back_by_it(pilot) -> None:
     assert [turns[3.0 + time] for time in (0.0, 0.1, 0.2, 0.5)] == pytest.approx([0.0, -0.08, -0.16, -0.4], abs=0.02)
 
 
-async def test_a_slerp_transition_leaves_and_arrives_at_rest(pilot) -> None:
+async def test_a_slerp_transition_starts_and_ends_at_rest(pilot: RealizerPilot) -> None:
     pilot.block("b", transition("SlerpTransition"))
     await pilot.advance(4)
     turns = angles(pilot, "r_shoulder")
@@ -64,7 +70,7 @@ async def test_a_slerp_transition_leaves_and_arrives_at_rest(pilot) -> None:
     assert turns[3.0] == pytest.approx(turns[2.96], abs=0.02)
 
 
-async def test_a_transition_to_nothing_leads_to_rest(pilot) -> None:
+async def test_a_transition_without_a_next_motion_leads_to_rest(pilot: RealizerPilot) -> None:
     pilot.block(
         "b",
         f'<bmlt:procanimation id="a" name="swing" start="0" end="1.5"/>'
@@ -77,7 +83,7 @@ async def test_a_transition_to_nothing_leads_to_rest(pilot) -> None:
     assert turns[end] == pytest.approx(turns[3.9], abs=0.03)
 
 
-async def test_a_transition_leads_to_the_posture_that_the_figure_is_in_by_then(pilot) -> None:
+async def test_a_transition_leads_to_the_posture_at_its_end(pilot: RealizerPilot) -> None:
     pilot.block(
         "b",
         f"""
@@ -92,7 +98,7 @@ async def test_a_transition_leads_to_the_posture_that_the_figure_is_in_by_then(p
     assert turns[3.98] == pytest.approx(turns[2.9], abs=0.02)
 
 
-async def test_a_transition_whose_end_moves_away_goes_there_more_slowly(pilot) -> None:
+async def test_a_transition_slows_down_if_its_end_is_delayed(pilot: RealizerPilot) -> None:
     pilot.predict("partner", "hit", 2.0)
     pilot.block(
         "b",
@@ -111,7 +117,7 @@ async def test_a_transition_whose_end_moves_away_goes_there_more_slowly(pilot) -
     assert np.abs(np.diff(list(turns.values()))).max() < 0.09
 
 
-async def test_a_transition_of_which_nobody_knows_the_end_waits_where_it_is(pilot) -> None:
+async def test_a_transition_with_an_unknown_end_waits(pilot: RealizerPilot) -> None:
     pilot.predict("partner", "hit", 2.0)
     pilot.block(
         "b",
@@ -132,7 +138,7 @@ async def test_a_transition_of_which_nobody_knows_the_end_waits_where_it_is(pilo
     assert np.abs(np.diff(list(turns.values()))).max() < 0.09
 
 
-async def test_a_transition_may_describe_a_gesture_whose_points_it_has_then(pilot) -> None:
+async def test_a_transition_may_describe_a_gesture_and_then_has_its_points(pilot: RealizerPilot) -> None:
     described = (
         '<gesture id="g" lexeme="BEAT" start="0.2" end="1.5"><description priority="1" type="transition">'
         '<bmlt:transition class="SlerpTransition"/></description></gesture>'

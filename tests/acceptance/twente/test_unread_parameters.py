@@ -1,6 +1,8 @@
-"""A parameter of what reads none, and an attribute of a parameter that nobody knows, are told, and all else plays."""
+"""Parameters of behaviors that read none, and unknown attributes of parameters, are reported, and the rest plays."""
 
 import pytest
+
+from reactive_realizer.testing.pilot import RealizerPilot
 
 from .motions import told
 
@@ -23,7 +25,7 @@ SPEECH = '<speech id="s"><text>one two three</text></speech>'
         '<bmla:activate id="x" target="later">{}</bmla:activate>',
     ],
 )
-async def test_all_parameters_of_what_reads_none_are_told_in_one_warning_and_it_plays(pilot, xml) -> None:
+async def test_parameters_of_a_behavior_that_reads_none_are_in_one_warning(pilot: RealizerPilot, xml: str) -> None:
     pilot.block("other", '<wait id="w" duration="5"/>')
     pilot.block("later", **{"bmla:preplan": "true"})
     pilot.block("b", "\n" + xml.format(SAID))
@@ -32,21 +34,23 @@ async def test_all_parameters_of_what_reads_none_are_told_in_one_warning_and_it_
     element = xml.partition(' id="x"')[0].rpartition("<")[2].rpartition(":")[2]
     line = 2 + xml.partition("<bmlt:p")[0].count("\n")
     assert f"line {line}, column 1: unknown parameter accent, loudness of <{element}>" in told(pilot)
-    assert "what plays it knows none" in told(pilot)
+    assert "it has none" in told(pilot)
     assert pilot.feedback.reached("b:x:end")
     assert pilot.feedback.status("b") == "DONE"
 
 
-async def test_it_is_told_of_what_waits_too(pilot) -> None:
+async def test_unread_parameters_of_a_wait_are_reported(pilot: RealizerPilot) -> None:
     pilot.block("b", f'<wait id="x" start="anticipators:t:hit" duration="1">{SAID}</wait>')
     await pilot.advance(0.1)
     assert pilot.feedback.warnings == [("b:x", "CUSTOM_ATTRIBUTE_NOT_SUPPORTED")]
 
 
-async def test_an_attribute_of_another_namespace_on_a_parameter_is_told_and_the_parameter_counts(pilot) -> None:
+async def test_a_foreign_attribute_of_a_parameter_is_reported_and_the_parameter_applies(
+    pilot: RealizerPilot,
+) -> None:
     unit = 'xmlns:u="urn:units" u:unit="m"'
     pilot.block("b", f'<head id="x" lexeme="NOD"><bmlt:parameter name="amount" value="0.4" {unit}/></head>')
     await pilot.advance(2)
     assert pilot.feedback.warnings == [("b:x", "CUSTOM_ATTRIBUTE_NOT_SUPPORTED")]
-    assert "the attribute unit of urn:units means nothing here" in told(pilot)
+    assert "the attribute unit of urn:units has no effect here" in told(pilot)
     assert pilot.feedback.reached("b:x:end")

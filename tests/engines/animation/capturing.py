@@ -1,4 +1,4 @@
-"""Captures of our own making: figures of several kinds that do the same, as the text of BVH files."""
+"""Captures for tests: several figures with the same motion, as text of BVH files."""
 
 import math
 from collections.abc import Collection, Mapping, Sequence
@@ -6,9 +6,8 @@ from types import MappingProxyType
 
 import pytest
 
-from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.body import Body, Skeleton
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, conjugate, from_axis_angle, multiply, rotate
-from reactive_realizer.embodiment.skeleton import Skeleton
 from reactive_realizer.embodiment.vector import Vec3, subtract, unit
 from reactive_realizer.engines.animation.keyframe.clip import Clip
 
@@ -88,13 +87,13 @@ def bvh(
         return f"JOINT {names.get(name, name)}\n{{\n{said}\n{inside}}}\n"
 
     def row(frame: Turns, place: Vec3 | None) -> str:
-        numbers: list[float] = []
+        finite_numbers: list[float] = []
         for name in walked:
             if name in moved:
-                numbers += offsets[name] if place is None else place
+                finite_numbers += offsets[name] if place is None else place
                 place = None
-            numbers += frame.get(name, (0.0, 0.0, 0.0))
-        return " ".join(f"{number:.6f}" for number in numbers)
+            finite_numbers += frame.get(name, (0.0, 0.0, 0.0))
+        return " ".join(f"{number:.6f}" for number in finite_numbers)
 
     figure = joint(bones[0][0]).removeprefix("JOINT")
     rows = [row(frame, place) for frame, place in zip(frames, places or [None] * len(frames), strict=True)]
@@ -151,7 +150,7 @@ def captured_directions(frame: Turns, order: str = "ZXY") -> dict[tuple[str, str
 
 def directions(clip: Clip, time: float, skeleton: Skeleton) -> dict[tuple[str, str], Vec3]:
     body = Body(skeleton).posed(clip.rotations_at(time))
-    pairs = {pair: (body.place(a).position, body.place(b).position) for pair, (a, b) in BONES.items()}
+    pairs = {pair: (body.transform(a).position, body.transform(b).position) for pair, (a, b) in BONES.items()}
     return {pair: unit(subtract(b, a)) for pair, (a, b) in pairs.items()}
 
 

@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 
 from reactive_realizer.embodiment.avatar import Avatar
-from reactive_realizer.embodiment.skeleton import Skeleton
-from reactive_realizer.engines.animation.procedural.proc_animation import ProcAnimation
-from reactive_realizer.engines.animation.procedural.proc_animation_reader import read_proc_animation
+from reactive_realizer.embodiment.body import Skeleton
+from reactive_realizer.engines.animation.procedural.procedural_animation import ProceduralAnimation
+from reactive_realizer.engines.animation.procedural.procedural_animation_reader import read_procedural_animation
 
 ASSETS = Path(str(files("reactive_realizer"))) / "assets"
 
@@ -30,12 +30,12 @@ def animations() -> Path:
 
 
 @pytest.fixture
-def read(tmp_path) -> Callable[..., ProcAnimation]:
+def read(tmp_path) -> Callable[..., ProceduralAnimation]:
     """Reads what a ProcAnimation says inside, and of its durations."""
 
-    def read_text(content: str, durations: str = 'prefDuration="1"') -> ProcAnimation:
+    def read_text(content: str, durations: str = 'prefDuration="1"') -> ProceduralAnimation:
         path = tmp_path / "some.xml"
         path.write_text(f"<ProcAnimation {durations}>\n{content}\n</ProcAnimation>")
-        return read_proc_animation(path)
+        return read_procedural_animation(path)
 
     return read_text

@@ -8,8 +8,8 @@ import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.embodiment.body import Body
-from reactive_realizer.engines.animation.motion_unit import Posed
-from reactive_realizer.engines.animation.procedural.proc_motion_unit import ProcMotionUnit
+from reactive_realizer.engines.animation.motion_unit import MotionPose
+from reactive_realizer.engines.animation.motions.procedural import ProceduralMotionUnit
 from reactive_realizer.testing.pilot import open_pilot
 
 BINDING = """
@@ -48,7 +48,7 @@ def turns(path):
     return 2 * np.arccos(np.clip(np.abs(np.sum(path[1:] * path[:-1], axis=1)), 0, 1))
 
 
-async def test_a_motion_that_has_no_pose_any_more_stops_with_a_warning_and_the_rest_moves_on(pilot) -> None:
+async def test_a_motion_without_a_pose_stops_with_a_warning_and_others_continue(pilot) -> None:
     pilot.block("b", '<gesture id="bad" lexeme="BREAKS"/><gesture id="good" lexeme="LIFT"/>')
     await pilot.advance(4)
     assert pilot.feedback.warnings == [("b:bad", "EXECUTION_FAILURE")]
@@ -58,28 +58,28 @@ async def test_a_motion_that_has_no_pose_any_more_stops_with_a_warning_and_the_r
 
 
 @pytest.mark.parametrize("wrong", [(math.nan, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0), (2.0, 0.0, 0.0, 0.0)])
-async def test_a_motion_that_gives_what_is_no_rotation_stops_with_a_warning_before_anybody_sees_it(
+async def test_a_motion_with_an_invalid_rotation_stops_with_a_warning_before_it_is_shown(
     pilot, monkeypatch, wrong
 ) -> None:
-    pose = ProcMotionUnit.pose
+    pose = ProceduralMotionUnit.pose
 
     def goes_wrong(self, moment):
         posed = pose(self, moment)
-        return Posed({"r_elbow": wrong}) if moment.phase > 0.4 and "r_elbow" in posed.rotations else posed
+        return MotionPose({"r_elbow": wrong}) if moment.phase > 0.4 and "r_elbow" in posed.rotations else posed
 
-    monkeypatch.setattr(ProcMotionUnit, "pose", goes_wrong)
+    monkeypatch.setattr(ProceduralMotionUnit, "pose", goes_wrong)
     pilot.block("b", '<gesture id="bad" lexeme="LIFT"/><head id="good" lexeme="NOD" end="3"/>')
     await pilot.advance(4)
     (warning,) = pilot.feedback.of("warningFeedback")
     assert (warning.id, warning.element.get("type")) == ("b:bad", "EXECUTION_FAILURE")
-    assert "its motion asks r_elbow for" in warning.element.text
+    assert "its motion sets r_elbow to" in warning.element.text
     assert pilot.feedback.time("b:good:end") == 3.0
     seen = np.array([frame.rotations for frame in pilot.frames["alice"]])
     assert np.abs(np.linalg.norm(seen, axis=2) - 1.0).max() < 1e-6
     assert turns(rotations(pilot, "r_elbow")).max() < 0.1, "back to rest without a jump"
 
 
-async def test_a_motion_that_is_cut_goes_back_to_rest_without_a_jump(pilot) -> None:
+async def test_a_cut_motion_returns_to_rest_without_a_jump(pilot) -> None:
     await pilot.advance(0.1)
     pilot.block("b", '<gesture id="g" lexeme="LIFT"/>')
     await pilot.advance(1)
@@ -90,7 +90,7 @@ async def test_a_motion_that_is_cut_goes_back_to_rest_without_a_jump(pilot) -> N
     assert turns(path[[0, -1]]) < 0.01
 
 
-async def test_a_figure_that_does_nothing_breathes_and_blinks(pilot) -> None:
+async def test_an_idle_figure_breathes_and_blinks(pilot) -> None:
     await pilot.advance(10)
     assert turns(rotations(pilot, "vt6")).max() > 0
     morphs = pilot.realizer.characters["alice"].humanoid.avatar.morphs
@@ -100,7 +100,7 @@ async def test_a_figure_that_does_nothing_breathes_and_blinks(pilot) -> None:
 
 
 @pytest.mark.parametrize(("hit", "moved", "to"), [(1.3, 1.0, 1.0), (5.0, 4.6, 4.62)], ids=["to now", "much nearer"])
-async def test_a_stroke_that_is_moved_late_sets_the_hand_off_without_a_jerk(hit, moved, to) -> None:
+async def test_a_stroke_that_is_moved_late_does_not_make_the_hand_jerk(hit, moved, to) -> None:
     async with open_pilot(SceneOptions(voice="text")) as pilot:
         pilot.watch()
         pilot.predict("test", "hit", hit)
@@ -112,7 +112,7 @@ async def test_a_stroke_that_is_moved_late_sets_the_hand_off_without_a_jerk(hit,
         poses = [
             dict(zip(skeleton.joints, map(tuple, frame.rotations), strict=True)) for frame in pilot.frames["alice"]
         ]
-        path = np.array([Body(skeleton, pose).place("r_wrist").position for pose in poses])
+        path = np.array([Body(skeleton, pose).transform("r_wrist").position for pose in poses])
         steps = np.linalg.norm(np.diff(path, axis=0), axis=1)
         assert steps.max() > 0.03, "it hurries"
         assert np.diff(steps).max() < 0.0151
@@ -121,7 +121,7 @@ async def test_a_stroke_that_is_moved_late_sets_the_hand_off_without_a_jerk(hit,
 CHUNK = '<gesture id="g" lexeme="OFFER" mode="RIGHT_HAND"/><speech id="s"><text>An offer.</text></speech>'
 
 
-async def test_a_gesture_is_planned_from_where_the_hand_is_whether_anybody_looks_or_not() -> None:
+async def test_a_gesture_is_planned_from_the_current_hand_with_or_without_frames() -> None:
     told = []
     for looks in (True, False):
         async with open_pilot(SceneOptions(voice="text")) as pilot:
@@ -137,7 +137,7 @@ async def test_a_gesture_is_planned_from_where_the_hand_is_whether_anybody_looks
     assert told[0].warnings == []
 
 
-async def test_a_hand_that_is_taken_over_on_its_way_back_does_not_jump_and_the_other_one_goes_to_rest() -> None:
+async def test_a_new_gesture_takes_over_a_retracting_hand_without_a_jump_and_the_other_hand_goes_to_rest() -> None:
     both = '<gesture id="g" lexeme="OFFER" mode="BOTH_HANDS"/>'
     async with open_pilot(SceneOptions(voice="text")) as pilot:
         pilot.watch()

@@ -1,4 +1,4 @@
-"""Motion captures in BVH, and how our figures do what the captured ones did."""
+"""Motion captures in BVH: reading and retargeting."""
 
 from itertools import permutations
 from pathlib import Path
@@ -11,11 +11,10 @@ from hypothesis import strategies as st
 from reactive_realizer.embodiment.avatar import Avatar
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.quaternion import rotate
-from reactive_realizer.engines.animation.keyframe.capture_reader import read_capture
-from reactive_realizer.engines.animation.keyframe.clip_cache import clip_in
-from reactive_realizer.engines.animation.keyframe.keyframe_motion_unit import KeyframeMotionUnit
+from reactive_realizer.engines.animation.keyframe.bvh_reader import read_capture
 from reactive_realizer.engines.animation.keyframe.retarget import retargeted
 from reactive_realizer.engines.animation.motion_unit import Moment
+from reactive_realizer.engines.animation.motions.keyframe import KeyframeMotionUnit, load_clip
 from reactive_realizer.errors import RealizerError
 
 from .capturing import T_POSE, Turns, assert_same_directions, bvh
@@ -32,12 +31,12 @@ def capture(tmp_path: Path):
     return read
 
 
-def test_who_rests_in_a_t_pose_and_is_not_turned_has_our_figure_in_a_t_pose(capture, skeleton):
+def test_a_capture_resting_in_a_t_pose_without_rotations_gives_a_t_pose(capture, skeleton):
     clip = retargeted(capture(bvh({}, {})), skeleton)
     assert_same_directions(clip, 0.0, skeleton, {})
     body = Body(skeleton).posed(clip.rotations_at(0.0))
     # Palms down: in the default pose the left palm faces the thigh, -x.
-    assert rotate(body.place("l_wrist").rotation, (-1.0, 0.0, 0.0)) == pytest.approx((0.0, -1.0, 0.0), abs=0.2)
+    assert rotate(body.transform("l_wrist").rotation, (-1.0, 0.0, 0.0)) == pytest.approx((0.0, -1.0, 0.0), abs=0.2)
 
 
 _FEMALE = Avatar.read(ASSETS / "avatars" / "female.glb").skeleton
@@ -47,14 +46,14 @@ limbs = st.dictionaries(st.sampled_from([name for name, parent, _ in T_POSE if p
 
 @settings(max_examples=60, deadline=None, derandomize=True)
 @given(limbs)
-def test_our_bones_point_where_the_captured_ones_do(tmp_path_factory, frame):
+def test_bones_point_where_the_captured_ones_do(tmp_path_factory, frame):
     path = tmp_path_factory.mktemp("capture") / "some.bvh"
     path.write_text(bvh(frame, frame))
     assert_same_directions(retargeted(read_capture(path), _FEMALE), 0.0, _FEMALE, frame)
 
 
 @pytest.mark.parametrize("order", ["".join(axes) for axes in permutations("XYZ")])
-def test_rotations_are_read_in_the_order_in_which_a_file_says_them(capture, skeleton, order):
+def test_rotations_are_applied_in_the_order_of_the_channels(capture, skeleton, order):
     frame: Turns = {"LeftArm": (50.0, 40.0, 30.0), "RightUpLeg": (-20.0, 60.0, 10.0)}
     clip = retargeted(capture(bvh(frame, frame, order=order)), skeleton)
     assert_same_directions(clip, 0.0, skeleton, frame, order)
@@ -71,13 +70,13 @@ def test_rotations_are_read_in_the_order_in_which_a_file_says_them(capture, skel
     ],
     ids=["Windows", "old Macintosh", "tabs", "a byte order mark", "spaces"],
 )
-def test_it_does_not_matter_how_a_file_is_laid_out(capture, rewritten):
+def test_white_space_in_a_file_has_no_effect(capture, rewritten):
     text = bvh({}, {"LeftArm": (50.0, 40.0, 30.0)})
     plain, other = capture(text), capture(rewritten(text))
     assert (other.joints, other.step, other.frames.tolist()) == (plain.joints, plain.step, plain.frames.tolist())
 
 
-def test_the_figure_begins_where_it_stands_and_as_it_faces(capture, skeleton):
+def test_the_figure_starts_where_it_stands_and_faces(capture, skeleton):
     """The captured one begins 3 m away, turned to its right, and walks a meter straight on."""
     frame: Turns = {"Hips": (0.0, 0.0, -90.0)}
     walk = bvh(frame, frame, places=[(300.0, 98.0, 0.0), (200.0, 98.0, 0.0)])
@@ -88,42 +87,44 @@ def test_the_figure_begins_where_it_stands_and_as_it_faces(capture, skeleton):
     assert_same_directions(clip, 0.0, skeleton, {})
 
 
-def test_a_figure_that_rests_facing_another_way_is_turned_first(capture, skeleton):
+def test_a_captured_figure_facing_another_way_is_turned_first(capture, skeleton):
     aside = tuple((name, above, (z, y, -x)) for name, above, (x, y, z) in T_POSE)  # a quarter to its left
     clip = retargeted(capture(bvh({}, {}, bones=aside)), skeleton)
     assert_same_directions(clip, 0.0, skeleton, {})
 
 
-def test_who_crouches_at_the_beginning_has_its_feet_on_our_ground(capture, skeleton):
+def test_a_figure_that_starts_in_a_crouch_has_its_feet_on_the_ground(capture, skeleton):
     crouch: Turns = {f"{side}UpLeg": (0.0, -70.0, 0.0) for side in ("Left", "Right")}
     crouch |= {f"{side}Leg": (0.0, 140.0, 0.0) for side in ("Left", "Right")}
     crouch |= {f"{side}Foot": (0.0, -70.0, 0.0) for side in ("Left", "Right")}
     clip = retargeted(capture(bvh(crouch, crouch, places=[(0.0, 50.0, 0.0)] * 2)), skeleton)
     posed = KeyframeMotionUnit(clip, skeleton).pose(Moment(0.5, 0.0, Body(skeleton)))
     body = Body(skeleton).posed(posed.rotations, posed.root)
-    assert body.place("l_ankle").position[1] == pytest.approx(Body(skeleton).place("l_ankle").position[1], abs=0.01)
+    assert body.transform("l_ankle").position[1] == pytest.approx(
+        Body(skeleton).transform("l_ankle").position[1], abs=0.01
+    )
 
 
-def test_the_noise_of_a_capture_is_filtered_unless_somebody_says_otherwise(tmp_path, skeleton):
+def test_a_capture_is_filtered_by_default(tmp_path, skeleton):
     """Thesis 3.2.2.2."""
     path = tmp_path / "noisy.bvh"
     frames: list[Turns] = [{"LeftArm": (0.0, 0.0, 10.0 + 2.0 * (-1.0) ** i)} for i in range(240)]
     path.write_text(bvh(*frames, step=1 / 120))
 
     def tremble(cutoff: float | None) -> float:
-        clip = clip_in(path, skeleton, cutoff)
+        clip = load_clip(path, skeleton, cutoff)
         turns = clip.rotations[60:180, clip.joints.index("l_shoulder"), :]
         return float(np.abs(np.diff(turns, axis=0)).max())
 
     assert tremble(None) < 0.001 < 0.02 < tremble(0.0)
 
 
-def test_a_file_that_was_saved_anew_is_read_anew(tmp_path, skeleton):
+def test_a_changed_file_is_read_again(tmp_path, skeleton):
     path = tmp_path / "some.bvh"
     path.write_text(bvh({}, {}))
-    assert clip_in(path, skeleton, None).duration == pytest.approx(0.01)
+    assert load_clip(path, skeleton, None).duration == pytest.approx(0.01)
     path.write_text(bvh({}, {}, {}))
-    assert clip_in(path, skeleton, None).duration == pytest.approx(0.02)
+    assert load_clip(path, skeleton, None).duration == pytest.approx(0.02)
 
 
 GOOD = bvh({}, {})
@@ -133,46 +134,46 @@ GOOD = bvh({}, {})
     ("text", "message"),
     [
         ("", "line 1: there is no MOTION"),
-        (GOOD.replace("HIERARCHY", "HIERARCH"), "line 1: 'HIERARCH' stands where HIERARCHY should"),
-        (GOOD.replace("OFFSET 0.0 12.0", "OFFSET 0.0 twelve"), r"line \d+: 'twelve' is no number"),
-        (GOOD.replace("OFFSET 0.0 12.0", "OFFSET 0.0 nan"), r"line \d+: 'nan' is no number"),
-        (GOOD.replace("CHANNELS 3", "CHANNELS three", 1), "line 9: 'three' is no number of anything"),
-        (GOOD.replace("CHANNELS 3", "CHANNELS 9" + 9000 * "9", 1), "is no number of anything"),
-        (GOOD.replace("Zrotation", "Wrotation", 1), "line 5: no channel is called 'Wrotation'"),
-        (GOOD.replace("JOINT Spine\n", "BONE Spine\n"), "'BONE' stands where JOINT, End Site or } should"),
-        (GOOD.replace("}\nMOTION", "MOTION"), "the HIERARCHY ends too early"),
+        (GOOD.replace("HIERARCHY", "HIERARCH"), "line 1: found 'HIERARCH' instead of HIERARCHY"),
+        (GOOD.replace("OFFSET 0.0 12.0", "OFFSET 0.0 twelve"), r"line \d+: 'twelve' is not a number"),
+        (GOOD.replace("OFFSET 0.0 12.0", "OFFSET 0.0 nan"), r"line \d+: 'nan' is not a number"),
+        (GOOD.replace("CHANNELS 3", "CHANNELS three", 1), "line 9: 'three' is not a count"),
+        (GOOD.replace("CHANNELS 3", "CHANNELS 9" + 9000 * "9", 1), "is not a count"),
+        (GOOD.replace("Zrotation", "Wrotation", 1), "line 5: there is no channel 'Wrotation'"),
+        (GOOD.replace("JOINT Spine\n", "BONE Spine\n"), "found 'BONE' instead of JOINT, End Site or }"),
+        (GOOD.replace("}\nMOTION", "MOTION"), "the HIERARCHY ends unexpectedly"),
         (GOOD.replace("Frames: 2", "Frames: 3"), "numbers are not 3 frames of 60 numbers up to 1e"),
-        (GOOD.replace("Frames: 2", "Frames 2"), "after MOTION should come 'Frames: N' and 'Frame Time: s'"),
+        (GOOD.replace("Frames: 2", "Frames 2"), "'Frames: N' and 'Frame Time: s' must follow MOTION"),
         (GOOD.replace("Frame Time: 0.01", "Frame Time: 0"), "are not 2 frames of 60 numbers up to 1e.09, 0 s apart"),
         (GOOD.rstrip().removesuffix("0.000000") + "oops\n", "could not convert string to float: 'oops'"),
         (GOOD.rstrip().removesuffix("0.000000") + "inf\n", "numbers up to 1e"),
         (GOOD.rstrip().removesuffix("0.000000") + "1e300\n", "numbers up to 1e"),
-        (GOOD.replace("OFFSET 0.0 12.0", "OFFSET 0.0 1e300"), r"line \d+: '1e300' is no number"),
+        (GOOD.replace("OFFSET 0.0 12.0", "OFFSET 0.0 1e300"), r"line \d+: '1e300' is not a number"),
         (GOOD.rstrip().removesuffix("0.000000") + "nan\n", "numbers up to 1e"),
         (bvh(), "the 0 numbers are not 0 frames of 60 numbers"),
-        (bvh({}), "not 1 frames of 60 numbers up to 1e.09, 0.01 s apart, or there are not two"),
+        (bvh({}), "not 1 frames of 60 numbers up to 1e.09, 0.01 s apart, or there are fewer than two"),
     ],
 )
-def test_what_is_wrong_in_a_file_is_said_with_its_line(capture, text, message):
-    with pytest.raises(RealizerError, match=message) as caught:
+def test_errors_name_the_line(capture, text, message):
+    with pytest.raises(RealizerError, match=message) as with_reached_root:
         capture(text)
-    assert caught.value.fault.code == "bad-capture"
-    assert str(caught.value).startswith("some.bvh, line ")
+    assert with_reached_root.value.fault.code == "bad-capture"
+    assert str(with_reached_root.value).startswith("some.bvh, line ")
 
 
-def test_joints_that_nobody_knows_are_refused(capture, skeleton):
+def test_a_capture_with_unknown_joints_is_refused(capture, skeleton):
     strange = {name: f"bone{i}" for i, (name, _, _) in enumerate(T_POSE)}
-    with pytest.raises(RealizerError, match="no joint is called in a way that is known for HumanoidRoot, l_hip"):
+    with pytest.raises(RealizerError, match="no joint has a known name for HumanoidRoot, l_hip"):
         retargeted(capture(bvh({}, {}, names=strange)), skeleton)
 
 
-def test_who_walks_out_of_sight_is_refused(capture, skeleton):
+def test_a_capture_that_moves_too_far_is_refused(capture, skeleton):
     text = bvh({}, {}, places=[(0.0, 95.0, 0.0), (0.0, 95.0, 1e7)])
-    with pytest.raises(RealizerError, match="it goes further than 10 m, by the length of its thighs"):
+    with pytest.raises(RealizerError, match="the root moves further than 10 m, scaled by the length of the thighs"):
         retargeted(capture(text), skeleton)
 
 
-def test_a_figure_that_lies_at_rest_and_at_the_beginning_is_refused(capture, skeleton):
+def test_a_figure_that_lies_at_rest_and_in_the_first_frame_is_refused(capture, skeleton):
     lying = tuple((name, above, (y, x, z)) for name, above, (x, y, z) in T_POSE)
     with pytest.raises(RealizerError, match="stands upright neither without rotations nor in its first frame"):
         retargeted(capture(bvh({}, {}, bones=lying)), skeleton)
@@ -196,6 +197,6 @@ def test_a_file_of_100_mb_is_refused_before_it_is_read(tmp_path):
     path = tmp_path / "big.bvh"
     with path.open("wb") as file:
         file.truncate(100_000_000)
-    with pytest.raises(RealizerError) as caught:
+    with pytest.raises(RealizerError) as with_reached_root:
         read_capture(path)
-    assert caught.value.fault.code == "asset-too-big"
+    assert with_reached_root.value.fault.code == "asset-too-big"

@@ -1,28 +1,27 @@
-"""The gaze as a motion: it comes, follows, and goes."""
+"""Gaze as a motion."""
 
 import math
 from itertools import pairwise
 
 import pytest
 
-from reactive_realizer.bml.words import Influence, OffsetDirection
+from reactive_realizer.bml.vocabulary import Influence, OffsetDirection
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.quaternion import IDENTITY, angle, difference, from_axis_angle
 from reactive_realizer.embodiment.vector import subtract, unit
-from reactive_realizer.engines.animation.gaze.aim import Aim
-from reactive_realizer.engines.animation.gaze.eyes import Sockets
-from reactive_realizer.engines.animation.gaze.gaze_motion_unit import GAZE_SHIFT, HEAD_SHIFT
+from reactive_realizer.engines.animation.gaze.eyes import EyeSockets, GazeTarget
 from reactive_realizer.engines.animation.motion_unit import Moment
+from reactive_realizer.engines.animation.motions.gaze import GAZE_SHIFT, HEAD_SHIFT
 
-from .gazing import between, gaze, target_at, way
-from .showing import shown
+from .bodies import shown
+from .gazes import between, gaze, target_at, way
 
 
 def apart(a, b) -> float:
     return angle(difference(a, b))
 
 
-def test_it_begins_where_the_head_is_and_ends_in_what_lies_below_without_a_jump(skeleton):
+def test_a_gaze_starts_from_the_current_head_and_ends_in_the_layers_below_without_a_jump(skeleton):
     aside = {"skullbase": from_axis_angle((0.0, 1.0, 0.0), -0.5), "vc4": IDENTITY}
     begun, below = Body(skeleton, aside), Body(skeleton)
     unit_ = gaze(below, target_at(below, 45, 5))
@@ -35,7 +34,7 @@ def test_it_begins_where_the_head_is_and_ends_in_what_lies_below_without_a_jump(
     assert steps[0] < 1e-3 > steps[-1]
 
 
-def test_the_head_speeds_up_and_slows_down_in_the_same_way(skeleton):
+def test_the_head_accelerates_and_decelerates_symmetrically(skeleton):
     body = Body(skeleton)
     unit_ = gaze(body, target_at(body, 40, 10))
     unit_.start(body)
@@ -46,14 +45,14 @@ def test_the_head_speeds_up_and_slows_down_in_the_same_way(skeleton):
     assert max(steps) == pytest.approx(1.875 * turns[-1] / 50, rel=0.01)
 
 
-def test_a_shift_is_there_at_its_end_and_stays(skeleton):
+def test_a_shift_reaches_its_target_at_its_end_and_stays(skeleton):
     body = Body(skeleton)
     for course in (GAZE_SHIFT, HEAD_SHIFT):
         unit_ = gaze(body, target_at(body, 40, 10), course=course)
         unit_.start(body)
         last = unit_.pose(Moment(1.0, 9.0, body))
         assert last.weight == 1.0
-        assert unit_.lasts is not None
+        assert unit_.persists_as is not None
         assert angle(last.rotations["skullbase"]) > 0.2
         assert unit_.looks(1.0)
 
@@ -65,7 +64,7 @@ def test_the_eyes_leave_first(skeleton):
     assert not unit_.looks(0.75)
 
 
-def test_a_slow_target_is_followed_by_the_head_at_once_and_a_jump_as_people_do(skeleton):
+def test_the_head_follows_a_slow_target_at_once_and_eases_to_one_that_jumps(skeleton):
     body = Body(skeleton)
     at = [target_at(body, 20, 0)]
     unit_ = gaze(body, lambda: at[0])
@@ -111,9 +110,9 @@ def test_weights_may_change_while_it_plays(skeleton):
         (OffsetDirection.DOWNLEFT, 1, -1),
     ],
 )
-def test_an_offset_lies_so_many_degrees_beside_the_target_as_the_figure_sees_it(skeleton, side, left, up, target):
-    eyes = Sockets.of(Body(skeleton)).middle
-    point = Aim(lambda: target_at(Body(skeleton), *target), 20.0, side).point(eyes)
+def test_an_offset_is_an_angle_from_the_target_as_the_figure_sees_it(skeleton, side, left, up, target):
+    eyes = EyeSockets.of(Body(skeleton)).middle
+    point = GazeTarget(lambda: target_at(Body(skeleton), *target), 20.0, side).point(eyes)
     toward = unit(subtract(point, eyes))
     assert between(toward, way(*target)) == pytest.approx(20.0, abs=1e-3)
     yaw, pitch = math.degrees(math.atan2(toward[0], toward[2])), math.degrees(math.asin(toward[1]))
@@ -123,12 +122,12 @@ def test_an_offset_lies_so_many_degrees_beside_the_target_as_the_figure_sees_it(
         assert (pitch - target[1]) * up > 5
 
 
-def test_an_offset_from_straight_above_is_still_one(skeleton):
-    eyes = Sockets.of(Body(skeleton)).middle
-    point = Aim(lambda: target_at(Body(skeleton), 0, 90), 30.0, OffsetDirection.DOWN).point(eyes)
+def test_an_offset_from_straight_above_is_defined(skeleton):
+    eyes = EyeSockets.of(Body(skeleton)).middle
+    point = GazeTarget(lambda: target_at(Body(skeleton), 0, 90), 30.0, OffsetDirection.DOWN).point(eyes)
     assert between(unit(subtract(point, eyes)), way(0, 60)) < 0.01
 
 
-def test_an_offset_of_what_is_between_the_eyes_is_there_too(skeleton):
-    eyes = Sockets.of(Body(skeleton)).middle
-    assert Aim(lambda: eyes, 30.0, OffsetDirection.LEFT).point(eyes) == eyes
+def test_an_offset_from_a_target_between_the_eyes_is_that_target(skeleton):
+    eyes = EyeSockets.of(Body(skeleton)).middle
+    assert GazeTarget(lambda: eyes, 30.0, OffsetDirection.LEFT).point(eyes) == eyes

@@ -1,4 +1,4 @@
-"""What the figure does when it does nothing."""
+"""Idle animation of a figure."""
 
 import math
 from itertools import pairwise
@@ -11,10 +11,10 @@ import pytest
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.quaternion import angle, difference, rotate
 from reactive_realizer.embodiment.vector import FORWARD, distance
-from reactive_realizer.engines.animation.idle.episodes import Episodes
-from reactive_realizer.engines.animation.idle.idle import Idle
+from reactive_realizer.engines.animation.idle import Idle
+from reactive_realizer.engines.animation.idle_movements import Episodes
 
-from .resting import body_in
+from .bodies import body_in
 
 
 def blinks(idle: Idle, seconds: float) -> list[float]:
@@ -54,14 +54,14 @@ def test_lids_close_faster_than_they_open():
     assert 1.40 < max(speeds) / -min(speeds) < 1.47
 
 
-def test_the_same_seed_gives_the_same_life_in_whatever_order_it_is_asked_for():
+def test_the_same_seed_gives_the_same_idle_animation_in_any_order_of_queries():
     forward, backward = Idle(Random(3)), Idle(Random(3))
     times = [i / 10 for i in range(600)]
     seen = {time: life(forward, time) for time in times}
     assert seen == {time: life(backward, time) for time in reversed(times)}
 
 
-def test_of_a_long_life_only_the_last_episodes_are_kept():
+def test_only_the_last_episodes_are_kept():
     class What:
         pass
 
@@ -80,7 +80,7 @@ def test_of_a_long_life_only_the_last_episodes_are_kept():
     assert sum(what() is not None for what in drawn) == Episodes.KEPT
 
 
-def test_two_figures_do_not_blink_and_breathe_as_one():
+def test_two_figures_blink_and_breathe_independently():
     one, other = Idle(Random(1)), Idle(Random(2))
     assert blinks(one, 60.0) != blinks(other, 60.0)
     assert one.rotations(1.0) != other.rotations(1.0)
@@ -88,9 +88,9 @@ def test_two_figures_do_not_blink_and_breathe_as_one():
     assert [one.eyes(t) for t in range(60)] != [other.eyes(t) for t in range(60)]
 
 
-def test_the_figure_is_never_quite_still_and_never_restless(skeleton):
+def test_the_figure_is_never_quite_still_or_restless(skeleton):
     idle = Idle(Random(5))
-    places = [Body(skeleton, idle.rotations(i / 10)).place("skullbase") for i in range(600)]
+    places = [Body(skeleton, idle.rotations(i / 10)).transform("skullbase") for i in range(600)]
     for before, after in zip(places, places[10:], strict=False):
         assert distance(before.position, after.position) < 0.01
     assert max(distance(places[0].position, place.position) for place in places) > 0.002
@@ -111,7 +111,7 @@ def peaks(values: list[float]) -> list[int]:
     return [i for i, (before, at, after) in enumerate(triples, 1) if before < at >= after]
 
 
-def test_the_shoulders_rise_and_fall_twelve_to_eighteen_times_a_minute_and_never_quite_alike():
+def test_the_shoulders_rise_and_fall_twelve_to_eighteen_times_a_minute_with_variation():
     lift = lungs(Idle(Random(5)), 600)
     breaths = [(b - a) / 50 for a, b in pairwise(peaks(lift))]
     assert 60.0 / 18.0 < min(breaths) < 3.7
@@ -122,21 +122,21 @@ def test_the_shoulders_rise_and_fall_twelve_to_eighteen_times_a_minute_and_never
     assert stdev(depths) / mean(depths) > stdev(breaths) / mean(breaths) > 0.05
 
 
-def test_air_goes_in_faster_than_it_goes_out():
+def test_inhalation_is_shorter_than_exhalation():
     """Ours: breathing in is 0.42 of a breath."""
     lift = lungs(Idle(Random(5)), 600)
     rising = sum(b > a for a, b in pairwise(lift)) / len(lift)
     assert rising == pytest.approx(0.42, abs=0.01)
 
 
-def test_a_breath_has_no_jerk():
+def test_a_breath_is_smooth():
     lift = lungs(Idle(Random(5)), 600)
     speeds = [(b - a) * 50 for a, b in pairwise(lift)]
     assert max(map(abs, speeds)) < 0.03
     assert max(abs(b - a) for a, b in pairwise(speeds)) < 0.003
 
 
-def test_a_blink_that_is_asked_for_begins_at_once_and_is_as_long_as_others():
+def test_a_requested_blink_starts_at_once():
     idle = Idle(Random(7))
     (start, *_) = blinks(idle, 20.0)
     asked = start + 0.5
@@ -155,7 +155,7 @@ def stances(idle: Idle, seconds: int) -> list[float]:
     return [idle.layer(i / 10, 0.0).root[0] for i in range(10 * seconds)]
 
 
-def test_who_stands_moves_the_weight_from_foot_to_foot_now_and_then_and_rests_between():
+def test_a_standing_figure_shifts_its_weight_from_time_to_time():
     places = stances(Idle(Random(5)), 600)
     resting = sum(a == b for a, b in pairwise(places))
     assert resting > 0.8 * len(places)
@@ -164,14 +164,14 @@ def test_who_stands_moves_the_weight_from_foot_to_foot_now_and_then_and_rests_be
     assert 0.02 < max(map(abs, places)) <= 0.031
 
 
-def test_a_shift_of_weight_is_slow_and_starts_and_stops_gently():
+def test_a_weight_shift_is_slow_and_smooth():
     places = stances(Idle(Random(5)), 600)
     speeds = [abs(b - a) * 10 for a, b in pairwise(places)]
     assert max(speeds) < 0.07
     assert max(abs(b - a) for a, b in pairwise(speeds)) < 0.03
 
 
-def test_the_lower_a_figure_sits_the_less_weight_there_is_to_shift():
+def test_a_lower_pelvis_shifts_less_weight():
     idle = Idle(Random(5))
     time = next(i / 10 for i in range(600) if abs(idle.layer(i / 10, 0.0).root[0]) > 0.02)
     ways = [abs(idle.layer(time, sunk).root[0]) for sunk in (0.0, 0.03, 0.07, 0.1, 0.4)]
@@ -179,13 +179,13 @@ def test_the_lower_a_figure_sits_the_less_weight_there_is_to_shift():
     assert ways[-2:] == [0.0, 0.0]
 
 
-def test_shifting_weight_leaves_the_head_level(skeleton):
+def test_a_weight_shift_keeps_the_head_level(skeleton):
     idle = Idle(Random(5))
     still = Idle(Random(5))
     for i in range(0, 600, 7):
         layer = idle.layer(float(i), 0.0)
-        head = Body(skeleton, layer.rotations, layer.root).place("skullbase").rotation
-        alone = Body(skeleton, still.rotations(float(i))).place("skullbase").rotation
+        head = Body(skeleton, layer.rotations, layer.root).transform("skullbase").rotation
+        alone = Body(skeleton, still.rotations(float(i))).transform("skullbase").rotation
         assert angle(difference(alone, head)) < 0.02
 
 
@@ -198,19 +198,19 @@ def directions(idle: Idle, seconds: float, rate: int = 100) -> list[tuple[float,
     return [(math.degrees(math.atan2(x, z)), math.degrees(math.asin(y))) for x, y, z in turns]
 
 
-def test_idle_eyes_look_straight_ahead_most_of_the_time_and_aside_for_moments():
+def test_idle_eyes_look_ahead_most_of_the_time_and_glance_aside():
     seen = directions(Idle(Random(9)), 600.0, 50)
     ahead = sum(math.hypot(*each) < 0.05 for each in seen) / len(seen)
     # Lee, Badler and Badler 2002, of a listener: 237.5 frames at the other, 13 frames away.
     assert ahead == pytest.approx(237.5 / (237.5 + 13.0), abs=0.03)
 
 
-def test_idle_eyes_never_look_further_aside_than_five_degrees():
+def test_idle_eyes_stay_within_five_degrees():
     amplitudes = [math.hypot(*each) for each in directions(Idle(Random(9)), 600.0, 50)]
     assert 3.0 < max(amplitudes) <= 5.01
 
 
-def test_idle_eyes_go_up_down_and_to_the_sides_more_often_than_askew():
+def test_idle_eyes_prefer_horizontal_and_vertical_glances():
     # Of the directions of Lee, Badler and Badler 2002, 70 % are within 22.5 degrees of an axis.
     seen = directions(Idle(Random(9)), 6000.0, 10)
     aside = [each for each in seen if math.hypot(*each) > 1.0]
@@ -218,7 +218,7 @@ def test_idle_eyes_go_up_down_and_to_the_sides_more_often_than_askew():
     assert along / len(aside) == pytest.approx(0.70, abs=0.06)
 
 
-def test_both_idle_eyes_turn_together_and_by_saccades():
+def test_idle_eyes_turn_together_by_saccades():
     idle = Idle(Random(9))
     assert all(len(set(idle.eyes(i / 10).values())) == 1 for i in range(600))
     seen = directions(idle, 60.0, 1000)
@@ -231,12 +231,12 @@ def test_both_idle_eyes_turn_together_and_by_saccades():
 @pytest.mark.parametrize(("side", "outward"), [("l", 1.0), ("r", -1.0)])
 def test_at_rest_the_hands_hang_beside_the_hips_with_loose_fingers(skeleton, side, outward):
     body = body_in(skeleton)
-    shoulder, wrist, hip = (body.place(f"{side}_{joint}").position for joint in ("shoulder", "wrist", "hip"))
+    shoulder, wrist, hip = (body.transform(f"{side}_{joint}").position for joint in ("shoulder", "wrist", "hip"))
     assert wrist[1] < shoulder[1] - 0.35
     assert outward * (wrist[0] - hip[0]) > 0.08
     assert wrist[2] > shoulder[2]
     straight = distance(
-        Body(skeleton).place(f"{side}_middle1").position, Body(skeleton).place(f"{side}_middle3").position
+        Body(skeleton).transform(f"{side}_middle1").position, Body(skeleton).transform(f"{side}_middle3").position
     )
-    tip, knuckle = body.place(f"{side}_middle3").position, body.place(f"{side}_middle1").position
+    tip, knuckle = body.transform(f"{side}_middle3").position, body.transform(f"{side}_middle1").position
     assert distance(tip, knuckle) < straight

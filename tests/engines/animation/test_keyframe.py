@@ -1,4 +1,4 @@
-"""Keyframe animations: how their files are read, and what they show."""
+"""Keyframe animations: files and playback."""
 
 import math
 from itertools import pairwise
@@ -10,13 +10,13 @@ import pytest
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.quaternion import IDENTITY, angle, from_axis_angle
 from reactive_realizer.engines.animation.keyframe.clip import Clip, KeyPoint
-from reactive_realizer.engines.animation.keyframe.keyframe_motion_unit import KeyframeMotionUnit
-from reactive_realizer.engines.animation.keyframe.skeleton_interpolator import (
+from reactive_realizer.engines.animation.keyframe.keyframe_files import (
     read_interpolator_file,
     read_interpolator_text,
+    read_skeleton_pose,
 )
-from reactive_realizer.engines.animation.keyframe.skeleton_pose import read_skeleton_pose
 from reactive_realizer.engines.animation.motion_unit import Moment, Resource
+from reactive_realizer.engines.animation.motions.keyframe import KeyframeMotionUnit
 from reactive_realizer.errors import RealizerError
 
 X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
@@ -46,7 +46,7 @@ def test_between_keys_a_joint_turns_evenly_along_the_shortest_arc():
     assert about_y(turning.rotations_at(9.0)["skullbase"]) == pytest.approx(0.5)
 
 
-def test_a_file_may_write_either_of_the_two_quaternions_that_turn_alike():
+def test_a_file_may_use_either_sign_of_a_quaternion():
     turning = clip("0 1 0 0 0  1 -0.9689124 0 -0.247404 0", 'parts="skullbase" encoding="R"')
     assert about_y(turning.rotations_at(0.5)["skullbase"]) == pytest.approx(0.25, abs=1e-6)
 
@@ -55,16 +55,16 @@ def test_a_file_may_write_either_of_the_two_quaternions_that_turn_alike():
     ("encoding", "numbers"),
     [("quaternions", "2 0 2 0"), ("Quat", "1 0 1 0"), ("XYZW", "0 1 0 1"), ("axisangles", "0 3 0 1.5707963")],
 )
-def test_rotations_are_written_in_several_ways(encoding, numbers):
+def test_rotations_have_several_encodings(encoding, numbers):
     turning = clip(f"0 {numbers}  1 {numbers}", f'parts="vl5" encoding="R" rotationEncoding="{encoding}"')
     assert turning.rotations_at(0.0)["vl5"] == pytest.approx(from_axis_angle(Y, math.pi / 2), abs=1e-6)
 
 
-def test_an_axis_of_no_length_turns_nothing_if_its_angle_is_0():
+def test_an_axis_without_a_length_is_valid_for_angle_0():
     assert clip("0 0 0 0 0  1 0 1 0 1").rotations_at(0.0)["skullbase"] == IDENTITY
 
 
-def test_the_place_of_the_root_is_the_way_since_the_first_row():
+def test_the_root_is_displaced_relative_to_the_first_row():
     walking = clip(
         "0 5 0.95 7 1 0 0 0  2 5 0.85 9 1 0 0 0", 'parts="HumanoidRoot" encoding="T1R" rotationEncoding="quaternions"'
     )
@@ -72,14 +72,14 @@ def test_the_place_of_the_root_is_the_way_since_the_first_row():
     assert walking.root_at(1.0) == pytest.approx((0.0, -0.05, 1.0))
 
 
-def test_in_the_mirror_left_is_right():
+def test_mirroring_exchanges_left_and_right():
     turning = clip(
         "0 0 0 1 0.4  1 0 0 1 0.4", 'parts="l_shoulder" encoding="R" rotationEncoding="axisangles"'
     ).mirrored()
     assert turning.rotations_at(0.0) == {"r_shoulder": pytest.approx(from_axis_angle(Z, -0.4))}
 
 
-def test_a_selection_moves_the_root_only_if_it_is_chosen():
+def test_a_selection_moves_the_root_only_if_it_is_included():
     whole = clip(
         "0 0 0.9 0 1 0 0 0 1 0 0 0  1 0 0.9 1 1 0 0 0 1 0 0 0",
         'parts="HumanoidRoot l_hip" encoding="T1R" rotationEncoding="quaternions"',
@@ -89,7 +89,7 @@ def test_a_selection_moves_the_root_only_if_it_is_chosen():
     assert whole.only({"HumanoidRoot"}).root_at(1.0) == (0.0, 0.0, 1.0)
 
 
-def test_a_filter_keeps_what_is_slow_takes_what_is_fast_and_delays_nothing():
+def test_a_filter_keeps_slow_motion_removes_fast_motion_and_adds_no_delay():
     """Thesis 3.2.2.2, equations 3.10 to 3.12: at the cutoff a sine keeps 1/sqrt(2) of its height, there and back."""
     times = tuple(np.arange(601) / 120.0)
     heights = {}
@@ -106,7 +106,7 @@ def test_a_filter_keeps_what_is_slow_takes_what_is_fast_and_delays_nothing():
     assert abs(heights[45.0]) < 0.05
 
 
-def test_a_filter_does_not_mind_which_of_the_two_quaternions_that_turn_alike_a_file_writes():
+def test_a_filter_ignores_the_sign_of_quaternions():
     """Thesis 3.2.2.1, equations 3.8 and 3.9."""
     halves = [0.4 * math.sin(2.0 * math.pi * i / 60) for i in range(60)]
 
@@ -120,22 +120,22 @@ def test_a_filter_does_not_mind_which_of_the_two_quaternions_that_turn_alike_a_f
 
 
 @pytest.mark.parametrize("cutoff", [1e-300, 0.09])
-def test_a_filter_that_would_leave_nothing_is_refused(cutoff):
-    with pytest.raises(RealizerError, match=r"shake: a filter has 0\.1 Hz or more, not"):
+def test_a_too_low_cutoff_is_refused(cutoff):
+    with pytest.raises(RealizerError, match=r"shake: the cutoff must be at least 0\.1 Hz, not"):
         clip("0 0 1 0 0  1 0 1 0 1  2 0 1 0 0").filtered(cutoff)
 
 
-def test_only_keys_at_even_distances_can_be_filtered():
-    with pytest.raises(RealizerError, match="shake: only keys at even distances"):
+def test_only_evenly_spaced_keys_can_be_filtered():
+    with pytest.raises(RealizerError, match="shake: only evenly spaced keys"):
         clip("0 0 1 0 0  1 0 1 0 1  3 0 1 0 0").filtered(0.1)
 
 
-def test_where_the_keys_are_too_slow_for_a_frequency_nothing_is_taken_away():
+def test_a_cutoff_above_the_sample_rate_filters_nothing():
     turning = clip("0 0 1 0 0  1 0 1 0 1  2 0 1 0 0")
     assert np.array_equal(turning.filtered(20.0).rotations, turning.rotations)
 
 
-def test_a_file_names_points_in_time_and_where_it_may_be_left():
+def test_a_file_names_sync_points_and_exits():
     turning = clip(
         '<KeyPosition id="beat" time="0.5"/>0 0 1 0 0 <KeyPosition id="out" time="1" leave="true"/> 2 0 1 0 1'
     )
@@ -150,7 +150,7 @@ def test_points_of_a_file_are_sync_points_of_its_motion(skeleton):
     assert unit.preferred_duration == 4.0
 
 
-def test_a_motion_that_begins_elsewhere_leaves_from_there_and_arrives_without_a_jump(skeleton):
+def test_a_keyframe_motion_starts_from_the_current_body_without_a_jump(skeleton):
     begin = from_axis_angle(X, 0.5)
     unit = KeyframeMotionUnit(arm_clip(), skeleton)
     body = Body(skeleton, {"r_shoulder": begin})
@@ -163,7 +163,7 @@ def test_a_motion_that_begins_elsewhere_leaves_from_there_and_arrives_without_a_
     assert max(abs(b - a) for a, b in pairwise(turns)) < 0.06  # 6 rad/s; a jump would be of 0.5 rad
 
 
-def test_a_motion_that_begins_where_the_body_is_is_played_as_it_was_made(skeleton):
+def test_a_keyframe_motion_that_starts_at_the_current_body_is_not_changed(skeleton):
     unit = KeyframeMotionUnit(arm_clip(), skeleton)
     body = Body(skeleton, {})
     unit.start(body)
@@ -172,7 +172,7 @@ def test_a_motion_that_begins_where_the_body_is_is_played_as_it_was_made(skeleto
         assert unit.pose(Moment(phase, 0.0, body)).rotations["r_shoulder"] == pytest.approx(expected)
 
 
-def test_a_motion_that_joins_late_sets_in_from_where_the_body_is_then(skeleton):
+def test_a_keyframe_motion_that_joins_late_starts_from_the_current_body(skeleton):
     unit = KeyframeMotionUnit(arm_clip(), skeleton)
     body = Body(skeleton, {})
     unit.start(body)
@@ -188,7 +188,7 @@ def test_a_motion_owns_the_arms_that_it_moves_and_with_a_leg_the_stance(skeleton
     assert KeyframeMotionUnit(clip("0 0 1 0 0  1 0 1 0 0"), skeleton).resources == frozenset()
 
 
-def test_a_crouch_of_another_body_stands_on_the_ground_of_ours(skeleton):
+def test_a_crouch_made_for_another_body_stands_on_the_ground(skeleton):
     """The file says 0.7 m of a body whose height nobody knows: here the feet decide."""
     bend = "0 0.7 0 1 0 0 0 1 0 0 -1.2 1 0 0 -1.2 1 0 0 2.4 1 0 0 2.4 1 0 0 -1.2 1 0 0 -1.2"
     crouch = clip(
@@ -198,31 +198,31 @@ def test_a_crouch_of_another_body_stands_on_the_ground_of_ours(skeleton):
     posed = KeyframeMotionUnit(crouch, skeleton).pose(Moment(0.5, 0.0, Body(skeleton)))
     body = Body(skeleton).posed(posed.rotations, posed.root)
     for ankle in ("l_ankle", "r_ankle"):
-        height = Body(skeleton).place(ankle).position[1]
-        assert body.place(ankle).position[1] == pytest.approx(height, abs=0.01)
+        height = Body(skeleton).transform(ankle).position[1]
+        assert body.transform(ankle).position[1] == pytest.approx(height, abs=0.01)
 
 
 @pytest.mark.parametrize(
     ("rows", "attributes", "message"),
     [
         ("0 0 1 0 0", 'parts="vl5"', "the attribute encoding is missing"),
-        ("0 0 1 0 0", 'parts="vl5" encoding="TRSVW"', "encoding='TRSVW' is not read; known are R and T1R"),
-        ("0 0 1 0 0", 'parts="vl5 vl5" encoding="R"', "a part stands twice"),
-        ("0 0 1 0", 'parts="vl5" encoding="R"', "4 numbers are no rows of 5"),
-        ("", 'parts="vl5" encoding="R"', "0 numbers are no rows of 5"),
+        ("0 0 1 0 0", 'parts="vl5" encoding="TRSVW"', "encoding='TRSVW' is not supported; known are R and T1R"),
+        ("0 0 1 0 0", 'parts="vl5 vl5" encoding="R"', "parts names a joint twice"),
+        ("0 0 1 0", 'parts="vl5" encoding="R"', "4 numbers do not form rows of 5"),
+        ("", 'parts="vl5" encoding="R"', "0 numbers do not form rows of 5"),
         ("0 0 1 0 x", 'parts="vl5" encoding="R"', "could not convert string to float: 'x'"),
         ("0 1 0 0 0 1 0 1 0 1e999", 'parts="vl5" encoding="R"', "a number in row 2 is beyond 1e\\+100, or undefined"),
         ("0 1 0 0 0 1 0 1e200 0 0", 'parts="vl5" encoding="R"', "a number in row 2 is beyond 1e\\+100, or undefined"),
         ("0 nan 0 0 0 1 0 1 0 0", 'parts="vl5" encoding="R"', "a number in row 1 is beyond 1e\\+100, or undefined"),
         ("0 1 0 0 0 1 0 1 0 0", 'parts=" " encoding="R"', "parts names no joint"),
         ("0 0 1 0 0", 'parts="vl5" encoding="R"', "a motion needs two rows"),
-        ("1 0 1 0 0 1 0 1 0 0", 'parts="vl5" encoding="R"', "the times of the rows do not rise"),
+        ("1 0 1 0 0 1 0 1 0 0", 'parts="vl5" encoding="R"', "the times of the rows do not increase"),
         ("0 0 1 0 0 1e9 0 1 0 0", 'parts="vl5" encoding="R"', "it would last longer than 86400 s"),
-        ("0 7 0 9 1 0 0 0 1 7 0 20 1 0 0 0", 'parts="vl5" encoding="T1R"', "it goes further than 10 m"),
+        ("0 7 0 9 1 0 0 0 1 7 0 20 1 0 0 0", 'parts="vl5" encoding="T1R"', "the root moves further than 10 m"),
         ("0 0 1 0 0 1 0 0 0 0", 'parts="vl5" encoding="R"', "the rotation of part 1 in row 2 has the length 0"),
         ("", 'parts="vl5" encoding="R" rotationEncoding="euler"', "0 numbers"),
-        ("0 0 1 0 0", 'parts="vl5" encoding="R" rotationEncoding="euler"', "rotationEncoding='euler' is not read"),
-        ("<Key/>0 0 1 0 0 1 0 1 0 0", 'parts="vl5" encoding="R"', "only KeyPosition may stand in"),
+        ("0 0 1 0 0", 'parts="vl5" encoding="R" rotationEncoding="euler"', "rotationEncoding='euler' is not supported"),
+        ("<Key/>0 0 1 0 0 1 0 1 0 0", 'parts="vl5" encoding="R"', "only KeyPosition is allowed in"),
         ('<KeyPosition id="a" time="2"/>0 0 1 0 0 1 0 1 0 0', 'parts="vl5" encoding="R"', "a at 2 s: it lasts from"),
         ('<KeyPosition id="end" time="0.5"/>0 0 1 0 0 1 0 1 0 0', 'parts="vl5" encoding="R"', "end at 0.5 s: it lasts"),
         ('<KeyPosition id="start" time="1"/>0 0 1 0 0 1 0 1 0 0', 'parts="vl5" encoding="R"', "start at 1 s: it lasts"),
@@ -236,14 +236,14 @@ def test_a_crouch_of_another_body_stands_on_the_ground_of_ours(skeleton):
         ('<KeyPosition id="id" time="1"/>0 0 1 0 0 1 0 1 0 0', 'parts="vl5" encoding="R"', "id='id' cannot name"),
     ],
 )
-def test_what_is_wrong_is_said_with_its_place(rows, attributes, message):
-    with pytest.raises(RealizerError, match=message) as caught:
+def test_errors_name_the_position(rows, attributes, message):
+    with pytest.raises(RealizerError, match=message) as with_reached_root:
         clip(rows, attributes)
-    assert caught.value.fault.code == "bad-asset"
-    assert "shake, line 1" in str(caught.value)
+    assert with_reached_root.value.fault.code == "bad-asset"
+    assert "shake, line 1" in str(with_reached_root.value)
 
 
-def test_start_and_end_may_be_named_where_they_are(skeleton):
+def test_start_and_end_may_be_named_at_their_positions(skeleton):
     rows = '<KeyPosition id="end" time="2"/><KeyPosition id="zoom" time="2"/><KeyPosition id="start" time="1"/>'
     motion = KeyframeMotionUnit(clip(f"1 1 0 0 0 2 0 1 0 0{rows}", 'parts="vl5" encoding="R"'), skeleton)
     assert list(motion.key_positions.items()) == [("start", 0.0), ("zoom", 1.0), ("end", 1.0)]
@@ -266,7 +266,7 @@ def test_a_pose_file_is_one_row_without_a_time(tmp_path):
     assert read_skeleton_pose(path) == {"HumanoidRoot": IDENTITY, "l_shoulder": turned}
 
 
-def test_a_pose_of_several_rows_is_none(tmp_path):
+def test_a_pose_file_with_several_rows_is_refused(tmp_path):
     path = tmp_path / "rest.xml"
     path.write_text('<SkeletonPose parts="vl5" encoding="R">1 0 0 0 1 0 0 0</SkeletonPose>')
     with pytest.raises(RealizerError, match="2 rows; a pose has one"):

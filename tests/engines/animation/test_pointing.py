@@ -1,4 +1,4 @@
-"""How an arm points (thesis 4.2.2): where the finger's line goes, what it cannot reach, and the bell of its speed."""
+"""Pointing arms (thesis 4.2.2): accuracy, reach and speed profile."""
 
 import math
 from itertools import pairwise
@@ -7,16 +7,15 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.body import Body, Skeleton
 from reactive_realizer.embodiment.quaternion import angle, from_euler
-from reactive_realizer.embodiment.skeleton import Skeleton
 from reactive_realizer.embodiment.vector import add, distance, dot, scale, subtract, unit
-from reactive_realizer.engines.animation.arms.pointing_arm import PointingArm
-from reactive_realizer.engines.animation.arms.pointing_motion_unit import ASYMMETRY, DEFAULTS, PointingMotionUnit
-from reactive_realizer.engines.animation.arms.sigmoid import sigmoid
 from reactive_realizer.engines.animation.motion_unit import GESTURE_POINTS, Moment, Resource
+from reactive_realizer.engines.animation.motions.pointing import ASYMMETRY, DEFAULTS, PointingMotionUnit
+from reactive_realizer.engines.animation.motions.pointing_arm import PointingArm
+from reactive_realizer.engines.animation.motions.reaching import sigmoid
 
-from .showing import shown
+from .bodies import shown
 
 SIDES = ("l", "r")
 PLACES = st.tuples(st.floats(-3, 3), st.floats(-0.5, 3.5), st.floats(-1.5, 4))
@@ -27,7 +26,7 @@ AHEAD = (0.0, 1.3, 2.5)
 
 def miss(body: Body, side: str, target) -> float:
     """The angle, degrees, between the line of the index finger and the way from its base to a target."""
-    base, tip = (body.place(f"{side}_index{i}").position for i in (1, 3))
+    base, tip = (body.transform(f"{side}_index{i}").position for i in (1, 3))
     cosine = dot(unit(subtract(tip, base)), unit(subtract(target, base)))
     return math.degrees(math.acos(min(1.0, cosine)))
 
@@ -40,12 +39,12 @@ def pointing(body: Body, target=AHEAD, sides: str = "r", **parameters: float) ->
 def speeds(unit_: PointingMotionUnit, body: Body, first: float, last: float, count: int = 60) -> list[float]:
     """Of the right wrist in steps of equal length between two phases."""
     phases = (first + (last - first) * i / count for i in range(count + 1))
-    places = [body.posed(shown(unit_, phase, body)).place("r_wrist").position for phase in phases]
+    places = [body.posed(shown(unit_, phase, body)).transform("r_wrist").position for phase in phases]
     return [distance(a, b) for a, b in pairwise(places)]
 
 
 @given(target=st.one_of(PLACES, NEAR), lean=LEANS)
-def test_the_finger_meets_every_target_that_the_arm_can_point_at_however_the_trunk_leans(skeleton, target, lean):
+def test_the_finger_points_exactly_at_every_reachable_target(skeleton, target, lean):
     body = Body(skeleton, {"vl5": from_euler(*lean), "r_sternoclavicular": from_euler(0.0, 0.0, -0.1)})
     for side in SIDES:
         aim = PointingArm(skeleton, side).aim(body, target)
@@ -54,7 +53,7 @@ def test_the_finger_meets_every_target_that_the_arm_can_point_at_however_the_tru
 
 
 @given(target=st.one_of(PLACES, NEAR), length=st.sampled_from([0.001, 0.01, 0.05, 0.6]))
-def test_an_arm_of_odd_proportions_points_as_well_as_it_can(skeleton, target, length):
+def test_an_arm_with_unusual_proportions_points_as_well_as_possible(skeleton, target, length):
     offsets = [
         scale(unit(offset), length) if joint.endswith("_wrist") else offset
         for joint, offset in zip(skeleton.joints, skeleton.offsets, strict=True)
@@ -67,11 +66,11 @@ def test_an_arm_of_odd_proportions_points_as_well_as_it_can(skeleton, target, le
 
 @given(target=st.one_of(PLACES, NEAR))
 @example(target=(1.0, 0.0, -1.0))
-def test_elbow_and_wrist_stay_within_what_a_body_can_do(skeleton, target):
+def test_elbow_and_wrist_stay_within_human_ranges(skeleton, target):
     for side in SIDES:
         rotations = PointingArm(skeleton, side).aim(Body(skeleton), target).rotations
         body = Body(skeleton, rotations)
-        places = [body.place(f"{side}_{joint}").position for joint in ("shoulder", "elbow", "wrist")]
+        places = [body.transform(f"{side}_{joint}").position for joint in ("shoulder", "elbow", "wrist")]
         upper, lower = (unit(subtract(b, a)) for a, b in pairwise(places))
         assert 5.0 < math.degrees(math.acos(max(-1.0, dot(upper, lower)))) < 152.0
         assert math.degrees(angle(rotations[f"{side}_wrist"])) < 45.0
@@ -79,12 +78,12 @@ def test_elbow_and_wrist_stay_within_what_a_body_can_do(skeleton, target):
 
 
 @given(way=st.tuples(st.floats(-2, 2), st.floats(-2, 2), st.floats(-1, 3)))
-def test_the_left_arm_points_as_the_right_one_in_a_mirror(skeleton, way):
+def test_left_and_right_arm_are_mirror_images(skeleton, way):
     body, tips = Body(skeleton), []
     for side, mirror in (("l", 1.0), ("r", -1.0)):
-        shoulder = body.place(f"{side}_shoulder").position
+        shoulder = body.transform(f"{side}_shoulder").position
         aim = PointingArm(skeleton, side).aim(body, add(shoulder, (mirror * way[0], way[1], way[2])))
-        x, y, z = subtract(body.posed(aim.rotations).place(f"{side}_wrist").position, shoulder)
+        x, y, z = subtract(body.posed(aim.rotations).transform(f"{side}_wrist").position, shoulder)
         tips.append((mirror * x, y, z, aim.fault is None))
     assert tips[0] == pytest.approx(tips[1], abs=0.02)
 
@@ -95,61 +94,61 @@ def test_the_left_arm_points_as_the_right_one_in_a_mirror(skeleton, way):
     [(0.0, 1.3, 3.0), (0.1, 4.0, 0.3), (0.2, 0.0, 0.8), (2.0, 1.2, 1.0), (-2.0, 1.2, 1.0), (0.1, 1.3, 0.55)],
     ids=["ahead", "up", "down", "left", "right", "near"],
 )
-def test_ahead_above_below_aside_across_and_near_are_in_reach_of_either_arm(skeleton, side, target):
+def test_either_arm_reaches_targets_ahead_above_below_aside_across_and_near(skeleton, side, target):
     assert PointingArm(skeleton, side).aim(Body(skeleton), target).fault is None
 
 
 @pytest.mark.parametrize("side", SIDES)
 @pytest.mark.parametrize("target", [(0.0, 1.3, -3.0), (0.0, 0.2, -1.0)], ids=["behind", "behind and below"])
-def test_what_is_behind_the_back_is_not_in_reach_and_the_arm_goes_as_far_as_is_natural(skeleton, side, target):
+def test_a_target_behind_the_back_is_pointed_at_as_far_as_is_natural(skeleton, side, target):
     aim = PointingArm(skeleton, side).aim(Body(skeleton), target)
     assert aim.fault is not None
     assert "behind" in aim.fault
-    hand = Body(skeleton, aim.rotations).place(f"{side}_wrist").position
-    assert distance(hand, Body(skeleton).place(f"{side}_shoulder").position) > 0.2
+    hand = Body(skeleton, aim.rotations).transform(f"{side}_wrist").position
+    assert distance(hand, Body(skeleton).transform(f"{side}_shoulder").position) > 0.2
 
 
 @pytest.mark.parametrize("side", SIDES)
-def test_what_is_nearer_than_a_hand_is_not_in_reach(skeleton, side):
+def test_a_target_nearer_than_a_hand_is_out_of_reach(skeleton, side):
     body = Body(skeleton)
-    shoulder = body.place(f"{side}_shoulder").position
+    shoulder = body.transform(f"{side}_shoulder").position
     for way in ((0.0, 0.0, 0.0), (0.0, 0.0, 0.1), (0.02, 0.1, 0.0)):
         assert PointingArm(skeleton, side).aim(body, add(shoulder, way)).fault == "it is too near"
 
 
 @pytest.mark.parametrize("side", SIDES)
-def test_toward_a_far_target_the_arm_is_nearly_straight_and_its_elbow_hangs(skeleton, side):
+def test_the_arm_is_nearly_straight_for_a_far_target_and_its_elbow_hangs(skeleton, side):
     body = Body(skeleton)
     body = body.posed(PointingArm(skeleton, side).aim(body, (0.3 if side == "l" else -0.3, 1.3, 5.0)).rotations)
-    shoulder, elbow, wrist = (body.place(f"{side}_{joint}").position for joint in ("shoulder", "elbow", "wrist"))
+    shoulder, elbow, wrist = (body.transform(f"{side}_{joint}").position for joint in ("shoulder", "elbow", "wrist"))
     straight = distance(shoulder, elbow) + distance(elbow, wrist)
     assert distance(shoulder, wrist) > 0.95 * straight
     assert elbow[1] < add(shoulder, scale(subtract(wrist, shoulder), 0.5))[1]
 
 
 @pytest.mark.parametrize("side", SIDES)
-def test_a_small_move_of_the_target_is_a_small_move_of_the_arm(skeleton, side):
+def test_a_small_move_of_the_target_moves_the_arm_a_little(skeleton, side):
     arm, body = PointingArm(skeleton, side), Body(skeleton)
     circle = [2.2 * i / 500 for i in range(-500, 501)]
     path = [(2.0 * math.sin(a), 1.3 + 0.9 * math.sin(3.0 * a), 0.6 + 1.4 * math.cos(a)) for a in circle]
     bodies = [body.posed(arm.aim(body, target).rotations) for target in path]
     for joint in (f"{side}_elbow", f"{side}_wrist", f"{side}_index3"):
-        places = [b.place(joint).position for b in bodies]
+        places = [b.transform(joint).position for b in bodies]
         assert max(distance(a, b) for a, b in pairwise(places)) < 0.06
 
 
-def test_only_the_index_is_stretched_the_other_fingers_are_in_the_palm(skeleton):
+def test_only_the_index_finger_is_stretched(skeleton):
     body = Body(skeleton)
     body = body.posed(PointingArm(skeleton, "r").aim(body, AHEAD).rotations)
     for finger in ("index", "middle", "ring", "pinky"):
-        base, *others = (body.place(f"r_{finger}{i}").position for i in (1, 2, 3))
+        base, *others = (body.transform(f"r_{finger}{i}").position for i in (1, 2, 3))
         bend = dot(unit(subtract(others[0], base)), unit(subtract(others[1], others[0])))
         assert bend > 0.99 if finger == "index" else bend < 0.3
 
 
 @pytest.mark.parametrize("steepness", [1.5, 2.0, 3.0, 4.0])
 @pytest.mark.parametrize("asymmetry", [-0.6, -0.1, 0.0, 0.4])
-def test_the_way_by_time_is_an_s_with_one_peak_of_speed_as_steep_and_as_early_as_is_said(steepness, asymmetry):
+def test_the_sigmoid_has_one_peak_of_speed_with_the_given_steepness_and_asymmetry(steepness, asymmetry):
     count = 2000
     way = [sigmoid(i / count, steepness, asymmetry) for i in range(count + 1)]
     speed = [(b - a) * count for a, b in pairwise(way)]
@@ -161,7 +160,7 @@ def test_the_way_by_time_is_an_s_with_one_peak_of_speed_as_steep_and_as_early_as
     assert (peak + 0.5) / count == pytest.approx(0.5 * (1.0 + asymmetry), abs=0.002)
 
 
-def test_the_speed_of_the_hand_is_a_bell_with_one_peak_there_and_back(skeleton):
+def test_the_speed_of_the_hand_is_bell_shaped_both_ways(skeleton):
     body = Body(skeleton)
     unit_ = pointing(body)
     keys = unit_.key_positions
@@ -183,7 +182,7 @@ def test_asymmetry_moves_the_peak(skeleton):
     assert early < middle - 8 < middle + 8 < late
 
 
-def test_it_has_seven_points_arrives_with_its_stroke_and_takes_as_long_back_as_there(skeleton):
+def test_pointing_has_seven_points_and_symmetric_durations(skeleton):
     unit_ = pointing(Body(skeleton))
     keys = unit_.key_positions
     assert tuple(keys) == GESTURE_POINTS
@@ -191,17 +190,17 @@ def test_it_has_seven_points_arrives_with_its_stroke_and_takes_as_long_back_as_t
     assert keys["ready"] == pytest.approx(1.0 - keys["relax"])
 
 
-def test_it_sets_out_from_where_the_arm_is_and_leaves_to_what_lies_below(skeleton):
+def test_pointing_starts_from_the_current_arm_and_ends_in_the_layers_below(skeleton):
     unit_ = pointing(Body(skeleton))
     raised = Body(skeleton, {"r_shoulder": from_euler(-1.4, 0.3, -0.4), "r_elbow": from_euler(-0.9, 0.0, 0.0)})
     unit_.start(raised)
     start = raised.posed(shown(unit_, 0.0, raised))
     end = raised.posed(shown(unit_, 1.0, raised))
     for body in (start, end):
-        assert distance(body.place("r_index3").position, raised.place("r_index3").position) < 1e-9
+        assert distance(body.transform("r_index3").position, raised.transform("r_index3").position) < 1e-9
 
 
-def test_both_hands_point_and_are_owned(skeleton):
+def test_pointing_with_both_hands_owns_both_arms(skeleton):
     body = Body(skeleton)
     unit_ = pointing(body, sides="lr")
     posed = body.posed(unit_.pose(Moment(unit_.key_positions["stroke"], 0.0, body)).rotations)

@@ -1,4 +1,4 @@
-"""Files of stances and poses that a user writes."""
+"""Posture files of a user."""
 
 import shutil
 from pathlib import Path
@@ -7,12 +7,10 @@ import pytest
 
 from reactive_realizer.assembly.assets import Assets
 from reactive_realizer.embodiment.quaternion import angle
-from reactive_realizer.engines.animation.posture.body_posture import BodyPosture
-from reactive_realizer.engines.animation.posture.posture_library import PostureLibrary
+from reactive_realizer.engines.animation.posture.posture_library import BodyPosture, PostureLibrary
 from reactive_realizer.errors import RealizerError
 
-from .posing import apart
-from .resting import ASSET, body_in, posture
+from .bodies import ASSET, apart, body_in, posture
 
 
 @pytest.fixture
@@ -28,7 +26,7 @@ def test_a_file_of_the_user_is_a_new_word(skeleton, own):
     assert library.body(posture(ARMS="HANDS_UP")).pose == body_in(skeleton, ARMS="ARMS_AKIMBO").pose
 
 
-def test_a_stance_of_the_user_takes_the_place_of_ours_and_may_say_where_the_pelvis_is(skeleton, own):
+def test_a_stance_of_the_user_replaces_that_of_the_package_and_may_place_the_pelvis(skeleton, own):
     (own / "postures" / "sitting.xml").write_text(
         '<ProcAnimation prefDuration="1">'
         '<EndEffector target="HumanoidRoot" local="true" translation="0;-0.2;0.1"/>'
@@ -40,7 +38,7 @@ def test_a_stance_of_the_user_takes_the_place_of_ours_and_may_say_where_the_pelv
         assert angle(body.rotation("l_knee")) == pytest.approx(1.0)
 
 
-def test_a_file_that_was_saved_anew_is_read_anew(skeleton, own):
+def test_a_changed_file_is_read_again(skeleton, own):
     file = own / "postures" / "arms_up.xml"
     text = '<ProcAnimation prefDuration="1"><Rotation target="l_elbow" rotation="{};0;0"/></ProcAnimation>'
     library = PostureLibrary(skeleton, Assets((own,)))
@@ -51,7 +49,7 @@ def test_a_file_that_was_saved_anew_is_read_anew(skeleton, own):
     assert seen == pytest.approx([0.5, 1.5])
 
 
-def test_a_file_that_is_broken_is_refused_by_its_line(skeleton, own):
+def test_an_invalid_posture_file_is_refused_with_its_line(skeleton, own):
     (own / "postures" / "arms_up.xml").write_text('<ProcAnimation prefDuration="1">\n<Rotation target="l_elbow"/>')
     with pytest.raises(RealizerError) as refused:
         PostureLibrary(skeleton, Assets((own,))).body(posture(ARMS="ARMS_UP"))
@@ -62,7 +60,7 @@ REST_POSE = """<SkeletonPose rotationEncoding="axisangles" parts="HumanoidRoot r
 0 1.9 0 1 0 0 0 0 0 1 -0.4 0 0 1 0.4</SkeletonPose>"""
 
 
-def test_a_binding_may_say_how_a_stance_rests_and_the_feet_stay_on_the_ground(skeleton, own):
+def test_a_binding_may_set_a_rest_pose_and_the_feet_stay_on_the_ground(skeleton, own):
     (own / "mine.xml").write_text(REST_POSE)
     library = PostureLibrary(skeleton, Assets((own,)), {"STANDING": "mine.xml"})
     body = library.body(BodyPosture())
@@ -71,15 +69,15 @@ def test_a_binding_may_say_how_a_stance_rests_and_the_feet_stay_on_the_ground(sk
     assert apart(body, body_in(skeleton), "l_elbow") < 1e-9
 
 
-def test_a_rest_pose_that_is_not_there_is_logged_and_ours_is_taken(skeleton, caplog):
+def test_a_rest_pose_that_is_missing_is_logged_and_the_default_is_used(skeleton, caplog):
     library = PostureLibrary(skeleton, ASSET, {"SITTING": "nowhere.xml"})
-    said = ["the rest pose of SITTING is our own: no file 'nowhere.xml' among the assets"]
+    said = ["the default rest pose of SITTING is used: there is no asset named 'nowhere.xml'"]
     assert [record.getMessage() for record in caplog.records] == said, "before anybody sits"
     assert library.body(posture("SITTING")).pose == body_in(skeleton, "SITTING").pose
     assert len(caplog.records) == 1
 
 
-def test_a_file_that_takes_the_root_out_of_sight_is_no_posture(skeleton, own):
+def test_a_posture_file_that_moves_the_root_too_far_is_refused(skeleton, own):
     (own / "postures" / "arms_up.xml").write_text(
         '<ProcAnimation prefDuration="1"><EndEffector target="HumanoidRoot" local="true" translation="0;0;1e300"/>'
         '<Rotation target="l_elbow" rotation="1;0;0"/></ProcAnimation>'

@@ -1,30 +1,29 @@
-"""The words of stances and poses: which there are, how they are written, and what joining them comes to."""
+"""Lexemes of stances and poses, and how postures combine."""
 
 from pathlib import Path
 
 import pytest
 
-from reactive_realizer.bml.words import PosePart, StanceType
-from reactive_realizer.engines.animation.posture.parts import JOINTS
-from reactive_realizer.engines.animation.posture.posture_library import LEXEMES, PostureLibrary
-from reactive_realizer.errors import RealizerError, error
+from reactive_realizer.assembly.faults import TwoAssets
+from reactive_realizer.bml.vocabulary import PosePart, StanceType
+from reactive_realizer.engines.animation.posture.posture_library import LEXEMES, PART_JOINTS, PostureLibrary
+from reactive_realizer.errors import RealizerError
 
-from .posing import apart, part_of
-from .resting import ASSET, body_in, pose, posture
+from .bodies import ASSET, apart, body_in, part_of, pose, posture
 
 
-def test_a_word_may_be_written_in_small_letters_and_with_hyphens(skeleton):
+def test_a_lexeme_may_be_written_in_lower_case_and_with_hyphens(skeleton):
     assert body_in(skeleton, ARMS="arms-crossed").pose == body_in(skeleton, ARMS="ARMS_CROSSED").pose
 
 
 def test_a_neutral_part_is_as_in_the_stance_alone(skeleton):
     arms = body_in(skeleton, "SITTING", ARMS="ARMS_CROSSED", RIGHT_ARM="ARMS_NEUTRAL")
     sitting = body_in(skeleton, "SITTING")
-    assert all(apart(arms, sitting, joint) < 1e-9 for joint in JOINTS[PosePart.RIGHT_ARM])
+    assert all(apart(arms, sitting, joint) < 1e-9 for joint in PART_JOINTS[PosePart.RIGHT_ARM])
     assert apart(arms, sitting, "l_shoulder") > 0.1
 
 
-def test_a_word_without_a_file_is_refused_by_naming_the_known_ones(skeleton):
+def test_a_lexeme_without_a_file_is_refused_with_the_known_ones(skeleton):
     with pytest.raises(RealizerError) as refused:
         body_in(skeleton, ARMS="ARMS_WINGED")
     assert refused.value.fault.code == "no-posture"
@@ -32,31 +31,31 @@ def test_a_word_without_a_file_is_refused_by_naming_the_known_ones(skeleton):
     assert "ARMS_AKIMBO, ARMS_CROSSED" in refused.value.fault.sentence
 
 
-def test_a_pose_that_a_stance_does_not_know_is_refused_in_it(skeleton):
-    with pytest.raises(RealizerError, match="no pose 'LEGS_CROSSED' of the LEGS for one who is CROUCHING") as refused:
+def test_a_pose_that_does_not_exist_in_a_stance_is_refused(skeleton):
+    with pytest.raises(RealizerError, match="there is no LEGS pose 'LEGS_CROSSED' for CROUCHING") as refused:
         body_in(skeleton, "CROUCHING", LEGS="LEGS_CROSSED")
-    _, _, known = refused.value.fault.sentence.partition("there are ")
+    _, _, known = refused.value.fault.sentence.partition("available: ")
     assert "LEGS_OPEN" in known
     assert "LEGS_CROSSED" not in known
     assert "ARMS_CROSSED" not in known
 
 
 @pytest.mark.parametrize("lexeme", ["/etc/passwd", "", "a/b", "\x00"])
-def test_what_is_no_word_has_no_file(skeleton, lexeme):
+def test_an_invalid_lexeme_has_no_file(skeleton, lexeme):
     with pytest.raises(RealizerError) as refused:
         body_in(skeleton, ARMS=lexeme)
     assert refused.value.fault.code == "no-posture"
 
 
-def test_no_word_leads_out_of_the_assets(skeleton):
-    with pytest.raises(RealizerError, match="it may not leave the folders"):
+def test_no_lexeme_leads_outside_of_the_assets(skeleton):
+    with pytest.raises(RealizerError, match="it must be a relative path inside the asset folders"):
         body_in(skeleton, ARMS="../humans/default")
 
 
-def test_only_where_there_is_no_file_for_a_stance_the_file_for_all_is_taken(skeleton):
+def test_a_file_for_a_stance_takes_precedence_over_the_general_one(skeleton):
     def asset(name: str) -> Path:
         if name == "postures/sitting/arms_crossed.xml":
-            raise error("two-assets", name=name, known="this, that")
+            raise RealizerError(TwoAssets(name=name, known=("this", "that")))
         return ASSET(name)
 
     library = PostureLibrary(skeleton, asset)
@@ -65,29 +64,29 @@ def test_only_where_there_is_no_file_for_a_stance_the_file_for_all_is_taken(skel
         library.body(posture("SITTING", ARMS="ARMS_CROSSED"))
 
 
-def test_a_word_that_says_nothing_about_a_part_is_refused_for_it(skeleton):
+def test_a_lexeme_that_does_not_concern_a_part_is_refused_for_it(skeleton):
     with pytest.raises(RealizerError, match="arms_crossed"):
         body_in(skeleton, LEGS="ARMS_CROSSED")
 
 
 @pytest.mark.parametrize("lexeme", [lexeme for lexeme in LEXEMES if not lexeme.endswith("NEUTRAL")])
-def test_every_word_that_ships_has_its_file_and_does_something(skeleton, lexeme):
+def test_every_lexeme_of_the_package_has_a_file_and_an_effect(skeleton, lexeme):
     body, rest = body_in(skeleton, **{part_of(lexeme): lexeme}), body_in(skeleton)
     assert max(apart(body, rest, joint) for joint in skeleton.joints) > 0.05
 
 
-def test_who_sits_down_with_crossed_arms_has_crossed_arms():
+def test_crossed_arms_stay_crossed_when_the_figure_sits_down():
     before = posture(ARMS="ARMS_CROSSED")
     assert before.changed(StanceType.SITTING, ()) == posture("SITTING", ARMS="ARMS_CROSSED")
 
 
-def test_a_pose_takes_the_place_of_poses_of_the_same_joints():
+def test_a_pose_replaces_poses_of_the_same_joints():
     before = posture(LEFT_ARM="ARMS_OPEN", LEGS="LEGS_OPEN")
     assert before.changed(None, [pose("ARMS", "ARMS_CROSSED")]) == posture(LEGS="LEGS_OPEN", ARMS="ARMS_CROSSED")
     assert before.changed(None, [pose("WHOLEBODY", "LEANING_FORWARD")]) == posture(WHOLEBODY="LEANING_FORWARD")
 
 
-def test_a_pose_of_one_arm_keeps_what_the_other_does(skeleton):
+def test_a_pose_of_one_arm_keeps_the_pose_of_the_other(skeleton):
     after = posture(ARMS="ARMS_CROSSED").changed(None, [pose("LEFT_ARM", "ARMS_AKIMBO")])
     body, crossed = PostureLibrary(skeleton, ASSET).body(after), body_in(skeleton, ARMS="ARMS_CROSSED")
     assert apart(body, crossed, "r_shoulder") < 1e-9

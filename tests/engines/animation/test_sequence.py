@@ -1,4 +1,4 @@
-"""Several motions as one: shifted, stretched, weighed in and out, one on top of the other."""
+"""Sequences of motions."""
 
 import threading
 from pathlib import Path
@@ -11,10 +11,9 @@ from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.pose import Layer, LayerKind, compose
 from reactive_realizer.embodiment.quaternion import angle, from_axis_angle
 from reactive_realizer.embodiment.vector import UP
-from reactive_realizer.engines.animation.keyframe import capture_reader
-from reactive_realizer.engines.animation.motion_unit import Moment, MotionUnit, Posed, layer_of
-from reactive_realizer.engines.animation.sequence.part import Part
-from reactive_realizer.engines.animation.sequence.sequence_motion_unit import SequenceMotionUnit
+from reactive_realizer.engines.animation.keyframe import bvh_reader
+from reactive_realizer.engines.animation.motion_unit import Moment, MotionPose, MotionUnit, layer_of
+from reactive_realizer.engines.animation.motions.sequence import SequenceMotionUnit, SequencePart
 from reactive_realizer.planunit.parameter import Range
 from reactive_realizer.testing.pilot import open_pilot
 
@@ -39,7 +38,9 @@ class Turning(MotionUnit):
         self.begun.append(body)
 
     def pose(self, moment):
-        return Posed(dict.fromkeys(self.joints, from_axis_angle(UP, self._radians * moment.phase)), root=self._root)
+        return MotionPose(
+            dict.fromkeys(self.joints, from_axis_angle(UP, self._radians * moment.phase)), root=self._root
+        )
 
 
 @pytest.fixture
@@ -62,15 +63,15 @@ def shown(skeleton):
 
 
 def test_a_part_is_shifted_to_its_start_and_stretched_to_its_end(shown):
-    parts = [Part(Turning(1.0, "skullbase"), 1.0, 3.0), Part(Turning(1.0, "vl5"), 0.0, 4.0)]
+    parts = [SequencePart(Turning(1.0, "skullbase"), 1.0, 3.0), SequencePart(Turning(1.0, "vl5"), 0.0, 4.0)]
     assert shown(parts, 0.5) == pytest.approx(0.4), "what lies below"
     assert shown(parts, 1.5) == pytest.approx(0.25)
     assert shown(parts, 3.0) == pytest.approx(1.0)
     assert shown(parts, 3.5) == pytest.approx(0.4)
 
 
-def test_a_part_comes_and_goes_by_weight_over_whatever_lies_below(shown):
-    parts = [Part(Turning(0.0, "skullbase"), 0.0, 2.0, ease_in=1.0, ease_out=0.5)]
+def test_a_part_fades_in_and_out_over_the_layers_below(shown):
+    parts = [SequencePart(Turning(0.0, "skullbase"), 0.0, 2.0, ease_in=1.0, ease_out=0.5)]
     assert shown(parts, 0.0) == pytest.approx(0.4)
     assert shown(parts, 0.5) == pytest.approx(0.2)
     assert shown(parts, 1.2) == pytest.approx(0.0)
@@ -78,40 +79,43 @@ def test_a_part_comes_and_goes_by_weight_over_whatever_lies_below(shown):
     assert shown(parts, 2.0) == pytest.approx(0.4)
 
 
-def test_the_later_part_lies_over_the_earlier_by_its_weight_and_both_over_what_is_below(shown):
+def test_later_parts_lie_over_earlier_ones_by_their_weights(shown):
     half = {"ease_in": 1.0}
     low, high = Turning(0.0, "skullbase"), Turning(1.6, "skullbase")
-    assert shown([Part(low, 0.0, 1.0), Part(high, 0.0, 1.0, **half)], 0.5) == pytest.approx(0.4)
+    assert shown([SequencePart(low, 0.0, 1.0), SequencePart(high, 0.0, 1.0, **half)], 0.5) == pytest.approx(0.4)
     # Three quarters of both, of which two thirds the upper one.
-    both = [Part(low, 0.0, 1.0, **half), Part(high, 0.0, 1.0, **half)]
+    both = [SequencePart(low, 0.0, 1.0, **half), SequencePart(high, 0.0, 1.0, **half)]
     assert shown(both, 0.5) == pytest.approx(0.5 * 0.8 + 0.25 * 0.0 + 0.25 * 0.4)
 
 
-def test_joints_of_one_part_do_not_come_with_those_of_another(shown):
-    parts = [Part(Turning(0.0, "skullbase"), 0.0, 1.0), Part(Turning(0.0, "vc4"), 0.0, 1.0, ease_in=1.0)]
+def test_joints_of_parts_are_weighted_separately(shown):
+    parts = [
+        SequencePart(Turning(0.0, "skullbase"), 0.0, 1.0),
+        SequencePart(Turning(0.0, "vc4"), 0.0, 1.0, ease_in=1.0),
+    ]
     assert shown(parts, 0.5, "skullbase") == pytest.approx(0.0)
     assert shown(parts, 0.5, "vc4") == pytest.approx(0.2)
 
 
 def test_additive_parts_add_up(shown):
     parts = [
-        Part(Turning(0.2, "skullbase", kind=LayerKind.ADDITIVE), 0.0, 1.0),
-        Part(Turning(0.4, "skullbase", kind=LayerKind.ADDITIVE), 0.0, 1.0, ease_out=1.0),
+        SequencePart(Turning(0.2, "skullbase", kind=LayerKind.ADDITIVE), 0.0, 1.0),
+        SequencePart(Turning(0.4, "skullbase", kind=LayerKind.ADDITIVE), 0.0, 1.0, ease_out=1.0),
     ]
     assert shown(parts, 0.5) == pytest.approx(0.4 + 0.1 + 0.1)
 
 
-def test_the_root_comes_with_the_part_that_moves_it(shown):
+def test_the_root_is_weighted_with_the_part_that_moves_it(shown):
     parts = [
-        Part(Turning(0.0, "skullbase"), 0.0, 1.0),
-        Part(Turning(0.0, root=(0.0, -0.2, 0.0)), 0.0, 1.0, ease_in=1.0),
+        SequencePart(Turning(0.0, "skullbase"), 0.0, 1.0),
+        SequencePart(Turning(0.0, root=(0.0, -0.2, 0.0)), 0.0, 1.0, ease_in=1.0),
     ]
     assert shown.composed(parts, 0.5).shown.root == pytest.approx((0.0, -0.1, 0.0))
 
 
-def test_each_part_begins_once_from_where_the_body_is_when_its_time_has_come(skeleton):
+def test_each_part_starts_once_from_the_body_at_its_time(skeleton):
     first, second = Turning(1.0, "skullbase"), Turning(1.0, "vc4")
-    whole = SequenceMotionUnit([Part(first, 0.0, 1.0), Part(second, 1.0, 2.0)], {})
+    whole = SequenceMotionUnit([SequencePart(first, 0.0, 1.0), SequencePart(second, 1.0, 2.0)], {})
     bodies = [Body(skeleton) for _ in range(5)]
     whole.start(bodies[0])
     for phase, body in zip((0.0, 0.3, 0.6, 0.9), bodies[1:], strict=True):
@@ -120,9 +124,9 @@ def test_each_part_begins_once_from_where_the_body_is_when_its_time_has_come(ske
     assert second.begun[0] is bodies[3]
 
 
-def test_a_parameter_on_which_the_parts_agree_is_one_of_the_whole_and_reaches_them(skeleton):
+def test_a_parameter_with_equal_values_in_all_parts_is_a_parameter_of_the_sequence(skeleton):
     first, second = Turning(1.0, "vc4", amount=1.0, a=0.2), Turning(1.0, "vl5", amount=1.0, a=0.3)
-    whole = SequenceMotionUnit([Part(first, 0.0, 1.0), Part(second, 0.0, 1.0)], {})
+    whole = SequenceMotionUnit([SequencePart(first, 0.0, 1.0), SequencePart(second, 0.0, 1.0)], {})
     assert whole.parameters == {"amount": 1.0}
     assert list(whole.ranges) == ["amount"]
     whole.parameters["amount"] = 0.5
@@ -131,8 +135,8 @@ def test_a_parameter_on_which_the_parts_agree_is_one_of_the_whole_and_reaches_th
     assert second.parameters == {"amount": 0.5, "a": 0.3}
 
 
-def test_it_has_the_points_that_are_named_in_order_and_no_others():
-    keys = SequenceMotionUnit([Part(Turning(1.0, "vc4"), 0.0, 4.0)], {"late": 3.0, "early": 1.0}).key_positions
+def test_a_sequence_has_only_its_named_points_in_order():
+    keys = SequenceMotionUnit([SequencePart(Turning(1.0, "vc4"), 0.0, 4.0)], {"late": 3.0, "early": 1.0}).key_positions
     assert list(keys.items()) == [("start", 0.0), ("early", 0.25), ("late", 0.75), ("end", 1.0)]
 
 
@@ -184,35 +188,35 @@ async def test_a_sequence_of_a_file_plays_as_one_behavior_with_its_parts_points(
 @pytest.mark.parametrize(
     ("sequence", "said"),
     [
-        ("<Sequence/>", "one or more, all of one kind"),
+        ("<Sequence/>", "one or more parts, all of one kind"),
         ('<Sequence><Motion type="Dance" file="lift.xml" start="0"/></Sequence>', "type='Dance': a part may be"),
         ('<Sequence><Motion type="gaze" start="0"/></Sequence>', "type='gaze': a part may be"),
         ('<Sequence><Motion type="transition" start="0"/></Sequence>', "type='transition': a part may be"),
         ('<Sequence><Motion type="ProcAnimation" file="lift.xml" start="2" end="1"/></Sequence>', "start < end"),
         ('<Sequence><Motion type="ProcAnimation" file="lift.xml" start="0" easeIn="9"/></Sequence>', "between them"),
-        ('<Sequence><Motion type="ProcAnimation" file="lift.xml" start="now"/></Sequence>', "is no number"),
-        ('<Sequence><Motion type="ProcAnimation" file="none.xml" start="0"/></Sequence>', "no file 'none.xml'"),
-        ('<Sequence><Motion type="Sequence" file="two.xml" start="0"/></Sequence>', "a part of itself"),
+        ('<Sequence><Motion type="ProcAnimation" file="lift.xml" start="now"/></Sequence>', "is not a number"),
+        ('<Sequence><Motion type="ProcAnimation" file="none.xml" start="0"/></Sequence>', "no asset named 'none.xml'"),
+        ('<Sequence><Motion type="Sequence" file="two.xml" start="0"/></Sequence>', "contains itself"),
         (TWO.replace("low:end", "high:end"), "no point 'high:end'"),
-        (TWO.replace('id="lifted"', 'id="end"'), "those of the whole"),
+        (TWO.replace('id="lifted"', 'id="end"'), "reserved for the whole"),
         (TWO.replace('id="lifted"', 'id="lifted up"'), "cannot name a sync point"),
         (TWO.replace("KeyPosition", "Point"), "known are Motion, KeyPosition"),
     ],
 )
-async def test_a_file_that_makes_no_sense_is_refused_with_the_reason(sequence, said, tmp_path) -> None:
+async def test_an_invalid_sequence_file_is_refused_with_the_reason(sequence, said, tmp_path) -> None:
     pilot = await perform(tmp_path, sequence)
     assert [warning for _, warning in pilot.feedback.warnings] == ["CANNOT_CREATE_BEHAVIOR"]
     assert said in pilot.feedback.of("warningFeedback")[0].element.text
 
 
-async def test_a_capture_in_a_sequence_is_read_aside_of_the_ticks(tmp_path, monkeypatch) -> None:
+async def test_a_capture_in_a_sequence_is_read_in_another_thread(tmp_path, monkeypatch) -> None:
     reads = []
 
     def read_bytes(path: Path) -> bytes:
         reads.append(threading.current_thread())
         return path.read_bytes()
 
-    monkeypatch.setattr(capture_reader, "read_bytes", read_bytes)
+    monkeypatch.setattr(bvh_reader, "read_bytes", read_bytes)
     (tmp_path / "step.bvh").write_text(bvh({}, {"LeftArm": (0.0, 0.0, 60.0)}, step=1.0))
     inner = '<Sequence><Motion type="Keyframe" file="step.bvh" start="0"/></Sequence>'
     (tmp_path / "inner.xml").write_text(inner)
@@ -221,13 +225,13 @@ async def test_a_capture_in_a_sequence_is_read_aside_of_the_ticks(tmp_path, monk
     assert [thread is threading.main_thread() for thread in reads] == [False]
 
 
-async def test_files_that_double_at_each_level_are_refused(tmp_path) -> None:
+async def test_exponentially_nested_files_are_refused(tmp_path) -> None:
     for i in range(12):
         inner = f'type="Sequence" file="s{i + 1}.xml"' if i < 11 else 'type="ProcAnimation" file="lift.xml"'
         part = f'<Motion {inner} start="0"/>'
         (tmp_path / f"s{i}.xml").write_text(f"<Sequence>{part}{part}</Sequence>")
     outer = '<Sequence><Motion type="Sequence" file="s0.xml" start="0"/></Sequence>'
     pilot = await perform(tmp_path, outer)
-    assert "with those of its parts a sequence has more than 100 parts" in str(
+    assert "a sequence, with nested ones, has more than 100 parts" in str(
         pilot.feedback.of("warningFeedback")[0].element.text
     )

@@ -1,4 +1,4 @@
-"""The embedded voice: what espeak-ng says comes with times, and whatever happens to its process stays there."""
+"""The voice espeak-ng: times of its utterances, and isolation of its process."""
 
 import asyncio
 import os
@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from reactive_realizer.engines.speech.espeak_messages import MessageDecoder
 from reactive_realizer.engines.speech.espeak_voice import EspeakVoice
-from reactive_realizer.engines.speech.messages import MessageDecoder
 from reactive_realizer.errors import RealizerError
 
 pytestmark = pytest.mark.speech
@@ -31,7 +31,7 @@ async def spoken(voice, text, voice_name=None, **marks):
     return await voice.synthesize(text, tuple(marks.items()), voice_name)
 
 
-async def test_every_word_has_a_time_while_there_is_sound(voice):
+async def test_every_word_starts_before_the_end_of_the_audio(voice):
     utterance = await spoken(voice, SENTENCE)
     starts = [word.start for word in utterance.words]
     assert [word.text for word in utterance.words] == [word.strip(".,") for word in SENTENCE.split()]
@@ -46,7 +46,7 @@ async def test_a_mark_has_the_time_of_its_word(voice):
     assert dict(utterance.marks) == {"red": times["red"], "table": times["table"]}
 
 
-async def test_phonemes_cover_the_utterance_from_the_first_to_the_end(voice):
+async def test_phonemes_cover_the_whole_utterance(voice):
     phonemes = (await spoken(voice, "Red box.")).phonemes
     assert "".join(phoneme.symbol for phoneme in phonemes) == "ɹˈɛdbˈɑːks"  # noqa: RUF001
     assert all(phoneme.duration >= 0.0 for phoneme in phonemes)
@@ -60,20 +60,20 @@ async def test_the_same_text_gives_the_same_bytes_in_another_worker(voice):
         await other.close()
 
 
-async def test_it_does_not_matter_when_a_worker_was_started():
-    """The breath of a voice is random, and of itself seeded with the second in which its worker starts."""
+async def test_the_audio_does_not_depend_on_when_the_worker_was_started():
+    """The breath of a voice is random noise, by default seeded with the second in which the worker starts."""
     heard = set()
     for _ in range(2):
         voice = EspeakVoice()
         try:
             heard.add((await spoken(voice, SENTENCE, "en-us+f3")).audio)
-            await asyncio.sleep(1.0)  # there is nothing to wait for but another second
+            await asyncio.sleep(1.0)  # until another second
         finally:
             await voice.close()
     assert len(heard) == 1
 
 
-async def test_another_voice_speaks_otherwise(voice):
+async def test_another_voice_gives_other_audio(voice):
     default = await spoken(voice, SENTENCE)
     variant = await spoken(voice, SENTENCE, "EN-US+f3")
     scottish = await spoken(voice, SENTENCE, "en-gb-scotland")
@@ -85,7 +85,7 @@ async def test_the_voices_can_be_listed(voice):
 
 
 @pytest.mark.parametrize("name", ["klingon!", "en-us+nobody", "../../etc/passwd", "en-us+../x", "+f3"])
-async def test_an_unknown_voice_is_named_and_some_known_ones_too(voice, name):
+async def test_the_error_of_an_unknown_voice_lists_known_ones(voice, name):
     with pytest.raises(RealizerError) as failure:
         await spoken(voice, "hello", name)
     assert failure.value.fault.code == "unknown-voice"
@@ -93,7 +93,7 @@ async def test_an_unknown_voice_is_named_and_some_known_ones_too(voice, name):
     assert "en-us" in str(failure.value)
 
 
-async def test_when_the_worker_is_killed_what_it_was_asked_for_fails_and_the_next_speech_starts_another(voice):
+async def test_killing_the_worker_fails_its_requests_and_the_next_one_starts_a_new_worker(voice):
     pending = [asyncio.ensure_future(spoken(voice, LONG)) for _ in range(2)]
     await asyncio.sleep(0)
     os.kill(worker_of(voice), signal.SIGKILL)
@@ -105,21 +105,21 @@ async def test_when_the_worker_is_killed_what_it_was_asked_for_fails_and_the_nex
     assert (voice.alive, voice.restarts) == (True, 1)
 
 
-async def test_a_worker_that_died_idle_costs_nothing(voice):
+async def test_killing_an_idle_worker_fails_no_request(voice):
     os.kill(worker_of(voice), signal.SIGKILL)
     await voice._process.ended
     assert (await spoken(voice, "hello")).audio
     assert voice.restarts == 1
 
 
-async def test_two_speeches_after_a_death_start_one_worker(voice):
+async def test_two_requests_after_the_end_of_a_worker_start_one_new_worker(voice):
     os.kill(worker_of(voice), signal.SIGKILL)
     await voice._process.ended
     await asyncio.gather(spoken(voice, "one"), spoken(voice, "two"))
     assert voice.restarts == 1
 
 
-async def test_a_worker_that_hangs_is_killed_and_the_next_speech_starts_another():
+async def test_a_worker_that_hangs_is_killed_and_the_next_request_starts_a_new_one():
     voice = EspeakVoice(patience=1.0)
     await voice.start()
     try:
@@ -135,7 +135,7 @@ async def test_a_worker_that_hangs_is_killed_and_the_next_speech_starts_another(
         await voice.close()
 
 
-async def test_the_patience_with_a_worker_is_for_each_answer_however_many_wait(voice):
+async def test_the_time_limit_of_the_worker_is_for_each_reply(voice):
     process = voice._process
     first, second = (process.request({"ssml": "<speak>one</speak>", "voice": "gmw/en"}) for _ in range(2))
     deadline = process._watch.when()
@@ -145,7 +145,7 @@ async def test_the_patience_with_a_worker_is_for_each_answer_however_many_wait(v
     assert process._watch.cancelled()
 
 
-async def test_a_killed_child_costs_one_utterance_and_the_worker_goes_on(voice):
+async def test_killing_a_child_fails_one_utterance_and_the_worker_goes_on(voice):
     pending, later = asyncio.ensure_future(spoken(voice, LONG)), asyncio.ensure_future(spoken(voice, "hello"))
     os.kill(await child_of(worker_of(voice)), signal.SIGKILL)
     with pytest.raises(RealizerError) as failure:
@@ -155,15 +155,15 @@ async def test_a_killed_child_costs_one_utterance_and_the_worker_goes_on(voice):
     assert (voice.alive, voice.restarts) == (True, 0)
 
 
-async def test_a_speech_that_is_called_off_leaves_the_others_alone(voice, caplog):
-    called_off, other = asyncio.ensure_future(spoken(voice, LONG)), asyncio.ensure_future(spoken(voice, "one two"))
+async def test_canceling_a_request_does_not_affect_the_others(voice, caplog):
+    canceled, other = asyncio.ensure_future(spoken(voice, LONG)), asyncio.ensure_future(spoken(voice, "one two"))
     await child_of(worker_of(voice))
-    called_off.cancel()
+    canceled.cancel()
     assert [word.text for word in (await other).words] == ["one", "two"]
     assert caplog.text == ""
 
 
-async def test_what_is_called_off_before_its_turn_is_never_spoken(voice, monkeypatch):
+async def test_a_request_canceled_while_it_waits_is_never_sent(voice, monkeypatch):
     pipe = voice._process._transport.get_pipe_transport(0)
     asked, first_asked, write = [], asyncio.Event(), pipe.write
     monkeypatch.setattr(pipe, "write", lambda request: (asked.append(request), first_asked.set(), write(request)))
@@ -175,7 +175,7 @@ async def test_what_is_called_off_before_its_turn_is_never_spoken(voice, monkeyp
     assert len(asked) == 2
 
 
-async def test_a_voice_that_was_closed_has_no_process(voice):
+async def test_a_closed_voice_has_no_process(voice):
     worker = worker_of(voice)
     await voice.close()
     assert not voice.alive
@@ -183,14 +183,14 @@ async def test_a_voice_that_was_closed_has_no_process(voice):
         os.kill(worker, 0)
 
 
-async def test_without_the_package_the_error_says_what_to_install(monkeypatch):
+async def test_the_error_without_the_package_says_what_to_install(monkeypatch):
     monkeypatch.setattr("reactive_realizer.engines.speech.espeak_voice.find_spec", lambda name: None)
     with pytest.raises(RealizerError) as failure:
         await EspeakVoice().start()
     assert "reactive-realizer[espeak]" in str(failure.value)
 
 
-def test_a_child_that_does_not_come_to_an_end_is_ended():
+def test_a_child_that_hangs_is_killed():
     hang = (
         "import signal, sys; from reactive_realizer.engines.speech import espeak_worker as worker; "
         "worker._TIME_LIMIT = 0.01; sys.stdout.buffer.write(worker._in_child(signal.pause))"
@@ -199,12 +199,12 @@ def test_a_child_that_does_not_come_to_an_end_is_ended():
     assert [message.header for message in MessageDecoder().feed(answer)] == [{"failed": "SIGALRM"}]
 
 
-def test_the_worker_ends_when_the_realizer_is_gone():
+def test_the_worker_ends_when_its_input_ends():
     command = [sys.executable, "-m", "reactive_realizer.engines.speech.espeak_worker"]
     assert subprocess.run(command, check=False, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL).returncode == 0
 
 
-def test_the_library_under_the_gpl_is_loaded_by_the_worker_alone():
+def test_only_the_worker_loads_the_library():
     check = "import sys, reactive_realizer.engines.speech.espeak_voice; sys.exit('espeakng_loader' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", check], check=False).returncode == 0
 
@@ -214,8 +214,8 @@ def worker_of(voice: EspeakVoice) -> int:
 
 
 async def child_of(process: int) -> int:
-    """The child that speaks for a worker, as soon as there is one."""
-    while not (children := children_of(process)):  # noqa: ASYNC110 - a fork announces itself to nobody
+    """The child of a worker, as soon as there is one."""
+    while not (children := children_of(process)):  # noqa: ASYNC110 - nothing signals a fork
         await asyncio.sleep(0)
     return children[0]
 

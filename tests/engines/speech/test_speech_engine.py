@@ -1,4 +1,4 @@
-"""Speeches in a plan, with either kind of voice."""
+"""Speeches with either kind of voice."""
 
 import pytest
 
@@ -10,7 +10,7 @@ VOICES = ["text", pytest.param("espeak", marks=pytest.mark.speech)]
 
 @pytest.mark.parametrize("voice", VOICES)
 @pytest.mark.parametrize("text", ["<text/>", "<text>...</text>", '<text><sync id="m"/></text>'])
-async def test_a_speech_without_a_word_is_answered_with_a_warning_and_the_rest_of_the_block_plays(voice, text) -> None:
+async def test_a_speech_without_a_word_is_dropped_with_a_warning_and_the_rest_of_the_block_plays(voice, text) -> None:
     async with open_pilot(SceneOptions(voice=voice)) as pilot:
         pilot.block("b", f'<speech id="s">{text}</speech><wait id="w" duration="0.1"/>')
         await pilot.advance(1)
@@ -20,7 +20,7 @@ async def test_a_speech_without_a_word_is_answered_with_a_warning_and_the_rest_o
 
 
 @pytest.mark.parametrize("voice", VOICES)
-async def test_a_speech_starts_with_its_block_and_has_a_time_for_its_mark(voice) -> None:
+async def test_a_speech_starts_with_its_block_and_reports_its_mark(voice) -> None:
     async with open_pilot(SceneOptions(voice=voice)) as pilot:
         pilot.block("b", '<speech id="s"><text>Put it <sync id="m"/>here.</text></speech>')
         await pilot.advance(3)

@@ -1,4 +1,4 @@
-"""The voice without sound: plausible times that depend on the text alone."""
+"""The silent voice, whose times depend on the text only."""
 
 import pytest
 from hypothesis import given, settings
@@ -18,7 +18,7 @@ def test_it_speaks_about_three_words_a_second():
     assert 2.0 < len(utterance.words) / utterance.duration < 4.0
 
 
-def test_every_word_has_its_place_in_the_text_and_its_time():
+def test_every_word_has_its_characters_and_its_time():
     utterance = spoken("Hello, there.")
     assert [(word.text, word.first, word.last) for word in utterance.words] == [("Hello", 0, 5), ("there", 7, 12)]
     assert utterance.words[0].start == 0.0
@@ -30,11 +30,11 @@ def test_a_longer_word_takes_longer():
 
 
 @pytest.mark.parametrize(("short", "long"), [("one two", "one, two"), ("one, two", "one. Two")])
-def test_a_comma_takes_a_pause_and_a_full_stop_a_longer_one(short, long):
+def test_a_comma_adds_a_pause_and_a_period_a_longer_one(short, long):
     assert spoken(short).words[1].start < spoken(long).words[1].start
 
 
-def test_what_follows_the_last_word_takes_no_time():
+def test_punctuation_after_the_last_word_takes_no_time():
     assert spoken("one two").duration == spoken("one two ...").duration
 
 
@@ -42,7 +42,7 @@ def test_white_space_does_not_change_the_times():
     assert spoken("one two").duration == spoken("one \n   two").duration
 
 
-def test_a_mark_has_the_time_of_the_word_after_it():
+def test_a_mark_has_the_time_of_the_next_word():
     utterance = spoken("put the red box", before=8, in_space=7)
     assert utterance.marks["before"] == utterance.marks["in_space"] == utterance.words[2].start
 
@@ -52,12 +52,12 @@ def test_a_mark_after_the_last_word_is_at_the_end():
     assert utterance.marks["end"] == utterance.duration
 
 
-def test_it_makes_no_sound_and_knows_no_phonemes():
+def test_an_utterance_has_no_audio_and_no_phonemes():
     utterance = spoken("hello")
     assert (utterance.audio, utterance.phonemes) == (b"", ())
 
 
-def test_nothing_to_say_takes_no_time():
+def test_a_text_without_words_takes_no_time():
     utterance = spoken("...", mark=1)
     assert (utterance.duration, utterance.words, utterance.marks["mark"]) == (0.0, (), 0.0)
 
@@ -73,7 +73,7 @@ def test_words_begin_in_order_and_marks_keep_the_order_of_the_text(text, data):
     assert all(0.0 <= time <= utterance.duration for time in [*starts, *utterance.marks.values()])
 
 
-def test_what_has_been_heard_are_the_words_that_have_begun():
+def test_the_words_begun_are_those_that_started_before_a_time():
     utterance = spoken("put the red box")
     second = utterance.words[1].start
     assert utterance.words_begun(second - 0.001) == utterance.words[:1]

@@ -1,4 +1,4 @@
-"""Both voices under the contract that plug-ins are tested by."""
+"""Runs the contract for voices on both built-in voices."""
 
 import pytest
 

@@ -1,15 +1,14 @@
 import type { Connection } from "../connection";
-import { create, element } from "../dom";
-import { sentenceOf } from "../errors";
+import { create, element, sentenceOf } from "../dom";
 import { SAMPLES } from "./samples";
 
-/** The box to write BML into and send it, with examples to begin from. */
+/** The editor that sends BML, with examples to start from. */
 export class BmlPanel {
   private readonly form = element("bml-form", HTMLFormElement);
   private readonly samples = element("bml-samples", HTMLSelectElement);
   private readonly text = element("bml-text", HTMLTextAreaElement);
   private readonly answer = element("bml-answer", HTMLOutputElement);
-  /** The example as it was put into the box. */
+  /** The example as it was loaded into the editor. */
   private loaded = "";
 
   constructor(private readonly connection: Connection) {
@@ -37,7 +36,7 @@ export class BmlPanel {
     try {
       await this.connection.request({ type: "bml", xml });
       this.say("accepted", "Accepted");
-      // A block id may not be used again while its block lives: an example that was not edited gets the next one.
+      // An id may not be reused while its block lives: an unedited example gets a new one.
       if (this.text.value === this.loaded) this.load();
     } catch (error) {
       this.say("refused", sentenceOf(error));

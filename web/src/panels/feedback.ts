@@ -1,19 +1,34 @@
 import { create, element, seconds } from "../dom";
 import type { Feedback } from "../protocol";
-import { summarize, type Summary } from "./summary";
 
-/** Rows kept; older ones go. */
+/** Rows kept; older ones are removed. */
 const ROWS = 300;
 
-/** Distance from the bottom, in pixels, within which the log goes along with what comes. */
+/** Distance from the bottom within which the log scrolls along with new rows, pixels. */
 const FOLLOWING = 24;
 
-/** The log of feedback: a line a message, which opens to the message itself. */
+type FeedbackKind = "block" | "sync" | "prediction" | "warning" | "other";
+
+const KINDS: Record<string, FeedbackKind> = {
+  blockProgress: "block",
+  syncPointProgress: "sync",
+  predictionFeedback: "prediction",
+  warningFeedback: "warning",
+};
+
+/** A feedback message as one line: its kind, its subject and its content. */
+interface Summary {
+  kind: FeedbackKind;
+  about: string;
+  detail: string;
+}
+
+/** The log of feedback: one row per message, which opens to the message's XML. */
 export class FeedbackPanel {
   /** Number of messages so far. */
   count = 0;
   private readonly log = element("feedback", HTMLElement);
-  /** Whether the log goes along with what comes: it does unless the user scrolls back. */
+  /** Whether the log scrolls along with new rows; false while the user has scrolled back. */
   private following = true;
 
   constructor() {
@@ -21,7 +36,7 @@ export class FeedbackPanel {
       const { scrollHeight, scrollTop, clientHeight } = this.log;
       this.following = scrollHeight - scrollTop - clientHeight < FOLLOWING;
     });
-    // What came while the log was hidden did not move it.
+    // Rows that were added while the log was hidden did not scroll it.
     new ResizeObserver(() => {
       this.follow();
     }).observe(this.log);
@@ -32,7 +47,7 @@ export class FeedbackPanel {
     this.append(row(feedback, summarize(feedback)));
   }
 
-  /** Marks in the log that a new session of the realizer began. */
+  /** Marks the beginning of a new session of the realizer. */
   mark(sentence: string): void {
     this.append(create("p", "mark", sentence));
   }
@@ -57,4 +72,39 @@ function row(feedback: Feedback, { kind, about, detail }: Summary): HTMLElement 
   line.append(create("time", "", seconds(feedback.time)), create("span", "kind", kind), what);
   details.append(line, create("pre", "", feedback.xml));
   return details;
+}
+
+/** Reads the BML 1.0 form of a feedback message. */
+function summarize(feedback: Feedback): Summary {
+  const root = new DOMParser().parseFromString(feedback.xml, "application/xml").documentElement;
+  const kind = KINDS[root.localName] ?? "other";
+  switch (kind) {
+    case "block":
+      return { kind, about: attribute(root, "id"), detail: attribute(root, "status") };
+    case "sync":
+      return { kind, about: attribute(root, "id"), detail: `+${seconds(Number(attribute(root, "time")))}` };
+    case "prediction":
+      return { kind, ...prediction(root) };
+    case "warning":
+      return { kind, about: attribute(root, "id"), detail: `${attribute(root, "type")}: ${root.textContent.trim()}` };
+    case "other":
+      return { kind, about: root.localName, detail: "" };
+  }
+}
+
+/** The first block of a prediction with its predicted span; without a block, the number of behaviors. */
+function prediction(root: Element): Omit<Summary, "kind"> {
+  const block = [...root.children].find((child) => child.localName === "bml");
+  if (block === undefined) return { about: `${root.children.length} behaviors`, detail: "" };
+  const span = ["globalStart", "globalEnd"].map((name) => time(attribute(block, name)));
+  return { about: attribute(block, "id"), detail: `${span.join(" to ")} ${attribute(block, "status")}`.trim() };
+}
+
+function time(value: string): string {
+  return seconds(value === "" ? null : Number(value));
+}
+
+/** An attribute by its local name, in any namespace; empty when it is absent. */
+function attribute(element: Element, localName: string): string {
+  return [...element.attributes].find((candidate) => candidate.localName === localName)?.value ?? "";
 }

@@ -1,12 +1,12 @@
 import { create, element, seconds } from "../dom";
 import type { Board, Commit, Peg } from "../protocol";
 
-/** Rows shown; a board may hold many thousand pegs. */
+/** Most rows shown: a board may hold thousands of pegs. */
 const PEGS = 200;
 const COMMITS = 50;
 const CHANGES = 6;
 
-/** The peg board as a plain list, and the last commits: what moved, from when to when, and why. */
+/** The pegs of the board as a list, and the last commits: which pegs moved, from when to when, and why. */
 export class PegsPanel {
   private readonly rows = element("pegs-rows", HTMLTableSectionElement);
   private readonly more = element("pegs-more", HTMLElement);
@@ -22,7 +22,7 @@ export class PegsPanel {
     while (this.commits.childElementCount > COMMITS) this.commits.lastElementChild?.remove();
   }
 
-  /** Forgets the commits of a realizer that is gone. */
+  /** Removes all pegs and commits: the realizer is new. */
   clear(): void {
     this.rows.replaceChildren();
     this.commits.replaceChildren();

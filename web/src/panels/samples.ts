@@ -1,4 +1,4 @@
-/** A block of this id, composition and content, as it is shown to people. */
+/** A block as text, with the default namespace on a line of its own. */
 function block(id: string, content: string, composition = ""): string {
   return `<bml id="${id}"${composition}
   xmlns="http://www.bml-initiative.org/bml/bml-1.0">${content}</bml>
@@ -37,23 +37,23 @@ const LOOK = `
     start="box:end" end="4"/>
 `;
 
-const WAIT = `
+const HIT = `
   <gesture id="beat" lexeme="BEAT" mode="RIGHT_HAND"
     stroke="anticipators:test:hit"/>
 `;
 
-const FOLLOW = `
+const SPACE = `
   <head id="nod" lexeme="NOD"
     start="anticipators:spacebar:press"/>
 `;
 
-/** Example blocks for the page's user by title; each takes the id that its block is to have. */
+/** Example blocks by title; each function takes the id of its block. */
 export const SAMPLES: Record<string, (id: string) => string> = {
   "Say hello": (id) => block(id, HELLO),
   "Nod and raise the brows": (id) => block(id, NOD),
   "Beat with one hand, then both": (id) => block(id, BEATS),
   "Look at the box, then at the sphere": (id) => block(id, LOOK),
-  "Beat when it is predicted": (id) => block(id, WAIT),
-  "Nod at the space bar": (id) => block(id, FOLLOW),
+  "Beat at a predicted time": (id) => block(id, HIT),
+  "Nod on the space bar": (id) => block(id, SPACE),
   "Stop everything": (id) => block(id, "\n", ' composition="REPLACE"'),
 };

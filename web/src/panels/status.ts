@@ -1,9 +1,9 @@
-import { element } from "../dom";
+import { element, sentenceOf } from "../dom";
 
 /** How long a notice stays, ms. */
 const NOTICE_STAYS = 8000;
 
-/** The connection light, the version, and notices of what went wrong. */
+/** The connection light, the version, and notices of failures. */
 export class StatusPanel {
   private readonly light = element("light", HTMLElement);
   private readonly connection = element("connection", HTMLElement);
@@ -20,16 +20,16 @@ export class StatusPanel {
     this.show("reconnecting");
   }
 
-  /** The page cannot do its work at all. */
-  failed(sentence: string): void {
+  /** Reports a failure that the page cannot recover from. */
+  failed(reason: unknown): void {
     this.show("failed");
-    this.notice.textContent = `The page could not start: ${sentence}`;
+    this.notice.textContent = `The page could not start: ${sentenceOf(reason)}`;
     this.notice.hidden = false;
   }
 
-  /** Says for a while what went wrong. */
-  say = (sentence: string): void => {
-    this.notice.textContent = sentence;
+  /** Shows a failure for a few seconds. */
+  report = (reason: unknown): void => {
+    this.notice.textContent = sentenceOf(reason);
     this.notice.hidden = false;
     clearTimeout(this.timer);
     this.timer = setTimeout(() => {

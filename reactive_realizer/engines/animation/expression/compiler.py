@@ -1,14 +1,14 @@
-"""From trees to one Python function of floats."""
+"""Compiles formulas to one Python function of floats."""
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 
-from reactive_realizer.engines.animation.expression.nodes import (
+from reactive_realizer.engines.animation.expression.syntax import (
     Call,
     Conditional,
+    Constant,
     Negation,
     Node,
-    Number,
     Operation,
     Variable,
     children,
@@ -16,23 +16,23 @@ from reactive_realizer.engines.animation.expression.nodes import (
 )
 
 Compiled = Callable[..., tuple[float, ...]]
-"""Takes the values of the names it was compiled with, in their order; gives the value of each formula.
+"""Takes the values of the names, in order; returns the value of each formula.
 
 May raise ArithmeticError or ValueError where a formula has no value: 1/0, log(-1), exp(1000).
 """
 
 
 def compile_formulas(formulas: Sequence[Node], names: Sequence[str]) -> Compiled:
-    """One function for all formulas of an animation; equal formulas (fifteen fingers) are computed once.
+    """Compile all formulas of an animation to one function; equal formulas (fifteen fingers) are evaluated once.
 
-    The source is written from the tree alone: numbers as their `repr`, names by their place.
+    The source is generated from the tree alone: numbers as their `repr`, names by their index.
 
     Args:
         formulas: trees whose variables are all among the names.
-        names: the function's parameters.
+        names: parameters of the function.
 
     Raises:
-        KeyError: a formula has a variable that is not among the names.
+        KeyError: a formula has another variable.
     """
     arguments = {name: f"p{i}" for i, name in enumerate(names)}
     folded = [fold(formula) for formula in formulas]
@@ -47,9 +47,9 @@ def compile_formulas(formulas: Sequence[Node], names: Sequence[str]) -> Compiled
 
 
 def _scope(formulas: Iterable[Node]) -> dict[str, object]:
-    """What formulas call, by the names that they have in their source."""
+    """Return the functions that formulas call, by their names in the source."""
     calls = (node for formula in formulas for node in walk(formula) if isinstance(node, Call))
-    # Without the first entry Python would add its own functions.
+    # Without the first entry Python would add its built-in functions.
     return {
         "__builtins__": {},
         "_power": math.pow,
@@ -59,9 +59,9 @@ def _scope(formulas: Iterable[Node]) -> dict[str, object]:
 
 
 def fold(node: Node) -> Node:
-    """The same formula, with what is constant worked out; what has no value stays for whoever evaluates it."""
+    """Fold constants; subtrees without a value are left to be evaluated later."""
     match node:
-        case Number() | Variable():
+        case Constant() | Variable():
             return node
         case Negation(operand):
             node = Negation(fold(operand))
@@ -71,21 +71,21 @@ def fold(node: Node) -> Node:
             node = Conditional(fold(condition), fold(yes), fold(no))
         case Call(name, function, arguments):
             node = Call(name, function, tuple(map(fold, arguments)))
-    if all(isinstance(child, Number) for child in children(node)):
+    if all(isinstance(child, Constant) for child in children(node)):
         try:
             value = float(eval(_source(node, {}), _scope([node])))
         except (ArithmeticError, ValueError):
             return node
         if math.isfinite(value):
-            return Number(value)
+            return Constant(value)
     return node
 
 
 def _source(node: Node, arguments: Mapping[str, str]) -> str:
-    """A formula as Python, in parentheses wherever they could matter."""
+    """Return the Python source of a formula, with parentheses wherever they could matter."""
     match node:
-        case Number(value):
-            # repr gives back the same float; 1e999 has no other name in Python.
+        case Constant(value):
+            # repr gives the same float; for infinity there is only an overflowing literal.
             return repr(value) if math.isfinite(value) else "1e999"
         case Variable(name):
             return arguments[name]
@@ -107,4 +107,4 @@ _OPERATIONS: Mapping[str, str] = {
     "&&": "({} != 0 and {} != 0)",
     "||": "({} != 0 or {} != 0)",
 }
-"""Those that are written otherwise in Python; with what holds as a truth value, which counts as 1 there too."""
+"""Operators that are spelled differently in Python. Truth values count as 1 and 0 there too."""

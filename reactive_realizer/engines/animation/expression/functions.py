@@ -1,4 +1,4 @@
-"""What a formula may call."""
+"""Functions that formulas may call: those of the language, among them splines and noise, and those of plug-ins."""
 
 import inspect
 import math
@@ -7,20 +7,129 @@ from dataclasses import dataclass
 from random import Random
 from types import MappingProxyType
 
-from reactive_realizer.engines.animation.expression.noise import PerlinNoise
-from reactive_realizer.engines.animation.expression.splines import hermite, tcbspline
-from reactive_realizer.errors import error
+from reactive_realizer.engine.faults import TwoPlugins
+from reactive_realizer.errors import RealizerError
+
+
+def hermite(x: float, start_speed: float, end_speed: float, *points: float) -> float:
+    """A cubic curve through points one unit of x apart, the first at x = 0; constant outside.
+
+    The slope at an inner point is half the difference of its neighbors (Catmull and Rom 1974).
+
+    Args:
+        x: position on the curve, 0 to len(points) - 1.
+        start_speed: slope at the first point, per unit of x.
+        end_speed: slope at the last point, per unit of x.
+        points: values, two or more.
+    """
+    last = len(points) - 1
+    if x >= last:
+        return points[last]
+    if x < 0.0:
+        return points[0]
+    i = int(x)
+    enter = start_speed if i == 0 else 0.5 * (points[i + 1] - points[i - 1])
+    leave = end_speed if i + 1 == last else 0.5 * (points[i + 2] - points[i])
+    return _cubic(x - i, points[i], points[i + 1], enter, leave)
+
+
+def tcbspline(t: float, start_speed: float, end_speed: float, *keys: float) -> float:
+    """A curve through keys with tension, continuity and bias; constant outside.
+
+    D. Kochanek and R. Bartels, "Interpolating splines with local tension, continuity, and bias control" (SIGGRAPH
+    1984), with their correction for unequal intervals. The order of the arguments is AsapRealizer's.
+
+    Args:
+        t: position on the curve.
+        start_speed: slope at the first key, per first interval.
+        end_speed: slope at the last key, per last interval.
+        keys: value and time of the first key; value, time, tension, continuity and bias of each inner key; value and
+            time of the last. Tension, continuity and bias are from -1 to 1; if all are 0 it is a Catmull-Rom curve.
+    """
+    values = (keys[0], *keys[2:-2:5], keys[-2])
+    times = (keys[1], *keys[3:-2:5], keys[-1])
+    right = next((i for i, time in enumerate(times) if time > t), None)
+    if right is None:
+        return values[-1]
+    if right == 0:
+        return values[0]
+    left = right - 1
+    interval = times[right] - times[left]
+    enter, leave = start_speed, end_speed
+    # Slopes are per interval; the corrections make them equal per unit of t on both sides of a key.
+    if left > 0:
+        enter = _tangent(values, keys, left, -1.0) * 2.0 * interval / (times[right] - times[left - 1])
+    if right + 1 < len(values):
+        leave = _tangent(values, keys, right, 1.0) * 2.0 * interval / (times[right + 1] - times[left])
+    return _cubic((t - times[left]) / interval, values[left], values[right], enter, leave)
+
+
+def _tangent(values: Sequence[float], keys: Sequence[float], i: int, arriving: float) -> float:
+    """Return the slope at an inner key, per interval; `arriving` is 1 before the key and -1 after it."""
+    tension, continuity, bias = keys[5 * i - 1 : 5 * i + 2]
+    before = (1.0 - tension) * (1.0 - arriving * continuity) * (1.0 + bias)
+    after = (1.0 - tension) * (1.0 + arriving * continuity) * (1.0 - bias)
+    return 0.5 * (before * (values[i] - values[i - 1]) + after * (values[i + 1] - values[i]))
+
+
+def _cubic(u: float, a: float, b: float, enter: float, leave: float) -> float:
+    """Return the cubic from a to b over u from 0 to 1, with slopes at its ends."""
+    rest = 1.0 - u
+    return rest * rest * ((1.0 + 2.0 * u) * a + u * enter) + u * u * ((1.0 + 2.0 * rest) * b - rest * leave)
+
+
+_MOST_OCTAVES = 16
+"""Limit of octaves; faster ones would not be visible as motion."""
+
+
+class PerlinNoise:
+    """A smooth random function of one number, from -1 to 1, that is 0 at integers and repeats after 256.
+
+    K. Perlin, "Improving noise" (SIGGRAPH 2002), in one dimension: slopes at integers, blended by the quintic
+    polynomial whose velocity and acceleration are 0 at both ends.
+    """
+
+    def __init__(self, seed: int) -> None:
+        """Create noise; equal seeds give equal noise."""
+        self._slopes = [(2 * i - 255) / 255 for i in Random(seed).sample(range(256), 256)]
+
+    def __call__(self, x: float) -> float:
+        """Return its value at x.
+
+        Raises:
+            ValueError: x is not a number.
+            OverflowError: x is infinite.
+        """
+        i = math.floor(x)
+        u = x - i
+        blend = u * u * u * (10.0 + u * (6.0 * u - 15.0))
+        before, after = self._slopes[i % 256] * u, self._slopes[(i + 1) % 256] * (u - 1.0)
+        return 2.0 * (before + blend * (after - before))
+
+    def octaves(self, x: float, count: int, persistence: float) -> float:
+        """Return the weighted mean of octaves, -1 to 1.
+
+        Each is twice as fast as the one before, with `persistence` times its weight.
+
+        Raises:
+            ValueError: the number of octaves is out of range, or the persistence is negative.
+        """
+        if not 1 <= count <= _MOST_OCTAVES or persistence < 0.0:
+            raise ValueError(f"noise has 1 to {_MOST_OCTAVES} octaves, and a persistence of 0 or more")
+        weights = [persistence**i for i in range(count)]
+        # Octaves are shifted against each other, because all are 0 at integers.
+        values = (self(x * 2.0**i + 37.4 * i) for i in range(count))
+        return sum(weight * value for weight, value in zip(weights, values, strict=True)) / sum(weights)
 
 
 @dataclass(frozen=True, slots=True)
 class Function:
-    """A function and the numbers of arguments it takes.
+    """A function, and the numbers of arguments that it accepts.
 
     Attributes:
-        call: of floats, and of nothing else: the same arguments always give the same value. Where it has none it raises
-            ArithmeticError or ValueError.
-        accepts: whether it takes this number of arguments.
-        takes: the same for people.
+        call: a pure function of floats; raises ArithmeticError or ValueError where it has no value.
+        accepts: returns whether it takes this number of arguments.
+        takes: description of its arguments, for messages.
     """
 
     call: Callable[..., float]
@@ -29,10 +138,10 @@ class Function:
 
     @classmethod
     def of(cls, name: str, call: Callable[..., float]) -> "Function":
-        """A function of a plug-in: what it raises means that it has no value there.
+        """Wrap a function of a plug-in; an exception means that it has no value there.
 
         Raises:
-            TypeError: it is no function.
+            TypeError: it is not a function.
         """
         signature = inspect.signature(call)
 
@@ -53,9 +162,9 @@ class Function:
 
 
 def noise(x: float, points: float) -> float:
-    """A smooth curve through random points, 0 to 1, that lie one unit of x apart; it repeats after so many points.
+    """A smooth curve through random points from 0 to 1 that lie one unit of x apart; it repeats after so many points.
 
-    As in AsapRealizer, where the points are others each time that the program is started.
+    AsapRealizer's points change each time the program starts; these do not.
     """
     length = int(points)
     if not 1 <= length <= len(_POINTS):
@@ -66,7 +175,7 @@ def noise(x: float, points: float) -> float:
 
 
 def perlin(x: float, octaves: float = 1.0, persistence: float = 0.5) -> float:
-    """Perlin's noise, -1 to 1 (`PerlinNoise.octaves`)."""
+    """Perlin noise, -1 to 1 (`PerlinNoise.octaves`)."""
     return _PERLIN.octaves(x, int(octaves), persistence)
 
 
@@ -103,14 +212,14 @@ FUNCTIONS: Mapping[str, Function] = MappingProxyType(
 """Those of the language, and of AsapRealizer's. `log` is the natural one, as in mathematics; there it is `log10`."""
 
 
-def registered(calls: Mapping[str, Callable[..., float]]) -> Mapping[str, Function]:
-    """Functions of plug-ins, by name.
+def plugin_functions(calls: Mapping[str, Callable[..., float]]) -> Mapping[str, Function]:
+    """Return the functions of plug-ins, by name.
 
     Raises:
-        RealizerError: "two-plugins": one is called as a function of the language.
+        RealizerError: "two-plugins": the language has a function with this name.
     """
     for name in calls.keys() & {"if", *FUNCTIONS}:
-        raise error("two-plugins", name=name, group="functions", known="the language of formulas and a plug-in")
+        raise RealizerError(TwoPlugins(name=name, group="functions", known=("the language of formulas", "a plug-in")))
     return {name: Function.of(name, call) for name, call in calls.items()}
 
 

@@ -1,4 +1,4 @@
-"""Looking: how trunk, head and eyes share a turn toward something, and what the eyes make of all there is to look at.
+"""Gaze: how trunk, head and eyes share a turn toward a target, and how the eyes combine all gazes.
 
-It knows targets as places in the figure's frame. When to look it is told as phases; of pegs and plans it knows nothing.
+Targets are points in the figure's frame; phases say when to look. This package does not know pegs or plans.
 """

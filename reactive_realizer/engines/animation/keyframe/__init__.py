@@ -1,5 +1,4 @@
-"""Motion as it was keyed or captured: poses at times, from files or from BML itself (thesis 2.2.2 and C.1.2).
+"""Keyframes and motion captures: poses at times, from files or from BML (thesis 2.2.2 and C.1.2).
 
-The room reads its files and plays them. Its maker and its unit know the behavior that is played; all else knows neither
-behaviors nor pegs.
+This package reads files, retargets captures and interpolates poses. It does not know behaviors or pegs.
 """

@@ -1,46 +1,112 @@
-"""From the figure that was captured to one of ours: the same directions of bones, whatever each rests like."""
+"""Retargets a capture to a figure: bones get the same directions, whatever the rest pose of the captured figure."""
 
 import math
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from math import atan2, cos, pi, radians
 
 import numpy as np
 
-from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.body import Body, Skeleton
 from reactive_realizer.embodiment.joints import FINGERS, ROOT
 from reactive_realizer.embodiment.pose import FARTHEST
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, between, from_axis_angle, multiply, rotate
-from reactive_realizer.embodiment.skeleton import Skeleton
-from reactive_realizer.embodiment.vector import UP, Vec3, distance, length, subtract, unit
-from reactive_realizer.engines.animation.keyframe.capture import Capture
-from reactive_realizer.engines.animation.keyframe.captured_names import joints_of
+from reactive_realizer.embodiment.vector import UP, Vec3, distance, dot, length, subtract, unit
+from reactive_realizer.engines.animation.faults import BadCapture
+from reactive_realizer.engines.animation.keyframe.capture import Array, Capture, inverse, map_joints, product, rotated
 from reactive_realizer.engines.animation.keyframe.clip import Clip, continuous
-from reactive_realizer.engines.animation.keyframe.quaternions import Array, inverse, product, rotated
-from reactive_realizer.engines.animation.keyframe.stance import stance_of
-from reactive_realizer.errors import RealizerError, error
+from reactive_realizer.errors import RealizerError
+
+_UPRIGHT = cos(radians(30.0))
+_UPS = (IDENTITY, from_axis_angle((1.0, 0.0, 0.0), -0.5 * pi))
+"""Turns of files with y up and with z up."""
+
+Positions = Mapping[str, Vec3]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ReferencePose:
+    """A captured figure that stands upright; rotations are read relative to it.
+
+    Attributes:
+        positions: H-Anim name -> position, y up, with the figure facing +z; in the unit of the file.
+        pose: rotations of the joints, (J, 4), in the axes of the file.
+        axes: turn from those axes to y up with the figure facing +z.
+    """
+
+    positions: Positions
+    pose: Array
+    axes: Quat
+
+
+def reference_pose(capture: Capture, joints: Mapping[str, int], rotations: Array) -> ReferencePose | None:
+    """Return the reference pose of a capture; None if the figure stands upright in neither candidate.
+
+    The first candidate is the figure without rotations. In many files (Maya, Rokoko, Bandai Namco) this is not a pose,
+    because each joint has its own axes along its bone. The second is the first frame, in which trunk, hands and feet
+    are assumed to be at rest.
+
+    Args:
+        capture: of the figure.
+        joints: H-Anim name -> index in the capture; includes pelvis, hips, knees and head.
+        rotations: of the capture.
+    """
+    for positions, pose in _poses(capture, joints, rotations):
+        for up in _UPS:
+            standing = {joint: rotate(up, place) for joint, place in positions.items()}
+            if _upright(standing):
+                turn = _ahead(standing)
+                return ReferencePose(_turned(turn, standing), pose, multiply(turn, up))
+    return None
+
+
+def _poses(capture: Capture, joints: Mapping[str, int], rotations: Array) -> Iterator[tuple[Positions, Array]]:
+    unturned = np.zeros_like(rotations[0])
+    unturned[:, 0] = 1.0
+    yield {joint: capture.rest_position(index) for joint, index in joints.items()}, unturned
+    first = {joint: capture.positions(index, rotations[:1])[0].tolist() for joint, index in joints.items()}
+    yield {joint: (x, y, z) for joint, (x, y, z) in first.items()}, rotations[0]
+
+
+def _upright(positions: Positions) -> bool:
+    spine = subtract(positions["skullbase"], positions[ROOT])
+    below = all(positions[f"{side}_knee"][1] < positions[f"{side}_hip"][1] for side in "lr")
+    return below and dot(spine, UP) > _UPRIGHT * length(spine)
+
+
+def _ahead(positions: Positions) -> Quat:
+    """Return the turn about y after which the left hip is at +x of the right one."""
+    x, _, z = subtract(positions["l_hip"], positions["r_hip"])
+    return from_axis_angle(UP, atan2(z, x))
+
+
+def _turned(turn: Quat, positions: Positions) -> Positions:
+    return {joint: rotate(turn, place) for joint, place in positions.items()}
+
 
 _NEEDED = (ROOT, "l_hip", "r_hip", "l_knee", "r_knee", "skullbase")
 _CHILD = {"sternoclavicular": "shoulder", "shoulder": "elbow", "elbow": "wrist", "hip": "knee", "knee": "ankle"}
 
 
 def retargeted(capture: Capture, skeleton: Skeleton) -> Clip:
-    """The motion of a capture for a figure.
+    """Return the motion of a capture for a figure.
 
-    A bone of ours is turned as the captured one is, after the turn from its direction in the default pose to that of
-    the captured one as it stands: a T-pose serves as well as hanging arms. Joints that only one of the two has are left
-    out. The way of the root is taken to scale, by the lengths of the thighs. The figure begins where it stands and as
-    it faces, wherever and however the captured one began.
+    A bone of the figure is turned like the captured one, after the turn from its direction in the default pose to that
+    of the captured bone in the reference pose; so a T-pose works as well as hanging arms. Joints that only one of the
+    figures has are left out. Displacements of the root are scaled by the lengths of the thighs. The figure starts where
+    it stands and faces, wherever the captured figure started.
 
     Raises:
-        RealizerError: "bad-capture": its joints are not known, it does not stand upright, or it goes too far.
+        RealizerError: "bad-capture": its joints are unknown, the figure does not stand upright, or it moves too far.
     """
-    source = _Source(capture, skeleton)
+    source = _CapturedFigure(capture, skeleton)
     rotations, joints = source.rotations(), tuple(source.joints)
     times = tuple((np.arange(len(rotations)) * capture.step).tolist())
     return Clip(capture.name, times, joints, continuous(rotations), source.roots())
 
 
-class _Source:
-    """A capture in the axes of the figure: y up, facing +z as it stands, and so in its first frame.
+class _CapturedFigure:
+    """A capture in the figure's axes: y up, facing +z in the reference pose and in the first frame.
 
     Attributes:
         joints: H-Anim name -> index in the capture, in the order of the skeleton.
@@ -49,16 +115,16 @@ class _Source:
     def __init__(self, capture: Capture, skeleton: Skeleton) -> None:
         self._capture = capture
         self._skeleton = skeleton
-        index = joints_of(capture.joints, skeleton.joints)
+        index = map_joints(capture.joints, skeleton.joints)
         self.joints = {joint: index[joint] for joint in skeleton.joints if joint in index}
         missing = [joint for joint in _NEEDED if joint not in self.joints]
         if missing:
-            raise self._bad(f"no joint is called in a way that is known for {', '.join(missing)}")
+            raise self._bad(f"no joint has a known name for {', '.join(missing)}")
         self._rotations = capture.rotations()
-        stance = stance_of(capture, self.joints, self._rotations)
+        stance = reference_pose(capture, self.joints, self._rotations)
         if stance is None:
             raise self._bad("the figure stands upright neither without rotations nor in its first frame")
-        self._places = stance.places
+        self._positions = stance.positions
         turn = np.array(stance.axes)
         turned = product(product(turn, product(self._rotations, inverse(stance.pose))), inverse(turn))
         ahead = np.array(_facing(turned[0, self.joints[ROOT]]))
@@ -66,21 +132,21 @@ class _Source:
         self._axes = product(ahead, turn)
 
     def rotations(self) -> Array:
-        """(F, J, 4), local to the joints above in the skeleton."""
+        """Return (F, J, 4), local to the parent joints in the skeleton."""
         own = {joint: product(self._turned[:, i], np.array(self._alignment(joint))) for joint, i in self.joints.items()}
         return np.stack([self._local(joint, own) for joint in self.joints], axis=1)
 
     def roots(self) -> Array:
-        """How far the root has moved since the first frame, (F, 3), m."""
-        places = self._capture.places(self.joints[ROOT], self._rotations)
-        scale = length(self._skeleton.offset("l_knee")) / distance(self._places["l_knee"], self._places["l_hip"])
-        turned = rotated(self._axes, scale * (places - places[0]))
+        """Return the displacement of the root from the first frame, (F, 3), m."""
+        positions = self._capture.positions(self.joints[ROOT], self._rotations)
+        scale = length(self._skeleton.offset("l_knee")) / distance(self._positions["l_knee"], self._positions["l_hip"])
+        turned = rotated(self._axes, scale * (positions - positions[0]))
         if not (np.linalg.norm(turned, axis=-1) <= FARTHEST).all():
-            raise self._bad(f"it goes further than {FARTHEST:g} m, by the length of its thighs")
+            raise self._bad(f"the root moves further than {FARTHEST:g} m, scaled by the length of the thighs")
         return turned
 
     def _alignment(self, joint: str) -> Quat:
-        """The turn from our bone in the default pose to the captured one: the smallest after its parent's."""
+        """Return the turn from a bone in the default pose to the captured one: the smallest after its parent's."""
         above = self._skeleton.parent(joint)
         if above is None or joint.endswith("_ankle"):  # a foot is level in either
             return IDENTITY
@@ -88,26 +154,26 @@ class _Source:
         child = next((child for child in _children(joint) if child in self.joints), None)
         if child is None or joint not in self.joints:
             return turn
-        captured, ours = subtract(self._places[child], self._places[joint]), self._way(joint, child)
+        captured, ours = subtract(self._positions[child], self._positions[joint]), self._way(joint, child)
         if not length(captured) or not length(ours):
             return turn
         return multiply(between(unit(rotate(turn, ours)), unit(captured)), turn)
 
     def _way(self, joint: str, child: str) -> Vec3:
-        """From a joint of ours to one below it, in the default pose."""
+        """Return the vector from a joint to a descendant in the default pose."""
         body = Body(self._skeleton)
-        return subtract(body.place(child).position, body.place(joint).position)
+        return subtract(body.transform(child).position, body.transform(joint).position)
 
     def _local(self, joint: str, own: Mapping[str, Array]) -> Array:
         above = next((name for name in self._skeleton.chain(joint)[-2::-1] if name in own), None)
         return own[joint] if above is None else product(inverse(own[above]), own[joint])
 
     def _bad(self, reason: str) -> RealizerError:
-        return error("bad-capture", file=self._capture.name, row=1, reason=reason)
+        return RealizerError(BadCapture(file=self._capture.name, row=1, reason=reason))
 
 
 def _children(joint: str) -> Iterator[str]:
-    """The joints to which the bone of a joint may lead."""
+    """Yield the joints to which the bone of a joint may lead."""
     side, _, part = joint.partition("_")
     if part in _CHILD:
         yield f"{side}_{_CHILD[part]}"
@@ -116,7 +182,7 @@ def _children(joint: str) -> Iterator[str]:
 
 
 def _facing(root: Array) -> Quat:
-    """The turn about y that takes a figure, whose root is turned so, to face +z."""
+    """Return the turn about y after which a figure with this root rotation faces +z."""
     w, x, y, z = root.tolist()
     ahead_x, _, ahead_z = rotate((w, x, y, z), (0.0, 0.0, 1.0))
     return from_axis_angle(UP, -math.atan2(ahead_x, ahead_z))

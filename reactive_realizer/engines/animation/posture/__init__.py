@@ -1,4 +1,4 @@
-"""How the figure stands, sits and lies, how it holds arms and legs, and how its feet stay where they stand.
+"""Postures: how the figure stands, sits and lies, poses of arms and legs, and feet that stay in place.
 
-It reads the files of other rooms, and sees what else moves the body only as layers: whose they are it does not know.
+This package reads posture files. Other motion of the body is known only as layers.
 """

@@ -1,27 +1,75 @@
-"""From the words of a posture to the body in it, by files that a user edits."""
+"""Postures as words, and the bodies that posture files give them."""
 
 import logging
-from collections.abc import Callable, Mapping
-from dataclasses import replace
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
 from types import MappingProxyType
 
 from reactive_realizer.binding.asset_file import first_asset
-from reactive_realizer.bml.posture import Pose
-from reactive_realizer.bml.words import PosePart, StanceType
-from reactive_realizer.embodiment.body import Body
-from reactive_realizer.embodiment.ground import grounded
-from reactive_realizer.embodiment.joints import LOWER_BODY, ROOT
+from reactive_realizer.binding.faults import NoAsset
+from reactive_realizer.bml.behaviors import Pose
+from reactive_realizer.bml.vocabulary import PosePart, StanceType
+from reactive_realizer.embodiment.body import Body, Skeleton
+from reactive_realizer.embodiment.feet import grounded
+from reactive_realizer.embodiment.joints import (
+    HEAD,
+    LEFT_ARM,
+    LEFT_LEG,
+    LEGS,
+    LOWER_BODY,
+    RIGHT_ARM,
+    RIGHT_LEG,
+    ROOT,
+    TRUNK,
+)
 from reactive_realizer.embodiment.pose import Layer, LayerKind, checked
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat
-from reactive_realizer.embodiment.skeleton import Skeleton
 from reactive_realizer.embodiment.vector import distance, length
-from reactive_realizer.engines.animation.keyframe.skeleton_pose import read_skeleton_pose
-from reactive_realizer.engines.animation.posture.body_posture import BodyPosture
-from reactive_realizer.engines.animation.posture.parts import JOINTS
-from reactive_realizer.engines.animation.procedural.animation_cache import animation_in
-from reactive_realizer.engines.animation.procedural.proc_animation import ProcAnimation
-from reactive_realizer.errors import RealizerError, error
+from reactive_realizer.engines.animation.faults import NoPosture
+from reactive_realizer.engines.animation.keyframe.keyframe_files import read_skeleton_pose
+from reactive_realizer.engines.animation.procedural.procedural_animation import ProceduralAnimation
+from reactive_realizer.engines.animation.procedural.procedural_animation_reader import load_animation
+from reactive_realizer.errors import RealizerError
+
+_ARMS = LEFT_ARM | RIGHT_ARM
+
+PART_JOINTS: Mapping[PosePart, frozenset[str]] = MappingProxyType(
+    {
+        PosePart.WHOLEBODY: frozenset((*TRUNK, *HEAD)) | _ARMS | LEGS,
+        PosePart.LEGS: LEGS,
+        PosePart.LEFT_LEG: LEFT_LEG,
+        PosePart.RIGHT_LEG: RIGHT_LEG,
+        PosePart.HEAD: frozenset(HEAD),
+        PosePart.ARMS: _ARMS,
+        PosePart.LEFT_ARM: LEFT_ARM,
+        PosePart.RIGHT_ARM: RIGHT_ARM,
+    }
+)
+"""Part of the body -> its joints. Poses are applied in this order: hands may depend on trunk and legs."""
+
+
+@dataclass(frozen=True, slots=True)
+class BodyPosture:
+    """A posture as words: a stance, and poses of single parts of the body.
+
+    Attributes:
+        stance: the global position.
+        poses: of parts of the body; if two concern the same joints, the later one wins.
+    """
+
+    stance: StanceType = StanceType.STANDING
+    poses: tuple[Pose, ...] = ()
+
+    def changed(self, stance: StanceType | None, poses: Iterable[Pose]) -> "BodyPosture":
+        """Return this posture with another stance, if given, and with other poses of some parts.
+
+        Crossed arms stay crossed when the figure sits down. A new pose of the arms ends an old one of the left arm.
+        """
+        new = tuple(poses)
+        kept = (old for old in self.poses if not any(PART_JOINTS[old.part] <= PART_JOINTS[pose.part] for pose in new))
+        return BodyPosture(stance or self.stance, (*kept, *new))
+
 
 _log = logging.getLogger(__name__)
 
@@ -38,31 +86,30 @@ LEXEMES = (
     "LEGS_NEUTRAL",
     "LEGS_OPEN",
 )
-"""The poses that ship: those of BML 1.0, and two that AsapRealizer's scripts use."""
+"""Poses of the package: those of BML 1.0, and two of AsapRealizer's scripts."""
 
-_ORDER = tuple(JOINTS)
+_ORDER = tuple(PART_JOINTS)
 
 
 class PostureLibrary:
-    """Bodies in postures, of one skeleton.
+    """Bodies in postures, for one skeleton.
 
-    A stance is the file `postures/STANCE.xml` among the assets, a pose `postures/STANCE/LEXEME.xml`, for a stance in
-    which it looks different, or `postures/LEXEME.xml`, in small letters: a new file is a new word. Each is a
-    ProcAnimation, of which the pose at phase 0 is taken. Of its parameters these have values: the lengths `upperarm`,
-    `forearm`, `thigh`, `shank`, and the distances between the `shoulders` and between the `hips`, m; and `rootx`,
-    `rooty`, `rootz`, the place of HumanoidRoot in the figure's frame, m. So hands meet whatever the proportions.
-    A word that ends in NEUTRAL is what the stance alone does.
+    A stance is the asset `postures/STANCE.xml`. A pose is `postures/STANCE/LEXEME.xml` if it looks different in a
+    stance, else `postures/LEXEME.xml`, in lower case; a new file is a new word. Each file is a ProcAnimation, of which
+    the pose at phase 0 is used. These parameters are set: the lengths `upperarm`, `forearm`, `thigh`, `shank`, and the
+    widths `shoulders` and `hips`, m; and `rootx`, `rooty`, `rootz`, the position of HumanoidRoot in the figure's frame,
+    m. So hands meet for any proportions. A word that ends in NEUTRAL is the stance alone.
     """
 
     def __init__(
         self, skeleton: Skeleton, asset: Callable[[str], Path], rest_poses: Mapping[str, str] = MappingProxyType({})
     ) -> None:
-        """Postures of a skeleton.
+        """Create the postures of a skeleton.
 
         Args:
-            skeleton: whose.
+            skeleton: of the figure.
             asset: finds a file by name.
-            rest_poses: stance, as BML writes it -> SkeletonPose file of what some joints do in it, from a binding.
+            rest_poses: stance, as BML spells it -> SkeletonPose file with some of its joints, from a binding.
         """
         self._skeleton = skeleton
         self._asset = asset
@@ -73,43 +120,43 @@ class PostureLibrary:
             self._rest_pose(stance)
 
     def body(self, posture: BodyPosture) -> Body:
-        """The figure in a posture, its feet (or whatever of it is lowest) on the ground, if no file says its root.
+        """Return the figure in a posture. Its lowest part is on the ground, unless a file places the root.
 
         Raises:
-            RealizerError: "no-posture": no file has a word, or it says nothing about the part; a file is not usable.
+            RealizerError: "no-posture": a pose does not exist, or does not concern its part; or a file cannot be used.
         """
         stand = self._stand(posture.stance)
         body = stand
         for pose in sorted(posture.poses, key=lambda pose: _ORDER.index(pose.part)):
             animation = self._animation(posture.stance, pose)
             if animation is None:
-                joints = JOINTS[pose.part] & body.pose.keys()
+                joints = PART_JOINTS[pose.part] & body.pose.keys()
                 body = _turned(body, {joint: stand.rotation(joint) for joint in joints})
             else:
                 body = self._taken(animation, body)
         return body
 
     def check(self, posture: BodyPosture) -> None:
-        """Whether there is such a posture.
+        """Check that a posture exists.
 
         Raises:
-            RealizerError: as of `body`.
+            RealizerError: as for `body`.
         """
         for pose in posture.poses:
             self._animation(posture.stance, pose)
 
     def possible(self, posture: BodyPosture) -> BodyPosture:
-        """A posture without the poses that are not there in its stance."""
+        """Return a posture without the poses that do not exist in its stance."""
         return replace(posture, poses=tuple(pose for pose in posture.poses if self._is_there(posture.stance, pose)))
 
     def _stand(self, stance: StanceType) -> Body:
         file = self._asset(f"postures/{stance.value.lower()}.xml")
         default = Body(self._skeleton, dict.fromkeys(self._skeleton.joints, IDENTITY))
-        body = self._taken(animation_in(file, self._skeleton, joints=JOINTS[PosePart.WHOLEBODY]), default)
+        body = self._taken(load_animation(file, self._skeleton, joints=PART_JOINTS[PosePart.WHOLEBODY]), default)
         return _turned(body, self._rest_pose(stance))
 
     def _rest_pose(self, stance: StanceType) -> Mapping[str, Quat]:
-        """What the binding says of a stance; a file that is not usable says nothing, and the log says so once."""
+        """Return the rotations of a stance from the binding. An invalid file is ignored, and logged once."""
         name = self._rest_poses.get(stance.value)
         if name is None:
             return {}
@@ -118,25 +165,25 @@ class PostureLibrary:
         except RealizerError as problem:
             if stance not in self._told:
                 self._told.add(stance)
-                _log.warning("the rest pose of %s is our own: %s", stance.value, problem.fault.sentence)
+                _log.warning("the default rest pose of %s is used: %s", stance.value, problem.fault.sentence)
             return {}
         return {joint: turn for joint, turn in rotations.items() if joint in self._skeleton}
 
-    def _animation(self, stance: StanceType, pose: Pose) -> ProcAnimation | None:
-        """What a pose does; None for one that is the stance's own."""
+    def _animation(self, stance: StanceType, pose: Pose) -> ProceduralAnimation | None:
+        """Return the animation of a pose; None if the pose is that of the stance."""
         try:
             file = self._file(stance, pose.lexeme)
         except RealizerError as problem:
-            if problem.fault.code != "no-asset":
+            if not isinstance(problem.fault, NoAsset):
                 raise
             known = ", ".join(word for word in LEXEMES if self._is_there(stance, Pose(part=pose.part, lexeme=word)))
-            raise error("no-posture", part=pose.part, lexeme=pose.lexeme, stance=stance, known=known) from problem
-        return None if file is None else animation_in(file, self._skeleton, joints=JOINTS[pose.part])
+            raise RealizerError(NoPosture(part=pose.part, lexeme=pose.lexeme, stance=stance, known=known)) from problem
+        return None if file is None else load_animation(file, self._skeleton, joints=PART_JOINTS[pose.part])
 
     def _is_there(self, stance: StanceType, pose: Pose) -> bool:
         try:
             if (file := self._file(stance, pose.lexeme)) is not None:
-                animation_in(file, self._skeleton, joints=JOINTS[pose.part])
+                load_animation(file, self._skeleton, joints=PART_JOINTS[pose.part])
         except RealizerError:
             return False
         return True
@@ -147,8 +194,8 @@ class PostureLibrary:
             return None
         return first_asset(self._asset, f"postures/{stance.value.lower()}/{word}.xml", f"postures/{word}.xml")
 
-    def _taken(self, animation: ProcAnimation, body: Body) -> Body:
-        # Where hands go may depend on where the root is, and that on what the legs do: known after a first time.
+    def _taken(self, animation: ProceduralAnimation, body: Body) -> Body:
+        # Hands may depend on the root, and the root on the legs, which are known only after a first pass.
         for _ in range(2):
             values = animation.values({**self._lengths, **_root(body)})
             posed = animation.sample(0.0, values, body)
@@ -159,17 +206,17 @@ class PostureLibrary:
 
 
 def _turned(body: Body, rotations: Mapping[str, Quat]) -> Body:
-    """A body with joints turned, its feet on the ground again if that moves them."""
+    """Return a body with joints turned; if that moves its feet, it is grounded again."""
     turned = body.posed(rotations)
     return turned if LOWER_BODY.isdisjoint(rotations) else grounded(turned)
 
 
 def _root(body: Body) -> Mapping[str, float]:
-    return dict(zip(("rootx", "rooty", "rootz"), body.place(ROOT).position, strict=True))
+    return dict(zip(("rootx", "rooty", "rootz"), body.transform(ROOT).position, strict=True))
 
 
 def _lengths(skeleton: Skeleton) -> Mapping[str, float]:
-    """Of bones, and across the body; 0 where a figure has no such joints."""
+    """Return lengths of bones and widths of the body, m; 0 if the figure lacks the joints."""
     bones = {"upperarm": "l_elbow", "forearm": "l_wrist", "thigh": "l_knee", "shank": "l_ankle"}
     widths = {"shoulders": ("l_shoulder", "r_shoulder"), "hips": ("l_hip", "r_hip")}
     body = Body(skeleton)
@@ -182,4 +229,4 @@ def _lengths(skeleton: Skeleton) -> Mapping[str, float]:
 def _distance(body: Body, left: str, right: str) -> float:
     if not (left in body.skeleton and right in body.skeleton):
         return 0.0
-    return distance(body.place(left).position, body.place(right).position)
+    return distance(body.transform(left).position, body.transform(right).position)

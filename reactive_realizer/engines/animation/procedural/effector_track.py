@@ -1,10 +1,10 @@
-"""Where hands and feet are: what the joints of a limb have to do for it."""
+"""End effectors: hands and feet that follow formulas, with inverse kinematics for their limbs."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from math import atan2
 
-from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.body import Body, Skeleton
 from reactive_realizer.embodiment.joints import SIDES, TRUNK, other_side
 from reactive_realizer.embodiment.quaternion import (
     Quat,
@@ -16,10 +16,9 @@ from reactive_realizer.embodiment.quaternion import (
     rotate,
     twist,
 )
-from reactive_realizer.embodiment.skeleton import Skeleton
 from reactive_realizer.embodiment.two_bone_ik import Arm, Leg
 from reactive_realizer.embodiment.vector import UP, Vec3, add, length, subtract, unit
-from reactive_realizer.engines.animation.procedural.tracks import Formulas, Turned, above, negated
+from reactive_realizer.engines.animation.procedural.tracks import Formulas, TrackPose, negated, parent_rotation
 
 EFFECTORS: Mapping[str, tuple[type[Arm] | type[Leg], str]] = {
     "l_wrist": (Arm, "l"),
@@ -31,28 +30,29 @@ EFFECTORS: Mapping[str, tuple[type[Arm] | type[Leg], str]] = {
 
 _CARRYING = (*TRUNK, *(f"{side}_sternoclavicular" for side in SIDES))
 
-# m; a hand that is so far from its place in the figure's frame does not seem to be there.
+# Distance from which on a hand visibly misses its goal in the figure's frame, m.
 _MISSED = 0.01
 
-# Places seen from a shoulder were measured on another arm; however long that is, this one makes the same motion at its
-# own size. The published files are for arms up to half as long again.
+# The same for goals relative to a shoulder, as a share of the arm's reach. They were measured on another arm, and this
+# one performs the same motion at its own size. Published files are for arms that are up to half as long again.
 _STRETCHED = 0.5
 
-# A bone as short as this, m, has no direction.
+# A shorter bone has no direction, m.
 _NO_BONE = 1e-4
 
 
 @dataclass(frozen=True, slots=True)
 class EffectorTrack:
-    """Where a wrist or an ankle is; the two joints above follow by inverse kinematics.
+    """Places a wrist or an ankle; the two joints above follow by inverse kinematics.
 
-    A foot stays parallel to the ground, its toes where the knee points, unless the animation turns the ankle too.
+    A foot stays parallel to the ground with its toes in the direction of the knee, unless the animation turns the ankle
+    too.
 
     Attributes:
         limb: an arm or a leg.
         side: "l" or "r".
-        local: the place is from the limb's first joint, in the axes of the joint above it, which lean and turn with the
-            trunk; else it is in the figure's frame, from the ground between the feet.
+        local: whether the goal is relative to the limb's first joint, in the axes of its parent, which move with the
+            trunk; otherwise it is in the figure's frame, whose origin is on the ground between the feet.
         formulas: of x, y, z, m, and of the swivel of elbow or knee, rad (`Limb.solve`).
     """
 
@@ -63,32 +63,32 @@ class EffectorTrack:
 
     @property
     def chain(self) -> tuple[str, str, str]:
-        """The joints of the limb from its first to its end."""
+        """The joints of the limb, from its first joint to its end."""
         first, middle, end = self.limb.JOINTS
         return f"{self.side}_{first}", f"{self.side}_{middle}", f"{self.side}_{end}"
 
     @property
     def reaches(self) -> bool:
-        """Whether it brings a hand to a place that does not move with the trunk."""
+        """Whether it brings a hand to a goal that does not move with the trunk."""
         return self.limb is Arm and not self.local
 
     @property
-    def led(self) -> frozenset[str]:
-        """The joints that nothing else may turn."""
+    def controlled(self) -> frozenset[str]:
+        """The joints that no other track may turn."""
         return frozenset(self.chain[:2])
 
     @property
     def joints(self) -> frozenset[str]:
-        """As every track."""
-        return frozenset(self.chain) if self.limb is Leg else self.led
+        """See `Track`."""
+        return frozenset(self.chain) if self.limb is Leg else self.controlled
 
     @property
-    def alone(self) -> bool:
-        """As every track; a foot is kept parallel to the ground."""
+    def independent(self) -> bool:
+        """See `Track`. The pose of a foot depends on the body: it stays parallel to the ground."""
         return self.local and self.limb is Arm
 
-    def turned(self, values: Sequence[float], phase: float, body: Callable[[], Body]) -> Turned:
-        """As every track."""
+    def evaluate(self, values: Sequence[float], phase: float, body: Callable[[], Body]) -> TrackPose:
+        """See `Track`."""
         first, middle, end = self.chain
         now = body()
         x, y, z, swivel = values
@@ -98,35 +98,35 @@ class EffectorTrack:
         missing = limb.missed(goal)
         missed = (end, missing) if missing > (_STRETCHED * limb.reach if self.local else _MISSED) else None
         if self.limb is Arm:
-            return Turned({first: upper, middle: lower}, missed)
-        shank = multiply(above(first, now), multiply(upper, lower))
-        return Turned({first: upper, middle: lower, end: _flat(shank)}, missed)
+            return TrackPose({first: upper, middle: lower}, missed)
+        shank = multiply(parent_rotation(first, now), multiply(upper, lower))
+        return TrackPose({first: upper, middle: lower, end: _flat(shank)}, missed)
 
     def mirrored(self) -> "EffectorTrack":
-        """As every track."""
+        """See `Track`."""
         return EffectorTrack(self.limb, other_side(self.side), self.local, negated(self.formulas, 0, 3))
 
-    def of(self, joints: frozenset[str]) -> "EffectorTrack | None":
-        """As every track; half a limb would reach nothing, so it is all or nothing."""
+    def restricted_to(self, joints: frozenset[str]) -> "EffectorTrack | None":
+        """Return the track if it turns one of the joints; a part of a limb would reach nothing."""
         return self if self.joints & joints else None
 
-    def on(self, skeleton: Skeleton) -> "EffectorTrack | None":
-        """As every track."""
+    def fitted_to(self, skeleton: Skeleton) -> "EffectorTrack | None":
+        """See `Track`."""
         _, middle, end = self.chain
         whole = all(joint in skeleton for joint in self.chain)
         return self if whole and min(length(skeleton.offset(joint)) for joint in (middle, end)) > _NO_BONE else None
 
 
 def _seen_from(joint: str, place: Vec3, body: Body) -> Vec3:
-    """A place of the figure's frame from a joint, in the axes of the joint above it."""
-    return rotate(conjugate(above(joint, body)), subtract(place, body.place(joint).position))
+    """Convert a point of the figure's frame to one relative to a joint, in the axes of the joint's parent."""
+    return rotate(conjugate(parent_rotation(joint, body)), subtract(place, body.transform(joint).position))
 
 
-def as_carried(body: Body, steady: Body, shown: Body) -> Body:
-    """A body whose trunk carries the arms where it was shown: what is added to a motion moves hands, too.
+def carried_as_shown(body: Body, steady: Body, shown: Body) -> Body:
+    """Return a body whose trunk carries the arms as shown. Additive motion moves the hands as well.
 
     Args:
-        body: as a motion wants it.
+        body: as a motion asks for it.
         steady: as shown last, without additive motion.
         shown: as shown last.
     """
@@ -137,19 +137,21 @@ def as_carried(body: Body, steady: Body, shown: Body) -> Body:
 
 
 def _flat(shank: Quat) -> Quat:
-    """The rotation of an ankle with which its foot is parallel to the ground.
+    """Return the rotation of an ankle that keeps its foot parallel to the ground.
 
     Args:
-        shank: from the knee's axes to the figure's.
+        shank: rotation from the knee's axes to the figure's.
     """
     x, _, z = rotate(shank, (1.0, 0.0, 0.0))
     return multiply(conjugate(shank), from_axis_angle(UP, atan2(-z, x)))
 
 
 def share_twist(side: str, turned: Mapping[str, Quat], skeleton: Skeleton) -> Mapping[str, Quat]:
-    """Rotations with half of a wrist's twist made by the forearm, as a radius and an ulna do; the hand stays as it is.
+    """Return rotations in which the forearm makes half of a wrist's twist, as radius and ulna do.
 
-    All of it in the wrist would wring the skin there like a towel.
+    The hand keeps its pose.
+
+    With all of it in the wrist, the skin there would collapse.
     """
     elbow, wrist = f"{side}_elbow", f"{side}_wrist"
     if wrist not in turned:

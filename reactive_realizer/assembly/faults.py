@@ -1,0 +1,48 @@
+"""Faults of human files, plug-ins and asset names."""
+
+from reactive_realizer.errors import CreationFault, Fault
+
+
+class BadHumanFile(Fault):
+    """A key of a human file that is missing, unknown or has a bad value."""
+
+    code = "bad-human-file"
+    template = "{file}: {key}: {reason}"
+    file: str
+    key: str
+    reason: str
+
+
+class NoPlugin(Fault):
+    """No plug-in of a group has the name."""
+
+    code = "no-plugin"
+    template = "the plug-in group {group} has no '{name}'; available: {known}"
+    group: str
+    name: str
+    known: tuple[str, ...]
+
+
+class NoFolder(Fault):
+    """A folder of assets that does not exist."""
+
+    code = "no-folder"
+    template = "there is no folder {folder}"
+    folder: str
+
+
+class ForbiddenPath(CreationFault):
+    """A name that would lead out of the asset folders."""
+
+    code = "forbidden-path"
+    template = "'{name}' is not a valid asset name: it must be a relative path inside the asset folders"
+    name: str
+
+
+class TwoAssets(CreationFault):
+    """A name that several files have."""
+
+    code = "two-assets"
+    template = "several assets are named '{name}': {known}; name more of the path"
+    name: str
+    known: tuple[str, ...]

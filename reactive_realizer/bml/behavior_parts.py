@@ -1,0 +1,170 @@
+"""Reads the child elements of behaviors: texts, expressions, poses, trajectories, keyframes, parameters."""
+
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from types import MappingProxyType
+from typing import Any
+
+from reactive_realizer.bml.attributes import attributes_of
+from reactive_realizer.bml.behavior import Behavior
+from reactive_realizer.bml.behaviors import Face, Mark, Pose, Posture, Speech, Stance
+from reactive_realizer.bml.block_source import BlockSource
+from reactive_realizer.bml.elements import ELEMENTS
+from reactive_realizer.bml.extensions import BehaviorParameter, Keyframe, ParameterValueChange, Trajectory
+from reactive_realizer.bml.faults import DuplicateId, MissingElement, RepeatedElement, UtteranceTooLong
+from reactive_realizer.bml.trees import PARAMETER, Tree, children_of, is_core, name_of
+from reactive_realizer.bml.vocabulary import PosePart
+from reactive_realizer.errors import Fault, RealizerError
+
+
+def read_speech(tree: Tree, source: BlockSource, notes: list[Fault]) -> dict[str, Any]:
+    """The text and the marks of a speech, from its ``<text>``.
+
+    Raises:
+        RealizerError: there is not exactly one text, it is too long, or a mark has no id of its own.
+    """
+    text_element = _only_text(tree, source)
+    notes += source.unknown_children(text_element, ["sync"])
+    text = ""
+    places: dict[str, int] = {}
+    for piece in _pieces(text_element):
+        if isinstance(piece, str):
+            text = _joined(text, piece)
+            _check_length(text, text_element, source)
+        else:
+            places[_new_mark_id(piece, places, source)] = len(text)
+    text = text.rstrip()
+    marks = tuple(Mark(id=name, char_index=min(at, len(text))) for name, at in places.items())
+    return {"text": text, "marks": marks}
+
+
+def read_face(tree: Tree, source: BlockSource, notes: list[Fault]) -> dict[str, Any]:
+    """The expressions of a face.
+
+    Raises:
+        RealizerError: there are none, or one is bad.
+    """
+    parts = children_of(tree, *Face.CHILDREN)
+    _check_some(parts, tree, Face.CHILDREN, source)
+    return {"parts": tuple(_expression(part, source, notes) for part in parts)}
+
+
+def read_posture(tree: Tree, source: BlockSource, notes: list[Fault]) -> dict[str, Any]:
+    """The stance and the poses of a posture.
+
+    Raises:
+        RealizerError: there are none, there are two for one part of the body, or one is bad.
+    """
+    stances, poses = children_of(tree, "stance"), children_of(tree, "pose")
+    _check_some(stances + poses, tree, Posture.CHILDREN, source)
+    if len(stances) > 1:
+        raise _repeated(stances[1], "stance", tree, source)
+    stance = Stance(**_values(stances[0], Stance, source, notes)).type if stances else None
+    by_part: dict[PosePart, Pose] = {}
+    for child in poses:
+        pose = Pose(**_values(child, Pose, source, notes))
+        if pose.part in by_part:
+            raise _repeated(child, f"pose part='{pose.part}'", tree, source)
+        by_part[pose.part] = pose
+    return {"stance": stance, "poses": tuple(by_part.values())}
+
+
+def read_trajectory(tree: Tree, source: BlockSource, notes: list[Fault]) -> dict[str, Any]:
+    """The trajectory of a parameter value change.
+
+    Raises:
+        RealizerError: there is none, there are two, or it is bad.
+    """
+    trajectories = children_of(tree, "trajectory")
+    _check_some(trajectories, tree, ParameterValueChange.CHILDREN, source)
+    if len(trajectories) > 1:
+        raise _repeated(trajectories[1], "trajectory", tree, source)
+    return {"trajectory": Trajectory(**_values(trajectories[0], Trajectory, source, notes))}
+
+
+def read_interpolator(tree: Tree, source: BlockSource, notes: list[Fault]) -> dict[str, Any]:
+    """The interpolator inside a keyframe animation, None if there is none.
+
+    Raises:
+        RealizerError: there are two.
+    """
+    written = children_of(tree, *Keyframe.CHILDREN)
+    if len(written) > 1:
+        raise _repeated(written[1], name_of(written[1]), tree, source)
+    return {"interpolator": source.xml(written[0]) if written else None}
+
+
+def read_parameters(tree: Tree, source: BlockSource, notes: list[Fault]) -> Mapping[str, str]:
+    """The parameters that a behavior gives to its engine, name to value (thesis C.1.1).
+
+    Raises:
+        RealizerError: one is repeated or bad.
+    """
+    parameters: dict[str, str] = {}
+    for child in children_of(tree, PARAMETER):
+        parameter = BehaviorParameter(**_values(child, BehaviorParameter, source, notes))
+        if parameter.name in parameters:
+            raise _repeated(child, f"{PARAMETER} name='{parameter.name}'", tree, source)
+        parameters[parameter.name] = parameter.value
+    return MappingProxyType(parameters)
+
+
+def _only_text(tree: Tree, source: BlockSource) -> Tree:
+    texts = children_of(tree, "text")
+    if not texts:
+        raise RealizerError(source.located(tree, MissingElement(element=name_of(tree), children="<text>")))
+    if len(texts) > 1:
+        raise RealizerError(source.located(texts[1], RepeatedElement(element=name_of(texts[1]), parent=name_of(tree))))
+    return texts[0]
+
+
+def _pieces(text_element: Tree) -> Iterator[str | Tree]:
+    """Text and inline sync points in document order; other elements give their text only."""
+    yield text_element.text or ""
+    for child in text_element:
+        yield child if is_core(child) and name_of(child) == "sync" else "".join(map(str, child.itertext()))
+        yield child.tail or ""
+
+
+def _joined(text: str, piece: str) -> str:
+    """Both, with single spaces and none at the beginning."""
+    spaced = re.sub(r"\s+", " ", piece)
+    return text + (spaced.lstrip() if not text or text.endswith(" ") else spaced)
+
+
+def _check_length(text: str, text_element: Tree, source: BlockSource) -> None:
+    limit = source.limits.utterance_characters
+    if len(text.rstrip()) > limit:
+        raise RealizerError(source.located(text_element, UtteranceTooLong(limit=limit)))
+
+
+def _new_mark_id(sync: Tree, taken: dict[str, int], source: BlockSource) -> str:
+    name = str(source.values(sync, attributes_of(Mark))["id"])
+    if name in taken or name in Speech.SYNC_POINTS:
+        raise RealizerError(source.located(sync, DuplicateId(element=name_of(sync), id=name)))
+    return name
+
+
+def _expression(tree: Tree, source: BlockSource, notes: list[Fault]) -> Behavior:
+    """A part of a face, which needs no id and has no sync points."""
+    element = ELEMENTS[name_of(tree)]
+    attributes = [each for each in element.attributes if each.field != "id"]
+    notes += source.unknown_content(tree, ["id", *(each.name for each in attributes)])
+    values = source.element_fields(tree) | source.values(tree, attributes)
+    return element.behavior(**values, id=tree.get("id", ""), namespace=element.namespace, order=0)
+
+
+def _values(tree: Tree, kind: type, source: BlockSource, notes: list[Fault]) -> dict[str, Any]:
+    attributes = attributes_of(kind)
+    notes += source.unknown_content(tree, [each.name for each in attributes])
+    return source.values(tree, attributes)
+
+
+def _check_some(parts: list[Tree], tree: Tree, names: Iterable[str], source: BlockSource) -> None:
+    if not parts:
+        wanted = " or ".join(f"<{name}>" for name in names)
+        raise RealizerError(source.located(tree, MissingElement(element=name_of(tree), children=wanted)))
+
+
+def _repeated(child: Tree, element: str, tree: Tree, source: BlockSource) -> RealizerError:
+    return RealizerError(source.located(child, RepeatedElement(element=element, parent=name_of(tree))))

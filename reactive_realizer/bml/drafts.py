@@ -1,0 +1,182 @@
+"""BML before 1.0: rewrites documents without a namespace as BML 1.0 before they are read.
+
+One tolerant reading serves the draft of the thesis (van Welbergen 2011, chapter 6) and the Vienna draft that SmartBody
+reads. Nothing is guessed: what this module does not know stays as it is, and the reader of BML 1.0 reports it.
+"""
+
+import re
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from dataclasses import replace
+from types import MappingProxyType
+from typing import Final
+
+from lxml import etree
+
+from reactive_realizer.bml.behavior import Behavior
+from reactive_realizer.bml.behaviors import Gaze, GazeShift, Posture, PostureShift
+from reactive_realizer.bml.block import Constraint, Synchronize
+from reactive_realizer.bml.block_source import BlockSource
+from reactive_realizer.bml.faults import UnknownWord
+from reactive_realizer.bml.names import CONTINUOUS
+from reactive_realizer.bml.sync_ref import DRAFT_SPELLINGS
+from reactive_realizer.bml.trees import Tree, children_of, name_of, stray_text_of
+from reactive_realizer.errors import RealizerError
+
+_START: Final = re.compile(r"([^\s:]+):(relax|end)")
+_AFTER: Final = {"relax": "chunkAfter", "end": "appendAfter"}
+_ENDING: Final = frozenset({"relax", "end"})
+
+_AXES: Final = {"X": "NOD", "Y": "SHAKE", "Z": "TILT"}
+_HANDS: Final = {"LEFT": "LEFT_HAND", "RIGHT": "RIGHT_HAND", "BOTH": "BOTH_HANDS"}
+_PARTS: Final = {"LOWER": "LEGS", "UPPER": "ARMS"}
+_FACES: Final = {"FACS": "faceFacs", "LEXICALIZED": "faceLexeme"}
+
+
+def modernize_block(tree: Tree) -> None:
+    """Rewrites the attributes of a block, or of a use of a procedure, as BML 1.0 and BMLA, in place.
+
+    ``scheduling`` is the composition; a start at the relax or the end of another block (thesis 12.1.3) is chunkAfter or
+    appendAfter.
+    """
+    if "scheduling" in tree.attrib and "composition" not in tree.attrib:
+        tree.set("composition", str(tree.attrib.pop("scheduling")))
+    start = _START.fullmatch(tree.get("start", "").strip())
+    if start is not None:
+        del tree.attrib["start"]
+        spellings = [f"{{{namespace}}}{_AFTER[start[2]]}" for namespace in CONTINUOUS]
+        after = next((name for name in spellings if name in tree.attrib), spellings[0])
+        tree.set(after, ",".join(filter(None, [tree.get(after), start[1]])))
+
+
+def modernize(tree: Tree, source: BlockSource) -> None:
+    """Rewrites a behavior or constraint as BML 1.0, in place.
+
+    Raises:
+        RealizerError: ``bad-attribute``: BML 1.0 has no equivalent.
+    """
+    for old, new in DRAFT_SPELLINGS.items():
+        _rename(tree, old, new)
+    rewrite = _REWRITES.get(name_of(tree))
+    if rewrite is not None:
+        rewrite(tree, source)
+
+
+def persisting(behaviors: Iterable[Behavior], constraints: Iterable[Constraint]) -> Iterator[Behavior]:
+    """The persistent behaviors of a draft: gazes and postures without a constraint on their relax or end (thesis 6.3).
+
+    Args:
+        behaviors: as they were read.
+        constraints: of their block.
+    """
+    tied = (ref for tie in constraints if isinstance(tie, Synchronize) for ref in tie.refs)
+    ended = {ref.behavior for ref in tied if ref.block is None and ref.sync in _ENDING}
+    for behavior in behaviors:
+        if not isinstance(behavior, Gaze | Posture) or isinstance(behavior, GazeShift | PostureShift):
+            continue
+        if behavior.id not in ended and not _ENDING & set(behavior.syncs):
+            yield replace(behavior, persistent=True)
+
+
+def _head(tree: Tree, source: BlockSource) -> None:
+    _check(tree, "action", ["ROTATION"], source)
+    _rename(tree, "rotation", "lexeme", _AXES)
+    _rename(tree, "type", "lexeme")
+    _rename(tree, "repeats", "repetition")
+
+
+def _gesture(tree: Tree, source: BlockSource) -> None:
+    _rename(tree, "hand", "mode", _HANDS)
+    kind = tree.get("type", "").upper()
+    if kind == "POINT":
+        tree.tag = "pointing"
+    if kind in {"POINT", "LEXICALIZED"}:
+        del tree.attrib["type"]
+    _rename(tree, "type", "lexeme")
+
+
+def _gaze(tree: Tree, source: BlockSource) -> None:
+    _check(tree, "type", ["AT"], source)
+    _rename(tree, "modality", "influence", {"LEGS": "WHOLE"})
+
+
+def _face(tree: Tree, source: BlockSource) -> None:
+    if children_of(tree, *_FACES.values()):
+        return
+    kind = _check(tree, "type", _FACES, source) or ("FACS" if "au" in tree.attrib else "LEXICALIZED")
+    tree.tag = _FACES[kind]
+
+
+def _posture(tree: Tree, source: BlockSource) -> None:
+    if "stance" in tree.attrib:
+        _add(tree, "stance", {"type": _take(tree, "stance")}, source)
+    if "shape" in tree.attrib:
+        part = _take(tree, "part", "WHOLEBODY").upper()
+        part, shape = _PARTS.get(part, part), _take(tree, "shape").upper()
+        lexeme = f"{part}_{shape}" if part in _PARTS.values() else shape
+        _add(tree, "pose", {"part": part, "lexeme": lexeme}, source)
+
+
+def _speech(tree: Tree, source: BlockSource) -> None:
+    if tree.get("type", "").lower() == "text/plain":
+        del tree.attrib["type"]
+    for holder in (tree, *children_of(tree, "text")):
+        for mark in children_of(holder, "tm"):
+            mark.tag = "sync"
+    if not children_of(tree, "text") and (stray_text_of(tree) or children_of(tree, "sync")):
+        _wrap_text(tree, source)
+
+
+def _wrap_text(tree: Tree, source: BlockSource) -> None:
+    """Moves the text and its sync points into a ``<text>`` element."""
+    inside = [child for child in tree if name_of(child) != "description"]
+    said, tree.text = tree.text, None
+    text = _add(tree, "text", {}, source)
+    text.text = said
+    text.extend(inside)
+
+
+def _synchronize(tree: Tree, source: BlockSource) -> None:
+    if "ref" in tree.attrib:
+        _add(tree, "sync", {"ref": _take(tree, "ref")}, source)
+
+
+_REWRITES: Final[Mapping[str, Callable[[Tree, BlockSource], None]]] = {
+    "head": _head,
+    "gesture": _gesture,
+    "gaze": _gaze,
+    "face": _face,
+    "posture": _posture,
+    "speech": _speech,
+    "synchronize": _synchronize,
+}
+
+
+def _rename(tree: Tree, old: str, new: str, words: Mapping[str, str] = MappingProxyType({})) -> None:
+    """Renames an attribute and its word; if the new attribute exists too, the reader reports the old one."""
+    if old in tree.attrib and new not in tree.attrib:
+        value = _take(tree, old)
+        tree.set(new, words.get(value.upper(), value))
+
+
+def _take(tree: Tree, name: str, default: str = "") -> str:
+    return str(tree.attrib.pop(name, default))
+
+
+def _check(tree: Tree, name: str, words: Collection[str], source: BlockSource) -> str:
+    """Removes an attribute that BML 1.0 does not have; returns its word in capitals, empty if it is not written.
+
+    Raises:
+        RealizerError: ``bad-attribute``: none of the words.
+    """
+    value = _take(tree, name)
+    if value and value.upper() not in words:
+        raise source.bad_attribute(tree, name, value, RealizerError(UnknownWord(known=", ".join(words))))
+    return value.upper()
+
+
+def _add(tree: Tree, name: str, attributes: dict[str, str], source: BlockSource) -> Tree:
+    """A new first child, with the location of its parent."""
+    child = etree.Element(name, attributes)
+    tree.insert(0, child)
+    source.place(child, tree)
+    return child

@@ -1,0 +1,209 @@
+"""The behaviors that BMLA and BMLT add to BML 1.0.
+
+Those of continuous interaction act on other blocks and behaviors (thesis 6.6 and app. C); BMLA and BMLT write them
+alike. Those of BMLT alone play motion as it was made: animations, captures, noise, transitions (app. C). Beside their
+start and end, these may have sync points that only their file knows, such as the beats of a conducting pattern.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import ClassVar, Final
+
+from reactive_realizer.bml.attribute_types import BehaviorId, Enumeration, Float, Id, IdList, Text
+from reactive_realizer.bml.attributes import attribute
+from reactive_realizer.bml.behavior import Behavior, SyncPoints
+from reactive_realizer.bml.names import BMLA, BMLT
+from reactive_realizer.bml.sync_ref import SyncRef
+from reactive_realizer.bml.vocabulary import InterruptSpeech, Mode
+
+_START_AND_END: SyncPoints = ("start", "end")
+
+
+# --- continuous interaction
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Activate(Behavior):
+    """Starts a preplanned block (thesis 6.6.1).
+
+    Attributes:
+        target: id of the block.
+    """
+
+    NAMESPACE = BMLA
+    SYNC_POINTS = _START_AND_END
+
+    target: str = field(metadata=attribute(Id()))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Interrupt(Behavior):
+    """Interrupts a block, or some of its behaviors (thesis 6.6.3).
+
+    Attributes:
+        target: id of the block.
+        include: ids of the behaviors to interrupt; none means all.
+        exclude: ids of the behaviors to leave alone.
+        speech: where an interrupted speech ends.
+    """
+
+    NAMESPACE = BMLA
+    SYNC_POINTS = _START_AND_END
+
+    target: str = field(metadata=attribute(Id()))
+    include: tuple[str, ...] = field(default=(), metadata=attribute(IdList()))
+    exclude: tuple[str, ...] = field(default=(), metadata=attribute(IdList()))
+    speech: InterruptSpeech = field(default=InterruptSpeech.NOW, metadata=attribute(Enumeration(InterruptSpeech)))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Trajectory:
+    """The course of a parameter from one value to another.
+
+    Attributes:
+        type: name of the curve: linear, instant, or one that a plug-in registers.
+        target_value: last value, in the unit of the parameter.
+        initial_value: first value; None for the value that the parameter has then.
+    """
+
+    type: str = field(metadata=attribute(Text()))
+    target_value: float = field(metadata=attribute(Float()))
+    initial_value: float | None = field(default=None, metadata=attribute(Float()))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ParameterValueChange(Behavior):
+    """Changes a parameter of a behavior while it plays (thesis 6.6.6).
+
+    The parameter reaches its target value at the end, which BMLT also calls stroke.
+
+    Attributes:
+        target: id of the behavior, after the id of its block where that is another block: ``b1:speech1``.
+        parameter: name of the parameter, such as volume.
+        trajectory: the course of its values.
+    """
+
+    NAMESPACE = BMLA
+    CHILDREN: ClassVar = ("trajectory",)
+    SYNC_POINTS = ("start", "stroke", "end")
+
+    target: str = field(metadata=attribute(BehaviorId()))
+    parameter: str = field(metadata=attribute(Text(), "paramId"))
+    trajectory: Trajectory
+
+    @classmethod
+    def complete_syncs(cls, syncs: Mapping[str, SyncRef], namespace: str) -> Mapping[str, SyncRef]:
+        """Ties BMLT's stroke to whatever its end is tied to: the two are one point."""
+        if namespace != BMLT or "stroke" in syncs or "end" not in syncs:
+            return syncs
+        return MappingProxyType({**syncs, "stroke": syncs["end"]})
+
+    @property
+    def target_block(self) -> str | None:
+        """Id of the target's block; None for the block of this behavior."""
+        return self.target.rpartition(":")[0] or None
+
+    @property
+    def target_behavior(self) -> str:
+        """Id of the target in its block."""
+        return self.target.rpartition(":")[2]
+
+
+# --- motion as it was made
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ProcAnimation(Behavior):
+    """Plays a procedural animation (C.1.5).
+
+    Attributes:
+        animation: its name in a binding, or the name of its file without suffix.
+        file_name: name of its file among the assets.
+        mode: selects the hands of an animation that a binding has for several.
+    """
+
+    NAMESPACE = BMLT
+    SYNC_POINTS = _START_AND_END
+    OPEN_POINTS = True
+
+    animation: str | None = field(default=None, metadata=attribute(Text(), "name"))
+    file_name: str | None = field(default=None, metadata=attribute(Text()))
+    mode: Mode | None = field(default=None, metadata=attribute(Enumeration(Mode)))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ProcAnimationGesture(ProcAnimation):
+    """Plays a procedural animation as a gesture, with a preparation and a retraction."""
+
+    SYNC_POINTS = ("start", "ready", "strokeStart", "stroke", "strokeEnd", "relax", "end")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Keyframe(Behavior):
+    """Plays a keyframe animation or a captured motion (C.1.2).
+
+    Attributes:
+        animation: name of its file, without suffix.
+        interpolator: a ``SkeletonInterpolator`` written inside the behavior, as XML; played instead of a file.
+    """
+
+    NAMESPACE = BMLT
+    CHILDREN: ClassVar = ("SkeletonInterpolator",)
+    SYNC_POINTS = _START_AND_END
+    OPEN_POINTS = True
+
+    animation: str | None = field(default=None, metadata=attribute(Text(), "name"))
+    interpolator: str | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Noise(Behavior):
+    """Moves a joint at random (C.1.7).
+
+    Attributes:
+        type: of noise, such as perlin.
+        joint: H-Anim name of the joint.
+    """
+
+    NAMESPACE = BMLT
+    SYNC_POINTS = _START_AND_END
+
+    type: str = field(metadata=attribute(Text()))
+    joint: str = field(metadata=attribute(Text()))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Transition(Behavior):
+    """Moves some joints from their present pose to the pose in which the following motions start (C.1.6).
+
+    Attributes:
+        kind: of curve, such as SlerpTransition.
+    """
+
+    NAMESPACE = BMLT
+    SYNC_POINTS = _START_AND_END
+
+    kind: str = field(metadata=attribute(Text(), "class"))
+
+
+MOTIONS: Final[frozenset[type[Behavior]]] = frozenset(
+    {ProcAnimation, ProcAnimationGesture, Keyframe, Noise, Transition}
+)
+"""The behaviors that play motion as it was made."""
+
+
+# --- in any behavior
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BehaviorParameter:
+    """A ``<bmlt:parameter>``: a value for the engine that plays the behavior (C.1.1).
+
+    Attributes:
+        name: name of the parameter in that engine.
+        value: as written.
+    """
+
+    name: str = field(metadata=attribute(Text()))
+    value: str = field(metadata=attribute(Text()))

@@ -1,0 +1,329 @@
+"""Faults of documents: what cannot be read, and references that name nothing."""
+
+from reactive_realizer.errors import Fault, ParsingFault, SchedulingFault, WarningType
+
+
+class BadEncoding(ParsingFault):
+    """A document that is not text in one of the encodings that are read."""
+
+    code = "bad-encoding"
+    template = "the text is not valid UTF-8, UTF-16, ISO-8859-1 or US-ASCII"
+
+
+class MalformedXml(ParsingFault):
+    """A document that is not well-formed XML."""
+
+    code = "malformed-xml"
+    template = "not well-formed XML: {reason}"
+    reason: str
+
+
+class UnclosedElement(ParsingFault):
+    """A document that ends inside an element."""
+
+    code = "unclosed-element"
+    template = "not well-formed XML: the document ends inside <{element}>"
+    element: str
+
+
+class Doctype(ParsingFault):
+    """A document with a DOCTYPE."""
+
+    code = "doctype"
+    template = "a DOCTYPE is not allowed"
+
+
+class TooManyBytes(ParsingFault):
+    """A document over the size limit."""
+
+    code = "too-many-bytes"
+    template = "{size} bytes; the limit is {limit}"
+    size: int | str
+    limit: int
+
+
+class TooDeep(ParsingFault):
+    """Elements nested too deeply."""
+
+    code = "too-deep"
+    template = "elements are nested more than {limit} deep"
+    limit: int
+
+
+class TooManyAttributes(ParsingFault):
+    """An element with too many attributes and namespace declarations."""
+
+    code = "too-many-attributes"
+    template = "an element has more than {limit} attributes"
+    limit: int
+
+
+class TooManyRoots(ParsingFault):
+    """A document with too many blocks."""
+
+    code = "too-many-roots"
+    template = "the document has more than {limit} blocks; the rest is not read"
+    limit: int
+
+
+class TooManyBehaviors(ParsingFault):
+    """A block with too many behaviors."""
+
+    code = "too-many-behaviors"
+    template = "the block has {size} behaviors; the limit is {limit}"
+    size: int
+    limit: int
+
+
+class NotBml(ParsingFault):
+    """A root element that is neither a block nor a procedure."""
+
+    code = "not-bml"
+    template = "<{element}> is not a bml block, defineproc or useproc"
+    element: str
+
+
+class NoBlock(ParsingFault):
+    """A document without blocks."""
+
+    code = "no-block"
+    template = "the document contains no bml block"
+
+
+class ProcedureInBlock(ParsingFault):
+    """A definition or use of a procedure inside a block."""
+
+    code = "procedure-in-block"
+    template = "<{element}> must be placed outside of blocks"
+    element: str
+
+
+class NoBlockId(ParsingFault):
+    """A block without an id."""
+
+    code = "no-block-id"
+    template = "the bml block has no id, so it is refused"
+
+
+class MissingAttribute(ParsingFault):
+    """A required attribute that is missing."""
+
+    code = "missing-attribute"
+    template = "<{element}> requires the attribute '{attribute}'"
+    element: str
+    attribute: str
+
+
+class UnknownAttribute(ParsingFault):
+    """Attributes that an element does not have."""
+
+    code = "unknown-attribute"
+    template = "unknown attribute {attributes} of <{element}>; known: {known}"
+    element: str
+    attributes: str
+    known: str
+
+
+class BadAttribute(ParsingFault):
+    """A value that an attribute cannot have."""
+
+    code = "bad-attribute"
+    template = "{attribute}='{value}' of <{element}>: {reason}"
+    element: str
+    attribute: str
+    value: str
+    reason: str
+
+
+class NotAnId(Fault):
+    """A value that is not an id."""
+
+    code = "not-an-id"
+    template = (
+        "an id must have 1 to 200 characters, without white space, control characters, ':' or '+', and cannot be 'bml'"
+    )
+
+
+class NotWhole(Fault):
+    """A value that is not a whole number."""
+
+    code = "not-whole"
+    template = "not a whole number"
+
+
+class OutOfRange(Fault):
+    """A number outside of its range."""
+
+    code = "out-of-range"
+    template = "not between {low} and {high}"
+    low: str
+    high: str
+
+
+class UnknownWord(Fault):
+    """A value outside of an enumeration."""
+
+    code = "unknown-word"
+    template = "not one of {known}"
+    known: str
+
+
+class NotAReference(Fault):
+    """A value that is not a sync reference."""
+
+    code = "not-a-reference"
+    template = "not a sync reference; write [block:]behavior:sync[+seconds], or seconds"
+
+
+class OnlyBlockStart(Fault):
+    """A sync point of a block that references cannot name."""
+
+    code = "only-block-start"
+    template = "a reference can name the start of its own block, or the start, relax or end of another block"
+
+
+class ExternalReference(Fault):
+    """A reference of a draft to a behavior of another block."""
+
+    code = "external-reference"
+    template = "this behavior belongs to another block; a draft must set bmlt:allowexternalrefs='true' to refer to it"
+
+
+class AbsurdTime(Fault):
+    """A time that is too far away, in s."""
+
+    code = "absurd-time"
+    template = "times cannot exceed {limit:g} s"
+    limit: float
+
+
+class UnknownElement(ParsingFault):
+    """Child elements that an element does not have."""
+
+    code = "unknown-element"
+    template = "unknown {element} in <{parent}>; known: {known}"
+    element: str
+    parent: str
+    known: str
+
+
+class MissingElement(ParsingFault):
+    """Required child elements that are missing."""
+
+    code = "missing-element"
+    template = "<{element}> must contain {children}"
+    element: str
+    children: str
+
+
+class RepeatedElement(ParsingFault):
+    """A child element that may occur only once."""
+
+    code = "repeated-element"
+    template = "<{parent}> contains more than one <{element}>"
+    element: str
+    parent: str
+
+
+class StrayText(ParsingFault):
+    """Text in an element that contains none."""
+
+    code = "stray-text"
+    template = "unexpected text '{text}'"
+    text: str
+
+
+class DuplicateId(ParsingFault):
+    """An id that another element has."""
+
+    code = "duplicate-id"
+    template = "<{element}>: the id '{id}' is already in use"
+    element: str
+    id: str
+
+
+class UtteranceTooLong(ParsingFault):
+    """A speech with a text over the limit."""
+
+    code = "utterance-too-long"
+    template = "the text has more than {limit} characters"
+    limit: int
+
+
+class MoreProblems(ParsingFault):
+    """Further problems of a block that are not reported one by one."""
+
+    code = "more-problems"
+    template = "{number} more problems in this block"
+    number: int
+
+
+class UnknownBehavior(Fault):
+    """An element in a block that is not a behavior of BML."""
+
+    code = "unknown-behavior"
+    template = "<{element}> is not a behavior of BML 1.0; known: {known}"
+    warning = WarningType.BEHAVIOR_TYPE_NOT_SUPPORTED
+    element: str
+    known: str
+
+
+class ForeignAttribute(Fault):
+    """An attribute of another namespace that no engine uses."""
+
+    code = "foreign-attribute"
+    template = "the attribute {attribute} of {namespace} has no effect here"
+    warning = WarningType.CUSTOM_ATTRIBUTE_NOT_SUPPORTED
+    attribute: str
+    namespace: str
+
+
+class UnknownReference(SchedulingFault):
+    """A reference to a behavior that does not exist."""
+
+    code = "unknown-reference"
+    template = "{reference}: there is no behavior '{behavior}'; available: {known}"
+    reference: str
+    behavior: str
+    known: str
+
+
+class UnknownSync(SchedulingFault):
+    """A reference to a sync point that its behavior does not have."""
+
+    code = "unknown-sync"
+    template = "{reference}: '{behavior}' has no sync point '{sync}'; it has {known}"
+    reference: str
+    behavior: str
+    sync: str
+    known: str
+
+
+class UnknownBlock(SchedulingFault):
+    """A reference to a block that does not exist, or has ended."""
+
+    code = "unknown-block"
+    template = "{reference}: the block '{block}' is unknown or has ended"
+    reference: str
+    block: str
+
+
+class UnknownOwner(SchedulingFault):
+    """A reference to a block or behavior that does not exist."""
+
+    code = "unknown-owner"
+    template = (
+        "{reference}: '{block}' is neither a behavior of this block nor a block that is still alive; behaviors: {known}"
+    )
+    reference: str
+    block: str
+    known: str
+
+
+class LostWith(SchedulingFault):
+    """A reference to a behavior that was dropped."""
+
+    code = "lost-with"
+    template = "{reference} has no time because '{behavior}' is dropped; what depends on it is dropped too"
+    reference: str
+    behavior: str

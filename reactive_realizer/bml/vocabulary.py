@@ -1,0 +1,79 @@
+"""The closed vocabularies of BML 1.0 and of continuous interaction; a value is the spelling of its word in BML."""
+
+from enum import StrEnum
+
+
+class Composition(StrEnum):
+    """The relation of a block to earlier ones: it starts at once, after all of them, or in their place."""
+
+    MERGE = "MERGE"
+    APPEND = "APPEND"
+    REPLACE = "REPLACE"
+
+
+class Mode(StrEnum):
+    """The hands of a gesture."""
+
+    LEFT_HAND = "LEFT_HAND"
+    RIGHT_HAND = "RIGHT_HAND"
+    BOTH_HANDS = "BOTH_HANDS"
+
+
+class Influence(StrEnum):
+    """The part of the body that follows a gaze; each includes the ones before it."""
+
+    EYES = "EYES"
+    HEAD = "HEAD"
+    SHOULDER = "SHOULDER"
+    WAIST = "WAIST"
+    WHOLE = "WHOLE"
+
+
+class OffsetDirection(StrEnum):
+    """The side of its target to which a gaze is offset, as seen by the character."""
+
+    RIGHT = "RIGHT"
+    LEFT = "LEFT"
+    UP = "UP"
+    DOWN = "DOWN"
+    UPRIGHT = "UPRIGHT"
+    UPLEFT = "UPLEFT"
+    DOWNLEFT = "DOWNLEFT"
+    DOWNRIGHT = "DOWNRIGHT"
+
+
+class InterruptSpeech(StrEnum):
+    """Where an interrupted speech ends: at once, or before its next word."""
+
+    NOW = "now"
+    WORD = "word"
+
+
+class Side(StrEnum):
+    """The half of the face that an action unit moves."""
+
+    LEFT = "LEFT"
+    RIGHT = "RIGHT"
+    BOTH = "BOTH"
+
+
+class StanceType(StrEnum):
+    """The global body position."""
+
+    SITTING = "SITTING"
+    CROUCHING = "CROUCHING"
+    STANDING = "STANDING"
+    LYING = "LYING"
+
+
+class PosePart(StrEnum):
+    """The part of the body of a pose."""
+
+    ARMS = "ARMS"
+    LEFT_ARM = "LEFT_ARM"
+    RIGHT_ARM = "RIGHT_ARM"
+    LEGS = "LEGS"
+    LEFT_LEG = "LEFT_LEG"
+    RIGHT_LEG = "RIGHT_LEG"
+    HEAD = "HEAD"
+    WHOLEBODY = "WHOLEBODY"

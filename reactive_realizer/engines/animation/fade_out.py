@@ -1,0 +1,124 @@
+"""Fades out the layers of motions that have ended or were cut. The engine does this itself; it blocks no resources."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from math import inf
+from operator import itemgetter
+
+from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.embodiment.joints import ROOT
+from reactive_realizer.embodiment.pose import Layer, LayerKind
+from reactive_realizer.embodiment.vector import Vec3, distance
+from reactive_realizer.engines.animation.coasting import Coasting
+from reactive_realizer.engines.animation.easing import minimum_jerk, share
+
+DURATION = 0.6
+"""s; a hand released at shoulder height then stays below 2 m/s."""
+
+_DURATION_PER_METER = 2.8
+"""Duration for each meter that the pelvis moves, s; getting up from a chair takes almost two seconds."""
+
+_LONGEST = 3.0
+"""Limit of the duration, s; longer distances are covered faster."""
+
+_MIN_DURATION_PER_METER = 1.0
+"""Minimum duration for each meter, s: the pelvis stays below 2 m/s."""
+
+_LAG = 0.5
+"""A figure further behind its motion than this has not kept up with it, m."""
+
+LOWEST = (-inf, -inf)
+"""Stacking height below all others."""
+
+_NOTICEABLE = 1e-3
+"""Layers with less weight are dropped: they have already eased out."""
+
+_WHOLE = 0.99
+"""From this weight on a layer hides those below it; the very last frame of a shift may not have been shown."""
+
+
+@dataclass(frozen=True, slots=True)
+class FadeOut:
+    """A layer that fades out.
+
+    Attributes:
+        layer: as shown last.
+        since: time when it started to fade out, s.
+        duration: until it is gone, s.
+        height: stacking position of its motion.
+        coasting: how it continues; None if it was at rest.
+        under: weight of a layer above it that fades out at the same time and equals the new layer below. The weights
+            are chosen such that both together go straight from the old pose to the new one.
+    """
+
+    layer: Layer
+    since: GlobalTime
+    duration: float = DURATION
+    height: tuple[float, float] = LOWEST
+    coasting: Coasting | None = None
+    under: float = 0.0
+
+    def finished(self, now: GlobalTime) -> bool:
+        """Return whether the layer is gone."""
+        return now >= self.since + self.duration or self.layer.weight * (1.0 - self.under) < _NOTICEABLE
+
+    def at(self, now: GlobalTime) -> Layer:
+        """Return the layer at a time."""
+        layer = self.layer if self.coasting is None else self.coasting(self.layer, now)
+        left = 1.0 - minimum_jerk(share(now, self.since, self.since + self.duration))
+        return replace(layer, weight=layer.weight * left * (1.0 - self.under) / (1.0 - self.under * left))
+
+
+def in_stacking_order(
+    fade_outs: Iterable[FadeOut], playing: Iterable[tuple[tuple[float, float], Layer]], now: GlobalTime
+) -> list[Layer]:
+    """Merge fading and playing layers, lowest first.
+
+    Args:
+        fade_outs: that are not finished.
+        playing: layers with their heights, in order.
+        now: time of the frame, s.
+    """
+    heights = [*((fade_out.height, fade_out.at(now)) for fade_out in fade_outs), *playing]
+    return [layer for _, layer in sorted(heights, key=itemgetter(0))]
+
+
+def with_reached_root(layer: Layer, root: Vec3) -> Layer:
+    """Return a layer that starts to fade out, from where the root really is if the figure was too slow to follow.
+
+    Args:
+        layer: as the motion asked for it.
+        root: displacement of HumanoidRoot as shown, m.
+    """
+    leads = layer.kind is not LayerKind.ADDITIVE and layer.weight_of(ROOT) == 1.0
+    outrun = layer.root is not None and distance(layer.root, root) > _LAG
+    return replace(layer, root=root) if leads and outrun else layer
+
+
+def visible_part(fade_out: FadeOut, layer: Layer, height: tuple[float, float]) -> FadeOut:
+    """Return the part of a fading layer that a posture which stays does not hide.
+
+    Args:
+        fade_out: of the layer.
+        layer: the posture, as shown last.
+        height: its stacking position.
+    """
+    leaves = fade_out.layer
+    below = (leaves.kind, fade_out.height) < (layer.kind, height)
+    if layer.weight < _WHOLE or not below:
+        return fade_out
+    rotations = {joint: turn for joint, turn in leaves.rotations.items() if joint not in layer.rotations}
+    root = leaves.root if layer.root is None else None
+    return replace(fade_out, layer=replace(leaves, rotations=rotations, root=root))
+
+
+def fade_out_duration(layer: Layer, roots: Iterable[Vec3]) -> float:
+    """Return the time in which a layer fades out, s: longer if the whole figure moves.
+
+    Args:
+        layer: that fades out.
+        roots: possible displacements of HumanoidRoot without it, m.
+    """
+    place = layer.root
+    moved = 0.0 if place is None else layer.weight * max(distance(place, root) for root in roots)
+    return max(DURATION, min(_DURATION_PER_METER * moved, _LONGEST), _MIN_DURATION_PER_METER * moved)

@@ -1,0 +1,193 @@
+"""Faults of motions: bindings, targets, formulas, captures and poses."""
+
+from reactive_realizer.errors import CreationFault, PlayingFault, TargetFault
+
+
+class NoMotionFor(CreationFault):
+    """A behavior that no entry of the binding matches."""
+
+    code = "no-motion-for"
+    template = "no entry of the binding plays <{element}>{said}"
+    element: str
+    said: str
+
+
+class NoUnit(CreationFault):
+    """No kind of motion unit has the name."""
+
+    code = "no-unit"
+    template = "there is no motion unit '{unit}'"
+    unit: str
+
+
+class WrongElement(CreationFault):
+    """A motion unit bound to an element that it cannot play."""
+
+    code = "wrong-element"
+    template = "the motion unit '{unit}' cannot play <{element}>"
+    unit: str
+    element: str
+
+
+class NoFile(CreationFault):
+    """A behavior without the file that it plays."""
+
+    code = "no-file"
+    template = "<{element}> needs a file, or the name of one"
+    element: str
+
+
+class NoPosture(CreationFault):
+    """No pose has the lexeme."""
+
+    code = "no-posture"
+    template = "there is no {part} pose '{lexeme}' for {stance}; available: {known}"
+    part: str
+    lexeme: str
+    stance: str
+    known: str
+
+
+class NoTransition(CreationFault):
+    """No transition has the name."""
+
+    code = "no-transition"
+    template = "there is no transition '{kind}'; available: {known}"
+    kind: str
+    known: tuple[str, ...]
+
+
+class NoTarget(TargetFault):
+    """No target of the world has the name."""
+
+    code = "no-target"
+    template = "there is no target '{target}' in the world; available: {known}"
+    target: str
+    known: tuple[str, ...]
+
+
+class NoJoints(CreationFault):
+    """Joints that a character does not have."""
+
+    code = "no-joints"
+    template = "this character lacks {joints}, which <{element}> needs"
+    joints: tuple[str, ...]
+    element: str
+
+
+class NoneTurned(CreationFault):
+    """An animation that moves none of the joints in use."""
+
+    code = "none-turned"
+    template = "{animation} turns none of {joints}; it turns {known}"
+    animation: str
+    joints: tuple[str, ...]
+    known: str
+
+
+class BadParameter(CreationFault):
+    """A value that a parameter of a motion cannot have."""
+
+    code = "bad-parameter"
+    template = "the parameter {name} must be a number from {low:g} to {high:g}, not '{value}'"
+    name: str
+    value: str
+    low: float
+    high: float
+
+
+class NotPointable(CreationFault):
+    """A target that a hand cannot point at."""
+
+    code = "not-pointable"
+    template = "the {hand} hand cannot point at '{target}': {reason}"
+    hand: str
+    target: str
+    reason: str
+
+
+class TargetLost(PlayingFault):
+    """A target that a hand can no longer point at."""
+
+    code = "target-lost"
+    template = "the {hand} hand can no longer follow '{target}' and stays where it is: {reason}"
+    hand: str
+    target: str
+    reason: str
+
+
+class GazeShort(PlayingFault):
+    """A target too far to the side; ``angle`` is how far the gaze falls short, in degrees."""
+
+    code = "gaze-short"
+    template = (
+        "the gaze stays {angle:.0f} degrees short of its target, "
+        "which is too far to the side for the joints that take part"
+    )
+    angle: float
+
+
+class GazeNear(PlayingFault):
+    """A target too close to the eyes."""
+
+    code = "gaze-near"
+    template = "the target is too close to look at, so the eyes look straight ahead"
+
+
+class JointsLeftOut(PlayingFault):
+    """Joints that a motion cannot turn."""
+
+    code = "joints-left-out"
+    template = "{joints} stay still: the motion of <{element}> does not turn them, or the character does not have them"
+    joints: str
+    element: str
+
+
+class NotReachable(PlayingFault):
+    """A joint that cannot reach a position; ``distance`` in m."""
+
+    code = "not-reachable"
+    template = "{joint} cannot reach where {animation} wants it at phase {phase:.2f}: it is {distance:.2f} m too far"
+    joint: str
+    animation: str
+    phase: float
+    distance: float
+
+
+class NoMotion(PlayingFault):
+    """A formula without a value."""
+
+    code = "no-motion"
+    template = "{animation} gives no pose at phase {phase:g}: {reason}"
+    animation: str
+    phase: float
+    reason: str
+
+
+class BadExpression(CreationFault):
+    """A formula that cannot be read; ``at`` is a 1-based character."""
+
+    code = "bad-expression"
+    template = "{reason} at character {at} of '{expression}'"
+    reason: str
+    at: int
+    expression: str
+
+
+class BadCapture(CreationFault):
+    """A BVH file that cannot be used; ``row`` is its line."""
+
+    code = "bad-capture"
+    template = "{file}, line {row}: {reason}"
+    file: str
+    row: int
+    reason: str
+
+
+class BadKeys(CreationFault):
+    """Keyframes that cannot be played."""
+
+    code = "bad-keys"
+    template = "{animation}: {reason}"
+    animation: str
+    reason: str

@@ -1,0 +1,76 @@
+"""Idle animation: breathing, sway, weight shifts, blinks and glances. Without it a figure looks frozen."""
+
+import math
+from random import Random
+
+from reactive_realizer.embodiment.joints import EYES
+from reactive_realizer.embodiment.pose import Layer, LayerKind
+from reactive_realizer.embodiment.quaternion import Quat, from_euler, multiply
+from reactive_realizer.engines.animation.idle_movements import Blinks, Breath, Glances, WeightShift, leaning
+
+_WAVES = ((0.43, 1.9, 0.0), (0.31, 2.3, 1.0), (0.23, 1.3, 2.0))
+"""Sway to the side, forward and about the vertical: for each a slow and a fast wave, rad/s, and their phase, rad."""
+
+_QUICKER = 0.25
+"""Share of the faster wave in a sway."""
+
+_UPRIGHT = 0.1
+"""A pelvis that is lower than this below standing height does not shift weight any more, m."""
+
+
+class Idle:
+    """Idle motion as functions of time. Figures with different seeds move differently."""
+
+    def __init__(self, random: Random) -> None:
+        """Draw all random choices from a generator that must not be shared."""
+        self._breath = Breath(Random(random.getrandbits(64)))
+        self._sway = random.uniform(0.0, 100.0)
+        self._blinks = Blinks(Random(random.getrandbits(64)))
+        self._shift = WeightShift(Random(random.getrandbits(64)))
+        self._glances = Glances(Random(random.getrandbits(64)))
+
+    def layer(self, time: float, sunk: float) -> Layer:
+        """Return the additive layer at a time.
+
+        Args:
+            time: s.
+            sunk: how much lower the pelvis is than in standing, m; a sitting figure does not shift its weight.
+        """
+        standing = max(0.0, 1.0 - max(0.0, sunk) / _UPRIGHT)
+        turns, root = leaning(self._shift.at(time) * standing)
+        alive = self.rotations(time)
+        joined = {joint: multiply(turns[joint], turn) if joint in turns else turn for joint, turn in alive.items()}
+        return Layer(LayerKind.ADDITIVE, {**turns, **joined}, root=root)
+
+    def rotations(self, time: float) -> dict[str, Quat]:
+        """Return breathing and sway: the chest rises, the head stays level, the trunk is never quite still."""
+        air = self._breath.air(time)
+        side, forth, turn = (_wave(time + self._sway, *wave) for wave in _WAVES)
+        return {
+            "vl5": from_euler(0.006 * forth, 0.008 * turn, 0.006 * side),
+            "vt6": from_euler(-0.016 * air, 0.0, 0.0),
+            "l_sternoclavicular": from_euler(0.0, 0.0, 0.022 * air),
+            "r_sternoclavicular": from_euler(0.0, 0.0, -0.022 * air),
+            "vc4": from_euler(0.012 * air - 0.006 * forth, 0.0, -0.006 * side),
+            "skullbase": from_euler(0.006 * forth, 0.010 * turn, 0.004 * side),
+        }
+
+    def eyes(self, time: float) -> dict[str, Quat]:
+        """Return the rotations of eyes without a target."""
+        yaw, pitch = self._glances.at(time)
+        turn = from_euler(-pitch, yaw, 0.0)
+        return dict.fromkeys(EYES, turn)
+
+    def blink(self, time: float) -> None:
+        """Blink at a time, s, as with a large turn of gaze."""
+        self._blinks.request_blink(time)
+
+    def weights(self, time: float) -> dict[str, float]:
+        """Return morph weights at a time, s."""
+        closed = self._blinks.closed(time)
+        return {"eyeBlinkLeft": closed, "eyeBlinkRight": closed}
+
+
+def _wave(time: float, slow: float, quick: float, begin: float) -> float:
+    """Return a sway at a time, -1 to 1: almost all of it is below half a cycle per second, without a visible period."""
+    return (1.0 - _QUICKER) * math.sin(slow * time + begin) + _QUICKER * math.sin(quick * time + begin)

@@ -1,0 +1,240 @@
+"""Idle movements that recur at random intervals: breaths, weight shifts, blinks and glances."""
+
+import math
+from bisect import bisect_right
+from collections import deque
+from collections.abc import Callable
+from operator import attrgetter
+from random import Random
+from typing import Generic, NamedTuple, TypeVar
+
+from reactive_realizer.embodiment.joints import ROOT
+from reactive_realizer.embodiment.quaternion import Quat, from_euler
+from reactive_realizer.embodiment.vector import Vec3
+from reactive_realizer.engines.animation.easing import minimum_jerk, share, smoothstep
+
+T = TypeVar("T")
+
+
+class Episode(NamedTuple, Generic[T]):
+    """A state since a time, s."""
+
+    since: float
+    what: T
+
+
+class Episodes(Generic[T]):
+    """Random episodes in succession, from time 0 on. Each is drawn when it is first needed, in order.
+
+    So they do not depend on the order of queries, back to the last `KEPT` episodes.
+
+    Args:
+        first: state of the first episode.
+        draw: returns the duration of the last episode, s, and the next state, from a generator that must not be shared.
+    """
+
+    KEPT = 64
+
+    def __init__(self, first: T, draw: Callable[[], tuple[float, T]]) -> None:
+        self._draw = draw
+        self._drawn = deque([Episode(0.0, first)], self.KEPT)
+
+    def at(self, time: float) -> tuple[Episode[T], Episode[T]]:
+        """Return the episode at a time, and the one before it. The first one is its own predecessor."""
+        while (last := self._drawn[-1].since) <= time:
+            duration, what = self._draw()
+            self._drawn.append(Episode(last + duration, what))
+        now = max(0, bisect_right(self._drawn, time, key=attrgetter("since")) - 1)
+        return self._drawn[now], self._drawn[max(0, now - 1)]
+
+
+_LASTS = (3.4, 4.8)
+"""Shortest and longest breath, s: 12.5 to 17.6 per minute."""
+
+_DEPTH = (0.7, 1.2)
+"""Shallowest and deepest breath."""
+
+_IN = 0.42
+"""Share of a breath that is inhalation."""
+
+
+class Breath:
+    """Breaths of a person at rest; no two are alike.
+
+    Depth varies more than time: M. J. Tobin and others, "Variability of resting respiratory drive and timing in healthy
+    subjects" (Journal of Applied Physiology 65, 1988). Rate, share of inhalation and variation are our choice, within
+    human ranges.
+    """
+
+    def __init__(self, random: Random) -> None:
+        """Draw from a generator that must not be shared."""
+        self._random = random
+        self._last = self._breath()
+        self._episodes = Episodes(self._last, self._draw)
+        self._begun = random.uniform(0.0, _LASTS[0])
+
+    def air(self, time: float) -> float:
+        """Return how full the lungs are at a time, s: 0 after exhalation, about 1 after inhalation."""
+        passed = time + self._begun
+        (since, (duration, depth)), _ = self._episodes.at(passed)
+        done = (passed - since) / duration
+        return depth * smoothstep(share(done, 0.0, _IN) if done < _IN else share(1.0 - done, 0.0, 1.0 - _IN))
+
+    def _draw(self) -> tuple[float, tuple[float, float]]:
+        duration, _ = self._last
+        self._last = self._breath()
+        return duration, self._last
+
+    def _breath(self) -> tuple[float, float]:
+        return self._random.uniform(*_LASTS), self._random.uniform(*_DEPTH)
+
+
+_SHIFT_PAUSE = (10.0, 30.0)
+"""Shortest and longest time between weight shifts, s."""
+
+_TAKES = 1.8
+"""Duration of a weight shift, s."""
+
+_SHIFT_ASIDE = 0.030
+"""Largest displacement of the pelvis toward the supporting foot, m."""
+
+_SHIFT_DOWN = 0.006
+"""How much the pelvis is lowered there, beyond what the legs need to reach their feet, m."""
+
+
+class WeightShift:
+    """Weight shifts of a standing figure: it moves its weight to the other foot at once, and stays there for a while.
+
+    After M. Duarte and V. M. Zatsiorsky, "Patterns of center of pressure migration during prolonged unconstrained
+    standing" (Motor Control 3, 1999): of their three patterns, this is the one called shifting. Distance and rate are
+    our choice; theirs occurred every 199 s to the side, but an observer should see one within a minute. The hip of the
+    supporting leg is higher, trunk and neck compensate the tilt, and the head stays level.
+    """
+
+    def __init__(self, random: Random) -> None:
+        """Draw from a generator that must not be shared."""
+        self._random = random
+        self._episodes = Episodes(random.uniform(-0.4, 0.4), self._draw)
+        self._side = random.choice((-1.0, 1.0))
+
+    def _draw(self) -> tuple[float, float]:
+        self._side = -self._side
+        return self._random.uniform(*_SHIFT_PAUSE), self._side * self._random.uniform(0.4, 1.0)
+
+    def at(self, time: float) -> float:
+        """Return the supporting foot, -1 (right) to 1 (left)."""
+        now, before = self._episodes.at(time)
+        return before.what + (now.what - before.what) * minimum_jerk((time - now.since) / _TAKES)
+
+
+def leaning(side: float) -> tuple[dict[str, Quat], Vec3]:
+    """Return the turns of pelvis, trunk and neck, and the displacement of the pelvis, m.
+
+    Args:
+        side: the supporting foot, -1 (right) to 1 (left).
+    """
+    turns = {
+        ROOT: from_euler(0.0, -0.04 * side, 0.050 * side),
+        "vl5": from_euler(0.0, 0.03 * side, -0.075 * side),
+        "vc4": from_euler(0.0, 0.01 * side, 0.025 * side),
+    }
+    return turns, (_SHIFT_ASIDE * side, -_SHIFT_DOWN * side * side, 0.0)
+
+
+_BLINK = 0.2
+"""Duration of a blink, from open to open, s."""
+
+_BLINK_PAUSE = (2.0, 6.0)
+"""Shortest and longest time from one blink to the next, s."""
+
+_CLOSING = 0.41
+"""Share of a blink in which the lids close; closing is faster than opening by 40 to 47 %.
+
+C. Sforza and others, "Spontaneous blinking in healthy persons: an optoelectronic study of eyelid motion" (Ophthalmic
+and Physiological Optics 28, 2008).
+"""
+
+
+class Blinks:
+    """A blink every four seconds on average, and one with each large turn of gaze.
+
+    A person who rests and looks at nothing near blinks 8 to 21 times per minute: M. J. Doughty, "Consideration of three
+    types of spontaneous eyeblink activity in normal humans" (Optometry and Vision Science 78, 2001).
+    """
+
+    def __init__(self, random: Random) -> None:
+        """Draw from a generator that must not be shared."""
+        self._episodes = Episodes(None, lambda: (random.uniform(*_BLINK_PAUSE), None))
+        self._asked = -_BLINK
+
+    def request_blink(self, time: float) -> None:
+        """Blink at a time as well, s. People do so with large turns of gaze.
+
+        C. Evinger and others, "Not looking while leaping: the linkage of blinking and saccadic gaze shifts"
+        (Experimental Brain Research 100, 1994).
+        """
+        if time - self._asked >= _BLINK:
+            self._asked = time
+
+    def closed(self, time: float) -> float:
+        """Return how far the lids are closed, 0 to 1."""
+        now, _ = self._episodes.at(time)
+        # The first episode starts with open eyes.
+        own = _shut(time - now.since) if now.since > 0.0 else 0.0
+        return max(own, _shut(time - self._asked))
+
+
+def _shut(passed: float) -> float:
+    done = passed / _BLINK
+    if not 0.0 < done < 1.0:
+        return 0.0
+    part = share(done, 0.0, _CLOSING) if done < _CLOSING else share(1.0 - done, 0.0, 1.0 - _CLOSING)
+    return smoothstep(part)
+
+
+Direction = tuple[float, float]
+"""Yaw to the figure's left and pitch up, from straight ahead, rad."""
+
+# S. P. Lee, J. B. Badler and N. I. Badler, "Eyes Alive" (SIGGRAPH 2002), values for a listener. An amplitude is
+# -6.9 ln(P / 15.7) degrees, with P uniform from 0 to 15.7; durations are given in frames of 1/30 s.
+_SPREAD = math.radians(6.9)
+_DIRECTIONS = {0: 15.54, 45: 6.46, 90: 17.69, 135: 7.44, 180: 16.80, 225: 7.89, 270: 20.38, 315: 7.79}
+_AHEAD = (237.5 / 30.0, 47.1 / 30.0)
+_ASIDE = (13.0 / 30.0, 7.1 / 30.0)
+
+_FURTHEST = math.radians(5.0)
+"""Limit of a glance, rad. Further to the side the head would follow, which is left to gaze behaviors."""
+
+_SHORTEST = 0.15
+"""Shortest fixation, s."""
+
+_SACCADE = (0.025, 0.0024 / math.radians(1.0))
+"""Duration of a saccade: constant part, s, and part per radian, s (same paper)."""
+
+
+class Glances:
+    """Brief glances aside, about every eight seconds."""
+
+    def __init__(self, random: Random) -> None:
+        """Draw from a generator that must not be shared."""
+        self._random = random
+        self._aside = True
+        self._episodes: Episodes[Direction] = Episodes((0.0, 0.0), self._draw)
+
+    def _draw(self) -> tuple[float, Direction]:
+        self._aside = not self._aside
+        if self._aside:
+            return max(_SHORTEST, self._random.gauss(*_ASIDE)), (0.0, 0.0)
+        nearest = math.exp(-_FURTHEST / _SPREAD)
+        amplitude = -_SPREAD * math.log(self._random.uniform(nearest, 1.0))
+        (degrees,) = self._random.choices(tuple(_DIRECTIONS), tuple(_DIRECTIONS.values()))
+        angle = math.radians(degrees)
+        return max(_SHORTEST, self._random.gauss(*_AHEAD)), (amplitude * math.cos(angle), amplitude * math.sin(angle))
+
+    def at(self, time: float) -> Direction:
+        """Return the direction of the eyes."""
+        now, before = self._episodes.at(time)
+        (x, y), (to_x, to_y) = before.what, now.what
+        fixed, more = _SACCADE
+        done = minimum_jerk((time - now.since) / (fixed + more * math.hypot(to_x - x, to_y - y)))
+        return x + (to_x - x) * done, y + (to_y - y) * done

@@ -1,0 +1,211 @@
+"""Reads AsapRealizer's keyframe files: SkeletonInterpolator (an animation) and SkeletonPose (one pose).
+
+An animation may also be part of a BML block. The format is extended: a `<KeyPosition id="catch" time="0.8"/>` element
+in an animation names a time of the file, s, as a sync point; with `leave="true"`, the motion may be left there.
+"""
+
+from itertools import pairwise
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from lxml import etree
+from numpy.typing import NDArray
+
+from reactive_realizer.binding.asset_file import (
+    ENDS,
+    Element,
+    asset_error,
+    attribute,
+    boolean,
+    by_sync_id,
+    is_placed,
+    number,
+    read_xml,
+)
+from reactive_realizer.embodiment.pose import FARTHEST
+from reactive_realizer.embodiment.quaternion import Quat
+from reactive_realizer.engines.animation.keyframe.clip import Clip, KeyPoint, continuous
+from reactive_realizer.limits import Limits
+
+_ENCODINGS = {
+    **dict.fromkeys(("quat", "quaternion", "quaternions"), "quaternions"),
+    **dict.fromkeys(("xyzw", "reversedquat"), "xyzw"),
+    **dict.fromkeys(("axisangle", "axisangles"), "axisangles"),
+}
+"""How rotations are written, by the words for it; without one they are quaternions."""
+
+_PLACED = "T1"
+"""Prefix of an encoding with the position of the first part before the rotations."""
+
+_NEARLY_ZERO = 1e-6
+_LARGEST = 1e100
+"""Squares of larger numbers would overflow."""
+
+
+class PoseTable(NamedTuple):
+    """Rows of poses.
+
+    Attributes:
+        times: (K,), s; empty for a table without times.
+        joints: (J,).
+        rotations: (K, J, 4), unit quaternions w x y z.
+        roots: (K, 3), position of the first joint above the ground of its own figure, m; None if the table has none.
+    """
+
+    times: NDArray[np.float64]
+    joints: tuple[str, ...]
+    rotations: NDArray[np.float64]
+    roots: NDArray[np.float64] | None
+
+
+def read_pose_table(element: Element, *, timed: bool) -> PoseTable:
+    """Read the rows of an element with the attributes parts, encoding (R or T1R) and rotationEncoding.
+
+    Raises:
+        RealizerError: "bad-asset", with file, line and reason.
+    """
+    joints = tuple(attribute(element, "parts").split())
+    if not joints:
+        raise asset_error(element, "parts names no joint")
+    if len(set(joints)) != len(joints):
+        raise asset_error(element, "parts names a joint twice")
+    encoding = attribute(element, "encoding")
+    if encoding not in ("R", f"{_PLACED}R"):
+        raise asset_error(element, f"encoding='{encoding}' is not supported; known are R and {_PLACED}R")
+    placed = encoding.startswith(_PLACED)
+    rows = _rows(element, timed + 3 * placed + 4 * len(joints))
+    roots = rows[:, timed : timed + 3] if placed else None
+    values = rows[:, timed + 3 * placed :].reshape(len(rows), len(joints), 4)
+    return PoseTable(rows[:, :timed].ravel(), joints, _quaternions(element, values), roots)
+
+
+def _rows(element: Element, width: int) -> NDArray[np.float64]:
+    texts = [element.text, *(child.tail for child in element)]
+    try:
+        numbers = np.array(" ".join(filter(None, texts)).split(), dtype=np.float64)
+    except ValueError as problem:
+        raise asset_error(element, str(problem)) from problem
+    if not numbers.size or numbers.size % width:
+        raise asset_error(element, f"{numbers.size} numbers do not form rows of {width}")
+    rows = numbers.reshape(-1, width)
+    beyond = np.argwhere(~(np.abs(rows) <= _LARGEST))
+    if beyond.size:
+        raise asset_error(element, f"a number in row {beyond[0][0] + 1} is beyond {_LARGEST:g}, or undefined")
+    return rows
+
+
+def _quaternions(element: Element, values: NDArray[np.float64]) -> NDArray[np.float64]:
+    written = element.get("rotationEncoding", "quat")
+    encoding = _ENCODINGS.get(written.lower())
+    if encoding is None:
+        raise asset_error(
+            element, f"rotationEncoding='{written}' is not supported; known are quaternions, xyzw and axisangles"
+        )
+    if encoding == "axisangles":
+        half = 0.5 * values[..., 3:]
+        # Axes in files have any length, and length 0 without a turn.
+        axes = np.where(half == 0.0, (1.0, 0.0, 0.0), values[..., :3])
+        return np.concatenate([np.cos(half), np.sin(half) * _units(element, axes)], axis=-1)
+    return _units(element, values if encoding == "quaternions" else values[..., [3, 0, 1, 2]])
+
+
+def _units(element: Element, vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+    lengths = np.linalg.norm(vectors, axis=-1, keepdims=True)
+    if (lengths < _NEARLY_ZERO).any():
+        row, part, _ = np.argwhere(lengths < _NEARLY_ZERO)[0]
+        raise asset_error(element, f"the rotation of part {part + 1} in row {row + 1} has the length 0")
+    units: NDArray[np.float64] = vectors / lengths
+    return units
+
+
+def read_skeleton_pose(path: Path) -> dict[str, Quat]:
+    """Read the rotations of joints, local to their parents.
+
+    The position of HumanoidRoot is ignored: it belongs to the figure for which the file was made.
+
+    Raises:
+        RealizerError: "bad-asset", with file, line and reason; or the file is too big.
+        OSError: the file cannot be read.
+    """
+    element = read_xml(path, "SkeletonPose")
+    table = read_pose_table(element, timed=False)
+    if len(table.rotations) != 1:
+        raise asset_error(element, f"{len(table.rotations)} rows; a pose has one")
+    return dict(zip(table.joints, map(_quat, table.rotations[0].tolist()), strict=True))
+
+
+def _quat(values: list[float]) -> Quat:
+    w, x, y, z = values
+    return (w, x, y, z)
+
+
+_TAG = "SkeletonInterpolator"
+_POINT = "KeyPosition"
+_LONGEST = Limits().time_seconds
+
+
+def read_interpolator_file(path: Path) -> Clip:
+    """Read the animation of a file.
+
+    Raises:
+        RealizerError: "bad-asset", with file, line and reason; or the file is too big.
+        OSError: the file cannot be read.
+    """
+    return read_interpolator(read_xml(path, _TAG))
+
+
+def read_interpolator_text(text: str, name: str) -> Clip:
+    """Read an animation from XML that was part of a BML block.
+
+    Args:
+        text: of the element.
+        name: for messages.
+
+    Raises:
+        RealizerError: "bad-asset", with the name, the line in the text and the reason.
+    """
+    element = etree.fromstring(text, base_url=name)
+    for part in element.iter("*"):  # elements without a namespace of their own have that of BML
+        part.tag = etree.QName(part).localname
+    return read_interpolator(element)
+
+
+def read_interpolator(element: Element) -> Clip:
+    """Read the animation of an element.
+
+    Positions of the root are those of another body, so they are taken as displacements from the first row.
+
+    Raises:
+        RealizerError: "bad-asset", with file, line and reason.
+    """
+    table = read_pose_table(element, timed=True)
+    times = tuple(table.times.tolist())
+    if len(times) < 2:
+        raise asset_error(element, "a motion needs two rows")
+    if any(b <= a for a, b in pairwise(times)):
+        raise asset_error(element, "the times of the rows do not increase")
+    if times[-1] - times[0] > _LONGEST:
+        raise asset_error(element, f"it would last longer than {_LONGEST:g} s")
+    roots = None if table.roots is None else table.roots - table.roots[0]
+    if roots is not None and not (np.linalg.norm(roots, axis=-1) <= FARTHEST).all():
+        raise asset_error(element, f"the root moves further than {FARTHEST:g} m")
+    points = _points(element, times[0], times[-1])
+    name = Path(element.base or "").name
+    return Clip(name, times, table.joints, continuous(table.rotations), roots, points)
+
+
+def _points(element: Element, first: float, last: float) -> dict[str, KeyPoint]:
+    points: dict[str, KeyPoint] = {}
+    for child in element:
+        if child.tag != _POINT:
+            raise asset_error(child, f"only {_POINT} is allowed in {_TAG}")
+    for sync, child in by_sync_id(element).items():
+        time = number(child, "time")
+        if not is_placed(sync, (time - first) / (last - first)):
+            raise asset_error(
+                child, f"{sync} at {time:g} s: it lasts from its start at {first:g} s to its end at {last:g} s"
+            )
+        if sync not in ENDS:
+            points[sync] = KeyPoint(time, leave=boolean(child, "leave", False))
+    return points

@@ -1,0 +1,231 @@
+"""Gaze and head direction as motions: the turn of trunk, neck and head toward a target."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Self
+
+from reactive_realizer.binding.asset_file import parse_boolean
+from reactive_realizer.bml.behavior import Behavior
+from reactive_realizer.bml.behaviors import Gaze, GazeShift, HeadDirectionShift
+from reactive_realizer.bml.names import BMLT
+from reactive_realizer.bml.vocabulary import Influence
+from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.pose import LayerKind
+from reactive_realizer.embodiment.quaternion import Quat, slerp
+from reactive_realizer.embodiment.vector import Vec3
+from reactive_realizer.engines.animation.easing import minimum_jerk, share
+from reactive_realizer.engines.animation.faults import GazeNear, GazeShort, WrongElement
+from reactive_realizer.engines.animation.gaze.eyes import GazeTarget
+from reactive_realizer.engines.animation.gaze.head_turn import (
+    EYE_WEIGHT,
+    GAZE_WEIGHTS,
+    JOINT_GROUPS,
+    HeadTurn,
+    default_weights,
+    head_turn_toward,
+)
+from reactive_realizer.engines.animation.inertialization import InertializedGoal
+from reactive_realizer.engines.animation.motion_maker import MakerContext, MotionRequest, target_locator
+from reactive_realizer.engines.animation.motion_parameters import parameter_values
+from reactive_realizer.engines.animation.motion_unit import START_TO_END, Moment, MotionPose, MotionUnit, Resource
+from reactive_realizer.engines.animation.posture.rest_posture import RestPosture
+from reactive_realizer.errors import RealizerError
+
+
+@dataclass(frozen=True, slots=True)
+class GazeKind:
+    """A kind of gaze.
+
+    Attributes:
+        key_positions: of its points; without a ready it reaches the target at its end, without a relax it stays.
+        duration: preferred, s.
+        group: its replacement group.
+        persists_as: name under which it persists (`MotionUnit`).
+        resources: that it owns.
+    """
+
+    key_positions: Mapping[str, float]
+    duration: float
+    group: str
+    persists_as: str | None = None
+    resources: frozenset[str] = frozenset()
+
+
+LOOK = GazeKind(
+    MappingProxyType({"start": 0.0, "ready": 0.25, "relax": 0.75, "end": 1.0}),
+    2.0,
+    "gaze",
+    resources=frozenset({Resource.HEAD}),
+)
+"""A gaze: a quarter to turn, half to look, a quarter to turn back."""
+
+GAZE_SHIFT = GazeKind(START_TO_END, 0.5, "gaze", persists_as="gaze", resources=frozenset({Resource.HEAD}))
+"""A gaze that stays until another one replaces it."""
+
+HEAD_SHIFT = GazeKind(START_TO_END, 0.5, "head direction", persists_as="head direction")
+"""A head direction that stays; the eyes may look elsewhere."""
+
+_CHECK_FROM = 0.8
+"""Share of the time until ready after which a gaze is checked for reaching its target.
+
+The trunk may still turn before.
+"""
+
+_TOLERANCE = math.radians(3.0)
+"""Deviation that a person who is looked at hardly notices, rad.
+
+It is our choice, because measurements depend on the task (L. Linke and G. Horstmann, "New task - new results?",
+Attention, Perception, & Psychophysics 86, 2024).
+"""
+
+
+class GazeMotionUnit(MotionUnit):
+    """Turns trunk, neck and head toward a target, and keeps them turned to it until it relaxes.
+
+    The eyes are not among its joints: they look from the head as shown, with nods and breathing. `EyeController`
+    combines all gazes of a figure.
+    """
+
+    kind = LayerKind.GAZE
+    joints = frozenset(joint for joints in JOINT_GROUPS.values() for joint in joints)
+
+    def __init__(
+        self, target: GazeTarget, weights: Mapping[str, float], rest: RestPosture, kind: GazeKind = LOOK
+    ) -> None:
+        """Plan a gaze.
+
+        Args:
+            target: point to look at.
+            weights: group of joints -> its share (`GAZE_WEIGHTS`); without eyes, it is a head direction.
+            rest: posture of trunk, neck and head without gaze.
+            kind: of gaze.
+        """
+        self.parameters = dict(weights)
+        self.ranges = {group: GAZE_WEIGHTS[group] for group in weights}
+        self.group = kind.group
+        self.persists_as = kind.persists_as
+        self.resources = kind.resources
+        self._target = target
+        self._rest = rest
+        self.key_positions = kind.key_positions
+        self.preferred_duration = kind.duration
+        self._ready = kind.key_positions.get("ready", 1.0)
+        self._relax = kind.key_positions.get("relax", math.inf)
+        self._settling = InertializedGoal()
+        self._begin = rest.body
+        self._late = False
+
+    def start(self, body: Body) -> None:
+        """Turn the head from its current direction, which may be another gaze."""
+        self._begin = body
+
+    def pose(self, moment: Moment) -> MotionPose:
+        """Return the rotations of trunk, neck and head; they fade to the layers below."""
+        body, phase = moment.body, moment.phase
+        turn = self._turn(body)
+        if self.fault is None and _CHECK_FROM * self._ready <= phase <= self._relax:
+            self._check_target(turn, body)
+        return MotionPose(
+            self._eased(turn.rotations, moment),
+            1.0 - minimum_jerk(share(phase, self._relax, 1.0)) if phase > self._relax else 1.0,
+        )
+
+    def _eased(self, goal: Mapping[str, Quat], moment: Moment) -> Mapping[str, Quat]:
+        """Return the turn, as far as it is done at a moment.
+
+        A gaze that joins late moves at its own pace, whatever the phase.
+        """
+        if self.joined is not None and not self._late:
+            self._late = True
+            self._settling.leave({joint: self._begin.rotation(joint) for joint in goal}, self.joined)
+        there = self._settling(goal, moment.time)
+        done = minimum_jerk(share(moment.phase, 0.0, self._ready))
+        if done == 1.0 or self._late:
+            return there
+        return {joint: slerp(self._begin.rotation(joint), turn, done) for joint, turn in there.items()}
+
+    def _turn(self, body: Body) -> HeadTurn:
+        return head_turn_toward(body, self._rest.pose, self.point, self.parameters)
+
+    def _check_target(self, turn: HeadTurn, body: Body) -> None:
+        """Set a fault if the gaze does not reach its target."""
+        if self.persists_as is not None:
+            # The shift that it replaces will go when this one has ended, with its turn of the trunk.
+            turn = self._turn(body.posed({joint: self._rest.body.rotation(joint) for joint in self.joints}))
+        if turn.missing is None:
+            self.fault = GazeNear()
+        elif turn.missing > _TOLERANCE:
+            self.fault = GazeShort(angle=math.degrees(turn.missing))
+
+    def gaze(self, phase: float) -> Self | None:
+        """Return itself while it directs the eyes."""
+        return self if self.looks(phase) else None
+
+    @property
+    def eyes(self) -> float:
+        """Share by which the eyes turn to the target, 0 to 1."""
+        return self.parameters.get(EYE_WEIGHT, 0.0)
+
+    def looks(self, phase: float) -> bool:
+        """Return whether it directs the eyes at a phase: they arrive first, and leave first."""
+        return phase < self._relax
+
+    def point(self, eyes: Vec3) -> Vec3:
+        """Return the point to look at from the midpoint between the eyes, both in the figure's frame, m."""
+        return self._target.point(eyes)
+
+
+DYNAMIC = (BMLT, "dynamic")
+"""Attribute of a gaze that follows a moving target."""
+
+
+class GazeMaker:
+    """Makes gazes and shifts of gaze to targets of the world.
+
+    Args:
+        context: of the figure.
+        follow: whether every gaze follows its target; otherwise those whose behavior says so.
+        influence: default influence.
+    """
+
+    def __init__(self, context: MakerContext, *, follow: bool = False, influence: Influence = Influence.HEAD) -> None:
+        self._context = context
+        self._follow = follow
+        self._influence = influence
+
+    def __call__(self, request: MotionRequest) -> GazeMotionUnit:
+        """Make a gaze."""
+        gaze = request.behavior
+        if not isinstance(gaze, Gaze):
+            raise RealizerError(WrongElement(unit="gaze", element=gaze.name))
+        follow = self._follow or _follows(gaze)
+        target = GazeTarget(
+            target_locator(self._context, gaze.target, follow=follow), gaze.offset_angle, gaze.offset_direction
+        )
+        weights = default_weights(gaze.influence or self._influence) | parameter_values(
+            request.parameters, GAZE_WEIGHTS
+        )
+        return GazeMotionUnit(target, weights, self._context.rest, GAZE_SHIFT if isinstance(gaze, GazeShift) else LOOK)
+
+
+class HeadDirectionMaker:
+    """Makes shifts of the head direction: like those of gaze, without the eyes."""
+
+    def __init__(self, context: MakerContext) -> None:
+        self._context = context
+
+    def __call__(self, request: MotionRequest) -> GazeMotionUnit:
+        """Make a shift."""
+        shift = request.behavior
+        if not isinstance(shift, HeadDirectionShift):
+            raise RealizerError(WrongElement(unit="head-direction", element=shift.name))
+        target = GazeTarget(target_locator(self._context, shift.target, follow=_follows(shift)))
+        weights = default_weights(Influence.HEAD) | parameter_values(request.parameters, GAZE_WEIGHTS)
+        del weights[EYE_WEIGHT]
+        return GazeMotionUnit(target, weights, self._context.rest, HEAD_SHIFT)
+
+
+def _follows(behavior: Behavior) -> bool:
+    return parse_boolean(DYNAMIC[1], behavior.extensions.get(DYNAMIC, "false"))

@@ -1,0 +1,170 @@
+"""Gestures: a stroke from an animation file, with preparation and retraction."""
+
+from collections.abc import Mapping
+from functools import lru_cache
+from itertools import pairwise
+
+from reactive_realizer.binding.gesture_binding import finite_numbers
+from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.pose import LayerKind
+from reactive_realizer.embodiment.quaternion import Quat, slerp
+from reactive_realizer.engines.animation.easing import minimum_jerk, share
+from reactive_realizer.engines.animation.motion_maker import MakerContext, MotionRequest
+from reactive_realizer.engines.animation.motion_parameters import parameter_values
+from reactive_realizer.engines.animation.motion_unit import (
+    AMOUNT,
+    AMOUNT_RANGE,
+    ANY_VALUE,
+    FILE_PARAMETERS,
+    GESTURE_POINTS,
+    Moment,
+    MotionPose,
+    MotionUnit,
+    Predictability,
+    arms_used,
+    with_gesture_points,
+)
+from reactive_realizer.engines.animation.motions.procedural import AnimationFinder
+from reactive_realizer.engines.animation.motions.reaching import gesture_key_positions, reach_duration
+from reactive_realizer.engines.animation.procedural.procedural_animation import ProceduralAnimation
+from reactive_realizer.planunit.parameter import Range
+
+HOLD = "postStrokeHoldDuration"
+"""Parameter of a binding: hold after the stroke, s."""
+
+HOLD_RANGE = Range(0.0, 600.0)
+
+_INNER = GESTURE_POINTS[1:-1]
+
+
+class GestureMotionUnit(MotionUnit):
+    """Prepares from the current pose of the arms, performs the stroke, holds, and retracts to the rest pose.
+
+    The animation plays from its `ready` to its `relax`. What it has before and after is left out, because preparation
+    and retraction depend on where the hands are. Phases pass evenly between two points; where two of its points
+    coincide, as ready and strokeStart usually do, the hands hold. Preparation and retraction have a minimum-jerk speed
+    profile, every joint along its shortest arc.
+
+    With less than its full `AMOUNT`, which is as authored, the whole gesture stays nearer to the rest pose: a smaller
+    stroke with a fully raised hand would not look like a smaller gesture.
+    """
+
+    kind = LayerKind.GESTURE
+    fixed = FILE_PARAMETERS | {HOLD}
+    predictability = Predictability.ONCE_STARTED
+
+    def __init__(self, animation: ProceduralAnimation, parameters: Mapping[str, float], rest: Body) -> None:
+        """Plan a gesture.
+
+        Args:
+            animation: with the stroke.
+            parameters: values of some of the animation's parameters, and `HOLD`.
+            rest: the expected body at the start and at the end. Preferred durations of preparation and retraction
+                follow from the paths of the hands.
+
+        Raises:
+            RealizerError: "no-motion": the animation has no pose at its ready or relax.
+        """
+        self.parameters = {AMOUNT: parameters.get(AMOUNT, 1.0), **animation.values(parameters)}
+        self.ranges = {**dict.fromkeys(self.parameters, ANY_VALUE), AMOUNT: AMOUNT_RANGE}
+        self.joints, self.lacking = animation.joints, animation.lacking
+        self.resources = arms_used(animation.joints)
+        self._animation = animation
+        self._rest = rest
+        self._begin = {joint: rest.rotation(joint) for joint in animation.joints}
+        self._sampled_at: tuple[float, ...] = ()
+        self._last_pose: Mapping[str, Quat] = {}
+        timing = animation.timing(self.parameters)
+        keys = with_gesture_points(timing.key_positions)
+        self._inner = [keys[point] for point in _INNER]
+        durations = self._durations(timing.duration, parameters.get(HOLD, 0.0))
+        self.preferred_duration = sum(durations)
+        self.key_positions = gesture_key_positions(durations)
+
+    def _durations(self, whole: float, hold: float) -> list[float]:
+        """Return the durations of the six phases between the seven points, s."""
+        rest = self._rest
+        relax = rest.posed(self._animation.sample(self._inner[-1], self.parameters, rest).rotations)
+        stroke = [whole * (after - before) for before, after in pairwise(self._inner)]
+        stroke[-1] += hold
+        return [self.preparation(rest), *stroke, reach_duration(relax, rest, self.joints)]
+
+    def start(self, body: Body) -> None:
+        """Start from the current pose of the arms."""
+        self._begin = {joint: body.rotation(joint) for joint in self.joints}
+
+    def pose(self, moment: Moment) -> MotionPose:
+        """Return the rotations of arms and fingers; retraction fades to the layers below."""
+        keys, phase = self.key_positions, moment.phase
+        stroke = self._stroke(moment)
+        if phase < keys["ready"]:
+            done = minimum_jerk(share(phase, 0.0, keys["ready"]))
+            return MotionPose({joint: slerp(self._begin[joint], goal, done) for joint, goal in stroke.items()})
+        return MotionPose(
+            stroke, 1.0 - minimum_jerk(share(phase, keys["relax"], 1.0)) if phase > keys["relax"] else 1.0
+        )
+
+    def preparation(self, body: Body) -> float:
+        """Return the preferred duration of the preparation from a body, s."""
+        ready = body.posed(self._animation.sample(self._inner[0], self.parameters, body).rotations)
+        return reach_duration(body, ready, self.joints)
+
+    def _stroke(self, moment: Moment) -> Mapping[str, Quat]:
+        """Return the scaled pose of the animation at a phase. It is constant during preparation and retraction."""
+        key = (self._animation_phase(moment.phase), *self.parameters.values())
+        if key != self._sampled_at or not self._animation.independent:
+            self._sampled_at, self._last_pose = key, self._sampled(key[0], moment)
+        return self._last_pose
+
+    def _sampled(self, phase: float, moment: Moment) -> Mapping[str, Quat]:
+        posed = self._animation.sample(phase, self.parameters, moment.body, moment.shown)
+        if moment.shown is not None:
+            self.fault = self.fault or posed.fault
+        amount = self.parameters[AMOUNT]
+        if amount == 1.0:
+            return posed.rotations
+        return {joint: slerp(self._rest.rotation(joint), goal, amount) for joint, goal in posed.rotations.items()}
+
+    def _animation_phase(self, phase: float) -> float:
+        """Return the phase of the animation: its ready during preparation, its relax during retraction."""
+        positions = [self.key_positions[point] for point in _INNER]
+        for (left, right), (begin, end) in zip(pairwise(positions), pairwise(self._inner), strict=True):
+            if phase < right:
+                return begin + (end - begin) * share(phase, left, right) if phase > left else begin
+        return self._inner[-1]
+
+
+_RANGES = {AMOUNT: AMOUNT_RANGE, HOLD: HOLD_RANGE}
+
+_MOST = 128
+"""Number of cached gestures; a planner may ask for any number of amounts."""
+
+
+class GestureMaker:
+    """Makes gestures of animation files.
+
+    Planning a gesture mostly consists of computing the paths of its hands. Equal gestures are planned once, as long as
+    the rest posture stays the same.
+    """
+
+    def __init__(self, context: MakerContext) -> None:
+        self._context = context
+        self._files = AnimationFinder(context)
+        self._rest = context.rest.body
+        self._gesture = lru_cache(_MOST)(self._made)
+
+    def __call__(self, request: MotionRequest) -> GestureMotionUnit:
+        """Make a gesture."""
+        animation = self._files(request)
+        parameters = finite_numbers(request.parameters) | parameter_values(request.parameters, _RANGES)
+        if self._rest is not self._context.rest.body:
+            self._rest = self._context.rest.body
+            self._gesture.cache_clear()
+        return self._gesture(animation, tuple(parameters.items())).copy()
+
+    def refresh(self) -> None:
+        """Look for files again."""
+        self._files.refresh()
+
+    def _made(self, animation: ProceduralAnimation, parameters: tuple[tuple[str, float], ...]) -> GestureMotionUnit:
+        return GestureMotionUnit(animation, dict(parameters), self._rest)

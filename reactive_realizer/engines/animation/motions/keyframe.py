@@ -1,0 +1,197 @@
+"""Keyframe animations and captures as motions."""
+
+import logging
+from collections.abc import Callable, Mapping
+from functools import lru_cache, partial
+from pathlib import Path
+
+from reactive_realizer.bml.extensions import Keyframe
+from reactive_realizer.embodiment.body import Body, Skeleton
+from reactive_realizer.embodiment.feet import grounded
+from reactive_realizer.embodiment.pose import LayerKind
+from reactive_realizer.embodiment.vector import add
+from reactive_realizer.engines.animation.faults import NoJoints
+from reactive_realizer.engines.animation.inertialization import InertializedStart
+from reactive_realizer.engines.animation.keyframe.bvh_reader import read_capture
+from reactive_realizer.engines.animation.keyframe.capture import Capture
+from reactive_realizer.engines.animation.keyframe.clip import Clip
+from reactive_realizer.engines.animation.keyframe.keyframe_files import read_interpolator_file, read_interpolator_text
+from reactive_realizer.engines.animation.keyframe.retarget import retargeted
+from reactive_realizer.engines.animation.motion_maker import MakerContext, MotionRequest
+from reactive_realizer.engines.animation.motion_parameters import parameter_values
+from reactive_realizer.engines.animation.motion_unit import (
+    FILE_PARAMETERS,
+    Moment,
+    MotionPose,
+    MotionUnit,
+    Predictability,
+    ordered,
+    resources_used,
+)
+from reactive_realizer.errors import Fault, RealizerError
+from reactive_realizer.planunit.parameter import Range
+
+_CAPTURE_CUTOFF = 20.0
+"""Hz; the thesis recommends 15 to 25 Hz (3.2.2.2)."""
+
+
+def load_clip(path: Path, skeleton: Skeleton, cutoff: float | None) -> Clip:
+    """Load the motion of a file for one figure; changed files are read again.
+
+    Args:
+        path: of a SkeletonInterpolator, or of a capture in BVH.
+        skeleton: of the figure.
+        cutoff: of the low-pass filter, Hz; 0 does not filter. None is the default of the kind of file: captures have
+            noise, keyframe animations have none.
+
+    Raises:
+        RealizerError: the file is invalid, or does not fit the figure.
+    """
+    clip = preload_clip(path, skeleton, cutoff)
+    if isinstance(clip, Fault):
+        raise RealizerError(clip)
+    return clip
+
+
+def preload_clip(path: Path, skeleton: Skeleton, cutoff: float | None) -> Clip | Fault:
+    """Return the result or the fault of `load_clip`, and cache it: reading and filtering a capture may take seconds."""
+    return _read(path, path.stat().st_mtime_ns, skeleton, cutoff)
+
+
+@lru_cache(32)
+def _read(path: Path, changed: int, skeleton: Skeleton, cutoff: float | None) -> Clip | Fault:
+    try:
+        return _clip(path, changed, skeleton, cutoff)
+    except RealizerError as problem:
+        return problem.fault
+
+
+def _clip(path: Path, changed: int, skeleton: Skeleton, cutoff: float | None) -> Clip:
+    captured = path.suffix.lower() == ".bvh"
+    clip = retargeted(_capture(path, changed), skeleton) if captured else read_interpolator_file(path)
+    usual = _CAPTURE_CUTOFF if captured else 0.0
+    return clip.filtered(usual if cutoff is None else cutoff)
+
+
+@lru_cache(8)
+def _capture(path: Path, changed: int) -> Capture:
+    """Read a capture once for all figures."""
+    return read_capture(path)
+
+
+FILTER = "filter"
+"""Parameter for the cutoff frequency of the low-pass filter, Hz."""
+
+
+class KeyframeMotionUnit(MotionUnit):
+    """Plays a clip, by default with its own duration.
+
+    A clip that moves the root moves it from where the figure stands. In its first key the figure is `grounded`, because
+    the position in the file is that of a figure of another size.
+    """
+
+    kind = LayerKind.FULL_BODY
+    fixed = FILE_PARAMETERS | {FILTER}
+    predictability = Predictability.ALWAYS
+
+    def __init__(self, clip: Clip, skeleton: Skeleton, lacking: frozenset[str] = frozenset()) -> None:
+        """Prepare a motion.
+
+        Args:
+            clip: of joints that the figure has.
+            skeleton: of the figure.
+            lacking: requested joints that the clip or the figure lacks.
+        """
+        self.parameters = {}
+        self.lacking = lacking
+        self.joints = frozenset(clip.joints)
+        self.resources = resources_used(self.joints)
+        self.preferred_duration = clip.duration
+        self._clip = clip
+        self.key_positions = self._keys()
+        self.exits = tuple(sync for sync in self.key_positions if sync in clip.points and clip.points[sync].leave)
+        first = clip.rotations_at(clip.times[0])
+        self._stand = None if clip.roots is None else grounded(Body(skeleton, first)).root
+        self._arrival: InertializedStart | None = None
+
+    def _keys(self) -> Mapping[str, float]:
+        """Return start and end, and the points of the clip."""
+        return ordered({sync: self._phase(point.time) for sync, point in self._clip.points.items()})
+
+    def start(self, body: Body) -> None:
+        """Start from the current body."""
+        self._arrival = InertializedStart(body, self._posed(0.0), self._clip.duration)
+
+    def pose(self, moment: Moment) -> MotionPose:
+        """Return the pose of the clip, inertialized."""
+        posed = self._posed(moment.phase)
+        return posed if self._arrival is None else self._arrival(posed, moment.phase)
+
+    def _posed(self, phase: float) -> MotionPose:
+        time = self._clip.times[0] + phase * self._clip.duration
+        moved = self._clip.root_at(time)
+        root = None if moved is None or self._stand is None else add(self._stand, moved)
+        return MotionPose(self._clip.rotations_at(time), root=root)
+
+    def _phase(self, time: float) -> float:
+        return (time - self._clip.times[0]) / self._clip.duration
+
+
+_log = logging.getLogger(__name__)
+
+_RANGES = {FILTER: Range(0.0, 1e6)}
+
+
+class KeyframeMaker:
+    """Makes motions of keyframes in BML or in files.
+
+    Parameters are `mirror`, then `joints`, a selection (thesis C.1.2), and `filter`, a low-pass, Hz (3.2.2.2).
+    """
+
+    def __init__(self, context: MakerContext) -> None:
+        self._context = context
+        self._skeleton = context.humanoid.avatar.skeleton
+
+    def __call__(self, request: MotionRequest) -> KeyframeMotionUnit:
+        """Make a motion."""
+        clip = self._clip(request)
+        clip = clip.mirrored() if request.mirror else clip
+        chosen = request.joints or frozenset(clip.joints)
+        there = [joint for joint in clip.joints if joint in chosen and joint in self._skeleton]
+        lacking = chosen.difference(there)
+        if not there:
+            raise RealizerError(NoJoints(joints=tuple(sorted(lacking)), element=request.behavior.name))
+        if lacking:
+            _log_once(clip.name, ", ".join(sorted(lacking)))
+        return KeyframeMotionUnit(clip.only(there), self._skeleton, lacking)
+
+    def preload(self, request: MotionRequest) -> Callable[[], object] | None:
+        """Return the loading work; None for keyframes in BML, which are short."""
+        return (
+            None
+            if _inline_keyframes(request)
+            else partial(preload_clip, self._file(request), self._skeleton, _cutoff(request))
+        )
+
+    def _clip(self, request: MotionRequest) -> Clip:
+        if inline := _inline_keyframes(request):
+            return read_interpolator_text(inline, request.behavior.id).filtered(_cutoff(request) or 0.0)
+        return load_clip(self._file(request), self._skeleton, _cutoff(request))
+
+    def _file(self, request: MotionRequest) -> Path:
+        return self._context.file_of(request, "xml", "bvh")
+
+
+@lru_cache
+def _log_once(clip: str, lacking: str) -> None:
+    """Log missing joints once."""
+    _log.warning("%s: joints that the clip or the figure lacks are left out: %s", clip, lacking)
+
+
+def _inline_keyframes(request: MotionRequest) -> str | None:
+    """Return the animation inside the behavior, if any."""
+    return request.behavior.interpolator if isinstance(request.behavior, Keyframe) else None
+
+
+def _cutoff(request: MotionRequest) -> float | None:
+    return parameter_values(request.parameters, _RANGES).get(FILTER)

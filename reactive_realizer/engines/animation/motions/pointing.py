@@ -1,0 +1,162 @@
+"""Pointing at a target with one or both hands."""
+
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
+from types import MappingProxyType
+
+from reactive_realizer.bml.behaviors import Pointing
+from reactive_realizer.bml.vocabulary import Mode
+from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.joints import SIDES
+from reactive_realizer.embodiment.pose import LayerKind
+from reactive_realizer.embodiment.quaternion import Quat, slerp
+from reactive_realizer.engines.animation.easing import share
+from reactive_realizer.engines.animation.faults import NoJoints, NotPointable, TargetLost, WrongElement
+from reactive_realizer.engines.animation.motion_maker import MakerContext, MotionRequest, TargetLocator, target_locator
+from reactive_realizer.engines.animation.motion_parameters import parameter_values
+from reactive_realizer.engines.animation.motion_unit import Moment, MotionPose, MotionUnit, arms_used
+from reactive_realizer.engines.animation.motions.gesture import HOLD, HOLD_RANGE
+from reactive_realizer.engines.animation.motions.pointing_arm import ArmPose, PointingArm
+from reactive_realizer.engines.animation.motions.reaching import gesture_key_positions, reach_duration, sigmoid
+from reactive_realizer.errors import Fault, RealizerError
+from reactive_realizer.planunit.parameter import Range, spelled
+
+HAND = "hand"
+"""Parameter for the hand, if the behavior does not choose it."""
+
+STEEPNESS, ASYMMETRY = "steepness", "asymmetry"
+"""Parameters of the speed profile (`sigmoid`). `HOLD` is how long the finger stays on its target, s."""
+
+DEFAULTS: Mapping[str, float] = MappingProxyType({STEEPNESS: 2.0, ASYMMETRY: -0.1, HOLD: 0.8})
+
+RANGES: Mapping[str, Range] = MappingProxyType(
+    {STEEPNESS: Range(1.5, 4.0), ASYMMETRY: Range(-0.6, 0.6), HOLD: HOLD_RANGE}
+)
+"""Valid values of these parameters."""
+
+
+class PointingMotionUnit(MotionUnit):
+    """Brings the line of one or both index fingers to the target and back.
+
+    The hands start from their current pose. From ready to relax the line follows the target, however target and trunk
+    move. Hands have a bell-shaped speed profile (`sigmoid`). Retraction takes as long as preparation, as it does for
+    people (thesis 4.2.2). If the target leaves the reach of an arm, the arm stays where it came nearest.
+    """
+
+    kind = LayerKind.GESTURE
+    fixed = frozenset({HAND, *RANGES})
+
+    def __init__(
+        self,
+        name: str,
+        arms: Sequence[PointingArm],
+        target: TargetLocator,
+        figure: Callable[[], Body],
+        rest: Body,
+        parameters: Mapping[str, float] = DEFAULTS,
+    ) -> None:
+        """Plan a pointing gesture.
+
+        Args:
+            name: of the target.
+            arms: one or both.
+            target: locates the target at the time of a frame.
+            figure: returns the body as shown last; its additive motion, such as breathing, moves the finger.
+            rest: expected body at the start; preferred durations follow from it.
+            parameters: a valid value for each of `RANGES`.
+        """
+        self.parameters = dict(parameters)
+        self.joints = frozenset().union(*(arm.joints for arm in arms))
+        self.resources = arms_used(self.joints)
+        self._arms, self._target, self._figure = arms, target, figure
+        self._begin = {joint: rest.rotation(joint) for joint in self.joints}
+        self._name, self._aimed = name, dict[str, Quat]()
+        way = self.preparation(rest)
+        self.preferred_duration = 2.0 * way + self.parameters[HOLD]
+        self.key_positions = gesture_key_positions([way, 0.0, 0.0, self.parameters[HOLD], 0.0, way])
+
+    def preparation(self, body: Body) -> float:
+        """Return the preferred duration of the preparation from a body, s."""
+        return reach_duration(body, body.posed(_turns(self._aim(body))), self.joints)
+
+    def start(self, body: Body) -> None:
+        """Start from the current pose of the arms."""
+        self._begin = {joint: body.rotation(joint) for joint in self.joints}
+
+    def pose(self, moment: Moment) -> MotionPose:
+        """Return the rotations of arms and fingers; retraction fades to the layers below."""
+        keys, phase = self.key_positions, moment.phase
+        if phase <= keys["relax"] or not self._aimed:
+            aims = self._aim(self._figure(), moment.time)
+            self._aimed = _turns(aims)
+            if phase >= keys["ready"]:
+                self.fault = self.fault or self._missed(aims)
+        if phase < keys["ready"]:
+            done = self._gone(share(phase, 0.0, keys["ready"]))
+            return MotionPose({joint: slerp(self._begin[joint], goal, done) for joint, goal in self._aimed.items()})
+        return MotionPose(self._aimed, 1.0 - self._gone(share(phase, keys["relax"], 1.0)))
+
+    def _gone(self, progress: float) -> float:
+        return sigmoid(progress, self.parameters[STEEPNESS], self.parameters[ASYMMETRY])
+
+    def _aim(self, body: Body, time: GlobalTime | None = None) -> list[ArmPose]:
+        target = self._target(time)
+        return [arm.aim(body, target) for arm in self._arms]
+
+    def _missed(self, aims: Sequence[ArmPose]) -> Fault | None:
+        for arm, aim in zip(self._arms, aims, strict=True):
+            if aim.fault is not None:
+                return TargetLost(hand=arm.hand, target=self._name, reason=aim.fault)
+        return None
+
+
+def _turns(aims: Sequence[ArmPose]) -> dict[str, Quat]:
+    return {joint: rotation for aim in aims for joint, rotation in aim.rotations.items()}
+
+
+_SIDES: Mapping[str, str] = {Mode.LEFT_HAND: "l", Mode.RIGHT_HAND: "r", Mode.BOTH_HANDS: "lr"}
+
+
+class PointingMaker:
+    """Makes pointing gestures at targets of the world.
+
+    The behavior's mode chooses the hand, else the binding's parameter ``hand`` with the same values, else the position
+    of the target: the hand on that side if it can point there, otherwise the other one.
+    """
+
+    def __init__(self, context: MakerContext) -> None:
+        self._context = context
+        self._arm = {side: PointingArm(context.humanoid.avatar.skeleton, side) for side in SIDES}
+
+    def __call__(self, request: MotionRequest) -> PointingMotionUnit:
+        """Make a pointing gesture."""
+        behavior = request.behavior
+        if not isinstance(behavior, Pointing):
+            raise RealizerError(WrongElement(unit="pointing", element=behavior.name))
+        target = target_locator(self._context, behavior.target, follow=True)
+        sides = _SIDES.get(behavior.mode or spelled(request.parameters.get(HAND, ""), _SIDES))
+        arms = self._arms(sides, behavior, target) if sides else self._free(behavior, target)
+        parameters = {**DEFAULTS, **parameter_values(request.parameters, RANGES)}
+        humanoid, rest = self._context.humanoid, self._context.rest.body
+        return PointingMotionUnit(behavior.target, arms, target, lambda: humanoid.shown, rest, parameters)
+
+    def _free(self, behavior: Pointing, target: TargetLocator) -> Sequence[PointingArm]:
+        """Return the arm on the side of the target, or the other one if that one cannot point there."""
+        first, second = "lr" if target()[0] > 0.0 else "rl"
+        try:
+            return self._arms(first, behavior, target)
+        except RealizerError as fault:
+            with suppress(RealizerError):
+                return self._arms(second, behavior, target)
+            raise fault
+
+    def _arms(self, sides: str, behavior: Pointing, target: TargetLocator) -> Sequence[PointingArm]:
+        """Return arms that can point at a target."""
+        body, arms = self._context.rest.body, [self._arm[side] for side in sides]
+        if missing := [joint for arm in arms for joint in arm.missing]:
+            raise RealizerError(NoJoints(element=behavior.name, joints=tuple(missing)))
+        for arm in arms:
+            if (fault := arm.aim(body, target()).fault) is not None:
+                raise RealizerError(NotPointable(target=behavior.target, hand=arm.hand, reason=fault))
+        return arms

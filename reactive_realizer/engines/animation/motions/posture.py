@@ -1,0 +1,175 @@
+"""Postures as motions: taking a posture, and leaving it."""
+
+import math
+from collections.abc import Iterable, Iterator, Mapping
+from types import MappingProxyType
+
+from reactive_realizer.bml.behaviors import Pose, Posture, PostureShift
+from reactive_realizer.bml.vocabulary import PosePart, StanceType
+from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.joints import SIDES
+from reactive_realizer.embodiment.pose import LayerKind
+from reactive_realizer.embodiment.quaternion import Quat, from_euler, multiply
+from reactive_realizer.embodiment.vector import distance
+from reactive_realizer.engines.animation.easing import minimum_jerk, share
+from reactive_realizer.engines.animation.faults import WrongElement
+from reactive_realizer.engines.animation.kinematics import path_length
+from reactive_realizer.engines.animation.motion_maker import MakerContext, MotionRequest
+from reactive_realizer.engines.animation.motion_unit import (
+    START_TO_END,
+    Moment,
+    MotionPose,
+    MotionUnit,
+    Predictability,
+    Resource,
+)
+from reactive_realizer.engines.animation.posture.posture_library import PART_JOINTS, BodyPosture
+from reactive_realizer.engines.animation.posture.rest_posture import RestPosture
+from reactive_realizer.errors import RealizerError
+
+_BOW = {"vl5": (0.6, 0.0, 0.0), "vt10": (0.3, 0.0, 0.0)}
+"""Bow of the trunk while the pelvis sinks or rises by half a meter, Euler angles, rad.
+
+Without it the figure would fall.
+
+M. Schenkman et al., "Whole-body movements during rising to standing from sitting" (Physical Therapy 70, 1990): the
+trunk is bent most when it leaves the seat.
+"""
+
+_SWING = {
+    "l_shoulder": (-0.8, 0.0, 0.4),
+    "r_shoulder": (-0.8, 0.0, -0.4),
+    "l_elbow": (-1.0, 0.0, 0.0),
+    "r_elbow": (-1.0, 0.0, 0.0),
+}
+"""Swing of the arms forward and aside meanwhile; otherwise the hands would pass through the rising thighs."""
+
+_THERE_AND_BACK = MappingProxyType({"start": 0.0, "ready": 0.25, "relax": 0.75, "end": 1.0})
+"""A quarter to come, half to stay, a quarter to go."""
+
+
+class PostureMotionUnit(MotionUnit):
+    """Moves to a posture from start to ready, stays until relax, and leaves it for the layers below until end.
+
+    The posture is the base posture with the given stance and poses. A shift has only start and end: it stays and
+    becomes the base posture.
+
+    Attributes:
+        change: the given stance and poses.
+    """
+
+    kind = LayerKind.POSTURE
+    resources = frozenset({Resource.STANCE})
+    group = "posture"
+    predictability = Predictability.ONCE_STARTED
+
+    def __init__(
+        self, rest: RestPosture, stance: StanceType | None, poses: Iterable[Pose], *, shift: bool = False
+    ) -> None:
+        """Plan a posture.
+
+        Args:
+            rest: the base posture, now and at the start.
+            stance: None for that of the base posture.
+            poses: of parts of the body.
+            shift: whether the posture becomes the base posture.
+
+        Raises:
+            RealizerError: "no-posture": there is no such pose.
+        """
+        self.parameters = {}
+        self.persists_as = "posture" if shift else None
+        self._rest = rest
+        self.change = (stance, tuple(poses))
+        self.key_positions = START_TO_END if shift else _THERE_AND_BACK
+        self._ready, self._relax = (self.key_positions.get(sync, 1.0) for sync in ("ready", "relax"))
+        rest.check(BodyPosture(stance or rest.expected.stance, self.change[1]))
+        self._update_goal(rest.expected)
+        # If only the arms move, other postures of the body make no difference.
+        starts = (self._from,) if self._root is None else (self._from, *rest.possible_bodies)
+        self.fade_in = max(map(self._duration_from, starts))
+        self.preferred_duration = self.fade_in / self._ready
+
+    def _update_goal(self, base: BodyPosture) -> None:
+        """Determine the goal from a base posture."""
+        self._base = base
+        self._from = self._rest.in_posture(base)
+        self.posture: BodyPosture = base.changed(*self.change)
+        self.body: Body = self._rest.in_posture(self.posture)
+        moved = {joint for joint, turn in self.body.pose.items() if turn != self._from.rotation(joint)}
+        turned = (moved | self._named_joints() | _BOW.keys()) & self.body.pose.keys()
+        self.joints = frozenset(turned)
+        self._goal = {joint: self.body.rotation(joint) for joint in turned}
+        self._root = None if turned.isdisjoint(PART_JOINTS[PosePart.LEGS]) else self.body.root
+        self._sinking = abs(self.body.root[1] - self._from.root[1])
+
+    def _named_joints(self) -> frozenset[str]:
+        """Return the joints that the behavior names; postures that play below do not show through them."""
+        stance, poses = self.change
+        parts = [PosePart.WHOLEBODY] if stance else [pose.part for pose in poses]
+        return frozenset().union(*(PART_JOINTS[part] for part in parts))
+
+    def _duration_from(self, begin: Body) -> float:
+        """Return the duration of the change, s: less than a second for the arms alone, almost two for sitting down."""
+        hands, feet = (path_length(joint, SIDES, (begin, self.body)) for joint in ("wrist", "ankle"))
+        pelvis = distance(begin.root, self.body.root)
+        # For feet, lifting and setting them down in turn matters more than distance.
+        return max(0.5, 0.3 + 1.0 * hands, 0.4 + 1.7 * math.sqrt(feet), 0.5 + 2.2 * pelvis)
+
+    def start(self, body: Body) -> None:
+        """Start. The base posture may differ from the expected one, and another posture may still play."""
+        if self._rest.posture != self._base:
+            self._update_goal(self._rest.posture)
+        if self._root is not None:
+            self._sinking = abs(self._root[1] - body.root[1])
+
+    def pose(self, moment: Moment) -> MotionPose:
+        """Return the posture, weighted by the phase."""
+        phase = moment.phase
+        arrived = minimum_jerk(share(phase, 0.0, self._ready))
+        left = minimum_jerk(share(phase, self._relax, 1.0)) if phase > self._relax else 0.0
+        weight = arrived * (1.0 - left)
+        return MotionPose(self._bowed(weight), weight, self._root)
+
+    def becomes_rest(self) -> bool:
+        """A shift becomes the rest posture."""
+        self._rest.adopt(self.posture, self.body)
+        return True
+
+    def _bowed(self, weight: float) -> Mapping[str, Quat]:
+        bow = 2.0 * self._sinking * 4.0 * weight * (1.0 - weight)
+        if bow == 0.0:
+            return self._goal
+        turns = {joint: turn for joint, turn in (_BOW | _SWING).items() if joint in self._goal}
+        bends = {joint: from_euler(*(bow * angle for angle in turn)) for joint, turn in turns.items()}
+        return {**self._goal, **{joint: multiply(bend, self._goal[joint]) for joint, bend in bends.items()}}
+
+
+class PostureMaker:
+    """Makes postures, and shifts of posture."""
+
+    def __init__(self, context: MakerContext) -> None:
+        self._rest = context.rest
+
+    def __call__(self, request: MotionRequest) -> PostureMotionUnit:
+        """Make a motion."""
+        behavior = request.behavior
+        if not isinstance(behavior, Posture):
+            raise RealizerError(WrongElement(unit="posture", element=behavior.name))
+        shift = isinstance(behavior, PostureShift)
+        return PostureMotionUnit(self._rest, behavior.stance, behavior.poses, shift=shift)
+
+
+def posture_after(posture: BodyPosture, motions: Iterable[MotionUnit]) -> BodyPosture:
+    """Return the posture after motions, of which shifts change it."""
+    for motion in motions:
+        if isinstance(motion, PostureMotionUnit) and motion.persists_as is not None:
+            posture = posture.changed(*motion.change)
+    return posture
+
+
+def temporary_bodies(motions: Iterable[MotionUnit]) -> Iterator[Body]:
+    """Yield the bodies of postures that do not persist."""
+    for motion in motions:
+        if isinstance(motion, PostureMotionUnit) and motion.persists_as is None:
+            yield motion.body

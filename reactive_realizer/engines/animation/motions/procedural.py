@@ -1,0 +1,174 @@
+"""Procedural animations as motions: head movements, and animations that a behavior chooses by file."""
+
+from collections.abc import Mapping
+from functools import lru_cache
+
+from reactive_realizer.binding.gesture_binding import finite_numbers
+from reactive_realizer.bml.behaviors import MOST_REPETITIONS
+from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.joints import ROOT
+from reactive_realizer.embodiment.pose import LayerKind
+from reactive_realizer.engines.animation.inertialization import InertializedStart
+from reactive_realizer.engines.animation.motion_maker import MakerContext, MotionRequest
+from reactive_realizer.engines.animation.motion_parameters import check_ranges
+from reactive_realizer.engines.animation.motion_unit import (
+    ANY_VALUE,
+    FILE_PARAMETERS,
+    JOINTS,
+    MIRROR,
+    NAME,
+    Moment,
+    MotionPose,
+    MotionUnit,
+    Predictability,
+    Resource,
+    ordered,
+    resources_used,
+    with_gesture_points,
+)
+from reactive_realizer.engines.animation.procedural.procedural_animation import AuthoredTiming, ProceduralAnimation
+from reactive_realizer.engines.animation.procedural.procedural_animation_reader import load_animation
+from reactive_realizer.planunit.parameter import Range
+
+_SAID = (NAME, MIRROR, JOINTS)
+"""Parameters that select the animation, together with the file."""
+
+
+class AnimationFinder:
+    """Finds the animations of requests, for one figure. Changed files are read again.
+
+    Found files are cached until the next refresh: finding takes as long as planning.
+    """
+
+    def __init__(self, context: MakerContext) -> None:
+        self._context = context
+        self._found: dict[tuple[str | None, ...], ProceduralAnimation] = {}
+
+    def refresh(self) -> None:
+        """Look for files again: they may have changed."""
+        self._found.clear()
+
+    def __call__(self, request: MotionRequest) -> ProceduralAnimation:
+        """Return the requested animation.
+
+        Every animation has two more parameters (thesis C.1.5): `mirror`, true or false, and `joints`, H-Anim names
+        separated by spaces or commas, to which the animation is restricted after mirroring.
+
+        Raises:
+            RealizerError: there is no such file, it is invalid, or it turns none of the joints.
+        """
+        key = (request.file, *map(request.parameters.get, _SAID))
+        if key not in self._found:
+            self._found[key] = self._read(request)
+        return self._found[key]
+
+    def _read(self, request: MotionRequest) -> ProceduralAnimation:
+        return load_animation(
+            self._context.file_of(request, "xml"),
+            self._context.humanoid.avatar.skeleton,
+            mirror=request.mirror,
+            joints=request.joints,
+            functions=self._context.functions,
+        )
+
+
+REPEATS = "r"
+"""Parameter for the number of strokes, by convention of the published files."""
+
+_REPEATS_RANGE = Range(0.0, float(MOST_REPETITIONS))
+
+
+class ProceduralMotionUnit(MotionUnit):
+    """Plays a procedural animation with given parameters.
+
+    It starts from the current body (`InertializedStart`) and ends with the last pose of its file. Following motions
+    continue from there; otherwise the engine fades it out.
+
+    With r repeats, the stroke comes r times, 1/r of the whole apart: stroke:1 to stroke:r.
+    """
+
+    fixed = FILE_PARAMETERS
+    predictability = Predictability.ALWAYS
+
+    def __init__(self, animation: ProceduralAnimation, parameters: Mapping[str, float], kind: LayerKind) -> None:
+        """Prepare a motion.
+
+        Args:
+            animation: to play.
+            parameters: values of some parameters; unknown names have no effect.
+            kind: of its layer; an additive motion owns nothing, a full-body one also owns the stance.
+
+        Raises:
+            RealizerError: "no-motion", "bad-keys": durations or key positions are invalid for these values;
+                "bad-parameter": too many repeats.
+        """
+        self.parameters = animation.values(parameters)
+        self.ranges = {name: _REPEATS_RANGE if name == REPEATS else ANY_VALUE for name in self.parameters}
+        check_ranges(self.parameters, self.ranges)
+        self.kind = kind
+        self.joints, self.lacking = animation.joints, animation.lacking
+        self.resources = frozenset() if kind is LayerKind.ADDITIVE else _owned(animation)
+        self._animation = animation
+        # Timing is fixed when planned; a parameter that changes while it plays changes only the motion.
+        timing = animation.timing(self.parameters)
+        self.preferred_duration, self.limits = timing.duration, timing.limits
+        self.key_positions = _with_repeats(timing, round(self.parameters.get(REPEATS, 1.0)))
+        self._arrival: InertializedStart | None = None
+
+    def start(self, body: Body) -> None:
+        """Start from the current body, unless the motion is additive."""
+        if self.kind is not LayerKind.ADDITIVE:
+            first = self._animation.sample(0.0, self.parameters, body)
+            self._arrival = InertializedStart(body, first, self.preferred_duration)
+
+    def pose(self, moment: Moment) -> MotionPose:
+        """Return the pose of the animation, inertialized."""
+        posed = self._animation.sample(moment.phase, self.parameters, moment.body, moment.shown)
+        if moment.shown is not None:
+            self.fault = self.fault or posed.fault
+        return posed if self._arrival is None else self._arrival(posed, moment.phase)
+
+
+def kind_of(animation: ProceduralAnimation) -> LayerKind:
+    """Return the layer kind of an animation. Gaze and gestures continue above motion of legs or root."""
+    return LayerKind.FULL_BODY if Resource.STANCE in _owned(animation) else LayerKind.GESTURE
+
+
+def _owned(animation: ProceduralAnimation) -> frozenset[str]:
+    return resources_used(animation.joints if animation.root is None else animation.joints | {ROOT})
+
+
+def _with_repeats(timing: AuthoredTiming, repeats: int) -> dict[str, float]:
+    if repeats < 2:
+        return ordered(timing.key_positions)
+    keys = with_gesture_points(timing.key_positions)
+    first = keys["stroke"]
+    return with_gesture_points({**keys, **{f"stroke:{i + 1}": min(1.0, first + i / repeats) for i in range(repeats)}})
+
+
+_MOST = 128
+"""Number of cached motions."""
+
+
+class ProceduralMotionMaker:
+    """Makes motions of animation files; equal motions are planned once."""
+
+    def __init__(self, context: MakerContext) -> None:
+        self._files = AnimationFinder(context)
+        self._motion = lru_cache(_MOST)(_made)
+
+    def __call__(self, request: MotionRequest) -> ProceduralMotionUnit:
+        """Make a motion."""
+        return self._motion(
+            self._files(request), tuple(finite_numbers(request.parameters).items()), request.added
+        ).copy()
+
+    def refresh(self) -> None:
+        """Look for files again."""
+        self._files.refresh()
+
+
+def _made(
+    animation: ProceduralAnimation, parameters: tuple[tuple[str, float], ...], added: bool
+) -> ProceduralMotionUnit:
+    return ProceduralMotionUnit(animation, dict(parameters), LayerKind.ADDITIVE if added else kind_of(animation))

@@ -1,0 +1,140 @@
+"""Reads sequence files, and makes sequences of the motions of other makers."""
+
+import logging
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
+from functools import lru_cache
+from pathlib import Path
+
+from reactive_realizer.binding.asset_file import ENDS, Element, asset_error, attribute, number, read_xml, sync_id
+from reactive_realizer.engines.animation.faults import NoFile
+from reactive_realizer.engines.animation.motion_maker import MakerContext, MotionMaker, MotionRequest, PreloadingMaker
+from reactive_realizer.engines.animation.motion_parameters import listed
+from reactive_realizer.engines.animation.motion_unit import MotionUnit
+from reactive_realizer.engines.animation.motions.sequence import SequenceMotionUnit, SequencePart
+from reactive_realizer.errors import RealizerError
+
+_PARTS = ("ProcAnimation", "Gesture", "Keyframe", "noise", "Sequence")
+"""Kinds of motions that may be parts. The engine handles others specially: gaze, transitions, and shifts."""
+
+_log = logging.getLogger(__name__)
+
+_MOST = 100
+"""Limit of the number of parts of a sequence, nested parts included."""
+
+
+class SequenceMaker:
+    """Makes sequences of motions that other makers make.
+
+    A file has a `Motion` for each part; later parts lie over earlier ones. Its attributes are `type` and `file` as in a
+    binding, `start`, and `end` (by default, its preferred duration applies), `easeIn` and `easeOut`, all in s; each
+    `parameter` child is a value that the behavior may override. A `KeyPosition` makes a sync point of a part
+    (`ref="part:sync"`) one of the sequence.
+    """
+
+    def __init__(self, context: MakerContext, makers: Mapping[str, MotionMaker]) -> None:
+        """Make sequences for a figure, of parts by these makers."""
+        self._context = context
+        self._makers = makers
+        self._making: list[Path] = []
+        self._parts = 0
+
+    def __call__(self, request: MotionRequest) -> SequenceMotionUnit:
+        """Make a sequence."""
+        path = self._path(request)
+        root = read_xml(path, "Sequence")
+        if path in self._making:
+            raise asset_error(root, "it contains itself")
+        self._parts = self._parts if self._making else 0
+        self._making.append(path)
+        try:
+            return self._sequence(root, request)
+        finally:
+            self._making.pop()
+
+    def preload(self, request: MotionRequest) -> Callable[[], object] | None:
+        """Return the loading work of all parts."""
+        works = list(self._works(request, set()))
+        return (lambda: [work() for work in works]) if works else None
+
+    def _works(self, request: MotionRequest, seen: set[Path]) -> Iterator[Callable[[], object]]:
+        """Yield the loading work of the parts of a file, unless it was seen before."""
+        path = self._path(request)
+        if path in seen or len(seen) == _MOST:
+            return
+        seen.add(path)
+        for element in read_xml(path, "Sequence").findall("Motion")[:_MOST]:
+            maker: object = self._makers.get(element.get("type", ""))
+            part = _part_request(element, request)
+            if maker is self:
+                yield from self._works(part, seen)
+            elif isinstance(maker, PreloadingMaker) and (work := maker.preload(part)) is not None:
+                yield work
+
+    def _path(self, request: MotionRequest) -> Path:
+        if request.file is None:
+            raise RealizerError(NoFile(element=request.behavior.name))
+        return self._context.asset(request.file)
+
+    def _sequence(self, root: Element, request: MotionRequest) -> SequenceMotionUnit:
+        for element in root:
+            if element.tag not in ("Motion", "KeyPosition"):
+                raise asset_error(element, "known are Motion, KeyPosition")
+        elements = root.findall("Motion")
+        parts = [self._part(element, request) for element in elements]
+        if len({part.motion.kind for part in parts}) != 1:
+            raise asset_error(root, "it needs one or more parts, all of one kind")
+        names = {element.get("id", ""): part for element, part in zip(elements, parts, strict=True)}
+        return SequenceMotionUnit(parts, dict(_key_position(key, names) for key in root.iterfind("KeyPosition")))
+
+    def _part(self, element: Element, request: MotionRequest) -> SequencePart:
+        unit = attribute(element, "type")
+        if unit not in _PARTS:
+            raise asset_error(element, f"type='{unit}': a part may be of type {', '.join(_PARTS)}")
+        self._parts += 1
+        if self._parts > _MOST:
+            raise asset_error(element, f"a sequence, with nested ones, has more than {_MOST} parts")
+        motion = self._makers[unit](_part_request(element, request))
+        _log_unused(element, motion)
+        start = number(element, "start")
+        end = start + motion.preferred_duration if element.get("end") is None else number(element, "end")
+        eases = [number(element, name) if name in element.attrib else 0.0 for name in ("easeIn", "easeOut")]
+        if not 0.0 <= start < end or min(eases) < 0.0 or sum(eases) > end - start:
+            raise asset_error(element, "it needs 0 <= start < end, with easeIn and easeOut between them")
+        return SequencePart(motion, start, end, *eases)
+
+
+def _log_unused(element: Element, motion: MotionUnit) -> None:
+    """Log the parameters of a part that have no effect."""
+    if unused := dict(_parameters(element)).keys() - motion.parameter_names:
+        _log_once(
+            asset_error(
+                element, f"no parameter {listed(unused)} of this motion; it has {listed(motion.parameter_names)}"
+            ).fault.sentence
+        )
+
+
+@lru_cache
+def _log_once(sentence: str) -> None:
+    """Log a sentence once."""
+    _log.warning("%s", sentence)
+
+
+def _part_request(element: Element, request: MotionRequest) -> MotionRequest:
+    """Return the request for a part, with its own values where the behavior sets none."""
+    parameters = {**dict(_parameters(element)), **request.parameters}
+    return replace(request, parameters=parameters, file=element.get("file"))
+
+
+def _parameters(element: Element) -> Iterator[tuple[str, str]]:
+    for parameter in element.iterfind("parameter"):
+        yield attribute(parameter, "name"), attribute(parameter, "value")
+
+
+def _key_position(key: Element, parts: Mapping[str, SequencePart]) -> tuple[str, float]:
+    name, _, sync = attribute(key, "ref").partition(":")
+    if (own := sync_id(key)) in ENDS:
+        raise asset_error(key, "start and end are reserved for the whole sequence")
+    if name not in parts or sync not in parts[name].motion.key_positions:
+        raise asset_error(key, f"there is no point '{key.get('ref')}'")
+    return own, parts[name].time(sync)

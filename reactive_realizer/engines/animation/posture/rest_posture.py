@@ -1,0 +1,85 @@
+"""The rest posture of a figure."""
+
+from collections.abc import Callable, Iterable
+
+from reactive_realizer.embodiment.body import Body, Pose
+from reactive_realizer.engines.animation.posture.posture_library import BodyPosture, PostureLibrary
+
+
+class RestPosture:
+    """The figure at rest: gestures start from here and return here, unless another pose is known.
+
+    Attributes:
+        posture: as words.
+        body: in that posture. Preferred durations follow from it and not from the shown body, so a plan does not depend
+            on whether frames are made.
+    """
+
+    def __init__(
+        self,
+        library: PostureLibrary,
+        expected: Callable[[], BodyPosture] = BodyPosture,
+        possible_bodies: Callable[[], Iterable[Body]] = tuple,
+    ) -> None:
+        """Start with standing.
+
+        Args:
+            library: of postures.
+            expected: returns the posture after all shifts that come before the behavior that is being planned.
+            possible_bodies: returns bodies in other postures in which that behavior may find the figure.
+        """
+        self._library = library
+        self._expected = expected
+        self._possible_bodies = possible_bodies
+        self.posture = BodyPosture()
+        self.body = library.body(self.posture)
+
+    @property
+    def pose(self) -> Pose:
+        """Pose of its joints; joints that are left out are in the default pose."""
+        return self.body.pose
+
+    @property
+    def expected(self) -> BodyPosture:
+        """The posture in which the behavior that is being planned will start; the duration of a shift depends on it."""
+        return self._expected()
+
+    @property
+    def possible_bodies(self) -> Iterable[Body]:
+        """Bodies in other postures in which that behavior may find the figure; from there it takes longer."""
+        return self._possible_bodies()
+
+    def adopt(self, posture: BodyPosture, body: Body) -> None:
+        """Rest in another posture from now on.
+
+        Args:
+            posture: as words.
+            body: in that posture.
+        """
+        self.posture, self.body = posture, body
+
+    def reset(self) -> bool:
+        """Return to standing; return whether that is a change."""
+        first = BodyPosture()
+        if self.posture == first:
+            return False
+        self.adopt(first, self._library.body(first))
+        return True
+
+    def check(self, posture: BodyPosture) -> None:
+        """Check that a posture exists.
+
+        Raises:
+            RealizerError: it does not.
+        """
+        self._library.check(posture)
+
+    def in_posture(self, posture: BodyPosture) -> Body:
+        """Return the body in a posture.
+
+        Poses that do not exist in its stance are left out: a crouching figure crosses no legs.
+
+        Raises:
+            RealizerError: a file cannot be used.
+        """
+        return self.body if posture == self.posture else self._library.body(self._library.possible(posture))

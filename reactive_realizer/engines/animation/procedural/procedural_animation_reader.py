@@ -1,0 +1,221 @@
+"""Reads ProcAnimation files in AsapRealizer's format, and caches them.
+
+The format is extended: durations and key times may be formulas of the parameters, so a nod that repeats three times
+lasts longer; ankles may be placed relative to the hip, and the root relative to its position (`local`).
+"""
+
+import logging
+from collections.abc import Iterable, Iterator, Mapping
+from functools import lru_cache
+from pathlib import Path
+from types import MappingProxyType
+
+from reactive_realizer.binding.asset_file import Element, asset_error, attribute, boolean, by_sync_id, number, read_xml
+from reactive_realizer.embodiment.body import Skeleton
+from reactive_realizer.embodiment.joints import ROOT
+from reactive_realizer.engines.animation.expression.compiler import fold
+from reactive_realizer.engines.animation.expression.functions import FUNCTIONS, Function
+from reactive_realizer.engines.animation.expression.syntax import Constant, Node, parse, variables
+from reactive_realizer.engines.animation.keyframe.keyframe_files import read_interpolator
+from reactive_realizer.engines.animation.procedural.effector_track import EFFECTORS, EffectorTrack
+from reactive_realizer.engines.animation.procedural.keyframe_track import (
+    ENCODINGS,
+    ClipTrack,
+    KeyframeTrack,
+    RotationKey,
+)
+from reactive_realizer.engines.animation.procedural.procedural_animation import ProceduralAnimation
+from reactive_realizer.engines.animation.procedural.tracks import RootTrack, RotationTrack, Track
+from reactive_realizer.errors import RealizerError
+
+_log = logging.getLogger(__name__)
+
+LONGEST = 100_000
+"""Limit of the characters of all formulas of a file. Reading that many takes half a second, while figures move."""
+
+_ELEMENTS = ("SkeletonInterpolator", "Rotation", "EndEffector", "Keyframes", "KeyPosition", "Parameter")
+_ROOTS = ("root", ROOT)
+
+
+def read_procedural_animation(path: Path, functions: Mapping[str, Function] = FUNCTIONS) -> ProceduralAnimation:
+    """Read the animation of a file.
+
+    Args:
+        path: of the file.
+        functions: that its formulas may call.
+
+    Raises:
+        RealizerError: "bad-asset", with file, line and element.
+        OSError: the file cannot be read.
+    """
+    return _Reader(functions).animation(read_xml(path, "ProcAnimation"), path.name)
+
+
+class _Reader:
+    """Reads the elements of one file."""
+
+    def __init__(self, functions: Mapping[str, Function]) -> None:
+        self._functions = functions
+        self._characters = 0
+
+    def animation(self, document: Element, name: str) -> ProceduralAnimation:
+        for element in document:
+            if element.tag not in _ELEMENTS:
+                raise asset_error(element, f"known are {', '.join(_ELEMENTS)}")
+        preferred = self._formula(document, "prefDuration")
+        shortest, longest = (
+            self._formula(document, limit) if limit in document.attrib else preferred
+            for limit in ("minDuration", "maxDuration")
+        )
+        match fold(shortest), fold(longest):
+            case Constant(least), Constant(most) if least > most:
+                raise asset_error(document, f"it lasts at least {least:g} s and at most {most:g} s")
+        points = by_sync_id(document.iterfind("KeyPosition"))
+        key_times = {sync: self._formula(key, "time") for sync, key in points.items()}
+        root, tracks = self._root(document), tuple(self._tracks(document))
+        motion = [*(root.formulas if root else ()), *(node for track in tracks for node in track.formulas)]
+        parameters = _parameters(document, [preferred, shortest, longest, *key_times.values()], motion)
+        if not motion and not tracks:
+            raise asset_error(document, "it has no tracks")
+        return ProceduralAnimation(
+            name=name,
+            parameters=parameters,
+            durations=(preferred, shortest, longest),
+            key_times=key_times,
+            root=root,
+            tracks=tracks,
+        )
+
+    def _root(self, document: Element) -> RootTrack | None:
+        roots = [element for element in document.iterfind("EndEffector") if attribute(element, "target") in _ROOTS]
+        return (
+            RootTrack(boolean(roots[-1], "local", False), self._formulas(roots[-1], "translation", 3))
+            if roots
+            else None
+        )
+
+    def _tracks(self, document: Element) -> Iterator[Track]:
+        limbs = (element for element in document.iterfind("EndEffector") if element.get("target") not in _ROOTS)
+        effectors = [self._effector(element) for element in limbs]
+        controlled = frozenset().union(*(effector.controlled for effector in effectors))
+        # In AsapRealizer's order: the last track of a joint wins.
+        yield from (self._clip(element) for element in document.iterfind("SkeletonInterpolator"))
+        turned: list[KeyframeTrack | RotationTrack] = [
+            *(self._keyframes(element) for element in document.iterfind("Keyframes")),
+            *(self._rotation(element) for element in document.iterfind("Rotation")),
+        ]
+        for track in turned:
+            if track.joint in controlled:
+                _log.info("%s is controlled by an EndEffector; its other tracks are ignored", track.joint)
+            else:
+                yield track
+        yield from effectors
+
+    def _clip(self, element: Element) -> ClipTrack:
+        clip = read_interpolator(element)
+        if clip.roots is not None:
+            raise asset_error(element, f"encoding='{element.get('encoding')}': only R is supported in a ProcAnimation")
+        return ClipTrack(clip)
+
+    def _rotation(self, element: Element) -> RotationTrack:
+        return RotationTrack(
+            attribute(element, "target"), boolean(element, "local", True), self._formulas(element, "rotation", 3)
+        )
+
+    def _effector(self, element: Element) -> EffectorTrack:
+        target = attribute(element, "target")
+        if target not in EFFECTORS:
+            raise asset_error(element, f"no end effector '{target}'; known are {', '.join((*EFFECTORS, *_ROOTS))}")
+        swivel = self._formula(element, "swivel") if element.get("swivel", "").strip() else Constant(0.0)
+        path = (*self._formulas(element, "translation", 3), swivel)
+        return EffectorTrack(*EFFECTORS[target], boolean(element, "local", False), path)
+
+    def _keyframes(self, element: Element) -> KeyframeTrack:
+        encoding = ENCODINGS.get(attribute(element, "encoding"))
+        if encoding is None:
+            raise asset_error(element, f"encoding='{element.get('encoding')}': known are {', '.join(ENCODINGS)}")
+        keys = [
+            RotationKey(number(key, "time"), boolean(key, "local", True), self._formulas(key, "value", encoding.size))
+            for key in element.iterfind("Keyframe")
+        ]
+        if not keys:
+            raise asset_error(element, "no Keyframe inside")
+        return KeyframeTrack(attribute(element, "target"), encoding, tuple(sorted(keys, key=lambda key: key.phase)))
+
+    def _formula(self, element: Element, name: str) -> Node:
+        return self._parsed(element, name, attribute(element, name))
+
+    def _formulas(self, element: Element, name: str, size: int) -> tuple[Node, ...]:
+        texts = attribute(element, name).split(";")
+        if len(texts) != size:
+            raise asset_error(element, f"{name} needs {size} formulas between semicolons, not {len(texts)}")
+        return tuple(self._parsed(element, name, text) for text in texts)
+
+    def _parsed(self, element: Element, name: str, text: str) -> Node:
+        self._characters += len(text)
+        if self._characters > LONGEST:
+            raise asset_error(element, f"{name}: more than {LONGEST} characters of formulas in one file")
+        try:
+            return parse(text, self._functions)
+        except RealizerError as problem:
+            raise asset_error(element, f"{name}: {problem.fault.sentence}") from problem
+
+
+def _parameters(document: Element, times: Iterable[Node], motion: Iterable[Node]) -> dict[str, float]:
+    """Return the parameters with their values. An undeclared name is a parameter with value 0, as in AsapRealizer."""
+    declared = {attribute(element, "sid"): number(element, "value") for element in document.iterfind("Parameter")}
+    if ProceduralAnimation.TIME in declared:
+        raise asset_error(document, f"a parameter may not be called {ProceduralAnimation.TIME}")
+    in_times = [name for formula in times for name in variables(formula)]
+    if ProceduralAnimation.TIME in in_times:
+        raise asset_error(document, "a duration or key time depends on t")
+    used = [*in_times, *(name for formula in motion for name in variables(formula))]
+    return {
+        **declared,
+        **dict.fromkeys((name for name in used if name not in declared | {ProceduralAnimation.TIME: 0}), 0.0),
+    }
+
+
+NO_FUNCTIONS: Mapping[str, Function] = MappingProxyType({})
+
+
+def load_animation(
+    path: Path,
+    skeleton: Skeleton,
+    *,
+    mirror: bool = False,
+    joints: frozenset[str] = frozenset(),
+    functions: Mapping[str, Function] = NO_FUNCTIONS,
+) -> ProceduralAnimation:
+    """Load the animation of a file for a figure; changed files are read again.
+
+    Args:
+        path: of the file.
+        skeleton: of the figure.
+        mirror: whether left and right are exchanged.
+        joints: to which it is restricted after mirroring; empty for no restriction.
+        functions: that its formulas may call besides `FUNCTIONS`.
+
+    Raises:
+        RealizerError: the file is invalid, or turns none of the joints.
+    """
+    return _made(path, path.stat().st_mtime_ns, tuple(functions.items()), skeleton, mirror, joints)
+
+
+_Functions = tuple[tuple[str, Function], ...]
+
+
+@lru_cache
+def _made(
+    path: Path, changed: int, functions: _Functions, skeleton: Skeleton, mirror: bool, joints: frozenset[str]
+) -> ProceduralAnimation:
+    animation = _read(path, changed, functions)
+    if mirror:
+        animation = animation.mirrored()
+    return (animation.restricted_to(joints) if joints else animation).fitted_to(skeleton)
+
+
+@lru_cache
+def _read(path: Path, changed: int, functions: _Functions) -> ProceduralAnimation:
+    """Read a file once for all characters: this takes several milliseconds, which a tick can hardly spare."""
+    return read_procedural_animation(path, {**FUNCTIONS, **dict(functions)})

@@ -1,1 +1,0 @@
-"""Cutting blocks and behaviors. The room knows their names, and neither them nor what becomes of them."""

@@ -1,0 +1,62 @@
+"""Messages between the realizer and the speech worker: two lengths, a JSON header, raw bytes."""
+
+import json
+import signal
+import struct
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+_LENGTHS = struct.Struct(">II")
+
+
+@dataclass(frozen=True, slots=True)
+class Message:
+    """One request or reply.
+
+    Attributes:
+        header: as JSON.
+        body: the audio of a reply.
+    """
+
+    header: dict[str, Any]
+    body: bytes = b""
+
+    def encode(self) -> bytes:
+        """The message as bytes."""
+        header = json.dumps(self.header).encode()
+        return _LENGTHS.pack(len(header), len(self.body)) + header + self.body
+
+
+class MessageDecoder:
+    """Assembles messages from the pieces that a pipe delivers."""
+
+    def __init__(self) -> None:
+        self._pending = bytearray()
+
+    def feed(self, piece: bytes) -> Iterator[Message]:
+        """The messages that a piece completes; the rest of it is kept for the next piece."""
+        self._pending += piece
+        while (message := self._first()) is not None:
+            yield message
+
+    def _first(self) -> Message | None:
+        if len(self._pending) < _LENGTHS.size:
+            return None
+        header, body = _LENGTHS.unpack_from(self._pending)
+        start, end = _LENGTHS.size + header, _LENGTHS.size + header + body
+        if len(self._pending) < end:
+            return None
+        message = Message(json.loads(self._pending[_LENGTHS.size : start]), bytes(self._pending[start:end]))
+        del self._pending[:end]
+        return message
+
+
+def failure(exit_status: int) -> Message:
+    """The reply to a request whose process ended without a reply.
+
+    Args:
+        exit_status: of the process; a negative one is the negated number of the signal that ended it.
+    """
+    ending = signal.Signals(-exit_status).name if exit_status < 0 else f"exit status {exit_status}"
+    return Message({"failed": ending})

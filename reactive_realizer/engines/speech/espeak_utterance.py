@@ -1,0 +1,98 @@
+"""Converts a text with marks to SSML for espeak-ng, and its report to an `Utterance`."""
+
+from bisect import bisect_right
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from itertools import accumulate, pairwise
+from types import MappingProxyType
+from xml.sax.saxutils import escape
+
+import numpy as np
+
+from reactive_realizer.engine.tts import Phoneme, Utterance, Word, word_spans
+from reactive_realizer.engines.speech.espeak_messages import Message
+
+_BYTES_PER_SAMPLE = 2
+
+
+@dataclass(frozen=True, slots=True)
+class Markup:
+    """A text as SSML.
+
+    Attributes:
+        ssml: the whole document; mark number n of the text is named ``mn``, so that no name has to be quoted.
+        origins: for each character of the SSML, the index of the character of the text for which it stands; a tag
+            stands for the character after it.
+    """
+
+    ssml: str
+    origins: tuple[int, ...]
+
+    def origin(self, position: int) -> int:
+        """The index into the text for a 1-based position in the SSML, as espeak-ng counts."""
+        return self.origins[min(max(position, 1), len(self.origins)) - 1]
+
+
+def marked_up(text: str, marks: tuple[int, ...]) -> Markup:
+    """A plain text with empty ``<mark>`` elements at the given indices (0 to ``len(text)``)."""
+    pieces: list[tuple[str, int]] = [("<speak>", 0)]
+    pending = sorted((index, number) for number, index in enumerate(marks))
+    for index in range(len(text) + 1):
+        while pending and pending[0][0] <= index:
+            pieces.append((f'<mark name="m{pending.pop(0)[1]}"/>', index))
+        pieces.append((escape(text[index : index + 1]), index))
+    pieces.append(("</speak>", len(text)))
+    return Markup("".join(piece for piece, _ in pieces), tuple(origin for piece, origin in pieces for _ in piece))
+
+
+def as_utterance(reply: Message, text: str, marks: tuple[tuple[str, int], ...], markup: Markup) -> Utterance:
+    """The utterance in a reply of the worker; marks are numbered as in the markup."""
+    rate: int = reply.header["sample_rate"]
+    duration = len(reply.body) / _BYTES_PER_SAMPLE / rate
+    phonemes = _phonemes([(sample / rate, symbol) for sample, symbol in reply.header["phonemes"]], duration)
+    silent = max((phoneme.start + phoneme.duration for phoneme in phonemes if phoneme.symbol), default=duration)
+    reported_words = [(sample / rate, markup.origin(position)) for sample, position in reply.header["words"]]
+    words = _words(text, reported_words, silent)
+    unmarked = Utterance(text, duration, words, MappingProxyType({}), phonemes, reply.body, rate)
+    reported_marks = {name: sample / rate for name, sample in reply.header["marks"]}
+    return replace(unmarked, marks=MappingProxyType(_marks(marks, reported_marks, unmarked)))
+
+
+def _phonemes(onsets: list[tuple[float, str]], duration: float) -> tuple[Phoneme, ...]:
+    return tuple(
+        Phoneme(symbol, start, end - start) for (start, symbol), (end, _) in pairwise([*onsets, (duration, "")])
+    )
+
+
+def _marks(marks: tuple[tuple[str, int], ...], reported: Mapping[str, float], spoken: Utterance) -> dict[str, float]:
+    """The times of the marks, s, in the order of the text; espeak-ng misses some that follow an abbreviation."""
+    ordered = sorted(enumerate(marks), key=lambda mark: mark[1][1])
+    times = [reported.get(f"m{n}", spoken.time_of_character(index)) for n, (_, index) in ordered]
+    return {name: time for (_, (name, _)), time in zip(ordered, accumulate(times, max), strict=True)}
+
+
+def _words(text: str, reported: list[tuple[float, int]], silent: float) -> tuple[Word, ...]:
+    """The words of a text with their times.
+
+    espeak-ng counts spoken words. For a number or an address it reports several, of which the first counts. For short
+    words that it joins it reports one; the others get a time between their neighbors, by the number of characters.
+
+    Args:
+        text: the spoken text.
+        reported: time, s, and index of the character of each word that espeak-ng reports.
+        silent: end of the last word, s.
+    """
+    spans = word_spans(text)
+    ends = [last for _, last in spans]
+    known: dict[int, float] = {}
+    for time, character in reported:
+        word = bisect_right(ends, character)
+        if word < len(spans):
+            known.setdefault(spans[word][0], time)
+    known[len(text)] = silent
+    places = sorted(known)
+    starts = np.interp([first for first, _ in spans], places, [known[place] for place in places])
+    return tuple(
+        Word(text[first:last], start, first, last)
+        for (first, last), start in zip(spans, np.maximum.accumulate(starts).tolist(), strict=True)
+    )

@@ -1,1 +1,0 @@
-"""Doing nothing for a while."""

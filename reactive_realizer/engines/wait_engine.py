@@ -1,0 +1,35 @@
+"""The engine of ``wait`` (thesis 8.12)."""
+
+from reactive_realizer.bml.behavior import Behavior
+from reactive_realizer.bml.behaviors import Wait
+from reactive_realizer.engine.context import EngineContext
+from reactive_realizer.engine.engine import DefaultEngine
+from reactive_realizer.pegboard.peg_key import BlockKey
+from reactive_realizer.planunit.plan_unit import PlanUnit
+from reactive_realizer.planunit.timing import Phase, PhaseKind, Timing
+
+
+class WaitEngine(DefaultEngine):
+    """Waits.
+
+    A duration is rigid. Without one, the sync points determine when a wait ends, after ``max-wait`` at the latest.
+    """
+
+    behaviors = frozenset({Wait})
+
+    def __init__(self, context: EngineContext) -> None:
+        super().__init__(f"{context.character}/wait")
+
+    def plan(self, block: BlockKey, behavior: Behavior, prepared: object) -> PlanUnit:
+        """A unit with times and nothing to show."""
+        if not isinstance(behavior, Wait):
+            raise TypeError(behavior)
+        return PlanUnit(block, behavior, Timing(("start", "end"), (_phase(behavior),)))
+
+
+def _phase(wait: Wait) -> Phase:
+    if wait.duration is not None:
+        return Phase(wait.duration, PhaseKind.RIGID)
+    if {"start", "end"} <= wait.syncs.keys():
+        return Phase(0.0, PhaseKind.FREE)
+    return Phase(0.0) if wait.max_wait is None else Phase(wait.max_wait, maximum=wait.max_wait)

@@ -1,0 +1,104 @@
+"""Slow work in asyncio tasks, outside of ticks."""
+
+import asyncio
+from collections.abc import Awaitable, Callable, Sequence
+from dataclasses import dataclass
+
+from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.errors import Fault, RealizerError
+from reactive_realizer.realizer.inputs import Delivery
+from reactive_realizer.scheduler.faults import WorkFailed
+from reactive_realizer.scheduler.preparation import Result
+
+Done = Callable[[Result, GlobalTime], None]
+
+
+class ReplayDiffers(Fault):
+    """A recorded result of work that the replay did not request."""
+
+    code = "replay-differs"
+    template = (
+        "the replay differs from the recording at {time:g} s: it did not request work item {request}; files or "
+        "versions have probably changed"
+    )
+    time: float
+    request: int
+
+
+@dataclass(slots=True, eq=False)
+class _Job:
+    task: "asyncio.Task[Result]"
+    done: Done
+
+
+class BackgroundTasks:
+    """Runs each piece of work in a task of the realizer's group, and delivers results in order of request."""
+
+    def __init__(self, group: asyncio.TaskGroup) -> None:
+        self._group = group
+        self._requests = 0
+        self._jobs: dict[int, _Job] = {}
+
+    @property
+    def busy(self) -> bool:
+        """Whether results are outstanding."""
+        return bool(self._jobs)
+
+    def request(self, name: str, work: Awaitable[object], done: Done) -> Callable[[], None]:
+        """See `BackgroundWork`."""
+        self._requests += 1
+        number = self._requests
+        job = self._jobs[number] = _Job(self._group.create_task(_guarded(work), name=name), done)
+
+        def cancel() -> None:
+            job.task.cancel()
+            self._jobs.pop(number, None)
+
+        return cancel
+
+    def close(self) -> None:
+        """Cancel the work that is not done."""
+        for job in self._jobs.values():
+            job.task.cancel()
+        self._jobs = {}
+
+    async def settle(self) -> None:
+        """Wait for all requested work, as a virtual clock does before it advances."""
+        await asyncio.gather(*(job.task for job in self._jobs.values()))
+
+    def ready(self) -> tuple[Delivery, ...]:
+        """The results that are ready, in order of request."""
+        done = ((number, job.task.result()) for number, job in self._jobs.items() if job.task.done())
+        return tuple(Delivery(number, _fault(result)) for number, result in done)
+
+    def deliver(self, deliveries: Sequence[Delivery], now: GlobalTime) -> None:
+        """Deliver results: those that are `ready`, or those that were ready when the session was recorded.
+
+        Raises:
+            RealizerError: "replay-differs": one of them was not requested, or is not ready.
+        """
+        jobs = [self._take(delivery.request, now) for delivery in deliveries]
+        for job, delivery in zip(jobs, deliveries, strict=True):
+            job.done(job.task.result() if delivery.failure is None else RealizerError(delivery.failure), now)
+
+    def _take(self, number: int, now: GlobalTime) -> _Job:
+        if number not in self._jobs or not self._jobs[number].task.done():
+            raise RealizerError(ReplayDiffers(time=now, request=number))
+        return self._jobs.pop(number)
+
+
+def _fault(result: Result) -> Fault | None:
+    match result:
+        case RealizerError():
+            return result.fault
+        case Exception():
+            return WorkFailed(reason=str(result))
+        case _:
+            return None
+
+
+async def _guarded(work: Awaitable[object]) -> Result:
+    try:
+        return await work
+    except Exception as failure:
+        return failure

@@ -1,0 +1,81 @@
+"""Block composition: which blocks a new one ends, which it waits for, and which it delays (thesis 6.6.8; BMLA)."""
+
+from collections.abc import Iterator, Sequence
+
+from reactive_realizer.bml.block import BehaviorBlock
+from reactive_realizer.bml.vocabulary import Composition
+from reactive_realizer.errors import Fault
+from reactive_realizer.scheduler.blocks import Blocks
+from reactive_realizer.scheduler.bml_block import BMLBlock, Predecessor
+from reactive_realizer.scheduler.faults import CyclicComposition, StartedAlready, UnknownTargetBlock
+
+
+class BlockComposition:
+    """The composition attributes of one new block, resolved to blocks alive.
+
+    A target that has ended counts as over. So does an unknown one; `unknown` has a fault for it.
+
+    Attributes:
+        character: of the new block.
+        description: the new block as it was sent.
+        replaces: whether it ends all blocks of its character.
+        unknown: faults for the names that no block ever had.
+    """
+
+    def __init__(self, blocks: Blocks, character: str, description: BehaviorBlock) -> None:
+        self.character = character
+        self.description = description
+        self.replaces = description.composition is Composition.REPLACE
+        self.unknown: list[Fault] = []
+        self._blocks = blocks
+        self._interrupted = self._known("interrupt", description.interrupts)
+        self._after = self._known("appendAfter", description.append_after)
+        self._after_chunks = self._known("chunkAfter", description.chunk_after)
+        self._before = self._known("prependBefore", description.prepend_before)
+        self._before_chunks = self._known("chunkBefore", description.chunk_before)
+
+    @property
+    def ended(self) -> list[BMLBlock]:
+        """The blocks that it ends, the later ones first, because they may hang on the earlier ones."""
+        replaced = self._blocks.of(self.character) if self.replaces else []
+        return sorted({*replaced, *self._interrupted}, key=lambda block: -block.arrival)
+
+    @property
+    def predecessors(self) -> list[Predecessor]:
+        """What the new block waits for, once the blocks that it ends have ended."""
+        last = self._blocks.last_of(self.character) if self.description.composition is Composition.APPEND else []
+        return [
+            *(Predecessor(block, implied=True) for block in last),
+            *(Predecessor(block) for block in self._after),
+            *(Predecessor(block, chunk=True) for block in self._after_chunks),
+        ]
+
+    def delayed_by(self, block: BMLBlock) -> Iterator[tuple[BMLBlock, Predecessor]]:
+        """The blocks that the new one, now made, is put before, each with what it has to wait for."""
+        for later in self._before:
+            yield later, Predecessor(block)
+        for later in self._before_chunks:
+            yield later, Predecessor(block, chunk=True)
+
+    def fault(self) -> Fault | None:
+        """Why the block cannot be put before another one, if it cannot.
+
+        The other one has started, or the new one would wait for it in turn.
+        """
+        predecessors = self.predecessors
+        ended = self.ended
+        for block in (each for each in (*self._before, *self._before_chunks) if each not in ended):
+            if block.state.plays:
+                return StartedAlready(block=block.key.block)
+            if any(each.peg.depends_on(block.start) for each in predecessors):
+                return CyclicComposition(block=self.description.id, other=block.key.block)
+        return None
+
+    def _known(self, attribute: str, names: Sequence[str]) -> list[BMLBlock]:
+        found = {name: self._blocks.find(self.character, name) for name in names}
+        for name, block in found.items():
+            if block is None and not self._blocks.has_ended(self.character, name):
+                place = self.description.location
+                fault = UnknownTargetBlock(attribute=attribute, block=name)
+                self.unknown.append(fault.located(place.line, place.column))
+        return [block for block in found.values() if block is not None]

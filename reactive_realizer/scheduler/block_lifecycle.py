@@ -1,0 +1,336 @@
+"""The life of a block, from its arrival to its end: the one owner of its state, its pegs and its progress."""
+
+import logging
+from collections.abc import Callable, Collection, Iterable, Sequence
+
+from reactive_realizer.clock.units import GlobalTime, is_due
+from reactive_realizer.engine.effects import Dropped, Reached
+from reactive_realizer.errors import Fault
+from reactive_realizer.pegboard.peg_key import BlockKey
+from reactive_realizer.pegboard.pegboard import PegBoard
+from reactive_realizer.pegboard.time_peg import TimePeg
+from reactive_realizer.planunit.plan_unit import PlanUnit, UnitState
+from reactive_realizer.scheduler.block_composition import BlockComposition
+from reactive_realizer.scheduler.block_feedback import BlockFeedback
+from reactive_realizer.scheduler.block_planner import BlockPlanner, Draft
+from reactive_realizer.scheduler.block_state import PREDICTION, REMAINING, BlockEvent, BlockState
+from reactive_realizer.scheduler.blocks import Blocks
+from reactive_realizer.scheduler.bml_block import BMLBlock, Predecessor
+from reactive_realizer.scheduler.engine_routing import EngineRouting
+from reactive_realizer.scheduler.faults import ActivatedAlready, AllPast, CutTie, DroppedTie, NotPreplanned
+from reactive_realizer.scheduler.planning import Planning
+from reactive_realizer.scheduler.predictions import Predictions
+from reactive_realizer.scheduler.problem import Loss
+from reactive_realizer.scheduler.tie_release import TieRelease
+from reactive_realizer.scheduler.unit_lifecycle import UnitLifecycle
+
+logger = logging.getLogger(__name__)
+
+
+class BlockLifecycle:
+    """Takes blocks through the transitions of `TRANSITIONS`; nothing else writes a block.
+
+    Attributes:
+        failed: how many blocks ended FAILED.
+    """
+
+    def __init__(
+        self,
+        board: PegBoard,
+        routing: EngineRouting,
+        blocks: Blocks,
+        planner: BlockPlanner,
+        planning: Planning,
+        feedback: BlockFeedback,
+        predictions: Predictions,
+    ) -> None:
+        self.failed = 0
+        self._board = board
+        self._routing = routing
+        self._blocks = blocks
+        self._planner = planner
+        self._planning = planning
+        self._feedback = feedback
+        self._predictions = predictions
+        self._units = UnitLifecycle(board, routing, blocks, feedback)
+        self._ties = TieRelease(board, blocks, self._units, feedback)
+        self._arrivals = 0
+        self._listeners: list[Callable[[BMLBlock], None]] = []
+
+    def listen(self, listener: Callable[[BMLBlock], None]) -> None:
+        """Call ``listener(block)`` when a block has ended, while its points are still on the board."""
+        self._listeners.append(listener)
+
+    # --- arrival and planning
+
+    def accept(self, composition: BlockComposition, failed: bool, now: GlobalTime) -> None:
+        """Make a block, in the place that its composition gives it, and have it prepared.
+
+        Args:
+            composition: of the block, without a fault.
+            failed: whether something required could not be read, so that the block ends at once.
+            now: the time of the tick.
+        """
+        # Before the new block is known to others.
+        for other in composition.ended:
+            self.interrupt(other, now)
+        if composition.replaces:
+            self._routing.reset(composition.character, now)
+        block = self._new_block(composition, composition.predecessors, now)
+        with self._board.graph.transaction(f"put {block.key.block} before others"):
+            for later, predecessor in composition.delayed_by(block):
+                later.set_predecessors((*later.predecessors, predecessor))
+        for fault in composition.unknown:
+            self._feedback.warn(block.key.character, block.key.block, fault)
+        if failed:
+            self._end(block, BlockEvent.FAIL, now)
+        elif not self._fails_by(block, self._planner.prepare(block), now):
+            self._predictions.request(block)
+
+    def accept_failed(self, composition: BlockComposition, now: GlobalTime) -> None:
+        """Make a block that cannot have the place it asks for, and end it.
+
+        Its sender may have been told already that it is accepted: nothing was known of the fault then.
+        """
+        self._end(self._new_block(composition, (), now), BlockEvent.FAIL, now)
+
+    def plan(self, block: BMLBlock, draft: Draft, now: GlobalTime) -> None:
+        """Commit the plan of a block, or fail the block if something required is lost."""
+        if self._fails_by(block, draft.losses, now):
+            return
+        with self._board.graph.transaction(f"plan {block.key.block}"):
+            holds = self._planning.lay_out(block, draft.plan)
+            block.set_plan(now, draft.plan.units, draft.plan.times, draft.plan.kept, holds)
+        for unit in draft.plan.units:
+            self._routing.assign(unit, draft.engines[unit])
+        self._take(block, BlockEvent.PREPLAN if block.awaits_activation else BlockEvent.PLAN, now)
+
+    # --- start
+
+    def activate(self, character: str, name: str, time: GlobalTime) -> Fault | None:
+        """Have a preplanned block start at a time, unless it waits for something else; why it cannot, if so."""
+        block = self._blocks.find(character, name)
+        if block is None:
+            return self._blocks.missing(character, name)
+        if block.activation is None:
+            return NotPreplanned(block=name)
+        if not block.awaits_activation:
+            return ActivatedAlready(block=name)
+        with self._board.graph.transaction(f"activate {name}"):
+            block.activation.set(time)
+        self._take(block, BlockEvent.ACTIVATE, time)
+        return None
+
+    def start_due(self, now: GlobalTime) -> bool:
+        """Start the blocks whose start is due, in order of time; whether there were any."""
+        due = [block for block in self._blocks.alive if block.may_start and is_due(block.start.value, now)]
+        for block in sorted(due, key=lambda b: (b.start.value, b.arrival)):
+            self._start(block, now)
+        return bool(due)
+
+    # --- sync points and behaviors
+
+    def sync_points_reached(self, reached: Sequence[Reached]) -> None:
+        """Pin and report sync points; a block may subside by them."""
+        self._units.sync_points_reached(reached)
+        for key in {each.unit.block: None for each in reached}:
+            self._subside(self._blocks.get(key))
+
+    def begin_behavior(self, unit: PlanUnit, now: GlobalTime) -> None:
+        """Begin a behavior, if it is due, before its engine plays."""
+        self.sync_points_reached(self._units.begin(unit, now))
+
+    def finish_behavior(self, unit: PlanUnit, time: GlobalTime) -> None:
+        """End a playing behavior of its own accord, before what was planned."""
+        self._units.finish(unit, time)
+        self._subside(self._blocks.get(unit.block))
+
+    def drop_behavior(self, unit: PlanUnit, fault: Fault, now: GlobalTime) -> None:
+        """Drop a behavior that cannot be played on."""
+        unit.drop(now)
+        self.behavior_dropped(Dropped(unit, fault), now)
+
+    def behavior_dropped(self, dropped: Dropped, now: GlobalTime) -> None:
+        """Take a behavior that its engine dropped out of its block, and release what hung on it."""
+        missed = self._ties.missed_by_drop(dropped.unit)
+        self._units.dropped(dropped, now)
+        block = self._blocks.get(dropped.unit.block)
+        if block is not None and not block.failing:
+            self._ties.release(block, missed, DroppedTie, now)
+
+    # --- end
+
+    def end_due(self, now: GlobalTime) -> bool:
+        """End the blocks and behaviors that are to end by now; whether there were any."""
+        failing = [block for block in self._blocks.alive if block.failing]
+        for block in failing:
+            self.fail(block, now)
+        cuts = self._units.due_cuts(now)
+        for time, unit in cuts:
+            cut = self._blocks.get(unit.block)
+            if cut is not None and unit in cut.live_units:
+                self._cut(cut, [unit], time)
+            self._units.forget_cut(unit)
+        over = [block for block in self._blocks.alive if block.state.plays and not block.live_units]
+        for block in over:
+            self._finish(block, now)
+        return bool(failing or cuts or over)
+
+    def fail(self, block: BMLBlock, now: GlobalTime) -> None:
+        """Fail a block: what plays of it is broken off, and what has not begun vanishes."""
+        self._units.remove([unit for unit in block.live_units if not unit.begun], now)
+        for unit in block.live_units:
+            self._units.cut(unit, now)
+        self._end(block, BlockEvent.FAIL, now)
+
+    def interrupt(self, block: BMLBlock, time: GlobalTime, spared: Collection[str] = (), gently: bool = False) -> None:
+        """Cut a block at a time: what is due happens first; a block that has not started is revoked.
+
+        Args:
+            block: alive.
+            time: not after this tick.
+            spared: ids of behaviors that go on.
+            gently: whether each may end what it cannot break off in the middle of: a speech its word.
+        """
+        if not block.state.plays:
+            self._revoke(block, time, spared)
+            return
+        chosen = [unit for unit in block.live_units if unit.behavior.id not in spared]
+        ends = {unit: unit.gentle_end(time) for unit in chosen if gently and unit.begun}
+        for unit, last in ends.items():
+            if not is_due(unit.time("end"), last):
+                self._units.schedule_cut(unit, last)
+        self._cut(block, [unit for unit in chosen if ends.get(unit, time) <= time], time)
+
+    # --- transitions
+
+    def _take(self, block: BMLBlock, event: BlockEvent, time: GlobalTime) -> list[TimePeg]:
+        """Do what the table says of an event: write the state, pin, report; the pegs that the end of a block cut.
+
+        Raises:
+            IllegalTransitionError: the event cannot happen to the block now.
+        """
+        row = block.take(event)
+        cut: list[TimePeg] = []
+        with self._board.graph.transaction(f"{'end' if row.target.ended else event.value} {block.key.block}"):
+            for point in row.pins:
+                if point == REMAINING:
+                    cut = self._board.pin_block(block.key)
+                elif not block.peg(point).pinned:
+                    block.peg(point).pin(time)
+        for report in row.reports:
+            if report == PREDICTION:
+                self._predictions.request(block)
+            else:
+                self._feedback.block_progress(block, report, time)
+        return cut
+
+    def _new_block(
+        self, composition: BlockComposition, predecessors: Iterable[Predecessor], now: GlobalTime
+    ) -> BMLBlock:
+        description = composition.description
+        self._arrivals += 1
+        key = BlockKey(composition.character, description.id)
+        block = BMLBlock(self._board, key, description, self._arrivals, now, predecessors)
+        self._blocks.add(block)
+        self._feedback.unknown_attributes(block, description.extensions, description)
+        return block
+
+    def _fails_by(self, block: BMLBlock, losses: Sequence[Loss], now: GlobalTime) -> bool:
+        """Warn of losses; whether the block fails by them."""
+        self._feedback.losses(block, losses)
+        fails = any(loss.required for loss in losses)
+        if fails:
+            self._end(block, BlockEvent.FAIL, now)
+        return fails
+
+    def _start(self, block: BMLBlock, now: GlobalTime) -> None:
+        time = block.start.value or GlobalTime(0.0)
+        with self._board.graph.transaction(f"start {block.key.block}"):
+            self._take(block, BlockEvent.START, time)
+            self._renew(block, time, now)
+        block.started_at = now
+        for unit in list(block.units):
+            unit.release()
+            if unit.over_before(time):
+                # What hangs on its points knows when they were.
+                self._units.drop(unit, AllPast(late=time - (unit.time("end") or 0.0)), now)
+        if block.failing:
+            self.fail(block, now)
+            return
+        self._feedback.not_awaited(block)
+        for name in block.description.on_start:
+            fault = self.activate(block.key.character, name, time)
+            if fault is not None:
+                self._feedback.warn_block(block, fault)
+
+    def _renew(self, block: BMLBlock, start: GlobalTime, now: GlobalTime) -> None:
+        """Within a transaction, give a block that starts a new plan, if it needs one."""
+        plan = self._planning.renewed(block, start, now)
+        if plan is not None:
+            replaced = self._planning.replace(block, plan)
+            for other in self._blocks.alive:
+                other.rename_pegs(replaced)
+            block.set_units(block.end.floor, plan.units, plan.kept)
+
+    def _subside(self, block: BMLBlock | None) -> None:
+        time = None if block is None else block.relax.value
+        if block is not None and time is not None and block.state is BlockState.IN_EXEC and block.subsides():
+            self._take(block, BlockEvent.SUBSIDE, time)
+
+    def _finish(self, block: BMLBlock, now: GlobalTime) -> None:
+        self._end(block, BlockEvent.FINISH, now if block.end.value is None else block.end.value)
+
+    def _end(self, block: BMLBlock, event: BlockEvent, time: GlobalTime) -> None:
+        """End a block, and release what others had tied to it."""
+        self._predictions.close(block, time)
+        cut = self._take(block, event, time)
+        for listener in self._listeners:
+            listener(block)
+        self._blocks.end(block, time)
+        for unit in block.units:
+            self._routing.unassign(unit)
+        self._hand_over_predecessors(block)
+        self._ties.release_from(block.key, cut, time, CutTie, began=block.started_at is not None)
+        self._board.remove_block(block.key)
+        self.failed += block.state is BlockState.FAILED
+        logger.info("%s/%s %s at %.2f s, %d behaviors", *block.key, block.state.value, time, len(block.units))
+
+    def _hand_over_predecessors(self, ended: BMLBlock) -> None:
+        """Have blocks that wait for an ended one as the last of all wait for what that one still waited for."""
+        left = tuple(each for each in ended.predecessors if not each.over)
+        with self._board.graph.transaction(f"after {ended.key.block}"):
+            for block in self._blocks.alive if left else ():
+                if any(each.implied and each.block is ended for each in block.predecessors):
+                    others = (each for each in block.predecessors if each.block is not ended)
+                    block.set_predecessors((*others, *left))
+        ended.predecessors = ()
+
+    def _revoke(self, block: BMLBlock, time: GlobalTime, spared: Collection[str]) -> None:
+        """Remove behaviors of a block that has not started, and the block with the last of them."""
+        names = {behavior.id for behavior in block.description.behaviors} - block.cancelled
+        gone = names.difference(spared)
+        block.cancelled |= gone
+        units = [unit for unit in block.units if unit.behavior.id in gone]
+        self._units.remove(units, time)
+        if gone == names:
+            self._planner.cancel(block)
+            self._end(block, BlockEvent.REVOKE, time)
+            return
+        with self._board.graph.transaction(f"revoke a part of {block.key.block}"):
+            block.units = [unit for unit in block.units if unit not in units]
+            if block.state is not BlockState.IN_PREP:
+                block.update_end()
+
+    def _cut(self, block: BMLBlock, units: Sequence[PlanUnit], time: GlobalTime) -> None:
+        """Cut behaviors of a playing block; the block ends if nothing is left of it."""
+        missed = self._ties.missed_by_cut(units, time)
+        cut = [self._units.cut(unit, time) for unit in units]
+        block.units = [unit for unit in block.units if unit.state is not UnitState.DROPPED]
+        if block.live_units:
+            self._ties.release(block, missed, CutTie, time)
+            self._subside(self._blocks.get(block.key))
+        elif any(cut):
+            self._end(block, BlockEvent.INTERRUPT, time)
+        else:
+            self._finish(block, time)

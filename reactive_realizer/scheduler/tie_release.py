@@ -1,0 +1,125 @@
+"""Ties to points that never come: what hangs on them keeps the time predicted last, or is dropped."""
+
+from collections.abc import Collection, Container, Iterable, Mapping, Sequence
+
+from reactive_realizer.clock.units import GlobalTime, is_due
+from reactive_realizer.pegboard.peg_key import BlockKey, PegKey
+from reactive_realizer.pegboard.peg_view import followers_of
+from reactive_realizer.pegboard.pegboard import PegBoard
+from reactive_realizer.pegboard.time_peg import OpenPeg, TimePeg
+from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
+from reactive_realizer.scheduler.block_feedback import BlockFeedback
+from reactive_realizer.scheduler.blocks import Blocks
+from reactive_realizer.scheduler.bml_block import BMLBlock
+from reactive_realizer.scheduler.faults import CutTie, DroppedTie, NeverComes
+from reactive_realizer.scheduler.problem import Node, Point, Precedence, Tie
+from reactive_realizer.scheduler.unit_lifecycle import UnitLifecycle
+
+MissedPoints = Mapping[Point, TimePeg]
+"""Points that will not be reached as planned, with the pegs that others may hang on."""
+
+
+class TieRelease:
+    """Releases behaviors from points that were cut or dropped, and warns each once."""
+
+    def __init__(self, board: PegBoard, blocks: Blocks, units: UnitLifecycle, feedback: BlockFeedback) -> None:
+        self._board = board
+        self._blocks = blocks
+        self._units = units
+        self._feedback = feedback
+
+    def missed_by_cut(self, units: Sequence[PlanUnit], time: GlobalTime) -> MissedPoints:
+        """The points that behaviors will miss if they are cut at a time."""
+        missed: dict[Point, TimePeg] = {}
+        for unit in units:
+            moved = unit.points[-1] if self._units.cut_scheduled(unit) else None
+            ahead = [point for point in unit.ahead() if point is moved or not is_due(point.peg.value, time)]
+            missed |= self._pegs_of(unit, ahead)
+        return missed
+
+    def missed_by_drop(self, unit: PlanUnit) -> MissedPoints:
+        """The points that a behavior will miss if it is dropped."""
+        return self._pegs_of(unit, unit.ahead())
+
+    def release(self, block: BMLBlock, missed: MissedPoints, kind: type[DroppedTie | CutTie], time: GlobalTime) -> None:
+        """Have what hangs on missed points of a block that goes on keep its times, with a warning of this kind."""
+        hanging = _dependents_of({point.behavior for point in missed}, block.kept)
+        others = [unit for unit in block.live_units if unit.behavior.id not in hanging]
+        living = {point.peg for unit in others for point in unit.ahead()}
+        old = dict.fromkeys(missed.values())
+        pegs = [peg for peg in old if not peg.pinned and living.isdisjoint({peg, *followers_of(peg)})]
+        with self._board.graph.transaction(f"cut a part of {block.key.block}"):
+            for peg in pegs:
+                peg.pin(peg.value)
+            block.update_end()
+        warned = self.release_from(block.key, pegs, time, kind, began=block.state.plays)
+        for unit in [unit for unit in block.live_units if unit.behavior.id in hanging and unit not in warned]:
+            point = _tied_point(unit.behavior.id, missed, block.kept)
+            if isinstance(point, Point):
+                self._feedback.warn_behavior(unit, kind(point=str(PegKey(*block.key, *point))))
+
+    def release_from(
+        self,
+        owner: BlockKey,
+        cut: Collection[TimePeg],
+        now: GlobalTime,
+        kind: type[DroppedTie | CutTie],
+        *,
+        began: bool,
+    ) -> set[PlanUnit]:
+        """Have behaviors that hang on pinned pegs of a block keep their times; the behaviors that were warned.
+
+        One without such a time is dropped; so is one that has not begun, if the block never began. Of other blocks only
+        the behaviors that are tied to such a point themselves are warned: what hangs on these stays tied to them.
+        """
+        warned = set()
+        gone = frozenset(cut)
+        followed = {follower: peg for peg in cut for follower in (peg, *followers_of(peg))}
+        alive = self._blocks.alive if followed else ()
+        for block, unit in [(each, unit) for each in alive for unit in each.live_units]:
+            tied = [point.peg for point in unit.ahead() if point.peg in followed]
+            if not tied:
+                continue
+            point = self._as_written(unit, owner, followed[tied[0]])
+            if any(peg.value is None for peg in tied) or not (began or unit.begun):
+                self._units.drop(unit, NeverComes(point=point), now)
+                warned.add(unit)
+            elif block.key != owner and _tied_point(unit.behavior.id, gone, block.kept) is not None:
+                self._feedback.warn_behavior(unit, kind(point=point))
+                warned.add(unit)
+        return warned
+
+    def _pegs_of(self, unit: PlanUnit, points: Iterable[SyncPoint]) -> dict[Point, TimePeg]:
+        pegs = ((Point(unit.behavior.id, point.id), self._board.get(unit.key(point.id))) for point in points)
+        return {point: peg for point, peg in pegs if isinstance(peg, TimePeg) and not isinstance(peg, OpenPeg)}
+
+    def _as_written(self, unit: PlanUnit, owner: BlockKey, peg: TimePeg) -> str:
+        """The name that a behavior, or else its block, has for a peg, which may be the peg of several points."""
+        block = self._blocks.get(unit.block)
+        refs = (*unit.behavior.syncs.values(), *(block.description.refs if block is not None else ()))
+        own = (ref for ref in refs if (ref.block or unit.block.block) == owner.block)
+        keys = (PegKey(*owner, ref.behavior, ref.sync or "start") for ref in own)
+        return next((str(key) for key in keys if self._board.get(key) is peg), peg.name)
+
+
+def _dependents_of(named: Collection[str], kept: Iterable[Tie | Precedence]) -> set[str]:
+    """Ids of the other behaviors that name some behaviors, or share a constraint with them, in any number of steps.
+
+    The dependency is one way: a speech goes on whatever becomes of the nod that is tied to its words.
+    """
+    ties = [tie for tie in kept if isinstance(tie, Tie)]
+    ends = [(tie.owner, {node.behavior for node in tie.nodes if isinstance(node, Point)}) for tie in ties]
+    found = set(named)
+    while new := {each for owner, ids in ends if ids & found for each in ({owner} if owner else ids)} - found:
+        found |= new
+    return found.difference(named)
+
+
+def _tied_point(behavior: str, points: Container[Node], kept: Iterable[Tie | Precedence]) -> Node | None:
+    """The first of some points, or pegs from outside, that a constraint ties a behavior to; None without one."""
+    for each in kept:
+        if any(isinstance(node, Point) and node.behavior == behavior for node in each.nodes):
+            found = next((node for node in each.nodes if node in points), None)
+            if found is not None:
+                return found
+    return None

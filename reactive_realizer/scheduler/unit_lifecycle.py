@@ -1,0 +1,177 @@
+"""How behaviors reach their sync points, and how they end: of their own accord, cut short, or dropped."""
+
+import logging
+from collections.abc import Collection, Iterable, Sequence
+from typing import Any
+
+from reactive_realizer.clock.units import GlobalTime, is_due
+from reactive_realizer.engine.effects import Dropped, Reached
+from reactive_realizer.engine.faults import UnitFailed
+from reactive_realizer.errors import Fault
+from reactive_realizer.pegboard.pegboard import PegBoard
+from reactive_realizer.planunit.plan_unit import PlanUnit, UnitState
+from reactive_realizer.reactive.graph import Cell
+from reactive_realizer.scheduler.block_feedback import BlockFeedback
+from reactive_realizer.scheduler.blocks import Blocks
+from reactive_realizer.scheduler.engine_routing import EngineRouting
+
+logger = logging.getLogger(__name__)
+
+
+class UnitLifecycle:
+    """Takes single behaviors to their end and reports it; `BlockLifecycle` decides what that means for the block."""
+
+    def __init__(self, board: PegBoard, routing: EngineRouting, blocks: Blocks, feedback: BlockFeedback) -> None:
+        self._board = board
+        self._routing = routing
+        self._blocks = blocks
+        self._feedback = feedback
+        self._scheduled_cuts: dict[PlanUnit, GlobalTime] = {}
+        board.graph.before_commit(self._correct_points)
+
+    def sync_points_reached(self, reached: Sequence[Reached]) -> None:
+        """Pin each sync point at the time at which it was reached, and report it.
+
+        This is the only way of a sync point to feedback.
+        """
+        with self._board.graph.transaction("sync points reached"):
+            for each in reached:
+                each.point.peg.pin(each.time)
+        for each in reached:
+            self._feedback.sync_point_reached(each)
+
+    def begin(self, unit: PlanUnit, now: GlobalTime) -> list[Reached]:
+        """Begin a behavior that is due before its engine plays; the points that it reaches, which are not told yet."""
+        if not unit.due(now):
+            return []
+        unit.begin()
+        return _fire(unit, now)
+
+    def cut(self, unit: PlanUnit, now: GlobalTime) -> bool:
+        """End a planned behavior now, after what is due; whether anything of it was cut."""
+        if unit.due(now):
+            unit.begin()
+        if unit.state is not UnitState.IN_EXEC:
+            self.remove([unit], now)
+            return True
+        try:
+            return self._cut_short(unit, now)
+        except Exception as failure:
+            logger.exception("%s/%s:%s failed when it was interrupted", *unit.block, unit.behavior.id)
+            self.drop(unit, UnitFailed(reason=str(failure)), now)
+            return True
+
+    def schedule_cut(self, unit: PlanUnit, time: GlobalTime) -> None:
+        """Have a playing behavior be cut at a later time, which is its end from now on."""
+        self._scheduled_cuts[unit] = time
+        block = self._blocks.get(unit.block)
+        with self._board.graph.transaction(f"cut {unit.key('end')}"):
+            unit.detach(unit.points[-1], time)
+            if block is not None:
+                block.update_end()
+
+    def cut_scheduled(self, unit: PlanUnit) -> bool:
+        """Whether a behavior has a cut scheduled."""
+        return unit in self._scheduled_cuts
+
+    def due_cuts(self, now: GlobalTime) -> list[tuple[GlobalTime, PlanUnit]]:
+        """The scheduled cuts that are due, in order of time."""
+        due = [(time, unit) for unit, time in self._scheduled_cuts.items() if is_due(time, now)]
+        return sorted(due, key=lambda cut: cut[0])
+
+    def forget_cut(self, unit: PlanUnit) -> None:
+        """A scheduled cut is done."""
+        self._scheduled_cuts.pop(unit, None)
+
+    def finish(self, unit: PlanUnit, time: GlobalTime) -> None:
+        """End a playing behavior of its own accord, before what was planned: its end moves to a time."""
+        block = self._blocks.get(unit.block)
+        if block is None or unit.state is not UnitState.IN_EXEC:
+            return
+        others = {point.peg for other in block.units if other is not unit for point in other.points}
+        try:
+            with self._board.graph.transaction(f"end {unit.behavior.id}"):
+                reached = [Reached(unit, point, time) for point in unit.finish(time, others)]
+        except Exception as failure:
+            logger.exception("%s/%s:%s failed when it ended", *unit.block, unit.behavior.id)
+            self.drop(unit, UnitFailed(reason=str(failure)), time)
+            return
+        self._routing.unassign(unit)
+        self.sync_points_reached(reached)
+        with self._board.graph.transaction(f"end {unit.behavior.id}"):
+            block.update_end()
+
+    def drop(self, unit: PlanUnit, fault: Fault, now: GlobalTime) -> None:
+        """Take a behavior that cannot be played on out of its plan."""
+        unit.drop(now)
+        self.dropped(Dropped(unit, fault), now)
+
+    def dropped(self, dropped: Dropped, now: GlobalTime) -> None:
+        """Warn of a behavior that left its plan; one that had begun ends now, a required one fails its block."""
+        unit = dropped.unit
+        block = self._blocks.get(unit.block)
+        self._feedback.warn_behavior(unit, dropped.fault)
+        if block is not None and unit in block.units:
+            block.units.remove(unit)
+            block.dropped.add(unit.behavior.id)
+            block.failing |= unit.behavior.required
+            with self._board.graph.transaction(f"drop {unit.behavior.id}"):
+                block.update_end(now)
+        self._routing.unassign(unit)
+        if unit.begun and not unit.points[-1].fired:
+            with self._board.graph.transaction(f"cut {unit.key('end')}"):
+                unit.detach(unit.points[-1], now)
+            self.sync_points_reached([Reached(unit, unit.points[-1], now)])
+
+    def remove(self, units: Iterable[PlanUnit], now: GlobalTime) -> None:
+        """Take behaviors out of their plans without feedback."""
+        for unit in list(units):
+            unit.drop(now)
+            self._routing.unassign(unit)
+
+    def _correct_points(self, changed: Collection[Cell[Any]]) -> None:
+        """Correct points that a transaction has moved, before it commits (docs/semantics.md, pegs).
+
+        Of a block that plays, a point ahead that comes to lie before the last tick is pinned at this one. Of a behavior
+        that plays, a point that is overtaken by its successor moves with that from then on. ``changed`` grows by these.
+        """
+        while units := self._moved(changed):
+            begun = (unit for unit in units if unit.begun)
+            if not (self._pin_past(units, changed) or any(unit.keep_order() for unit in begun)):
+                return
+
+    def _moved(self, changed: Collection[Cell[Any]]) -> list[PlanUnit]:
+        """The units of playing blocks of which a point has changed; one with a scheduled cut is left alone."""
+        blocks = (block for block in self._blocks.affected_by(changed, self._board) if block.state.plays)
+        units = (unit for block in blocks for unit in block.live_units if not self.cut_scheduled(unit))
+        return [unit for unit in units if any(point.peg in changed for point in unit.points)]
+
+    def _pin_past(self, units: Collection[PlanUnit], changed: Collection[Cell[Any]]) -> bool:
+        """Pin points that were moved into the past at now; whether there were any."""
+        pegs = [point.peg for unit in units for point in unit.ahead() if point.peg in changed]
+        pinned = False
+        for peg in sorted(pegs, key=lambda peg: peg.rank):
+            # Lowest rank first: the pegs that hang on one that is pinned at now may no longer lie in the past.
+            if not peg.pinned and peg.value is not None and peg.value < self._board.previous:
+                peg.pin(self._board.time)
+                pinned = True
+        return pinned
+
+    def _cut_short(self, unit: PlanUnit, now: GlobalTime) -> bool:
+        details = unit.end_details(now)
+        # A scheduled cut has moved the end to now only to cut it here.
+        reached = _fire(unit, now, end=not self.cut_scheduled(unit))
+        cut = unit.live
+        if cut:
+            with self._board.graph.transaction(f"cut {unit.behavior.id}"):
+                kept = unit.interrupt(now)
+            reached += [Reached(unit, p, now, details if p.id == "end" else {}) for p in kept]
+        self._routing.unassign(unit)
+        self.sync_points_reached(reached)
+        return cut
+
+
+def _fire(unit: PlanUnit, now: GlobalTime, *, end: bool = True) -> list[Reached]:
+    due = unit.due_points(now, end=end)
+    unit.fire(due, now)
+    return [Reached(unit, point, time) for point, time in due]

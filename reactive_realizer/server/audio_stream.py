@@ -1,0 +1,89 @@
+"""Sounds that can still be played, for clients that fetch them and for clients that connect late."""
+
+from dataclasses import dataclass, replace
+
+from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.embodiment.audio import AudioChange, AudioGain, AudioMove, AudioStart, AudioStop
+from reactive_realizer.server.protocol import Message
+from reactive_realizer.server.subscribers import Subscribers
+
+_GRACE = 10.0
+"""How long (s) after its end a sound can still be fetched: pages play a little later than the realizer."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Sound:
+    start: AudioStart
+    stop: AudioStop | None = None
+
+    @property
+    def end(self) -> float:
+        natural = self.start.start + self.start.clip.duration
+        return natural if self.stop is None else min(natural, self.stop.time + self.stop.fade)
+
+
+class AudioStream:
+    """Keeps sounds from their announcement until shortly after their end.
+
+    Args:
+        most_bytes: size limit of the WAV files; the oldest are dropped first.
+
+    Attributes:
+        subscribers: of the changes, as messages of the protocol.
+    """
+
+    def __init__(self, most_bytes: int) -> None:
+        self.subscribers: Subscribers[Message] = Subscribers()
+        self._most_bytes = most_bytes
+        self._sounds: dict[str, _Sound] = {}
+
+    def take(self, change: AudioChange) -> None:
+        """Handles a sound that starts, moves, changes volume or stops."""
+        match change:
+            case AudioStart():
+                self._sounds[change.clip.id] = _Sound(change)
+            case AudioMove(id_, start) if id_ in self._sounds:
+                sound = self._sounds[id_]
+                self._sounds[id_] = replace(sound, start=replace(sound.start, start=start))
+            case AudioGain(id_, gain) if id_ in self._sounds:
+                sound = self._sounds[id_]
+                self._sounds[id_] = replace(sound, start=replace(sound.start, gain=gain))
+            case AudioStop(id_) if id_ in self._sounds:
+                self._sounds[id_] = replace(self._sounds[id_], stop=change)
+            case _:
+                pass
+        self.subscribers.publish(message_of(change))
+
+    def tidy(self, now: GlobalTime) -> None:
+        """Drops sounds that have ended, and the oldest above the size limit."""
+        for id_ in [id_ for id_, sound in self._sounds.items() if sound.end + _GRACE < now]:
+            del self._sounds[id_]
+        while sum(len(sound.start.clip.wav) for sound in self._sounds.values()) > self._most_bytes:
+            del self._sounds[next(iter(self._sounds))]
+
+    def sounding(self, now: GlobalTime) -> list[Message]:
+        """The messages for a client that connects now: all sounds that have not ended."""
+        ahead = [sound for sound in self._sounds.values() if sound.end > now]
+        changes = [change for sound in ahead for change in (sound.start, sound.stop) if change is not None]
+        return [message_of(change) for change in changes]
+
+    def wav(self, id_: str) -> bytes | None:
+        """The WAV file of a sound."""
+        sound = self._sounds.get(id_)
+        return None if sound is None else sound.start.clip.wav
+
+
+def message_of(change: AudioChange) -> Message:
+    """A change as a message of the protocol."""
+    match change:
+        case AudioStart(character, clip, start, gain):
+            url = f"/audio/{clip.id}.wav"
+            times = {"start": round(start, 6), "duration": round(clip.duration, 6)}
+            volume = {"gain": round(gain, 6)}
+            return {"type": "audio", "character": character, "id": clip.id, "url": url, **times, **volume}
+        case AudioMove(id_, start):
+            return {"type": "audio_move", "id": id_, "start": round(start, 6)}
+        case AudioGain(id_, gain, time):
+            return {"type": "audio_gain", "id": id_, "gain": round(gain, 6), "time": round(time, 6)}
+        case AudioStop(id_, time, fade):
+            return {"type": "audio_stop", "id": id_, "time": round(time, 6), "fade": fade}

@@ -1,0 +1,135 @@
+"""Limits on clients: how many connect, how often they send, and how much waits to be sent to them."""
+
+import asyncio
+from collections import deque
+from collections.abc import Awaitable, Callable, Iterator, Sequence
+from contextlib import contextmanager
+
+from reactive_realizer.clock.clock import Clock
+from reactive_realizer.errors import RealizerError
+from reactive_realizer.limits import Limits
+from reactive_realizer.server.faults import TooManyClients
+
+_FRAMES_WAITING = 10
+"""Frames for each character: a client a fifth of a second behind should skip to the newest."""
+
+
+class ClientQueue:
+    """Messages that wait to be sent to one client: all texts in order, and the newest frames. Adding never blocks.
+
+    Args:
+        limits: how much text may wait.
+        first: texts that are sent first; they do not count towards the limit.
+        characters: number of characters that send frames.
+    """
+
+    def __init__(self, limits: Limits, first: Sequence[str] = (), characters: int = 1) -> None:
+        self._texts = deque(first)
+        self._bytes = sum(map(len, first))
+        self._most_texts = limits.queued_messages + len(first)
+        self._most_bytes = limits.queued_bytes + self._bytes
+        self._frames: deque[bytes] = deque(maxlen=_FRAMES_WAITING * characters)
+        self._ended = False
+        self._overflown = False
+        self._news = asyncio.Event()
+        self._sending: asyncio.Timeout | None = None
+
+    def put(self, text: str) -> None:
+        """Adds a text. A client over the limit is disconnected."""
+        if self._overflown:
+            return
+        self._texts.append(text)
+        self._bytes += len(text)
+        self._news.set()
+        if len(self._texts) > self._most_texts or self._bytes > self._most_bytes:
+            self._give_up()
+
+    def put_frame(self, frame: bytes) -> None:
+        """Adds a frame, sent when no text waits; newer frames may replace it."""
+        self._frames.append(frame)
+        self._news.set()
+
+    def end(self) -> None:
+        """Ends the queue after the texts that wait."""
+        self._ended = True
+        self._news.set()
+
+    async def send_all(self, send: Callable[[str | bytes], Awaitable[None]]) -> bool:
+        """Sends entries until the end. Returns False if too much piled up, even during a send."""
+        try:
+            async with asyncio.timeout(0 if self._overflown else None) as self._sending:
+                while (entry := await self._next()) is not None:
+                    await send(entry)
+        except TimeoutError:
+            if not self._overflown:
+                raise
+        return not self._overflown
+
+    def _give_up(self) -> None:
+        self._overflown = True
+        self._texts.clear()
+        self._frames.clear()
+        if self._sending is not None:
+            self._sending.reschedule(0)  # long ago
+
+    async def _next(self) -> str | bytes | None:
+        while not (self._texts or self._frames or self._ended):
+            self._news.clear()
+            await self._news.wait()
+        if self._texts:
+            text = self._texts.popleft()
+            self._bytes -= len(text)
+            return text
+        return None if self._ended else self._frames.popleft()
+
+
+class RateLimit:
+    """A token bucket that holds the tokens of one second.
+
+    Args:
+        per_second: average rate.
+        clock: refills the bucket.
+    """
+
+    def __init__(self, per_second: int, clock: Clock) -> None:
+        self._rate = per_second
+        self._clock = clock
+        self._tokens = float(per_second)
+        self._filled = clock.now()
+
+    def allows(self) -> bool:
+        """Takes a token; returns whether there was one."""
+        now = self._clock.now()
+        self._tokens = min(float(self._rate), self._tokens + (now - self._filled) * self._rate)
+        self._filled = now
+        if self._tokens < 1:
+            return False
+        self._tokens -= 1
+        return True
+
+
+class ClientCount:
+    """Counts connected clients up to a limit.
+
+    Attributes:
+        number: of clients that are connected now.
+    """
+
+    def __init__(self, limit: int) -> None:
+        self.number = 0
+        self._limit = limit
+
+    @contextmanager
+    def one(self) -> Iterator[None]:
+        """Counts one client for the duration of the context.
+
+        Raises:
+            RealizerError: "too-many-clients".
+        """
+        if self.number >= self._limit:
+            raise RealizerError(TooManyClients(limit=self._limit))
+        self.number += 1
+        try:
+            yield
+        finally:
+            self.number -= 1

@@ -1,0 +1,119 @@
+"""A running scene: its clock, its ticks and the streams that clients follow."""
+
+import gc
+import uuid
+from collections.abc import Mapping
+
+from reactive_realizer import __version__
+from reactive_realizer.assembly.scene import Scene
+from reactive_realizer.clock.clock import Clock
+from reactive_realizer.clock.ticker import Tick, Ticker
+from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.limits import Limits
+from reactive_realizer.realizer.realizer import Realizer
+from reactive_realizer.server.audio_stream import AudioStream
+from reactive_realizer.server.board_stream import BoardStream
+from reactive_realizer.server.capabilities import found_for
+from reactive_realizer.server.client_limits import ClientCount
+from reactive_realizer.server.feedback_log import FeedbackLog
+from reactive_realizer.server.frame_stream import FrameStream
+from reactive_realizer.server.protocol import VERSION, Message
+
+_YOUNG = 50_000
+"""New objects before a collection: more than a plan of some hundred behaviors needs."""
+
+
+def keep_from_ticks() -> None:
+    """Freezes existing objects, so that the garbage collector does not scan them in the middle of a tick.
+
+    What has ended frees itself, for nothing that is played leads back to itself: only failures, whose traces do, and
+    behaviors that are dropped while they are planned leave something to be found.
+    """
+    gc.collect()
+    gc.freeze()
+    gc.set_threshold(_YOUNG)
+
+
+class LiveScene:
+    """One run of a scene, and its streams.
+
+    Args:
+        scene: assembled and started.
+        clock: of the session. With a `ManualClock`, the caller calls `step`; otherwise `run` does.
+        performance: BML that the demo plays; None for no demo.
+
+    Attributes:
+        session: id of this run.
+        ticker: source of the ticks.
+        tick: number of the last tick.
+        feedback, sounds, frames, board: the streams.
+        clients: counts the connected clients.
+        found: files found at the start, for `capabilities_of`.
+    """
+
+    def __init__(self, scene: Scene, clock: Clock, performance: str | None = None) -> None:
+        self.scene = scene
+        self.clock = clock
+        self.performance = performance
+        self.session = str(uuid.uuid4())
+        self.ticker = Ticker(clock)
+        self.tick = 0
+        self.feedback = FeedbackLog(self.session, clock.epoch, self.limits)
+        self.sounds = AudioStream(self.limits.sound_bytes)
+        self.frames = FrameStream(self.realizer)
+        self.board = BoardStream(self.realizer.board, lambda: self.realizer.time)
+        self.clients = ClientCount(self.limits.clients)
+        self.found = found_for(scene)
+        self.realizer.feedback.listen(self.feedback.append)
+        self.realizer.hear(self.sounds.take)
+
+    @property
+    def realizer(self) -> Realizer:
+        """The realizer of the scene."""
+        return self.scene.realizer
+
+    @property
+    def limits(self) -> Limits:
+        """The limits of the human file."""
+        return self.scene.specification.limits
+
+    @property
+    def now(self) -> GlobalTime:
+        """Realizer time, between ticks too."""
+        return self.clock.now()
+
+    async def run(self) -> None:
+        """Ticks until it is cancelled."""
+        keep_from_ticks()
+        async for tick in self.ticker.ticks():
+            await self.step(tick)
+
+    async def step(self, tick: Tick) -> None:
+        """Plays one tick and publishes its results."""
+        await self.realizer.step(tick)
+        self.tick = tick.number
+        self.sounds.tidy(tick.time)
+        self.board.publish()
+
+    def hello(self) -> Message:
+        """The first message of a connection."""
+        return {
+            "type": "hello",
+            "protocol": VERSION,
+            "version": __version__,
+            "session": self.session,
+            "time": round(self.now, 6),
+            "tick": self.tick,
+            "characters": [self._character(index, id_) for index, id_ in enumerate(self.realizer.characters)],
+            "demo": self.performance is not None,
+        }
+
+    def _character(self, index: int, id_: str) -> Mapping[str, object]:
+        avatar = self.realizer.characters[id_].humanoid.avatar
+        return {
+            "id": id_,
+            "index": index,
+            "avatar": "/avatars/" + self.scene.avatars[id_].removeprefix("avatars/"),
+            "joints": [bone.name for bone in avatar.bones],
+            "morphs": list(avatar.morphs),
+        }

@@ -1,0 +1,149 @@
+"""Captures in common variants: joint names, rest poses and axes.
+
+Each variant occurs in a published file; the figures here are made for the tests.
+"""
+
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from reactive_realizer.embodiment.avatar import Avatar
+from reactive_realizer.embodiment.quaternion import from_axis_angle, normalize, rotate
+from reactive_realizer.embodiment.vector import UP
+from reactive_realizer.engines.animation.keyframe.bvh_reader import read_capture
+from reactive_realizer.engines.animation.keyframe.clip import Clip
+from reactive_realizer.engines.animation.keyframe.retarget import retargeted
+from reactive_realizer.errors import RealizerError
+
+from .capturing import T_POSE, Turns, assert_same_directions, bvh, with_axes
+from .conftest import ASSETS
+
+SKELETON = Avatar.read(ASSETS / "avatars" / "female.glb").skeleton
+LENGTH = -SKELETON.offset("l_knee")[1] / 44.0
+"""Of ours for a centimeter of theirs, m."""
+
+POSE: Turns = {"LeftArm": (30.0, 20.0, 10.0), "RightLeg": (0.0, 40.0, 0.0), "Spine": (0.0, 10.0, 0.0)}
+Z_UP = from_axis_angle((1.0, 0.0, 0.0), 1.5707963267948966)
+
+MIDDLE = {"Hips": "Hips", "Spine": "Spine", "Spine1": "Chest", "Neck": "Neck", "Head": "Head"}
+PARTS = ("Shoulder", "Arm", "ForeArm", "Hand", "UpLeg", "Leg", "Foot")
+MAYA = ("Shoulder", "UpperArm", "LowerArm", "Hand", "UpperLeg", "LowerLeg", "Foot")
+BIPED = ("Clavicle", "UpperArm", "Forearm", "Hand", "Thigh", "Calf", "Foot")
+
+
+def called(left: str, right: str, parts: tuple[str, ...], **middle: str) -> dict[str, str]:
+    """Names for the joints, with the part where the braces are."""
+    sides = {"Left": left, "Right": right}
+    limbs = {
+        f"{side}{own}": how.format(part) for side, how in sides.items() for own, part in zip(PARTS, parts, strict=True)
+    }
+    return MIDDLE | limbs | middle
+
+
+NAMES = {
+    "Mixamo": {name: f"mixamorig:{name}" for name, _, _ in T_POSE},
+    "Biovision": called("Left{}", "Right{}", ("Collar", "Shoulder", "Elbow", "Wrist", "Hip", "Knee", "Ankle")),
+    "Poser": called(
+        "l{}", "r{}", ("Collar", "Shldr", "ForeArm", "Hand", "Thigh", "Shin", "Foot"), Hips="hip", Spine="abdomen"
+    ),
+    "Bandai Namco": called("{}_L", "{}_R", MAYA),
+    "Rokoko": called("Left{}", "Right{}", ("Shoulder", "Arm", "ForeArm", "Hand", "Thigh", "Shin", "Foot")),
+    "3ds Max": called("Bip01 L {}", "Bip01 R {}", BIPED, Hips="Bip01 Pelvis", Head="Bip01 Head"),
+    "Unreal": called("{}_l", "{}_r", tuple(map(str.lower, BIPED)), Hips="pelvis", Head="head"),
+    "VRoid": called("J_Bip_L_{}", "J_Bip_R_{}", MAYA, Head="J_Bip_C_Head"),
+}
+
+
+@pytest.fixture
+def clip(tmp_path: Path):
+    def read(text: str) -> Clip:
+        path = tmp_path / "some.bvh"
+        path.write_text(text)
+        return retargeted(read_capture(path), SKELETON)
+
+    return read
+
+
+@pytest.mark.parametrize("kind", NAMES)
+def test_joint_names_of_several_vendors_are_known(clip, kind):
+    found = clip(bvh(POSE, POSE, names=NAMES[kind]))
+    assert_same_directions(found, 0.0, SKELETON, POSE)
+    assert {"HumanoidRoot", "vl5", "vt6", "vc4", "skullbase"} <= set(found.joints)
+
+
+@pytest.mark.parametrize(
+    ("spine", "ours"),
+    [
+        (["Chest"], ["vl5"]),
+        (["Spine", "Spine1", "Spine2"], ["vl5", "vt10", "vt6"]),
+        (["Chest", "Chest2", "Chest3", "Chest4"], ["vl5", "vt10", "vt6"]),
+    ],
+)
+def test_a_spine_with_any_number_of_joints_is_mapped(clip, spine, ours):
+    """The lowest, one of the middle and the highest are ours, whatever they are called."""
+    bones = [bone for bone in T_POSE if bone[0] not in ("Spine", "Spine1")]
+    trunk = [(name, above, (0.0, 8.0, 0.0)) for name, above in zip(spine, ["Hips", *spine], strict=False)]
+    body = [(name, spine[-1] if above == "Spine1" else above, offset) for name, above, offset in bones[1:]]
+    found = clip(bvh({}, {}, bones=(bones[0], *trunk, *body)))
+    assert [joint for joint in found.joints if joint in ("vl5", "vt10", "vt6")] == ours
+
+
+def test_extra_joints_between_pelvis_and_thigh_and_in_the_neck_are_ignored(clip):
+    """As in the captures of Carnegie Mellon University, of B. Hahne's form."""
+    between = (("LHipJoint", "Hips", (0.0, 0.0, 0.0)), ("Neck1", "Neck", (0.0, 5.0, 0.0)))
+    moved = {"LeftUpLeg": "LHipJoint", "Head": "Neck1"}
+    bones = (T_POSE[0], *between[:1], *T_POSE[1:4], *between[1:], *T_POSE[4:])
+    bones = tuple((name, moved.get(name, above), offset) for name, above, offset in bones)
+    assert_same_directions(clip(bvh(POSE, POSE, bones=bones)), 0.0, SKELETON, POSE)
+
+
+def test_the_root_follows_the_pelvis_below_an_extra_root_joint(clip):
+    """Bandai Namco's joint_Root, MotionBuilder's Reference."""
+    bones = (("Reference", None, (0.0, 0.0, 0.0)), ("Hips", "Reference", (0.0, 98.0, 0.0)), *T_POSE[1:])
+    found = clip(bvh(POSE, POSE, bones=bones, places=[(0.0, 98.0, 5.0), (0.0, 98.0, 25.0)]))
+    assert found.root_at(0.01) == pytest.approx((0.0, 0.0, 20.0 * LENGTH), abs=0.002)
+    assert_same_directions(found, 0.0, SKELETON, POSE)
+
+
+def test_position_channels_of_all_joints_are_accepted(clip):
+    """Mixamo's, as some converters write them."""
+    found = clip(bvh(POSE, POSE, moved=[name for name, _, _ in T_POSE]))
+    assert_same_directions(found, 0.0, SKELETON, POSE)
+
+
+def test_a_capture_without_positions_stays_in_place(clip):
+    found = clip(bvh(POSE, POSE, moved=()))
+    assert found.root_at(0.01) == (0.0, 0.0, 0.0)
+    assert_same_directions(found, 0.0, SKELETON, POSE)
+
+
+def test_a_file_with_z_up_is_turned(clip):
+    bones, frames = with_axes(T_POSE, [{}, POSE], Z_UP, {})
+    places = [rotate(Z_UP, place) for place in ((0.0, 98.0, 0.0), (0.0, 98.0, 20.0))]
+    found = clip(bvh(*frames, bones=bones, places=places))
+    assert_same_directions(found, 0.01, SKELETON, POSE)
+    assert found.root_at(0.01) == pytest.approx((0.0, 0.0, 20.0 * LENGTH), abs=0.002)
+
+
+turns = st.tuples(*(st.floats(-1.0, 1.0) for _ in range(4))).filter(lambda q: sum(x * x for x in q) > 0.1)
+axes = st.fixed_dictionaries({name: turns.map(normalize) for name, _, _ in T_POSE})
+
+
+@settings(max_examples=40, deadline=None, derandomize=True)
+@given(axes)
+def test_joints_with_axes_of_their_own_are_read_relative_to_the_first_frame(tmp_path_factory, own):
+    """Of Maya, of Rokoko: without rotations this figure is a heap of bones."""
+    bones, frames = with_axes(T_POSE, [{}, POSE], from_axis_angle(UP, 0.0), own)
+    path = tmp_path_factory.mktemp("capture") / "some.bvh"
+    path.write_text(bvh(*frames, bones=bones))
+    found = retargeted(read_capture(path), SKELETON)
+    assert_same_directions(found, 0.0, SKELETON, {})
+    assert_same_directions(found, 0.01, SKELETON, POSE)
+
+
+def test_the_error_names_the_missing_joints(clip):
+    names = {"LeftUpLeg": "thing"}
+    with pytest.raises(RealizerError, match="known name for HumanoidRoot, l_hip, skullbase"):
+        clip(bvh(POSE, POSE, names=names))

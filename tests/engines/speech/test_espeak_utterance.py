@@ -1,0 +1,126 @@
+"""The SSML for espeak-ng, and the utterance made of its reply; the replies are made by hand."""
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from lxml import etree
+
+from reactive_realizer.engines.speech.espeak_messages import Message
+from reactive_realizer.engines.speech.espeak_utterance import as_utterance, marked_up
+
+RATE = 1000
+
+
+def utterance(text, words=(), marks=(), reported=(), phonemes=(), duration=2000):
+    """Words are reported at (time in ms, character of the text), phonemes as (time in ms, symbol)."""
+    markup = marked_up(text, tuple(place for _, place in marks))
+    positions = [(time, markup.origins.index(character) + 1) for time, character in words]
+    header = {"sample_rate": RATE, "words": positions, "marks": reported, "phonemes": phonemes}
+    return as_utterance(Message(header, bytes(2 * duration)), text, marks, markup)
+
+
+def starts(spoken):
+    return [(word.text, word.start) for word in spoken.words]
+
+
+def test_the_duration_is_the_duration_of_the_audio():
+    assert utterance("a", duration=1234).duration == 1.234
+
+
+def test_words_have_the_reported_times():
+    assert starts(utterance("red box", [(100, 0), (400, 4)])) == [("red", 0.1), ("box", 0.4)]
+
+
+def test_a_number_that_is_spoken_as_several_words_has_the_time_of_the_first():
+    assert starts(utterance("in 1984 again", [(0, 0), (200, 3), (500, 4), (700, 4), (900, 8)])) == [
+        ("in", 0.0),
+        ("1984", 0.2),
+        ("again", 0.9),
+    ]
+
+
+def test_a_word_reported_at_its_opening_quotation_mark_is_found():
+    assert starts(utterance('so "good" it', [(0, 0), (300, 3), (600, 10)])) == [("so", 0.0), ("good", 0.3), ("it", 0.6)]
+
+
+def test_a_word_that_is_not_reported_has_an_interpolated_time():
+    assert starts(utterance("of a b", [(0, 0), (500, 5)])) == [("of", 0.0), ("a", pytest.approx(0.3)), ("b", 0.5)]
+
+
+def test_a_last_word_that_is_not_reported_starts_before_the_sound_ends():
+    spoken = utterance("think of", [(0, 0)], phonemes=[(0, "θ"), (600, "ə"), (800, ""), (1900, "")])
+    assert 0.0 < spoken.words[1].start < 0.8
+
+
+def test_the_times_of_words_never_decrease():
+    assert starts(utterance("a b c", [(0, 0), (500, 2), (400, 4)])) == [("a", 0.0), ("b", 0.5), ("c", 0.5)]
+
+
+def test_marks_have_the_reported_times_and_their_own_names():
+    spoken = utterance("red box", [(0, 0), (400, 4)], [("x'\"<", 4), ("end", 7)], [("m1", 900), ("m0", 400)])
+    assert dict(spoken.marks) == {"x'\"<": 0.4, "end": 0.9}
+
+
+def test_a_mark_that_is_not_reported_has_the_time_of_the_next_word_or_of_the_end():
+    spoken = utterance("red box", [(0, 0), (400, 4)], [("a", 4), ("b", 7)])
+    assert dict(spoken.marks) == {"a": 0.4, "b": 2.0}
+
+
+def test_the_times_of_marks_are_in_the_order_of_the_text():
+    spoken = utterance("a b c", [(0, 0), (200, 2), (400, 4)], [("late", 4), ("early", 2)], [("m1", 500)])
+    assert list(spoken.marks.items()) == [("early", 0.5), ("late", 0.5)]
+
+
+def test_a_phoneme_lasts_until_the_next_one_or_the_end():
+    spoken = utterance("a", phonemes=[(100, "ə"), (250, "n"), (400, "")], duration=1000)
+    assert [(p.symbol, p.start, round(p.duration, 9)) for p in spoken.phonemes] == [
+        ("ə", 0.1, 0.15),
+        ("n", 0.25, 0.15),
+        ("", 0.4, 0.6),
+    ]
+
+
+# --- SSML
+
+
+TEXTS = st.text(st.characters(exclude_categories=["Cs", "Cc"]), max_size=30)
+
+
+def test_marks_are_numbered_and_at_their_indices():
+    assert marked_up("ab", (2, 0)).ssml == '<speak><mark name="m1"/>ab<mark name="m0"/></speak>'
+
+
+def test_marks_at_one_index_keep_their_order():
+    assert marked_up("a", (0, 0)).ssml == '<speak><mark name="m0"/><mark name="m1"/>a</speak>'
+
+
+def test_a_position_in_the_ssml_counts_from_1_and_maps_to_an_index_of_the_text():
+    markup = marked_up("a & b", (4,))
+    assert markup.origin(markup.ssml.index("b") + 1) == 4
+    assert markup.origin(markup.ssml.index("amp;") + 1) == 2
+
+
+def test_a_tag_maps_to_the_character_after_it_and_positions_outside_map_to_the_ends():
+    markup = marked_up("a b", (2,))
+    assert markup.origin(markup.ssml.index("<mark") + 1) == 2
+    assert (markup.origin(0), markup.origin(1000)) == (0, 3)
+
+
+@settings(derandomize=True)
+@given(text=TEXTS, data=st.data())
+def test_the_ssml_is_well_formed_and_has_the_same_text(text, data):
+    marks = tuple(data.draw(st.lists(st.integers(0, len(text)), max_size=4)))
+    markup = marked_up(text, marks)
+    root = etree.fromstring(markup.ssml)
+    assert "".join(root.itertext()) == text
+    assert sorted(mark.get("name") for mark in root) == sorted(f"m{n}" for n in range(len(marks)))
+    for mark in root:
+        place = marks[int(mark.get("name")[1:])]
+        assert "".join(root.xpath("//mark[@name=$name]/preceding::text()", name=mark.get("name"))) == text[:place]
+
+
+@settings(derandomize=True)
+@given(TEXTS)
+def test_every_character_of_the_text_has_a_position_in_the_ssml(text):
+    origins = marked_up(text, ()).origins
+    assert sorted(set(origins)) == list(range(len(text) + 1))

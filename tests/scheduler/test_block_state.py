@@ -1,0 +1,191 @@
+"""The transitions of a block: each row of the table happens, and nothing else does."""
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+import reactive_realizer
+from reactive_realizer.bml.document import parse
+from reactive_realizer.limits import Limits
+from reactive_realizer.pegboard.peg_key import BlockKey
+from reactive_realizer.pegboard.pegboard import PegBoard
+from reactive_realizer.reactive.graph import Graph
+from reactive_realizer.scheduler.block_state import (
+    PREDICTION,
+    TRANSITIONS,
+    BlockEvent,
+    BlockState,
+    BlockTransition,
+    IllegalTransitionError,
+)
+from reactive_realizer.scheduler.bml_block import BMLBlock
+from reactive_realizer.testing.feedback_list import FeedbackList
+from reactive_realizer.testing.pilot import block as bml
+from reactive_realizer.testing.pilot import open_pilot
+
+LEGAL = {(source, row.event): row for row in TRANSITIONS for source in row.sources}
+PACKAGE = Path(reactive_realizer.__file__).parent
+OWNERS = {"bml_block.py", "block_lifecycle.py", "unit_lifecycle.py", "tie_release.py"}
+WRITERS = {"set_plan", "set_units", "set_predecessors", "rename_pegs", "update_end"}
+CHECKED_CONSTRAINTS = {"settled"}
+
+NOD = '<head id="n" lexeme="NOD"/>'
+BEAT = '<gesture id="g" lexeme="BEAT"/>'
+SOLVED_ASIDE = "".join(f'<wait id="w{number}" duration="1"/>' for number in range(51))
+REQUIRED = f"<required>{BEAT}</required>"
+PREPLAN = {"bmla:preplan": "true"}
+APPEND = {"composition": "APPEND"}
+
+PLAN, PREPLANNED, ACTIVATE, START, SUBSIDE, FINISH, INTERRUPT, REVOKE, FAIL = BlockEvent
+
+
+def activate(start: str) -> str:
+    return f'<bmla:activate id="x" target="b" start="{start}"/>'
+
+
+def interrupt(start: str) -> str:
+    return f'<bmla:interrupt id="x" target="b" start="{start}"/>'
+
+
+LIVES = {
+    "it plays": ([("b", NOD, {})], [PLAN, START, FINISH]),
+    "it has a way back to rest": ([("b", BEAT, {})], [PLAN, START, SUBSIDE, FINISH]),
+    "it is interrupted": ([("b", NOD, {}), ("c", interrupt("0.2"), {})], [PLAN, START, INTERRUPT]),
+    "it is interrupted on the way back to rest": (
+        [("b", BEAT, {}), ("c", interrupt("b:relax+0.1"), {})],
+        [PLAN, START, SUBSIDE, INTERRUPT],
+    ),
+    "it is activated": ([("b", NOD, PREPLAN), ("c", activate("0.2"), {})], [PREPLANNED, ACTIVATE, START, FINISH]),
+    "it is activated in preparation": (
+        [("b", SOLVED_ASIDE, PREPLAN), ("c", "", {"bmla:onStart": "b"})],
+        [ACTIVATE, PLAN, START, FINISH],
+    ),
+    "it is revoked in preparation": ([("b", NOD, {}), ("c", "", {"composition": "REPLACE"})], [REVOKE]),
+    "it is revoked before its activation": ([("b", NOD, PREPLAN), ("c", interrupt("0.2"), {})], [PREPLANNED, REVOKE]),
+    "it is revoked while it waits": (
+        [("a", NOD, {}), ("b", NOD, APPEND), ("c", interrupt("0.2"), {})],
+        [PLAN, REVOKE],
+    ),
+    "it cannot be planned": ([("b", '<required><wait id="w" start="nobody:end"/></required>', {})], [FAIL]),
+    "its engines fail before its activation": ([("b", REQUIRED, PREPLAN), BlockState.PENDING], [PREPLANNED, FAIL]),
+    "its engines fail while it waits": ([("a", NOD, {}), ("b", REQUIRED, APPEND), BlockState.LURKING], [PLAN, FAIL]),
+    "its engines fail while it plays": ([("b", REQUIRED, {}), BlockState.IN_EXEC], [PLAN, START, FAIL]),
+    "its engines fail on the way back": ([("b", REQUIRED, {}), BlockState.SUBSIDING], [PLAN, START, SUBSIDE, FAIL]),
+}
+"""What is sent, and the state in which engines fail, if they do; the events of block b that follow."""
+
+
+def make_block() -> BMLBlock:
+    (parsed,) = parse(bml("b"), Limits())
+    return BMLBlock(PegBoard(Graph()), BlockKey("alice", "b"), parsed.block, 1, 0.0, ())
+
+
+def path_to(state: BlockState) -> tuple[BlockEvent, ...]:
+    """Events that lead a new block to a state."""
+    paths = {BlockState.IN_PREP: ()}
+    while state not in paths:
+        for row in TRANSITIONS:
+            for source in row.sources:
+                if source in paths:
+                    paths.setdefault(row.target, (*paths[source], row.event))
+    return paths[state]
+
+
+@pytest.mark.parametrize("event", BlockEvent)
+@pytest.mark.parametrize("state", BlockState)
+def test_a_block_takes_the_transitions_of_the_table_and_no_other(state, event) -> None:
+    block = make_block()
+    for each in path_to(state):
+        block.take(each)
+    assert block.state is state
+    if (state, event) in LEGAL:
+        assert block.take(event) is LEGAL[state, event]
+        assert block.state is LEGAL[state, event].target
+    else:
+        with pytest.raises(IllegalTransitionError):
+            block.take(event)
+        assert block.state is state
+
+
+@pytest.fixture
+def taken(monkeypatch) -> list[BlockTransition]:
+    """The transitions that block b has taken."""
+    found = []
+
+    def take(block, event, original=BMLBlock.take):
+        row = original(block, event)
+        if block.key.block == "b":
+            found.append(row)
+        return row
+
+    monkeypatch.setattr(BMLBlock, "take", take)
+    return found
+
+
+async def live(sent: list, taken: list[BlockTransition]) -> FeedbackList:
+    """The feedback of blocks that are sent at once; engines fail when block b comes to a state, if one is named."""
+    async with open_pilot() as pilot:
+        for each in sent:
+            if not isinstance(each, BlockState):
+                id_, behaviors, attributes = each
+                pilot.block(id_, behaviors, **attributes)
+        for _ in range(400):
+            await pilot.tick()
+            block = pilot.realizer.scheduler.blocks.get(BlockKey("alice", "b"))
+            if block is None:
+                break
+            assert all(block.peg(point).pinned for row in taken for point in row.pins)
+            if block.state in sent:
+                for engine in pilot.realizer.characters["alice"].engines:
+                    engine.play = None
+        return pilot.feedback
+
+
+@pytest.mark.parametrize(("sent", "events"), LIVES.values(), ids=LIVES)
+async def test_a_block_pins_and_reports_what_the_table_says(taken, sent, events) -> None:
+    feedback = await live(sent, taken)
+    assert [row.event for row in taken] == events
+    reports = [f"b:{sync}" for row in taken for sync in row.reports if sync != PREDICTION]
+    assert [line.id for line in feedback.of("blockProgress") if line.id.startswith("b:")] == reports
+
+
+def test_these_lives_take_every_row_of_the_table() -> None:
+    rows = set()
+    for _, events in LIVES.values():
+        state = BlockState.IN_PREP
+        for event in events:
+            rows.add((state, event))
+            state = LEGAL[state, event].target
+    assert rows == LEGAL.keys()
+
+
+def test_only_its_lifecycle_writes_a_block() -> None:
+    fields = {each for each in vars(make_block()) if not each.startswith("_")} - CHECKED_CONSTRAINTS
+    for path in sorted((PACKAGE / "scheduler").rglob("*.py")):
+        if path.name not in OWNERS:
+            assert not fields & set(written(path)), path.name
+            assert not WRITERS & set(called(path)), path.name
+
+
+def written(path: Path) -> Iterator[str]:
+    """The attributes that a module assigns to what it calls a block."""
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store) and isinstance(node.value, ast.Name):
+            yield from [node.attr] if node.value.id in ("block", "other", "later") else []
+
+
+def called(path: Path) -> Iterator[str]:
+    """The methods that a module calls."""
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute):
+            yield node.func.attr
+
+
+def test_sync_points_reach_feedback_by_one_way() -> None:
+    modules = [path for path in sorted(PACKAGE.rglob("*.py")) if path.name != "messages.py"]
+    assert [path.name for path in modules if "SyncPointProgress(" in path.read_text(encoding="utf-8")] == [
+        "block_feedback.py"
+    ]
+    assert [path.name for path in modules if "sync_point_reached" in called(path)] == ["unit_lifecycle.py"]

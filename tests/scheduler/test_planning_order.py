@@ -1,0 +1,67 @@
+"""The order of planning: a block comes after those that it names."""
+
+from collections import Counter
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from reactive_realizer.scheduler.planning_order import dependency_order
+
+MANY = 20_000
+NAMES = st.dictionaries(st.integers(0, 8), st.lists(st.integers(0, 8)))
+
+
+def ordered(names, waiting=None):
+    return dependency_order(names if waiting is None else waiting, lambda each: names.get(each, []))
+
+
+@pytest.mark.parametrize(
+    ("names", "order"),
+    [
+        ({"a": [], "b": [], "c": []}, "abc"),
+        ({"a": [], "b": ["a"], "c": ["a"]}, "abc"),
+        ({"a": ["c"], "b": [], "c": []}, "cab"),
+        ({"a": ["b"], "b": ["c"], "c": []}, "cba"),
+        ({"a": ["b", "c"], "b": ["c"], "c": []}, "cba"),
+        ({"a": ["d"]}, "da"),
+    ],
+)
+def test_an_item_comes_after_its_dependencies_and_all_else_stays_in_order(names, order) -> None:
+    assert "".join(ordered(names)) == order
+
+
+@pytest.mark.parametrize(
+    ("names", "order"),
+    [
+        ({"a": ["b"], "b": ["a"]}, "ba"),
+        ({"a": ["a"]}, "a"),
+        ({"a": ["b"], "b": ["c"], "c": ["a"]}, "cba"),
+        ({"x": ["a"], "a": ["b", "d"], "b": ["a"], "d": []}, "bdax"),
+    ],
+)
+def test_one_item_of_a_circle_is_first_and_items_outside_of_it_wait_as_usual(names, order) -> None:
+    assert "".join(ordered(names)) == order
+
+
+@given(NAMES)
+def test_each_item_comes_once_and_only_a_circle_puts_one_before_a_dependency(names) -> None:
+    order = ordered(names)
+    place = {each: number for number, each in enumerate(order)}
+    assert len(place) == len(order)
+    assert place.keys() == names.keys() | {other for others in names.values() for other in others}
+    for each, others in names.items():
+        for other in others:
+            assert place[other] < place[each] or each in ordered(names, [other])
+
+
+@pytest.mark.parametrize("step", [1, -1])
+def test_a_long_chain_is_asked_once_an_item_and_needs_no_deeper_stack(step) -> None:
+    asked = Counter()
+
+    def named(each):
+        asked[each] += 1
+        return [each + step] if 0 <= each + step < MANY else []
+
+    assert dependency_order(range(MANY), named) == list(range(MANY))[::-step]
+    assert set(asked.values()) == {1}

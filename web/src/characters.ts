@@ -1,0 +1,109 @@
+import type { Object3D } from "three";
+
+import { Avatar } from "./avatar";
+import type { Frame } from "./frame";
+import { Playout } from "./playout";
+import type { Character, Position } from "./protocol";
+import type { Quality } from "./viewport";
+
+/** A character of the scene; its avatar is null until it is loaded. */
+interface LoadedCharacter {
+  character: Character;
+  playout: Playout;
+  avatar: Avatar | null;
+}
+
+/** All characters of the scene, as listed in the last `hello`. */
+export class Characters {
+  private byIndex = new Map<number, LoadedCharacter>();
+
+  constructor(
+    private readonly scene: Object3D,
+    private readonly quality: Quality,
+    private readonly onFailure: (reason: unknown) => void,
+  ) {}
+
+  /** Number of frames whose time has come, over all characters. */
+  get framesPlayed(): number {
+    return this.list().reduce((sum, { playout }) => sum + playout.played, 0);
+  }
+
+  /** Time of the newest frame shown, s. */
+  get lastFrameTime(): number | null {
+    const times = this.list().flatMap(({ playout }) => playout.lastTime ?? []);
+    return times.length === 0 ? null : Math.max(...times);
+  }
+
+  /** Whether every character is in the scene with a pose. */
+  get complete(): boolean {
+    return this.byIndex.size > 0 && this.list().every(({ avatar }) => avatar?.object.parent);
+  }
+
+  /** Replaces the characters. An unchanged one keeps its avatar but loses its frames. */
+  assign(characters: Character[]): void {
+    const former = this.byIndex;
+    this.byIndex = new Map();
+    for (const character of characters) {
+      const same = former.get(character.index);
+      if (same !== undefined && JSON.stringify(same.character) === JSON.stringify(character)) {
+        former.delete(character.index);
+        same.playout = new Playout();
+        this.byIndex.set(character.index, same);
+      } else {
+        this.add(character);
+      }
+    }
+    for (const { avatar } of former.values()) avatar?.dispose();
+  }
+
+  push(frame: Frame): void {
+    this.byIndex.get(frame.character)?.playout.push(frame);
+  }
+
+  /** Poses all characters as of a realizer time (s). An avatar enters the scene with its first pose. */
+  show(time: number): void {
+    for (const { playout, avatar } of this.byIndex.values()) {
+      const pose = playout.sample(time);
+      if (pose === null || avatar === null) continue;
+      avatar.apply(pose);
+      if (avatar.object.parent === null) this.scene.add(avatar.object);
+    }
+  }
+
+  /** World position of a bone, m; null when there is no such character or bone, or the avatar is not loaded. */
+  bone(characterId: string, name: string): Position | null {
+    return this.find(characterId)?.bone(name) ?? null;
+  }
+
+  /** Weight of a morph; null as for a bone. */
+  morph(characterId: string, name: string): number | null {
+    return this.find(characterId)?.morph(name) ?? null;
+  }
+
+  /** World position of each loaded avatar's root, m. */
+  roots(): Position[] {
+    return this.list().flatMap(({ avatar }) => (avatar === null ? [] : [avatar.position]));
+  }
+
+  private list(): LoadedCharacter[] {
+    return [...this.byIndex.values()];
+  }
+
+  private find(characterId: string): Avatar | null {
+    return this.list().find(({ character }) => character.id === characterId)?.avatar ?? null;
+  }
+
+  private add(character: Character): void {
+    const added: LoadedCharacter = { character, playout: new Playout(), avatar: null };
+    this.byIndex.set(character.index, added);
+    Avatar.load(character, this.quality).then(
+      (avatar) => {
+        if (this.byIndex.get(character.index) === added) added.avatar = avatar;
+        else avatar.dispose();
+      },
+      () => {
+        this.onFailure(`The avatar of ${character.id} could not be loaded.`);
+      },
+    );
+  }
+}

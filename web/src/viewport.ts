@@ -1,0 +1,266 @@
+import {
+  Box3,
+  CanvasTexture,
+  CircleGeometry,
+  Color,
+  DirectionalLight,
+  HemisphereLight,
+  MathUtils,
+  Mesh,
+  MeshLambertMaterial,
+  MeshStandardMaterial,
+  NeutralToneMapping,
+  PerspectiveCamera,
+  PMREMGenerator,
+  Scene,
+  SRGBColorSpace,
+  type Texture,
+  Vector3,
+  WebGLRenderer,
+} from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { RoomEnvironment } from "three/addons/environments/RoomEnvironment.js";
+
+import type { Position } from "./protocol";
+
+/** How much the page spends on looks: `?quality=low` is for machines without a graphics card. */
+export type Quality = "normal" | "low";
+
+/** Least time between two reports of the camera's position, ms. */
+const REPORT_INTERVAL = 200;
+
+/** Smallest move of the camera that is reported, m. */
+const STILL = 0.005;
+
+const BACKDROP_TOP = "#eef1f4";
+const BACKDROP_BOTTOM = "#c3cad3";
+const FLOOR = "#c4cad2";
+const FLOOR_RADIUS = 5;
+
+/** Number of pixels and highest frame rate (1/s) in low quality. */
+const LOW_PIXELS = 320 * 240;
+const LOW_RATE = 12;
+
+/** Hip height of a standing human as a fraction of stature: gives the stature of a character by its root. */
+const HIPS = 0.53;
+
+/** Hip height assumed while no character is known, m. */
+const USUAL_HIPS = 0.9;
+
+/** Space above the head and below the hips, reach of a gesture to each side, and camera height of the first view, m. */
+const MARGIN = 0.05;
+const REACH = 0.5;
+const EYE_HEIGHT = 1.6;
+
+/** Distance that a character must move before the camera follows, m. */
+const STEP = 0.4;
+
+/** The quality that the page's address asks for. */
+export function qualityOf(address: string): Quality {
+  return new URL(address).searchParams.get("quality") === "low" ? "low" : "normal";
+}
+
+/** The 3D view: light, floor, backdrop and camera. Other modules add their objects to `scene`. */
+export class Viewport {
+  readonly scene = new Scene();
+  private readonly camera = new PerspectiveCamera(30, 1, 0.05, 60);
+  private readonly renderer: WebGLRenderer;
+  private readonly controls: OrbitControls;
+  /** Roots of the characters that the camera keeps in view, m; null once the user has moved the camera. */
+  private framed: Position[] | null = [];
+  private nextDraw = 0;
+
+  /** Throws when the browser has no WebGL 2. */
+  constructor(
+    private readonly container: HTMLElement,
+    private readonly quality: Quality,
+  ) {
+    const canvas = document.createElement("canvas");
+    this.renderer = new WebGLRenderer({
+      canvas,
+      antialias: quality === "normal",
+    });
+    container.prepend(canvas);
+    this.controls = this.orbit(canvas);
+    this.light();
+    this.scene.add(floor(quality));
+    if (quality === "normal") this.embellish();
+    else this.scene.background = new Color(BACKDROP_TOP);
+    new ResizeObserver(() => {
+      this.resize();
+    }).observe(container);
+  }
+
+  /** Position of the camera, m. */
+  get eye(): Position {
+    return this.camera.position.toArray();
+  }
+
+  /** Shows all characters, by their roots (m), unless the user has moved the camera. */
+  frame(roots: Position[]): void {
+    if (this.framed === null || near(this.framed, roots)) return;
+    this.framed = roots;
+    this.look();
+  }
+
+  /** Draws at a page time (ms), if a picture is due. */
+  draw(page: number): void {
+    if (page < this.nextDraw) return;
+    if (this.quality === "low") this.nextDraw = page + 1000 / LOW_RATE;
+    this.controls.update();
+    this.renderer.render(this.scene, this.camera);
+  }
+
+  private orbit(canvas: HTMLCanvasElement): OrbitControls {
+    const controls = new OrbitControls(this.camera, canvas);
+    controls.enableDamping = true;
+    controls.minDistance = 0.4;
+    controls.maxDistance = 8;
+    controls.maxPolarAngle = 0.52 * Math.PI;
+    controls.addEventListener("start", () => {
+      this.framed = null;
+    });
+    return controls;
+  }
+
+  private light(): void {
+    const low = this.quality === "low";
+    const key = new DirectionalLight("#fff4e6", low ? 2.2 : 2.4);
+    key.position.set(1.6, 3.2, 2.6);
+    key.castShadow = !low;
+    key.shadow.mapSize.set(2048, 2048);
+    key.shadow.radius = 5;
+    key.shadow.bias = -0.0004;
+    key.shadow.normalBias = 0.02;
+    Object.assign(key.shadow.camera, {
+      left: -2.5,
+      right: 2.5,
+      top: 2.5,
+      bottom: -2.5,
+      near: 0.5,
+      far: 9,
+    });
+    const rim = new DirectionalLight("#dcecff", 0.9);
+    rim.position.set(-2.2, 2.4, -2.4);
+    this.scene.add(key, rim, new HemisphereLight("#ffffff", "#b9b2a8", low ? 2 : 0.35));
+  }
+
+  private embellish(): void {
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    this.renderer.shadowMap.enabled = true;
+    this.renderer.toneMapping = NeutralToneMapping;
+    const generator = new PMREMGenerator(this.renderer);
+    this.scene.environment = generator.fromScene(new RoomEnvironment(), 0.04).texture;
+    this.scene.environmentIntensity = 0.55;
+    generator.dispose();
+    this.scene.background = gradientTexture(2, 512, (context) => {
+      const gradient = context.createLinearGradient(0, 0, 0, 512);
+      gradient.addColorStop(0, BACKDROP_TOP);
+      gradient.addColorStop(1, BACKDROP_BOTTOM);
+      return gradient;
+    });
+  }
+
+  private resize(): void {
+    const { clientWidth, clientHeight } = this.container;
+    if (clientWidth === 0 || clientHeight === 0) return;
+    const scale = this.quality === "low" ? Math.sqrt(LOW_PIXELS / (clientWidth * clientHeight)) : 1;
+    this.renderer.setSize(Math.round(clientWidth * scale), Math.round(clientHeight * scale), false);
+    this.camera.aspect = clientWidth / clientHeight;
+    this.camera.updateProjectionMatrix();
+    this.look();
+  }
+
+  private look(): void {
+    if (this.framed === null) return;
+    const { target, distance } = framing(this.framed, this.camera);
+    this.controls.target.copy(target);
+    this.camera.position.set(target.x, EYE_HEIGHT, target.z + distance);
+    this.controls.update();
+  }
+}
+
+/** Reports the camera's position to the realizer when it has moved: virtual humans look at the camera. */
+export class CameraReport {
+  private reported: Position | null = null;
+  private nextReport = 0;
+
+  constructor(private readonly send: (position: Position) => void) {}
+
+  /** Takes the camera's position (m) at a page time (ms). */
+  update(page: number, eye: Position): void {
+    if (page < this.nextReport || (this.reported !== null && distance(this.reported, eye) < STILL)) return;
+    this.reported = eye;
+    this.nextReport = page + REPORT_INTERVAL;
+    this.send(eye);
+  }
+
+  /** Has the next update report, also without a move: the realizer is new. */
+  reset(): void {
+    this.reported = null;
+  }
+}
+
+function distance(a: Position, b: Position): number {
+  return Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
+/** Whether all characters are where they were: swaying, bowing and sitting down do not move the camera. */
+function near(before: Position[], roots: Position[]): boolean {
+  return (
+    before.length === roots.length &&
+    roots.every(([x, , z], i) => Math.hypot(x - (before[i]?.[0] ?? 0), z - (before[i]?.[2] ?? 0)) < STEP)
+  );
+}
+
+/** The camera's target and its distance in front of it (m) that show all characters, by their roots (m). */
+function framing(roots: Position[], camera: PerspectiveCamera): { target: Vector3; distance: number } {
+  const standing = roots.length === 0 ? [new Vector3(0, USUAL_HIPS, 0)] : roots.map((root) => new Vector3(...root));
+  const { min, max } = new Box3().setFromPoints(standing);
+  const top = max.y / HIPS + MARGIN;
+  const width = max.x - min.x + 2 * REACH;
+  const height = Math.max(top - min.y + MARGIN, width / camera.aspect);
+  // A narrow window shows more height: it shows more of the legs, and at most as much above the heads as below.
+  const target = new Vector3((min.x + max.x) / 2, Math.max(top - height / 2, top / 2), max.z);
+  return {
+    target,
+    distance: height / 2 / Math.tan(MathUtils.degToRad(camera.fov / 2)),
+  };
+}
+
+/** A disc that fades into the backdrop. */
+function floor(quality: Quality): Mesh {
+  const options = { color: FLOOR, transparent: true, alphaMap: fadingDisc() };
+  const material =
+    quality === "low" ? new MeshLambertMaterial(options) : new MeshStandardMaterial({ ...options, roughness: 0.95 });
+  const disc = new Mesh(new CircleGeometry(FLOOR_RADIUS, 64), material);
+  disc.rotation.x = -Math.PI / 2;
+  disc.receiveShadow = true;
+  return disc;
+}
+
+function fadingDisc(): Texture {
+  return gradientTexture(256, 256, (context) => {
+    const gradient = context.createRadialGradient(128, 128, 10, 128, 128, 128);
+    gradient.addColorStop(0, "#fff");
+    gradient.addColorStop(1, "#000");
+    return gradient;
+  });
+}
+
+function gradientTexture(
+  width: number,
+  height: number,
+  fill: (context: CanvasRenderingContext2D) => CanvasGradient,
+): CanvasTexture {
+  const canvas = document.createElement("canvas");
+  canvas.width = width;
+  canvas.height = height;
+  const context = canvas.getContext("2d");
+  if (context === null) throw new Error("this browser cannot draw on a canvas");
+  context.fillStyle = fill(context);
+  context.fillRect(0, 0, width, height);
+  const texture = new CanvasTexture(canvas);
+  texture.colorSpace = SRGBColorSpace;
+  return texture;
+}
