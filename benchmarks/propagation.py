@@ -106,7 +106,8 @@ def _reactivex_fanout(size: int) -> Write | None:
     subject = BehaviorSubject(0)
     for _ in range(size):
         subject.pipe(operators.map(_one_more)).subscribe(lambda value: None)
-    return subject.on_next
+    write: Write = subject.on_next
+    return write
 
 
 def _reactivex_chain(size: int) -> Write | None:
@@ -117,7 +118,8 @@ def _reactivex_chain(size: int) -> Write | None:
         return None
     subject = BehaviorSubject(0)
     subject.pipe(*[operators.map(_one_more) for _ in range(size)]).subscribe(lambda value: None)
-    return subject.on_next
+    write: Write = subject.on_next
+    return write
 
 
 def _block(size: int) -> Write:

@@ -51,6 +51,8 @@ def _of_word(word: LexiconEntry) -> Iterator[Entry]:
             yield Entry(name, f'<posture id="p">{_pose(word.lexeme)}</posture>', whole_body=True)
         case "procanimation":
             yield Entry(name, f'<bmlt:procanimation id="a" name="{word.lexeme}"{said}/>')
+        case _:
+            pass  # elements without lexemes
 
 
 def _pose(lexeme: str) -> str:

@@ -21,8 +21,8 @@ async def main() -> None:
             feedback = message.json().get("xml", "")
             if "together:clap:start" in feedback:  # the hands have started: the partner is late
                 await socket.send_json({"type": "predict", "anticipator": "partner", "sync": "hit", "in": 2.0})
-            if "Progress" in feedback:
-                print(*re.search(r' id="(.+?)".* globalTime="(.+?)"', feedback).groups())
+            if "Progress" in feedback and (point := re.search(r' id="(.+?)".* globalTime="(.+?)"', feedback)):
+                print(*point.groups())
             if "together:end" in feedback:
                 return
 

@@ -11,7 +11,7 @@ BML = """
 """
 
 
-def post(path: str, body: str, content_type: str) -> dict[str, object]:
+def post(path: str, body: str, content_type: str) -> object:
     request = Request(ADDRESS + path, body.encode(), {"Content-Type": content_type})
     with urlopen(request) as answer:
         return json.load(answer)

@@ -26,7 +26,7 @@ PATH = """
 <bml xmlns="http://www.bml-initiative.org/bml/bml-1.0" xmlns:bmla="http://www.asap-project.org/bmla"
      id="path" bmla:interrupt="{not_taken}" bmla:onStart="{taken}"/>
 """
-UNDERSTOOD = {
+UNDERSTOOD: dict[str, list[tuple[str, str, tuple[str, ...]]]] = {
     "how": [("eh", "Eh,", ()), ("well", "Well,", ())],
     "much": [],
     "is": [

@@ -3,6 +3,7 @@
 from patient_stop import PatientStop
 from turn_end import TurnEnd
 
+from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.testing.anticipator_contract import AnticipatorContract
 from reactive_realizer.testing.anticipator_harness import AnticipatorEvent
 
@@ -11,7 +12,7 @@ class TestTurnEnd(AnticipatorContract):
     points = ("end",)
     events = (AnticipatorEvent("pause"), AnticipatorEvent("voice"))
 
-    def anticipator(self, id, board):
+    def anticipator(self, id: str, board: PegBoard) -> TurnEnd:
         return TurnEnd(id, board)
 
 
@@ -24,5 +25,5 @@ class TestPatientStop(AnticipatorContract):
     )
     refused = (AnticipatorEvent("voice", 2.0),)
 
-    def anticipator(self, id, board):
+    def anticipator(self, id: str, board: PegBoard) -> PatientStop:
         return PatientStop(id, board)

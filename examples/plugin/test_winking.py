@@ -4,6 +4,7 @@ from beep_voice import BeepVoice
 from earliest import Earliest
 from wink_engine import WinkEngine
 
+from reactive_realizer.engine.context import EngineContext
 from reactive_realizer.testing.engine_contract import EngineContract
 from reactive_realizer.testing.strategy_contract import StrategyContract
 from reactive_realizer.testing.tts_contract import TTSContract
@@ -16,12 +17,12 @@ class TestWinkEngine(EngineContract):
     )
     refused = ('<wink xmlns="urn:example:wink" id="w" eye="third"/>',)
 
-    def engine(self, context):
+    def engine(self, context: EngineContext) -> WinkEngine:
         return WinkEngine(context)
 
 
 class TestBeepVoice(TTSContract):
-    def tts(self):
+    def tts(self) -> BeepVoice:
         return BeepVoice()
 
 

@@ -5,8 +5,10 @@ import json
 import pytest
 
 from reactive_realizer.clock.ticker import RATE, Tick
+from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.pegboard.peg_key import BlockKey, PegKey
+from reactive_realizer.pegboard.peg_view import Explanation
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.pegboard.time_peg import (
     AfterPeg,
@@ -16,8 +18,9 @@ from reactive_realizer.pegboard.time_peg import (
     LatestPeg,
     OffsetPeg,
     RatioPeg,
+    TimePeg,
 )
-from reactive_realizer.reactive.graph import Graph
+from reactive_realizer.reactive.graph import Graph, Stamp
 
 BLOCK = BlockKey("alice", "b")
 START, STROKE, END = (PegKey(*BLOCK, "clap", sync) for sync in ("start", "stroke", "end"))
@@ -38,28 +41,40 @@ def board() -> PegBoard:
     return board
 
 
-def predict(board, time, at):
+def peg_of(board: PegBoard, key: PegKey) -> TimePeg:
+    peg = board.get(key)
+    assert isinstance(peg, TimePeg)
+    return peg
+
+
+def predict(board: PegBoard, time: float | None, at: float) -> None:
     board.begin(Tick.on_time(round(at * RATE)))
     with board.graph.transaction("partner predicts hit"):
-        board.predicted("partner", "hit").set(time)
+        board.predicted("partner", "hit").set(None if time is None else GlobalTime(time))
 
 
-def pin(board, key, at):
+def pin(board: PegBoard, key: PegKey, at: float) -> None:
     board.begin(Tick.on_time(round(at * RATE)))
     with board.graph.transaction("reached"):
-        board.get(key).pin(board.get(key).value)
+        peg = peg_of(board, key)
+        peg.pin(peg.value)
 
 
-def chain(explanation):
+def stamp_of(explanation: Explanation) -> Stamp:
+    assert explanation.commit
+    return explanation.commit
+
+
+def chain(explanation: Explanation) -> list[tuple[str, float | None]]:
     """Names and times along the first sources."""
-    links = [(explanation.name, explanation.time)]
+    links: list[tuple[str, float | None]] = [(explanation.name, explanation.time)]
     while explanation.sources:
         explanation = explanation.sources[0]
         links.append((explanation.name, explanation.time))
     return links
 
 
-def test_an_explanation_has_the_chain_of_pegs_that_determined_a_time(board) -> None:
+def test_an_explanation_has_the_chain_of_pegs_that_determined_a_time(board: PegBoard) -> None:
     assert chain(board.explain(START)) == [
         ("b:clap:start", 1.5),
         ("b:clap:stroke", 2.0),
@@ -67,64 +82,68 @@ def test_an_explanation_has_the_chain_of_pegs_that_determined_a_time(board) -> N
     ]
 
 
-def test_each_explained_peg_has_its_rule_its_constraint_and_its_commit(board) -> None:
+def test_each_explained_peg_has_its_rule_its_constraint_and_its_commit(board: PegBoard) -> None:
     start = board.explain(START)
     stroke, hit = start.sources[0], start.sources[0].sources[0]
     assert (start.kind, start.state, start.rule, start.tie) == ("offset", "moving", "b:clap:stroke -0.5 s", None)
     assert stroke.tie == "clap:stroke = anticipators:partner:hit"
     assert (hit.kind, hit.rule) == ("predicted", "predicted")
-    assert {(each.commit.cause, each.commit.time) for each in (start, stroke, hit)} == {("partner predicts hit", 0.4)}
+    assert {(stamp_of(each).cause, stamp_of(each).time) for each in (start, stroke, hit)} == {
+        ("partner predicts hit", 0.4)
+    }
 
 
-def test_a_point_that_never_moved_has_the_commit_that_made_it(board) -> None:
+def test_a_point_that_never_moved_has_the_commit_that_made_it(board: PegBoard) -> None:
     with board.graph.transaction("plan c"):
-        board.add(PegKey("alice", "c", None, "start"), BMLBlockPeg(board.graph, "c:start", 3.0, ()))
+        board.add(PegKey("alice", "c", None, "start"), BMLBlockPeg(board.graph, "c:start", GlobalTime(3.0), ()))
     explanation = board.explain(PegKey("alice", "c", None, "start"))
-    assert (explanation.kind, explanation.rule, explanation.commit.cause) == ("block", "latest of 3 s", "plan c")
+    assert (explanation.kind, explanation.rule, stamp_of(explanation).cause) == ("block", "latest of 3 s", "plan c")
 
 
-def test_a_commit_without_a_change_is_no_explanation(board) -> None:
+def test_a_commit_without_a_change_is_no_explanation(board: PegBoard) -> None:
     predict(board, 2.0, at=0.9)
-    assert board.explain(START).commit.time == 0.4
+    assert stamp_of(board.explain(START)).time == 0.4
 
 
-def test_an_unknown_time_is_explained_by_what_it_waits_for(board) -> None:
+def test_an_unknown_time_is_explained_by_what_it_waits_for(board: PegBoard) -> None:
     predict(board, None, at=0.5)
     assert board.explain(START).state == "unknown"
     assert chain(board.explain(START))[-1] == ("anticipators:partner:hit", None)
-    assert board.explain(START).commit.time == 0.5
+    assert stamp_of(board.explain(START)).time == 0.5
 
 
-def test_a_fired_point_is_explained_by_its_dependencies_at_that_time(board) -> None:
+def test_a_fired_point_is_explained_by_its_dependencies_at_that_time(board: PegBoard) -> None:
     pin(board, START, at=1.5)
     assert chain(board.explain(START))[1:] == [("b:clap:stroke", 2.0), ("anticipators:partner:hit", 2.0)]
     predict(board, 2.4, at=1.6)
     start = board.explain(START)
     assert chain(start) == [("b:clap:start", 1.5), ("b:clap:stroke", 2.0)]
     assert (start.state, start.rule, start.sources[0].state) == ("pinned", "b:clap:stroke -0.5 s", "past")
-    assert start.sources[0].commit.time == 0.4, "the commit that set it then, not the last one"
+    assert stamp_of(start.sources[0]).time == 0.4, "the commit that set it then, not the last one"
     assert chain(board.explain(END)) == [("b:clap:end", 2.9), ("b:clap:stroke", 2.4), ("anticipators:partner:hit", 2.4)]
 
 
-def test_a_source_that_returned_to_its_time_has_the_commit_that_determined_the_point(board) -> None:
+def test_a_source_that_returned_to_its_time_has_the_commit_that_determined_the_point(board: PegBoard) -> None:
     pin(board, START, at=1.5)
     for time in (2.4, 2.0):
         predict(board, time, at=1.6)
-    assert board.explain(START).sources[0].commit.time == 0.4
+    assert stamp_of(board.explain(START).sources[0]).time == 0.4
 
 
-def test_a_fired_point_does_not_keep_its_former_dependencies_alive(board) -> None:
+def test_a_fired_point_does_not_keep_its_former_dependencies_alive(board: PegBoard) -> None:
     with board.graph.transaction("plan c"):
-        peg = OffsetPeg(board.graph, "c:x:start", OffsetPeg(board.graph, "b:clap:gone", board.get(STROKE), 0.0), 1.0)
+        peg = OffsetPeg(
+            board.graph, "c:x:start", OffsetPeg(board.graph, "b:clap:gone", peg_of(board, STROKE), 0.0), 1.0
+        )
         board.add(PegKey("alice", "c", "x", "start"), peg)
-        peg.pin(3.0)
-        board.get(STROKE).dependents.clear()
+        peg.pin(GlobalTime(3.0))
+        peg_of(board, STROKE).dependents.clear()
     assert peg.links[0].peg() is None
     gone = board.explain(PegKey("alice", "c", "x", "start")).sources[0]
     assert (gone.name, gone.time, gone.state) == ("b:clap:gone", 2.0, "past")
 
 
-def test_all_points_of_a_block_are_explained_also_when_it_has_ended(board) -> None:
+def test_all_points_of_a_block_are_explained_also_when_it_has_ended(board: PegBoard) -> None:
     predict(board, 3.0, at=1.0)
     with board.graph.transaction("end b"):
         board.pin_block(BLOCK)
@@ -146,46 +165,46 @@ def test_all_points_of_a_block_are_explained_also_when_it_has_ended(board) -> No
     assert board.explain_block(BLOCK) == {}
 
 
-def explain(board, peg):
+def explain(board: PegBoard, peg: TimePeg) -> Explanation:
     key = PegKey("alice", "c", "x", "start")
     board.add(key, peg)
     return board.explain(key)
 
 
-def sources(board, peg):
+def sources(board: PegBoard, peg: TimePeg) -> list[str]:
     return [source.name for source in explain(board, peg).sources]
 
 
-def test_only_the_dependency_that_determines_the_time_is_explained(board) -> None:
+def test_only_the_dependency_that_determines_the_time_is_explained(board: PegBoard) -> None:
     times = (("low", 1.0), ("high", 4.0), ("as high", 4.0))
-    low, high, as_high = (AnticipatorPeg(board.graph, name, time) for name, time in times)
-    assert sources(board, LatestPeg(board.graph, "latest", 0.0, (low, high, as_high))) == ["high"]
-    assert sources(board, LatestPeg(board.graph, "latest", 9.0, (low, high))) == []
+    low, high, as_high = (AnticipatorPeg(board.graph, name, GlobalTime(time)) for name, time in times)
+    assert sources(board, LatestPeg(board.graph, "latest", GlobalTime(0.0), (low, high, as_high))) == ["high"]
+    assert sources(board, LatestPeg(board.graph, "latest", GlobalTime(9.0), (low, high))) == []
     assert sources(board, AfterPeg(board.graph, "after", low, [(high, -1.0)])) == ["high"]
     assert sources(board, AfterPeg(board.graph, "after", high, [(low, -1.0)])) == ["high"]
     assert sources(board, BeforePeg(board.graph, "before", high, [(low, 1.0)])) == ["low"]
     assert sources(board, RatioPeg(board.graph, "ratio", low, high, 0.5)) == ["low", "high"]
 
 
-def test_only_the_unknown_dependencies_of_an_unknown_time_are_explained(board) -> None:
-    known, unknown = AnticipatorPeg(board.graph, "known", 1.0), AnticipatorPeg(board.graph, "unknown", None)
-    assert sources(board, LatestPeg(board.graph, "latest", 0.0, (known, unknown))) == ["unknown"]
+def test_only_the_unknown_dependencies_of_an_unknown_time_are_explained(board: PegBoard) -> None:
+    known, unknown = AnticipatorPeg(board.graph, "known", GlobalTime(1.0)), AnticipatorPeg(board.graph, "unknown", None)
+    assert sources(board, LatestPeg(board.graph, "latest", GlobalTime(0.0), (known, unknown))) == ["unknown"]
     assert sources(board, AfterPeg(board.graph, "after", known, [(unknown, 0.0)])) == ["unknown"]
 
 
-def test_a_peg_that_occurs_twice_is_explained_once(board) -> None:
-    peg = board.get(STROKE)
+def test_a_peg_that_occurs_twice_is_explained_once(board: PegBoard) -> None:
+    peg = peg_of(board, STROKE)
     for level in range(40):
         left, right = (OffsetPeg(board.graph, f"{side}{level}", peg, 0.0) for side in ("left", "right"))
         peg = RatioPeg(board.graph, f"middle{level}", left, right, 0.5)
-    right = explain(board, peg).sources[1]
-    assert right.sources[0].name == "middle38"
-    assert right.sources[0].sources == ()
-    assert right.sources[0].rule.endswith(" ...")
+    last = explain(board, peg).sources[1]
+    assert last.sources[0].name == "middle38"
+    assert last.sources[0].sources == ()
+    assert last.sources[0].rule.endswith(" ...")
 
 
-def test_a_long_chain_is_explained_to_a_limited_depth(board) -> None:
-    peg = board.get(STROKE)
+def test_a_long_chain_is_explained_to_a_limited_depth(board: PegBoard) -> None:
+    peg = peg_of(board, STROKE)
     for number in range(2000):
         peg = OffsetPeg(board.graph, f"p{number}", peg, 0.0)
     explanation = explain(board, peg)
@@ -193,6 +212,6 @@ def test_a_long_chain_is_explained_to_a_limited_depth(board) -> None:
     assert json.dumps(explanation.as_json())
 
 
-def test_the_name_of_an_unknown_point_is_reported(board) -> None:
+def test_the_name_of_an_unknown_point_is_reported(board: PegBoard) -> None:
     with pytest.raises(RealizerError, match=r"^there is no point b:clap:relax$"):
         board.explain(PegKey(*BLOCK, "clap", "relax"))

@@ -1,5 +1,6 @@
 """A point that happens again and again: its name means the next time, what hangs on it keeps the one it got."""
 
+from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.pegboard.anticipator import Anticipator
 from reactive_realizer.pegboard.peg_key import BlockKey, PegKey
 from reactive_realizer.pegboard.pegboard import PegBoard
@@ -14,7 +15,7 @@ def anticipator() -> tuple[PegBoard, Anticipator]:
 
 def predict(board: PegBoard, key: Anticipator, time: float | None, now: float = 0.0) -> None:
     with board.graph.transaction("test"):
-        key.predict("press", time, now)
+        key.predict("press", None if time is None else GlobalTime(time), GlobalTime(now))
 
 
 def test_dependents_of_a_renewed_point_keep_the_old_peg() -> None:
@@ -38,20 +39,24 @@ def test_a_renewed_point_keeps_its_owner() -> None:
 
 
 def test_points_that_passed_are_not_revised() -> None:
-    board, key = anticipator()
-    times = {"one": 1.0, "two": 2.0}
-    key.forecast = times.get
-    board.ask("key", times.get)
+    times = {"one": GlobalTime(1.0), "two": GlobalTime(2.0)}
+
+    class Listed(Anticipator):
+        def forecast(self, sync: str) -> GlobalTime | None:
+            return times.get(sync)
+
+    board = PegBoard(Graph())
+    key = Listed("key", board)
     assert [board.predicted("key", sync).value for sync in times] == [1.0, 2.0]
-    times |= {"one": 8.0, "two": 9.0}
+    times |= {"one": GlobalTime(8.0), "two": GlobalTime(9.0)}
     with board.graph.transaction("test"):
-        key.revise(1.5)
+        key.revise(GlobalTime(1.5))
     assert [board.predicted("key", sync).value for sync in times] == [1.0, 9.0]
 
 
 def test_an_anticipator_is_asked_for_a_renewed_point() -> None:
     board, key = anticipator()
-    times = iter([1.0, 2.0])
+    times = iter([GlobalTime(1.0), GlobalTime(2.0)])
     board.ask("key", lambda sync: next(times))
     assert board.predicted("key", "press").value == 1.0
     key.renew("press")
@@ -83,7 +88,7 @@ def test_the_predictions_of_all_points_are_withdrawn() -> None:
     predict(board, key, 2.0)
     other = Anticipator("other", board)
     with board.graph.transaction("test"):
-        other.predict("press", 2.0, 0.0)
-        key.withdraw(1.0)
+        other.predict("press", GlobalTime(2.0), GlobalTime(0.0))
+        key.withdraw(GlobalTime(1.0))
     assert board.predicted("key", "press").value is None
     assert board.predicted("other", "press").value == 2.0

@@ -1,9 +1,12 @@
 """A graph that notes what it computes and commits."""
 
+from collections.abc import Callable
+from typing import Any
+
 import pytest
 
 from reactive_realizer.reactive.cell import Derived, Source
-from reactive_realizer.reactive.graph import Graph
+from reactive_realizer.reactive.graph import Cell, Commit, Graph
 
 
 class Trace:
@@ -12,26 +15,28 @@ class Trace:
     def __init__(self) -> None:
         self.graph = Graph()
         self.computed: list[str] = []
-        self.commits: list = []
+        self.commits: list[Commit] = []
         self.graph.listen(self.commits.append)
 
-    def source(self, name, value=0):
+    def source(self, name: str, value: object = 0) -> Source[Any]:
         return Source(self.graph, name, value)
 
-    def derived(self, name, *cells, formula=lambda *values: sum(values)):
-        def noted(*values):
+    def derived(
+        self, name: str, *cells: Cell[Any], formula: Callable[..., object] = lambda *values: sum(values)
+    ) -> Derived[Any]:
+        def noted(*values: object) -> object:
             self.computed.append(name)
             return formula(*values)
 
         return Derived(self.graph, name, cells, noted)
 
-    def write(self, cell, *values):
+    def write(self, cell: Source[Any], *values: object) -> None:
         self.computed.clear()
         with self.graph.transaction("test"):
             for value in values:
                 cell.set(value)
 
-    def changed(self):
+    def changed(self) -> list[str]:
         return [change.cell.name for change in self.commits[-1].changes]
 
 

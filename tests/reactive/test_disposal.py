@@ -1,14 +1,17 @@
 """A cell that is disposed of keeps its value, and nothing holds it or is held by it."""
 
 import gc
+from functools import partial
 
 import pytest
 
 from reactive_realizer.reactive.cell import Derived
 from reactive_realizer.reactive.errors import DisposedCellError
 
+from .conftest import Trace
 
-def test_a_disposed_cell_keeps_its_value(trace) -> None:
+
+def test_a_disposed_cell_keeps_its_value(trace: Trace) -> None:
     top = trace.source("top", 1)
     cell = trace.derived("cell", top)
     cell.dispose()
@@ -18,7 +21,7 @@ def test_a_disposed_cell_keeps_its_value(trace) -> None:
     assert cell.disposed
 
 
-def test_dependents_of_a_disposed_cell_go_on_with_its_value(trace) -> None:
+def test_dependents_of_a_disposed_cell_go_on_with_its_value(trace: Trace) -> None:
     one, two = trace.source("one", 1), trace.source("two", 10)
     both = trace.derived("both", one, two)
     one.dispose()
@@ -26,10 +29,10 @@ def test_dependents_of_a_disposed_cell_go_on_with_its_value(trace) -> None:
     assert both.value == 21
 
 
-def test_observers_of_a_disposed_cell_are_notified_of_its_end_only(trace) -> None:
+def test_observers_of_a_disposed_cell_are_notified_of_its_end_only(trace: Trace) -> None:
     top = trace.source("top")
     cell = trace.derived("cell", top)
-    told = []
+    told: list[object] = []
     subscription = cell.observe(told.append, lambda: told.append("ended"))
     cell.dispose()
     trace.write(top, 1)
@@ -38,7 +41,7 @@ def test_observers_of_a_disposed_cell_are_notified_of_its_end_only(trace) -> Non
     assert told == ["ended"]
 
 
-def test_a_cell_disposed_of_in_a_transaction_keeps_what_was_written_before(trace) -> None:
+def test_a_cell_disposed_of_in_a_transaction_keeps_what_was_written_before(trace: Trace) -> None:
     top = trace.source("top", 1)
     cell = trace.derived("cell", top)
     below = trace.derived("below", cell)
@@ -50,13 +53,17 @@ def test_a_cell_disposed_of_in_a_transaction_keeps_what_was_written_before(trace
     assert trace.changed() == ["top", "cell", "below"]
 
 
-def test_an_observer_may_dispose_of_cells_whose_observers_come_later(trace) -> None:
+def test_an_observer_may_dispose_of_cells_whose_observers_come_later(trace: Trace) -> None:
     top = trace.source("top")
     cells = [trace.derived(f"c{i}", top) for i in range(3)]
-    told = []
+    told: list[object] = []
+
+    def note(name: str, value: object) -> None:
+        told.append(name)
+
     cells[0].observe(lambda value: cells[1].dispose())
     for cell in cells:
-        cell.observe(lambda value, name=cell.name: told.append(name))
+        cell.observe(partial(note, cell.name))
     trace.write(top, 1)
     assert told == ["c0", "c2"]
     trace.write(top, 2)
@@ -64,7 +71,7 @@ def test_an_observer_may_dispose_of_cells_whose_observers_come_later(trace) -> N
 
 
 @pytest.mark.parametrize("write", ["set", "pin", "rebind"])
-def test_a_disposed_cell_cannot_be_written(trace, write) -> None:
+def test_a_disposed_cell_cannot_be_written(trace: Trace, write: str) -> None:
     top = trace.source("top", 1)
     cell = trace.derived("cell", top)
     top.dispose()
@@ -75,16 +82,19 @@ def test_a_disposed_cell_cannot_be_written(trace, write) -> None:
     assert (top.value, cell.value, top.dependents) == (1, 1, {})
 
 
-def test_a_disposed_cell_is_freed(trace) -> None:
+def test_a_disposed_cell_is_freed(trace: Trace) -> None:
     top = trace.source("top")
-    for _ in range(1000):
+
+    def make_and_dispose() -> None:
         trace.write(top, top.value + 1)
         with trace.graph.transaction("made"):
             cell = Derived(trace.graph, "cell", (top,), lambda value: value)
         cell.observe(lambda value: None)
         trace.write(top, top.value + 1)
         cell.dispose()
+
+    for _ in range(1000):
+        make_and_dispose()
     trace.commits.clear()
-    del cell
     gc.collect()
     assert not [thing for thing in gc.get_objects() if isinstance(thing, Derived) and thing.graph is trace.graph]

@@ -1,15 +1,20 @@
 """Whatever the graph and whatever is done to it, it is as if everything were computed anew."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from reactive_realizer.reactive.cell import Derived, Source, replace_cell
 from reactive_realizer.reactive.errors import DisposedCellError, Failure, PropagationCycleError
-from reactive_realizer.reactive.graph import Cell, Graph
+from reactive_realizer.reactive.graph import Cell, Commit, Graph
 
-FORMULAS = {
+Value = int | str
+Action = tuple[str, int, str, int, list[int]]
+
+FORMULAS: dict[str, Callable[..., int]] = {
     "half": lambda *values: sum(values) // 2,  # loses information, so that the cut-off is met
     "most": lambda *values: max(values, default=0),
     "quotient": lambda *values: 6 // sum(values),  # raises at times
@@ -20,7 +25,7 @@ FORMULAS = {
 class Node:
     """A cell of the oracle: a constant, or a formula over others."""
 
-    constant: int | str | None
+    constant: Value | None
     formula: str | None = None
     dependencies: tuple[int, ...] = ()
     disposed: bool = False
@@ -32,19 +37,19 @@ class Oracle:
     def __init__(self) -> None:
         self.nodes: list[Node] = []
 
-    def value(self, index):
+    def value(self, index: int) -> Value:
         return self.values()[index]
 
-    def values(self):
-        known = {}
+    def values(self) -> list[Value]:
+        known: dict[int, Value] = {}
         for index in range(len(self.nodes)):
             self._compute(index, known)
         return [known[index] for index in range(len(self.nodes))]
 
-    def depends(self, index, on):
+    def depends(self, index: int, on: int) -> bool:
         return index == on or any(self.depends(each, on) for each in self.nodes[index].dependencies)
 
-    def _compute(self, index, known):
+    def _compute(self, index: int, known: dict[int, Value]) -> Value:
         if index not in known:
             node = self.nodes[index]
             values = [self._compute(each, known) for each in node.dependencies]
@@ -53,8 +58,9 @@ class Oracle:
         return known[index]
 
     @staticmethod
-    def _apply(index, node, values):
+    def _apply(index: int, node: Node, values: list[Value]) -> Value:
         if node.formula is None:
+            assert node.constant is not None
             return node.constant
         try:
             return FORMULAS[node.formula](*values)
@@ -68,10 +74,10 @@ class Subject:
     def __init__(self, oracle: Oracle) -> None:
         self.oracle = oracle
         self.graph = Graph()
-        self.cells: list[Cell] = []
+        self.cells: list[Cell[Any]] = []
         self.computed: list[int] = []
         self.told: list[tuple[int, object]] = []
-        self.commits: list = []
+        self.commits: list[Commit] = []
         self.graph.listen(self.commits.append)
 
     def make(self, node: Node) -> None:
@@ -84,14 +90,14 @@ class Subject:
             self.cells.append(Derived(self.graph, f"c{index}", dependencies, self.formula(index, node.formula)))
         self.cells[index].observe(lambda value: self.told.append((index, plain(value))))
 
-    def formula(self, index, name):
-        def noted(*values):
+    def formula(self, index: int, name: str) -> Callable[..., int]:
+        def noted(*values: int) -> int:
             self.computed.append(index)
             return FORMULAS[name](*values)
 
         return noted
 
-    def do(self, action, index, name, value, others):
+    def do(self, action: str, index: int, name: str, value: int, others: list[int]) -> None:
         """One action on both sides; what is refused changes nothing."""
         cell, node = self.cells[index], self.oracle.nodes[index]
         try:
@@ -99,17 +105,17 @@ class Subject:
         except DisposedCellError:
             assert node.disposed
 
-    def write(self, cell, node, index, name, value, others):
+    def write(self, cell: Cell[Any], node: Node, index: int, name: str, value: int, others: list[int]) -> None:
         if isinstance(cell, Source):
             cell.set(value)
             node.constant = value
 
-    def pin(self, cell, node, index, name, value, others):
+    def pin(self, cell: Cell[Any], node: Node, index: int, name: str, value: int, others: list[int]) -> None:
         if isinstance(cell, Derived):
             cell.pin(value)
             self.oracle.nodes[index] = Node(value)
 
-    def rebind(self, cell, node, index, name, value, others):
+    def rebind(self, cell: Cell[Any], node: Node, index: int, name: str, value: int, others: list[int]) -> None:
         if not isinstance(cell, Derived):
             return
         cycle = any(self.oracle.depends(other, index) for other in others)
@@ -121,7 +127,7 @@ class Subject:
             assert not cycle
             self.oracle.nodes[index] = Node(None, name, tuple(others))
 
-    def replace(self, cell, node, index, name, value, others):
+    def replace(self, cell: Cell[Any], node: Node, index: int, name: str, value: int, others: list[int]) -> None:
         new = others[0]
         hanging = [i for i, each in enumerate(self.oracle.nodes) if index in each.dependencies]
         cycle = any(self.oracle.depends(new, each) for each in hanging)
@@ -134,21 +140,21 @@ class Subject:
             for each in (self.oracle.nodes[i] for i in hanging):
                 each.dependencies = tuple(new if i == index else i for i in each.dependencies)
 
-    def dispose(self, cell, node, index, name, value, others):
+    def dispose(self, cell: Cell[Any], node: Node, index: int, name: str, value: int, others: list[int]) -> None:
         kept = self.oracle.value(index)
         cell.dispose()
         self.oracle.nodes[index] = Node(kept, disposed=True)
 
-    def read(self, cell, node, index, name, value, others):
+    def read(self, cell: Cell[Any], node: Node, index: int, name: str, value: int, others: list[int]) -> None:
         assert plain(cell.result) == self.oracle.value(index)
 
 
-def plain(value):
+def plain(value: Failure | Value) -> Value:
     return value.cell if isinstance(value, Failure) else value
 
 
 @st.composite
-def sessions(draw):
+def sessions(draw: st.DrawFn) -> tuple[list[Node], list[list[Action]]]:
     """Sources; cells that each depend on some before them; transactions of things done to any of them."""
     sources = draw(st.integers(1, 4))
     names = st.sampled_from(sorted(FORMULAS))
@@ -164,7 +170,9 @@ def sessions(draw):
 
 @settings(max_examples=300)
 @given(sessions())
-def test_propagation_gives_the_same_as_computing_everything_again(session) -> None:
+def test_propagation_gives_the_same_as_computing_everything_again(
+    session: tuple[list[Node], list[list[Action]]],
+) -> None:
     nodes, transactions = session
     oracle = Oracle()
     subject = Subject(oracle)
