@@ -118,20 +118,22 @@ async def late(pilot: RealizerPilot, kind: str, stance: str, begun: float = 1.0)
 
 @pytest.mark.parametrize("begun", [0.3, 1.5])
 @pytest.mark.parametrize("legs", [OPEN, CROSSED_LEGS])
-async def test_the_feet_step_into_a_posture_that_joins_late(either: RealizerPilot, legs: str, begun: float) -> None:
-    await late(either, "posture", legs, begun)
-    assert slides(either.bodies()).max() < 0.1
-    assert heights(either.bodies()).min() > -0.001
+async def test_the_feet_step_into_a_posture_that_joins_late(
+    alternating: RealizerPilot, legs: str, begun: float
+) -> None:
+    await late(alternating, "posture", legs, begun)
+    assert slides(alternating.bodies()).max() < 0.1
+    assert heights(alternating.bodies()).min() > -0.001
 
 
 @pytest.mark.parametrize("begun", [0.5, 1.0, 1.5])
 @pytest.mark.parametrize("kind", ["posture", "postureShift"])
-async def test_a_late_figure_does_not_fall_onto_the_seat(either: RealizerPilot, kind: str, begun: float) -> None:
-    await late(either, kind, SIT, begun)
-    assert root_speeds(either).max() < UNHURRIED
-    assert jolts(either).max() < 0.15
-    lowest = min(b.root[1] for b in either.bodies())
-    assert lowest == pytest.approx(body(either, 4.5).root[1], abs=0.01)
+async def test_a_late_figure_does_not_fall_onto_the_seat(alternating: RealizerPilot, kind: str, begun: float) -> None:
+    await late(alternating, kind, SIT, begun)
+    assert root_speeds(alternating).max() < UNHURRIED
+    assert jolts(alternating).max() < 0.15
+    lowest = min(b.root[1] for b in alternating.bodies())
+    assert lowest == pytest.approx(body(alternating, 4.5).root[1], abs=0.01)
 
 
 async def test_a_posture_that_started_in_time_is_complete_in_a_later_first_frame() -> None:

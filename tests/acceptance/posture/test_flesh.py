@@ -23,31 +23,31 @@ POSES = ["", LEANING.format("LEANING_FORWARD"), LEANING.format("LEANING_BACKWARD
 
 @pytest.mark.parametrize("stance", ["SITTING", "CROUCHING"])
 @pytest.mark.parametrize("poses", POSES)
-async def test_no_hand_passes_through_a_thigh(either: RealizerPilot, stance: str, poses: Any) -> None:
-    either.block("b", f'<posture id="p" start="0"><stance type="{stance}"/>{poses}</posture>')
-    await either.advance(9)
-    assert either.feedback.reached("b:p:end")
-    assert deepest_in_legs(either.bodies()[::2]) < SOFT
+async def test_no_hand_passes_through_a_thigh(alternating: RealizerPilot, stance: str, poses: Any) -> None:
+    alternating.block("b", f'<posture id="p" start="0"><stance type="{stance}"/>{poses}</posture>')
+    await alternating.advance(9)
+    assert alternating.feedback.reached("b:p:end")
+    assert deepest_in_legs(alternating.bodies()[::2]) < SOFT
 
 
 @pytest.mark.parametrize("stance", ["STANDING", "SITTING", "CROUCHING", "LYING"])
-async def test_hands_at_the_hips_touch_them(either: RealizerPilot, stance: str) -> None:
+async def test_hands_at_the_hips_touch_them(alternating: RealizerPilot, stance: str) -> None:
     """Touching the hip is to be within a few centimeters of the thigh below it, and hardly in it."""
-    either.block("b", f'<postureShift id="s" start="0"><stance type="{stance}"/>{AKIMBO}</postureShift>')
-    await either.advance(5)
-    shown = either.bodies()[-1:]
+    alternating.block("b", f'<postureShift id="s" start="0"><stance type="{stance}"/>{AKIMBO}</postureShift>')
+    await alternating.advance(5)
+    shown = alternating.bodies()[-1:]
     assert -0.07 < deepest_in_legs(shown) < 0.02
     assert deepest_in_trunk(shown) < SOFT
 
 
 @pytest.mark.parametrize("lexeme", BEFORE_THE_BELLY)
-async def test_a_crouching_figure_has_room_for_gestures(either: RealizerPilot, lexeme: str) -> None:
-    either.block("a", '<postureShift id="s"><stance type="CROUCHING"/></postureShift>')
-    await either.advance(3)
-    either.block("b", f'<gesture id="g" lexeme="{lexeme}" mode="BOTH_HANDS"/>')
-    await either.advance(4)
-    assert either.feedback.reached("b:g:stroke")
-    assert deepest_in_legs(either.bodies()[150::2]) < SOFT
+async def test_a_crouching_figure_has_room_for_gestures(alternating: RealizerPilot, lexeme: str) -> None:
+    alternating.block("a", '<postureShift id="s"><stance type="CROUCHING"/></postureShift>')
+    await alternating.advance(3)
+    alternating.block("b", f'<gesture id="g" lexeme="{lexeme}" mode="BOTH_HANDS"/>')
+    await alternating.advance(4)
+    assert alternating.feedback.reached("b:g:stroke")
+    assert deepest_in_legs(alternating.bodies()[150::2]) < SOFT
 
 
 async def test_crossed_arms_lie_before_the_trunk(either: RealizerPilot) -> None:

@@ -38,12 +38,12 @@ async def test_nothing_jumps_on_the_way_between_stances(either: RealizerPilot) -
 @pytest.mark.parametrize("lasts", [0.3, 0.5, 0.8])
 @pytest.mark.parametrize("stance", ["SITTING", "CROUCHING", "LYING"])
 async def test_a_hurried_posture_keeps_the_limit_of_the_root_and_the_feet_above_the_ground(
-    either: RealizerPilot, stance: str, lasts: float
+    alternating: RealizerPilot, stance: str, lasts: float
 ) -> None:
-    either.block("b", f'<posture id="p" start="0" end="{lasts}"><stance type="{stance}"/></posture>')
-    await either.advance(2)
-    assert fastest(either) < 1.001 * ROOT_SPEED
-    assert heights(either.bodies()).min() > -0.001
+    alternating.block("b", f'<posture id="p" start="0" end="{lasts}"><stance type="{stance}"/></posture>')
+    await alternating.advance(2)
+    assert fastest(alternating) < 1.001 * ROOT_SPEED
+    assert heights(alternating.bodies()).min() > -0.001
 
 
 async def test_postures_in_quick_succession_keep_the_feet_above_the_ground(either: RealizerPilot) -> None:
@@ -57,11 +57,11 @@ async def test_postures_in_quick_succession_keep_the_feet_above_the_ground(eithe
 
 
 @pytest.mark.parametrize("lasts", [0.3, 0.5, 0.8])
-async def test_the_knees_bend_for_a_root_that_lags_behind(either: RealizerPilot, lasts: float) -> None:
-    either.block("b", f'<posture id="p" start="0" end="{lasts}">{SIT}</posture>')
-    await either.advance(2)
-    assert planted(either.bodies()) < 0.01
-    assert heights(either.bodies()).max() < 0.005
+async def test_the_knees_bend_for_a_root_that_lags_behind(alternating: RealizerPilot, lasts: float) -> None:
+    alternating.block("b", f'<posture id="p" start="0" end="{lasts}">{SIT}</posture>')
+    await alternating.advance(2)
+    assert planted(alternating.bodies()) < 0.01
+    assert heights(alternating.bodies()).max() < 0.005
 
 
 async def test_a_figure_that_cannot_follow_keeps_its_feet_below_the_pelvis(either: RealizerPilot) -> None:
