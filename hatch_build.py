@@ -1,4 +1,4 @@
-"""Build hook: the page lies in every wheel and source distribution, so that who installs one needs no Node."""
+"""Build hook: includes the built viewer in every wheel and source distribution, so that installing needs no Node."""
 
 import os
 import shutil
@@ -10,16 +10,16 @@ from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
 
 class PageBuildHook(BuildHookInterface):
-    """Builds the viewer with npm where that is at hand, and else insists that it is built already.
+    """Builds the viewer with npm if npm is available; otherwise, the viewer must have been built.
 
-    ``SKIP_WEB_BUILD`` keeps the page as it is. An editable install needs none: the server says so when asked for it.
+    ``SKIP_WEB_BUILD`` keeps an existing build. An editable install needs none: the server reports that it is missing.
     """
 
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
-        """Put the page in its place before the files are collected.
+        """Put the viewer in its place before the files are collected.
 
         Raises:
-            RuntimeError: there is no page and nothing to build it with.
+            RuntimeError: the viewer is not built, and npm is not available.
         """
         if version == "editable":
             return

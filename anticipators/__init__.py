@@ -1,4 +1,4 @@
 """Anticipators: each module has a model that predicts the times of events.
 
-This package knows the peg board, cells and the clock's units; the realizer finds it by its entry points.
+This package depends only on the peg board, cells and the units of the clock. The realizer finds it by entry points.
 """

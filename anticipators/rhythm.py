@@ -76,7 +76,7 @@ class Rhythm:
         return self.passed > before
 
     def hear(self, onset: GlobalTime, now: GlobalTime) -> bool:
-        """Hear an onset, not after ``now``; whether that changes the prediction."""
+        """Process an onset, not after ``now``; whether this changes the prediction."""
         self.advance(now)
         if self._onset is not None and onset - self._onset < self._shortest:
             return False

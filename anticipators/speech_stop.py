@@ -21,8 +21,7 @@ class SpeechStop(Anticipator):
     second after it has passed, the prediction is withdrawn: behaviors that depend on it and have not begun wait for the
     end of the turn. After that second, the turn is over. It assumes one user, and voice activity without noise.
 
-    If voice activity was never reported, words begin a turn, and further words resume it. Otherwise, words alone do
-    neither.
+    If voice activity was never reported, words begin a turn, and further words resume it. Otherwise, words do neither.
 
     Args:
         certainty: probability from which the turn counts as ended, 0.5 to 0.999; a low one is quick, but interrupts.
@@ -88,7 +87,7 @@ class SpeechStop(Anticipator):
     def hear(self, name: str, text: str, now: GlobalTime) -> None:
         """Handle ``words``: all words of the turn recognized so far; the same words again have no effect.
 
-        An empty text withdraws earlier words or, if the turn has ended, makes way for the next turn.
+        An empty text withdraws earlier words or, if the turn has ended, prepares for the next turn.
         """
         words = text.strip()
         if name != "words" or words == self._turn.words:

@@ -1,4 +1,4 @@
-"""What the gallery shows: each word that plays, and each unit."""
+"""The entries of the gallery: every lexeme that can be played, and every motion unit."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
@@ -13,8 +13,8 @@ class Entry:
     Attributes:
         name: of its file and of its block.
         behaviors: as BML.
-        whole_body: whether feet are to be seen.
-        seconds: at least shown, for what is not over when its block is.
+        whole_body: whether the picture includes the feet.
+        seconds: minimum duration, s, for motion that continues after the end of the block.
     """
 
     name: str
@@ -29,28 +29,30 @@ class Entry:
         return f'<bml {namespaces} id="{self.name}">{self.behaviors}</bml>'
 
 
-def entries(words: Iterable[LexiconEntry]) -> list[Entry]:
+def entries(lexicon: Iterable[LexiconEntry]) -> list[Entry]:
     """All strips, in order."""
-    playing = [word for word in words if word.problem is None]
-    own_modes = {word.lexeme for word in playing if word.element == "gesture" and word.constraints}
-    found = [entry for word in playing for entry in _of_word(word) if word.constraints or word.lexeme not in own_modes]
+    playing = [entry for entry in lexicon if entry.problem is None]
+    own_modes = {entry.lexeme for entry in playing if entry.element == "gesture" and entry.constraints}
+    found = [
+        strip for entry in playing for strip in _strips(entry) if entry.constraints or entry.lexeme not in own_modes
+    ]
     return [*found, *_UNITS]
 
 
-def _of_word(word: LexiconEntry) -> Iterator[Entry]:
-    said = "".join(f' {name}="{value}"' for name, value in word.constraints.items())
-    name = "-".join([word.element, word.lexeme, *word.constraints.values()]).lower().replace("_", "-")
-    match word.element:
+def _strips(entry: LexiconEntry) -> Iterator[Entry]:
+    constraints = "".join(f' {name}="{value}"' for name, value in entry.constraints.items())
+    name = "-".join([entry.element, entry.lexeme, *entry.constraints.values()]).lower().replace("_", "-")
+    match entry.element:
         case "faceLexeme":
-            yield Entry(name, f'<faceLexeme id="f" lexeme="{word.lexeme}" amount="1"/>')
+            yield Entry(name, f'<faceLexeme id="f" lexeme="{entry.lexeme}" amount="1"/>')
         case "head":
-            yield Entry(name, f'<head id="h" lexeme="{word.lexeme}" amount="1"/>')
+            yield Entry(name, f'<head id="h" lexeme="{entry.lexeme}" amount="1"/>')
         case "gesture":
-            yield Entry(name, f'<gesture id="g" lexeme="{word.lexeme}"{said}/>')
+            yield Entry(name, f'<gesture id="g" lexeme="{entry.lexeme}"{constraints}/>')
         case "pose":
-            yield Entry(name, f'<posture id="p">{_pose(word.lexeme)}</posture>', whole_body=True)
+            yield Entry(name, f'<posture id="p">{_pose(entry.lexeme)}</posture>', whole_body=True)
         case "procanimation":
-            yield Entry(name, f'<bmlt:procanimation id="a" name="{word.lexeme}"{said}/>')
+            yield Entry(name, f'<bmlt:procanimation id="a" name="{entry.lexeme}"{constraints}/>')
         case _:
             pass  # elements without lexemes
 

@@ -1,4 +1,4 @@
-"""Draws the pictures of docs/time.md from boards and plans: what is drawn is what the realizer says."""
+"""Draws the pictures of docs/time.md from the pegs of a running realizer."""
 
 import asyncio
 import itertools
@@ -15,7 +15,7 @@ PICTURES = Path(__file__).with_name("pictures")
 STRATEGIES = ("smartbody", "embr", "convex")
 
 WIDTH, LEFT, RIGHT, ROW, BAR = 760, 80, 110, 48, 12
-"""Of a picture, the room beside its times, and the height of a row and of the bar in it; pixels."""
+"""Width of a picture, its left and right margins, and the heights of a row and of a bar, pixels."""
 
 INK, GRID, LINK, SHADES = "#222", "#ddd", "#b3541e", ("#e1e9f4", "#bccfe6")
 
@@ -40,7 +40,7 @@ PLANNED = """
 
 @dataclass(frozen=True, slots=True)
 class Panel:
-    """The pegs of a board at one moment, under a title; with lines or without."""
+    """The pegs of a board at one moment, with a title; `linked` draws lines between tied points."""
 
     title: str
     pegs: Sequence[PegView]
@@ -48,7 +48,7 @@ class Panel:
 
     @property
     def rows(self) -> Mapping[str, list[PegView]]:
-        """The known pegs in order of time, by what they belong to, predicted ones first; without those of the block."""
+        """The pegs with a time by behavior, in order of time, predicted points first; without those of the block."""
         rows: dict[str, list[PegView]] = {}
         for peg in sorted(self.pegs, key=_time_of):
             if peg.time is not None and peg.key.behavior:
@@ -70,7 +70,7 @@ async def _drawings() -> dict[str, str]:
 
 
 async def _board(title: str, behaviors: str, *hits: float) -> Panel:
-    """What stands on the board when a hit has been predicted, once or more often."""
+    """The board after one or more predictions of a hit."""
     async with open_pilot() as pilot:
         pilot.predict("partner", "hit", hits[0])
         pilot.block("b", behaviors)
@@ -89,7 +89,7 @@ async def _plan(strategy: str) -> Panel:
 
 
 class _Picture:
-    """Panels under each other, on one axis of time."""
+    """Panels below each other, with a common time axis."""
 
     def __init__(self, panels: Sequence[Panel]) -> None:
         last = max(_time_of(peg) for panel in panels for pegs in panel.rows.values() for peg in pegs)

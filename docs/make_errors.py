@@ -1,4 +1,4 @@
-"""Writes docs/errors.md from the faults that the rooms define."""
+"""Writes docs/errors.md from the faults that the packages define."""
 
 from collections.abc import Iterable
 from importlib import import_module
@@ -49,7 +49,7 @@ _TITLES = {
     "cli": "The command line",
     "anticipators": "Anticipators",
 }
-"""Titles of the sections by the room that defines the faults, in the order of the page."""
+"""Titles of the sections by the package that defines the faults, in the order of the page."""
 
 _STATUS_OF = {kind.code: status.value for status, kinds in STATUSES.items() for kind in kinds}
 _CLOSE_CODE_OF = {kind.code: code.value for kind, code in CLOSE_CODES.items()}
@@ -63,21 +63,21 @@ def page() -> str:
                 import_module(module.name)
     order = list(_TITLES)
     own = (kind for kind in FAULTS.values() if _is_own(kind))
-    faults = sorted(own, key=lambda kind: (order.index(_room(kind)), kind.__module__))
-    return _HEAD + "".join(_section(room, kinds) for room, kinds in groupby(faults, _room))
+    faults = sorted(own, key=lambda kind: (order.index(_package(kind)), kind.__module__))
+    return _HEAD + "".join(_section(package, kinds) for package, kinds in groupby(faults, _package))
 
 
-def _section(room: str, kinds: Iterable[type[Fault]]) -> str:
-    return _TABLE.format(title=_TITLES[room]) + "".join(map(_row, kinds))
+def _section(package: str, kinds: Iterable[type[Fault]]) -> str:
+    return _TABLE.format(title=_TITLES[package]) + "".join(map(_row, kinds))
 
 
 def _is_own(kind: type[Fault]) -> bool:
     return kind.__module__.startswith(("reactive_realizer.", "anticipators."))
 
 
-def _room(kind: type[Fault]) -> str:
-    package, room, *_ = kind.__module__.split(".")
-    return package if package == "anticipators" else room
+def _package(kind: type[Fault]) -> str:
+    top, package, *_ = kind.__module__.split(".")
+    return top if top == "anticipators" else package
 
 
 def _row(kind: type[Fault]) -> str:
@@ -87,7 +87,7 @@ def _row(kind: type[Fault]) -> str:
 
 
 def _escaped(sentence: str) -> str:
-    """Markdown takes angle brackets for HTML."""
+    """Escapes angle brackets, which Markdown reads as HTML, and bars, which separate cells."""
     return sentence.replace("<", "&lt;").replace(">", "&gt;").replace("|", "\\|")
 
 

@@ -1,9 +1,9 @@
-"""Pictures of every lexeme and unit, by the real page: a strip of moments for each, in docs/gallery.
+"""Takes pictures of every lexeme and motion unit in the viewer: a strip of moments for each, in docs/gallery.
 
     python docs/make_gallery.py [--compare] [--assets DIR] [--into FOLDER] [--browser FILE] [NAME...]
 
-With --compare nothing is written: strips that differ from the last ones are named, with how much of the picture does.
-With --assets, words of somebody else's binding can be shown too.
+With --compare, nothing is written; the strips that differ from the existing ones are listed, with the share of pixels.
+With --assets, lexemes of another binding are shown too.
 """
 
 import argparse
@@ -24,7 +24,7 @@ from reactive_realizer.assembly.scene import SceneOptions, open_scene
 from reactive_realizer.clock.clock import ManualClock
 from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.clock.units import GlobalTime
-from reactive_realizer.engine.lexicon import words_of
+from reactive_realizer.engine.lexicon import lexicon_of
 from reactive_realizer.realizer.inputs import BmlText
 from reactive_realizer.server.app import create_app
 from reactive_realizer.server.live_scene import LiveScene
@@ -33,22 +33,22 @@ from reactive_realizer.server.security import Security
 GALLERY = Path(__file__).parent / "gallery"
 FLAGS = ["--no-sandbox", "--use-gl=angle", "--use-angle=gl-egl", "--ignore-gpu-blocklist"]
 WITH_SOUND = "--autoplay-policy=no-user-gesture-required"
-"""Else a button that enables it would be in the picture."""
+"""Without this flag, a button that enables sound would be in the picture."""
 WIDE: ViewportSize = {"width": 1000, "height": 560}
 HIGH: ViewportSize = {"width": 1000, "height": 1200}
-"""In a high window the page shows legs and feet."""
+"""A high window shows legs and feet."""
 PICTURE = (180, 240)
 WHOLE_BODY = (150, 300)
 MOMENTS = 7
 LONGEST = 20.0
-"""s; of what goes on for ever the first seconds are shown."""
+"""Maximum duration of a strip, s, for behaviors without an end."""
 
 _NOTICEABLE = 24
-"""Of 255: software renderers differ by less."""
+"""Smallest difference of a pixel that counts, of 255: software renderers differ by less."""
 
 
 class Studio(LiveScene):
-    """A scene whose page is told that it is late, so that it shows each frame at once.
+    """A scene that reports a later time than that of its frames, so that the page shows each frame at once.
 
     Attributes:
         newest: time of the last frame.
@@ -58,11 +58,11 @@ class Studio(LiveScene):
 
     @property
     def now(self) -> GlobalTime:
-        """Long after whatever was sent."""
+        """A time after that of all frames."""
         return GlobalTime(super().now + 3600.0)
 
     async def step(self, tick: Tick) -> None:
-        """As every scene."""
+        """Plays a tick, and records the time of its frame."""
         await super().step(tick)
         if tick.frame:
             self.newest = tick.time
@@ -70,11 +70,11 @@ class Studio(LiveScene):
 
 @dataclass(frozen=True, slots=True)
 class Camera:
-    """The page, for pictures of one character.
+    """Takes pictures of one character in the viewer.
 
     Attributes:
-        live: what it shows.
-        page: in a browser.
+        live: the scene.
+        page: of the viewer, in a browser.
         size: of a picture, pixels.
     """
 
@@ -83,7 +83,7 @@ class Camera:
     size: tuple[int, int]
 
     async def picture(self) -> Image.Image:
-        """What the page shows of the newest frame."""
+        """A screenshot of the newest frame."""
         newest = self.live.newest - 1e-6
         await self.page.wait_for_function("time => viewer.lastFrameTime >= time", arg=newest)
         await self.page.wait_for_timeout(120)  # low quality draws 12 times a second
@@ -114,7 +114,7 @@ async def strip(camera: Camera, entry: Entry) -> Image.Image:
 
 
 def _end(live: LiveScene, entry: Entry) -> float:
-    """When the last picture of an entry is due: with the end of its block, if not later."""
+    """The time of the last picture of an entry: the end of its block or later."""
     block = live.realizer.scheduler.blocks.find(next(iter(live.realizer.characters)), entry.name)
     now = live.realizer.time
     end = now if block is None or block.end.value is None else block.end.value
@@ -123,7 +123,7 @@ def _end(live: LiveScene, entry: Entry) -> float:
 
 @asynccontextmanager
 async def studio(options: SceneOptions, page: Page, size: tuple[int, int]) -> AsyncIterator[Camera]:
-    """A new scene in front of the page."""
+    """Opens a new scene in the viewer."""
     async with open_scene(options) as scene:
         live = Studio(scene, ManualClock())
         runner = web.AppRunner(create_app(live, Security()), shutdown_timeout=1)
@@ -140,7 +140,7 @@ async def studio(options: SceneOptions, page: Page, size: tuple[int, int]) -> As
 
 
 async def make(wanted: Sequence[Entry], options: SceneOptions, folder: Path, browser_file: str, compare: bool) -> int:
-    """Make or compare strips in a folder by a Chromium; how many differ from the last ones."""
+    """Make strips in a folder, or compare with the existing ones; the number of those that differ."""
     differing = 0
     async with async_playwright() as playwright:
         browser = await playwright.chromium.launch(executable_path=browser_file, args=[*FLAGS, WITH_SOUND])
@@ -153,7 +153,7 @@ async def make(wanted: Sequence[Entry], options: SceneOptions, folder: Path, bro
             if compare:
                 share = _difference(file, picture)
                 differing += share != 0.0
-                print(f"{entry.name}: {_told(share)}")
+                print(f"{entry.name}: {_described(share)}")
             else:
                 picture.save(file, quality=80, method=6)
                 print(file.name)
@@ -162,20 +162,20 @@ async def make(wanted: Sequence[Entry], options: SceneOptions, folder: Path, bro
 
 
 def _difference(file: Path, picture: Image.Image) -> float | None:
-    """The share of pixels that are noticeably not what they were, 0 to 1; None where there was no picture."""
+    """The share of pixels that differ noticeably, 0 to 1; None if there is no existing picture."""
     if not file.is_file():
         return None
     before = Image.open(file).convert("RGB")
     if before.size != picture.size:
         return 1.0
     kept = io.BytesIO()
-    picture.save(kept, format="webp", quality=80, method=6)  # what a file keeps of it, so that like meets like
+    picture.save(kept, format="webp", quality=80, method=6)  # compressed like the existing file, for a fair comparison
     differences = ImageChops.difference(before, Image.open(kept).convert("RGB")).convert("L")
     noticed = sum(differences.histogram()[_NOTICEABLE:])
     return noticed / (picture.width * picture.height)
 
 
-def _told(share: float | None) -> str:
+def _described(share: float | None) -> str:
     if share is None:
         return "no picture yet"
     return f"{share:.1%} differs" if share else "same"
@@ -183,7 +183,12 @@ def _told(share: float | None) -> str:
 
 def index(all_entries: Iterable[Entry]) -> str:
     """The page that shows all strips."""
-    lines = ["# Gallery", "", "Every lexeme and unit at seven moments from start to end; made by `make gallery`.", ""]
+    lines = [
+        "# Gallery",
+        "",
+        "Every lexeme and motion unit at seven moments from start to end. `make gallery` generates this page.",
+        "",
+    ]
     for entry in all_entries:
         picture = f"![{entry.name}]({entry.name}.webp)"
         lines += [f"### {entry.name}", "", picture, "", "```xml", entry.behaviors, "```", ""]
@@ -191,29 +196,31 @@ def index(all_entries: Iterable[Entry]) -> str:
 
 
 async def known(options: SceneOptions) -> list[Entry]:
-    """An entry for each word and unit of a scene."""
+    """The entries of a scene."""
     async with open_scene(options) as scene:
         engines = next(iter(scene.realizer.characters.values())).engines
-        return entries(words_of(engines))
+        return entries(lexicon_of(engines))
 
 
 def main() -> None:
-    """As the command line says."""
+    """Run the command line."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("names", nargs="*", help="only these, by the names of their files")
-    parser.add_argument("--compare", action="store_true", help="name what differs from the last pictures")
-    parser.add_argument("--assets", type=Path, action="append", default=[], metavar="DIR", help="folder of assets")
-    parser.add_argument("--into", type=Path, default=GALLERY, metavar="FOLDER", help="where pictures go")
-    parser.add_argument("--browser", default="chromium", metavar="FILE", help="a Chromium, by path or on the PATH")
+    parser.add_argument("names", nargs="*", help="make only these, by the names of their files")
+    parser.add_argument("--compare", action="store_true", help="list the differences from the existing pictures")
+    parser.add_argument("--assets", type=Path, action="append", default=[], metavar="DIR", help="a folder of assets")
+    parser.add_argument("--into", type=Path, default=GALLERY, metavar="FOLDER", help="the folder for the pictures")
+    parser.add_argument(
+        "--browser", default="chromium", metavar="FILE", help="Chromium, as a path or a name on the PATH"
+    )
     options = parser.parse_args()
     browser = shutil.which(options.browser)
     if browser is None:
-        parser.error(f"no program {options.browser}: --browser names a Chromium")
+        parser.error(f"there is no program {options.browser}; name a Chromium with --browser")
     scene = SceneOptions(voice="text", assets=tuple(options.assets))
     all_entries = asyncio.run(known(scene))
     wanted = [entry for entry in all_entries if not options.names or entry.name in options.names]
     if missing := set(options.names).difference(entry.name for entry in wanted):
-        parser.error(f"nothing is called {', '.join(sorted(missing))}: names are those of the files in {GALLERY.name}")
+        parser.error(f"unknown names: {', '.join(sorted(missing))}; names are those of the files in {GALLERY.name}")
     options.into.mkdir(exist_ok=True)
     differing = asyncio.run(make(wanted, scene, options.into, browser, options.compare))
     if not options.compare and options.into == GALLERY:

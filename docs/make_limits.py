@@ -1,4 +1,4 @@
-"""Writes docs/limits.md from the limits and what the code says of each."""
+"""Writes docs/limits.md from the limits and their docstrings."""
 
 import ast
 import inspect
@@ -14,9 +14,9 @@ PAGE = Path(__file__).with_name("limits.md")
 _HEAD = """\
 # Limits
 
-The realizer bounds everything that it accepts from outside. Set these limits in the section `[limits]` of the
-[human file](human.md). Input that exceeds a limit is rejected with [an error](errors.md) that names the limit; stored
-history is dropped from the oldest end. `make docs` generates this page from `reactive_realizer/limits.py`.
+The realizer limits all input. Set these limits in the section `[limits]` of the [human file](human.md). Input that
+exceeds a limit is rejected with [an error](errors.md) that names the limit; of stored history, the oldest is dropped.
+ `make docs` generates this page from `reactive_realizer/limits.py`.
 
 | key | default | meaning |
 |---|---|---|
@@ -31,7 +31,7 @@ def page() -> str:
 
 
 def _meanings() -> Mapping[str, str]:
-    """The sentence under each field."""
+    """The docstring of each field."""
     (body,) = (node.body for node in ast.parse(inspect.getsource(Limits)).body if isinstance(node, ast.ClassDef))
     return {
         before.target.id: str(after.value.value)

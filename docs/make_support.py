@@ -14,7 +14,7 @@ from reactive_realizer.bml.document import parse
 from reactive_realizer.bml.elements import ELEMENTS, Element
 from reactive_realizer.bml.extensions import BehaviorParameter, Trajectory
 from reactive_realizer.bml.names import BML, BML_EXT, BMLA, BMLT
-from reactive_realizer.engine.lexicon import words_of
+from reactive_realizer.engine.lexicon import lexicon_of
 from reactive_realizer.limits import Limits
 from reactive_realizer.scheduler.faults import NotSupported
 
@@ -28,7 +28,7 @@ _CHILDREN = {
     "postureShift": '<stance type="STANDING"/>',
     "parametervaluechange": '<trajectory type="linear" targetValue="1"/>',
 }
-"""What an element needs inside to be read."""
+"""Minimal content of elements that cannot be empty."""
 
 _INSIDE: tuple[tuple[str, type, bool], ...] = (
     ("sync of a speech's text", Mark, True),
@@ -38,7 +38,7 @@ _INSIDE: tuple[tuple[str, type, bool], ...] = (
     ("trajectory of a parametervaluechange", Trajectory, True),
     ("parameter of any behavior, of BMLT", BehaviorParameter, True),
 )
-"""Elements inside of behaviors: their title, what is read from them, and whether that is realized."""
+"""Elements inside of behaviors: title, class that declares the attributes, and whether it is realized."""
 
 _PREFIXES = {BML_EXT: "ext:", BMLA: "bmla:", BMLT: "bmlt:"}
 
@@ -154,7 +154,7 @@ this table causes a warning.
 | `synchronize ref="..."` | an additional `sync` in it |
 | `stroke_start`, `stroke_end` | `strokeStart`, `strokeEnd` |
 
-A `gaze` or `posture` without a constraint on its end [persists](semantics.md#what-persists-and-what-lasts).
+A `gaze` or `posture` without a constraint on its end [persists](semantics.md#persistent-behaviors-and-shifts).
 A reference to a behavior of another block requires `allowexternalrefs="true"`.
 """
 
@@ -190,21 +190,21 @@ def _block() -> str:
 
 
 def _engine(element: Element, scene: Scene) -> str | None:
-    """The engine that says it supports the behavior."""
+    """The name of the engine that supports the behavior of an element; None if there is none."""
     behavior = _example(element)
     (character,) = scene.realizer.characters.values()
     return next((engine.name.partition("/")[2] for engine in character.engines if engine.supports(behavior)), None)
 
 
 def _example(element: Element) -> Behavior:
-    """The behavior of the least that can be written of an element."""
+    """The behavior of a minimal element."""
     name = f"{_PREFIXES.get(element.namespace, '')}{element.name}"
     needed = " ".join(f'{each.name}="{_sample(each)}"' for each in element.attributes if each.required)
     written = f"<{name} {needed}>{_CHILDREN.get(element.name, '')}</{name}>"
     namespaces = f'xmlns="{BML}" xmlns:ext="{BML_EXT}" xmlns:bmla="{BMLA}" xmlns:bmlt="{BMLT}"'
     (parsed,) = parse(f'<bml {namespaces} id="b">{written}</bml>', Limits())
     if parsed.block is None or not parsed.block.behaviors:
-        raise ValueError(f"{written} is no example of {element.name}: {parsed.problems}")
+        raise ValueError(f"{written} is not a valid {element.name}: {parsed.problems}")
     return parsed.block.behaviors[0]
 
 
@@ -252,13 +252,13 @@ def _default(value: object) -> str:
 
 
 def _lexemes(scene: Scene) -> str:
-    """Words that play in the default scene."""
+    """The table of lexemes that can be played in the default scene."""
     (character,) = scene.realizer.characters.values()
     found: dict[str, set[str]] = {}
-    for word in words_of(character.engines):
-        if word.lexeme and word.problem is None:
-            found.setdefault(word.element, set()).add(word.lexeme)
-    rows = ((f"`{element}`", ", ".join(sorted(words))) for element, words in sorted(found.items()))
+    for entry in lexicon_of(character.engines):
+        if entry.lexeme and entry.problem is None:
+            found.setdefault(entry.element, set()).add(entry.lexeme)
+    rows = ((f"`{element}`", ", ".join(sorted(lexemes))) for element, lexemes in sorted(found.items()))
     return _table(("element", "lexemes of the default scene"), rows)
 
 

@@ -1,6 +1,7 @@
-"""Runs the examples and prints a trace of what happens.
+"""Runs the examples and prints a trace.
 
-On a virtual clock, as fast as possible; with ``--watch``, in real time and with the viewer at http://127.0.0.1:8088.
+They run on a virtual clock, as fast as possible; with ``--watch``, in real time, with the viewer at
+http://127.0.0.1:8088.
 """
 
 import asyncio
@@ -36,7 +37,7 @@ class ExampleScene(RealizerPilot):
     def __init__(self, scene: Scene, shown: tuple[str, ...]) -> None:
         super().__init__(scene)
         self._shown = shown
-        self._told = 0
+        self._printed = 0
 
     def log(self, text: str, time: float | None = None) -> None:
         """Print a line with a time (s), by default that of the next tick."""
@@ -50,16 +51,16 @@ class ExampleScene(RealizerPilot):
     async def tick(self) -> None:
         """Play one tick and print its feedback."""
         await super().tick()
-        for line in self.feedback.lines[self._told :]:
-            self._print(line)
-        self._told = len(self.feedback.lines)
+        for message in self.feedback.messages[self._printed :]:
+            self._print(message)
+        self._printed = len(self.feedback.messages)
 
-    def _print(self, line: FeedbackMessage) -> None:
-        if line.kind == "warningFeedback":
-            self.log(f"  warning of {line.id}: {line.element.text}", line.time)
-        elif line.kind.endswith("Progress") and any(fnmatch(line.id, shown) for shown in self._shown):
-            word = line.element.get(f"{{{OWN}}}text")
-            self.log(f"  {line.id}" + ("" if word is None else f', the last word was "{word}"'), line.global_time)
+    def _print(self, message: FeedbackMessage) -> None:
+        if message.kind == "warningFeedback":
+            self.log(f"  warning of {message.id}: {message.text}", message.time)
+        elif message.kind.endswith("Progress") and any(fnmatch(message.id, shown) for shown in self._shown):
+            word = message.element.get(f"{{{OWN}}}text")
+            self.log(f"  {message.id}" + ("" if word is None else f', the last word was "{word}"'), message.global_time)
 
 
 class WatchedExample(ExampleScene):

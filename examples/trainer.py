@@ -3,7 +3,8 @@
 A user jumps, with an accelerometer on the belt. The anticipator `jumps` receives its samples, detects the peaks and
 predicts the next ones. Every stroke of the trainer is tied to one of them, 0.3 s early.
 
-Watch the last column: the user speeds up and slows down, nobody tells the trainer the tempo, and she stays ahead.
+Watch the last column: the user speeds up and slows down, and the trainer stays ahead, although no message contains the
+tempo.
 """
 
 import asyncio
@@ -30,7 +31,7 @@ def when_the_user_jumps() -> list[float]:
 
 
 def acceleration(time: float, jumps: list[float], noise: Random) -> float:
-    """What the accelerometer measures, m/s²: gravity, a peak at every jump, and noise."""
+    """A sample of the accelerometer, m/s²: gravity, a peak at every jump, and noise."""
     return 9.81 + sum(9.0 * exp(-(((time - jump) / 0.08) ** 2)) for jump in jumps) + noise.uniform(0.0, 0.5)
 
 

@@ -1,7 +1,7 @@
-"""Faults: what can go wrong, as data with a code for programs and a sentence for people.
+"""Faults: errors as data, with a code for programs and a sentence for people.
 
-Each room defines its own kinds of fault, in its ``faults.py`` or where they arise, and so does a plug-in
-(docs/plugins.md). docs/errors.md is made from them.
+Each package defines its own kinds of fault, in its ``faults.py`` or where they arise, and so does a plug-in
+(docs/plugins.md). docs/errors.md is generated from them.
 """
 
 from collections.abc import Mapping
@@ -45,9 +45,9 @@ class _Kind:
 
 
 class Fault(_Kind):
-    """One thing that went wrong.
+    """One error.
 
-    A sub-class is a kind of fault: it sets ``code`` and ``template`` and declares a field for each detail. Sub-classes
+    A subclass is a kind of fault: it sets ``code`` and ``template`` and declares a field for each detail. Subclasses
     are frozen data classes with keyword arguments.
 
     Attributes:

@@ -1,4 +1,4 @@
-"""The limits on all input from outside."""
+"""The limits on all input."""
 
 from dataclasses import dataclass
 

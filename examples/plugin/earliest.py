@@ -1,7 +1,6 @@
 """A strategy of your own: every behavior with its preferred durations, as early as its ties allow."""
 
-from reactive_realizer.planunit.faults import TooShort
-from reactive_realizer.planunit.timing import SHORTEST
+from reactive_realizer.planunit.timing import SHORTEST, TooShort
 from reactive_realizer.scheduler.faults import BeforeBlock, ContradictoryTie, NoOrder
 from reactive_realizer.scheduler.losses import lost_behavior, lost_constraint, with_required
 from reactive_realizer.scheduler.offset_union_find import TIE_TOLERANCE, OffsetUnionFind
@@ -46,7 +45,7 @@ class Earliest:
                     times[Point(item.behavior.id, sync)] = starts[root] + offset + time
         if not any(loss.dropped for loss in losses):
             return Solution(times, tuple(losses))
-        # Without what is lost, the rest may be earlier.
-        told = tuple(with_required(loss, problem) for loss in losses)
-        left = self.solve(Solution(times, told).kept_of(problem))
-        return Solution(left.times, (*told, *left.losses))
+        # Without the lost behaviors, the rest may be earlier.
+        lost = tuple(with_required(loss, problem) for loss in losses)
+        rest = self.solve(Solution(times, lost).kept_of(problem))
+        return Solution(rest.times, (*lost, *rest.losses))

@@ -1,4 +1,4 @@
 """Assembles a scene from a human file, plug-ins and assets.
 
-Only this room uses names of files and plug-ins.
+Only this package resolves names of files and plug-ins.
 """

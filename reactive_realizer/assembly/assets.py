@@ -38,7 +38,7 @@ class AssetIndex:
 
 
 def _changed(folder: str) -> int:
-    """When something came into a folder or left it, ns; 0 for one that is not there any more."""
+    """The time at which an entry of a folder was last added or removed, ns; 0 if the folder no longer exists."""
     try:
         return os.stat(folder).st_mtime_ns
     except OSError:
@@ -48,7 +48,7 @@ def _changed(folder: str) -> int:
 PACKAGE_ASSETS = Path(__file__).parent.parent / "assets"
 
 _ANYWHERE = "**/"
-"""The beginning of a name that is looked for in all folders, however deep."""
+"""Prefix of a name that may be in a folder of any depth."""
 
 
 class Assets:
@@ -71,10 +71,10 @@ class Assets:
         self._places = lru_cache(1000)(self._all_places)
 
     def __call__(self, name: str) -> Path:
-        """The file of a name: as written, then without leading folders one by one; with ``**/`` before it, anywhere.
+        """The file of a name: first as written, then without its leading folders; with a prefix ``**/``, at any depth.
 
         Raises:
-            RealizerError: the name leaves the folders, or no file has it, or several in the folders of one root.
+            RealizerError: the name leads out of the folders, or no file, or several files of one root, have it.
         """
         if name.startswith(_ANYWHERE):
             return self._anywhere(_relative(name).relative_to(_ANYWHERE))
@@ -117,7 +117,7 @@ def _within(folder: Path, file: Path) -> Path | None:
     """The file, if it is a regular file inside its folder after resolving links."""
     try:
         status = os.stat(file)
-    except (OSError, ValueError):  # not there, or no name that a file could have
+    except (OSError, ValueError):  # it does not exist, or its name is not valid
         return None
     return _resolved(folder, file, status.st_ino) if S_ISREG(status.st_mode) else None
 

@@ -1,4 +1,4 @@
-"""The bindings of a character: what a user says, and under it what the package does."""
+"""The binding files of a character: those of the user take precedence over those of the package."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -8,14 +8,14 @@ from reactive_realizer.assembly.human_file import DEFAULT_BINDINGS
 
 
 def binding_files(names: Mapping[str, str], assets: Assets) -> dict[str, tuple[Path, ...]]:
-    """Files by kind of binding, those that count more first; the package's own comes last.
+    """The binding files by kind, in order of precedence; that of the package is last.
 
     Args:
-        names: kind -> name of the file that the character has.
-        assets: where it is found.
+        names: kind -> name of the character's file.
+        assets: finds the file.
 
     Raises:
-        RealizerError: it is not there.
+        RealizerError: a file does not exist.
     """
     own = {kind: PACKAGE_ASSETS / file for kind, file in DEFAULT_BINDINGS.items()}
     return {kind: tuple(dict.fromkeys((assets(name), own[kind]))) for kind, name in names.items()}

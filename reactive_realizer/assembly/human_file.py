@@ -31,11 +31,11 @@ class CharacterSpec:
     Attributes:
         avatar: name of a GLB file among the assets.
         voice: a name that the text-to-speech binding knows; empty for its default.
-        position: of the place on the ground that it stands on, m.
-        heading: how far it is turned to its left, degrees; 0 faces +z.
+        position: on the ground, m.
+        heading: rotation to its left, degrees; 0 faces +z.
         engines: ids of engines, in rank order.
-        idle: whether it breathes, blinks, glances and shifts its weight while it does nothing.
-        bindings: names of files among the assets, by kind; those of `DEFAULT_BINDINGS` where nothing is said.
+        idle: whether it has idle animation.
+        bindings: names of files among the assets, by kind; by default `DEFAULT_BINDINGS`.
     """
 
     avatar: str = "avatars/female.glb"
@@ -76,8 +76,8 @@ def read_human_file(path: Path) -> HumanFile:
     """Reads a human file.
 
     Raises:
-        RealizerError: not TOML, an id that nothing can refer to or that is taken, an unknown key (the known ones are
-            listed), a value of another type or out of range.
+        RealizerError: the file is not TOML; an id is invalid or used twice; a key is unknown; or a value has the wrong
+            type or is out of range.
     """
     try:
         table = tomllib.loads(path.read_text(encoding="utf-8"))
@@ -149,7 +149,7 @@ class _Reader:
                 raise self._bad(f"{key}.{name}".lstrip("."), f"unknown; known are {', '.join(known)}")
 
     def _value(self, key: str, value: Any, kind: Any) -> Any:
-        """The value, if it is of the kind that the field has."""
+        """The value, if it has the type of the field."""
         number = isinstance(value, int | float) and not isinstance(value, bool) and abs(value) <= float_info.max
         if number and (kind is float or kind is type(value)):
             return kind(value)

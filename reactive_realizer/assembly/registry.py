@@ -17,7 +17,7 @@ def load(group: str, name: str) -> Any:
     """Imports the object of an entry point of ``reactive_realizer.GROUP``.
 
     Raises:
-        RealizerError: no such name, or two plug-ins that claim it.
+        RealizerError: no plug-in has the name, or two have it.
     """
     known = names(group)
     found = [point for point in _points(group) if point.name == name]

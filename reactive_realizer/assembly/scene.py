@@ -72,7 +72,7 @@ async def open_scene(options: SceneOptions) -> AsyncIterator[Scene]:
     """Assemble a scene and start its voice and its realizer; both end with the context.
 
     Raises:
-        RealizerError: a file, plug-in or value of the specification is not there or not usable.
+        RealizerError: a file or plug-in does not exist or cannot be used, or a value is invalid.
     """
     specification = read_human_file(options.human)
     assets = Assets(options.assets)
@@ -118,7 +118,7 @@ def _character(id_: str, spec: CharacterSpec, world: World, assets: Assets, tts:
 
 
 class _Mouth:
-    """The mouth shapes of a character, from the first of its voices that speaks."""
+    """The lip sync of a character, from the first of its engines that is speaking."""
 
     def __init__(self) -> None:
         self.voices: list[LipSyncProvider] = []

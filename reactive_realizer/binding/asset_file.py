@@ -68,10 +68,10 @@ def parse_boolean(name: str, text: str) -> bool:
         raise RealizerError(NotABoolean(name=name, value=text)) from problem
 
 
-Element = etree._Element
+XmlElement = etree._Element
 
 
-def read_xml(path: Path, root: str) -> Element:
+def read_xml(path: Path, root: str) -> XmlElement:
     """Return the root element of an XML file.
 
     Args:
@@ -97,7 +97,7 @@ def read_xml(path: Path, root: str) -> Element:
     return document
 
 
-def asset_error(element: Element, reason: str) -> RealizerError:
+def asset_error(element: XmlElement, reason: str) -> RealizerError:
     """Return an error about an element, with its file and line."""
     file = Path(element.base or "").name
     # `Fault.line` is a line of a BML block; this is a line of an asset.
@@ -105,7 +105,7 @@ def asset_error(element: Element, reason: str) -> RealizerError:
     return RealizerError(BadAsset(file=file, row=row, element=str(element.tag), reason=reason))
 
 
-def attribute(element: Element, name: str) -> str:
+def attribute(element: XmlElement, name: str) -> str:
     """Return a required attribute.
 
     Raises:
@@ -117,7 +117,7 @@ def attribute(element: Element, name: str) -> str:
     return value.strip()
 
 
-def number(element: Element, name: str) -> float:
+def number(element: XmlElement, name: str) -> float:
     """Return a required attribute that is a finite number.
 
     Raises:
@@ -133,7 +133,7 @@ def number(element: Element, name: str) -> float:
     return value
 
 
-def boolean(element: Element, name: str, default: bool) -> bool:
+def boolean(element: XmlElement, name: str, default: bool) -> bool:
     """Return an optional boolean attribute.
 
     Args:
@@ -155,7 +155,7 @@ ENDS: Mapping[str, float] = MappingProxyType({"start": 0.0, "end": 1.0})
 """The sync points that every motion has, and their phases."""
 
 
-def sync_id(element: Element) -> str:
+def sync_id(element: XmlElement) -> str:
     """Return the id of a KeyPosition. References and feedback use it as a sync point.
 
     Raises:
@@ -169,13 +169,13 @@ def sync_id(element: Element) -> str:
     return name
 
 
-def by_sync_id(elements: Iterable[Element]) -> dict[str, Element]:
+def by_sync_id(elements: Iterable[XmlElement]) -> dict[str, XmlElement]:
     """Return KeyPosition elements by id.
 
     Raises:
         RealizerError: "bad-asset": an id is missing or used twice.
     """
-    found: dict[str, Element] = {}
+    found: dict[str, XmlElement] = {}
     for element in elements:
         name = sync_id(element)
         if name in found:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from lxml import etree
 
-from reactive_realizer.binding.asset_file import Element, asset_error, attribute, read_xml
+from reactive_realizer.binding.asset_file import XmlElement, asset_error, attribute, read_xml
 from reactive_realizer.binding.unit_spec import UnitSpec, normalized, unit_id
 from reactive_realizer.bml.elements import ELEMENTS
 from reactive_realizer.bml.names import BML
@@ -23,7 +23,7 @@ _MODE = "mode"
 """The attribute that selects the hands. If a behavior omits it, the realizer chooses the hands."""
 
 _LEXEME = "lexeme"
-"""The attribute that tells most entries apart."""
+"""The attribute in which most entries differ."""
 
 _CACHE_SIZE = 1000
 """Number of cached matches. Most behaviors are repeated often."""
@@ -138,7 +138,7 @@ _SPECS: Mapping[str, tuple[str, str | None]] = {
 _REST_POSE = "RestPoseSpec"
 
 
-def _spec(element: Element, part: str, behavior: str | None) -> UnitSpec:
+def _spec(element: XmlElement, part: str, behavior: str | None) -> UnitSpec:
     unit = _part(element, part)
     behavior, namespace = behavior or attribute(element, "type"), element.get("namespace", BML)
     _named(element, namespace, behavior)
@@ -160,7 +160,7 @@ def _spec(element: Element, part: str, behavior: str | None) -> UnitSpec:
     )
 
 
-def _rest_poses(element: Element) -> Iterator[tuple[str, str]]:
+def _rest_poses(element: XmlElement) -> Iterator[tuple[str, str]]:
     pose, stance = _part(element, "RestPose"), _pairs(element, "constraints/constraint", "name", "value").get("stance")
     if stance is None or "file" not in pose.attrib:
         _log_skipped(element, "no stance or no file")
@@ -170,18 +170,18 @@ def _rest_poses(element: Element) -> Iterator[tuple[str, str]]:
         yield stance.upper(), attribute(pose, "file")
 
 
-def _log_skipped(element: Element, reason: str) -> None:
+def _log_skipped(element: XmlElement, reason: str) -> None:
     _log.warning("%s; it is skipped", asset_error(element, reason).fault.sentence)
 
 
-def _part(element: Element, name: str) -> Element:
+def _part(element: XmlElement, name: str) -> XmlElement:
     part = element.find(name)
     if part is None:
         raise asset_error(element, f"no {name} inside")
     return part
 
 
-def _constraints(element: Element, behavior: str, namespace: str) -> dict[str, str]:
+def _constraints(element: XmlElement, behavior: str, namespace: str) -> dict[str, str]:
     """Read the constraints. Values of closed vocabularies get the spelling of BML 1.0."""
     known = ELEMENTS.get(behavior)
     own = {each.name: each.type for each in known.attributes} if known and known.namespace == namespace else {}
@@ -194,16 +194,16 @@ def _constraints(element: Element, behavior: str, namespace: str) -> dict[str, s
         raise asset_error(element, f"a constraint: {problem.fault.sentence}") from problem
 
 
-def _pairs(element: Element, path: str, name: str, value: str) -> dict[str, str]:
+def _pairs(element: XmlElement, path: str, name: str, value: str) -> dict[str, str]:
     return {_qualified(pair, attribute(pair, name)): attribute(pair, value) for pair in element.iterfind(path)}
 
 
-def _qualified(pair: Element, name: str) -> str:
+def _qualified(pair: XmlElement, name: str) -> str:
     namespace = pair.get("namespace")
     return _named(pair, namespace, name) if namespace else name
 
 
-def _named(element: Element, namespace: str, name: str) -> str:
+def _named(element: XmlElement, namespace: str, name: str) -> str:
     """Return the name as ``{uri}name``.
 
     Raises:

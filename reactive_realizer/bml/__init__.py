@@ -1,4 +1,4 @@
 """The language: reads BML into frozen `BehaviorBlock`s and `Problem`s.
 
-This package knows the document only. It imports no pegs, no clock and no engines.
+This package knows only the document. It does not import pegs, clocks or engines.
 """

@@ -39,8 +39,8 @@ class Attribute:
         field: of the dataclass that holds its value.
         type: of its values.
         required: whether an element without it is refused.
-        default: its value where it is not written.
-        continuous: whether it is in the namespace of BMLA or BMLT; else it is in none.
+        default: its value if it is not written.
+        continuous: whether it is in the namespace of BMLA or BMLT; otherwise, it is in none.
         spellings: its names in Clark notation; if several are written, the first one counts.
     """
 
@@ -66,7 +66,7 @@ def attribute(kind: AttributeType, name: str | None = None, continuous: bool = F
 
     Args:
         kind: its type.
-        name: its name; by default that of the field, in camelCase.
+        name: its name; by default, that of the field in camelCase.
         continuous: whether it is in the namespace of BMLA or BMLT; else it is in none.
     """
     return {_METADATA: (kind, name, continuous)}

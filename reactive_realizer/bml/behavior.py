@@ -17,7 +17,7 @@ _PRIORITIES = 1_000_000
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Description:
-    """A description level: another form of the same behavior, in a language that some realizers know.
+    """A description level: another form of the same behavior, in a language that not all realizers support.
 
     Attributes:
         priority: the known one with the highest priority is played instead of the core behavior.
@@ -46,7 +46,7 @@ class Behavior:
         required: whether the block fails without it.
         persistent: whether it lasts until another one replaces it; only gazes and postures of drafts can.
         descriptions: its description levels, as written.
-        instead_of: the sync points of the behavior that this one describes, which it must have too; else empty.
+        instead_of: in a description, the sync points of the core behavior, which it must have too; otherwise empty.
         extensions: attributes of other namespaces, (namespace, local name) to value.
         parameters: its ``bmlt:parameter`` elements (thesis C.1.1), name to value.
         source: its element as XML.
@@ -56,7 +56,7 @@ class Behavior:
     CHILDREN: ClassVar[tuple[str, ...]] = ()
     SYNC_POINTS: ClassVar[SyncPoints] = ()
     OPEN_POINTS: ClassVar[bool] = False
-    """Whether its engine may know further sync points; references to these are checked when it is planned."""
+    """Whether its engine may define further sync points; references to them are checked at planning."""
 
     id: str = field(metadata=attribute(Id()))
     namespace: str
@@ -110,7 +110,7 @@ class Behavior:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ForeignBehavior(Behavior):
-    """A behavior in a namespace other than BML's, for an engine that knows that namespace.
+    """A behavior in a namespace other than BML's, for an engine that supports that namespace.
 
     Attributes:
         attributes: its attributes without a namespace, except its id and sync points.
@@ -125,5 +125,5 @@ class ForeignBehavior(Behavior):
 
     @property
     def sync_points(self) -> SyncPoints:
-        """Start, end, and those that are constrained; its engine may know more."""
+        """Start, end, and the constrained ones; its engine may define more."""
         return tuple(name for name in self.SYNC_POINTS if name in {"start", "end", *self.syncs})

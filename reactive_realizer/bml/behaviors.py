@@ -292,8 +292,8 @@ class Wait(Behavior):
     """Does nothing for a while.
 
     Attributes:
-        duration: seconds; None where only the sync points determine it.
-        max_wait: the most seconds it lasts; None for no limit.
+        duration: s; None if only the sync points determine it.
+        max_wait: its maximum duration, s; None for no limit.
     """
 
     SYNC_POINTS = _START_AND_END

@@ -16,7 +16,7 @@ from reactive_realizer.errors import Fault
 DEFINE_PROC: Final = "defineproc"
 USE_PROC: Final = "useproc"
 PROCEDURES: Final = frozenset({DEFINE_PROC, USE_PROC})
-"""Elements of continuous interaction that stand beside blocks."""
+"""Elements of continuous interaction that are written beside blocks."""
 
 
 class OrderKind(StrEnum):
@@ -72,7 +72,7 @@ Constraint = Synchronize | Order
 class DefineProc:
     """A ``<defineproc>``: behaviors and constraints that are written once and played many times (thesis 6.6.2).
 
-    It stands beside blocks, and does not play itself. A later one with the same id replaces it.
+    It is written beside blocks, and does not play itself. A later one with the same id replaces it.
 
     Attributes:
         id: its name among procedures.
@@ -109,16 +109,16 @@ class BehaviorBlock:
     Attributes:
         id: unique among the blocks alive.
         character: id of its character; None for the first one.
-        composition: how it joins the earlier blocks.
+        composition: its relation to earlier blocks.
         append_after: ids of the blocks that end before it starts; BMLA's appendAfter.
-        chunk_after: ids of the blocks that subside before it starts: all that is left of them is in retraction.
+        chunk_after: ids of the blocks that subside before it starts: only their retractions are left.
         prepend_before: ids of the blocks that do not start before it has ended.
         chunk_before: ids of the blocks that do not start before it subsides.
         interrupts: ids of the blocks that it interrupts when it enters; BMLA's interrupt.
         on_start: ids of the preplanned blocks that start when it starts.
         preplan: whether it waits to be activated.
-        external_refs: whether its references may name behaviors of other blocks; only drafts have to say so.
-        procedure: id of the procedure whose behaviors and constraints it has; then it has none of its own.
+        external_refs: whether its references may name behaviors of other blocks; only drafts restrict this.
+        procedure: id of the procedure that provides its behaviors and constraints; None if it contains its own.
         behaviors: in document order, including those inside ``<required>``.
         constraints: in document order.
         unread: ids of the behaviors that were dropped because they cannot be read.

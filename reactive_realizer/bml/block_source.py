@@ -50,7 +50,7 @@ class BlockSource:
     Attributes:
         tree: the element of the block.
         limits: the sizes that are refused.
-        ids: the ids that references in the block can name.
+        ids: those that references in the block can name.
     """
 
     def __init__(self, root: Root, limits: Limits) -> None:
@@ -239,7 +239,7 @@ class BlockIds:
         """The point that a reference in this block names.
 
         Raises:
-            RealizerError: it is no reference, or it names a behavior of another block and may not.
+            RealizerError: it is not a reference, or it names a behavior of another block, which is not allowed.
         """
         ref = SyncRef.parse(text, limits, self._marks).read_in(self._block, self._behaviors)
         if self.draft and ref.sync not in self._marks:
@@ -259,6 +259,6 @@ def _text_of(tree: Tree, attribute: Attribute, continuous: bool) -> str | None:
 
 
 def _behaviors_in(block: Tree) -> Iterator[Tree]:
-    """The elements of behaviors, readable or not: a reference to either names no other block."""
+    """The elements of behaviors, also unreadable ones: a reference to any of them does not name another block."""
     holders = [block, *block.iter("{*}required")]
     return (child for holder in holders for child in holder if name_of(child) not in {"constraint", "required"})

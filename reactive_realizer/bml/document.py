@@ -32,7 +32,7 @@ _CONTINUOUS: Final = frozenset(name for each in _OTHERS if each.continuous for n
 
 
 def parse(text: str | bytes, limits: Limits) -> list[Parsed]:
-    """Reads BML 1.0; a document without a namespace is read as the draft that it may be.
+    """Reads BML 1.0; a document without a namespace is read as a draft of BML.
 
     A document may hold several blocks; comments, processing instructions and XML declarations may stand before and
     between them. The result has an entry for each block, and for each other thing at the top level, in document order.

@@ -2,7 +2,7 @@
 
 Those of continuous interaction act on other blocks and behaviors (thesis 6.6 and app. C); BMLA and BMLT write them
 alike. Those of BMLT alone play motion as it was made: animations, captures, noise, transitions (app. C). Beside their
-start and end, these may have sync points that only their file knows, such as the beats of a conducting pattern.
+start and end, these may have sync points that only their file defines, such as the beats of a conducting pattern.
 """
 
 from collections.abc import Mapping
@@ -45,7 +45,7 @@ class Interrupt(Behavior):
         target: id of the block.
         include: ids of the behaviors to interrupt; none means all.
         exclude: ids of the behaviors to leave alone.
-        speech: where an interrupted speech ends.
+        speech: the point at which an interrupted speech ends.
     """
 
     NAMESPACE = BMLA

@@ -15,7 +15,7 @@ Points = Callable[[Behavior], Collection[str] | None]
 
 
 def standard_points(behavior: Behavior) -> Collection[str] | None:
-    """The sync points that BML defines; None if the engine of the behavior may know more."""
+    """The sync points that BML defines; None if the engine of the behavior may define more."""
     return None if behavior.OPEN_POINTS else behavior.sync_points
 
 

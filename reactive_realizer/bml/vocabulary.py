@@ -43,7 +43,7 @@ class OffsetDirection(StrEnum):
 
 
 class InterruptSpeech(StrEnum):
-    """Where an interrupted speech ends: at once, or before its next word."""
+    """The point at which an interrupted speech ends: immediately, or before its next word."""
 
     NOW = "now"
     WORD = "word"

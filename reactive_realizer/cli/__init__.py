@@ -1,1 +1,1 @@
-"""The command line, the only room that prints and that defines exit statuses."""
+"""The command line: the only package that prints, and that defines exit statuses."""

@@ -28,7 +28,7 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
 
 
 def run(options: argparse.Namespace) -> int:
-    """The exit status: 1 if anything is wrong, 2 if a file is not there."""
+    """The exit status: 1 if there are mistakes, 2 if a file does not exist."""
     missing = [str(path) for path in (*options.files, options.human) if not path.is_file()]
     if missing:
         print(f"no such file: {', '.join(missing)}", file=sys.stderr)

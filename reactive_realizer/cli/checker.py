@@ -47,7 +47,7 @@ class Rehearsal:
 async def rehearse(block: BehaviorBlock | DefineProc, routing: EngineRouting) -> Rehearsal:
     """Plans the behaviors of a block, in document order.
 
-    What earlier blocks leave behind, they do not know. Nobody plays for a character that is not there.
+    The plan ignores the effects of earlier blocks. For an unknown character, no behavior has an engine.
     """
     character = (isinstance(block, BehaviorBlock) and block.character) or routing.characters[0]
     played = routing.engines_for(character, block.behaviors) if character in routing.characters else {}
@@ -81,7 +81,7 @@ async def _unit(block: BlockKey, behavior: Behavior, engine: Engine) -> PlanUnit
 
 
 _UNPLAYABLE = WarningType.CANNOT_CREATE_BEHAVIOR
-"""Other faults of engines are mistakes, which are found without an engine."""
+"""The warning type of valid behaviors that cannot be played; other faults of engines are mistakes in the BML."""
 
 
 class Findings(NamedTuple):
@@ -144,7 +144,7 @@ class Checker:
 
     def _inside(self, block: BehaviorBlock | DefineProc, rehearsal: Rehearsal) -> Iterator[Fault]:
         def points(behavior: Behavior) -> Collection[str] | None:
-            """The sync points of a behavior, including those of its motion; None if nothing would play it."""
+            """The sync points of a behavior, including those of its motion; None if it cannot be planned."""
             unit = rehearsal.units.get(behavior.id) if behavior.OPEN_POINTS else None
             return standard_points(behavior) if unit is None else unit.timing.points
 
@@ -182,9 +182,9 @@ def _unknown_points(block: BehaviorBlock | DefineProc, rehearsal: Rehearsal) -> 
 
 
 def _foreign_attributes(block: BehaviorBlock | DefineProc, rehearsal: Rehearsal) -> Iterator[Fault]:
-    """Attributes of other namespaces that who plays their behavior does not know; they are legal BML.
+    """Attributes of other namespaces that the engine of their behavior ignores; they are legal BML.
 
-    Whoever plays a behavior of another namespace may know those that it has; if nobody does, nobody here can judge.
+    The attributes of a foreign behavior without an engine are not reported, because only an engine can judge them.
     """
     if isinstance(block, BehaviorBlock):
         yield from _foreign(block.extensions, block.location)
@@ -209,7 +209,7 @@ def _unknown_targets(block: BehaviorBlock | DefineProc, world: World) -> Iterato
 
 
 def _unknown_behaviors(block: BehaviorBlock | DefineProc) -> Iterator[Fault]:
-    """Unknown behaviors of the block itself whose parameters would change."""
+    """Unknown behaviors of the block itself that its parameter changes name."""
     known = {behavior.id for behavior in block.behaviors}
     changes = (each for each in block.behaviors if isinstance(each, ParameterValueChange))
     for change in changes:
@@ -219,7 +219,7 @@ def _unknown_behaviors(block: BehaviorBlock | DefineProc) -> Iterator[Fault]:
 
 
 def _targets(behavior: Behavior) -> Iterator[str]:
-    """Those in the world: others are blocks and behaviors."""
+    """The targets of a behavior that are in the world; targets of other behaviors are blocks and behaviors."""
     attributes = (each for each in attributes_of(type(behavior)) if isinstance(each.type, Target))
     return (getattr(behavior, each.field) for each in attributes)
 

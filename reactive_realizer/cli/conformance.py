@@ -1,4 +1,4 @@
-"""``conformance``: whether a realizer does what BML says, tried over its socket."""
+"""The command ``conformance``: tests whether a realizer conforms to BML, over its socket."""
 
 import argparse
 import asyncio
@@ -15,19 +15,21 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
     names = [case.name for case in read_suite()]
     parser = commands.add_parser(
         "conformance",
-        help="try a realizer over the protocol",
-        description="Plays a suite of BML against a server and says what does not come out as it should. "
-        "Whatever plays there is stopped.",
+        help="test a realizer over the protocol",
+        description="Runs a suite of BML scripts against a server and reports every failed assertion. "
+        "Everything that plays on the server is stopped.",
         epilog="example: reactive-realizer conformance http://127.0.0.1:8088 --case append --case replace",
     )
-    parser.add_argument("url", metavar="URL", help="of the server, http://127.0.0.1:8088")
-    parser.add_argument("--json", action="store_true", help="print a JSON object in the place of a table")
-    parser.add_argument("--case", action="append", choices=names, metavar="NAME", help=f"only this: {', '.join(names)}")
+    parser.add_argument("url", metavar="URL", help="the address of the server, http://127.0.0.1:8088")
+    parser.add_argument("--json", action="store_true", help="print a JSON object instead of a table")
+    parser.add_argument(
+        "--case", action="append", choices=names, metavar="NAME", help=f"run only this case: {', '.join(names)}"
+    )
     parser.set_defaults(run=run)
 
 
 def run(options: argparse.Namespace) -> int:
-    """The exit status: 1 if a case failed; that no realizer is reached is an error."""
+    """The exit status: 1 if a case failed. If no realizer is reached, an error is raised."""
     return asyncio.run(_run(options))
 
 
@@ -39,7 +41,7 @@ async def _run(options: argparse.Namespace) -> int:
 
 
 async def _print_table(outcomes: AsyncIterator[Outcome]) -> Counter[Verdict]:
-    """A row a case, as it comes, with what is wrong under it."""
+    """Print a row for each case as it completes, followed by its failed assertions."""
     verdicts: Counter[Verdict] = Counter()
     async for outcome in outcomes:
         verdicts[outcome.verdict] += 1

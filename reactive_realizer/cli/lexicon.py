@@ -1,4 +1,4 @@
-"""``lexicon``: the words that play, and what is known of each."""
+"""The command ``lexicon``: lists the available lexemes."""
 
 import argparse
 import asyncio
@@ -10,63 +10,69 @@ from itertools import groupby
 from pathlib import Path
 
 from reactive_realizer.assembly.scene import DEFAULT_HUMAN, SceneOptions, open_scene
-from reactive_realizer.engine.lexicon import Changeable, LexiconEntry, words_of
+from reactive_realizer.engine.lexicon import Changeable, LexiconEntry, lexicon_of
 
 
 def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     """The options of ``lexicon``."""
     parser = commands.add_parser(
         "lexicon",
-        help="list the words that play, with their sync points and parameters",
-        description="Lists the words that the characters of a scene have a motion or a face for. What stands in a "
-        "binding and does not play is told on stderr.",
+        help="list the available lexemes with their sync points and parameters",
+        description="Lists the lexemes for which the characters of a scene have a motion or a facial expression. "
+        "Lexemes that are in a binding but cannot be played are listed on stderr.",
         epilog="example: reactive-realizer lexicon --assets my_assets",
     )
-    parser.add_argument("--human", type=Path, default=DEFAULT_HUMAN, metavar="FILE", help="who is there")
-    parser.add_argument("--assets", type=Path, action="append", default=[], metavar="DIR", help="folder of assets")
-    parser.add_argument("--json", action="store_true", help="everything as one JSON object, a list for each character")
+    parser.add_argument("--human", type=Path, default=DEFAULT_HUMAN, metavar="FILE", help="the human file of the scene")
+    parser.add_argument("--assets", type=Path, action="append", default=[], metavar="DIR", help="a folder of assets")
+    parser.add_argument("--json", action="store_true", help="print one JSON object with a list for each character")
     parser.set_defaults(run=run)
 
 
 def run(options: argparse.Namespace) -> int:
-    """The exit status: 0, also where some words do not play."""
+    """The exit status: 0, even if some lexemes cannot be played."""
     lexicons = asyncio.run(_lexicons(SceneOptions(options.human, "text", tuple(options.assets))))
     if options.json:
-        print(json.dumps({character: [_record(word) for word in words] for character, words in lexicons.items()}))
+        print(json.dumps({character: [_record(entry) for entry in entries] for character, entries in lexicons.items()}))
         return 0
-    for character, words in lexicons.items():
-        print("\n".join(_lines(character, [word for word in words if word.problem is None])))
-        for word in words:
-            if word.problem is not None:
-                print(f"{character}: {word.element} {_asked(word)}: {word.problem}", file=sys.stderr)
+    for character, entries in lexicons.items():
+        print("\n".join(_lines(character, [entry for entry in entries if entry.problem is None])))
+        for entry in entries:
+            if entry.problem is not None:
+                print(f"{character}: {entry.element} {_required(entry)}: {entry.problem}", file=sys.stderr)
     return 0
 
 
 async def _lexicons(options: SceneOptions) -> dict[str, list[LexiconEntry]]:
     async with open_scene(options) as scene:
-        return {id_: words_of(character.engines) for id_, character in scene.realizer.characters.items()}
+        return {id_: lexicon_of(character.engines) for id_, character in scene.realizer.characters.items()}
 
 
-def _lines(character: str, words: Iterable[LexiconEntry]) -> Iterable[str]:
+def _lines(character: str, entries: Iterable[LexiconEntry]) -> Iterable[str]:
     yield f"{character}:"
-    by_element = sorted(words, key=lambda word: word.element)
-    for element, group in groupby(by_element, key=lambda word: word.element):
+    by_element = sorted(entries, key=lambda entry: entry.element)
+    for element, group in groupby(by_element, key=lambda entry: entry.element):
         yield f"  {element}"
-        yield from (f"    {_line(word)}" for word in group)
+        yield from (f"    {_line(entry)}" for entry in group)
 
 
-def _line(word: LexiconEntry) -> str:
-    duration = "" if word.duration is None else f"{word.duration:.2f} s"
-    columns = (f"{_asked(word):40}", f"{duration:>7}", " ".join(word.sync_points), _told(word.parameters), word.file)
+def _line(entry: LexiconEntry) -> str:
+    duration = "" if entry.duration is None else f"{entry.duration:.2f} s"
+    columns = (
+        f"{_required(entry):40}",
+        f"{duration:>7}",
+        " ".join(entry.sync_points),
+        _parameters(entry.parameters),
+        entry.file,
+    )
     return "  ".join(filter(None, columns)).rstrip()
 
 
-def _asked(word: LexiconEntry) -> str:
-    asked = filter(None, [word.lexeme, *(f"{name}={value}" for name, value in word.constraints.items())])
-    return " ".join(asked) or "-"
+def _required(entry: LexiconEntry) -> str:
+    required = filter(None, [entry.lexeme, *(f"{name}={value}" for name, value in entry.constraints.items())])
+    return " ".join(required) or "-"
 
 
-def _told(parameters: Mapping[str, Changeable]) -> str:
+def _parameters(parameters: Mapping[str, Changeable]) -> str:
     return ", ".join(f"{name}={own.default:g}{_range(own)}" for name, own in parameters.items())
 
 
@@ -75,20 +81,20 @@ def _range(parameter: Changeable) -> str:
     return f" ({low:g} to {high:g})" if math.isfinite(low) or math.isfinite(high) else ""
 
 
-def _record(word: LexiconEntry) -> dict[str, object]:
+def _record(entry: LexiconEntry) -> dict[str, object]:
     parameters = [
         {"name": name, "default": own.default, "low": _finite(own.range.low), "high": _finite(own.range.high)}
-        for name, own in word.parameters.items()
+        for name, own in entry.parameters.items()
     ]
     return {
-        "element": word.element,
-        "lexeme": word.lexeme,
-        "constraints": dict(word.constraints),
-        "syncPoints": word.sync_points,
-        "duration": word.duration,
+        "element": entry.element,
+        "lexeme": entry.lexeme,
+        "constraints": dict(entry.constraints),
+        "syncPoints": entry.sync_points,
+        "duration": entry.duration,
         "parameters": parameters,
-        "file": word.file,
-        "problem": word.problem,
+        "file": entry.file,
+        "problem": entry.problem,
     }
 
 

@@ -1,4 +1,4 @@
-"""Where a session goes: feedback as JSON lines, frames as an npz file."""
+"""Writes the output of a session: feedback as JSON lines, explanations as JSON, frames as an npz file."""
 
 import json
 import os
@@ -15,7 +15,7 @@ from reactive_realizer.scheduler.bml_block import BMLBlock
 
 
 class FeedbackWriter:
-    """Writes one JSON line a message."""
+    """Writes each message as a line of JSON."""
 
     def __init__(self, stream: IO[str]) -> None:
         self._stream = stream
@@ -27,12 +27,12 @@ class FeedbackWriter:
             self._stream.write(json.dumps(line, ensure_ascii=False) + "\n")
             self._stream.flush()
         except BrokenPipeError:
-            # Whoever read has gone, as `head` does: the session goes on, nobody is told.
+            # The reader has closed the pipe, as `head` does. The session continues without this output.
             os.dup2(os.open(os.devnull, os.O_WRONLY), self._stream.fileno())
 
 
 class Explainer:
-    """Keeps why every point of every block was when it was."""
+    """Collects the explanations of the times of all sync points."""
 
     def __init__(self, realizer: Realizer) -> None:
         self._scheduler = realizer.scheduler
@@ -40,7 +40,7 @@ class Explainer:
         self._scheduler.listen(self._keep)
 
     def write(self, path: Path) -> None:
-        """One JSON array: the blocks that ended, in order of ending, then those alive."""
+        """Write one JSON array: the blocks that ended, in order of ending, then the live ones."""
         for block in self._scheduler.blocks.alive:
             self._keep(block)
         path.write_text(json.dumps(self._blocks, ensure_ascii=False, indent=1) + "\n", encoding="utf-8")
@@ -50,7 +50,7 @@ class Explainer:
 
 
 class FrameRecorder:
-    """Keeps the frames of all characters and writes them in the form of docs/protocol.md, frames."""
+    """Collects the frames of all characters and writes them in the format of docs/cli.md, frames."""
 
     def __init__(self) -> None:
         self._frames: dict[str, list[Frame]] = {}
@@ -60,7 +60,7 @@ class FrameRecorder:
         self._frames.setdefault(character.id, []).append(frame)
 
     def write(self, path: Path, realizer: Realizer) -> None:
-        """One npz file; with more than one character every name has the prefix ``ID/``."""
+        """Write one npz file; with several characters, every name has the prefix ``ID/``."""
         arrays: dict[str, object] = {}
         for id_, character in realizer.characters.items():
             prefix = f"{id_}/" if len(realizer.characters) > 1 else ""

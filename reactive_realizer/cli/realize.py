@@ -60,7 +60,7 @@ def input_file(text: str) -> InputFile:
 
 _UNTIL = 600.0
 _WITH_REPLAY = ("replay", "feedback", "frames", "explain", "verbose", "run")
-"""The options that ``--replay`` allows; all others come from the recording."""
+"""The options that ``--replay`` allows; all others are in the recording."""
 
 
 class NeverEnters(Fault):
@@ -99,7 +99,7 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
 
 
 def run(parser: argparse.ArgumentParser, options: argparse.Namespace) -> int:
-    """The exit status: 1 if something could not be read, was refused or failed; 2 if a file is not there."""
+    """The exit status: 1 if a file could not be read, or a block was rejected or failed; 2 if a file does not exist."""
     _check_combination(parser, options)
     inputs = [options.replay] if options.replay else [*(entry.path for entry in options.items), options.human]
     missing = [str(path) for path in inputs if not path.is_file()]

@@ -39,7 +39,7 @@ def _add(
 
 
 def run(options: argparse.Namespace) -> int:
-    """The exit status: 2 if the human file is not there, a file cannot be written, or the address is taken."""
+    """The exit status: 2 if the human file does not exist, a file cannot be written, or the address is in use."""
     if not options.human.is_file():
         print(f"no such file: {options.human}", file=sys.stderr)
         return 2

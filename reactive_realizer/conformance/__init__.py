@@ -1,4 +1,4 @@
 """A conformance suite that tests any realizer through the protocol (thesis ch. 9).
 
-The room is a client of the protocol. It uses the language and the feedback, and nothing else of this realizer.
+This package is a client of the protocol. It uses the packages for BML and feedback, and no other part of the realizer.
 """

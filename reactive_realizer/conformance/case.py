@@ -1,4 +1,4 @@
-"""Test cases of the suite: BML to send, what is expected beyond what it says itself, and single checks."""
+"""The cases of the suite: BML to send, the expectations that do not follow from it, and single checks."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ from reactive_realizer.limits import Limits
 from reactive_realizer.testing.feedback_list import FeedbackList
 
 TOLERANCE: Final = 0.01
-"""s: a tick of 100 Hz, the coarsest that a realizer may look at its clock."""
+"""Tolerance of times, s: one tick at 100 Hz, the lowest rate that a realizer may have."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,21 +21,21 @@ class Check:
     """An assertion about feedback.
 
     Attributes:
-        source: what says so: a part of the script, or a rule of the language.
-        assertion: raises AssertionError where it does not hold.
+        source: the part of the script, or the rule of BML, that requires it.
+        assertion: raises AssertionError if it does not hold.
     """
 
     source: str
     assertion: Callable[[FeedbackList], None]
 
-    def problem(self, told: FeedbackList) -> str | None:
-        """The reason why it does not hold; None if it holds."""
+    def problem(self, feedback: FeedbackList) -> str | None:
+        """The reason for which it does not hold; None if it holds."""
         try:
-            self.assertion(told)
+            self.assertion(feedback)
         except AssertionError as problem:
             return f"{problem} ({self.source})"
         except (ValueError, LookupError, StopIteration) as problem:
-            return f"feedback without what it must have: {problem!r} ({self.source})"
+            return f"a part of the feedback is missing: {problem!r} ({self.source})"
         return None
 
 
@@ -50,8 +50,8 @@ class Send:
 
     Attributes:
         xml: as it is sent.
-        after: progress that has to be told first, ``block:start`` or ``block:behavior:sync``; None for at once.
-        refused: whether no block of it is to be played.
+        after: the progress to wait for before sending, ``block:start`` or ``block:behavior:sync``; None for none.
+        refused: whether all its blocks must be rejected.
     """
 
     xml: str
@@ -60,7 +60,7 @@ class Send:
 
     @property
     def blocks(self) -> tuple[BehaviorBlock, ...]:
-        """The blocks of it that can be read, unless it is to be refused."""
+        """Its readable blocks; none if it must be rejected."""
         read = [] if self.refused else parse(self.xml, Limits())
         return tuple(parsed.block for parsed in read if parsed.block is not None)
 
@@ -70,7 +70,7 @@ class Warned:
     """An expected warning.
 
     Attributes:
-        plays: whether the behavior plays nevertheless.
+        plays: whether the behavior plays anyway.
     """
 
     id: str
@@ -98,11 +98,11 @@ class ConformanceCase:
 
     @property
     def blocks(self) -> tuple[BehaviorBlock, ...]:
-        """All blocks that are to be accepted, in order."""
+        """All blocks that must be accepted, in order."""
         return tuple(block for send in self.sends for block in send.blocks)
 
     def starts(self, block: BehaviorBlock) -> bool:
-        """Whether a block is to be played at all."""
+        """Whether a block must start."""
         return self.ends.get(block.id) not in _UNPLAYED
 
 
@@ -113,7 +113,7 @@ def read_suite() -> list[ConformanceCase]:
 
 
 def read_case(name: str, text: bytes) -> ConformanceCase:
-    """A case from its file."""
+    """Read a case from the content of its file."""
     root = etree.fromstring(text)
     sends = tuple(map(_send, root.iterchildren("send")))
     warnings = tuple(map(_warned, root.iterchildren("warning")))
@@ -130,6 +130,6 @@ def _warned(element: etree._Element) -> Warned:
 
 
 def _send(element: etree._Element) -> Send:
-    """What stands inside: elements, or the text of a document that is none."""
+    """A document to send: the child elements or, if it is malformed on purpose, the text."""
     inside = "".join(etree.tostring(child, encoding="unicode") for child in element)
     return Send(inside or element.text or "", element.get("after"), element.get("refused") == "true")

@@ -40,19 +40,19 @@ class RealizerClient:
     """A connection to a realizer; used as an async context manager.
 
     Args:
-        url: of its server or its socket; a token stands in its query.
+        url: of its server or its socket; its query may contain a token.
         patience: time limit for every answer, s.
 
     Attributes:
-        told: the feedback since it was last emptied by `forget`.
-        mistakes: what was wrong with the messages themselves since then.
+        feedback: all feedback since the last `forget`.
+        mistakes: the invalid messages since then.
 
     Raises:
-        RealizerError: "not-reached" or "other-protocol", also of `send` and `until` where the connection is lost.
+        RealizerError: "not-reached" or "other-protocol"; also in `send` and `until`, if the connection is lost.
     """
 
     def __init__(self, url: str, patience: float) -> None:
-        self.told = FeedbackList()
+        self.feedback = FeedbackList()
         self.mistakes: list[str] = []
         self._silent = True
         self._url = url
@@ -71,7 +71,7 @@ class RealizerClient:
 
     def forget(self) -> None:
         """Discards the feedback received so far."""
-        self.told = FeedbackList()
+        self.feedback = FeedbackList()
         self.mistakes = []
         self._silent = True
 
@@ -82,7 +82,7 @@ class RealizerClient:
             RealizerError: "not-reached".
         """
         if self._silent:
-            raise self._not_reached(f"it took what it was sent, and said nothing for {self._patience:g} s")
+            raise self._not_reached(f"it accepted a document, but sent no message for {self._patience:g} s")
 
     async def send(self, xml: str) -> bool:
         """Sends a document; returns whether it was answered."""
@@ -129,7 +129,7 @@ class RealizerClient:
         try:
             match message:
                 case {"type": "feedback", "time": float(time) | int(time), "xml": str(xml)}:
-                    self.told.add(time, xml)
+                    self.feedback.add(time, xml)
                 case {"type": "accepted" | "error", "ref": ref}:
                     self._answered.add(ref)
                 case {"type": "error"}:
@@ -137,7 +137,7 @@ class RealizerClient:
                 case _:
                     self.mistakes.append(f"unexpected message {json.dumps(message)[:200]}")
         except etree.XMLSyntaxError as problem:
-            self.mistakes.append(f"feedback that is no XML: {problem}")
+            self.mistakes.append(f"feedback that is not XML: {problem}")
 
     def _not_reached(self, reason: str) -> RealizerError:
         return RealizerError(NotReached(url=self._url, reason=reason))

@@ -1,4 +1,4 @@
-"""From a script to what has to be true of the feedback (thesis 9.6: assertions made from the script)."""
+"""Derives assertions about the feedback from a script (thesis 9.6)."""
 
 from collections.abc import Iterator
 from functools import partial
@@ -30,10 +30,10 @@ _PREDICTION: Final = "the last prediction before it"
 
 
 def checks_of(case: ConformanceCase) -> Iterator[Check]:
-    """All that a case asserts."""
+    """All assertions of a case."""
     warnings = [(warning.id, warning.type) for warning in case.warnings]
     yield Check("progress", assert_reported_once)
-    yield Check("warnings", lambda told: assert_warnings(told, *warnings))
+    yield Check("warnings", lambda feedback: assert_warnings(feedback, *warnings))
     for block in case.blocks:
         yield from _block(case, block)
     yield from relations(case)
@@ -54,7 +54,7 @@ def _block(case: ConformanceCase, block: BehaviorBlock) -> Iterator[Check]:
 
 
 def _whole(case: ConformanceCase, block: BehaviorBlock) -> Iterator[Check]:
-    """What holds in a block that nothing cuts short."""
+    """Assertions about a block that is not interrupted."""
     silent = {warning.id for warning in case.warnings if not warning.plays}
     for behavior in block.behaviors:
         name = f"{block.id}:{behavior.id}"
@@ -73,10 +73,11 @@ def _predicted(point: str) -> Check:
 
 
 def _in_order(name: str, behavior: Behavior) -> Check:
-    """All points of a core behavior; of others, whose points are their own, the first and the last."""
+    """The order of all points of a core behavior; of another one, which may have more points, of start and end."""
     if behavior.namespace in (BML, BML_EXT):
         return Check(
-            f"points of {behavior.name}", lambda told: assert_syncs_in_order(told, name, *behavior.sync_points)
+            f"points of {behavior.name}",
+            lambda feedback: assert_syncs_in_order(feedback, name, *behavior.sync_points),
         )
     return Check(f"points of {behavior.name}", partial(assert_order, earlier=f"{name}:start", later=f"{name}:end"))
 
@@ -111,7 +112,7 @@ def _constraints(block: BehaviorBlock) -> Iterator[Check]:
 
 
 def _linked(point: str, offset: float, block: BehaviorBlock, ref: SyncRef, text: str) -> Iterator[Check]:
-    """Whether ``point + offset`` is where a reference says; when an anticipator's point came is not told."""
+    """The distance of ``point + offset`` from a reference; feedback does not report the points of anticipators."""
     if ref.block != ANTICIPATORS:
         yield _distance(point, _point(block, ref), ref.offset - offset, text)
 
@@ -121,6 +122,6 @@ def _distance(point: str, other: str, offset: float, text: str) -> Check:
 
 
 def _point(block: BehaviorBlock, ref: SyncRef) -> str:
-    """The point that a reference names, its offset aside, as feedback names it."""
+    """The name in feedback of the point of a reference, without its offset."""
     parts = (ref.block or block.id, ref.behavior, ref.sync or "start")
     return ":".join(part for part in parts if part is not None)

@@ -1,4 +1,4 @@
-"""What blocks say about each other: composition, and the attributes and behaviors of BMLA."""
+"""Derives assertions about the order of blocks: composition, and the attributes and behaviors of BMLA."""
 
 from collections.abc import Iterable, Iterator
 from functools import partial
@@ -11,7 +11,7 @@ from reactive_realizer.testing.assertions import assert_linked, assert_order, as
 
 
 def relations(case: ConformanceCase) -> Iterator[Check]:
-    """The order of the blocks of a case, as far as they start."""
+    """Assertions about the order of the blocks that start."""
     earlier: list[BehaviorBlock] = []
     for block in case.blocks:
         if case.starts(block):
@@ -22,7 +22,7 @@ def relations(case: ConformanceCase) -> Iterator[Check]:
 
 
 def _waits(case: ConformanceCase, block: BehaviorBlock, earlier: Iterable[BehaviorBlock]) -> Iterator[Check]:
-    """A block starts with the last of what it waits for, neither before nor after."""
+    """A block starts at the last of the points that it waits for, neither before nor after."""
     points = [*_awaited(case, block, earlier), *(_activating(case, block) if block.preplan else ())]
     if points:
         assertion = partial(assert_starts_with_last, block=block.id, points=points, tolerance=TOLERANCE)
@@ -30,7 +30,7 @@ def _waits(case: ConformanceCase, block: BehaviorBlock, earlier: Iterable[Behavi
 
 
 def _awaited(case: ConformanceCase, block: BehaviorBlock, earlier: Iterable[BehaviorBlock]) -> Iterator[str]:
-    """The points that composition and BMLA have a block wait for."""
+    """The points that a block waits for, by its composition or by BMLA."""
     if block.composition is Composition.APPEND:
         yield from (f"{other.id}:end" for other in _beside(block, earlier))
     for other in case.blocks:
@@ -51,7 +51,7 @@ def _activating(case: ConformanceCase, block: BehaviorBlock) -> Iterator[str]:
 
 
 def _subsiding(case: ConformanceCase, block: BehaviorBlock) -> Iterator[str]:
-    """The points that a block has passed when all that is left of it is in retraction."""
+    """The points that a block has passed when it subsides."""
     if block.id in case.ends:
         yield f"{block.id}:end"
         return
@@ -61,7 +61,7 @@ def _subsiding(case: ConformanceCase, block: BehaviorBlock) -> Iterator[str]:
 
 
 def _comes_after(block: BehaviorBlock, earlier: Iterable[BehaviorBlock]) -> Iterator[Check]:
-    """What a block ends has ended when it starts, which may be later: it has to be prepared."""
+    """A block starts after the end of the blocks that it ends, possibly later, because it has to be prepared."""
     ended = [other.id for other in _beside(block, earlier)] if block.composition is Composition.REPLACE else []
     for other in (*ended, *block.interrupts):
         assertion = partial(assert_order, earlier=f"{other}:end", later=f"{block.id}:start", tolerance=TOLERANCE)
@@ -73,7 +73,7 @@ def _beside(block: BehaviorBlock, earlier: Iterable[BehaviorBlock]) -> Iterator[
 
 
 def _acts(block: BehaviorBlock) -> Iterator[Check]:
-    """What interrupt does at its start."""
+    """An interrupt ends its targets at its own start."""
     for behavior in block.behaviors:
         if isinstance(behavior, Interrupt) and not behavior.exclude:
             ended = [f"{behavior.target}:{name}" for name in behavior.include] or [behavior.target]

@@ -50,7 +50,7 @@ async def run_suite(url: str, cases: Iterable[ConformanceCase], patience: float 
     """Runs cases, and ends all blocks after each.
 
     Raises:
-        RealizerError: the realizer is not reached, says nothing more, or the connection is lost.
+        RealizerError: the realizer is not reached or stops responding, or the connection is lost.
     """
     async with RealizerClient(url, patience) as client:
         runner = _Runner(client)
@@ -67,17 +67,17 @@ class _Runner:
     async def run(self, case: ConformanceCase) -> Outcome:
         self._client.forget()
         waited = [*await self._play(case), *await self.stop()]
-        told, checks = self._client.told, list(checks_of(case))
+        feedback, checks = self._client.feedback, list(checks_of(case))
         expected = {(warning.id, warning.type) for warning in case.warnings}
-        unknown = [f"{id_}: {type_}" for id_, type_ in told.warnings if type_ in _UNSUPPORTED]
-        if unknown and not expected.intersection(told.warnings):
+        unknown = [f"{id_}: {type_}" for id_, type_ in feedback.warnings if type_ in _UNSUPPORTED]
+        if unknown and not expected.intersection(feedback.warnings):
             return Outcome(case, Verdict.UNSUPPORTED, 0, tuple(unknown))
-        failed = [problem for check in checks if (problem := check.problem(told)) is not None]
+        failed = [problem for check in checks if (problem := check.problem(feedback)) is not None]
         problems = (*self._client.mistakes, *waited, *failed)
         return Outcome(case, Verdict.FAILED if problems else Verdict.PASSED, len(checks), problems)
 
     async def stop(self) -> list[str]:
-        """Ends all blocks; returns what went wrong."""
+        """Ends all blocks; returns the problems."""
         id_ = f"conformance-stop-{next(self._stops)}"
         if not await self._client.send(f'<bml xmlns="{BML}" id="{id_}" composition="REPLACE"/>'):
             self._client.check_alive()
@@ -85,7 +85,7 @@ class _Runner:
         return await self._wait([f"{id_}:end"])
 
     async def _play(self, case: ConformanceCase) -> list[str]:
-        """Sends the documents of a case and waits for its end; returns what did not arrive in time."""
+        """Sends the documents of a case and waits for its end; returns the messages that did not arrive in time."""
         for send in case.sends:
             missed = await self._wait([send.after] if send.after else [])
             if missed:
@@ -98,8 +98,8 @@ class _Runner:
         client = self._client
 
         def missing() -> list[str]:
-            return [point for point in points if not client.told.reached(point)]
+            return [point for point in points if not client.feedback.reached(point)]
 
-        if await client.until(lambda: not missing() and len(client.told.warnings) >= warnings):
+        if await client.until(lambda: not missing() and len(client.feedback.warnings) >= warnings):
             return []
-        return [f"{point} was not told in time" for point in missing()]
+        return [f"{point} was not reported in time" for point in missing()]

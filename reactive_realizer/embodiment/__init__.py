@@ -1,4 +1,4 @@
-"""Everything that can be moved, heard and shown: skeletons, avatars, poses, sound and frames.
+"""The body of a character: skeletons, avatars, poses, sound and frames.
 
 This package knows rotations, bones and how layers of motion become one pose. It does not know pegs, behaviors or
 engines, and it never reads a clock.

@@ -7,7 +7,7 @@ from typing import NamedTuple
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, multiply, rotate
 from reactive_realizer.embodiment.vector import ZERO, Vec3, add
 
-Pose = Mapping[str, Quat]
+JointRotations = Mapping[str, Quat]
 """Joint name -> rotation local to the parent; joints that are left out are in the default pose."""
 
 
@@ -102,7 +102,7 @@ class Body:
     """
 
     skeleton: Skeleton
-    pose: Pose = field(default_factory=dict)
+    pose: JointRotations = field(default_factory=dict)
     root: Vec3 = ZERO
     # All motions of a frame need transforms along the same few chains.
     _transforms: dict[str, Transform] = field(init=False, repr=False, compare=False, default_factory=dict)

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reactive_realizer.clock.units import GlobalTime
-from reactive_realizer.embodiment.body import Pose, Skeleton
+from reactive_realizer.embodiment.body import JointRotations, Skeleton
 from reactive_realizer.embodiment.quaternion import IDENTITY
 
 
@@ -28,7 +28,7 @@ class Frame:
     weights: NDArray[np.float64]
 
 
-def rotation_array(skeleton: Skeleton, pose: Pose) -> NDArray[np.float64]:
+def rotation_array(skeleton: Skeleton, pose: JointRotations) -> NDArray[np.float64]:
     """Return a pose as an array, (J, 4), in the order of the skeleton's joints."""
     rotations = [pose.get(joint, IDENTITY) for joint in skeleton.joints]
     # Twice as fast as np.array of tuples.

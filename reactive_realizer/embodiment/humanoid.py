@@ -100,11 +100,11 @@ class Humanoid:
         return rotate(conjugate(self._turn), subtract(point, self._position))
 
     def locate(self, joint: str | None, time: GlobalTime | None = None) -> Vec3 | None:
-        """Return the position of a joint in the world, m; None: no such joint.
+        """Return the position of a joint in the world, m; None if there is no such joint.
 
         Args:
-            joint: its name; None: the midpoint between the eyes.
-            time: of a coming frame; the position is extrapolated from the last frame. None: the current position.
+            joint: its name; None for the midpoint between the eyes.
+            time: of a future frame, for which the position is extrapolated; None for the current position.
         """
         name = joint or "skullbase"
         if name not in self.avatar.skeleton.joints:

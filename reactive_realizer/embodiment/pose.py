@@ -34,7 +34,7 @@ class LayerKind(IntEnum):
 
 
 class BadPose(PlayingFault):
-    """A layer with a value that no pose can have."""
+    """A layer with an invalid value."""
 
     code = "bad-pose"
     template = "its motion sets {what} to {value}, which is not a valid value"
@@ -44,7 +44,7 @@ class BadPose(PlayingFault):
 
 @dataclass(frozen=True, slots=True)
 class Layer:
-    """Rotations that one motion asks for in a frame.
+    """The rotations that one motion requests in a frame.
 
     Attributes:
         kind: position in the layer order. An ADDITIVE layer adds to the layers below; any other replaces them.

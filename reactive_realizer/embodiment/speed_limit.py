@@ -2,7 +2,7 @@
 
 import math
 
-from reactive_realizer.embodiment.body import Body, Pose
+from reactive_realizer.embodiment.body import Body, JointRotations
 from reactive_realizer.embodiment.feet import depth, drawn, feet, leg, soles, walks
 from reactive_realizer.embodiment.joints import EYES, HEAD, LOWER_BODY, ROOT, SIDES, TRUNK
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, angle, difference, slerp
@@ -40,7 +40,7 @@ def fastest(joint: str) -> float:
     return _SPEEDS.get(joint, _LIMB)
 
 
-def slowed(shown: Pose, wanted: Pose, duration: float) -> dict[str, Quat]:
+def slowed(shown: JointRotations, wanted: JointRotations, duration: float) -> dict[str, Quat]:
     """Return rotations that turn no faster than their limits.
 
     Args:

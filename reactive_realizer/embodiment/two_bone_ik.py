@@ -72,9 +72,9 @@ class Limb:
     HINGE: ClassVar[Vec3]
     """The right-handed turn about this axis bends the middle joint."""
     AHEAD: ClassVar[Vec3]
-    """A direction from the first joint to the end for which the middle joint's direction at swivel 0 is known ..."""
+    """A direction from the first joint to the end, for which `SIDE` is the middle joint's direction at swivel 0."""
     SIDE: ClassVar[Vec3]
-    """... namely this one."""
+    """The direction of the middle joint at swivel 0, if the limb points along `AHEAD`."""
     SOFT_FROM: ClassVar[float]
     """From this share of its length on, the limb approaches full extension softly; otherwise it would snap."""
 

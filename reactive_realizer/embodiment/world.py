@@ -11,7 +11,7 @@ class Locate(Protocol):
     """Returns the position of a character or of one of its joints, now or at a time (`Humanoid.locate`)."""
 
     def __call__(self, joint: str | None, time: GlobalTime | None = None) -> Vec3 | None:
-        """In the world, m; None: no such joint."""
+        """The position in the world, m; None if there is no such joint."""
         ...
 
 
@@ -38,11 +38,11 @@ class World:
             self._positions[target] = position
 
     def position(self, target: str, time: GlobalTime | None = None) -> Vec3 | None:
-        """Return the position of a target; None: no such target. ``alice`` is her eyes, ``alice:l_wrist`` is a joint.
+        """Return the position of a target, m; None if it is unknown. ``alice`` is her eyes, ``alice:l_wrist`` a joint.
 
         Args:
             target: its name.
-            time: of a frame for which characters have not moved yet; their positions are extrapolated. None: now.
+            time: of a frame for which characters have not moved yet, so their positions are extrapolated; None for now.
         """
         character, _, joint = target.partition(":")
         if character in self._living:

@@ -11,7 +11,7 @@ from reactive_realizer.embodiment.world import World
 from reactive_realizer.engine.tts import TTSBinding
 from reactive_realizer.reactive.graph import Graph
 
-Trajectory = Callable[[float], float]
+TrajectoryFunction = Callable[[float], float]
 """Maps a share of the duration of a change to a share of the change; both 0 to 1, and 1 at 1."""
 
 
@@ -26,7 +26,7 @@ class LipSyncProvider(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class EngineContext:
-    """The context of the engines of one character, which all factories of engines take.
+    """The context of the engines of one character. The constructor of each engine takes it.
 
     Attributes:
         character: its id.
@@ -36,12 +36,12 @@ class EngineContext:
         seed: of the random numbers of this character.
         tts: the text-to-speech binding that all characters share.
         voice: name of this character's voice, None for the binding's default.
-        bindings: the character's binding files, by kind; entries of earlier files have precedence.
+        bindings: the character's binding files, by kind; entries of earlier files take precedence.
         lip_sync: visemes of this character's speech.
         graph: of the cells of behavior parameters.
         trajectories: for changes of parameters, by name.
         functions: pure functions that formulas of animations may call besides the built-in ones, by name.
-        idle: whether the figure breathes, blinks, glances and shifts its weight when idle.
+        idle: whether the character has idle animation.
     """
 
     character: str
@@ -54,6 +54,6 @@ class EngineContext:
     bindings: Mapping[str, tuple[Path, ...]]
     lip_sync: LipSyncProvider | None = None
     graph: Graph = field(default_factory=Graph)
-    trajectories: Mapping[str, Trajectory] = field(default_factory=dict)
+    trajectories: Mapping[str, TrajectoryFunction] = field(default_factory=dict)
     functions: Mapping[str, Callable[..., float]] = field(default_factory=dict)
     idle: bool = True

@@ -1,4 +1,4 @@
-"""The effects of playing: an engine changes nothing outside of itself, but returns what is to be changed."""
+"""The effects of playing: an engine changes nothing outside of itself, but returns requested changes."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
@@ -40,7 +40,7 @@ class Dropped:
 
 @dataclass(frozen=True, slots=True)
 class ActivateBlock:
-    """A preplanned block is to start.
+    """Requests the start of a preplanned block.
 
     Attributes:
         unit: of the request.
@@ -55,13 +55,13 @@ class ActivateBlock:
 
 @dataclass(frozen=True, slots=True)
 class InterruptBlock:
-    """A block, or some behaviors of it, are to be cut.
+    """Requests the interruption of a block, or of some of its behaviors.
 
     Attributes:
         unit: of the request.
         target: id of the block.
-        include: ids of the behaviors to be cut; all if empty.
-        exclude: ids of the behaviors that go on.
+        include: ids of the behaviors to interrupt; all if empty.
+        exclude: ids of the behaviors that continue.
         gently: whether a speech may finish its word.
         time: s, global.
     """
@@ -76,7 +76,7 @@ class InterruptBlock:
 
 @dataclass(frozen=True, slots=True)
 class BindParameter:
-    """A parameter of a behavior is to be changed: ``unit.bind(target, parameter)`` is called, or ``unit`` is dropped.
+    """Requests a parameter of a behavior: ``unit.bind(target, parameter)`` is called, or ``unit`` is dropped.
 
     Attributes:
         unit: of the request.
@@ -93,7 +93,7 @@ class BindParameter:
 
 @dataclass(frozen=True, slots=True)
 class SetParameter:
-    """A parameter is to be set to a value; ignored if another unit has bound the parameter since."""
+    """Requests a value for a parameter; ignored if another unit has bound the parameter since."""
 
     unit: PlanUnit
     parameter: Parameter
@@ -102,7 +102,7 @@ class SetParameter:
 
 @dataclass(frozen=True, slots=True)
 class EndUnit:
-    """A playing unit ends early and regularly: it is not reported as interrupted, and there is no warning.
+    """Requests the early, regular end of a playing unit: it is not reported as interrupted, and there is no warning.
 
     Attributes:
         unit: of the request.
@@ -115,7 +115,7 @@ class EndUnit:
 
 @dataclass(frozen=True, slots=True)
 class Warn:
-    """A warning about a unit that goes on.
+    """A warning about a unit that continues to play.
 
     Attributes:
         unit: of the request.
@@ -134,7 +134,7 @@ class ParameterUser(PlanUnit, ABC):
         """Bind the parameter of another unit that it changes.
 
         Raises:
-            RealizerError: it cannot be changed as planned; this unit is to be dropped.
+            RealizerError: it cannot be changed as planned, so this unit must be dropped.
         """
 
 

@@ -51,7 +51,7 @@ class Engine(Protocol):
         """A unit for the behavior, with its preferred timing; it is not in the plan yet.
 
         Raises:
-            RealizerError: it cannot be made, for the reason that the fault states.
+            RealizerError: the unit cannot be created; the fault states the reason.
         """
         ...
 

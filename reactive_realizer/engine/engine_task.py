@@ -1,4 +1,4 @@
-"""An engine as an asyncio task: ticks in, effects out, at a barrier."""
+"""Runs an engine as an asyncio task: it receives ticks and returns effects."""
 
 import asyncio
 import logging
@@ -15,7 +15,7 @@ logger = logging.getLogger(__name__)
 class EngineTask:
     """Runs one engine; its mailbox holds at most one tick.
 
-    If an engine raises, it drops its units with feedback, and the other engines go on.
+    If an engine raises, it drops its units with feedback, and the other engines continue.
     """
 
     def __init__(self, engine: Engine) -> None:
@@ -31,7 +31,7 @@ class EngineTask:
                 answer.set_result(play)
 
     def post(self, tick: Tick) -> "asyncio.Future[Play]":
-        """Let the engine play a tick; the result comes when it has."""
+        """Let the engine play a tick, and return the result when it is complete."""
         answer: asyncio.Future[Play] = asyncio.get_running_loop().create_future()
         self._mailbox.put_nowait((tick, answer))
         return answer

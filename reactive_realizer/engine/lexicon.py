@@ -44,11 +44,11 @@ class LexiconEntry:
 class LexiconProvider(Protocol):
     """An engine with a lexicon."""
 
-    def words(self) -> Iterator[LexiconEntry]:
-        """The entries of its lexicon, including those that cannot be played; it may read files."""
+    def lexicon(self) -> Iterator[LexiconEntry]:
+        """The entries, including those that cannot be played; may read files."""
         ...
 
 
-def words_of(engines: Iterable[object]) -> list[LexiconEntry]:
+def lexicon_of(engines: Iterable[object]) -> list[LexiconEntry]:
     """The entries of all engines that have a lexicon, in the order of the engines."""
-    return [word for engine in engines if isinstance(engine, LexiconProvider) for word in engine.words()]
+    return [entry for engine in engines if isinstance(engine, LexiconProvider) for entry in engine.lexicon()]

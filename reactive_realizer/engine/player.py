@@ -23,10 +23,9 @@ class Player:
 
     Conflicts over a resource, such as an arm, the voice or the mouth, are judged for the time at which a unit starts,
     not when it is planned: an interrupt may come between. The unit that plays keeps the resource, and the newer one is
-    dropped with one warning (BML: merge keeps
-    what is running). Only the way back to rest may be taken over: the one that plays ends then, and the newer begins
-    (co-articulation; S. Kopp and I. Wachsmuth, "Synthesizing multimodal utterances for conversational agents", 2004;
-    thesis 12.1.3).
+    dropped with one warning (in BML, MERGE keeps running behaviors). Only a return to rest may be taken over: the
+    playing unit ends, and the newer one begins (co-articulation; S. Kopp and I. Wachsmuth, "Synthesizing multimodal
+    utterances for conversational agents", 2004; thesis 12.1.3).
     """
 
     def __init__(self) -> None:
@@ -70,7 +69,7 @@ class Player:
     def show(self, kind: type[U], show: Callable[[U], T], now: GlobalTime) -> list[T]:
         """The result of ``show`` for every playing unit of a kind, in the order of `stacked`.
 
-        A unit for which it raises is dropped; the others go on.
+        A unit for which it raises is dropped; the others continue.
         """
         shown: list[T] = []
         for unit in self.stacked(kind):
@@ -88,7 +87,7 @@ class Player:
         return [unit for unit in sorted(self.playing, key=height) if isinstance(unit, kind)]
 
     def take_ending(self) -> tuple[EndUnit, ...]:
-        """The units that have to end since the last call, because others take over from them."""
+        """The units that must end because others take over from them, since the last call."""
         ending, self._ending = tuple(self._ending), []
         return ending
 
@@ -108,14 +107,14 @@ class Player:
         return [*self.playing, *starting]
 
     def _held(self, unit: PlanUnit, tick: Tick) -> bool:
-        """Whether a unit that is due cannot begin now: it is dropped, or others have to end in this round."""
+        """Whether a due unit cannot begin now: it is dropped, or others have to end first in this round."""
         start = unit.points[0].peg.value
         if start is None or not unit.due(tick.time):
             return False
         if (fault := unit.refusal()) is not None:
             self._drop(unit, fault, tick.time)
             return True
-        begin = tick.time if is_due(start, tick.previous) else start  # what joins late begins now
+        begin = tick.time if is_due(start, tick.previous) else start  # a unit that joins late begins now
         keeping, giving = self._owners(begin)
         unit.settle(frozenset().union(*(other.resources for other in keeping)))
         staying = [owner for owner in keeping if unit.excludes(owner)]
@@ -127,7 +126,7 @@ class Player:
         return bool(staying or leaving)
 
     def _owners(self, time: GlobalTime) -> tuple[list[PlanUnit], list[PlanUnit]]:
-        """The units that keep their resources at a time, and those that play but give theirs away.
+        """The units that keep their resources at a time, and the playing ones that release theirs.
 
         In a late tick, units that were playing at that time may have ended since.
         """
@@ -151,7 +150,7 @@ class Player:
             self._ended.append(unit)
 
     def _fail(self, unit: PlanUnit, failure: Exception, now: GlobalTime) -> None:
-        # A fault of a file is explained by its sentence; for an internal error, the trace is needed.
+        # The sentence explains a fault of a file; an internal error needs the traceback.
         trace = None if isinstance(failure, RealizerError) else failure
         logger.error("%s/%s:%s failed while playing: %s", *unit.block, unit.behavior.id, failure, exc_info=trace)
         self._drop(unit, UnitFailed(reason=str(failure)), now)

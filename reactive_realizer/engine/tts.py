@@ -53,8 +53,8 @@ class Utterance:
         text: what is spoken.
         duration: s.
         words: in the order of the text.
-        marks: time of each mark, s from the start of the utterance; every mark that was asked for has one.
-        phonemes: in the order of time; empty if the voice knows none.
+        marks: time of each requested mark, s from the start of the utterance.
+        phonemes: in the order of time; empty if the voice provides none.
         audio: mono PCM, int16 little-endian; empty if the voice makes no sound.
         sample_rate: of the audio, Hz.
     """
@@ -68,15 +68,15 @@ class Utterance:
     sample_rate: int = 22_050
 
     def words_begun(self, time: float) -> tuple[Word, ...]:
-        """The words of which something was heard before a time, s from the start of the utterance."""
+        """The words that have begun before a time, s from the start of the utterance."""
         return tuple(word for word in self.words if word.start < time - RESOLUTION)
 
     def next_word(self, time: float) -> float:
-        """When the first word at or after a time begins, s; the duration where none does."""
+        """The start of the first word at or after a time, s; the duration if there is none."""
         return next((word.start for word in self.words if word.start >= time - RESOLUTION), self.duration)
 
     def time_of_character(self, index: int) -> float:
-        """When the word at or after a character begins, s; the duration where no word follows."""
+        """The start of the word at or after a character, s; the duration if no word follows."""
         return next((word.start for word in self.words if index < word.last), self.duration)
 
 
@@ -99,17 +99,17 @@ class TTSBinding(Protocol):
     """A text-to-speech system, which all characters of a scene share."""
 
     async def start(self) -> None:
-        """Makes the voices ready.
+        """Prepares the voices.
 
         Raises:
-            RealizerError: if they are not installed or do not start.
+            RealizerError: the voices are not installed or do not start.
         """
 
     async def close(self) -> None:
-        """Gives back what `start` took."""
+        """Releases the resources of `start`."""
 
     async def voices(self) -> tuple[str, ...]:
-        """The names that `synthesize` knows, sorted; none if the system has one voice only.
+        """The names that `synthesize` accepts, sorted; none if the system has only one voice.
 
         Raises:
             RealizerError: as `start`.
@@ -121,15 +121,15 @@ class TTSBinding(Protocol):
     ) -> Utterance | Awaitable[Utterance]:
         """Speaks a text.
 
-        A system that needs time gives an awaitable and works off the event loop's thread; with one that does not, a
-        speech can start in the tick that plans it.
+        A slow system returns an awaitable, and works outside of the thread of the event loop. With a fast one, a speech
+        can start in the tick in which it is planned.
 
         Args:
             text: plain text, no markup.
-            marks: (name, index into the text) of the places whose times are wanted.
-            voice: a name that the system knows; None for its default.
+            marks: (name, index into the text) of each mark.
+            voice: one of its names; None for its default.
 
         Raises:
-            RealizerError: if the voice is unknown or the synthesis failed; the next call is not affected.
+            RealizerError: the voice is unknown or the synthesis failed; the next call is not affected.
         """
         ...

@@ -1,1 +1,1 @@
-"""The modalities: one package an engine; they are strangers to each other and to the scheduler."""
+"""The engines of all modalities. They do not import each other or the scheduler."""

@@ -1,7 +1,7 @@
 """The engines of ``activate`` (thesis 6.6.1, 8.13) and ``interrupt`` (6.6.3, 8.14).
 
-Their behaviors show nothing: each sends one request to the scheduler at its start, which is also its end. The engines
-know blocks and behaviors by their ids only.
+Their behaviors have no visible output: each sends one request to the scheduler at its start, which is also its end. The
+engines identify blocks and behaviors by their ids.
 """
 
 from collections.abc import Callable

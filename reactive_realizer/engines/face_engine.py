@@ -1,9 +1,12 @@
 """The engine of the face (thesis 8.9): expressions and the mouth of speech, as weights of morph targets."""
 
+import json
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
+from types import MappingProxyType
 
-from reactive_realizer.binding.face_lexemes import read_face_lexemes
+from reactive_realizer.binding.faults import BadAsset
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.behaviors import FaceLexeme
 from reactive_realizer.clock.ticker import Tick
@@ -69,7 +72,7 @@ class FaceUnit(PlanUnit):
         self._released = released
 
     def on_finish(self, time: GlobalTime) -> None:
-        """Hands over what is still shown, which then fades."""
+        """Hands over the weights that are still shown, which then fade."""
         self._released(self, time)
 
     def shown(self, now: GlobalTime) -> dict[str, float]:
@@ -101,8 +104,8 @@ class FaceEngine(DefaultEngine):
         self._fading_mouths = _Fades()
         self._mouth: Mapping[str, float] = {}
 
-    def words(self) -> Iterator[LexiconEntry]:
-        """The lexemes of the faces it plays."""
+    def lexicon(self) -> Iterator[LexiconEntry]:
+        """The face lexemes."""
         duration = sum(phase.duration for phase in _TIMING.phases)
         return (
             LexiconEntry("faceLexeme", lexeme, sync_points=_TIMING.points, duration=duration, file=_LEXEMES)
@@ -134,7 +137,7 @@ class FaceEngine(DefaultEngine):
         return {m: max(face.get(m, 0.0), spoken.get(m, 0.0)) for m in face | spoken}
 
     def _spoken(self, mouth: Mapping[str, float], now: GlobalTime) -> dict[str, float]:
-        """The mouth of the speech; where a word is cut off, the mouth fades like a face."""
+        """The mouth of the speech; if a word is cut off, the mouth fades like a face."""
         if self._mouth and not mouth:
             self._fading_mouths.add(self._mouth, now)
         self._mouth = mouth
@@ -165,7 +168,7 @@ class _Fades:
         self._fades.append(_Fade(weights, now))
 
     def at(self, now: GlobalTime) -> list[dict[str, float]]:
-        """The weights that are left of each fade."""
+        """The remaining weights of each fade."""
         self._fades = [fade for fade in self._fades if fade.left(now) > 0.0]
         return [{m: w * fade.left(now) for m, w in fade.weights.items()} for fade in self._fades]
 
@@ -200,3 +203,35 @@ def _eased(share: float) -> float:
 
 def _word(lexeme: str) -> str:
     return lexeme.upper().replace("-", "_")
+
+
+FaceLexemes = Mapping[str, Mapping[str, float]]
+"""Lexeme -> morph target -> weight at amount 1, 0 to 1."""
+
+
+def read_face_lexemes(path: Path) -> FaceLexemes:
+    """Read the lexemes of a JSON file: an object "lexemes" that contains one object of weights for each lexeme.
+
+    Raises:
+        RealizerError: "bad-asset": the file has another format; the error names the lexeme.
+        OSError: the file cannot be read.
+    """
+    try:
+        table = json.loads(path.read_text(encoding="utf-8"))
+    except ValueError as problem:
+        row = getattr(problem, "lineno", 1)
+        raise RealizerError(BadAsset(file=path.name, row=row, element="JSON", reason=str(problem))) from problem
+    lexemes = table.get("lexemes") if isinstance(table, dict) else None
+    if not isinstance(lexemes, dict):
+        raise RealizerError(BadAsset(file=path.name, row=1, element="lexemes", reason="no object of that name"))
+    return MappingProxyType({name: _weights(path.name, name, weights) for name, weights in lexemes.items()})
+
+
+def _weights(file: str, lexeme: str, weights: object) -> Mapping[str, float]:
+    if not isinstance(weights, dict) or not all(_is_weight(weight) for weight in weights.values()):
+        raise RealizerError(BadAsset(file=file, row=1, element=lexeme, reason="weights are numbers from 0 to 1"))
+    return MappingProxyType({morph: float(weight) for morph, weight in weights.items()})
+
+
+def _is_weight(weight: object) -> bool:
+    return isinstance(weight, int | float) and not isinstance(weight, bool) and 0.0 <= weight <= 1.0

@@ -7,7 +7,7 @@ from reactive_realizer.bml.extensions import ParameterValueChange
 from reactive_realizer.bml.names import BMLT
 from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.clock.units import GlobalTime
-from reactive_realizer.engine.context import EngineContext, Trajectory
+from reactive_realizer.engine.context import EngineContext, TrajectoryFunction
 from reactive_realizer.engine.effects import BindParameter, EndUnit, ParameterUser, Request, SetParameter
 from reactive_realizer.engine.engine import DefaultEngine
 from reactive_realizer.errors import CreationFault, PlayingFault, RealizerError
@@ -70,7 +70,11 @@ class ParameterValueChangeUnit(ParameterUser):
     """
 
     def __init__(
-        self, block: BlockKey, change: ParameterValueChange, trajectory: Trajectory, request: Callable[[Request], None]
+        self,
+        block: BlockKey,
+        change: ParameterValueChange,
+        trajectory: TrajectoryFunction,
+        request: Callable[[Request], None],
     ) -> None:
         super().__init__(block, change, _timing(change, trajectory))
         self.change = change
@@ -145,7 +149,7 @@ class ParameterValueChangeUnit(ParameterUser):
 
 
 class ParameterValueChangeEngine(DefaultEngine):
-    """Requests a parameter when a change is due, then its values.
+    """Requests the parameter when a change is due, and then its values.
 
     The requests are carried out before the other engines play.
     """
@@ -184,14 +188,14 @@ class ParameterValueChangeEngine(DefaultEngine):
         units = (unit for unit in self.player.units if isinstance(unit, ParameterValueChangeUnit))
         return [unit for unit in units if unit.wants_parameter(tick.time)]
 
-    def _trajectory(self, name: str) -> Trajectory:
+    def _trajectory(self, name: str) -> TrajectoryFunction:
         found = self._trajectories.get(name.strip().lower().replace("_", "-"))
         if found is None:
             raise RealizerError(NoTrajectory(trajectory=name, known=tuple(sorted(self._trajectories))))
         return found
 
 
-def _timing(change: ParameterValueChange, trajectory: Trajectory) -> Timing:
+def _timing(change: ParameterValueChange, trajectory: TrajectoryFunction) -> Timing:
     """BMLT's stroke is the same point as the end; a change that is instantaneous has no duration."""
     at_once = trajectory(0.0) >= 1.0
     phase = Phase(0.0 if at_once else _DURATION, PhaseKind.FREE)

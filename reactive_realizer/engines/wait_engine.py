@@ -21,7 +21,7 @@ class WaitEngine(DefaultEngine):
         super().__init__(f"{context.character}/wait")
 
     def plan(self, block: BlockKey, behavior: Behavior, prepared: object) -> PlanUnit:
-        """A unit with times and nothing to show."""
+        """A unit with sync points and no output."""
         if not isinstance(behavior, Wait):
             raise TypeError(behavior)
         return PlanUnit(block, behavior, Timing(("start", "end"), (_phase(behavior),)))

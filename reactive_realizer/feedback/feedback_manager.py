@@ -8,7 +8,7 @@ from reactive_realizer.clock.ticker import RATE
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.feedback.messages import (
     BlockProgress,
-    Message,
+    Feedback,
     PredictionFeedback,
     SyncPointProgress,
     WarningFeedback,
@@ -28,7 +28,7 @@ class Report:
     """
 
     time: GlobalTime
-    message: Message
+    message: Feedback
     xml: str
 
 
@@ -48,20 +48,20 @@ class FeedbackManager:
 
     def __init__(self) -> None:
         self._listeners: list[Callable[[Report], None]] = []
-        self._messages: list[Message] = []
-        self._progress: list[tuple[ProgressOrder, int, Message]] = []
+        self._messages: list[Feedback] = []
+        self._progress: list[tuple[ProgressOrder, int, Feedback]] = []
 
     def listen(self, listener: Callable[[Report], None]) -> Callable[[], None]:
-        """Send a listener every report from now on; the returned call ends that."""
+        """Send a listener every report from now on, until the returned function is called."""
         self._listeners.append(listener)
         return lambda: self._listeners.remove(listener) if listener in self._listeners else None
 
     def add(self, message: WarningFeedback | PredictionFeedback) -> None:
-        """Have a warning or prediction sent with this tick: in the order of adding, before all progress."""
+        """Send a warning or prediction with this tick: in the order of adding, before all progress."""
         self._messages.append(message)
 
     def add_progress(self, message: BlockProgress | SyncPointProgress, order: ProgressOrder) -> None:
-        """Have progress sent with this tick, in its order; its own time may lie before the tick."""
+        """Send progress with this tick, sorted as progress is; its own time may be before the tick."""
         self._progress.append((order, len(self._progress), message))
 
     def flush(self, time: GlobalTime) -> None:

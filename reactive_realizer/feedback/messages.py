@@ -54,7 +54,7 @@ class PredictionFeedback:
 
 @dataclass(frozen=True, slots=True)
 class WarningFeedback:
-    """Something could not be done as it was asked for.
+    """A part of a block that could not be realized as written.
 
     Attributes:
         character: of the block; None if no block could be read.
@@ -67,4 +67,4 @@ class WarningFeedback:
     text: str
 
 
-Message = BlockProgress | SyncPointProgress | PredictionFeedback | WarningFeedback
+Feedback = BlockProgress | SyncPointProgress | PredictionFeedback | WarningFeedback

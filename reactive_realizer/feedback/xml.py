@@ -11,7 +11,7 @@ from reactive_realizer.bml.names import BML, BMLA, OWN, is_sync_id
 from reactive_realizer.feedback.messages import (
     BehaviorPrediction,
     BlockProgress,
-    Message,
+    Feedback,
     PredictionFeedback,
     SyncPointProgress,
     WarningFeedback,
@@ -21,16 +21,16 @@ _DECIMALS = 6
 _STATUS = f"{{{BMLA}}}status"
 _OWN_TIME = f"{{{OWN}}}time"
 _NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
-"""Characters that XML may not hold: reasons of failures and names of plug-ins may be any text."""
+"""Characters that XML does not allow; the reason of a failure or the name of a plug-in may contain any."""
 
 
-def to_xml(message: Message) -> str:
+def to_xml(message: Feedback) -> str:
     """The message as one line of XML."""
     return etree.tostring(_element(message), encoding="unicode").replace("\n", " ")
 
 
 def as_reported(time: float) -> float:
-    """A time as it is written in feedback."""
+    """A time as feedback writes it."""
     return round(time, _DECIMALS)
 
 
@@ -106,7 +106,7 @@ def _predicted(block: str, prediction: BehaviorPrediction) -> etree._Element:
     element = etree.fromstring(behavior.source)
     element.set("id", _legal(f"{block}:{behavior.id}"))
     for sync in behavior.syncs:
-        if sync in element.attrib:  # not every one was written: a stroke may follow from an end
+        if sync in element.attrib:  # points that were not written get their times too
             del element.attrib[sync]
     inline = {sync.get("id"): sync for sync in element.iter(f"{{{BML}}}sync", "sync")} if len(element) else {}
     for sync, time in prediction.times.items():

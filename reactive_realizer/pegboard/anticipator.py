@@ -9,10 +9,10 @@ from reactive_realizer.pegboard.pegboard import PegBoard
 
 
 class PredictsItself(Fault):
-    """A prediction from outside for an anticipator that makes its own."""
+    """A client's prediction for an anticipator that makes its own."""
 
     code = "predicts-itself"
-    template = "'{anticipator}' is a {kind}: it makes its own predictions and accepts none from outside"
+    template = "'{anticipator}' is a {kind}: it makes its own predictions and accepts none from clients"
     anticipator: str
     kind: str
 
@@ -30,8 +30,8 @@ class UnknownEvent(Fault):
 class Anticipator:
     """Predicts the times of its points, which it alone writes.
 
-    This class takes predictions from outside; subclasses make predictions from events. All methods are called within a
-    transaction of the realizer's input phase.
+    This class takes predictions of clients; subclasses make predictions from events. All methods are called within a
+    transaction in the input phase of a tick.
 
     A point is either one moment, such as the third beat, or the next occurrence of an event, such as a key press; such
     a point is renewed on the board after each occurrence.
@@ -59,7 +59,7 @@ class Anticipator:
         return None
 
     def check(self, name: str, value: float | None) -> None:
-        """Check an event that comes from outside, before it enters.
+        """Check an event of a client, before it enters.
 
         Raises:
             RealizerError: "unknown-event", or the value is invalid.
@@ -77,7 +77,7 @@ class Anticipator:
             raise self._unknown(f"{name} with a text")
 
     def check_prediction(self) -> None:
-        """Check whether it accepts a prediction from outside, before the prediction enters.
+        """Check whether it accepts a client's prediction, before the prediction enters.
 
         Raises:
             RealizerError: it makes its own predictions.
@@ -95,13 +95,13 @@ class Anticipator:
         """Handle an event with a text."""
 
     def revise(self, now: GlobalTime) -> None:
-        """Predict all named points anew that have not passed."""
+        """Predict all named points that have not passed again."""
         for sync, peg in self._board.predictions(self.id).items():
             if not is_due(peg.value, now):
                 self.predict(sync, self.forecast(sync), now)
 
     def renew(self, sync: str) -> None:
-        """Let a point that has passed mean the next occurrence; pegs that depend on it already keep this one."""
+        """Make a passed point mean its next occurrence; pegs that depend on it already keep this one."""
         self._board.renew(self.id, sync)
 
     def withdraw(self, now: GlobalTime) -> None:
@@ -130,5 +130,5 @@ class Anticipator:
     def _unknown(self, event: str) -> RealizerError:
         known = ", ".join([*self.events, *(f"{name} with a text" for name in self.heard)])
         if not known:
-            known = "none; when its points are to be is said by predict" if self.kind == Anticipator.kind else "none"
+            known = "none (it takes predictions)" if self.kind == Anticipator.kind else "none"
         return RealizerError(UnknownEvent(anticipator=self.id, event=event, known=known))

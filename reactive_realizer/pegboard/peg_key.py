@@ -3,7 +3,7 @@
 from typing import NamedTuple
 
 ANTICIPATORS = "anticipators"
-"""Stands for a block id in the name of a predicted point."""
+"""Takes the place of the block id in the name of a predicted point."""
 
 
 class BlockKey(NamedTuple):

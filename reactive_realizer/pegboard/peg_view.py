@@ -1,4 +1,4 @@
-"""Pegs seen from outside: what each is, why it has its time, what it waits for and what moves with it."""
+"""Read-only views of pegs: kind, time, dependencies and dependents, and explanations of times."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass
@@ -9,7 +9,7 @@ from reactive_realizer.pegboard.time_peg import LatestPeg, Link, TimeCell, TimeP
 from reactive_realizer.reactive.graph import Stamp
 
 _DEEPEST = 64
-"""Deepest explanation: a chain of appended blocks may have any length, but documents may not be nested so deeply."""
+"""Depth limit of an explanation: a chain of appended blocks can have any length, but JSON readers limit the nesting."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,7 +26,7 @@ class PegView:
         parameters: the numbers of the rule: ``offset``, ``ratio``, ``bounds``, ``floor``.
         why: text of the constraint that it was made for; None if there is none.
         owner: the block it was first named for.
-        commit: the commit that gave it its time; None if it was made so, outside of a transaction.
+        commit: the commit that gave it its time; None if it was created with it, outside of a transaction.
     """
 
     key: PegKey
@@ -81,7 +81,7 @@ class Explanation:
         state: ``pinned``, ``moving``, ``unknown``; ``past`` for a source of a pinned peg that has moved since.
         rule: the rule by which its time follows from others, for people.
         tie: text of the constraint that it was made for; None if there is none.
-        commit: the commit that gave it this time; None if it was made so, outside of a transaction.
+        commit: the commit that gave it this time; None if it was created with it, outside of a transaction.
         sources: explanations of the pegs that determined it.
     """
 
@@ -130,7 +130,9 @@ def _follow(link: Link, explained: set[TimeCell], depth: int) -> Explanation:
     peg = link.peg()
     if peg is not None and peg.stamp == link.stamp and time_of(peg) == link.time:
         return _explain(peg, explained, depth)
-    return Explanation(link.name, link.kind, link.time, "past", "has moved since, or is gone", None, link.stamp, ())
+    return Explanation(
+        link.name, link.kind, link.time, "past", "has moved since, or no longer exists", None, link.stamp, ()
+    )
 
 
 def followers_of(peg: TimeCell) -> set[TimeCell]:

@@ -46,7 +46,7 @@ class PegBoard:
         return GlobalTime(self.graph.time)
 
     def begin(self, tick: Tick) -> None:
-        """Note the tick that begins."""
+        """Set the tick that begins."""
         self.graph.time, self.previous = tick.time, tick.previous
 
     def add(self, key: PegKey, peg: TimeCell) -> None:
@@ -61,7 +61,7 @@ class PegBoard:
             self._owners.setdefault(peg, block)
 
     def add_unnamed(self, block: BlockKey, pegs: Iterable[TimePeg]) -> None:
-        """Note pegs without a name that only pegs of a block depend on, and that are removed with it."""
+        """Register unnamed pegs on which only pegs of a block depend, and which are removed with it."""
         self._unnamed.setdefault(block, []).extend(pegs)
 
     def replace(self, key: PegKey, peg: TimePeg) -> None:
@@ -130,7 +130,7 @@ class PegBoard:
         return peg
 
     def renew(self, anticipator: str, sync: str) -> None:
-        """Let a predicted point mean the next occurrence; pegs that depend on it already keep this one."""
+        """Make a predicted point mean its next occurrence; pegs that depend on it already keep this one."""
         key = anticipator_key(anticipator, sync)
         if key in self._pegs:
             self._owners.pop(self._pegs[key], None)
@@ -138,7 +138,7 @@ class PegBoard:
             self._owners[self._pegs[key]] = key.block_key
 
     def ask(self, anticipator: str, forecast: Callable[[str], Time]) -> None:
-        """Ask ``forecast(sync)`` for the times of the points of an anticipator when they are first named."""
+        """Register a function that gives the time of a point of an anticipator when the point is first named."""
         self._forecasts[anticipator] = forecast
 
     def predictions(self, anticipator: str) -> dict[str, AnticipatorPeg]:

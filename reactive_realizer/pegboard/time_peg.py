@@ -73,7 +73,7 @@ class TimePeg(Derived[Time]):
 
     @property
     def deciding(self) -> tuple[Link, ...]:
-        """Those of its links that determine its time, or that it waits for."""
+        """The links that determine its time, or for which it waits."""
         time = time_of(self)
         overtaken_by = [link for link in self._split_links[1] if time is not None and link.time == time]
         return tuple(overtaken_by[:1]) or self._deciding()
@@ -173,7 +173,7 @@ class RatioPeg(TimePeg):
 class BoundedPeg(TimePeg):
     """A peg that follows another one, the natural peg, within bounds; each bound is a peg and a distance (s).
 
-    A bound beyond one of the stops has no effect: it cannot be kept any more.
+    A bound beyond one of the stops has no effect: it can no longer be satisfied.
     """
 
     __slots__ = ("bounds", "stops")
@@ -198,7 +198,7 @@ class BoundedPeg(TimePeg):
         return {"bounds": list(self.bounds), "stops": list(self.stops)}
 
     def _deciding(self) -> tuple[Link, ...]:
-        """The natural peg, or the bound that keeps it from being there."""
+        """The natural peg, or the bound that overrides it."""
         return _reached(self, (0.0, *self.bounds))
 
     def _described(self, links: Sequence[Link], side: str, beyond: str) -> str:
@@ -297,7 +297,7 @@ class OpenPeg(TimePeg):
 
     def __init__(self, graph: Graph, name: str) -> None:
         super().__init__(
-            graph, name, (Source[Time](graph, f"the end of what persists, {name}", None),), shifted_by(0.0)
+            graph, name, (Source[Time](graph, f"the end of the persistent behavior, {name}", None),), shifted_by(0.0)
         )
 
     @property

@@ -33,7 +33,7 @@ def _folded(word: str) -> str:
 
 @dataclass(slots=True, eq=False)
 class Parameter:
-    """A parameter of a unit that plays; whatever reads its cell follows its changes.
+    """A parameter of a playing unit. Readers of its cell follow its changes.
 
     Attributes:
         cell: the value.
@@ -51,6 +51,6 @@ class Parameter:
         return self.cell.value
 
     def set(self, value: float) -> None:
-        """Set the value, in a transaction of its own or within one; for the scheduler alone."""
+        """Set the value, in its own transaction or within one; only the scheduler calls this."""
         with self.cell.graph.transaction(f"set {self.cell.name}"):
             self.cell.set(value)

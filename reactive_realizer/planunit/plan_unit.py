@@ -12,9 +12,8 @@ from reactive_realizer.clock.units import RESOLUTION, GlobalTime, Time, is_due
 from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.peg_key import BlockKey, PegKey
 from reactive_realizer.pegboard.time_peg import OpenPeg, TimePeg
-from reactive_realizer.planunit.faults import Overtaken, TooShort
 from reactive_realizer.planunit.parameter import Parameter
-from reactive_realizer.planunit.timing import OPEN, SHORTEST, Timing
+from reactive_realizer.planunit.timing import OPEN, SHORTEST, Overtaken, Timing, TooShort
 
 logger = logging.getLogger(__name__)
 
@@ -38,7 +37,7 @@ class SyncPoint:
     Attributes:
         id: the sync id.
         peg: its time; shared with the sync points it is tied to.
-        tied: whether a BML constraint names it; otherwise its behavior prefers its time.
+        tied: whether a BML constraint names it; otherwise its time follows from the preferences of its behavior.
         fired: whether it has been reported; its peg is pinned then.
         cut: whether it was reported because its behavior was cut short.
     """
@@ -51,7 +50,7 @@ class SyncPoint:
 
 
 class DuePoint(NamedTuple):
-    """A sync point that is to fire, and the time (s, global) that it is reported with."""
+    """A sync point that is about to fire, and the time (s, global) to report."""
 
     point: SyncPoint
     time: GlobalTime
@@ -127,7 +126,7 @@ class PlanUnit:
 
     @property
     def begun(self) -> bool:
-        """Whether its start was reached."""
+        """Whether it has started."""
         return bool(self.points) and self.points[0].fired
 
     @property
@@ -177,7 +176,7 @@ class PlanUnit:
         return [point for point in self.points if not point.fired]
 
     def subsiding(self, time: GlobalTime) -> bool:
-        """Whether, at a time, only a return to rest is left of it whose end no BML constraint names."""
+        """Whether, at a time, it only returns to rest, and no BML constraint names its end."""
         relaxed = any(point.id == "relax" and point.fired and is_due(point.peg.value, time) for point in self.points)
         return relaxed and not self.points[-1].tied
 
@@ -185,7 +184,7 @@ class PlanUnit:
         """Whether this unit and another one cannot play at the same time."""
         rivals = self.group is not None and self.group == other.group
         if rivals and (self.yields or other.yields):
-            # The upper one hides the other; of two that begin and end together, neither is above.
+            # The upper unit hides the other; if both begin and end together, neither is above.
             return self.start_and_end == other.start_and_end
         return rivals or bool(self.resources & other.resources)
 
@@ -210,7 +209,7 @@ class PlanUnit:
     def refusal(self) -> Fault | None:
         """The fault that keeps it from beginning with the present times of its points (thesis 7.14, 7.15), if any.
 
-        This is checked only when it is about to begin, because times from outside may be out of order temporarily.
+        This is checked only when it is about to begin, because external times may be out of order temporarily.
         """
         start, end = self.points[0].peg.value, self.points[-1].peg.value
         if (lost := self.overtaken()) is not None:

@@ -6,6 +6,8 @@ from dataclasses import dataclass, field
 from enum import Enum
 from math import inf
 
+from reactive_realizer.errors import SchedulingFault
+
 SHORTEST = 1e-5
 """A behavior shorter than a thousandth of a tick (s) cannot be played."""
 
@@ -15,7 +17,7 @@ OPEN = ("relax", "end")
 
 
 class PhaseKind(Enum):
-    """How a phase may be stretched."""
+    """The ways in which a phase may be stretched."""
 
     RIGID = "rigid"
     ELASTIC = "elastic"
@@ -55,9 +57,9 @@ class Timing:
         points: sync ids in order, from start to end; two or more.
         phases: one between each two points.
         instant: whether all its points have one time; other behaviors have a duration (thesis 7.14).
-        persistent: whether it goes on until it is ended, and its relax and end are unknown until then (thesis 6.3.1).
+        persistent: whether it continues until it is ended, and its relax and end are unknown until then (thesis 6.3.1).
         rigid: whether all its phases are rigid.
-        free: whether all its phases are free: it takes the time that other behaviors leave, and moves none of them.
+        free: whether all its phases are free: it takes the time that other behaviors leave, and does not move them.
         limited: indices of the phases with authored limits that have an effect.
     """
 
@@ -98,3 +100,21 @@ def timing_at(offsets: Mapping[str, float], kind: PhaseKind = PhaseKind.ELASTIC)
     """A timing from the times (s) of its points after the start, in order, all phases of one kind."""
     times = list(offsets.values())
     return Timing(tuple(offsets), tuple(Phase(b - a, kind) for a, b in itertools.pairwise(times)))
+
+
+class Overtaken(SchedulingFault):
+    """Sync points whose times, in s, lost their order (thesis 7.15)."""
+
+    code = "overtaken"
+    template = "its sync points lost their order when they moved: {sync} is at {time:g} s, {later} at {late:g} s"
+    sync: str
+    time: float
+    later: str
+    late: float
+
+
+class TooShort(SchedulingFault):
+    """A behavior without duration (thesis 7.14)."""
+
+    code = "too-short"
+    template = "no time is left between its start and its end"

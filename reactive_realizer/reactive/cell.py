@@ -13,7 +13,7 @@ logger = logging.getLogger(__name__)
 
 
 class Source(Cell[T]):
-    """A cell that is written from outside."""
+    """A cell with a value that is written, not computed."""
 
     __slots__ = ()
 
@@ -112,7 +112,7 @@ class Derived(Cell[T]):
 
 
 def replace_cell(old: Cell[T], new: Cell[T]) -> None:
-    """Within a transaction, have all dependents of a cell depend on another one. Observers stay.
+    """Within a transaction, make all dependents of a cell depend on another one. Observers stay.
 
     Raises:
         PropagationCycleError: the other depends on one of those; nothing changes.
@@ -124,7 +124,7 @@ def replace_cell(old: Cell[T], new: Cell[T]) -> None:
 
 
 def _raise_rank(cell: Cell[Any], rank: int) -> None:
-    """Have a cell, and all that depends on it, come after the cells of lower ranks.
+    """Raise the rank of a cell, and of all cells that depend on it, to at least a rank.
 
     Ranks only grow: a rank higher than needed costs nothing, lowering one would cost a walk.
     """
@@ -137,7 +137,7 @@ def _raise_rank(cell: Cell[Any], rank: int) -> None:
 
 
 def _refuse_cycle(cells: Collection[Cell[Any]], dependencies: Iterable[Cell[Any]]) -> None:
-    """Refuse to let some cells depend on others that depend on one of them.
+    """Check that no cell would come to depend on itself, if some cells depended on others.
 
     Raises:
         PropagationCycleError: with the path from the cell back to itself.

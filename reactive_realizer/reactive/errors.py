@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 class Failure:
     """The value of a cell whose formula raised. It propagates, is recorded and heals like any other value.
 
-    Two failures for the same reason are equal, so that a repeated failure is no change.
+    Two failures with the same reason are equal, so that a repeated failure does not count as a change.
 
     Attributes:
         cell: name of the cell whose formula raised.

@@ -35,7 +35,7 @@ class Cell(Generic[T]):
         dependents: the cells that are computed from it, in order of linking.
         dependencies: the cells that it is computed from.
         stale: whether it has to be recomputed before it is read.
-        stamp: of the commit that gave it its value; None for one made outside of a transaction and never changed.
+        stamp: of the commit that gave it its value; None if it was made outside of a transaction and never changed.
         disposed: whether it keeps its value forever.
     """
 
@@ -64,7 +64,7 @@ class Cell(Generic[T]):
         """The current value, never stale: inside a transaction all earlier writes are propagated first.
 
         Raises:
-            CellError: there is none, because its formula or one that it depends on raised.
+            CellError: it has no value, because its formula, or one that it depends on, raised.
         """
         if self.graph.stale_ranks:  # tested here, because no other property is read as often
             self.graph.settle()
@@ -75,12 +75,12 @@ class Cell(Generic[T]):
 
     @property
     def result(self) -> T | Failure:
-        """The current value, or the failure that stands for it."""
+        """The current value, or the failure that replaces it."""
         self.graph.settle()
         return self._value
 
     def compute(self) -> T | Failure:
-        """Its value, computed anew from the cells that it depends on, if there are any."""
+        """Its value, recomputed if it depends on other cells."""
         return self._value
 
     def depends_on(self, other: "Cell[Any]") -> bool:
@@ -115,7 +115,7 @@ class Cell(Generic[T]):
     def dispose(self) -> None:
         """Take the cell out of propagation, at any time: it keeps its value.
 
-        Its dependents go on with that value as a constant; its observers are not notified any more.
+        Its dependents keep using that value as a constant; its observers are no longer notified.
         """
         self.graph.settle()
         self.disposed = True
@@ -125,7 +125,7 @@ class Cell(Generic[T]):
 
     async def _changes_since(self, seen: T | Failure) -> AsyncIterator[T | Failure]:
         while True:
-            # NaN is not equal to itself, but the same.
+            # NaN is not equal to itself, but it is no change.
             if self._value is not seen and self._value != seen:
                 seen = self._value
                 yield seen
@@ -168,7 +168,7 @@ class Subscription:
 
 
 class Change(NamedTuple):
-    """A cell whose value after a commit is not the one before it; a value may be a `Failure`."""
+    """A cell whose value a commit changed; a value may be a `Failure`."""
 
     cell: Cell[Any]
     old: Any
@@ -238,7 +238,7 @@ class Graph:
     def before_commit(self, rule: Callable[[Collection[Cell[Any]]], None]) -> None:
         """Call ``rule(changed)`` at the end of every transaction that changed cells, before it commits.
 
-        The rule may write, as a part of the transaction; ``changed`` then grows by the cells that this changes.
+        The rule may write, as part of the transaction; the cells that this changes are added to ``changed``.
         """
         self._rules.append(rule)
 
@@ -269,7 +269,7 @@ class Graph:
     # --- for the cells
 
     def enter(self, cell: Cell[Any]) -> int:
-        """Take in a new cell; the number that it gets."""
+        """Register a new cell, and return its sequence number."""
         if self._depth:
             self._made.append(cell)
         self._sequence += 1
@@ -286,7 +286,7 @@ class Graph:
         self._give(cell, value)
 
     def touch(self, cell: Cell[Any]) -> None:
-        """Have a cell recomputed, because its formula or its dependencies are other ones.
+        """Mark a cell for recomputation, because its formula or its dependencies have changed.
 
         Raises:
             WriteOutsideTransactionError: no transaction is open.
@@ -308,7 +308,7 @@ class Graph:
             rank = heappop(self.stale_ranks)
             bucket = self._buckets.pop(rank)
             for cell in sorted(bucket, key=_SEQUENCE) if len(bucket) > 1 else bucket:
-                # It may have been pinned or moved to another rank since.
+                # It may have been pinned or moved to another rank in the meantime.
                 if cell.stale and cell.rank == rank:
                     cell.stale = False
                     self._give(cell, cell.compute())
@@ -350,7 +350,7 @@ class Graph:
 
     def _commit(self, cause: str) -> None:
         before = self._before.items()
-        # As `Change(...)` does, in half the time: every cell that changes comes by here.
+        # Equivalent to `Change(...)`, in half the time: this runs for every changed cell.
         changes = tuple([_tuple(Change, (cell, old, cell._value)) for cell, old in before if cell._value != old])
         made = list(self._made)
         self._before.clear()

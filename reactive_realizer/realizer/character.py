@@ -19,10 +19,10 @@ class Character:
     engines: tuple[Engine, ...]
 
     def move(self, time: GlobalTime, plays: Sequence[Play]) -> None:
-        """Move the figure as its engines ask for at a time; `look` comes after that."""
+        """Move the figure to the pose that its engines give for a time; call `look` after that."""
         self.humanoid.move(time, [layer for play in plays for layer in play.layers])
 
     def look(self, plays: Sequence[Play]) -> Frame:
-        """The frame after `move`, with eyes and face as its engines ask for."""
+        """The frame after `move`, with the eyes and the face that its engines give."""
         eyes = next((play.eyes for play in plays if play.eyes is not None), None)
         return self.humanoid.look(eyes, [play.face for play in plays])

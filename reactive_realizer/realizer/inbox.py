@@ -16,7 +16,7 @@ logger = logging.getLogger(__name__)
 
 
 class TooManyNames(Fault):
-    """A name more than the limit allows."""
+    """More names than the limit allows."""
 
     code = "too-many-names"
     template = "the limit of {limit} {things} has been reached"
@@ -46,7 +46,7 @@ class Inbox:
         return bool(self._waiting)
 
     def put(self, entry: Input, at: GlobalTime) -> None:
-        """Have an input wait for a time, after all earlier inputs."""
+        """Add an input, which enters at a time, after all earlier inputs."""
         self._put += 1
         self._waiting.append((at, self._put, entry))
 
@@ -59,7 +59,7 @@ class Inbox:
         """Check whether a prediction of a point can enter after all waiting inputs.
 
         Raises:
-            RealizerError: "predicts-itself", or "too-many-names" for one point or anticipator more than the limit.
+            RealizerError: "predicts-itself", or "too-many-names" if there would be too many points or anticipators.
         """
         if anticipator in self._anticipators:
             self._anticipators[anticipator].check_prediction()
@@ -104,7 +104,7 @@ class Inbox:
                 pass
 
     def _make_room(self, anticipator: str, sync: str, now: GlobalTime) -> None:
-        """Have the board forget spent points, if a new one would exceed the limit."""
+        """Make the board forget spent points, if a new one would exceed the limit."""
         if self._board.get(anticipator_key(anticipator, sync)) is not None:
             return
         excess = len(self._board.predicted_points) + 1 - self._limits.predicted_points

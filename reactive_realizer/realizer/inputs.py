@@ -1,4 +1,4 @@
-"""The inputs of a realizer; a session with the same inputs at the same ticks is the same."""
+"""The inputs of a realizer. Equal inputs at equal ticks give equal sessions."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -7,7 +7,7 @@ from reactive_realizer.bml.block import Parsed
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.errors import Fault
 
-Position = tuple[float, float, float]
+WorldPosition = tuple[float, float, float]
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,7 +47,7 @@ class TargetMoved:
     """A new position (m, world) of a target; None if it is removed."""
 
     target: str
-    position: Position | None
+    position: WorldPosition | None
 
 
 Input = BmlText | Prediction | Event | TargetMoved
@@ -68,7 +68,7 @@ class Delivery:
 
 @dataclass(frozen=True, slots=True)
 class TickInputs:
-    """All that entered in one tick.
+    """All inputs of one tick.
 
     Attributes:
         tick: its number; numbers are skipped when a tick is late.

@@ -98,13 +98,13 @@ class Realizer:
     async def __aexit__(
         self, kind: type[BaseException] | None, failure: BaseException | None, trace: TracebackType | None
     ) -> None:
-        # An error from outside is raised as it is, not in an exception group of the engine tasks.
+        # Raise an error of the caller as it is, not in the exception group of the engine tasks.
         await self._stack.aclose()
 
     # --- the port
 
     def put(self, entry: Input, at: GlobalTime = GlobalTime(0.0)) -> None:  # noqa: B008 - a float
-        """Have an input enter at the first tick at or after ``at``, after all earlier inputs."""
+        """Add an input, which enters at the first tick at or after ``at``, after all earlier inputs."""
         self._inbox.put(entry, at)
 
     def check_prediction(self, anticipator: str, sync: str) -> None:
@@ -255,7 +255,7 @@ class Realizer:
         ]
         for character, own in shown:
             character.move(time, own)
-        # Eyes look at others, or at the own hand, where these are in this frame.
+        # Eyes look at the positions that other characters, and the character's own hands, have in this frame.
         for character, own in shown:
             frame = character.look(own)
             for listener in tuple(self._frame_listeners):

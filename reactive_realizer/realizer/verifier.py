@@ -25,9 +25,9 @@ logger = logging.getLogger(__name__)
 class Verifier:
     """Checks plans when they are committed and when they move, and reports each violated equation once.
 
-    A committed plan is checked as a solution of its own problem, because its points may fire, and outside times may
-    change, before the tick is over. On the board, constraints are checked only if no time from outside has moved;
-    otherwise, `ConstraintMonitor` reports the constraints that cannot be kept any more.
+    A committed plan is checked as a solution of its own problem, because its points may fire, and external times may
+    change, before the tick is over. On the board, constraints are checked only if no external time has moved;
+    otherwise, `ConstraintMonitor` reports the constraints that can no longer be satisfied.
     """
 
     def __init__(self, board: PegBoard, scheduler: BMLScheduler, feedback: FeedbackManager) -> None:

@@ -8,7 +8,7 @@ from reactive_realizer.server.protocol import Message
 from reactive_realizer.server.subscribers import Subscribers
 
 _GRACE = 10.0
-"""How long (s) after its end a sound can still be fetched: pages play a little later than the realizer."""
+"""Time after the end of a sound during which it can be fetched, s: pages play a little later than the realizer."""
 
 
 @dataclass(frozen=True, slots=True)

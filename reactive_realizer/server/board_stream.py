@@ -1,4 +1,4 @@
-"""The peg board as the page lists it: pegs, and the commits that moved them."""
+"""Snapshots of the peg board for the viewer: pegs, and the commits that moved them."""
 
 from collections import deque
 from collections.abc import Callable

@@ -7,16 +7,16 @@ from reactive_realizer.assembly.registry import names
 from reactive_realizer.assembly.scene import Scene
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.elements import ELEMENTS, Element
-from reactive_realizer.engine.lexicon import words_of
+from reactive_realizer.engine.lexicon import lexicon_of
 from reactive_realizer.pegboard.anticipator import Anticipator
 from reactive_realizer.planunit.parameter import Range
 
 Found = Mapping[str, object]
-"""What was found on disk: `lexemes`, the words that play, by element; `strategies` and `trajectories`, by name."""
+"""Parts of the answer that are read from files: `lexemes` by element, `strategies` and `trajectories`."""
 
 
 async def capabilities_of(scene: Scene, found: Found) -> dict[str, Any]:
-    """Elements and what is known of them; what stands in the scene's bindings, voice and world; who predicts what."""
+    """The answer: elements with their attributes and points, lexemes, voices, targets, anticipators and plug-ins."""
     engines = [engine for character in scene.realizer.characters.values() for engine in character.engines]
     realized = frozenset[type[Behavior]]().union(*(engine.behaviors for engine in engines))
     changeable = {behavior: ranges for engine in engines for behavior, ranges in engine.parameters.items()}
@@ -37,7 +37,7 @@ async def capabilities_of(scene: Scene, found: Found) -> dict[str, Any]:
 def _element(
     element: Element, realized: frozenset[type[Behavior]], changeable: Mapping[type[Behavior], Mapping[str, Range]]
 ) -> dict[str, Any]:
-    """As ``parameters``: what of it parametervaluechange may change, and from where to where."""
+    """The entry of an element; ``parameters`` are those that parametervaluechange may change, with their ranges."""
     parameters = changeable.get(element.behavior, {})
     return {
         "namespace": element.namespace,
@@ -49,7 +49,7 @@ def _element(
 
 
 def _anticipator(scene: Scene, anticipator: Anticipator) -> dict[str, Any]:
-    """One that has no points of its own tells those that somebody has named so far."""
+    """The entry of an anticipator; one that declares no points lists those that were named so far."""
     return {
         "kind": anticipator.kind,
         "events": anticipator.events,
@@ -59,7 +59,7 @@ def _anticipator(scene: Scene, anticipator: Anticipator) -> dict[str, Any]:
 
 
 def found_for(scene: Scene) -> Found:
-    """For a scene that does not play yet: all its files are read, for which a tick has no time."""
+    """Read the files of a scene before it plays, because this takes longer than a tick."""
     plug_ins = {group: names(group) for group in ("strategies", "trajectories")}
     return {"lexemes": _lexemes(scene), **plug_ins}
 
@@ -67,7 +67,7 @@ def found_for(scene: Scene) -> Found:
 def _lexemes(scene: Scene) -> Mapping[str, list[str]]:
     found: dict[str, set[str]] = {}
     for character in scene.realizer.characters.values():
-        for word in words_of(character.engines):
-            if word.lexeme and word.problem is None:
-                found.setdefault(word.element, set()).add(word.lexeme)
-    return {element: sorted(words) for element, words in sorted(found.items())}
+        for entry in lexicon_of(character.engines):
+            if entry.lexeme and entry.problem is None:
+                found.setdefault(entry.element, set()).add(entry.lexeme)
+    return {element: sorted(lexemes) for element, lexemes in sorted(found.items())}

@@ -1,4 +1,4 @@
-"""Limits on clients: how many connect, how often they send, and how much waits to be sent to them."""
+"""Limits on clients: their number, their message rate, and the size of their send queues."""
 
 import asyncio
 from collections import deque
@@ -15,10 +15,10 @@ _FRAMES_WAITING = 10
 
 
 class ClientQueue:
-    """Messages that wait to be sent to one client: all texts in order, and the newest frames. Adding never blocks.
+    """The send queue of one client: all texts in order, and the newest frames. Adding never blocks.
 
     Args:
-        limits: how much text may wait.
+        limits: of the queued text.
         first: texts that are sent first; they do not count towards the limit.
         characters: number of characters that send frames.
     """
@@ -45,17 +45,17 @@ class ClientQueue:
             self._give_up()
 
     def put_frame(self, frame: bytes) -> None:
-        """Adds a frame, sent when no text waits; newer frames may replace it."""
+        """Adds a frame, which is sent when no text is queued; newer frames may replace it."""
         self._frames.append(frame)
         self._news.set()
 
     def end(self) -> None:
-        """Ends the queue after the texts that wait."""
+        """Ends the queue after the texts in it."""
         self._ended = True
         self._news.set()
 
     async def send_all(self, send: Callable[[str | bytes], Awaitable[None]]) -> bool:
-        """Sends entries until the end. Returns False if too much piled up, even during a send."""
+        """Sends entries until the end. Returns False if the queue exceeded its limit, even during a send."""
         try:
             async with asyncio.timeout(0 if self._overflown else None) as self._sending:
                 while (entry := await self._next()) is not None:

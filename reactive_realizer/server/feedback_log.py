@@ -11,10 +11,10 @@ from reactive_realizer.limits import Limits
 from reactive_realizer.server.protocol import encode
 from reactive_realizer.server.subscribers import Subscribers
 
-etree.register_namespace("bmla", BMLA)  # the prefix that lxml uses where the document declares none
+etree.register_namespace("bmla", BMLA)  # the prefix that lxml makes up if the document declares none
 
 _STAMPS = {"globalTime": "posixTime", "globalStart": "posixStartTime", "globalEnd": "posixEndTime"}
-"""A global time (s) -> the attribute that says the same as POSIX time (ms)."""
+"""Attribute with a global time (s) -> the attribute for the same moment as POSIX time (ms)."""
 
 
 def with_posix_times(report: Report, epoch: float) -> str:

@@ -13,7 +13,7 @@ from reactive_realizer.clock.ticker import tick_time
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.realizer.inbox import TooManyNames
-from reactive_realizer.realizer.inputs import BmlText, Event, Position, Prediction, TargetMoved
+from reactive_realizer.realizer.inputs import BmlText, Event, Prediction, TargetMoved, WorldPosition
 from reactive_realizer.scheduler.admission import Admission
 from reactive_realizer.server.faults import NoDemo, NotMovable, UnknownAnticipator
 from reactive_realizer.server.live_scene import LiveScene
@@ -23,7 +23,7 @@ _LEAD_IN = 150
 """Ticks until the performance begins: by then, a page that has just opened shows its avatars."""
 
 _METRONOME = "metronome"
-"""The anticipator that a performance uses; it counts from the beginning of the performance."""
+"""The anticipator that the performance uses; it is restarted with the performance."""
 
 
 class Demo:
@@ -78,7 +78,7 @@ class BlocksRefused(RealizerError):
 
 
 class _Judged(NamedTuple):
-    """A document, the ids of the blocks of it that can be accepted, and why the rest cannot."""
+    """A document, the ids of its acceptable blocks, and the faults of the others."""
 
     entry: BmlText
     blocks: list[str]
@@ -102,7 +102,7 @@ class Intake:
         """Accepts a document if every block can be accepted, and returns the ids of the blocks.
 
         Raises:
-            RealizerError: why the first of the others is refused; nothing has entered.
+            RealizerError: the fault of the first block that cannot be accepted; none has entered.
         """
         judged = await self._judge(text)
         if judged.faults:
@@ -116,7 +116,7 @@ class Intake:
         Feedback reports each of the others.
 
         Raises:
-            BlocksRefused: why the first of the others is refused.
+            BlocksRefused: with the fault of the first of the others.
         """
         judged = await self._judge(text)
         self._realizer.put(judged.entry)
@@ -128,7 +128,8 @@ class Intake:
         """Accepts a prediction, and returns its time.
 
         Raises:
-            RealizerError: a time too far from now, one point too many, or an anticipator that predicts by itself.
+            RealizerError: the time is too far from now, there are too many points, or the anticipator makes its own
+                predictions.
         """
         if "in" in message:
             time: float | None = self._live.now + message["in"]
@@ -155,7 +156,7 @@ class Intake:
         """Handles a checked message of the socket other than BML, ping and clock.
 
         Raises:
-            RealizerError: why it is refused.
+            RealizerError: it is refused.
         """
         match message["type"]:
             case "predict":
@@ -211,6 +212,6 @@ def _refusal(admission: Admission, parsed: Parsed) -> Fault | None:
     return parsed.refusal if parsed.procedure is None else admission.admit_procedure(parsed.procedure)
 
 
-def _position(coordinates: Sequence[float]) -> Position:
+def _position(coordinates: Sequence[float]) -> WorldPosition:
     x, y, z = coordinates
     return (float(x), float(y), float(z))

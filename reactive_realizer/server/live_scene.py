@@ -20,14 +20,14 @@ from reactive_realizer.server.frame_stream import FrameStream
 from reactive_realizer.server.protocol import VERSION, Message
 
 _YOUNG = 50_000
-"""New objects before a collection: more than a plan of some hundred behaviors needs."""
+"""Number of new objects that trigger a collection: more than a plan of a few hundred behaviors needs."""
 
 
 def keep_from_ticks() -> None:
     """Freezes existing objects, so that the garbage collector does not scan them in the middle of a tick.
 
-    What has ended frees itself, for nothing that is played leads back to itself: only failures, whose traces do, and
-    behaviors that are dropped while they are planned leave something to be found.
+    Ended behaviors are freed by reference counting, because they leave no cycles. Only failures, by their tracebacks,
+    and behaviors that are dropped during planning leave garbage to collect.
     """
     gc.collect()
     gc.freeze()
@@ -79,11 +79,11 @@ class LiveScene:
 
     @property
     def now(self) -> GlobalTime:
-        """Realizer time, between ticks too."""
+        """Realizer time, also between ticks."""
         return self.clock.now()
 
     async def run(self) -> None:
-        """Ticks until it is cancelled."""
+        """Ticks until it is canceled."""
         keep_from_ticks()
         async for tick in self.ticker.ticks():
             await self.step(tick)

@@ -37,7 +37,7 @@ class NoNumber(RealizerError):
     """
 
     def __init__(self, number: str, message: Any) -> None:
-        super().__init__(BadJson(reason=f"{number} is no number"))
+        super().__init__(BadJson(reason=f"{number} is not a valid number"))
         self.message = message
 
 

@@ -1,4 +1,4 @@
-"""A session as it happens, into a file of JSON lines: recording.json says what stands in a line."""
+"""Records a live session as JSON lines, in the format of recording.json."""
 
 import json
 import logging
@@ -36,12 +36,12 @@ def recording_file(path: Path) -> Iterator[IO[str]]:
 class Recorder:
     """Records the inputs of a realizer, tick by tick, before they have any effect.
 
-    So even a session that was killed can be replayed up to its last tick. If the file cannot be written any
+    So even a killed session can be replayed up to its last tick. If the file cannot be written any
     more, recording ends, and the session goes on.
 
     Args:
-        stream: what is written to.
-        options: with which the scene was assembled.
+        stream: the open file.
+        options: of the scene.
         started: POSIX time (s) of realizer time 0.
     """
 
@@ -52,7 +52,7 @@ class Recorder:
         self._write([{"recording": 1, "version": __version__, "rate": RATE, "started": started, "scene": scene}])
 
     def __call__(self, entered: TickInputs) -> None:
-        """Write what a tick took in; its own line is the last, and says that the others are all there."""
+        """Write the inputs of a tick, then the line of the tick, which marks them as complete."""
         lines = []
         for entry in entered.inputs:
             self._inputs += 1
@@ -68,7 +68,7 @@ class Recorder:
             self._stream.write("".join(json.dumps(line, default=str) + "\n" for line in lines))
             self._stream.flush()
         except OSError as problem:
-            logger.error("the session is not recorded any further: %s", problem)
+            logger.error("recording has stopped: %s", problem)
             self._stream = None
 
 

@@ -1,4 +1,4 @@
-"""Recorded sessions: inputs as JSON lines, and the session that a file holds."""
+"""Reads recorded sessions, and converts inputs to and from JSON lines."""
 
 import json
 from collections.abc import Mapping, Sequence
@@ -20,7 +20,7 @@ from reactive_realizer.server.schema import Schema, shown
 def message_of(entry: Input) -> Message:
     """Encodes an input as a message of the protocol.
 
-    A document that came as bytes has its ``encoding`` beside its ``xml``, so that it becomes the same bytes again.
+    A document in bytes gets an ``encoding`` beside its ``xml``, so that decoding restores the same bytes.
     """
     match entry:
         case BmlText(text):
@@ -93,8 +93,8 @@ class Recording:
     Attributes:
         version: of the realizer that was recorded.
         started: POSIX time (s) of its time 0.
-        scene: the options of its scene, as they stand in the file.
-        ticks: what each tick took in.
+        scene: the options of its scene, as in the file.
+        ticks: the inputs of each tick.
     """
 
     version: str
@@ -116,7 +116,7 @@ class Recording:
 def read_recording(path: Path) -> Recording:
     """Reads a recorded session from a file.
 
-    What stands after the last tick that is whole was cut off with its end, and is left out.
+    Lines after the last complete tick are ignored: the recording ended in the middle of a tick.
 
     Raises:
         RealizerError: "bad-recording", with the line.
@@ -132,7 +132,7 @@ def read_recording(path: Path) -> Recording:
 
 
 class _Reader:
-    """Puts the inputs of a tick together with its own line, which comes after them."""
+    """Collects the inputs of each tick until the line of the tick, which follows them."""
 
     def __init__(self) -> None:
         self.header: Message = {}
@@ -145,7 +145,7 @@ class _Reader:
         """Reads the next line.
 
         Raises:
-            RealizerError: what is wrong with it.
+            RealizerError: the line is invalid.
         """
         if not self.header:
             self.header = _checked(line, "Header")
@@ -167,7 +167,7 @@ class _Reader:
         self._inputs, self._tick = [], None
 
     def _later(self, tick: int) -> int:
-        """A tick after those that are whole, and the same as that of the inputs before it."""
+        """Check that a tick is after all complete ones, and equals that of the inputs read since; return it."""
         last = self.ticks[-1].tick if self.ticks else -1
         if tick <= last or self._tick not in (None, tick):
             raise RealizerError(TicksOutOfOrder(tick=tick, last=last if self._tick is None else self._tick))
@@ -195,6 +195,6 @@ def _fault(failure: Message) -> Fault:
         fault = FAULTS[code](**details, line=line, column=column)
         str(fault)
     except (LookupError, ValueError, AttributeError, TypeError) as problem:
-        reason = f"{shown(failure)} is not one of the faults that are defined"
+        reason = f"{shown(failure)} is not a known fault"
         raise RealizerError(BadMessage(place="failure", reason=reason)) from problem
     return fault

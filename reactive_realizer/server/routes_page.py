@@ -21,7 +21,7 @@ routes = web.RouteTableDef()
 
 @routes.get("/")
 async def page(request: web.Request) -> web.StreamResponse:
-    """The page; a token in the address becomes a cookie, so that it is not in every address."""
+    """The page. A token in the address is stored in a cookie, so that later addresses do not contain it."""
     if not (STATIC / "index.html").is_file():
         raise RealizerError(NoPage())
     if "token" in request.query and request.app[SECURITY].token is not None:
@@ -39,7 +39,7 @@ async def protocol(_: web.Request) -> web.Response:
 
 @routes.get("/avatars/{name:.+}")
 async def avatar(request: web.Request) -> web.StreamResponse:
-    """An avatar among the assets; nothing else of these is served."""
+    """The file of an avatar. No other assets are served."""
     name = "avatars/" + request.match_info["name"]
     path = await asyncio.to_thread(request.app[LIVE].scene.assets, name)
     if path.suffix != ".glb":
@@ -49,7 +49,7 @@ async def avatar(request: web.Request) -> web.StreamResponse:
 
 @routes.get("/audio/{clip}.wav")
 async def audio(request: web.Request) -> web.Response:
-    """A sound that was announced and can still be heard."""
+    """An announced sound that is still available."""
     clip = request.match_info["clip"]
     wav = request.app[LIVE].sounds.wav(clip)
     if wav is None:

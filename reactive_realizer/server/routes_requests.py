@@ -16,18 +16,18 @@ _CHARSETS: Final = {
     "utf-8": "utf-8",
     "ascii": "ascii",
     "iso8859-1": "iso8859-1",
-    "utf-16": "utf-16-be",  # without a mark, RFC 2781, 4.3
+    "utf-16": "utf-16-be",  # without a byte order mark: RFC 2781, 4.3
     "utf-16-be": "utf-16-be",
     "utf-16-le": "utf-16-le",
 }
-"""The encodings that are read, by their names in Python."""
+"""Supported encodings: Python's name of a charset -> the codec that decodes it."""
 
 
 def text_of(body: bytes, charset: str | None) -> str | bytes:
-    """Decodes a body by the charset of its header; without one, the document declares its encoding itself.
+    """Decodes a body by the charset of its header; without one, the body is returned, and the parser decodes it.
 
-    A byte order mark goes before the header, and the header before what the document declares (RFC 7303, 3). Bytes that
-    are no text become lone surrogates, at which the parser stops and can name the line.
+    A byte order mark precedes the header, and the header precedes the declaration in the document (RFC 7303, 3).
+    Invalid bytes become lone surrogates; the parser stops there and reports the line.
 
     Raises:
         RealizerError: "wrong-charset", "bad-encoding".
@@ -44,7 +44,7 @@ def text_of(body: bytes, charset: str | None) -> str | bytes:
 def _encoding(charset: str) -> str:
     try:
         return _CHARSETS[codecs.lookup(charset).name]
-    except (LookupError, ValueError) as problem:  # ValueError: no name of anything
+    except (LookupError, ValueError) as problem:  # ValueError: not a valid name
         raise RealizerError(WrongCharset(charset=charset)) from problem
 
 
@@ -65,7 +65,7 @@ async def bml(request: web.Request) -> web.Response:
 
 @routes.post("/predict")
 async def predict(request: web.Request) -> web.Response:
-    """Accepts a prediction like the socket, and returns its time."""
+    """Accepts a prediction, and returns its time."""
     message = decode(await request.read())
     message = {**message, "type": "predict"} if isinstance(message, dict) else message
     check(message)

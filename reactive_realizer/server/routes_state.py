@@ -46,7 +46,7 @@ async def world(request: web.Request) -> web.Response:
 
 @routes.get("/explain/{block}")
 async def explain(request: web.Request) -> web.Response:
-    """The pegs, constraints and commits that set the time of each sync point of a block alive."""
+    """The pegs, constraints and commits that set the time of each sync point of a live block."""
     realizer = request.app[LIVE].realizer
     character = request.query.get("character", next(iter(realizer.characters)))
     if character not in realizer.characters:
@@ -62,7 +62,7 @@ async def capabilities(request: web.Request) -> web.Response:
 
 
 def _ticks(live: LiveScene) -> dict[str, float | None]:
-    """How late (ms) ticks come: the median, and what one in a hundred exceeds; null before there were two."""
+    """The lateness of ticks, ms: the median and the 99th percentile, null before the second tick; and the overruns."""
     late = live.ticker.lateness
     cuts = quantiles(late, n=100) if len(late) > 1 else [None] * 99
     return {

@@ -15,7 +15,7 @@ from reactive_realizer.server.socket_client import SocketClient, Stream, after_o
 
 _HEARTBEAT = 30.0
 _SEND_BUFFER = 128 * 1024
-"""Send buffer of the operating system, bytes: a small one shows early that a client is slow."""
+"""Send buffer of the operating system, bytes. It is small, so that a slow client is detected early."""
 
 routes = web.RouteTableDef()
 

@@ -1,4 +1,4 @@
-"""JSON Schemas with definitions, and the sentences for what does not satisfy them."""
+"""JSON Schemas with definitions, and readable messages for values that violate them."""
 
 import json
 from collections.abc import Mapping
@@ -58,7 +58,7 @@ def shown(value: object) -> str:
 def _reason(error: ValidationError) -> str:
     if error.validator == "required":
         return str(error.message)
-    if error.validator == "pattern":  # few people read patterns
+    if error.validator == "pattern":  # the description is easier to read than the pattern
         rule = json.dumps(error.schema["description"])
     else:
         rule = f"{error.validator} {json.dumps(error.validator_value)}"

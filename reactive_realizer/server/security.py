@@ -77,9 +77,9 @@ class Security:
         }
 
     def _check_host(self, request: web.Request) -> None:
-        """A name of this machine, or its number: a page elsewhere that had its own name resolve to here has neither.
+        """Accept only names and addresses of this machine.
 
-        See DNS rebinding.
+        This prevents DNS rebinding, in which a foreign page reaches the server under a host name of its own.
         """
         name = _host_of(f"http://{request.host}")
         known = {self.host, *map(_host_of, self.origins)}

@@ -1,4 +1,4 @@
-"""Runs a server until it is told to stop."""
+"""Runs a server until it receives SIGTERM or is canceled."""
 
 import asyncio
 import logging
@@ -55,7 +55,7 @@ async def serve(options: ServerOptions) -> None:
     """
     security = Security(options.host, options.token, options.origins)
     if security.exposed and options.token is None:
-        logger.warning("%s can be reached from other machines and asks nobody for a token (--token)", options.host)
+        logger.warning("%s can be reached from other machines, and no token is required (--token)", options.host)
     async with AsyncExitStack() as stack:
         listening = stack.enter_context(_listen(options))
         record = stack.enter_context(recording_file(options.record)) if options.record else None
@@ -87,6 +87,6 @@ def _listen(options: ServerOptions) -> socket:
 
 
 async def _told_to_end() -> None:
-    told = asyncio.Event()
-    asyncio.get_running_loop().add_signal_handler(signal.SIGTERM, told.set)
-    await told.wait()
+    stopped = asyncio.Event()
+    asyncio.get_running_loop().add_signal_handler(signal.SIGTERM, stopped.set)
+    await stopped.wait()

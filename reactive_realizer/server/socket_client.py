@@ -69,10 +69,10 @@ class SocketClient:
 
     Args:
         live: the scene.
-        intake: its door.
+        intake: receives the requests.
         socket: of the client, prepared.
-        streams: what the client wants.
-        after: number of the last feedback that it has; None if it wants only what comes.
+        streams: those that the client requested.
+        after: number of the last feedback that it has; None for new feedback only.
     """
 
     def __init__(
@@ -102,7 +102,7 @@ class SocketClient:
         await self._close()
 
     def leave(self) -> None:
-        """Closes the connection after the messages that wait."""
+        """Closes the connection after the queued messages."""
         self._queue.end()
 
     # --- to the client

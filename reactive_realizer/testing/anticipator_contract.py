@@ -1,6 +1,7 @@
 """The contract of anticipators (thesis 8.5.1): a pytest class to inherit from; needs pytest and Hypothesis."""
 
 import re
+from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from inspect import Parameter, signature
 from math import isfinite
@@ -23,7 +24,7 @@ from reactive_realizer.testing.contract_settings import inherited
 _ID = "it"
 
 
-class AnticipatorContract:
+class AnticipatorContract(ABC):
     """Tests of any anticipator, for any sequence of events: it writes its own points only, and never into the past.
 
     Attributes:
@@ -36,9 +37,9 @@ class AnticipatorContract:
     events: ClassVar[tuple[AnticipatorEvent, ...]]
     refused: ClassVar[tuple[AnticipatorEvent, ...]] = ()
 
+    @abstractmethod
     def anticipator(self, id: str, board: PegBoard) -> Anticipator:  # noqa: A002 - the standard's word
         """A new anticipator under test; inheriting classes define this."""
-        raise NotImplementedError
 
     @inherited
     @given(st.data())

@@ -1,5 +1,6 @@
 """The contract of engines (thesis 8.6): a pytest class to inherit from; needs pytest."""
 
+from abc import ABC, abstractmethod
 from dataclasses import replace
 from math import isfinite
 from typing import ClassVar
@@ -33,7 +34,7 @@ _REST = 3.0
 """Time after which nothing of a behavior is visible, s."""
 
 
-class EngineContract:
+class EngineContract(ABC):
     """Tests of any engine: it reaches each point once, in order, at the time of its peg, and leaves nothing behind.
 
     Attributes:
@@ -44,9 +45,9 @@ class EngineContract:
     elements: ClassVar[tuple[str, ...]]
     refused: ClassVar[tuple[str, ...]] = ()
 
+    @abstractmethod
     def engine(self, context: EngineContext) -> Engine:
         """A new engine under test; inheriting classes define this."""
-        raise NotImplementedError
 
     def context(self) -> EngineContext:
         """The context of the engine."""

@@ -1,4 +1,4 @@
-"""Records feedback and answers questions about it in tests."""
+"""Records feedback, for assertions in tests."""
 
 from dataclasses import dataclass
 from itertools import takewhile
@@ -76,8 +76,8 @@ class FeedbackList:
         self._unread.append(report)
 
     @property
-    def lines(self) -> list[FeedbackMessage]:
-        """All messages."""
+    def messages(self) -> list[FeedbackMessage]:
+        """All messages, parsed."""
         self._messages += (FeedbackMessage(report.time, etree.fromstring(report.xml)) for report in self._unread)
         self._unread.clear()
         return self._messages
@@ -88,17 +88,17 @@ class FeedbackList:
         Raises:
             lxml.etree.XMLSyntaxError: it is not well-formed.
         """
-        self.lines.append(FeedbackMessage(time, etree.fromstring(xml)))
+        self.messages.append(FeedbackMessage(time, etree.fromstring(xml)))
         self.raw.append(xml)
 
     def of(self, kind: str) -> list[FeedbackMessage]:
         """The messages of one kind."""
-        return [message for message in self.lines if message.kind == kind]
+        return [message for message in self.messages if message.kind == kind]
 
     @property
     def progress(self) -> list[str]:
         """The ids of block and sync point progress, in order."""
-        return [message.id for message in self.lines if message.kind in ("blockProgress", "syncPointProgress")]
+        return [message.id for message in self.messages if message.kind in ("blockProgress", "syncPointProgress")]
 
     def time(self, id_: str) -> float:
         """The global time at which a block or sync point was reached, s.
@@ -107,7 +107,7 @@ class FeedbackList:
             AssertionError: it was not reported exactly once.
         """
         found = [
-            message.global_time for message in self.lines if message.kind.endswith("Progress") and message.id == id_
+            message.global_time for message in self.messages if message.kind.endswith("Progress") and message.id == id_
         ]
         assert len(found) == 1, f"{id_} was reported {len(found)} times"
         return found[0]
@@ -142,7 +142,7 @@ class FeedbackList:
             LookupError: the point is not in it.
         """
         block = point.partition(":")[0]
-        before = takewhile(lambda message: message.kind == "predictionFeedback" or message.id != point, self.lines)
+        before = takewhile(lambda message: message.kind == "predictionFeedback" or message.id != point, self.messages)
         own = [message for message in before if message.kind == "predictionFeedback" and message.id == block]
         assert own, f"nothing was predicted of {block} before {point} was reported"
         return own[-1].predicted(point)

@@ -41,7 +41,7 @@ TIMINGS: Mapping[str, Timing] = MappingProxyType(
         "event": Timing(("start", "end"), (Phase(0.0, PhaseKind.RIGID),), instant=True),
     }
 )
-"""What behaviors may prefer: elastic, with holds and limits, rigid, free, instant."""
+"""Preferred timings by name: elastic, with holds and limits, rigid, free, instant."""
 
 
 def item(id_: str, timing: Timing, *, required: bool = False) -> Item:
@@ -69,7 +69,7 @@ def outer(name: str, time: float | None) -> AnticipatorPeg:
 
 
 def problem(items: Sequence[Item], *constraints: Tie | Precedence) -> SchedulingProblem:
-    """A problem in which the block starts at time 0 and outer pegs are where they are."""
+    """A problem in which the block starts at time 0; external pegs keep their times."""
     ties = tuple(each for each in constraints if isinstance(each, Tie))
     orders = tuple(each for each in constraints if isinstance(each, Precedence))
     cells = [node for each in constraints for node in each.nodes if not isinstance(node, Point | Origin)]
@@ -89,7 +89,7 @@ def peg_times(asked: SchedulingProblem, solution: Solution) -> dict[Point, float
 
 @st.composite
 def problems(draw: st.DrawFn, most: int = 7) -> SchedulingProblem:
-    """Whatever may be asked: mostly more than can be met, with outer times past, ahead and unknown."""
+    """Arbitrary problems, mostly infeasible, with external times that are past, future or unknown."""
     items = _draw_items(draw, sorted(TIMINGS), most)
     outside = [outer(f"outer{i}", draw(st.sampled_from([None, -0.5, 0.0, 1.0, 4.0]))) for i in range(2)]
     points = _points(items)
@@ -107,7 +107,7 @@ def problems(draw: st.DrawFn, most: int = 7) -> SchedulingProblem:
 
 @st.composite
 def feasible_problems(draw: st.DrawFn, most: int = 6) -> SchedulingProblem:
-    """What can be met as a whole: constraints are read off a plan that was drawn before them."""
+    """Feasible problems: the constraints are read off a random plan."""
     items = _draw_items(draw, [kind for kind, timing in TIMINGS.items() if not timing.free], most)
     outside = [outer("known", draw(st.sampled_from([0.0, 1.0, 2.5]))), outer("unknown", None)]
     times = _draw_times(draw, items) | {Origin.BLOCK_START: 0.0}

@@ -1,4 +1,4 @@
-"""What every scheduling strategy has to keep to, as pytest classes to inherit from; needs pytest and Hypothesis."""
+"""The contract of scheduling strategies: pytest classes to inherit from; needs pytest and Hypothesis."""
 
 from math import isfinite
 from typing import ClassVar
@@ -25,19 +25,19 @@ from reactive_realizer.testing.problems import (
 
 _MANY = 1_000
 _OF_CONSTRAINTS = ("contradictory-tie", "outer-tie", "rigid", "no-order", "names-dropped")
-"""Codes that say that a constraint is dropped, and nothing of a behavior."""
+"""Codes of losses of constraints; none of them may report the loss of a behavior."""
 
 
 def violations(asked: SchedulingProblem, solution: Solution) -> list[Violation]:
-    """The equations that a solution breaks."""
+    """The equations that a solution violates."""
     return verify(PlanView.of_solution(asked, solution))
 
 
 class StrategyContract:
-    """For any strategy: it may lose what it cannot keep, but it says so, and what it says it kept holds.
+    """Tests of any strategy: every loss is reported, and all constraints that are not reported as lost hold.
 
     Attributes:
-        strategy: the one under test; set by the inheriting class.
+        strategy: under test; set by the inheriting class.
     """
 
     strategy: ClassVar[SchedulingStrategy]
@@ -137,7 +137,7 @@ class StrategyContract:
 
 
 class CompleteStrategyContract(StrategyContract):
-    """For a strategy that keeps whatever can be kept, before/after too, in whatever order a block is written."""
+    """Tests of a strategy that satisfies all feasible constraints, in whatever order a block is written."""
 
     @inherited
     @given(feasible_problems())

@@ -1,6 +1,7 @@
 """The contract of text-to-speech systems (thesis 8.10): a pytest class to inherit from; needs pytest."""
 
 import asyncio
+from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from itertools import pairwise
 
@@ -62,12 +63,12 @@ class Speaker:
         await asyncio.gather(speaking, return_exceptions=True)
 
 
-class TTSContract:
+class TTSContract(ABC):
     """Tests of any voice: words and marks have times in the order of the text, and utterances are independent."""
 
+    @abstractmethod
     def tts(self) -> TTSBinding:
         """A new system under test, not started; inheriting classes define this."""
-        raise NotImplementedError
 
     @pytest.fixture
     def speaker(self) -> Iterator[Speaker]:

@@ -113,9 +113,9 @@ def check_alive(pilot: RealizerPilot) -> None:
     if scheduler.blocks.alive:
         assert scheduler.stuck(pilot.now), [b.key for b in scheduler.blocks.alive]
         scheduler.warn_stuck()
-        said = len(pilot.feedback.lines)
+        said = len(pilot.feedback.messages)
         pilot.realizer.feedback.flush(pilot.now)
-        for line in pilot.feedback.lines[said:]:
+        for line in pilot.feedback.messages[said:]:
             assert "still waiting for " in line.text
             assert "still waiting for  " not in line.text
 
@@ -124,7 +124,7 @@ def check_feedback(pilot: RealizerPilot) -> None:
     told = pilot.feedback
     open_blocks: set[str] = set()
     reached: Counter[str] = Counter()
-    for line in told.lines:
+    for line in told.messages:
         name, _, point = line.id.partition(":")
         if line.kind == "blockProgress":
             assert (point == "start") == (name not in open_blocks) or told_revoked(line)

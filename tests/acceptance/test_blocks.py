@@ -166,7 +166,7 @@ async def test_absolute_times_count_from_the_start_of_the_block_wherever_that_is
     pilot.block("one", WAIT.format(0.7))
     pilot.block("two", '<head id="h" lexeme="NOD" start="0.5" end="1"/>', composition="APPEND")
     await pilot.advance(3)
-    end = next(line for line in pilot.feedback.lines if line.id == "two:h:end").element
+    end = next(line for line in pilot.feedback.messages if line.id == "two:h:end").element
     assert (end.get("time"), end.get("globalTime")) == ("1", "1.7")
 
 
@@ -198,12 +198,12 @@ async def test_where_the_last_behavior_of_a_required_block_fails_nothing_of_it_i
     pilot.block("other", WAIT.format(1))
     await pilot.advance(0.1)
     board = pilot.realizer.board
-    before, plans, said = board.snapshot(), plans_of(pilot), len(pilot.feedback.lines)
+    before, plans, said = board.snapshot(), plans_of(pilot), len(pilot.feedback.messages)
     dependents = {view.key: dependents_of(board, view.key) for view in before}
     pilot.block("b", LAST_FAILS.format(last))
     await pilot.tick()
     assert pilot.feedback.warnings == [("b:last", warning)]
-    assert [line.id for line in pilot.feedback.lines[said:]] == ["b:last", "b:end"]
+    assert [line.id for line in pilot.feedback.messages[said:]] == ["b:last", "b:end"]
     assert pilot.feedback.status("b") == "FAILED"
     assert board.snapshot() == before
     assert plans_of(pilot) == plans

@@ -115,7 +115,7 @@ async def test_an_interrupted_speech_tells_its_last_word(pilot: RealizerPilot) -
     await pilot.advance(0.5)
     pilot.block("stop", composition="REPLACE")
     await pilot.tick()
-    end = next(line for line in pilot.feedback.lines if line.id == "old:say:end").element
+    end = next(line for line in pilot.feedback.messages if line.id == "old:say:end").element
     told = {
         str(name).partition("}")[2]: value
         for name, value in end.attrib.items()

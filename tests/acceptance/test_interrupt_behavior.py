@@ -19,7 +19,7 @@ def send(pilot: RealizerPilot, id_: str, inside: str = "", attributes: str = "")
 
 
 def line(pilot: RealizerPilot, point: str) -> Any:
-    return next(line for line in pilot.feedback.lines if line.id == point)
+    return next(line for line in pilot.feedback.messages if line.id == point)
 
 
 @pytest.mark.parametrize("prefix", ["bmla", "bmlt"])
@@ -121,7 +121,7 @@ async def test_an_activated_block_starts_at_the_very_time_of_the_activate(pilot:
     send(pilot, "go", f'<head id="n" lexeme="NOD"/><{prefix}:activate id="a" target="ready" start="n:stroke"/>')
     await pilot.advance(4)
     assert pilot.feedback.time("ready:start") == pilot.feedback.time("go:n:stroke")
-    assert pilot.feedback.lines[-1].id == "ready:end"
+    assert pilot.feedback.messages[-1].id == "ready:end"
 
 
 async def test_a_speech_is_interrupted_with_a_prepared_continuation_in_the_same_tick(pilot: RealizerPilot) -> None:
@@ -211,5 +211,5 @@ async def test_what_hangs_on_a_cut_point_that_was_never_predicted_is_dropped_and
     send(pilot, "stop", '<bmla:interrupt id="i" target="talk" include="w"/>')
     await pilot.advance(0.5)
     assert pilot.feedback.warnings == [("talk:x", "IMPOSSIBLE_TO_SCHEDULE")]
-    assert "talk:w:start" in next(line.text for line in pilot.feedback.lines if line.id == "talk:x")
+    assert "talk:w:start" in next(line.text for line in pilot.feedback.messages if line.id == "talk:x")
     assert pilot.feedback.status("talk") in ("DONE", "INTERRUPTED")

@@ -162,7 +162,9 @@ async def test_one_character_is_replaced_and_the_other_goes_on(two: RealizerPilo
     await two.advance(1)
     two.block("new", characterId="bob", composition="REPLACE")
     await two.advance(4)
-    ends = [(line.element.get("characterId"), line.global_time) for line in two.feedback.lines if line.id == "b:g:end"]
+    ends = [
+        (line.element.get("characterId"), line.global_time) for line in two.feedback.messages if line.id == "b:g:end"
+    ]
     assert ends == [("bob", 1.0), ("alice", 4.0)]
 
 
@@ -178,7 +180,7 @@ async def test_the_same_id_may_be_alive_once_a_character_and_append_waits_for_on
 async def test_a_block_without_a_character_goes_to_the_first(two: RealizerPilot) -> None:
     two.block("b")
     await two.tick()
-    assert {line.element.get("characterId") for line in two.feedback.lines} == {"alice"}
+    assert {line.element.get("characterId") for line in two.feedback.messages} == {"alice"}
 
 
 async def test_two_characters_may_use_their_right_arms_and_voices_at_once(two: RealizerPilot) -> None:

@@ -29,7 +29,7 @@ async def play(pilot: RealizerPilot, numbers: list[int] | range) -> list[tuple[f
     for number in numbers:
         await pilot.realizer.step(Tick(number, previous, frame=False))
         previous = tick_time(number)
-    return sorted((line.global_time, line.id) for line in pilot.feedback.lines if line.kind.endswith("Progress"))
+    return sorted((line.global_time, line.id) for line in pilot.feedback.messages if line.kind.endswith("Progress"))
 
 
 @pytest.fixture
@@ -239,7 +239,7 @@ def told(late: Iterable[int]) -> tuple[list[tuple[object, ...]], list[tuple[str,
             for text in SESSION:
                 pilot.realizer.put(BmlText(text))
             await skip(pilot, late)
-            progress = [line for line in pilot.feedback.lines if line.kind.endswith("Progress")]
+            progress = [line for line in pilot.feedback.messages if line.kind.endswith("Progress")]
             warnings = sorted((line.id, line.text) for line in pilot.feedback.of("warningFeedback"))
             return sorted((line.global_time, line.id, *line.element.attrib.items()) for line in progress), warnings
 

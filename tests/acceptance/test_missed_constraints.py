@@ -50,7 +50,7 @@ async def test_so_is_what_ends_its_block_by_it(pilot: RealizerPilot) -> None:
     await moves(pilot, 3, ("hit", 1.0), 1)
     assert_time(pilot.feedback, "b:end", 3.0)
     assert missed(pilot) == pytest.approx({("b:n", f"n:end = {HIT}-0.5"): 0.5})
-    assert pilot.feedback.lines[-1].id == "b:end"
+    assert pilot.feedback.messages[-1].id == "b:end"
 
 
 async def test_a_tie_between_two_blocks_is_told_as_one_of_the_block_that_has_it(pilot: RealizerPilot) -> None:

@@ -77,12 +77,12 @@ async def test_the_same_prediction_again_changes_nothing(pilot: RealizerPilot) -
     pilot.block("b", HIT)
     await pilot.advance(0.2)
     commits: list[Commit] = []
-    said = len(pilot.feedback.lines)
+    said = len(pilot.feedback.messages)
     pilot.realizer.board.graph.listen(commits.append)
     pilot.predict("test", "hit", 2.0)
     await pilot.tick()
     assert commits == []
-    assert len(pilot.feedback.lines) == said
+    assert len(pilot.feedback.messages) == said
 
 
 async def test_a_point_that_was_reached_keeps_its_time_and_what_is_ahead_still_moves(pilot: RealizerPilot) -> None:

@@ -63,7 +63,7 @@ async def test_an_unreachable_goal_is_reported_once_and_the_motion_continues(pil
     pilot.block("c", xml.format(""), composition="APPEND")
     await pilot.advance(12)
     (said,) = told(pilot)
-    assert said.startswith("l_wrist cannot reach where reach.xml wants it at phase 0.")
+    assert said.startswith("l_wrist cannot reach its goal in reach.xml at phase 0.")
     assert pilot.feedback.warnings == [("b:x", "EXECUTION_FAILURE")]
     assert pilot.feedback.reached("b:x:end")
     assert pilot.feedback.reached("c:x:end")

@@ -112,7 +112,7 @@ async def test_a_block_that_waited_is_predicted_again_when_it_starts_though_noth
 async def test_an_empty_block_is_predicted_too(pilot: RealizerPilot) -> None:
     pilot.block("b")
     await pilot.tick()
-    assert [(line.kind, line.id) for line in pilot.feedback.lines] == [
+    assert [(line.kind, line.id) for line in pilot.feedback.messages] == [
         ("predictionFeedback", "b"),
         ("blockProgress", "b:start"),
         ("blockProgress", "b:end"),
@@ -132,7 +132,7 @@ async def test_a_block_that_has_ended_is_predicted_no_more(pilot: RealizerPilot)
     pilot.predict("test", "hit", 1.0)
     pilot.block("b", NOD)
     await pilot.advance(2)
-    said = len(pilot.feedback.lines)
+    said = len(pilot.feedback.messages)
     pilot.predict("test", "hit", 5.0)
     await pilot.advance(1)
-    assert len(pilot.feedback.lines) == said
+    assert len(pilot.feedback.messages) == said

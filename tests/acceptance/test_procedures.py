@@ -34,7 +34,7 @@ async def test_a_use_becomes_a_block_with_the_behaviors_and_constraints_of_the_p
 async def test_defining_plays_nothing(pilot: RealizerPilot) -> None:
     pilot.perform(WELCOME)
     await pilot.advance(1)
-    assert pilot.feedback.lines == []
+    assert pilot.feedback.messages == []
 
 
 async def test_a_second_use_asks_no_engine_anew(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -41,7 +41,7 @@ async def played(script: str) -> Told:
     async with open_pilot() as pilot:
         pilot.perform(script)
         await pilot.advance(6)
-        return [(line.time, xml) for line, xml in zip(pilot.feedback.lines, pilot.feedback.raw, strict=True)]
+        return [(line.time, xml) for line, xml in zip(pilot.feedback.messages, pilot.feedback.raw, strict=True)]
 
 
 def progress(told: Told) -> Iterator[int]:

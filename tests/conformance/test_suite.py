@@ -142,7 +142,7 @@ async def test_a_realizer_that_says_hello_and_then_nothing_is_2_without_trying_e
 
     async with address_of(listen) as url:
         assert await conformance(url) == 2
-    assert "said nothing for 0.05 s" in capsys.readouterr().err
+    assert "sent no message for 0.05 s" in capsys.readouterr().err
     assert len(listened) == 1
 
 

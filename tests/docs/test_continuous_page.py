@@ -90,7 +90,7 @@ async def test_the_end_of_a_speech_that_was_broken_off_is_told_as_the_page_shows
     async with open_pilot() as pilot:
         pilot.perform(example.text)
         await pilot.advance(5)
-        (told,) = [line.element for line in pilot.feedback.lines if line.id == shown["id"]]
+        (told,) = [line.element for line in pilot.feedback.messages if line.id == shown["id"]]
     assert {name.rpartition("}")[2]: value for name, value in told.items()}.items() >= shown.items()
 
 
@@ -104,7 +104,7 @@ async def test_the_rest_of_a_speech_that_was_broken_off_is_found_as_the_page_say
         pilot.block("talk", f'<speech id="s"><text>{marked}</text></speech>')
         pilot.block("stop", '<bmla:interrupt id="x" target="talk" start="talk:s:m+0.1" speech="word"/>')
         await pilot.advance(5)
-        (told,) = [line.element for line in pilot.feedback.lines if line.id == "talk:s:end"]
+        (told,) = [line.element for line in pilot.feedback.messages if line.id == "talk:s:end"]
     assert told.get(f"{{{OWN}}}text") == "close"
     assert found["rest"](text, int(told.get(f"{{{OWN}}}heard"))) == " to the station, and not far."
 

@@ -9,7 +9,7 @@ from lxml import etree
 
 from reactive_realizer.assembly.scene import SceneOptions, open_scene
 from reactive_realizer.bml.extensions import MOTIONS
-from reactive_realizer.engine.lexicon import LexiconEntry, words_of
+from reactive_realizer.engine.lexicon import LexiconEntry, lexicon_of
 from reactive_realizer.testing.pilot import open_pilot
 
 from .conftest import DOCS, page
@@ -29,20 +29,20 @@ async def entries(gallery):
     return await gallery.known(SCENE)
 
 
-async def words() -> list[LexiconEntry]:
+async def lexicon() -> list[LexiconEntry]:
     async with open_scene(SCENE) as scene:
-        return [word for word in words_of(scene.realizer.characters["alice"].engines) if word.problem is None]
+        return [entry for entry in lexicon_of(scene.realizer.characters["alice"].engines) if entry.problem is None]
 
 
 def shown(entry) -> set[tuple[str, str]]:
-    """Its elements, with the words that they say."""
+    """Its elements, with their lexemes."""
     elements = etree.fromstring(entry.block).iter("*")
     return {(etree.QName(one).localname, one.get("lexeme") or one.get("name") or "") for one in elements}
 
 
 async def test_whatever_plays_has_a_strip(entries):
     there = {pair for entry in entries for pair in shown(entry)}
-    assert {(word.element, word.lexeme) for word in await words()} <= there
+    assert {(entry.element, entry.lexeme) for entry in await lexicon()} <= there
     assert {behavior.__name__.lower() for behavior in MOTIONS} <= {element.lower() for element, _ in there}
 
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from reactive_realizer.embodiment.avatar import Avatar, Bone
-from reactive_realizer.embodiment.body import Body, Pose
+from reactive_realizer.embodiment.body import Body, JointRotations
 from reactive_realizer.embodiment.frame import rotation_array
 from reactive_realizer.embodiment.quaternion import IDENTITY, from_axis_angle, multiply, rotate
 from reactive_realizer.embodiment.two_bone_ik import Arm
@@ -25,7 +25,7 @@ def avatar(request) -> Avatar:
     return Avatar.read(AVATARS / f"{request.param}.glb")
 
 
-def bone_places(avatar: Avatar, pose: Pose) -> dict[str, tuple]:
+def bone_places(avatar: Avatar, pose: JointRotations) -> dict[str, tuple]:
     """Forward kinematics on the avatar's own bones, as a renderer does it: name -> (position, rotation)."""
     rotations = avatar.bone_rotations(rotation_array(avatar.skeleton, pose))
     places: list[tuple] = []

@@ -35,7 +35,7 @@ def well(scene: RealizerPilot, *blocks: str) -> None:
 
 def last_word(scene: RealizerPilot, speech: str) -> str | None:
     """The word that was heard last of an interrupted speech; None if it was not interrupted."""
-    end = next(line.element for line in scene.feedback.lines if line.id == f"{speech}:end")
+    end = next(line.element for line in scene.feedback.messages if line.id == f"{speech}:end")
     return end.get(f"{{{OWN}}}text")
 
 

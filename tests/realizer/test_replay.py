@@ -81,4 +81,4 @@ async def test_ticks_that_were_left_out_are_left_out_again() -> None:
         await replay(pilot.realizer, session)
         assert again == session
         assert pilot.feedback.time("b:end") == pytest.approx(0.33)
-        assert pilot.feedback.lines[-1].time == 0.57
+        assert pilot.feedback.messages[-1].time == 0.57

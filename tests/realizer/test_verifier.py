@@ -62,7 +62,7 @@ async def test_a_new_block_of_the_same_name_is_verified_again() -> None:
         await broken(pilot)
         pilot.block("next", composition="REPLACE")
         await pilot.advance(0.1)
-        pilot.feedback.lines.clear()
+        pilot.feedback.messages.clear()
         await broken(pilot)
         assert len(pilot.feedback.warnings) == 1
 

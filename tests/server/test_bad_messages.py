@@ -90,7 +90,7 @@ async def test_so_does_the_answer_to_what_is_json_but_for_a_number(on_air: Open)
             await socket.say_anything(text % number)
             answer = await socket.hear("error")
             assert (answer["ref"], answer["code"]) == ("r8", "bad-json")
-            assert f"{number} is no number" in answer["message"]
+            assert f"{number} is not a valid number" in answer["message"]
         await socket.say_anything('{"type":"ping","t":1,"ref":NaN}')
         assert "ref" not in await socket.hear("error")
 

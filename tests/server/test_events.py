@@ -68,7 +68,7 @@ NOT_KNOWN = {
     ),
     "words without any": ({"anticipator": "user", "event": "words"}, "known events: voice, words with a text"),
     "a beat": ({"anticipator": "metronome", "event": "beat"}, "known events: tempo, start"),
-    "an event of a partner": ({"anticipator": "partner", "event": "clap"}, "is said by predict"),
+    "an event of a partner": ({"anticipator": "partner", "event": "clap"}, "it takes predictions"),
 }
 
 

@@ -129,11 +129,11 @@ EVENT = '{"seq": 12, "tick": 10, "time": 0.1, "input": {"type": "event", "antici
         ([*GOOD, EVENT.replace('"event": "e"', '"event": 4')], len(GOOD) + 1, "event: 4"),
         ([*GOOD, '{"tick": 11, "work": [{"request": 0}]}'], len(GOOD) + 1, "work.0.request"),
         ([*GOOD, '{"tick": 11, "work": [{"request": 1, "failure": {"code": "x"}}]}'], len(GOOD) + 1, "failure"),
-        ([*GOOD, GOOD[-3].replace("reason", "x").replace(": 7", ": 11")], len(GOOD) + 1, "faults that are defined"),
+        ([*GOOD, GOOD[-3].replace("reason", "x").replace(": 7", ": 11")], len(GOOD) + 1, "is not a known fault"),
         (
             [*GOOD, GOOD[-3].replace("voice-failed", "x").replace(": 7", ": 11")],
             len(GOOD) + 1,
-            "faults that are defined",
+            "is not a known fault",
         ),
     ],
 )
@@ -167,4 +167,4 @@ async def test_a_full_disk_ends_the_recording_and_not_the_session(caplog: pytest
             tick = Tick.following(tick, number)
             await scene.realizer.step(tick)
         assert scene.realizer.time == 1.99
-    assert [record.message for record in caplog.records] == ["the session is not recorded any further: no space left"]
+    assert [record.message for record in caplog.records] == ["recording has stopped: no space left"]

@@ -4,19 +4,19 @@
  */
 
 /**
- * What travels as text on the socket (GET /ws), protocol 1. Times are seconds of realizer time, positions meters in the world's frame: right-handed, y up. Unknown fields are to be ignored.
+ * The text messages of the socket (GET /ws), protocol 1. Times are in seconds of realizer time, positions in meters in the world's frame: right-handed, y up. Unknown fields must be ignored.
  */
 export type Message = ClientMessage | ServerMessage;
 /**
- * From a client. One that carries a ref is answered by accepted or error with the same ref.
+ * A message of a client. If it has a ref, the answer is accepted or error with the same ref.
  */
 export type ClientMessage = Bml | Predict | Event | Ping | Clock | Camera | WorldChange | Demo;
 /**
- * Chosen by the client; comes back with the answer.
+ * Chosen by the client, and repeated in the answer.
  */
 export type Ref = string | number;
 /**
- * When a point of an anticipator is now said to be: at a time, in so many seconds from now, or, with time null, unknown again.
+ * Predicts a point of an anticipator: at a time, after a number of seconds from now or, if time is null, unknown again.
  */
 export type Predict = Predict1 & Predict2;
 export type Predict1 = {
@@ -35,24 +35,24 @@ export type Seconds = number;
  */
 export type Position = [number, number, number];
 /**
- * From the server; the first one is hello.
+ * A message of the server. The first one is hello.
  */
 export type ServerMessage =
   Hello | Feedback | Pong | ClockAnswer | AudioStart | AudioMove | AudioGain | AudioStop | Board | Accepted | Refused;
 /**
- * Name of a peg, its time before and after.
+ * The name of a peg, and its times before and after.
  *
  * @minItems 3
  * @maxItems 3
  */
 export type Change = [string, number | null, number | null];
 /**
- * In answers to bml: the ids of the blocks that entered, in order; none where nothing could be read.
+ * In answers to bml: the ids of the accepted blocks, in order; empty if no block could be read or accepted.
  */
 export type Entered = string[];
 
 /**
- * A BML document of one or more blocks. Blocks that can be accepted enter, whatever the others are; of those, feedback tells each and error the first. The answer lists the blocks that entered.
+ * A BML document with one or more blocks. Each acceptable block is accepted, regardless of the others. Feedback reports every rejected block, and error reports the first. The answer lists the accepted blocks.
  */
 export interface Bml {
   type: "bml";
@@ -68,7 +68,7 @@ export interface Predict2 {
   ref?: Ref;
 }
 /**
- * Something that an anticipator makes predictions from happened, was set to a value, or was said: then text has the words, and value means nothing.
+ * An event from which an anticipator makes predictions, with an optional value. If it is words, text contains them, and value is ignored.
  */
 export interface Event {
   type: "event";
@@ -84,14 +84,14 @@ export interface Ping {
   ref?: Ref;
 }
 /**
- * Asks for realizer time.
+ * Requests the realizer time.
  */
 export interface Clock {
   type: "clock";
   ref?: Ref;
 }
 /**
- * Where the page's camera is: it moves the target camera.
+ * The position of the page's camera. It moves the target camera.
  */
 export interface Camera {
   type: "camera";
@@ -99,7 +99,7 @@ export interface Camera {
   ref?: Ref;
 }
 /**
- * Where targets are now; null removes one.
+ * New positions of targets; null removes a target.
  */
 export interface WorldChange {
   type: "world";
@@ -109,7 +109,7 @@ export interface WorldChange {
   ref?: Ref;
 }
 /**
- * Plays the performance of the demo from its beginning.
+ * Restarts the performance of the demo.
  */
 export interface Demo {
   type: "demo";
@@ -132,7 +132,7 @@ export interface Hello {
   demo?: boolean;
 }
 /**
- * One virtual human of the scene; joints and morphs are the avatar's own, in the order of its frames.
+ * A virtual human of the scene. Its joints and morphs are those of the avatar, in the order of its frames.
  */
 export interface Character {
   id: string;
@@ -145,7 +145,7 @@ export interface Character {
   morphs: string[];
 }
 /**
- * A message of BML feedback, with the time of the tick that reported.
+ * A message of BML feedback, with the time of the tick that reported it.
  */
 export interface Feedback {
   type: "feedback";
@@ -167,7 +167,7 @@ export interface ClockAnswer {
   time: Seconds;
 }
 /**
- * A sound that begins at start, told before or while it does.
+ * A sound that starts to play at start, announced before that or later.
  */
 export interface AudioStart {
   type: "audio";
@@ -185,7 +185,7 @@ export interface AudioStart {
   gain: number;
 }
 /**
- * A sound is to begin at another time.
+ * A new start time of a sound.
  */
 export interface AudioMove {
   type: "audio_move";
@@ -193,7 +193,7 @@ export interface AudioMove {
   start: Seconds;
 }
 /**
- * A sound has another gain from time on; at most one such message a tick and sound.
+ * A new gain of a sound from time on; at most one per tick and sound.
  */
 export interface AudioGain {
   type: "audio_gain";
@@ -205,7 +205,7 @@ export interface AudioGain {
   time: Seconds;
 }
 /**
- * A sound falls silent from time on, within fade seconds.
+ * Fades a sound to silence from time on, within fade seconds.
  */
 export interface AudioStop {
   type: "audio_stop";
@@ -214,7 +214,7 @@ export interface AudioStop {
   fade: number;
 }
 /**
- * The board and its commits since the last such message; for clients that ask for the stream board, when something changed.
+ * The board, and its commits since the previous message. Sent after changes to clients that request the stream board.
  */
 export interface Board {
   type: "board";
@@ -223,7 +223,7 @@ export interface Board {
   commits: Commit[];
 }
 /**
- * A peg of the board; source says what it hangs on.
+ * A peg of the board; source is the rule by which its time follows from other pegs.
  */
 export interface Peg {
   key: string;
@@ -232,7 +232,7 @@ export interface Peg {
   source: string;
 }
 /**
- * A transaction of the board: at which tick, what for, and each peg that it moved.
+ * A commit of the board: its time and cause, and each peg that it moved.
  */
 export interface Commit {
   sequence: number;
@@ -241,7 +241,7 @@ export interface Commit {
   changes: Change[];
 }
 /**
- * The message with this ref has entered; what comes of it is told in feedback.
+ * The message with this ref has taken effect; feedback reports its results.
  */
 export interface Accepted {
   type: "accepted";
@@ -249,7 +249,7 @@ export interface Accepted {
   blocks?: Entered;
 }
 /**
- * A message, or part of a bml message, was refused; code is one of the table of errors.
+ * A message, or a part of a bml message, was rejected; code is one of the error codes.
  */
 export interface Refused {
   type: "error";

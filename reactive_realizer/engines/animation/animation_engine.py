@@ -46,12 +46,12 @@ from reactive_realizer.engines.animation.gaze.eyes import lid_weights
 from reactive_realizer.engines.animation.gaze.head_turn import GAZE_WEIGHTS, HEAD_WEIGHTS
 from reactive_realizer.engines.animation.idle import Idle
 from reactive_realizer.engines.animation.kinematics import MotionHistory
-from reactive_realizer.engines.animation.lexicon import binding_words
+from reactive_realizer.engines.animation.lexicon import binding_lexicon
 from reactive_realizer.engines.animation.motion_library import MotionLibrary
 from reactive_realizer.engines.animation.motion_maker import MakerContext
 from reactive_realizer.engines.animation.motion_unit import AMOUNT_RANGE, GazeGoal
 from reactive_realizer.engines.animation.motions.posture import posture_after, temporary_bodies
-from reactive_realizer.engines.animation.motions.transition import TransitionUnit
+from reactive_realizer.engines.animation.motions.transition import TransitionMotionUnit, TransitionUnit
 from reactive_realizer.engines.animation.persistent_poses import PersistentPoses
 from reactive_realizer.engines.animation.posture.foot_planting import FootPlanting
 from reactive_realizer.engines.animation.posture.posture_library import BodyPosture, PostureLibrary
@@ -116,9 +116,9 @@ class AnimationEngine(DefaultEngine):
         )
         self.extensions = self._library.extensions
 
-    def words(self) -> Iterator[LexiconEntry]:
+    def lexicon(self) -> Iterator[LexiconEntry]:
         """Yield the entries of the binding, and the poses of postures."""
-        return binding_words(self._library, next(iter(self._world.targets)))
+        return binding_lexicon(self._library, next(iter(self._world.targets)))
 
     def prepare(self, behavior: Behavior) -> Awaitable[object] | None:
         """Read long files in another thread."""
@@ -161,7 +161,7 @@ class AnimationEngine(DefaultEngine):
 
     def _unit(self, block: BlockKey, behavior: Behavior) -> AnimationUnit:
         candidates = self._library.candidates(behavior)
-        if candidates.planned.motion.connects:
+        if isinstance(candidates.planned.motion, TransitionMotionUnit):
             return TransitionUnit(block, behavior, candidates, self._motion_context, self._predictor.state_after)
         return AnimationUnit(block, behavior, candidates, self._motion_context)
 

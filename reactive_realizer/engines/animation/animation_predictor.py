@@ -20,7 +20,7 @@ _STEP = 0.002
 """Step of the finite differences with which motions are sampled, s."""
 
 _SAME = 1e-4
-"""A joint within this angle of what motions ask for is considered to follow them, rad."""
+"""A joint within this angle of the requested rotation counts as following its motion, rad."""
 
 
 class AnimationPredictor:

@@ -17,7 +17,7 @@ _DURATION = 0.2
 """Time in which a speed decays, s, as 3(1-t)^2 with t from 0 to 1: an elbow brakes about as hard as it accelerates."""
 
 _LONGEST = 0.07
-"""Samples older than this do not tell the current speed, s."""
+"""Samples older than this say nothing about the current speed, s."""
 
 
 class LayerSample(NamedTuple):
@@ -29,7 +29,7 @@ class LayerSample(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Coasting:
-    """How a layer continues that no motion drives any more.
+    """The motion of a layer that no motion drives any more.
 
     Attributes:
         since: time when it was driven last, s.

@@ -87,7 +87,7 @@ def with_reached_root(layer: Layer, root: Vec3) -> Layer:
     """Return a layer that starts to fade out, from where the root really is if the figure was too slow to follow.
 
     Args:
-        layer: as the motion asked for it.
+        layer: as the motion requested it.
         root: displacement of HumanoidRoot as shown, m.
     """
     leads = layer.kind is not LayerKind.ADDITIVE and layer.weight_of(ROOT) == 1.0

@@ -147,7 +147,7 @@ class NotReachable(PlayingFault):
     """A joint that cannot reach a position; ``distance`` in m."""
 
     code = "not-reachable"
-    template = "{joint} cannot reach where {animation} wants it at phase {phase:.2f}: it is {distance:.2f} m too far"
+    template = "{joint} cannot reach its goal in {animation} at phase {phase:.2f}: it is {distance:.2f} m too far"
     joint: str
     animation: str
     phase: float

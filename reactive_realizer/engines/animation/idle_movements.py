@@ -99,7 +99,7 @@ _SHIFT_ASIDE = 0.030
 """Largest displacement of the pelvis toward the supporting foot, m."""
 
 _SHIFT_DOWN = 0.006
-"""How much the pelvis is lowered there, beyond what the legs need to reach their feet, m."""
+"""Lowering of the pelvis there, beyond what the legs need to reach their feet, m."""
 
 
 class WeightShift:

@@ -76,7 +76,7 @@ def _velocities(before: BodySample, after: BodySample) -> dict[str, Vec3]:
 
 
 _LONGEST = 0.05
-"""Samples older than this do not tell the current velocity, s."""
+"""Samples older than this say nothing about the current velocity, s."""
 _FASTEST = 20.0
 """A joint that turned faster was set, not moved, and does not continue, rad/s."""
 

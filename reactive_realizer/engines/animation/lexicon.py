@@ -1,4 +1,4 @@
-"""The lexicon of a character: the entries of its binding and the poses of postures, as words."""
+"""The lexicon of body animation: the entries of a character's binding, and the poses of postures."""
 
 from collections.abc import Iterator
 
@@ -29,12 +29,12 @@ def example_behavior(spec: UnitSpec, target: str) -> str | None:
         target: something to look and point at.
 
     Returns:
-        The element, with id "word". None if the entry needs more from the behavior, such as a file or a joint.
+        The element, with id "example". None if the entry needs more from the behavior, such as a file or a joint.
     """
     element = ELEMENTS.get(spec.behavior)
     attributes = element.attributes if element and element.namespace == spec.namespace else ()
     targets = {each.name: target for each in attributes if isinstance(each.type, Target)}
-    said = {"id": "word", **targets, **spec.constraints}
+    said = {"id": "example", **targets, **spec.constraints}
     known = {"id", *(each.name for each in attributes)}
     missing = {each.name for each in attributes if each.required} - said.keys()
     mapped = {to for source, to in spec.parameter_map.items() if source not in said}
@@ -51,11 +51,11 @@ def example_behavior(spec: UnitSpec, target: str) -> str | None:
     return etree.tostring(tree, encoding="unicode")
 
 
-_WORDS = ("lexeme", "name")
-"""The attributes that hold the word of a behavior."""
+_LEXEME_ATTRIBUTES = ("lexeme", "name")
+"""The attributes that contain the lexeme of a behavior."""
 
 
-def binding_words(library: MotionLibrary, target: str) -> Iterator[LexiconEntry]:
+def binding_lexicon(library: MotionLibrary, target: str) -> Iterator[LexiconEntry]:
     """Yield the entries of the binding, in order, and the poses of postures.
 
     Entries that need more from a behavior than a target, such as those that play any file, are left out.
@@ -67,13 +67,13 @@ def binding_words(library: MotionLibrary, target: str) -> Iterator[LexiconEntry]
     for spec in library.binding.specs:
         text = example_behavior(spec, target)
         if text is not None:
-            yield _word(spec, text, library)
+            yield _entry(spec, text, library)
     yield from (LexiconEntry("pose", lexeme) for lexeme in LEXEMES)
 
 
-def _word(spec: UnitSpec, text: str, library: MotionLibrary) -> LexiconEntry:
+def _entry(spec: UnitSpec, text: str, library: MotionLibrary) -> LexiconEntry:
     said = dict(spec.constraints)
-    lexeme = next((said.pop(name) for name in _WORDS if name in said), "")
+    lexeme = next((said.pop(name) for name in _LEXEME_ATTRIBUTES if name in said), "")
     try:
         behavior = _behavior(text)
         candidate = library.candidate(spec, behavior, behavior_attributes(behavior))

@@ -55,7 +55,7 @@ class MakerContext:
 
 @dataclass(frozen=True, slots=True)
 class MotionRequest:
-    """A motion that a binding asks for.
+    """The motion that a binding selects for a behavior.
 
     Attributes:
         behavior: to play.

@@ -14,7 +14,6 @@ from reactive_realizer.embodiment.joints import LEFT_ARM, LOWER_BODY, RIGHT_ARM
 from reactive_realizer.embodiment.pose import Layer, LayerKind, checked
 from reactive_realizer.embodiment.quaternion import Quat
 from reactive_realizer.embodiment.vector import Vec3
-from reactive_realizer.engines.animation.kinematics import KinematicState
 from reactive_realizer.errors import Fault
 from reactive_realizer.planunit.parameter import Range
 
@@ -56,7 +55,7 @@ class Moment(NamedTuple):
 
 
 class MotionPose(NamedTuple):
-    """The pose that a motion asks for.
+    """The pose that a motion requests.
 
     Attributes:
         rotations: joint -> rotation local to the parent; for additive motions, the turn to be added.
@@ -75,7 +74,7 @@ class MotionPose(NamedTuple):
 
 
 class Predictability(Enum):
-    """When the poses of a motion can be predicted, as long as its plan does not change."""
+    """Whether and when the poses of a motion can be predicted, as long as its plan does not change."""
 
     NEVER = "never"
     ONCE_STARTED = "once begun"
@@ -119,7 +118,6 @@ class MotionUnit(ABC):
         predictability: when its poses can be predicted.
         entrance: duration of its fade-in if it joins late, s; None if it appears at once or handles this itself.
         joined: time at which it joined late, s; None if it started in time.
-        connects: whether it leads to the start of other motions (`connect`).
         fault: that occurred while playing; None if there is none.
     """
 
@@ -139,7 +137,6 @@ class MotionUnit(ABC):
     predictability: Predictability = Predictability.NEVER
     fade_in: float | None = None
     joined: GlobalTime | None = None
-    connects: bool = False
     fault: Fault | None = None
 
     @property
@@ -169,16 +166,6 @@ class MotionUnit(ABC):
         motion.__dict__.update(self.__dict__)  # five times as fast as copy.copy
         motion.parameters = dict(self.parameters)
         return motion
-
-    def connect(self, begin: KinematicState, goal: KinematicState, duration: float) -> None:
-        """Set the ends of a motion that `connects` others.
-
-        Args:
-            begin: state of the body at phase 0.
-            goal: state of the body at phase 1.
-            duration: between the two, s.
-        """
-        raise NotImplementedError
 
     def gaze(self, phase: float) -> GazeGoal | None:
         """Return what directs the eyes at a phase; None if the motion does not."""

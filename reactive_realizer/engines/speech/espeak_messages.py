@@ -11,7 +11,7 @@ _LENGTHS = struct.Struct(">II")
 
 
 @dataclass(frozen=True, slots=True)
-class Message:
+class WorkerMessage:
     """One request or reply.
 
     Attributes:
@@ -34,29 +34,29 @@ class MessageDecoder:
     def __init__(self) -> None:
         self._pending = bytearray()
 
-    def feed(self, piece: bytes) -> Iterator[Message]:
+    def feed(self, piece: bytes) -> Iterator[WorkerMessage]:
         """The messages that a piece completes; the rest of it is kept for the next piece."""
         self._pending += piece
         while (message := self._first()) is not None:
             yield message
 
-    def _first(self) -> Message | None:
+    def _first(self) -> WorkerMessage | None:
         if len(self._pending) < _LENGTHS.size:
             return None
         header, body = _LENGTHS.unpack_from(self._pending)
         start, end = _LENGTHS.size + header, _LENGTHS.size + header + body
         if len(self._pending) < end:
             return None
-        message = Message(json.loads(self._pending[_LENGTHS.size : start]), bytes(self._pending[start:end]))
+        message = WorkerMessage(json.loads(self._pending[_LENGTHS.size : start]), bytes(self._pending[start:end]))
         del self._pending[:end]
         return message
 
 
-def failure(exit_status: int) -> Message:
+def failure(exit_status: int) -> WorkerMessage:
     """The reply to a request whose process ended without a reply.
 
     Args:
         exit_status: of the process; a negative one is the negated number of the signal that ended it.
     """
     ending = signal.Signals(-exit_status).name if exit_status < 0 else f"exit status {exit_status}"
-    return Message({"failed": ending})
+    return WorkerMessage({"failed": ending})

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any, Self, cast
 
-from reactive_realizer.engines.speech.espeak_messages import Message, MessageDecoder, failure
+from reactive_realizer.engines.speech.espeak_messages import MessageDecoder, WorkerMessage, failure
 
 _WORKER = "reactive_realizer.engines.speech.espeak_worker"
 _START_PATIENCE = 30.0
@@ -22,7 +22,7 @@ class _Request:
     """A request to the worker, with the future of its reply."""
 
     header: dict[str, Any]
-    reply: asyncio.Future[Message]
+    reply: asyncio.Future[WorkerMessage]
 
 
 class EspeakProcess(asyncio.SubprocessProtocol):
@@ -41,9 +41,9 @@ class EspeakProcess(asyncio.SubprocessProtocol):
 
     def __init__(self, patience: float) -> None:
         loop = asyncio.get_running_loop()
-        self.hello: asyncio.Future[Message] = loop.create_future()
+        self.hello: asyncio.Future[WorkerMessage] = loop.create_future()
         self.ended: asyncio.Future[None] = loop.create_future()
-        self._awaited: asyncio.Future[Message] | None = self.hello
+        self._awaited: asyncio.Future[WorkerMessage] | None = self.hello
         self._waiting: deque[_Request] = deque()
         self._decoder = MessageDecoder()
         self._patience = patience
@@ -66,7 +66,7 @@ class EspeakProcess(asyncio.SubprocessProtocol):
         """The process id of the worker."""
         return self._transport.get_pid()
 
-    def request(self, header: dict[str, Any]) -> asyncio.Future[Message]:
+    def request(self, header: dict[str, Any]) -> asyncio.Future[WorkerMessage]:
         """Sends a request, and returns the future of its reply."""
         request = _Request(header, asyncio.get_running_loop().create_future())
         self._waiting.append(request)
@@ -113,7 +113,9 @@ class EspeakProcess(asyncio.SubprocessProtocol):
             return
         request = self._waiting.popleft()
         self._awaited = request.reply
-        cast("asyncio.WriteTransport", self._transport.get_pipe_transport(0)).write(Message(request.header).encode())
+        cast("asyncio.WriteTransport", self._transport.get_pipe_transport(0)).write(
+            WorkerMessage(request.header).encode()
+        )
         self._watch = asyncio.get_running_loop().call_later(self._patience, self._give_up)
 
     def _give_up(self) -> None:
@@ -127,13 +129,15 @@ class EspeakProcess(asyncio.SubprocessProtocol):
 
     def _fail_unanswered(self) -> None:
         self._watch.cancel()
-        failed = Message({"failed": "no answer"}) if self._hung else failure(self._transport.get_returncode() or 0)
+        failed = (
+            WorkerMessage({"failed": "no answer"}) if self._hung else failure(self._transport.get_returncode() or 0)
+        )
         for reply in (self._awaited, *(request.reply for request in self._waiting)):
             if reply is not None:
                 _answer(reply, failed)
         self._waiting.clear()
 
 
-def _answer(reply: asyncio.Future[Message], message: Message) -> None:
+def _answer(reply: asyncio.Future[WorkerMessage], message: WorkerMessage) -> None:
     if not reply.done():
         reply.set_result(message)

@@ -10,7 +10,7 @@ from xml.sax.saxutils import escape
 import numpy as np
 
 from reactive_realizer.engine.tts import Phoneme, Utterance, Word, word_spans
-from reactive_realizer.engines.speech.espeak_messages import Message
+from reactive_realizer.engines.speech.espeak_messages import WorkerMessage
 
 _BYTES_PER_SAMPLE = 2
 
@@ -21,8 +21,8 @@ class Markup:
 
     Attributes:
         ssml: the whole document; mark number n of the text is named ``mn``, so that no name has to be quoted.
-        origins: for each character of the SSML, the index of the character of the text for which it stands; a tag
-            stands for the character after it.
+        origins: for each character of the SSML, the index of the corresponding character of the text; for a tag, that
+            of the character after it.
     """
 
     ssml: str
@@ -45,7 +45,7 @@ def marked_up(text: str, marks: tuple[int, ...]) -> Markup:
     return Markup("".join(piece for piece, _ in pieces), tuple(origin for piece, origin in pieces for _ in piece))
 
 
-def as_utterance(reply: Message, text: str, marks: tuple[tuple[str, int], ...], markup: Markup) -> Utterance:
+def as_utterance(reply: WorkerMessage, text: str, marks: tuple[tuple[str, int], ...], markup: Markup) -> Utterance:
     """The utterance in a reply of the worker; marks are numbered as in the markup."""
     rate: int = reply.header["sample_rate"]
     duration = len(reply.body) / _BYTES_PER_SAMPLE / rate

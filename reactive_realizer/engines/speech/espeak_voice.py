@@ -4,7 +4,7 @@ import asyncio
 from importlib.util import find_spec
 
 from reactive_realizer.engine.tts import Utterance
-from reactive_realizer.engines.speech.espeak_messages import Message
+from reactive_realizer.engines.speech.espeak_messages import WorkerMessage
 from reactive_realizer.engines.speech.espeak_process import EspeakProcess
 from reactive_realizer.engines.speech.espeak_utterance import as_utterance, marked_up
 from reactive_realizer.errors import CreationFault, RealizerError
@@ -92,7 +92,7 @@ class EspeakVoice:
         if self._process is not None:
             await self._process.close()
 
-    async def _running(self) -> tuple[EspeakProcess, Message]:
+    async def _running(self) -> tuple[EspeakProcess, WorkerMessage]:
         """A running worker, and its first message."""
         async with self._starting:
             if self._process is None or self._process.ended.done():
@@ -108,13 +108,13 @@ def _require_espeak() -> None:
         raise RealizerError(VoiceNotInstalled())
 
 
-def _succeeded(reply: Message) -> Message:
+def _succeeded(reply: WorkerMessage) -> WorkerMessage:
     if "failed" in reply.header:
         raise RealizerError(VoiceFailed(reason=reply.header["failed"]))
     return reply
 
 
-def _identifier(hello: Message, voice: str) -> str:
+def _identifier(hello: WorkerMessage, voice: str) -> str:
     """The library's identifier of a voice; the library would take an unknown name for the name of a file."""
     name, plus, variant = voice.partition("+")
     if name.lower() not in hello.header["voices"] or (plus and variant not in hello.header["variants"]):

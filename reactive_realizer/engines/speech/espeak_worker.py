@@ -2,7 +2,7 @@
 
 Its first message lists the voices. It forks a child for each request, always from the same initial state: so the same
 text gives the same bytes, which espeak-ng does not guarantee for the second utterance of a process, and a text that
-crashes the library ends one child only.
+crashes the library ends only one child.
 """
 
 import os
@@ -13,7 +13,7 @@ from functools import partial
 from typing import BinaryIO
 
 from reactive_realizer.engines.speech.espeak_library import EspeakLibrary
-from reactive_realizer.engines.speech.espeak_messages import Message, MessageDecoder, failure
+from reactive_realizer.engines.speech.espeak_messages import MessageDecoder, WorkerMessage, failure
 
 _TIME_LIMIT = 5
 """Time limit of one child, s, shorter than that of the worker; the longest text allowed takes less than one."""
@@ -24,7 +24,7 @@ def main() -> None:
     replies = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # keeps what the library prints out of the replies
     library = EspeakLibrary()
-    _send(replies, Message({"voices": library.voices(), "variants": library.variants()}).encode())
+    _send(replies, WorkerMessage({"voices": library.voices(), "variants": library.variants()}).encode())
     for request in _requests():
         _send(replies, _in_child(partial(_speak, library, request)))
 
@@ -34,16 +34,16 @@ def _send(replies: BinaryIO, encoded: bytes) -> None:
     replies.flush()
 
 
-def _requests() -> Iterator[Message]:
+def _requests() -> Iterator[WorkerMessage]:
     decoder = MessageDecoder()
     while piece := os.read(0, 65_536):
         yield from decoder.feed(piece)
 
 
-def _speak(library: EspeakLibrary, request: Message) -> bytes:
+def _speak(library: EspeakLibrary, request: WorkerMessage) -> bytes:
     spoken = library.synthesize(request.header["ssml"], request.header["voice"])
     times = {"words": spoken.words, "marks": spoken.marks, "phonemes": spoken.phonemes}
-    return Message({"sample_rate": library.sample_rate, **times}, bytes(spoken.audio)).encode()
+    return WorkerMessage({"sample_rate": library.sample_rate, **times}, bytes(spoken.audio)).encode()
 
 
 def _in_child(work: Callable[[], bytes]) -> bytes:

@@ -27,7 +27,7 @@ class TextVoice:
         """Does nothing."""
 
     async def voices(self) -> tuple[str, ...]:
-        """None: there is one voice, which answers to every name."""
+        """No names: the one voice accepts every name."""
         return ()
 
     def synthesize(self, text: str, marks: tuple[tuple[str, int], ...], voice: str | None = None) -> Utterance:

@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 
 from reactive_realizer.errors import Fault
-from reactive_realizer.planunit.faults import TooShort
+from reactive_realizer.planunit.timing import TooShort
 from reactive_realizer.scheduler.convex.conflict import GIVEN, Conflict, Rank, Requirement
 from reactive_realizer.scheduler.convex.relaxed_problem import RelaxedProblem
 from reactive_realizer.scheduler.faults import (

@@ -3,8 +3,7 @@
 from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 
 from reactive_realizer.errors import Fault
-from reactive_realizer.planunit.faults import TooShort
-from reactive_realizer.planunit.timing import SHORTEST
+from reactive_realizer.planunit.timing import SHORTEST, TooShort
 from reactive_realizer.scheduler.embr.embr_problem import EmbrProblem
 from reactive_realizer.scheduler.embr.keeping import keep
 from reactive_realizer.scheduler.embr.placing import place

@@ -6,8 +6,7 @@ from enum import Enum
 from typing import NamedTuple
 
 from reactive_realizer.errors import RealizerError
-from reactive_realizer.planunit.faults import TooShort
-from reactive_realizer.planunit.timing import SHORTEST
+from reactive_realizer.planunit.timing import SHORTEST, TooShort
 from reactive_realizer.scheduler.faults import OutOfOrder
 from reactive_realizer.scheduler.problem import Item, Node
 

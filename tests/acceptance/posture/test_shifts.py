@@ -6,7 +6,7 @@ import pytest
 
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.vector import subtract
-from reactive_realizer.engine.lexicon import words_of
+from reactive_realizer.engine.lexicon import lexicon_of
 from reactive_realizer.testing.pilot import RealizerPilot
 
 from .standing import CROSSED, SIT, STAND, apart, body, crossed, sits
@@ -29,7 +29,7 @@ GETTING_UP = 1.61
 async def test_getting_up_takes_its_time_after_failed_plans(pilot: RealizerPilot) -> None:
     pilot.block("a", f'<postureShift id="s">{SIT}</postureShift>')
     await pilot.advance(3)
-    assert words_of(pilot.realizer.characters["alice"].engines)
+    assert lexicon_of(pilot.realizer.characters["alice"].engines)
     pilot.block("b", f'<postureShift id="s">{STAND}</postureShift>')
     await pilot.advance(3)
     assert pilot.feedback.time("b:s:end") - pilot.feedback.time("b:s:start") == pytest.approx(GETTING_UP, abs=0.02)

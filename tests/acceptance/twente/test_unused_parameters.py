@@ -177,7 +177,7 @@ async def said_of_entries(caplog: pytest.LogCaptureFixture, *assets: Path) -> li
     async with open_pilot(SceneOptions(voice="text", assets=assets)) as pilot:
         (engine,) = (each for each in pilot.realizer.characters["alice"].engines if each.name.endswith("/animation"))
         assert isinstance(engine, LexiconProvider)
-        assert {word.element for word in engine.words()} >= {"gesture", "head", "gaze", "pointing"}
+        assert {word.element for word in engine.lexicon()} >= {"gesture", "head", "gaze", "pointing"}
     return [line for line in caplog.messages if line.startswith("gesturebinding.xml, line ") and "parameter" in line]
 
 

@@ -30,7 +30,7 @@ def constraints(**values: str) -> str:
 def test_the_example_has_the_attributes_of_the_entry(asked):
     element = asked("gesture", constraints(lexeme="BEAT", mode="LEFT_HAND"))
     assert element.tag == f"{{{BML}}}gesture"
-    assert element.attrib == {"id": "word", "lexeme": "BEAT", "mode": "LEFT_HAND"}
+    assert element.attrib == {"id": "example", "lexeme": "BEAT", "mode": "LEFT_HAND"}
 
 
 def test_the_example_has_a_target_if_its_element_needs_one(asked):

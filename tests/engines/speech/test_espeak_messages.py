@@ -3,9 +3,9 @@
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from reactive_realizer.engines.speech.espeak_messages import Message, MessageDecoder, failure
+from reactive_realizer.engines.speech.espeak_messages import MessageDecoder, WorkerMessage, failure
 
-MESSAGES = st.builds(Message, st.dictionaries(st.text(), st.integers()), st.binary(max_size=40))
+MESSAGES = st.builds(WorkerMessage, st.dictionaries(st.text(), st.integers()), st.binary(max_size=40))
 
 
 @settings(derandomize=True)

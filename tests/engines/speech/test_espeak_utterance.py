@@ -5,7 +5,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from lxml import etree
 
-from reactive_realizer.engines.speech.espeak_messages import Message
+from reactive_realizer.engines.speech.espeak_messages import WorkerMessage
 from reactive_realizer.engines.speech.espeak_utterance import as_utterance, marked_up
 
 RATE = 1000
@@ -16,7 +16,7 @@ def utterance(text, words=(), marks=(), reported=(), phonemes=(), duration=2000)
     markup = marked_up(text, tuple(place for _, place in marks))
     positions = [(time, markup.origins.index(character) + 1) for time, character in words]
     header = {"sample_rate": RATE, "words": positions, "marks": reported, "phonemes": phonemes}
-    return as_utterance(Message(header, bytes(2 * duration)), text, marks, markup)
+    return as_utterance(WorkerMessage(header, bytes(2 * duration)), text, marks, markup)
 
 
 def starts(spoken):

@@ -7,8 +7,8 @@ from reactive_realizer.engines.animation.expression.syntax import (
     Call,
     Conditional,
     Constant,
+    Formula,
     Negation,
-    Node,
     Operation,
     Variable,
     children,
@@ -22,7 +22,7 @@ May raise ArithmeticError or ValueError where a formula has no value: 1/0, log(-
 """
 
 
-def compile_formulas(formulas: Sequence[Node], names: Sequence[str]) -> Compiled:
+def compile_formulas(formulas: Sequence[Formula], names: Sequence[str]) -> Compiled:
     """Compile all formulas of an animation to one function; equal formulas (fifteen fingers) are evaluated once.
 
     The source is generated from the tree alone: numbers as their `repr`, names by their index.
@@ -46,7 +46,7 @@ def compile_formulas(formulas: Sequence[Node], names: Sequence[str]) -> Compiled
     return compiled
 
 
-def _scope(formulas: Iterable[Node]) -> dict[str, object]:
+def _scope(formulas: Iterable[Formula]) -> dict[str, object]:
     """Return the functions that formulas call, by their names in the source."""
     calls = (node for formula in formulas for node in walk(formula) if isinstance(node, Call))
     # Without the first entry Python would add its built-in functions.
@@ -58,7 +58,7 @@ def _scope(formulas: Iterable[Node]) -> dict[str, object]:
     }
 
 
-def fold(node: Node) -> Node:
+def fold(node: Formula) -> Formula:
     """Fold constants; subtrees without a value are left to be evaluated later."""
     match node:
         case Constant() | Variable():
@@ -81,7 +81,7 @@ def fold(node: Node) -> Node:
     return node
 
 
-def _source(node: Node, arguments: Mapping[str, str]) -> str:
+def _source(node: Formula, arguments: Mapping[str, str]) -> str:
     """Return the Python source of a formula, with parentheses wherever they could matter."""
     match node:
         case Constant(value):

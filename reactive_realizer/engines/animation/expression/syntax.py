@@ -28,7 +28,7 @@ class Variable:
 class Negation:
     """-operand."""
 
-    operand: "Node"
+    operand: "Formula"
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,17 +36,17 @@ class Operation:
     """Left operator right. True is 1, false is 0; every other number counts as true."""
 
     operator: str
-    left: "Node"
-    right: "Node"
+    left: "Formula"
+    right: "Formula"
 
 
 @dataclass(frozen=True, slots=True)
 class Conditional:
     """if(condition, yes, no): yes if the condition is above 0; only one of them is evaluated."""
 
-    condition: "Node"
-    yes: "Node"
-    no: "Node"
+    condition: "Formula"
+    yes: "Formula"
+    no: "Formula"
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,13 +61,13 @@ class Call:
 
     name: str
     function: Function
-    arguments: tuple["Node", ...]
+    arguments: tuple["Formula", ...]
 
 
-Node = Constant | Variable | Negation | Operation | Conditional | Call
+Formula = Constant | Variable | Negation | Operation | Conditional | Call
 
 
-def children(node: Node) -> tuple[Node, ...]:
+def children(node: Formula) -> tuple[Formula, ...]:
     """Return the direct children of a node."""
     match node:
         case Constant() | Variable():
@@ -82,14 +82,14 @@ def children(node: Node) -> tuple[Node, ...]:
             return arguments
 
 
-def walk(node: Node) -> Iterator[Node]:
+def walk(node: Formula) -> Iterator[Formula]:
     """Yield a node and all its descendants, in order of appearance."""
     yield node
     for child in children(node):
         yield from walk(child)
 
 
-def variables(node: Node) -> Iterator[str]:
+def variables(node: Formula) -> Iterator[str]:
     """Yield the names in a formula, in order of appearance, with repetitions."""
     return (found.name for found in walk(node) if isinstance(found, Variable))
 
@@ -108,7 +108,7 @@ _TOKEN = re.compile(
 _LEVELS = (("||",), ("&&",), ("==", "!="), ("<", ">", "<=", ">="), ("+", "-"), ("*", "/", "%"), (), ("^",))
 _BINDING = {operator: level for level, operators in enumerate(_LEVELS, 1) for operator in operators}
 _SIGN = 7
-_SIGNED: Mapping[str, Callable[[Node], Node]] = {
+_SIGNED: Mapping[str, Callable[[Formula], Formula]] = {
     "+": lambda operand: operand,
     "-": Negation,
     "!": lambda operand: Operation("==", operand, Constant(0.0)),
@@ -125,7 +125,7 @@ class _Token:
     at: int
 
 
-def parse(text: str, functions: Mapping[str, Function] = FUNCTIONS) -> Node:
+def parse(text: str, functions: Mapping[str, Function] = FUNCTIONS) -> Formula:
     """Parse a formula; names that are neither a function nor a constant are variables.
 
     Args:
@@ -146,13 +146,13 @@ class _Parser:
             self._fail(f"more than {LONGEST} characters", LONGEST)
         self._token = self._read(0)
 
-    def whole(self) -> Node:
+    def whole(self) -> Formula:
         node, _ = self._expression(0, 0)
         if self._token.text != _END:
             self._fail(f"'{self._token.text}' instead of an operator", self._token.at)
         return node
 
-    def _expression(self, binding: int, depth: int) -> tuple[Node, int]:
+    def _expression(self, binding: int, depth: int) -> tuple[Formula, int]:
         """Parse operators that bind tighter than a level; return the tree and its height."""
         if depth > DEEPEST:
             self._fail(f"nested deeper than {DEEPEST}", self._token.at)
@@ -167,7 +167,7 @@ class _Parser:
                 self._fail(f"nested deeper than {DEEPEST}", operator.at)
         return left, height
 
-    def _operand(self, depth: int) -> tuple[Node, int]:
+    def _operand(self, depth: int) -> tuple[Formula, int]:
         token = self._take()
         if token.kind == "number":
             return Constant(float(token.text)), 0
@@ -182,7 +182,7 @@ class _Parser:
             return _SIGNED[token.text](operand), height + 1
         self._fail(f"'{token.text}' instead of a number or a name" if token.text else "it ends unexpectedly", token.at)
 
-    def _name(self, token: _Token, depth: int) -> tuple[Node, int]:
+    def _name(self, token: _Token, depth: int) -> tuple[Formula, int]:
         if self._token.text != "(":
             if token.text in CONSTANTS:
                 return Constant(CONSTANTS[token.text]), 0
@@ -199,7 +199,7 @@ class _Parser:
             self._fail(f"{token.text} takes {function.takes}, not {len(arguments)}", token.at)
         return Call(token.text, function, tuple(arguments)), height + 1
 
-    def _arguments(self, depth: int) -> tuple[list[Node], int]:
+    def _arguments(self, depth: int) -> tuple[list[Formula], int]:
         self._expect("(")
         arguments, highest = [], 0
         while True:

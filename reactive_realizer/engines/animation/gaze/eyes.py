@@ -26,14 +26,14 @@ from reactive_realizer.embodiment.vector import (
 )
 
 EYE_RANGE = 2.0 * math.asin(math.sqrt(0.12))
-"""How far an eye turns to a side or down from straight ahead, rad (40.5 degrees).
+"""Range of an eye to each side and down from straight ahead, rad (40.5 degrees).
 
 The squares of the vertical and horizontal components of its quaternion add up to at most 0.12: D. Tweed,
 "Three-dimensional model of the human eye-head saccadic system" (Journal of Neurophysiology 77, 1997).
 """
 
 EYE_RANGE_UP = math.radians(30.0)
-"""How far an eye turns up, rad: much less, and less with age.
+"""Range of an eye upward, rad; it is smaller, and decreases with age.
 
 W. J. Lee and others, "Differences in eye movement range based on age and gaze direction" (Eye 33, 2019), found 27.9
 degrees (standard deviation 7.6) in people from 5 to 91 years; 47.1 down, 44.9 and 44.2 to the sides.

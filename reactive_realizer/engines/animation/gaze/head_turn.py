@@ -1,6 +1,4 @@
-"""How trunk, neck and head share a turn toward a target (D.
-
-Tweed's model of gaze), and the weights of the joint groups.
+"""Distributes a turn toward a target over trunk, neck and head, by D. Tweed's model of gaze.
 
 The groups are the keys of SmartBody's gaze, from EYES to BACK. All functions are pure.
 """
@@ -12,7 +10,7 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 from reactive_realizer.bml.vocabulary import Influence
-from reactive_realizer.embodiment.body import Body, Pose
+from reactive_realizer.embodiment.body import Body, JointRotations
 from reactive_realizer.embodiment.quaternion import (
     IDENTITY,
     Quat,
@@ -120,7 +118,9 @@ class HeadTurn(NamedTuple):
     missing: float | None
 
 
-def head_turn_toward(body: Body, rest: Pose, point: Callable[[Vec3], Vec3], weights: Mapping[str, float]) -> HeadTurn:
+def head_turn_toward(
+    body: Body, rest: JointRotations, point: Callable[[Vec3], Vec3], weights: Mapping[str, float]
+) -> HeadTurn:
     """Return the turn of trunk, neck and head toward a point, by their weights.
 
     All joints turn about one axis, so the head does as well on its way from rest: D. Tweed and T. Vilis, "Listing's law

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from reactive_realizer.binding.asset_file import (
     ENDS,
-    Element,
+    XmlElement,
     asset_error,
     attribute,
     boolean,
@@ -33,7 +33,7 @@ _ENCODINGS = {
     **dict.fromkeys(("xyzw", "reversedquat"), "xyzw"),
     **dict.fromkeys(("axisangle", "axisangles"), "axisangles"),
 }
-"""How rotations are written, by the words for it; without one they are quaternions."""
+"""The encodings of rotations by their names; the default is quaternions."""
 
 _PLACED = "T1"
 """Prefix of an encoding with the position of the first part before the rotations."""
@@ -59,7 +59,7 @@ class PoseTable(NamedTuple):
     roots: NDArray[np.float64] | None
 
 
-def read_pose_table(element: Element, *, timed: bool) -> PoseTable:
+def read_pose_table(element: XmlElement, *, timed: bool) -> PoseTable:
     """Read the rows of an element with the attributes parts, encoding (R or T1R) and rotationEncoding.
 
     Raises:
@@ -80,7 +80,7 @@ def read_pose_table(element: Element, *, timed: bool) -> PoseTable:
     return PoseTable(rows[:, :timed].ravel(), joints, _quaternions(element, values), roots)
 
 
-def _rows(element: Element, width: int) -> NDArray[np.float64]:
+def _rows(element: XmlElement, width: int) -> NDArray[np.float64]:
     texts = [element.text, *(child.tail for child in element)]
     try:
         numbers = np.array(" ".join(filter(None, texts)).split(), dtype=np.float64)
@@ -95,7 +95,7 @@ def _rows(element: Element, width: int) -> NDArray[np.float64]:
     return rows
 
 
-def _quaternions(element: Element, values: NDArray[np.float64]) -> NDArray[np.float64]:
+def _quaternions(element: XmlElement, values: NDArray[np.float64]) -> NDArray[np.float64]:
     written = element.get("rotationEncoding", "quat")
     encoding = _ENCODINGS.get(written.lower())
     if encoding is None:
@@ -110,7 +110,7 @@ def _quaternions(element: Element, values: NDArray[np.float64]) -> NDArray[np.fl
     return _units(element, values if encoding == "quaternions" else values[..., [3, 0, 1, 2]])
 
 
-def _units(element: Element, vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+def _units(element: XmlElement, vectors: NDArray[np.float64]) -> NDArray[np.float64]:
     lengths = np.linalg.norm(vectors, axis=-1, keepdims=True)
     if (lengths < _NEARLY_ZERO).any():
         row, part, _ = np.argwhere(lengths < _NEARLY_ZERO)[0]
@@ -171,7 +171,7 @@ def read_interpolator_text(text: str, name: str) -> Clip:
     return read_interpolator(element)
 
 
-def read_interpolator(element: Element) -> Clip:
+def read_interpolator(element: XmlElement) -> Clip:
     """Read the animation of an element.
 
     Positions of the root are those of another body, so they are taken as displacements from the first row.
@@ -195,7 +195,7 @@ def read_interpolator(element: Element) -> Clip:
     return Clip(name, times, table.joints, continuous(table.rotations), roots, points)
 
 
-def _points(element: Element, first: float, last: float) -> dict[str, KeyPoint]:
+def _points(element: XmlElement, first: float, last: float) -> dict[str, KeyPoint]:
     points: dict[str, KeyPoint] = {}
     for child in element:
         if child.tag != _POINT:

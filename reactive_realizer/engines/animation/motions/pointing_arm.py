@@ -1,4 +1,4 @@
-"""How an arm points: the line of the index finger goes through the target.
+"""Inverse kinematics of a pointing arm: the line of the index finger goes through the target.
 
 The upper arm turns toward the target as far as is natural; forearm and hand point at it from there like one stick. The
 two-bone solution of `two_bone_ik` turns shoulder and elbow. Because the finger does not start at the middle of the

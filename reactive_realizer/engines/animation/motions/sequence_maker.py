@@ -6,7 +6,7 @@ from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 
-from reactive_realizer.binding.asset_file import ENDS, Element, asset_error, attribute, number, read_xml, sync_id
+from reactive_realizer.binding.asset_file import ENDS, XmlElement, asset_error, attribute, number, read_xml, sync_id
 from reactive_realizer.engines.animation.faults import NoFile
 from reactive_realizer.engines.animation.motion_maker import MakerContext, MotionMaker, MotionRequest, PreloadingMaker
 from reactive_realizer.engines.animation.motion_parameters import listed
@@ -76,7 +76,7 @@ class SequenceMaker:
             raise RealizerError(NoFile(element=request.behavior.name))
         return self._context.asset(request.file)
 
-    def _sequence(self, root: Element, request: MotionRequest) -> SequenceMotionUnit:
+    def _sequence(self, root: XmlElement, request: MotionRequest) -> SequenceMotionUnit:
         for element in root:
             if element.tag not in ("Motion", "KeyPosition"):
                 raise asset_error(element, "known are Motion, KeyPosition")
@@ -87,7 +87,7 @@ class SequenceMaker:
         names = {element.get("id", ""): part for element, part in zip(elements, parts, strict=True)}
         return SequenceMotionUnit(parts, dict(_key_position(key, names) for key in root.iterfind("KeyPosition")))
 
-    def _part(self, element: Element, request: MotionRequest) -> SequencePart:
+    def _part(self, element: XmlElement, request: MotionRequest) -> SequencePart:
         unit = attribute(element, "type")
         if unit not in _PARTS:
             raise asset_error(element, f"type='{unit}': a part may be of type {', '.join(_PARTS)}")
@@ -104,7 +104,7 @@ class SequenceMaker:
         return SequencePart(motion, start, end, *eases)
 
 
-def _log_unused(element: Element, motion: MotionUnit) -> None:
+def _log_unused(element: XmlElement, motion: MotionUnit) -> None:
     """Log the parameters of a part that have no effect."""
     if unused := dict(_parameters(element)).keys() - motion.parameter_names:
         _log_once(
@@ -120,18 +120,18 @@ def _log_once(sentence: str) -> None:
     _log.warning("%s", sentence)
 
 
-def _part_request(element: Element, request: MotionRequest) -> MotionRequest:
+def _part_request(element: XmlElement, request: MotionRequest) -> MotionRequest:
     """Return the request for a part, with its own values where the behavior sets none."""
     parameters = {**dict(_parameters(element)), **request.parameters}
     return replace(request, parameters=parameters, file=element.get("file"))
 
 
-def _parameters(element: Element) -> Iterator[tuple[str, str]]:
+def _parameters(element: XmlElement) -> Iterator[tuple[str, str]]:
     for parameter in element.iterfind("parameter"):
         yield attribute(parameter, "name"), attribute(parameter, "value")
 
 
-def _key_position(key: Element, parts: Mapping[str, SequencePart]) -> tuple[str, float]:
+def _key_position(key: XmlElement, parts: Mapping[str, SequencePart]) -> tuple[str, float]:
     name, _, sync = attribute(key, "ref").partition(":")
     if (own := sync_id(key)) in ENDS:
         raise asset_error(key, "start and end are reserved for the whole sequence")

@@ -42,7 +42,6 @@ class TransitionMotionUnit(MotionUnit):
     fixed = frozenset({CLASS, JOINTS})
     preferred_duration = 0.6
     predictability = Predictability.ONCE_STARTED
-    connects = True
 
     def __init__(self, joints: frozenset[str], curve: CurveKind) -> None:
         """Prepare a transition of some joints along curves of one kind."""
@@ -58,7 +57,13 @@ class TransitionMotionUnit(MotionUnit):
         self._body = body
 
     def connect(self, begin: KinematicState, goal: KinematicState, duration: float) -> None:
-        """Set the curves of all joints, with their velocities and accelerations at both ends."""
+        """Set the curves of all joints, with their velocities and accelerations at both ends.
+
+        Args:
+            begin: state of the body at phase 0.
+            goal: state of the body at phase 1.
+            duration: between the two, s.
+        """
         self._curves = {
             joint: self._kind(_end(begin, joint, duration), _end(goal, joint, duration)) for joint in self.joints
         }
@@ -112,7 +117,7 @@ class TransitionUnit(AnimationUnit):
 
     def _connect(self, now: GlobalTime) -> None:
         end = self.time("end")
-        if self.motion.connects and end is not None and end > now:
+        if isinstance(self.motion, TransitionMotionUnit) and end is not None and end > now:
             self.motion.connect(self._context.state_at(now), self._predict(end, self), end - now)
             self._connected = True
 

@@ -31,9 +31,7 @@ foot comes down and when it leaves. So a figure that is about to step bends both
 """
 
 _CAUTIOUS = 0.007
-"""That softness while a foot is delayed, m: as in the middle of a long step, because the leg that waits may be
-straight.
-"""
+"""The softness while a foot is delayed, m: as in the middle of a long step, because the waiting leg may be straight."""
 
 
 class _LegState(NamedTuple):

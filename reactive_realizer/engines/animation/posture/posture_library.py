@@ -1,4 +1,4 @@
-"""Postures as words, and the bodies that posture files give them."""
+"""Postures by lexemes, and the bodies that posture files define for them."""
 
 import logging
 from collections.abc import Callable, Iterable, Mapping
@@ -51,11 +51,11 @@ PART_JOINTS: Mapping[PosePart, frozenset[str]] = MappingProxyType(
 
 @dataclass(frozen=True, slots=True)
 class BodyPosture:
-    """A posture as words: a stance, and poses of single parts of the body.
+    """A posture by lexemes: a stance, and poses of single parts of the body.
 
     Attributes:
         stance: the global position.
-        poses: of parts of the body; if two concern the same joints, the later one wins.
+        poses: of parts of the body; if two affect the same joints, the later one takes precedence.
     """
 
     stance: StanceType = StanceType.STANDING
@@ -95,10 +95,10 @@ class PostureLibrary:
     """Bodies in postures, for one skeleton.
 
     A stance is the asset `postures/STANCE.xml`. A pose is `postures/STANCE/LEXEME.xml` if it looks different in a
-    stance, else `postures/LEXEME.xml`, in lower case; a new file is a new word. Each file is a ProcAnimation, of which
-    the pose at phase 0 is used. These parameters are set: the lengths `upperarm`, `forearm`, `thigh`, `shank`, and the
-    widths `shoulders` and `hips`, m; and `rootx`, `rooty`, `rootz`, the position of HumanoidRoot in the figure's frame,
-    m. So hands meet for any proportions. A word that ends in NEUTRAL is the stance alone.
+    stance, else `postures/LEXEME.xml`, in lower case; a new file is a new lexeme. Each file is a ProcAnimation, of
+    which the pose at phase 0 is used. These parameters are set: the lengths `upperarm`, `forearm`, `thigh`, `shank`,
+    and the widths `shoulders` and `hips`, m; and `rootx`, `rooty`, `rootz`, the position of HumanoidRoot in the
+    figure's frame, m. So hands meet for any proportions. A lexeme that ends in NEUTRAL is the stance alone.
     """
 
     def __init__(
@@ -123,7 +123,7 @@ class PostureLibrary:
         """Return the figure in a posture. Its lowest part is on the ground, unless a file places the root.
 
         Raises:
-            RealizerError: "no-posture": a pose does not exist, or does not concern its part; or a file cannot be used.
+            RealizerError: "no-posture": a pose does not exist, or does not apply to its part; or a file cannot be used.
         """
         stand = self._stand(posture.stance)
         body = stand

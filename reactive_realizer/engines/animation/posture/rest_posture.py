@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable
 
-from reactive_realizer.embodiment.body import Body, Pose
+from reactive_realizer.embodiment.body import Body, JointRotations
 from reactive_realizer.engines.animation.posture.posture_library import BodyPosture, PostureLibrary
 
 
@@ -10,7 +10,7 @@ class RestPosture:
     """The figure at rest: gestures start from here and return here, unless another pose is known.
 
     Attributes:
-        posture: as words.
+        posture: by lexemes.
         body: in that posture. Preferred durations follow from it and not from the shown body, so a plan does not depend
             on whether frames are made.
     """
@@ -35,8 +35,8 @@ class RestPosture:
         self.body = library.body(self.posture)
 
     @property
-    def pose(self) -> Pose:
-        """Pose of its joints; joints that are left out are in the default pose."""
+    def pose(self) -> JointRotations:
+        """JointRotations of its joints; joints that are left out are in the default pose."""
         return self.body.pose
 
     @property
@@ -53,7 +53,7 @@ class RestPosture:
         """Rest in another posture from now on.
 
         Args:
-            posture: as words.
+            posture: by lexemes.
             body: in that posture.
         """
         self.posture, self.body = posture, body

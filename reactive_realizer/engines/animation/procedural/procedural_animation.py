@@ -15,7 +15,7 @@ from reactive_realizer.embodiment.joints import ROOT
 from reactive_realizer.embodiment.quaternion import Quat
 from reactive_realizer.embodiment.two_bone_ik import Arm
 from reactive_realizer.engines.animation.expression.compiler import Compiled, compile_formulas
-from reactive_realizer.engines.animation.expression.syntax import Node
+from reactive_realizer.engines.animation.expression.syntax import Formula
 from reactive_realizer.engines.animation.faults import BadKeys, NoMotion, NoneTurned, NotReachable
 from reactive_realizer.engines.animation.motion_unit import MotionPose
 from reactive_realizer.engines.animation.procedural.effector_track import EffectorTrack, carried_as_shown, share_twist
@@ -56,8 +56,8 @@ class ProceduralAnimation:
 
     name: str
     parameters: Mapping[str, float]
-    durations: tuple[Node, Node, Node]
-    key_times: Mapping[str, Node]
+    durations: tuple[Formula, Formula, Formula]
+    key_times: Mapping[str, Formula]
     root: RootTrack | None = None
     tracks: tuple[Track, ...] = ()
     lacking: frozenset[str] = frozenset()

@@ -10,12 +10,20 @@ from functools import lru_cache
 from pathlib import Path
 from types import MappingProxyType
 
-from reactive_realizer.binding.asset_file import Element, asset_error, attribute, boolean, by_sync_id, number, read_xml
+from reactive_realizer.binding.asset_file import (
+    XmlElement,
+    asset_error,
+    attribute,
+    boolean,
+    by_sync_id,
+    number,
+    read_xml,
+)
 from reactive_realizer.embodiment.body import Skeleton
 from reactive_realizer.embodiment.joints import ROOT
 from reactive_realizer.engines.animation.expression.compiler import fold
 from reactive_realizer.engines.animation.expression.functions import FUNCTIONS, Function
-from reactive_realizer.engines.animation.expression.syntax import Constant, Node, parse, variables
+from reactive_realizer.engines.animation.expression.syntax import Constant, Formula, parse, variables
 from reactive_realizer.engines.animation.keyframe.keyframe_files import read_interpolator
 from reactive_realizer.engines.animation.procedural.effector_track import EFFECTORS, EffectorTrack
 from reactive_realizer.engines.animation.procedural.keyframe_track import (
@@ -58,7 +66,7 @@ class _Reader:
         self._functions = functions
         self._characters = 0
 
-    def animation(self, document: Element, name: str) -> ProceduralAnimation:
+    def animation(self, document: XmlElement, name: str) -> ProceduralAnimation:
         for element in document:
             if element.tag not in _ELEMENTS:
                 raise asset_error(element, f"known are {', '.join(_ELEMENTS)}")
@@ -86,7 +94,7 @@ class _Reader:
             tracks=tracks,
         )
 
-    def _root(self, document: Element) -> RootTrack | None:
+    def _root(self, document: XmlElement) -> RootTrack | None:
         roots = [element for element in document.iterfind("EndEffector") if attribute(element, "target") in _ROOTS]
         return (
             RootTrack(boolean(roots[-1], "local", False), self._formulas(roots[-1], "translation", 3))
@@ -94,7 +102,7 @@ class _Reader:
             else None
         )
 
-    def _tracks(self, document: Element) -> Iterator[Track]:
+    def _tracks(self, document: XmlElement) -> Iterator[Track]:
         limbs = (element for element in document.iterfind("EndEffector") if element.get("target") not in _ROOTS)
         effectors = [self._effector(element) for element in limbs]
         controlled = frozenset().union(*(effector.controlled for effector in effectors))
@@ -111,18 +119,18 @@ class _Reader:
                 yield track
         yield from effectors
 
-    def _clip(self, element: Element) -> ClipTrack:
+    def _clip(self, element: XmlElement) -> ClipTrack:
         clip = read_interpolator(element)
         if clip.roots is not None:
             raise asset_error(element, f"encoding='{element.get('encoding')}': only R is supported in a ProcAnimation")
         return ClipTrack(clip)
 
-    def _rotation(self, element: Element) -> RotationTrack:
+    def _rotation(self, element: XmlElement) -> RotationTrack:
         return RotationTrack(
             attribute(element, "target"), boolean(element, "local", True), self._formulas(element, "rotation", 3)
         )
 
-    def _effector(self, element: Element) -> EffectorTrack:
+    def _effector(self, element: XmlElement) -> EffectorTrack:
         target = attribute(element, "target")
         if target not in EFFECTORS:
             raise asset_error(element, f"no end effector '{target}'; known are {', '.join((*EFFECTORS, *_ROOTS))}")
@@ -130,7 +138,7 @@ class _Reader:
         path = (*self._formulas(element, "translation", 3), swivel)
         return EffectorTrack(*EFFECTORS[target], boolean(element, "local", False), path)
 
-    def _keyframes(self, element: Element) -> KeyframeTrack:
+    def _keyframes(self, element: XmlElement) -> KeyframeTrack:
         encoding = ENCODINGS.get(attribute(element, "encoding"))
         if encoding is None:
             raise asset_error(element, f"encoding='{element.get('encoding')}': known are {', '.join(ENCODINGS)}")
@@ -142,16 +150,16 @@ class _Reader:
             raise asset_error(element, "no Keyframe inside")
         return KeyframeTrack(attribute(element, "target"), encoding, tuple(sorted(keys, key=lambda key: key.phase)))
 
-    def _formula(self, element: Element, name: str) -> Node:
+    def _formula(self, element: XmlElement, name: str) -> Formula:
         return self._parsed(element, name, attribute(element, name))
 
-    def _formulas(self, element: Element, name: str, size: int) -> tuple[Node, ...]:
+    def _formulas(self, element: XmlElement, name: str, size: int) -> tuple[Formula, ...]:
         texts = attribute(element, name).split(";")
         if len(texts) != size:
             raise asset_error(element, f"{name} needs {size} formulas between semicolons, not {len(texts)}")
         return tuple(self._parsed(element, name, text) for text in texts)
 
-    def _parsed(self, element: Element, name: str, text: str) -> Node:
+    def _parsed(self, element: XmlElement, name: str, text: str) -> Formula:
         self._characters += len(text)
         if self._characters > LONGEST:
             raise asset_error(element, f"{name}: more than {LONGEST} characters of formulas in one file")
@@ -161,7 +169,7 @@ class _Reader:
             raise asset_error(element, f"{name}: {problem.fault.sentence}") from problem
 
 
-def _parameters(document: Element, times: Iterable[Node], motion: Iterable[Node]) -> dict[str, float]:
+def _parameters(document: XmlElement, times: Iterable[Formula], motion: Iterable[Formula]) -> dict[str, float]:
     """Return the parameters with their values. An undeclared name is a parameter with value 0, as in AsapRealizer."""
     declared = {attribute(element, "sid"): number(element, "value") for element in document.iterfind("Parameter")}
     if ProceduralAnimation.TIME in declared:

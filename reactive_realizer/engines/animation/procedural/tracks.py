@@ -10,9 +10,9 @@ from reactive_realizer.embodiment.joints import ROOT, other_side
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, conjugate, from_euler, multiply
 from reactive_realizer.embodiment.vector import Vec3, subtract
 from reactive_realizer.engines.animation.expression.compiler import fold
-from reactive_realizer.engines.animation.expression.syntax import Constant, Negation, Node
+from reactive_realizer.engines.animation.expression.syntax import Constant, Formula, Negation
 
-Formulas = tuple[Node, ...]
+Formulas = tuple[Formula, ...]
 
 
 class TrackPose(NamedTuple):

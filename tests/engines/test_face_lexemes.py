@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from reactive_realizer.binding.face_lexemes import read_face_lexemes
 from reactive_realizer.embodiment.avatar import Avatar
+from reactive_realizer.engines.face_engine import read_face_lexemes
 from reactive_realizer.errors import RealizerError
 
 ASSETS = Path(str(files("reactive_realizer"))) / "assets"
