@@ -7,8 +7,9 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TextIO
 
-from reactive_realizer.assembly.scene import DEFAULT_HUMAN, SceneOptions, open_scene
+from reactive_realizer.assembly.scene import SceneOptions, open_scene
 from reactive_realizer.cli.checker import Checker
+from reactive_realizer.cli.scene_options import add_file_options
 from reactive_realizer.errors import Fault
 
 
@@ -22,8 +23,7 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
         epilog="example: reactive-realizer check hello.xml",
     )
     parser.add_argument("files", nargs="+", type=Path, metavar="FILE")
-    parser.add_argument("--human", type=Path, default=DEFAULT_HUMAN, metavar="FILE", help="the human file of the scene")
-    parser.add_argument("--assets", type=Path, action="append", default=[], metavar="DIR", help="a folder of assets")
+    add_file_options(parser)
     parser.set_defaults(run=run)
 
 

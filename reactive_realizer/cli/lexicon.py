@@ -7,9 +7,9 @@ import math
 import sys
 from collections.abc import Iterable, Mapping
 from itertools import groupby
-from pathlib import Path
 
-from reactive_realizer.assembly.scene import DEFAULT_HUMAN, SceneOptions, open_scene
+from reactive_realizer.assembly.scene import SceneOptions, open_scene
+from reactive_realizer.cli.scene_options import add_file_options
 from reactive_realizer.engine.lexicon import Changeable, LexiconEntry, lexicon_of
 
 
@@ -22,8 +22,7 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
         "Lexemes that are in a binding but cannot be played are listed on stderr.",
         epilog="example: reactive-realizer lexicon --assets my_assets",
     )
-    parser.add_argument("--human", type=Path, default=DEFAULT_HUMAN, metavar="FILE", help="the human file of the scene")
-    parser.add_argument("--assets", type=Path, action="append", default=[], metavar="DIR", help="a folder of assets")
+    add_file_options(parser)
     parser.add_argument("--json", action="store_true", help="print one JSON object with a list for each character")
     parser.set_defaults(run=run)
 

@@ -13,10 +13,10 @@ from tempfile import TemporaryDirectory
 from typing import IO
 
 from reactive_realizer import __version__
-from reactive_realizer.assembly.registry import names
-from reactive_realizer.assembly.scene import DEFAULT_HUMAN, SceneOptions, open_scene
+from reactive_realizer.assembly.scene import open_scene
 from reactive_realizer.bml.sync_ref import NUMBER
 from reactive_realizer.cli.output import Explainer, FeedbackWriter, FrameRecorder
+from reactive_realizer.cli.scene_options import add_scene_options, scene_options
 from reactive_realizer.clock.clock import ManualClock, SystemClock
 from reactive_realizer.clock.units import GlobalTime, is_due
 from reactive_realizer.errors import Fault
@@ -81,21 +81,22 @@ def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
         epilog="example: reactive-realizer realize hello.xml more.xml@2.5 --voice text --feedback - --frames out.npz",
     )
     parser.add_argument("items", nargs="*", type=input_file, metavar="ITEM", help="a file, or file@seconds")
-    parser.add_argument("--clock", choices=("virtual", "real"), default="virtual")
-    parser.add_argument("--human", type=Path, default=DEFAULT_HUMAN, metavar="FILE")
-    parser.add_argument("--voice", choices=names("tts"), default="espeak")
-    parser.add_argument("--feedback", metavar="FILE|-", help="JSON lines")
-    parser.add_argument("--frames", type=Path, metavar="FILE.npz")
     parser.add_argument(
-        "--explain", type=Path, metavar="FILE", help="explanations of the times of all sync points, JSON"
+        "--clock", choices=("virtual", "real"), default="virtual", help="virtual is as fast as possible"
     )
-    parser.add_argument("--until", type=seconds, default=_UNTIL, metavar="SECONDS")
-    parser.add_argument("--assets", type=Path, action="append", default=[], metavar="DIR")
-    parser.add_argument("--seed", type=int, default=0, metavar="N")
-    parser.add_argument("--strategy", choices=names("strategies"), default="convex", help="scheduling strategy")
-    parser.add_argument("--verify", action="store_true", help="check plans during playback")
+    parser.add_argument(
+        "--until", type=seconds, default=_UNTIL, metavar="SECONDS", help="the latest end of the session"
+    )
     parser.add_argument("--replay", type=Path, metavar="FILE", help="replay a recording of serve --record")
+    add_scene_options(parser)
+    _add_output_options(parser)
     parser.set_defaults(run=partial(run, parser))
+
+
+def _add_output_options(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--feedback", metavar="FILE|-", help="write the feedback, JSON lines; - is stdout")
+    parser.add_argument("--frames", type=Path, metavar="FILE.npz", help="write all poses, a NumPy archive")
+    parser.add_argument("--explain", type=Path, metavar="FILE", help="write why each sync point has its time, JSON")
 
 
 def run(parser: argparse.ArgumentParser, options: argparse.Namespace) -> int:
@@ -125,19 +126,16 @@ def _is_given(parser: argparse.ArgumentParser, options: argparse.Namespace, name
 
 
 async def _realize(options: argparse.Namespace) -> int:
-    scene_options = SceneOptions(
-        options.human, options.voice, tuple(options.assets), options.seed, options.strategy, options.verify
-    )
-    async with open_scene(scene_options) as scene:
+    async with open_scene(scene_options(options)) as scene:
         unread = sum(not _put(scene.realizer, entry) for entry in sorted(options.items, key=lambda e: e.time))
         with _written(options, scene.realizer):
             clock = ManualClock() if options.clock == "virtual" else SystemClock()
             await run_until_done(scene.realizer, clock, options.until)
-        _tell_left_out(options.items, scene.realizer.time)
+        _report_left_out(options.items, scene.realizer.time)
         return 1 if unread else _status(scene.realizer)
 
 
-def _tell_left_out(items: Iterable[InputFile], end: GlobalTime) -> None:
+def _report_left_out(items: Iterable[InputFile], end: GlobalTime) -> None:
     for entry in items:
         if not is_due(entry.time, end):
             print(NeverEnters(file=str(entry.path), end=end, time=entry.time).sentence, file=sys.stderr)

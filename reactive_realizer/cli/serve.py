@@ -7,8 +7,7 @@ import sys
 from pathlib import Path
 
 from reactive_realizer.assembly.assets import PACKAGE_ASSETS
-from reactive_realizer.assembly.registry import names
-from reactive_realizer.assembly.scene import DEFAULT_HUMAN, SceneOptions
+from reactive_realizer.cli.scene_options import add_scene_options, scene_options
 from reactive_realizer.server.serve import ServerOptions, serve
 
 _PERFORMANCE = PACKAGE_ASSETS / "demo" / "performance.xml"
@@ -24,16 +23,11 @@ def _add(
     commands: "argparse._SubParsersAction[argparse.ArgumentParser]", name: str, text: str, performance: Path | None
 ) -> None:
     parser = commands.add_parser(name, help=text, epilog=f"example: reactive-realizer {name} --port 8088")
-    parser.add_argument("--host", default="127.0.0.1")
-    parser.add_argument("--port", type=int, default=8088)
-    parser.add_argument("--human", type=Path, default=DEFAULT_HUMAN, metavar="FILE")
-    parser.add_argument("--voice", choices=names("tts"), default="espeak")
-    parser.add_argument("--assets", type=Path, action="append", default=[], metavar="DIR")
-    parser.add_argument("--token", metavar="T", help="token required of every client")
+    parser.add_argument("--host", default="127.0.0.1", help="the address to bind to")
+    parser.add_argument("--port", type=int, default=8088, help="0 chooses a free port")
+    parser.add_argument("--token", metavar="T", help="a token that every client must present")
     parser.add_argument("--allow-origin", action="append", default=[], metavar="O", help="accept pages of this origin")
-    parser.add_argument("--seed", type=int, default=0, metavar="N")
-    parser.add_argument("--strategy", choices=names("strategies"), default="convex", help="scheduling strategy")
-    parser.add_argument("--verify", action="store_true", help="check plans during playback")
+    add_scene_options(parser)
     parser.add_argument("--record", type=Path, metavar="FILE", help="record the session for realize --replay")
     parser.set_defaults(run=run, performance=performance)
 
@@ -58,9 +52,7 @@ def _server_options(options: argparse.Namespace) -> ServerOptions:
         port=options.port,
         token=options.token,
         origins=tuple(options.allow_origin),
-        scene=SceneOptions(
-            options.human, options.voice, tuple(options.assets), options.seed, options.strategy, options.verify
-        ),
+        scene=scene_options(options),
         performance=options.performance.read_text(encoding="utf-8") if options.performance else None,
         record=options.record,
     )

@@ -6,7 +6,7 @@ from typing import Final
 
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.behaviors import Wait
-from reactive_realizer.bml.block import BehaviorBlock, OrderKind, Synchronize
+from reactive_realizer.bml.block import BehaviorBlock, Order, OrderKind, Synchronize
 from reactive_realizer.bml.names import ANTICIPATORS, BML, BML_EXT
 from reactive_realizer.bml.sync_ref import SyncRef
 from reactive_realizer.conformance.case import TOLERANCE, Check, ConformanceCase
@@ -92,23 +92,29 @@ def _ties(block: BehaviorBlock, name: str, behavior: Behavior) -> Iterator[Check
 
 def _constraints(block: BehaviorBlock) -> Iterator[Check]:
     for constraint in block.constraints:
-        if isinstance(constraint, Synchronize):
-            first, *others = sorted(constraint.refs, key=lambda ref: ref.behavior is None)
-            for ref in others:
-                yield from _linked(_point(block, first), first.offset, block, ref, f"synchronize {first}, {ref}")
-            continue
-        for ref in constraint.refs:
-            early, late = (constraint.ref, ref) if constraint.kind is OrderKind.AFTER else (ref, constraint.ref)
-            if ANTICIPATORS not in (early.block, late.block):
-                distance = early.offset - late.offset
-                assertion = partial(
-                    assert_order,
-                    earlier=_point(block, early),
-                    later=_point(block, late),
-                    distance=distance,
-                    tolerance=TOLERANCE,
-                )
-                yield Check(f"{ref} {constraint.kind} {constraint.ref}", assertion)
+        yield from (
+            _synchronized(block, constraint) if isinstance(constraint, Synchronize) else _ordered(block, constraint)
+        )
+
+
+def _synchronized(block: BehaviorBlock, constraint: Synchronize) -> Iterator[Check]:
+    first, *others = sorted(constraint.refs, key=lambda ref: ref.behavior is None)
+    for ref in others:
+        yield from _linked(_point(block, first), first.offset, block, ref, f"synchronize {first}, {ref}")
+
+
+def _ordered(block: BehaviorBlock, constraint: Order) -> Iterator[Check]:
+    for ref in constraint.refs:
+        early, late = (constraint.ref, ref) if constraint.kind is OrderKind.AFTER else (ref, constraint.ref)
+        if ANTICIPATORS not in (early.block, late.block):
+            assertion = partial(
+                assert_order,
+                earlier=_point(block, early),
+                later=_point(block, late),
+                distance=early.offset - late.offset,
+                tolerance=TOLERANCE,
+            )
+            yield Check(f"{ref} {constraint.kind} {constraint.ref}", assertion)
 
 
 def _linked(point: str, offset: float, block: BehaviorBlock, ref: SyncRef, text: str) -> Iterator[Check]:

@@ -65,20 +65,27 @@ async def serve(options: ServerOptions) -> None:
         if record is not None:
             live.realizer.record(Recorder(record, options.scene, live.clock.epoch))
         ticking = group.create_task(live.run())
-        runner = web.AppRunner(
-            create_app(live, security),
-            handler_cancellation=True,  # a client that goes ends its stream
-            shutdown_timeout=_PATIENCE,
-            access_log=None,  # addresses may hold tokens
-        )
-        await runner.setup()
         try:
-            await web.SockSite(runner, listening).start()
-            logger.info("serving on %s", ", ".join(f"http://{host}:{port}" for host, port, *_ in runner.addresses))
-            await _told_to_end()
+            await _serve_requests(live, security, listening)
         finally:
-            await runner.cleanup()
             ticking.cancel()
+
+
+async def _serve_requests(live: LiveScene, security: Security, listening: socket) -> None:
+    """Serves HTTP and sockets until SIGTERM or cancellation."""
+    runner = web.AppRunner(
+        create_app(live, security),
+        handler_cancellation=True,  # a client that disconnects ends its stream
+        shutdown_timeout=_PATIENCE,
+        access_log=None,  # addresses may contain tokens
+    )
+    await runner.setup()
+    try:
+        await web.SockSite(runner, listening).start()
+        logger.info("serving on %s", ", ".join(f"http://{host}:{port}" for host, port, *_ in runner.addresses))
+        await _termination()
+    finally:
+        await runner.cleanup()
 
 
 def _listen(options: ServerOptions) -> socket:
@@ -86,7 +93,8 @@ def _listen(options: ServerOptions) -> socket:
     return create_server((options.host, options.port), family=AF_INET6 if ":" in options.host else AF_INET)
 
 
-async def _told_to_end() -> None:
+async def _termination() -> None:
+    """Waits for SIGTERM."""
     stopped = asyncio.Event()
     asyncio.get_running_loop().add_signal_handler(signal.SIGTERM, stopped.set)
     await stopped.wait()

@@ -268,22 +268,25 @@ class EngineHarness:
 
     def _carry_out(self, play: Play) -> bool:
         """Carries out requests; returns whether the tick needs another round."""
-        for each in play.requests:
-            match each:
-                case BindParameter(unit=unit):
-                    unit.bind(_forever(), self._parameter)
-                case SetParameter(parameter=parameter, value=value):
-                    parameter.set(value)
-                case EndUnit(unit=unit, time=time):
-                    with self._graph.transaction("end"):
-                        unit.interrupt(time)
-                    self.engine.remove(unit)
-                case ActivateBlock() | InterruptBlock() | Warn():
-                    pass  # there are no other blocks, and no client
+        for request in play.requests:
+            self._carry_out_one(request)
         for dropped in play.dropped:
             self.engine.remove(dropped.unit)
         requested = any(not isinstance(each, SetParameter | Warn) for each in play.requests)
         return bool(play.reached or play.dropped or requested)
+
+    def _carry_out_one(self, request: Request) -> None:
+        match request:
+            case BindParameter(unit=unit):
+                unit.bind(_forever(), self._parameter)
+            case SetParameter(parameter=parameter, value=value):
+                parameter.set(value)
+            case EndUnit(unit=unit, time=time):
+                with self._graph.transaction("end"):
+                    unit.interrupt(time)
+                self.engine.remove(unit)
+            case ActivateBlock() | InterruptBlock() | Warn():
+                pass  # there are no other blocks, and no client
 
     def _note(self, commit: Commit) -> None:
         if self._playing:

@@ -99,4 +99,5 @@ class Mute(TextVoice):
 )
 def test_a_voice_that_breaks_its_contract_is_found(voice, test) -> None:
     with asyncio.Runner() as runner:
-        broken(TTSContract, test, Speaker(voice(), runner))
+        contract = type("OfThisVoice", (TTSContract,), {"tts": lambda _: voice()})
+        broken(contract, test, Speaker(voice(), runner))

@@ -58,6 +58,7 @@ from reactive_realizer.engines.animation.posture.posture_library import BodyPost
 from reactive_realizer.engines.animation.posture.rest_posture import RestPosture
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.plan_unit import PlanUnit, UnitState
+from reactive_realizer.reactive.graph import Graph
 
 T = TypeVar("T")
 
@@ -105,16 +106,19 @@ class AnimationEngine(DefaultEngine):
         self._predictor = AnimationPredictor(
             context.humanoid.avatar.skeleton, self._base, lambda: self.player.units, self._history
         )
-        self._motion_context = MotionContext(
+        self._motion_context = self._new_motion_context(context.graph)
+        self.extensions = self._library.extensions
+
+    def _new_motion_context(self, graph: Graph) -> MotionContext:
+        return MotionContext(
             lambda: self._humanoid.body,
             lambda: self._humanoid.shown,
             self._predictor.state_before,
             self._retracting_hands,
             self._note_gaze_change,
             self._fade_out,
-            context.graph,
+            graph,
         )
-        self.extensions = self._library.extensions
 
     def lexicon(self) -> Iterator[LexiconEntry]:
         """Yield the entries of the binding, and the poses of postures."""

@@ -1,7 +1,7 @@
 """Finds the motions that could play a behavior: entries of the gesture binding, and the makers that they name."""
 
 import logging
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import replace
 from functools import partial
@@ -181,13 +181,9 @@ class MotionLibrary:
             raise RealizerError(NoUnit(unit=spec.unit))
         request = _request(spec, behavior, attributes)
         motion, parameters = maker(request), request.parameters
-        if behavior.parameters:
-            own = _spelled(
-                behavior.parameters, motion.parameter_names | {REPLACEMENT_GROUP} | spec.parameter_map.keys()
-            )
-            if own != behavior.parameters:
-                renamed = replace(behavior, parameters=own)
-                return self.candidate(spec, renamed, behavior_attributes(renamed))
+        renamed = _renamed(behavior, spec, motion)
+        if renamed is not behavior:
+            return self.candidate(spec, renamed, behavior_attributes(renamed))
         if spec not in self._checked_specs and request.file == spec.file:
             self._log_unused(spec, motion)
         group = parameters.get(REPLACEMENT_GROUP)
@@ -196,9 +192,14 @@ class MotionLibrary:
             None, (unused_behavior_parameters(spec, behavior, motion), missing_joints_fault(spec, behavior, motion))
         )
         candidate = Candidate(motion, _names(spec, motion), group, yields, tuple(notes))
-        said = {name: parameters[own] for name, own in candidate.names.items() if own in parameters}
-        parameter_values(said, {name: candidate.range(name) for name in said})
+        _check_values(candidate, parameters)
         return candidate
+
+
+def _check_values(candidate: Candidate, parameters: Mapping[str, str]) -> None:
+    """Check that the given values of parameters that may change are within their ranges."""
+    given = {name: parameters[own] for name, own in candidate.names.items() if own in parameters}
+    parameter_values(given, {name: candidate.range(name) for name in given})
 
 
 def _request(spec: UnitSpec, behavior: Behavior, attributes: Mapping[str, str]) -> MotionRequest:
@@ -208,9 +209,13 @@ def _request(spec: UnitSpec, behavior: Behavior, attributes: Mapping[str, str]) 
     return MotionRequest(behavior, parameters, file, added=isinstance(behavior, Head))
 
 
-def _spelled(said: Mapping[str, str], known: Collection[str]) -> Mapping[str, str]:
-    """Return parameters by names in the spelling of the known ones."""
-    return {spelled(name, known): value for name, value in said.items()}
+def _renamed(behavior: Behavior, spec: UnitSpec, motion: MotionUnit) -> Behavior:
+    """Return the behavior with its parameters in the spelling of the known ones; itself if they are spelled so."""
+    if not behavior.parameters:
+        return behavior
+    known = motion.parameter_names | {REPLACEMENT_GROUP} | spec.parameter_map.keys()
+    own = {spelled(name, known): value for name, value in behavior.parameters.items()}
+    return behavior if own == behavior.parameters else replace(behavior, parameters=own)
 
 
 def _names(spec: UnitSpec, motion: MotionUnit) -> Mapping[str, str]:

@@ -1,6 +1,6 @@
 """Bakes the default avatars: clothed, rigged, talking figures (GLB with a VRM 1.0 block) from CC0 MakeHuman data.
 
-A tool of the workshop, run by hand: the realizer and its wheel know nothing of it. Lengths are meters, y is up, the
+A tool that is run by hand; the realizer and its wheel do not depend on it. Lengths are meters, y is up, the
 figure faces +z and its left is +x. The same input gives the same bytes.
 
 The steps, each a module or two:
@@ -11,5 +11,5 @@ The steps, each a module or two:
 4. hair and eyes: `skull`, `ribbon`, `strands`, `hair`, `bob`, `crop`, `eyes`
 5. the file: `avatar`, `face`, `materials`, `primitive`, `glb`, `vrm`
 
-Below them: `numeric`, `mesh`, `surgery`, `images`. Who is baked stands in `characters`.
+The other modules are used by all of these: `numeric`, `mesh`, `surgery`, `images`. `characters` describes the avatars.
 """

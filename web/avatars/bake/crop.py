@@ -46,7 +46,7 @@ def _strand(strands: Strands, root: Array) -> Mesh:
 
 
 def _flow(root: Array, azimuth: float, top: Array, front: Array) -> Array:
-    """Where hair lies down to: downwards at the sides, away from the crown on top, up and aside at the front."""
+    """The direction of lying hair: down at the sides, away from the crown on top, up and aside at the front."""
     back = smoothstep(95, 150, abs(azimuth))
     away = unit(root - _CROWN * (root @ _CROWN) + 1e-6)
     sides = (1 - top) * np.array([0, -1.0, -0.45 * (1 - back)])

@@ -23,10 +23,10 @@ def face_parts(body: Body, head: HeadMap, positions: Array, covered: Mask) -> It
     """The parts; all of them use the vertices of the base mesh.
 
     Args:
-        body: whose face.
+        body: with the face.
         head: its unwrap.
         positions: (v, 3) m, the skin already drawn back under the clothes.
-        covered: (v,) what clothes hide.
+        covered: (v,) vertices that clothes hide.
     """
 
     def part(name: str, material: str, triangles: Indices, uvs: Array, colors: Array | None, normals: Array) -> Part:

@@ -1,4 +1,4 @@
-"""Where things are on a face: pictures in the head's unwrap, 0..1, that say what is lip, ear, brow and so on."""
+"""Masks of the parts of a face (lips, ears, brows and others): pictures in the head's unwrap, 0..1."""
 
 from functools import cached_property
 
@@ -16,7 +16,7 @@ class FaceMasks:
     """The masks of one face, and the landmarks that they are laid out by (m).
 
     Attributes:
-        points: (n, n, 3) m, where each texel lies; x is the same on both sides.
+        points: (n, n, 3) m, the position of each texel; x is the same on both sides.
         front: the front half of the head.
         nose: (3,) its tip.
         mouth_height: y of the line between the lips.

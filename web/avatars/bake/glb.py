@@ -27,7 +27,7 @@ _MAGIC, _JSON_CHUNK, _BINARY_CHUNK = 0x46546C67, 0x4E4F534A, 0x004E4942
 
 
 class Glb:
-    """A file in the making."""
+    """A file that is being written."""
 
     def __init__(self) -> None:
         self._buffer = bytearray()
@@ -44,7 +44,7 @@ class Glb:
         Args:
             values: float32, uint8 or uint16.
             target: `VERTICES`, `INDICES` or neither.
-            bounds: tell minimum and maximum, as positions must.
+            bounds: whether to store the minimum and maximum, which positions require.
             normalized: integers stand for 0..1.
         """
         accessor: Json = {

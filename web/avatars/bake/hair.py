@@ -31,7 +31,7 @@ def build_hair(body: Body, head: HeadMap) -> Mesh:
 
 
 def _shell(strands: Strands, style: HairStyle) -> Mesh:
-    """What is seen between the strands; its rim sinks into the skin."""
+    """The shell that is visible between the strands; its rim sinks into the skin."""
     center, above_hairline = strands.skull.center, scalp(style, strands.skull.center)
     elevation, azimuth = np.meshgrid(np.linspace(-56, 89.9, 44), np.linspace(-180, 180, 81), indexing="ij")
     directions = direction(elevation, azimuth)

@@ -1,4 +1,4 @@
-"""Where hair begins."""
+"""The hairline."""
 
 import numpy as np
 
@@ -13,7 +13,7 @@ _HAIRLINES = {
 
 
 def scalp(style: HairStyle, center: Array) -> Field:
-    """How far above the hairline a point lies, in degrees of elevation around the middle of the skull."""
+    """The height of a point above the hairline, in degrees of elevation around the middle of the skull."""
     azimuths, elevations = _HAIRLINES[style]
 
     def above_hairline(points: Array) -> Array:

@@ -1,4 +1,4 @@
-"""The head's own texture coordinates, and where every texel lies: the face is painted in three dimensions."""
+"""The head's own texture coordinates, and the position of every texel: the face is painted in three dimensions."""
 
 import numpy as np
 from scipy.ndimage import distance_transform_edt, map_coordinates
@@ -12,7 +12,7 @@ MOVES = 1e-5
 """A vertex that a face unit moves by more than this (m) belongs to the head."""
 
 _OVERLAP = 0.06
-"""How far beyond its edges a triangle is painted, in barycentric coordinates: no seams of background color."""
+"""Margin by which a triangle is painted beyond its edges, in barycentric coordinates; it avoids seams."""
 
 
 class HeadMap:
@@ -26,7 +26,7 @@ class HeadMap:
         body_uvs: (t, 3, 2) the original ones.
         eye: (3,) m, between the eyes.
         center: (3,) m, middle of the skull.
-        points: (size, size, 3) m, where each texel lies.
+        points: (size, size, 3) m, the position of each texel.
         cavity: (size, size) negative in creases, positive on ridges.
     """
 
@@ -96,7 +96,7 @@ def _head_triangles(body: Body) -> Mask:
 
 
 def _curvature(body: Body) -> Array:
-    """How far each skin vertex stands out from the mean of its neighbors, about -1.5..1.5."""
+    """The distance of each skin vertex from the mean of its neighbors, about -1.5..1.5."""
     links = neighbors(body.triangles, len(body.positions))
     degree = np.maximum(np.asarray(links.sum(1)).ravel(), 1)
     offset = body.positions - links @ body.positions / degree[:, None]

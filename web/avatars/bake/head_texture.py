@@ -29,7 +29,7 @@ class _Paint:
         self.pixels = ground
 
     def lay(self, mask: Array, color: Color | Array, amount: float) -> None:
-        """Cover the pixels with a color as far as the mask and the amount say."""
+        """Cover the pixels with a color, by the mask and the amount."""
         cover = np.clip(mask * amount, 0, 1)[..., None]
         self.pixels = self.pixels * (1 - cover) + np.asarray(color, float) * cover
 

@@ -61,7 +61,7 @@ class MakeHuman:
         return BaseMesh(np.array(positions), np.array(uvs), tuple(faces))
 
     def target(self, name: str, vertices: int) -> Array:
-        """How a body or face feature at full strength moves the vertices: (vertices, 3) decimeters."""
+        """The displacements of the vertices by a body or face feature at full strength: (vertices, 3) decimeters."""
         return self._target(f"{_MPFB}targets/{name}.target.gz", vertices)
 
     def face_units(self, vertices: int) -> dict[str, Array]:

@@ -1,4 +1,4 @@
-"""The shirt at the neck: where it is cut, how it lies there, its collar."""
+"""The shirt at the neck: its cut, its fit and its collar."""
 
 import numpy as np
 
@@ -11,7 +11,7 @@ from bake.surgery import Rim, RimRow, relax
 
 _COLLAR_HEIGHT = {Neckline.CREW: 0.016, Neckline.SCOOP: 0.008}
 _REACH = 0.16
-"""How far below the neck joint the neckline has a say (m): the cuts reach on, but are meant no deeper than this."""
+"""Depth below the neck joint to which the neckline cuts, m; the cutting shapes extend further."""
 
 
 def neck_field(body: Body, style: Neckline) -> Field:

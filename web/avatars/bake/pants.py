@@ -98,7 +98,7 @@ def _leg_axis(heights: Array, body: Body, lines: _Pattern, side: str) -> Array:
 
 
 def _folds(p: Array, lines: _Pattern) -> Array:
-    """How far the cloth stands out in folds (n,): at the cuff, behind the knee, everywhere a little, in the groin."""
+    """The height of folds in the cloth (n,): at the cuff, behind the knee, in the groin, and a little everywhere."""
     x, y, z = p.T
     around = np.arctan2(np.abs(x) - 0.1, z)
     cuff_phase = y * 2 * np.pi / 0.042 + 1.3 * np.sin(around * 2) + 2 * value_noise(p * 12)

@@ -27,7 +27,7 @@ _SHADED = (
 )
 _SMALLEST_TURN = 0.06
 _TURN = 0.65
-"""How much of the turn of the normals is shown; all of it looks like folded paper."""
+"""Share of the turn of the normals that is used; all of it looks like folded paper."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,7 +123,7 @@ class PrimitiveWriter:
         return targets
 
     def _turns(self, name: str) -> Array:
-        """How a blend shape changes the normals (v, 3); small changes are left out."""
+        """The changes of the normals (v, 3) by a blend shape; small ones are left out."""
         body = self._body
         turns = _TURN * (vertex_normals(body.positions + body.moved(name), body.triangles) - body.normals)
         return turns * (np.abs(turns).max(1) > _SMALLEST_TURN)[:, None]

@@ -103,7 +103,7 @@ def bind(
 
 
 def t_pose(rig: Rig) -> tuple[Rig, Array, Array]:
-    """The rig with its arms along x, and how each joint moves what hangs on it.
+    """The rig with its arms along x, and the motion of each joint to this pose.
 
     Returns:
         The posed rig, rotations (joints, 3, 3) and translations (joints, 3). Bound again in this pose, no joint is

@@ -14,7 +14,7 @@ from bake.surgery import clip, relax
 
 _SECTORS, _OUTLINE = 30, 44
 _LEATHER = 0.0055
-"""How far the upper stands off the foot, m."""
+"""Distance of the upper from the foot, m."""
 
 _LACES_AT = (0.42, 0.52, 0.62, 0.72)
 _LACE_PROFILE = ((-0.0042, 0.0050), (-0.0030, 0.0082), (0.0030, 0.0082), (0.0042, 0.0050))
@@ -67,7 +67,7 @@ class _Last:
         return np.cos(angles)[:, None] * _UP + np.sin(angles)[:, None] * self.right
 
     def surface(self, origins: Array, directions: Array, distance: float) -> Array:
-        """Where rays (n, 3) leave the foot, grown by a distance."""
+        """The points at which rays (n, 3) leave the foot, grown by a distance."""
         normals, offsets = self.hull[:, :3], self.hull[:, 3]
         slope = directions @ normals.T
         gap = distance - offsets - origins @ normals.T

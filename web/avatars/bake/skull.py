@@ -33,7 +33,7 @@ class Skull:
         self._radii = np.concatenate([gaussian_filter(radii, (1.3, 2.0), mode=("nearest", "wrap"))] * 3, 1)
 
     def radius(self, directions: Array) -> Array:
-        """How far the scalp is in these directions (..., 3), m."""
+        """The distance of the scalp in these directions (..., 3), m."""
         if directions.ndim == 1:
             return self.radius(directions[None])[0]
         d = unit(directions)

@@ -1,4 +1,4 @@
-"""What every hairdo is made with."""
+"""Common parts of all hairdos."""
 
 from dataclasses import dataclass
 
@@ -17,7 +17,7 @@ class Strands:
     """Hair of one color on one head.
 
     Attributes:
-        body, head, skull: what it grows on.
+        body, head, skull: on which it grows.
         rng: makes every strand a little different; the order of the draws is part of the result.
         color: (3,) linear light.
         weights: (joints,) bone weights.

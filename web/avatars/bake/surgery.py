@@ -1,4 +1,4 @@
-"""Cutting, welding, smoothing and extruding of open meshes: what a tailor does."""
+"""Cuts, welds, smooths and extrudes open meshes."""
 
 from collections.abc import Callable, Sequence
 from itertools import pairwise
@@ -123,7 +123,7 @@ class _Cutter:
         return low
 
     def remains_of(self, triangle: int) -> list[tuple[int, Array]]:
-        """What is left of a triangle: the corners (vertex, uv) of a polygon."""
+        """The rest of a clipped triangle: the corners (vertex, uv) of a polygon."""
         corners, uvs = self.mesh.triangles[triangle], self.mesh.uvs[triangle]
         polygon = []
         for i in range(3):
@@ -138,7 +138,7 @@ class _Cutter:
 
 
 def clip(mesh: Mesh, field: Field) -> Mesh:
-    """Keep what lies where the field is not negative."""
+    """Keep the part in which the field is not negative."""
     cutter = _Cutter(mesh, field)
     corners_inside = cutter.inside[mesh.triangles]
     whole = corners_inside.all(1)
@@ -179,7 +179,7 @@ def sweep(mesh: Mesh, rim: Rim, rows: Sequence[RimRow], normals: Array) -> Mesh:
     Args:
         mesh: the cloth.
         rim: one of its rims.
-        rows: where each further row of the band lies.
+        rows: position of each further row of the band.
         normals: vertex normals of the cloth.
     """
     vertices = rim_vertices(rim)

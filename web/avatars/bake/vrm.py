@@ -1,4 +1,4 @@
-"""The VRM 1.0 block (VRMC_vrm): who may use the avatar, which bone is which, and named expressions."""
+"""The VRM 1.0 block (VRMC_vrm): terms of use, the names of bones, and expressions."""
 
 from collections.abc import Mapping
 from itertools import product

@@ -70,6 +70,25 @@ class _Reader:
         for element in document:
             if element.tag not in _ELEMENTS:
                 raise asset_error(element, f"known are {', '.join(_ELEMENTS)}")
+        durations = self._durations(document)
+        points = by_sync_id(document.iterfind("KeyPosition"))
+        key_times = {sync: self._formula(key, "time") for sync, key in points.items()}
+        root, tracks = self._root(document), tuple(self._tracks(document))
+        motion = [*(root.formulas if root else ()), *(node for track in tracks for node in track.formulas)]
+        parameters = _parameters(document, [*durations, *key_times.values()], motion)
+        if not motion and not tracks:
+            raise asset_error(document, "it has no tracks")
+        return ProceduralAnimation(
+            name=name,
+            parameters=parameters,
+            durations=durations,
+            key_times=key_times,
+            root=root,
+            tracks=tracks,
+        )
+
+    def _durations(self, document: XmlElement) -> tuple[Formula, Formula, Formula]:
+        """Return the preferred, the shortest and the longest duration."""
         preferred = self._formula(document, "prefDuration")
         shortest, longest = (
             self._formula(document, limit) if limit in document.attrib else preferred
@@ -78,21 +97,7 @@ class _Reader:
         match fold(shortest), fold(longest):
             case Constant(least), Constant(most) if least > most:
                 raise asset_error(document, f"it lasts at least {least:g} s and at most {most:g} s")
-        points = by_sync_id(document.iterfind("KeyPosition"))
-        key_times = {sync: self._formula(key, "time") for sync, key in points.items()}
-        root, tracks = self._root(document), tuple(self._tracks(document))
-        motion = [*(root.formulas if root else ()), *(node for track in tracks for node in track.formulas)]
-        parameters = _parameters(document, [preferred, shortest, longest, *key_times.values()], motion)
-        if not motion and not tracks:
-            raise asset_error(document, "it has no tracks")
-        return ProceduralAnimation(
-            name=name,
-            parameters=parameters,
-            durations=(preferred, shortest, longest),
-            key_times=key_times,
-            root=root,
-            tracks=tracks,
-        )
+        return preferred, shortest, longest
 
     def _root(self, document: XmlElement) -> RootTrack | None:
         roots = [element for element in document.iterfind("EndEffector") if attribute(element, "target") in _ROOTS]
