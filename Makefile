@@ -10,7 +10,7 @@ AVATAR_VENV := web/avatars/.venv
 
 # Tests whose coverage is measured, and its floor in percent. Tracing all tests would double their time.
 MEASURED := $(addprefix tests/,bml pegboard planunit reactive realizer scheduler)
-COVERAGE := 85
+COVERAGE := 95
 
 PYTEST := $(BIN)/pytest --numprocesses auto --dist worksteal
 
