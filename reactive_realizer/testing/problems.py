@@ -36,6 +36,7 @@ TIMINGS: Mapping[str, Timing] = MappingProxyType(
             ),
         ),
         "gaze": Timing(("start", "ready", "relax", "end"), (Phase(0.25), Phase(1.5, _HOLD), Phase(0.25))),
+        "shake": timing_at({"start": 0.0, "strokeStart": 0.0, "stroke": 0.35, "strokeEnd": 0.7, "end": 0.7}),
         "speech": timing_at({"start": 0.0, "sync1": 0.5, "sync2": 1.25, "end": 2.0}, PhaseKind.RIGID),
         "change": timing_at({"start": 0.0, "end": 1.0}, PhaseKind.FREE),
         "event": Timing(("start", "end"), (Phase(0.0, PhaseKind.RIGID),), instant=True),

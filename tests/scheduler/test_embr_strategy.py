@@ -10,7 +10,7 @@ from reactive_realizer.scheduler.embr.embr_strategy import EmbrStrategy
 from reactive_realizer.scheduler.plan_view import PlanView
 from reactive_realizer.scheduler.problem import Origin, Point
 from reactive_realizer.scheduler.strategy import solve
-from reactive_realizer.testing.problems import TIMINGS, after, at, item, outer, pegs_of, problem
+from reactive_realizer.testing.problems import TIMINGS, after, at, item, outer, peg_times, pegs_of, problem
 from reactive_realizer.testing.strategy_contract import violations
 
 from .convex_plan import move
@@ -51,6 +51,18 @@ class Plan:
 
 
 # --- the program
+
+
+def test_pegs_keep_a_phase_apart_that_prefers_no_time_but_got_some() -> None:
+    """A nod without the time to move is played in `SHORTEST`, here between its start and its strokeStart."""
+    names = ("start", "strokeStart", "stroke", "strokeEnd", "end")
+    nod = timing_at(dict(zip(names, (0.0, 0.0, 0.35, 0.7, 0.7), strict=True)))
+    squeezed = [at("n:strokeEnd", START, 0.3), at("s:stroke", START, 0.5), at("s:end", "n:strokeStart", 0.2)]
+    asked = problem([item("n", nod), item("s", nod)], *squeezed)
+    solution = solve(EmbrStrategy(), asked)
+    pegs = peg_times(asked, solution)
+    assert 0.0 < solution.times[Point("n", "strokeStart")] - solution.times[Point("n", "start")] < 1e-4
+    assert pegs == {point: pytest.approx(time, abs=1e-7) for point, time in solution.times.items()}
 
 
 def test_what_can_take_the_time_it_wants_takes_it() -> None:

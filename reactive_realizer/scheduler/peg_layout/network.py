@@ -212,7 +212,9 @@ class Network:
         for k, phase in enumerate(item.timing.phases[before:after], before):
             if phase.kind is PhaseKind.RIGID and abs(times[k + 1] - times[k] - phase.duration) <= TIE_TOLERANCE:
                 rigid += phase.duration
-            elif phase.kind is not PhaseKind.ELASTIC or phase.duration > 0 or phase.authored or named:
+            elif (
+                phase.kind is not PhaseKind.ELASTIC or phase.duration > 0 or phase.authored or named or _apart(times, k)
+            ):
                 kinds.add(phase.kind)
                 if phase.kind is PhaseKind.ELASTIC and phase.duration > 0:
                     least = LEAST
@@ -327,6 +329,11 @@ class Network:
             if not moved:
                 break
         return {root: position for root, position in found.items() if root not in ends}
+
+
+def _apart(times: Sequence[float], phase: int) -> bool:
+    """Whether a plan gives a phase some time."""
+    return times[phase + 1] - times[phase] > TIE_TOLERANCE
 
 
 def _given(problem: SchedulingProblem) -> dict[Node, int]:
