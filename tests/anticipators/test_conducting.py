@@ -16,7 +16,7 @@ def play(stage: AnticipatorHarness, conducting: Conducting, *beats: float) -> No
         stage.event(beat, conducting, "beat")
 
 
-def test_beats_are_counted_from_the_first_that_is_heard(stage) -> None:
+def test_beats_are_counted_from_the_first_that_is_heard(stage: AnticipatorHarness) -> None:
     conducting = Conducting("c", stage.board)
     assert stage.time(conducting, "beat1") is None
     play(stage, conducting, 2.0, 2.5)
@@ -24,7 +24,7 @@ def test_beats_are_counted_from_the_first_that_is_heard(stage) -> None:
     assert stage.time(conducting, "bar1") is None
 
 
-def test_every_beat_moves_those_ahead_and_none_that_passed(stage) -> None:
+def test_every_beat_moves_those_ahead_and_none_that_passed(stage: AnticipatorHarness) -> None:
     conducting = Conducting("c", stage.board)
     play(stage, conducting, 0.0, 1.0)
     assert [stage.time(conducting, f"beat{n}") for n in (2, 3, 4)] == [1.0, 2.0, 3.0]
@@ -33,7 +33,7 @@ def test_every_beat_moves_those_ahead_and_none_that_passed(stage) -> None:
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_a_slowing_tempo_is_followed(stage, seed) -> None:
+def test_a_slowing_tempo_is_followed(stage: AnticipatorHarness, seed: int) -> None:
     conducting = Conducting("c", stage.board)
     for number, beat in enumerate(rhythm_of(lambda n: 0.5 * 1.01**n, 50, seed), start=1):
         if number > 4:
@@ -41,7 +41,7 @@ def test_a_slowing_tempo_is_followed(stage, seed) -> None:
         play(stage, conducting, beat)
 
 
-def test_a_limited_number_of_beats_is_predicted(stage) -> None:
+def test_a_limited_number_of_beats_is_predicted(stage: AnticipatorHarness) -> None:
     conducting = Conducting("c", stage.board, ahead=4)
     play(stage, conducting, 0.0, 1.0)
     assert [stage.time(conducting, f"beat{n}") for n in (6, 7)] == [5.0, None]
@@ -49,7 +49,7 @@ def test_a_limited_number_of_beats_is_predicted(stage) -> None:
     assert [stage.time(conducting, f"beat{n}") for n in (6, 7)] == [5.0, 6.0]
 
 
-def test_a_start_forgets_the_music(stage) -> None:
+def test_a_start_forgets_the_music(stage: AnticipatorHarness) -> None:
     conducting = Conducting("c", stage.board)
     play(stage, conducting, 0.0, 1.0)
     assert stage.time(conducting, "beat3") == 2.0
@@ -59,13 +59,13 @@ def test_a_start_forgets_the_music(stage) -> None:
     assert [stage.time(conducting, f"beat{n}") for n in (1, 2, 3)] == [9.0, 9.5, 10.0]
 
 
-def test_beats_closer_than_a_fifth_of_a_second_are_ignored(stage) -> None:
+def test_beats_closer_than_a_fifth_of_a_second_are_ignored(stage: AnticipatorHarness) -> None:
     conducting = Conducting("c", stage.board)
     play(stage, conducting, *(n / 1000 for n in range(2001)))
     assert [stage.time(conducting, f"beat{n}") for n in (1, 6, 11, 12)] == pytest.approx([0.0, 1.0, 2.0, 2.2], abs=0.01)
 
 
 @pytest.mark.parametrize("wrong", [{"phase": 0.0}, {"phase": float("nan")}, {"period": 2.0}, {"ahead": 1e9}])
-def test_a_parameter_out_of_range_is_refused(wrong) -> None:
+def test_a_parameter_out_of_range_is_refused(wrong: dict[str, float]) -> None:
     with pytest.raises(RealizerError, match=next(iter(wrong))):
         Conducting("c", PegBoard(Graph()), **wrong)

@@ -1,13 +1,16 @@
 """A trainer who feels somebody move knows the next key moments of the exercise."""
 
 import itertools
+from typing import Any
 
 import pytest
 
 from anticipators.exercise import Exercise
 from anticipators.peaks import Peaks
+from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.pegboard.pegboard import PegBoard
+from reactive_realizer.pegboard.time_peg import AnticipatorPeg
 from reactive_realizer.reactive.graph import Graph
 from reactive_realizer.testing.anticipator_harness import AnticipatorHarness
 
@@ -30,26 +33,30 @@ def after(moments: list[float], seed: int) -> list[tuple[float, float]]:
 
 
 @pytest.mark.parametrize("seed", range(5))
-def test_peaks_are_found_where_they_are_whatever_the_noise(seed) -> None:
+def test_peaks_are_found_where_they_are_whatever_the_noise(seed: int) -> None:
     moments = squats(10, seed)
     peaks = Peaks(3.0)
-    found = [peak for time, value in acceleration(moments, 25.0, seed) if (peak := peaks.take(value, time)) is not None]
+    found = [
+        peak
+        for time, value in acceleration(moments, 25.0, seed)
+        if (peak := peaks.take(value, GlobalTime(time))) is not None
+    ]
     assert found == pytest.approx(moments, abs=0.06)
 
 
 @pytest.mark.parametrize("begin", [0.95, 1.0, 1.05, 1.2, 1.8])
-def test_it_does_not_matter_in_which_part_of_a_movement_the_samples_begin(begin) -> None:
+def test_it_does_not_matter_in_which_part_of_a_movement_the_samples_begin(begin: float) -> None:
     moments = [1.0 + 1.2 * n for n in range(5)]
     peaks = Peaks(3.0)
     samples = [sample for sample in acceleration(moments, 7.0, 1) if sample[0] >= begin]
-    found = [peak for time, value in samples if (peak := peaks.take(value, time)) is not None]
+    found = [peak for time, value in samples if (peak := peaks.take(value, GlobalTime(time))) is not None]
     assert found[-4:] == pytest.approx(moments[1:], abs=0.06)
 
 
 def peaks_of(*values: float) -> list[float]:
     """Where peaks are found in samples 0.1 s apart."""
     peaks = Peaks(3.0)
-    found = [peaks.take(value, number / 10) for number, value in enumerate(values)]
+    found = [peaks.take(value, GlobalTime(number / 10)) for number, value in enumerate(values)]
     return [peak for peak in found if peak is not None]
 
 
@@ -63,11 +70,11 @@ def test_a_slow_swing_has_its_peak_where_it_is_highest() -> None:
 
 def test_a_resting_user_makes_no_peak() -> None:
     peaks = Peaks(3.0)
-    assert not any(peaks.take(value, time) for time, value in acceleration([], 30.0, 1))
+    assert not any(peaks.take(value, GlobalTime(time)) for time, value in acceleration([], 30.0, 1))
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_peaks_are_counted_and_the_next_ones_predicted(stage, seed) -> None:
+def test_peaks_are_counted_and_the_next_ones_predicted(stage: AnticipatorHarness, seed: int) -> None:
     moments = rhythm_of(lambda n: 1.0, 10, seed, 0.02)
     exercise = Exercise("trainer", stage.board)
     move(stage, exercise, after(moments[:6], seed))
@@ -79,7 +86,7 @@ def test_peaks_are_counted_and_the_next_ones_predicted(stage, seed) -> None:
 
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("drift", [-0.01, 0.01])
-def test_named_peaks_have_intervals_of_their_own_and_follow_a_drifting_tempo(seed, drift) -> None:
+def test_named_peaks_have_intervals_of_their_own_and_follow_a_drifting_tempo(seed: int, drift: float) -> None:
     moments = squats(10, seed, drift)
     for known in range(6, 18):
         stage = AnticipatorHarness()
@@ -90,10 +97,10 @@ def test_named_peaks_have_intervals_of_their_own_and_follow_a_drifting_tempo(see
         assert stage.time(exercise, second) == pytest.approx(moments[known + 1], abs=0.2)
 
 
-def test_a_name_means_the_next_peak_and_dependents_keep_theirs(stage) -> None:
+def test_a_name_means_the_next_peak_and_dependents_keep_theirs(stage: AnticipatorHarness) -> None:
     moments = squats(8, 1)
     exercise = Exercise("trainer", stage.board, ("down", "up"))
-    held = []
+    held: list[AnticipatorPeg] = []
     for time, magnitude in acceleration(moments, moments[-1], 1):
         stage.event(time, exercise, "sample", magnitude)
         point = stage.board.predicted("trainer", "down")
@@ -105,7 +112,7 @@ def test_a_name_means_the_next_peak_and_dependents_keep_theirs(stage) -> None:
     assert times == sorted(times)
 
 
-def test_predictions_stop_when_the_user_rests_and_resume_later(stage) -> None:
+def test_predictions_stop_when_the_user_rests_and_resume_later(stage: AnticipatorHarness) -> None:
     moments = rhythm_of(lambda n: 1.0 if n != 6 else 20.0, 9, 2, 0.02)
     exercise = Exercise("trainer", stage.board, ("jump",), ahead=3)
     samples = after(moments, 2)
@@ -116,7 +123,7 @@ def test_predictions_stop_when_the_user_rests_and_resume_later(stage) -> None:
     assert stage.time(exercise, "jump") == pytest.approx(moments[-1] + 1.0, abs=0.15)
 
 
-def test_a_start_begins_a_new_exercise(stage) -> None:
+def test_a_start_begins_a_new_exercise(stage: AnticipatorHarness) -> None:
     moments = squats(4, 3)
     exercise = Exercise("trainer", stage.board, ("down", "up"))
     move(stage, exercise, after(moments[:5], 3))
@@ -129,18 +136,18 @@ def test_a_start_begins_a_new_exercise(stage) -> None:
     "wrong",
     [{"rise": 0.0}, {"phase": 0.0}, {"period": float("nan")}, {"ahead": 0.0}],
 )
-def test_a_parameter_out_of_range_is_refused(wrong) -> None:
+def test_a_parameter_out_of_range_is_refused(wrong: dict[str, Any]) -> None:
     with pytest.raises(RealizerError, match=next(iter(wrong))):
         Exercise("trainer", PegBoard(Graph()), **wrong)
 
 
 @pytest.mark.parametrize("names", [("3",), ("down", "down"), ("",), ("a b",), ("a:b",), ("a-1",), ("a" * 201,)])
-def test_invalid_and_repeated_names_are_refused(names) -> None:
+def test_invalid_and_repeated_names_are_refused(names: tuple[str, ...]) -> None:
     with pytest.raises(RealizerError, match="peak"):
         Exercise("trainer", PegBoard(Graph()), names)
 
 
-def test_a_high_sampling_rate_gives_the_same_peaks(stage) -> None:
+def test_a_high_sampling_rate_gives_the_same_peaks(stage: AnticipatorHarness) -> None:
     moments = rhythm_of(lambda n: 1.0, 6, 1, 0.0)
     exercise = Exercise("trainer", stage.board)
     for time, magnitude in after(moments, 1):

@@ -5,22 +5,31 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from anticipators.metronome import Metronome
+from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.reactive.graph import Graph
 
 
-def metronome(tempo=60.0) -> Metronome:
+def metronome(tempo: float = 60.0) -> Metronome:
     return Metronome("m", PegBoard(Graph()), tempo)
 
 
-def beat(m, number):
-    return m._board.predicted("m", f"tick{number}").value
+def beat(m: Metronome, number: int) -> float:
+    time = m._board.predicted("m", f"tick{number}").value
+    assert time is not None
+    return time
 
 
-def event(m, name, value, now):
+def forecast(m: Metronome, number: int) -> float:
+    time = m.forecast(f"tick{number}")
+    assert time is not None
+    return time
+
+
+def event(m: Metronome, name: str, value: float | None, now: float) -> None:
     with m._board.graph.transaction("event"):
-        m.event(name, value, now)
+        m.event(name, value, GlobalTime(now))
 
 
 def test_beats_are_counted_from_the_start() -> None:
@@ -66,7 +75,7 @@ def test_a_start_resets_the_count() -> None:
 
 
 @pytest.mark.parametrize("tempo", [9.9, 401.0, float("nan"), -60.0, 0.0])
-def test_a_tempo_out_of_range_is_refused_and_changes_nothing(tempo) -> None:
+def test_a_tempo_out_of_range_is_refused_and_changes_nothing(tempo: float) -> None:
     m = metronome(60)
     with pytest.raises(RealizerError, match="between 10 and 400"):
         event(m, "tempo", tempo, 1.5)
@@ -76,17 +85,20 @@ def test_a_tempo_out_of_range_is_refused_and_changes_nothing(tempo) -> None:
 
 
 @given(st.lists(st.tuples(st.floats(0.01, 3.0), st.integers(10, 400)), max_size=8), st.booleans())
-def test_beats_stay_in_order_and_past_ones_keep_their_times(changes, named_before) -> None:
+def test_beats_stay_in_order_and_past_ones_keep_their_times(
+    changes: list[tuple[float, int]], named_before: bool
+) -> None:
     m = metronome(60)
     numbers = range(40)
     if named_before:
-        assert all(beat(m, n) is not None for n in numbers)
-    now, passed = 0.0, {}
+        assert [beat(m, n) for n in numbers] == list(numbers)
+    now = 0.0
+    passed: dict[int, float] = {}
     for wait, tempo in changes:
         now += wait
-        passed |= {n: m.forecast(f"tick{n}") for n in numbers if m.forecast(f"tick{n}") <= now}
+        passed |= {n: time for n in numbers if (time := forecast(m, n)) <= now}
         event(m, "tempo", tempo, now)
-        times = [m.forecast(f"tick{n}") for n in numbers]
+        times = [forecast(m, n) for n in numbers]
         assert times == sorted(times)
         assert all(times[n] == pytest.approx(time, abs=1e-9) for n, time in passed.items())
         assert all(time >= now for n, time in enumerate(times) if n not in passed)

@@ -1,22 +1,25 @@
 """A rhythm is followed as people follow it: through noise, drift, lost and doubled beats."""
 
+from typing import Any
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from anticipators.rhythm import Rhythm
+from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.errors import RealizerError
 
 from .conftest import rhythm_of
 
 
-def rhythm(phase=0.5, period=0.2, ahead=16, cycle=1) -> Rhythm:
+def rhythm(phase: float = 0.5, period: float = 0.2, ahead: int = 16, cycle: int = 1) -> Rhythm:
     return Rhythm(phase, period, ahead, 0.2, 3.0, cycle)
 
 
 def hear(heard: Rhythm, *onsets: float) -> Rhythm:
     for onset in onsets:
-        heard.hear(onset, onset)
+        heard.hear(GlobalTime(onset), GlobalTime(onset))
     return heard
 
 
@@ -30,8 +33,9 @@ def errors(heard: Rhythm, onsets: list[float], settled: int = 4) -> list[float]:
     for number, onset in enumerate(onsets, start=1):
         expected = heard.time(number)
         if number > settled:
+            assert expected is not None
             found.append(abs(expected - onset))
-        heard.hear(onset, onset)
+        heard.hear(GlobalTime(onset), GlobalTime(onset))
     return found
 
 
@@ -56,7 +60,7 @@ def test_an_error_is_corrected_in_phase_and_in_period() -> None:
 
 
 @pytest.mark.parametrize("seed", range(5))
-def test_noise_of_taps_is_not_amplified(seed) -> None:
+def test_noise_of_taps_is_not_amplified(seed: int) -> None:
     found = errors(rhythm(), rhythm_of(lambda beat: 0.6, 60, seed))
     assert sum(found) / len(found) < 0.025
     assert max(found) < 0.08
@@ -64,14 +68,14 @@ def test_noise_of_taps_is_not_amplified(seed) -> None:
 
 @pytest.mark.parametrize("seed", range(5))
 @pytest.mark.parametrize("change", [-0.003, 0.003])
-def test_a_tempo_that_drifts_is_followed(seed, change) -> None:
+def test_a_tempo_that_drifts_is_followed(seed: int, change: float) -> None:
     found = errors(rhythm(), rhythm_of(lambda beat: 0.6 + change * beat, 60, seed))
     assert sum(found) / len(found) < 0.035
     assert max(found) < 0.1
 
 
 @pytest.mark.parametrize("seed", range(5))
-def test_a_missed_beat_is_counted(seed) -> None:
+def test_a_missed_beat_is_counted(seed: int) -> None:
     onsets = rhythm_of(lambda beat: 0.6, 40, seed)
     missed = {9, 10, 20, 31}
     heard = rhythm()
@@ -83,7 +87,7 @@ def test_a_missed_beat_is_counted(seed) -> None:
 
 
 @pytest.mark.parametrize("echo", [0.02, 0.12, 0.17, 0.25, 0.35])
-def test_a_beat_that_is_doubled_counts_once(echo) -> None:
+def test_a_beat_that_is_doubled_counts_once(echo: float) -> None:
     heard = rhythm()
     for beat in range(30):
         hear(heard, 0.6 * beat)
@@ -146,13 +150,13 @@ def test_beats_that_repeat_in_a_cycle_have_intervals_of_their_own() -> None:
 
 def test_an_onset_reported_late_counts_at_its_own_time() -> None:
     heard = hear(rhythm(), 0.0, 1.0)
-    heard.hear(2.1, 2.4)
+    heard.hear(GlobalTime(2.1), GlobalTime(2.4))
     assert heard.time(4) == pytest.approx(2.05 + 1.02)
 
 
 def test_onsets_out_of_order_are_ignored() -> None:
     heard = hear(rhythm(), 0.0, 1.0, 2.0)
-    assert not heard.hear(1.5, 2.1)
+    assert not heard.hear(GlobalTime(1.5), GlobalTime(2.1))
     assert next_times(heard, 1) == [3.0]
 
 
@@ -160,7 +164,7 @@ def test_onsets_out_of_order_are_ignored() -> None:
     ("wrong", "name"),
     [({"phase": 0.0}, "phase"), ({"phase": 1.1}, "phase"), ({"period": -0.1}, "period"), ({"ahead": 0}, "ahead")],
 )
-def test_the_name_of_a_parameter_out_of_range_is_reported(wrong, name) -> None:
+def test_the_name_of_a_parameter_out_of_range_is_reported(wrong: dict[str, Any], name: str) -> None:
     with pytest.raises(RealizerError, match=name):
         rhythm(**wrong)
 
@@ -172,12 +176,15 @@ def test_the_name_of_a_parameter_out_of_range_is_reported(wrong, name) -> None:
     st.integers(1, 20),
     st.integers(1, 3),
 )
-def test_beats_stay_in_order_and_past_ones_keep_their_times_for_any_onsets(waits, phase, period, ahead, cycle) -> None:
+def test_beats_stay_in_order_and_past_ones_keep_their_times_for_any_onsets(
+    waits: list[float], phase: float, period: float, ahead: int, cycle: int
+) -> None:
     heard = rhythm(phase, period, ahead, cycle)
-    now, passed = 0.0, []
+    now = 0.0
+    passed: list[GlobalTime] = []
     for wait in waits:
         now += wait
-        heard.hear(now, now)
+        heard.hear(GlobalTime(now), GlobalTime(now))
         times = [heard.time(number) for number in range(1, heard.passed + ahead + 2)]
         known = [time for time in times if time is not None]
         assert known == sorted(known)

@@ -1,14 +1,15 @@
 """The end of a turn is predicted when the voice is gone, and the better the more was understood."""
 
 from math import exp
+from typing import Any
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from anticipators.speech_stop import SpeechStop
-from anticipators.turn_model import PauseModel, Turn
-from reactive_realizer.clock.units import Time
+from anticipators.turn_model import PauseModel, Turn, TurnModel
+from reactive_realizer.clock.units import GlobalTime, Time
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.reactive.graph import Cell, Graph
@@ -17,17 +18,12 @@ from reactive_realizer.testing.anticipator_harness import AnticipatorHarness
 PLAIN, FINISHED, OPEN = "I live in a house", "I live in a house.", "I live in a house and"
 
 
-@pytest.fixture
-def user(stage):
-    return User(stage)
-
-
 class User:
     """Somebody whose voice is detected and whose words are understood."""
 
-    def __init__(self, stage, **parameters) -> None:
+    def __init__(self, stage: AnticipatorHarness, model: TurnModel | None = None) -> None:
         self.stage = stage
-        self.stop = SpeechStop("user", stage.board, **parameters)
+        self.stop = SpeechStop("user", stage.board, model=model)
 
     def voice(self, now: float, value: float) -> float | None:
         self.stage.event(now, self.stop, "voice", value)
@@ -46,24 +42,34 @@ class User:
         return self.stage.time(self.stop, "stop")
 
 
+@pytest.fixture
+def user(stage: AnticipatorHarness) -> User:
+    return User(stage)
+
+
+def known(time: float | None) -> float:
+    assert time is not None
+    return time
+
+
 def silence(words: str, certainty: float = 0.9, pause: float = 0.4) -> float:
-    return PauseModel(certainty, pause).end(Turn(words, False, 0.0))
+    return known(PauseModel(certainty, pause).end(Turn(words, False, GlobalTime(0.0))))
 
 
-def test_the_end_is_unknown_while_the_user_speaks_and_predicted_afterwards(user) -> None:
+def test_the_end_is_unknown_while_the_user_speaks_and_predicted_afterwards(user: User) -> None:
     assert user.time is None
     assert user.voice(1.0, 0.0) is None
     assert user.voice(2.0, 0.9) is None
     assert user.voice(4.0, 0.1) == pytest.approx(4.0 + 0.88, abs=1e-2)
 
 
-def test_silent_frames_change_nothing(user) -> None:
+def test_silent_frames_change_nothing(user: User) -> None:
     user.voice(1.0, 1.0)
     said = user.voice(2.0, 0.2)
     assert [user.voice(2.0 + n / 50, n / 100) for n in range(40)] == [said] * 40
 
 
-def test_a_resumed_turn_withdraws_the_prediction(user) -> None:
+def test_a_resumed_turn_withdraws_the_prediction(user: User) -> None:
     user.voice(1.0, 1.0)
     user.voice(2.0, 0.0)
     assert user.voice(2.4, 1.0) is None
@@ -76,7 +82,7 @@ def test_a_complete_sentence_ends_earlier_and_an_incomplete_one_later() -> None:
     assert silence("Wait, um") == silence("I see,") == silence("to the")
 
 
-def test_words_recognized_after_the_voice_refine_the_prediction(user) -> None:
+def test_words_recognized_after_the_voice_refine_the_prediction(user: User) -> None:
     user.voice(1.0, 1.0)
     user.words(2.0, OPEN)
     assert user.voice(3.0, 0.0) == pytest.approx(3.0 + silence(OPEN))
@@ -84,7 +90,7 @@ def test_words_recognized_after_the_voice_refine_the_prediction(user) -> None:
     assert user.words(3.1, FINISHED) == pytest.approx(3.0 + silence(FINISHED))
 
 
-def test_a_predicted_end_in_the_past_is_set_to_now(user) -> None:
+def test_a_predicted_end_in_the_past_is_set_to_now(user: User) -> None:
     user.voice(1.0, 1.0)
     user.voice(3.0, 0.0)
     assert user.words(3.5, FINISHED) == 3.5
@@ -103,16 +109,16 @@ def test_an_end_predicted_in_the_past_can_be_withdrawn_like_any_other() -> None:
     assert stop.value is None
 
 
-def test_words_alone_make_a_turn_and_each_new_word_delays_its_end(user) -> None:
+def test_words_alone_make_a_turn_and_each_new_word_delays_its_end(user: User) -> None:
     assert user.words(1.0, "I live") == pytest.approx(1.0 + silence(PLAIN))
     assert user.words(1.4, "I live in a") == pytest.approx(1.4 + silence(OPEN))
     assert user.words(1.9, FINISHED) == pytest.approx(1.9 + silence(FINISHED))
     assert user.words(2.0, f"{FINISHED} ") == pytest.approx(1.9 + silence(FINISHED))
 
 
-def test_after_the_end_its_name_means_the_end_of_the_next_turn(user) -> None:
+def test_after_the_end_its_name_means_the_end_of_the_next_turn(user: User) -> None:
     user.voice(1.0, 1.0)
-    came, stop = user.voice(2.0, 0.0), user.hang()
+    came, stop = known(user.voice(2.0, 0.0)), user.hang()
     assert user.voice(came - 0.01, 0.0) == came
     assert user.voice(came, 0.0) is None
     user.voice(came + 1.1, 0.0)
@@ -122,20 +128,20 @@ def test_after_the_end_its_name_means_the_end_of_the_next_turn(user) -> None:
 
 
 @pytest.mark.parametrize(("after", "resumed"), [(0.0, True), (0.95, True), (1.05, False)])
-def test_a_turn_may_be_resumed_for_a_second_after_its_end(user, after, resumed) -> None:
+def test_a_turn_may_be_resumed_for_a_second_after_its_end(user: User, after: float, resumed: bool) -> None:
     user.voice(1.0, 1.0)
-    came, stop = user.voice(2.0, 0.0), user.hang()
+    came, stop = known(user.voice(2.0, 0.0)), user.hang()
     user.voice(came + after, 1.0)
     assert stop.value == (None if resumed else came)
     end = user.voice(5.0, 0.0)
     assert stop.value == (end if resumed else came)
 
 
-def test_all_dependents_wait_for_the_end_of_a_turn_that_is_resumed_several_times(user) -> None:
+def test_all_dependents_wait_for_the_end_of_a_turn_that_is_resumed_several_times(user: User) -> None:
     user.voice(1.0, 1.0)
     stops = []
     for begin in (2.0, 4.0, 6.0):
-        came = user.voice(begin, 0.0)
+        came = known(user.voice(begin, 0.0))
         stops.append(user.hang())
         user.voice(came + 0.5, 1.0)
     assert [stop.value for stop in stops] == [None, None, None]
@@ -144,15 +150,15 @@ def test_all_dependents_wait_for_the_end_of_a_turn_that_is_resumed_several_times
 
 
 @pytest.mark.parametrize("text", ["", PLAIN, OPEN, FINISHED + " Yes."])
-def test_words_after_the_end_move_nothing_without_voice(user, text) -> None:
+def test_words_after_the_end_move_nothing_without_voice(user: User, text: str) -> None:
     user.voice(1.0, 1.0)
     user.words(2.0, FINISHED)
-    came, stop = user.voice(3.0, 0.0), user.hang()
+    came, stop = known(user.voice(3.0, 0.0)), user.hang()
     assert user.words(came + 0.1, text) is None
     assert stop.value == came
 
 
-def test_the_words_of_a_turn_do_not_count_for_the_next_one(user) -> None:
+def test_the_words_of_a_turn_do_not_count_for_the_next_one(user: User) -> None:
     user.voice(1.0, 1.0)
     user.words(1.5, FINISHED)
     user.voice(2.0, 0.0)
@@ -160,46 +166,46 @@ def test_the_words_of_a_turn_do_not_count_for_the_next_one(user) -> None:
     assert user.voice(10.0, 0.0) == pytest.approx(10.0 + silence(""))
 
 
-def test_the_same_words_after_a_closed_turn_are_a_new_turn(user) -> None:
-    came, stop = user.words(1.0, FINISHED), user.hang()
+def test_the_same_words_after_a_closed_turn_are_a_new_turn(user: User) -> None:
+    came, stop = known(user.words(1.0, FINISHED)), user.hang()
     assert user.words(came + 0.9, FINISHED) is None
     assert user.words(came + 1.1, FINISHED) == pytest.approx(came + 1.1 + silence(FINISHED))
     assert stop.value == came
 
 
-def test_withdrawn_words_are_no_turn(user) -> None:
+def test_withdrawn_words_are_no_turn(user: User) -> None:
     assert user.words(1.0, "") is None
     assert user.words(2.0, "um") is not None
     assert user.words(2.3, " ") is None
     assert user.words(3.0, FINISHED) == pytest.approx(3.0 + silence(FINISHED))
 
 
-def test_the_first_voice_activity_after_the_end_resumes_the_turn_only_if_the_user_speaks(user) -> None:
-    came, stop = user.words(1.0, FINISHED), user.hang()
+def test_the_first_voice_activity_after_the_end_resumes_the_turn_only_if_the_user_speaks(user: User) -> None:
+    came, stop = known(user.words(1.0, FINISHED)), user.hang()
     user.voice(came + 0.1, 0.0)
     assert stop.value == came
     user.voice(came + 0.2, 1.0)
     assert stop.value is None
 
 
-def test_an_empty_text_after_the_end_closes_the_turn(user) -> None:
-    came, stop = user.words(1.0, FINISHED), user.hang()
+def test_an_empty_text_after_the_end_closes_the_turn(user: User) -> None:
+    came, stop = known(user.words(1.0, FINISHED)), user.hang()
     assert user.words(came + 0.1, "") is None
     assert user.words(came + 0.2, FINISHED) == pytest.approx(came + 0.2 + silence(FINISHED))
     assert stop.value == came
 
 
-def test_another_turn_model_can_be_used(stage) -> None:
+def test_another_turn_model_can_be_used(stage: AnticipatorHarness) -> None:
     class Punctual:
-        def end(self, turn: Turn) -> float:
-            return 60.0
+        def end(self, turn: Turn) -> GlobalTime | None:
+            return GlobalTime(60.0)
 
     user = User(stage, model=Punctual())
     assert user.voice(1.0, 1.0) == 60.0
 
 
 @given(st.sampled_from(["", PLAIN, FINISHED, OPEN]), st.floats(0.5, 0.999), st.floats(0.01, 10.0))
-def test_the_end_is_where_the_probability_reaches_the_certainty(words, certainty, pause) -> None:
+def test_the_end_is_where_the_probability_reaches_the_certainty(words: str, certainty: float, pause: float) -> None:
     prior = {FINISHED: 0.85, OPEN: 0.1}.get(words, 0.5)
     waited = silence(words, certainty, pause)
     reached = prior / (prior + (1 - prior) * exp(-waited / pause))
@@ -210,6 +216,6 @@ def test_the_end_is_where_the_probability_reaches_the_certainty(words, certainty
 @pytest.mark.parametrize(
     "wrong", [{"certainty": 0.4}, {"certainty": 1.0}, {"certainty": float("nan")}, {"pause": 0.0}, {"pause": 11.0}]
 )
-def test_a_parameter_out_of_range_is_refused(wrong) -> None:
+def test_a_parameter_out_of_range_is_refused(wrong: dict[str, Any]) -> None:
     with pytest.raises(RealizerError, match=next(iter(wrong))):
         SpeechStop("user", PegBoard(Graph()), **wrong)

@@ -25,7 +25,7 @@ PAIRS = [
 
 
 @pytest.fixture(params=SKELETONS)
-def skeleton(request) -> Skeleton:
+def skeleton(request: pytest.FixtureRequest) -> Skeleton:
     return SKELETONS[request.param]
 
 
@@ -39,14 +39,14 @@ def rotations(animation: ProceduralAnimation, skeleton: Skeleton) -> np.ndarray:
     return np.array([[body.rotation(joint) for joint in skeleton.joints] for body in bodies(animation, skeleton)])
 
 
-def test_an_animation_has_a_pose_at_every_phase(skeleton, subtests):
+def test_an_animation_has_a_pose_at_every_phase(skeleton: Skeleton, subtests: pytest.Subtests) -> None:
     for file in FILES:
         with subtests.test(file):
             poses = rotations(load_animation(FILES[file], skeleton), skeleton)
             np.testing.assert_allclose(np.linalg.norm(poses, axis=-1), 1.0, atol=1e-9)
 
 
-def test_no_arm_is_fully_stretched_or_folded(skeleton, subtests):
+def test_no_arm_is_fully_stretched_or_folded(skeleton: Skeleton, subtests: pytest.Subtests) -> None:
     for file in FILES:
         with subtests.test(file):
             animation = load_animation(FILES[file], skeleton)
@@ -63,7 +63,9 @@ def test_no_arm_is_fully_stretched_or_folded(skeleton, subtests):
                     assert max(spans) < 0.985 * length
 
 
-def test_no_joint_turns_faster_than_in_people_at_the_preferred_duration(skeleton, subtests):
+def test_no_joint_turns_faster_than_in_people_at_the_preferred_duration(
+    skeleton: Skeleton, subtests: pytest.Subtests
+) -> None:
     """8 rad/s is what an elbow does in a quick beat; eyes are quicker."""
     for file in FILES:
         with subtests.test(file):
@@ -73,19 +75,21 @@ def test_no_joint_turns_faster_than_in_people_at_the_preferred_duration(skeleton
             assert steps.max() * 40 / animation.timing(animation.values({})).duration < 8.0
 
 
-def test_animations_of_the_left_hand_mirror_those_of_the_right_hand(skeleton, subtests):
+def test_animations_of_the_left_hand_mirror_those_of_the_right_hand(
+    skeleton: Skeleton, subtests: pytest.Subtests
+) -> None:
     for right, left in PAIRS:
         with subtests.test(left):
             mirrored = rotations(load_animation(FILES[right], skeleton, mirror=True), skeleton)
             np.testing.assert_allclose(rotations(load_animation(FILES[left], skeleton), skeleton), mirrored, atol=2e-3)
 
 
-def test_an_animation_can_be_chosen_by_file_name_alone():
+def test_an_animation_can_be_chosen_by_file_name_alone() -> None:
     names = [Path(name).name for name in FILES]
     assert len(names) == len(set(names))
 
 
-def test_a_bar_begins_and_ends_at_its_first_beat(skeleton, subtests):
+def test_a_bar_begins_and_ends_at_its_first_beat(skeleton: Skeleton, subtests: pytest.Subtests) -> None:
     for i in [1, 2, 3, 4]:
         with subtests.test(f"{i} beats"):
             poses = rotations(load_animation(FILES[f"conductor/{i}-beat_pattern_RH.xml"], skeleton), skeleton)

@@ -4,6 +4,7 @@ import json
 import struct
 from itertools import product
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -56,31 +57,36 @@ SINGLE_SHAPES = [
 ]
 ARKIT_SHAPES = sorted([*SINGLE_SHAPES, *("".join(pair) for pair in product(SIDED_SHAPES, ["Left", "Right"]))])
 
+Gltf = dict[str, Any]
+
 
 @pytest.fixture(params=PATHS, ids=lambda path: path.stem)
-def path(request):
-    return request.param
+def path(request: pytest.FixtureRequest) -> Path:
+    path: Path = request.param
+    return path
 
 
 @pytest.fixture
-def avatar(path):
+def avatar(path: Path) -> Gltf:
     """The JSON of a GLB: its first chunk."""
     data = path.read_bytes()
     magic, version, length = struct.unpack_from("<4sII", data)
     size, kind = struct.unpack_from("<I4s", data, 12)
     assert (magic, version, length, kind) == (b"glTF", 2, len(data), b"JSON")
-    return json.loads(data[20 : 20 + size])
+    gltf: Gltf = json.loads(data[20 : 20 + size])
+    return gltf
 
 
-def joints(avatar):
+def joints(avatar: Gltf) -> list[dict[str, Any]]:
     return [avatar["nodes"][node] for node in avatar["skins"][0]["joints"]]
 
 
-def places(avatar):
+def places(avatar: Gltf) -> dict[str, list[float]]:
     """Position of each joint in meters: at rest it is the sum of the translations above it."""
-    nodes, found = avatar["nodes"], {}
+    nodes = avatar["nodes"]
+    found: dict[str, list[float]] = {}
 
-    def walk(node, origin):
+    def walk(node: int, origin: list[float]) -> None:
         place = [a + b for a, b in zip(origin, nodes[node]["translation"], strict=True)]
         found[nodes[node]["name"]] = place
         for child in nodes[node].get("children", []):
@@ -90,21 +96,21 @@ def places(avatar):
     return found
 
 
-def test_a_file_is_smaller_than_3_megabytes(path):
+def test_a_file_is_smaller_than_3_megabytes(path: Path) -> None:
     assert path.stat().st_size < 3_000_000
 
 
-def test_the_skeleton_has_the_54_joints_of_mixamo_with_eyes(avatar):
+def test_the_skeleton_has_the_54_joints_of_mixamo_with_eyes(avatar: Gltf) -> None:
     names = [joint["name"] for joint in joints(avatar)]
     assert len(names) == 54
     assert set(names) == JOINTS
 
 
-def test_no_joint_is_turned_or_scaled_at_rest(avatar):
+def test_no_joint_is_turned_or_scaled_at_rest(avatar: Gltf) -> None:
     assert not [joint["name"] for joint in joints(avatar) if {"rotation", "scale", "matrix"} & set(joint)]
 
 
-def test_the_figure_stands_in_a_t_pose_and_faces_forward(avatar):
+def test_the_figure_stands_in_a_t_pose_and_faces_forward(avatar: Gltf) -> None:
     place = places(avatar)
     for side, sign in (("Left", 1), ("Right", -1)):
         shoulder, elbow, wrist = (place[side + joint] for joint in ("Arm", "ForeArm", "Hand"))
@@ -114,19 +120,19 @@ def test_the_figure_stands_in_a_t_pose_and_faces_forward(avatar):
     assert 0.8 < place["Hips"][1] < place["Head"][1] < 1.7
 
 
-def test_the_face_has_the_52_blend_shapes_of_arkit_in_the_order_of_their_names(avatar):
+def test_the_face_has_the_52_blend_shapes_of_arkit_in_the_order_of_their_names(avatar: Gltf) -> None:
     face = next(mesh for mesh in avatar["meshes"] if mesh["name"] == "Face")
     assert len(ARKIT_SHAPES) == 52
     assert face["extras"]["targetNames"] == ARKIT_SHAPES
     assert {len(primitive["targets"]) for primitive in face["primitives"]} == {52}
 
 
-def test_blend_shapes_move_only_the_face(avatar):
+def test_blend_shapes_move_only_the_face(avatar: Gltf) -> None:
     deformed = {mesh["name"] for mesh in avatar["meshes"] for part in mesh["primitives"] if "targets" in part}
     assert deformed == {"Face"}
 
 
-def test_vrm_names_a_bone_for_every_joint(avatar):
+def test_vrm_names_a_bone_for_every_joint(avatar: Gltf) -> None:
     bones = avatar["extensions"]["VRMC_vrm"]["humanoid"]["humanBones"]
     named = {bone: avatar["nodes"][entry["node"]]["name"] for bone, entry in bones.items()}
     assert sorted(named.values()) == sorted(JOINTS)
@@ -135,7 +141,7 @@ def test_vrm_names_a_bone_for_every_joint(avatar):
     assert named.items() >= expected.items()
 
 
-def test_vrm_names_expressions_for_the_blend_shapes(avatar):
+def test_vrm_names_expressions_for_the_blend_shapes(avatar: Gltf) -> None:
     presets = avatar["extensions"]["VRMC_vrm"]["expressions"]["preset"]
     moods, mouths = {"happy", "angry", "sad", "relaxed", "surprised", "neutral"}, {"aa", "ih", "ou", "ee", "oh"}
     assert set(presets) == {*moods, *mouths, "blink", "blinkLeft", "blinkRight"}
@@ -143,7 +149,7 @@ def test_vrm_names_expressions_for_the_blend_shapes(avatar):
     assert {ARKIT_SHAPES[bind["index"]] for bind in blink} == {"eyeBlinkLeft", "eyeBlinkRight"}
 
 
-def test_a_file_carries_its_notice(avatar):
+def test_a_file_carries_its_notice(avatar: Gltf) -> None:
     meta = avatar["extensions"]["VRMC_vrm"]["meta"]
     for notice in (avatar["asset"]["copyright"], meta["copyrightInformation"]):
         assert notice.startswith("CC0 1.0.")
@@ -152,13 +158,13 @@ def test_a_file_carries_its_notice(avatar):
     assert meta["otherLicenseUrl"] == "https://creativecommons.org/publicdomain/zero/1.0/"
 
 
-def test_the_license_beside_the_files_names_the_same_sources():
+def test_the_license_beside_the_files_names_the_same_sources() -> None:
     text = (AVATARS / "LICENSE.md").read_text(encoding="utf-8")
     for name in ("CC0 1.0", "MakeHuman", "MPFB", "Mika Suominen", *(path.name for path in PATHS)):
         assert name in text
 
 
-def test_both_figures_have_the_same_skeleton():
+def test_both_figures_have_the_same_skeleton() -> None:
     texts = []
     for path in PATHS:
         data = path.read_bytes()

@@ -5,7 +5,7 @@ import json
 import subprocess
 import sys
 from pathlib import Path
-from types import SimpleNamespace
+from types import ModuleType, SimpleNamespace
 
 import pytest
 
@@ -14,7 +14,7 @@ MODULES = sorted(path.stem for path in (ROOT / "benchmarks").glob("*.py") if not
 
 
 @pytest.fixture
-def frame(monkeypatch, tmp_path):
+def frame(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> ModuleType:
     """The command, with a history of its own and a benchmark that takes no time."""
     monkeypatch.syspath_prepend(ROOT)
     frame = importlib.import_module("benchmarks.__main__")
@@ -27,14 +27,18 @@ def frame(monkeypatch, tmp_path):
     return frame
 
 
-def test_the_json_output_has_the_numbers_the_machine_and_the_commit(frame, capsys) -> None:
+def test_the_json_output_has_the_numbers_the_machine_and_the_commit(
+    frame: ModuleType, capsys: pytest.CaptureFixture[str]
+) -> None:
     frame.run("quick", as_json=True, keep=False)
     said = json.loads(capsys.readouterr().out.splitlines()[-1])
     assert said == {"a": {"b": 2.0}, "c": None, "machine": {"cpu": "abacus", "load": 0.5}, "commit": "1234567"}
     assert not frame.HISTORY.exists()
 
 
-def test_the_table_shows_aims_and_ratios_to_the_last_result(frame, capsys) -> None:
+def test_the_table_shows_aims_and_ratios_to_the_last_result(
+    frame: ModuleType, capsys: pytest.CaptureFixture[str]
+) -> None:
     frame.run("other", as_json=True, keep=True)
     frame.run("quick", as_json=True, keep=True)
     frame.run("quick", as_json=False, keep=True)
@@ -54,7 +58,7 @@ def test_the_error_of_an_unknown_benchmark_lists_the_known_ones() -> None:
     assert f"no benchmark nonsense; there are {', '.join(MODULES)}" in done.stderr
 
 
-def test_the_description_of_the_machine_is_complete(monkeypatch) -> None:
+def test_the_description_of_the_machine_is_complete(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.syspath_prepend(ROOT)
     machine = importlib.import_module("benchmarks.__main__").machine()
     assert list(machine) == ["cpu", "cores", "load", "python"]

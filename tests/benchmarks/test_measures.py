@@ -9,7 +9,7 @@ import pytest
 ROOT = Path(__file__).parents[2]
 
 SIZES = ("10", "1000", "100000")
-SMALLEST = {
+SMALLEST: dict[str, dict[str, float]] = {
     "animation": {"most": 1},
     "latency": {"runs": 2},
     "propagation": {"largest": 1000},
@@ -17,7 +17,7 @@ SMALLEST = {
     "scheduling": {"most": 2},
     "session": {"blocks": 4},
 }
-KEYS = {
+KEYS: dict[str, set[str]] = {
     "animation": {*(f"us_per_character_frame.{n}" for n in ("1", "10", "50", "100")), "characters_at_50fps"},
     "latency": {"tick_ms", *(f"{what}_ms.{part}" for what in ("predict", "activate") for part in ("p50", "p99"))},
     "propagation": {

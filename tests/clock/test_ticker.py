@@ -19,7 +19,7 @@ class LateClock(ManualClock):
         await super().wait_until(GlobalTime(max(moment, self.now()) + late))
 
 
-async def ticks(clock, count):
+async def ticks(clock: ManualClock, count: int) -> tuple[Ticker, list[Tick]]:
     ticker = Ticker(clock)
     found = []
     async for tick in ticker.ticks():
@@ -37,7 +37,8 @@ async def test_tick_times_are_exact_hundredths_of_a_second() -> None:
 
 async def test_the_first_tick_covers_time_0() -> None:
     _, (first, second) = await ticks(ManualClock(), 2)
-    assert first.previous < 0 == first.time
+    assert first.previous < 0.0
+    assert first.time == 0.0
     assert second.previous == 0.0
 
 

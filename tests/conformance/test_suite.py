@@ -59,7 +59,7 @@ async def conformance(*arguments: str) -> int:
     return await asyncio.to_thread(main, ["conformance", *arguments])
 
 
-async def test_that_all_cases_passed_is_0_and_a_table(realizer: str, capsys) -> None:
+async def test_that_all_cases_passed_is_0_and_a_table(realizer: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert await conformance(realizer, "--case", "empty", "--case", "locomotion", "--case", "wait") == 0
     captured = capsys.readouterr()
     assert captured.err == ""
@@ -70,7 +70,7 @@ async def test_that_all_cases_passed_is_0_and_a_table(realizer: str, capsys) -> 
     assert captured.out.splitlines()[-1].endswith("0 failed, 1 unsupported")
 
 
-async def test_that_a_case_failed_is_1_and_the_table_says_why(capsys) -> None:
+async def test_that_a_case_failed_is_1_and_the_table_says_why(capsys: pytest.CaptureFixture[str]) -> None:
     async with address_of(WrongRealizer().serve) as url:
         assert await conformance(url, "--case", "empty") == 1
     out = capsys.readouterr().out
@@ -78,7 +78,7 @@ async def test_that_a_case_failed_is_1_and_the_table_says_why(capsys) -> None:
     assert "  nothing was predicted of nothing before nothing:end was reported (the last prediction before it)\n" in out
 
 
-async def test_json_says_the_same(realizer: str, capsys) -> None:
+async def test_json_says_the_same(realizer: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert await conformance(realizer, "--case", "speech", "--json") == 0
     told = json.loads(capsys.readouterr().out)
     assert (told["passed"], told["failed"], told["unsupported"]) == (1, 0, 0)
@@ -87,7 +87,7 @@ async def test_json_says_the_same(realizer: str, capsys) -> None:
     assert case["checks"] > 4
 
 
-async def test_that_nobody_is_there_is_2(capsys) -> None:
+async def test_that_nobody_is_there_is_2(capsys: pytest.CaptureFixture[str]) -> None:
     url = f"http://127.0.0.1:{unused_port()}"
     assert await conformance(url) == 2
     captured = capsys.readouterr()
@@ -96,12 +96,12 @@ async def test_that_nobody_is_there_is_2(capsys) -> None:
 
 
 @pytest.mark.parametrize("url", ["nonsense", "http://", "ftp://127.0.0.1:1", "http://127.0.0.1:notaport"])
-async def test_what_is_no_address_is_2(url: str, capsys) -> None:
+async def test_what_is_no_address_is_2(url: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert await conformance(url) == 2
     assert len(capsys.readouterr().err.splitlines()) == 1
 
 
-async def test_a_server_of_something_else_is_2(capsys) -> None:
+async def test_a_server_of_something_else_is_2(capsys: pytest.CaptureFixture[str]) -> None:
     async def page(request: web.Request) -> web.Response:
         return web.Response(text="welcome")
 
@@ -110,13 +110,13 @@ async def test_a_server_of_something_else_is_2(capsys) -> None:
     assert "no realizer can be reached at" in capsys.readouterr().err
 
 
-async def test_a_realizer_of_another_protocol_is_2(capsys) -> None:
+async def test_a_realizer_of_another_protocol_is_2(capsys: pytest.CaptureFixture[str]) -> None:
     async with address_of(WrongRealizer({"type": "hello", "protocol": 2}).serve) as url:
         assert await conformance(url) == 2
     assert 'protocol": 2' in capsys.readouterr().err
 
 
-async def test_a_realizer_that_goes_away_is_2(capsys) -> None:
+async def test_a_realizer_that_goes_away_is_2(capsys: pytest.CaptureFixture[str]) -> None:
     async def leave(request: web.Request) -> web.WebSocketResponse:
         socket = web.WebSocketResponse()
         await socket.prepare(request)
@@ -129,7 +129,9 @@ async def test_a_realizer_that_goes_away_is_2(capsys) -> None:
     assert "the connection was lost" in capsys.readouterr().err
 
 
-async def test_a_realizer_that_says_hello_and_then_nothing_is_2_without_trying_every_case(monkeypatch, capsys) -> None:
+async def test_a_realizer_that_says_hello_and_then_nothing_is_2_without_trying_every_case(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     monkeypatch.setattr(command, "run_suite", partial(run_suite, patience=0.05))
     listened: list[str] = []
 
@@ -146,14 +148,14 @@ async def test_a_realizer_that_says_hello_and_then_nothing_is_2_without_trying_e
     assert len(listened) == 1
 
 
-def test_a_case_that_there_is_not_is_2(capsys) -> None:
+def test_a_case_that_there_is_not_is_2(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as ended:
         main(["conformance", "http://127.0.0.1:1", "--case", "no-such-case"])
     assert ended.value.code == 2
     assert "no-such-case" in capsys.readouterr().err
 
 
-def test_its_help_has_an_example(capsys) -> None:
+def test_its_help_has_an_example(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit):
         main(["conformance", "--help"])
     assert "example: reactive-realizer conformance" in capsys.readouterr().out

@@ -102,7 +102,9 @@ async def test_the_key_is_followed(pilot: RealizerPilot) -> None:
 @pytest.mark.parametrize(
     ("words", "silence"), [("", 0.88), ("I live in a house.", 0.19), ("I live in a", 1.76)], ids=str
 )
-async def test_the_answer_comes_after_a_silence_as_long_as_the_page_says(pilot, words: str, silence: float) -> None:
+async def test_the_answer_comes_after_a_silence_as_long_as_the_page_says(
+    pilot: RealizerPilot, words: str, silence: float
+) -> None:
     pilot.event("user", "voice", 1.0)
     pilot.event("user", "words", text=words)
     await pilot.advance(1)

@@ -23,20 +23,20 @@ VALUES = re.findall(r"^\| `(.+)` \| ([\d.]*) ?\| (-?[\d.]+) \|$", TEXT, re.MULTI
 PLAY = '<bmlt:procanimation id="a" fileName="{}"/>'
 
 
-async def warned(assets: Path, behavior: str) -> list[tuple[str, str]]:
+async def warned(assets: Path, behavior: str) -> list[tuple[str | None, str]]:
     """Type and text of the warnings of a block with one behavior, and that it ends."""
     async with open_pilot(SceneOptions(DEFAULT_HUMAN, "text", (assets,))) as pilot:
         pilot.watch()
         pilot.block("b", behavior)
         await pilot.advance(4)
         assert pilot.feedback.status("b") == "DONE"
-        return [(each.element.get("type"), each.element.text) for each in pilot.feedback.of("warningFeedback")]
+        return [(each.element.get("type"), each.text) for each in pilot.feedback.of("warningFeedback")]
 
 
 @pytest.mark.parametrize(("formula", "t", "value"), VALUES)
 def test_a_formula_of_the_table_is_worth_what_stands_beside_it(formula: str, t: str, value: str) -> None:
     compiled = compile_formulas([parse(formula)], ["t"])
-    assert compiled(float(t or "nan")) == (pytest.approx(float(value)),)
+    assert compiled(float(t or "nan")) == pytest.approx((float(value),))
 
 
 def test_the_table_of_formulas_is_read() -> None:

@@ -1,8 +1,10 @@
 """The gallery: whatever plays has its strip, and each strip plays."""
 
 import importlib
+from pathlib import Path
 from shutil import copy
 from types import ModuleType
+from typing import TYPE_CHECKING
 
 import pytest
 from lxml import etree
@@ -14,19 +16,23 @@ from reactive_realizer.testing.pilot import open_pilot
 
 from .conftest import DOCS, page
 
+if TYPE_CHECKING:
+    from gallery_entries import Entry
+
 SCENE = SceneOptions(voice="text")
 
 
 @pytest.fixture
-def gallery(monkeypatch) -> ModuleType:
+def gallery(monkeypatch: pytest.MonkeyPatch) -> ModuleType:
     """What makes the gallery."""
     monkeypatch.syspath_prepend(str(DOCS))
     return importlib.import_module("make_gallery")
 
 
 @pytest.fixture
-async def entries(gallery):
-    return await gallery.known(SCENE)
+async def entries(gallery: ModuleType) -> list["Entry"]:
+    known: list[Entry] = await gallery.known(SCENE)
+    return known
 
 
 async def lexicon() -> list[LexiconEntry]:
@@ -34,28 +40,28 @@ async def lexicon() -> list[LexiconEntry]:
         return [entry for entry in lexicon_of(scene.realizer.characters["alice"].engines) if entry.problem is None]
 
 
-def shown(entry) -> set[tuple[str, str]]:
+def shown(entry: "Entry") -> set[tuple[str, str]]:
     """Its elements, with their lexemes."""
     elements = etree.fromstring(entry.block).iter("*")
     return {(etree.QName(one).localname, one.get("lexeme") or one.get("name") or "") for one in elements}
 
 
-async def test_whatever_plays_has_a_strip(entries):
+async def test_whatever_plays_has_a_strip(entries: list["Entry"]) -> None:
     there = {pair for entry in entries for pair in shown(entry)}
     assert {(entry.element, entry.lexeme) for entry in await lexicon()} <= there
     assert {behavior.__name__.lower() for behavior in MOTIONS} <= {element.lower() for element, _ in there}
 
 
-async def test_strips_have_names_of_their_own_and_all_of_them_are_there(entries):
+async def test_strips_have_names_of_their_own_and_all_of_them_are_there(entries: list["Entry"]) -> None:
     names = [entry.name for entry in entries]
     assert sorted(names) == sorted(file.stem for file in (DOCS / "gallery").glob("*.webp"))
 
 
-async def test_the_page_of_the_gallery_shows_them_all(gallery, entries):
+async def test_the_page_of_the_gallery_shows_them_all(gallery: ModuleType, entries: list["Entry"]) -> None:
     assert page("docs/gallery/README.md") == gallery.index(entries), "run `make gallery`"
 
 
-async def test_each_strip_plays_as_it_is_asked_for(entries):
+async def test_each_strip_plays_as_it_is_asked_for(entries: list["Entry"]) -> None:
     async with open_pilot(SCENE) as pilot:
         for entry in entries:
             pilot.perform(entry.block.replace("<bml ", '<bml composition="REPLACE" ', 1))
@@ -63,7 +69,9 @@ async def test_each_strip_plays_as_it_is_asked_for(entries):
         assert pilot.feedback.warnings == []
 
 
-def test_a_strip_that_nobody_knows_is_refused(gallery, monkeypatch, capsys):
+def test_a_strip_that_nobody_knows_is_refused(
+    gallery: ModuleType, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     monkeypatch.setattr("sys.argv", ["make_gallery.py", "--browser", "sh", "head-nod", "head-nood"])
     with pytest.raises(SystemExit, match="2"):
         gallery.main()
@@ -73,8 +81,13 @@ def test_a_strip_that_nobody_knows_is_refused(gallery, monkeypatch, capsys):
 @pytest.mark.browser
 @pytest.mark.timeout(120)
 async def test_a_strip_is_the_same_as_itself_and_differs_from_another(
-    gallery, entries, chromium, tmp_path, capsys, monkeypatch
-):
+    gallery: ModuleType,
+    entries: list["Entry"],
+    chromium: str,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     monkeypatch.setattr(gallery, "MOMENTS", 2)
     nod, shake = (next(entry for entry in entries if entry.name == name) for name in ("head-nod", "head-shake"))
     assert await gallery.make([nod], SCENE, tmp_path, chromium, compare=False) == 0

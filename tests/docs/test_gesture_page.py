@@ -100,7 +100,9 @@ def said(element: etree._Element) -> str:
 def test_the_page_shows_the_files_of_the_example() -> None:
     animation, binding = (etree.fromstring(fence.text) for fence in fences("docs/gesture.md", "xml"))
     assert said(animation) == said(etree.parse(GESTURE / "procanimation" / "raise_hand.xml").getroot())
-    assert said(binding[0]) == said(etree.parse(GESTURE / "gesturebinding.xml").find("MotionUnitSpec"))
+    unit = etree.parse(GESTURE / "gesturebinding.xml").find("MotionUnitSpec")
+    assert unit is not None
+    assert said(binding[0]) == said(unit)
 
 
 def test_the_page_has_a_row_for_every_element_of_an_animation(tmp_path: Path) -> None:

@@ -89,7 +89,7 @@ async def test_whoever_barges_in_is_given_way_to_and_the_planner_knows_what_was_
         (None, {"talk": "DONE", "more": "DONE", "yield": "INTERRUPTED", "away": "DONE"}),
     ],
 )
-async def test_a_story_goes_on_beside_what_waits_to_break_it_off(barges_in, statuses) -> None:
+async def test_a_story_goes_on_beside_what_waits_to_break_it_off(barges_in: float, statuses: dict[str, str]) -> None:
     (story,) = fences(PLANNERS, "xml")
     async with open_pilot() as pilot:
         pilot.perform(story.text)

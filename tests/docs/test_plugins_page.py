@@ -90,7 +90,7 @@ async def test_what_the_engine_cannot_play_is_told_in_a_warning() -> None:
         pilot.block("b", '<wink xmlns="urn:example:wink" id="w" eye="third"/>')
         await pilot.advance(0.1)
         assert pilot.feedback.warnings == [("b:w", "CANNOT_CREATE_BEHAVIOR")]
-        text = pilot.feedback.of("warningFeedback")[0].element.text
+        text = pilot.feedback.of("warningFeedback")[0].text
         assert "there is no eye 'third'; available: left, right" in text
         assert FAULTS["wink-no-such-eye"].warning == "CANNOT_CREATE_BEHAVIOR"
 

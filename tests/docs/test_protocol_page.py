@@ -22,6 +22,8 @@ from reactive_realizer.server.security import Security
 
 from .conftest import Fence, fences, page
 
+Client = TestClient[Any, Any]
+
 SCHEMA = json.loads(DOCUMENT)
 PAGES = ("docs/protocol.md", "docs/anticipators.md", "docs/planners.md")
 EXAMPLES = [example for name in PAGES for example in fences(name, "json")]
@@ -30,7 +32,7 @@ ANSWERS = [example for example in EXAMPLES if example.note]
 
 
 @pytest.fixture
-async def client() -> AsyncIterator[TestClient[Any, Any]]:
+async def client() -> AsyncIterator[Client]:
     async with open_scene(SceneOptions(voice="text")) as scene:
         app = create_app(LiveScene(scene, ManualClock()), Security())
         async with TestClient(TestServer(app)) as client:
@@ -54,10 +56,10 @@ def test_every_message_has_an_example(subtests: pytest.Subtests) -> None:
 
 
 @pytest.mark.parametrize("example", ANSWERS, ids=str)
-async def test_the_answer_to_a_request_has_the_fields_on_the_page(client: TestClient, example: Fence) -> None:
+async def test_the_answer_to_a_request_has_the_fields_on_the_page(client: Client, example: Fence) -> None:
     method, path, status = example.note.removeprefix("answer: ").split()
-    options = {"data": "<bml/>", "headers": {"Content-Type": "text/xml"}} if method == "POST" else {}
-    answer = await client.request(method, path, **options)
+    body = "<bml/>" if method == "POST" else None
+    answer = await client.request(method, path, data=body, headers={"Content-Type": "text/xml"} if body else None)
     told, shown = await answer.json(), json.loads(example.text)
     assert answer.status == int(status)
     assert told.keys() == shown.keys()
@@ -67,14 +69,14 @@ async def test_the_answer_to_a_request_has_the_fields_on_the_page(client: TestCl
         assert told.get(name, {}).keys() == shown.get(name, {}).keys()
 
 
-def routes_of(client: TestClient) -> set[str]:
+def routes_of(client: Client) -> set[str]:
     """Method and path of every route, the files of the page aside."""
     files = {f"/{file.relative_to(STATIC).as_posix()}" for file in STATIC.rglob("*")}
     routes = [(route.method, route.resource.canonical) for route in client.app.router.routes() if route.resource]
     return {f"{method} {path}" for method, path in routes if method in ("GET", "POST") and path not in files}
 
 
-async def test_the_page_lists_every_route(client: TestClient) -> None:
+async def test_the_page_lists_every_route(client: Client) -> None:
     listed = set(re.findall(r"^\| `((?:GET|POST) \S+)` \|", page("docs/protocol.md"), re.MULTILINE))
     assert listed == routes_of(client)
 

@@ -12,23 +12,23 @@ import pytest
 from reactive_realizer.embodiment.avatar import Avatar, Bone
 from reactive_realizer.embodiment.body import Body, JointRotations
 from reactive_realizer.embodiment.frame import rotation_array
-from reactive_realizer.embodiment.quaternion import IDENTITY, from_axis_angle, multiply, rotate
+from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, from_axis_angle, multiply, rotate
 from reactive_realizer.embodiment.two_bone_ik import Arm
-from reactive_realizer.embodiment.vector import add, distance, subtract, unit
+from reactive_realizer.embodiment.vector import Vec3, add, distance, subtract, unit
 from reactive_realizer.errors import RealizerError
 
 AVATARS = Path(str(files("reactive_realizer"))) / "assets" / "avatars"
 
 
 @pytest.fixture(params=["female", "male"], scope="module")
-def avatar(request) -> Avatar:
+def avatar(request: pytest.FixtureRequest) -> Avatar:
     return Avatar.read(AVATARS / f"{request.param}.glb")
 
 
-def bone_places(avatar: Avatar, pose: JointRotations) -> dict[str, tuple]:
+def bone_places(avatar: Avatar, pose: JointRotations) -> dict[str, tuple[Vec3, Quat]]:
     """Forward kinematics on the avatar's own bones, as a renderer does it: name -> (position, rotation)."""
     rotations = avatar.bone_rotations(rotation_array(avatar.skeleton, pose))
-    places: list[tuple] = []
+    places: list[tuple[Vec3, Quat]] = []
     for bone, rotation in zip(avatar.bones, rotations.tolist(), strict=True):
         at, turn = places[bone.parent] if bone.parent >= 0 else ((0.0, 0.0, 0.0), IDENTITY)
         places.append((add(at, rotate(turn, bone.translation)), multiply(turn, tuple(rotation))))
@@ -36,7 +36,7 @@ def bone_places(avatar: Avatar, pose: JointRotations) -> dict[str, tuple]:
 
 
 @pytest.mark.parametrize("side", ["Left", "Right"])
-def test_in_the_default_pose_wrists_hang_below_elbows_below_shoulders(avatar, side):
+def test_in_the_default_pose_wrists_hang_below_elbows_below_shoulders(avatar: Avatar, side: str) -> None:
     places = bone_places(avatar, {})
     shoulder, elbow, wrist, finger = (places[side + name][0] for name in ("Arm", "ForeArm", "Hand", "HandMiddle1"))
     assert shoulder[1] > elbow[1] + 0.2 > wrist[1] + 0.4
@@ -45,7 +45,9 @@ def test_in_the_default_pose_wrists_hang_below_elbows_below_shoulders(avatar, si
 
 
 @pytest.mark.parametrize(("side", "inward"), [("Left", (-1.0, 0.0, 0.0)), ("Right", (1.0, 0.0, 0.0))])
-def test_in_the_default_pose_palms_face_the_thighs_and_thumbs_point_forward(avatar, side, inward):
+def test_in_the_default_pose_palms_face_the_thighs_and_thumbs_point_forward(
+    avatar: Avatar, side: str, inward: Vec3
+) -> None:
     places = bone_places(avatar, {})
     hand, turn = places[f"{side}Hand"]
     # In the T-pose a palm faces the ground.
@@ -53,7 +55,7 @@ def test_in_the_default_pose_palms_face_the_thighs_and_thumbs_point_forward(avat
     assert places[f"{side}HandThumb2"][0][2] > hand[2]
 
 
-def test_the_legs_stand_and_the_head_is_above_the_neck(avatar):
+def test_the_legs_stand_and_the_head_is_above_the_neck(avatar: Avatar) -> None:
     places = bone_places(avatar, {})
     for side in ("Left", "Right"):
         assert places[f"{side}UpLeg"][0][1] > places[f"{side}Leg"][0][1] > places[f"{side}Foot"][0][1] > 0.0
@@ -61,13 +63,13 @@ def test_the_legs_stand_and_the_head_is_above_the_neck(avatar):
     assert places["Head"][0][1] > places["Neck"][0][1] > places["Spine2"][0][1]
 
 
-def test_the_figures_left_is_at_positive_x_and_it_faces_positive_z(avatar):
+def test_the_figures_left_is_at_positive_x_and_it_faces_positive_z(avatar: Avatar) -> None:
     places = bone_places(avatar, {})
     assert places["LeftArm"][0][0] > 0.1 > -0.1 > places["RightArm"][0][0]
     assert places["LeftEye"][0][2] > places["Head"][0][2]
 
 
-def test_every_joint_is_where_its_bone_is_in_any_pose(avatar):
+def test_every_joint_is_where_its_bone_is_in_any_pose(avatar: Avatar) -> None:
     turns = {
         joint: from_axis_angle(unit((i % 3 - 1.0, i % 5 - 2.0, 1.0)), 0.07 * (i % 11))
         for i, joint in enumerate(avatar.skeleton.joints)
@@ -80,7 +82,7 @@ def test_every_joint_is_where_its_bone_is_in_any_pose(avatar):
     assert np.allclose(positions, joints, atol=1e-9)
 
 
-def test_an_elbow_bent_about_x_takes_the_hand_forward_on_both_sides(avatar):
+def test_an_elbow_bent_about_x_takes_the_hand_forward_on_both_sides(avatar: Avatar) -> None:
     bend = from_axis_angle((1.0, 0.0, 0.0), -math.pi / 2)
     places = bone_places(avatar, {"l_elbow": bend, "r_elbow": bend})
     for side in ("Left", "Right"):
@@ -88,7 +90,7 @@ def test_an_elbow_bent_about_x_takes_the_hand_forward_on_both_sides(avatar):
         assert forearm == pytest.approx((0.0, 0.0, 1.0), abs=0.05)
 
 
-def test_the_avatars_have_54_joints_and_the_52_arkit_targets(avatar):
+def test_the_avatars_have_54_joints_and_the_52_arkit_targets(avatar: Avatar) -> None:
     assert len(avatar.skeleton.joints) == 54
     assert len(avatar.morphs) == 52
     assert {"jawOpen", "eyeBlinkLeft", "mouthSmileRight"} <= set(avatar.morphs)
@@ -103,7 +105,7 @@ def bones() -> list[Bone]:
     return [*out, Bone("RightForeArm", 8, (-0.3, 0.0, 0.0)), Bone("RightHand", 9, (-0.3, 0.0, 0.0))]
 
 
-def test_a_bone_without_a_joint_stays_at_rest_and_its_length_counts_for_the_joint_below():
+def test_a_bone_without_a_joint_stays_at_rest_and_its_length_counts_for_the_joint_below() -> None:
     avatar = Avatar.of_bones(bones(), [], "some.glb")
     assert "Twist" not in avatar.skeleton.joints
     assert distance(avatar.skeleton.offset("l_shoulder"), (0.2, 0.4, 0.0)) < 1e-9
@@ -111,19 +113,19 @@ def test_a_bone_without_a_joint_stays_at_rest_and_its_length_counts_for_the_join
     assert rotations[3].tolist() == list(IDENTITY)
 
 
-def test_an_avatar_without_an_arm_is_refused_by_name():
+def test_an_avatar_without_an_arm_is_refused_by_name() -> None:
     with pytest.raises(RealizerError, match=r"some\.glb .* no bone for r_wrist"):
         Avatar.of_bones(bones()[:-1], [], "some.glb")
 
 
 @pytest.mark.parametrize(("way", "said"), [((0.0, 0.0, 0.0), "0 m"), ((math.nan, 0.0, 0.0), "nan m")])
-def test_a_forearm_without_a_length_is_refused_by_name(way, said):
+def test_a_forearm_without_a_length_is_refused_by_name(way: Vec3, said: str) -> None:
     *others, hand = bones()
     with pytest.raises(RealizerError, match=rf"some\.glb .* r_wrist is {said} from the joint above"):
         Avatar.of_bones([*others, Bone(hand.name, hand.parent, way)], [], "some.glb")
 
 
-def test_other_bones_may_have_no_length():
+def test_other_bones_may_have_no_length() -> None:
     parts = [Bone(bone.name, bone.parent, (0.0, 0.0, 0.0)) if bone.name == "Spine" else bone for bone in bones()]
     skeleton = Avatar.of_bones(parts, [], "some.glb").skeleton
     body = Body(skeleton, {"vl5": from_axis_angle((0.0, 1.0, 0.0), 0.5)})
@@ -131,7 +133,7 @@ def test_other_bones_may_have_no_length():
     Arm.of(skeleton, "l").solve((0.0, 0.0, 0.0))
 
 
-def glb(scene: dict | bytes) -> bytes:
+def glb(scene: dict[str, object] | bytes) -> bytes:
     text = scene if isinstance(scene, bytes) else json.dumps(scene).encode()
     return struct.pack("<4sIII4s", b"glTF", 2, 20 + len(text), len(text), b"JSON") + text
 
@@ -148,7 +150,9 @@ def glb(scene: dict | bytes) -> bytes:
         (glb({"nodes": [{"name": "Hips"}], "skins": [{"joints": [0]}], "meshes": []}), "no bone for skullbase"),
     ],
 )
-def test_an_invalid_avatar_file_is_refused_with_its_name_and_the_reason(tmp_path, content, reason):
+def test_an_invalid_avatar_file_is_refused_with_its_name_and_the_reason(
+    tmp_path: Path, content: bytes, reason: str
+) -> None:
     path = tmp_path / "wrong.glb"
     path.write_bytes(content)
     with pytest.raises(RealizerError, match=rf"wrong\.glb cannot be used as an avatar: .*{reason}"):

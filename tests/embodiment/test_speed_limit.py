@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from reactive_realizer.embodiment.avatar import Avatar
-from reactive_realizer.embodiment.body import Body, Skeleton
+from reactive_realizer.embodiment.body import Body, JointRotations, Skeleton
 from reactive_realizer.embodiment.feet import depth, grounded, soles
 from reactive_realizer.embodiment.joints import LEGS
 from reactive_realizer.embodiment.quaternion import (
@@ -21,7 +21,7 @@ from reactive_realizer.embodiment.quaternion import (
     rotate,
 )
 from reactive_realizer.embodiment.speed_limit import SpeedLimit, slowed
-from reactive_realizer.embodiment.vector import UP, distance, length
+from reactive_realizer.embodiment.vector import UP, Vec3, distance, length
 
 SKELETON = Avatar.read(Path(str(files("reactive_realizer"))) / "assets" / "avatars" / "male.glb").skeleton
 FRAME = 0.02
@@ -32,11 +32,11 @@ MOVING = ("vl5", "vt6", "l_sternoclavicular", "l_shoulder", "l_elbow", "r_should
 pose = st.fixed_dictionaries({joint: st.builds(from_euler, radians, radians, radians) for joint in MOVING})
 
 
-def body(pose=None, root=(0.0, 0.0, 0.0)):
+def body(pose: JointRotations | None = None, root: Vec3 = (0.0, 0.0, 0.0)) -> Body:
     return Body(SKELETON, pose or {}, root)
 
 
-def followed(begin, *calls):
+def followed(begin: Body, *calls: tuple[Body, int]) -> list[Body]:
     """The bodies shown, frame by frame, where a limit that begins with a body is given others for so many frames."""
     limit, shown = SpeedLimit(begin), [begin]
     for wanted, frames in calls:
@@ -44,26 +44,26 @@ def followed(begin, *calls):
     return shown
 
 
-def steps(shown, joint):
+def steps(shown: list[Body], joint: str) -> list[float]:
     """By how much a joint moved from each frame to the next, m."""
     return [distance(a.transform(joint).position, b.transform(joint).position) for a, b in pairwise(shown)]
 
 
 @settings(max_examples=50)
 @given(pose, pose)
-def test_no_wrist_moves_5_cm_in_20_ms(begin, wanted):
+def test_no_wrist_moves_5_cm_in_20_ms(begin: JointRotations, wanted: JointRotations) -> None:
     shown = followed(body(begin), (body(wanted), 6))
     for wrist in WRISTS:
         assert max(steps(shown, wrist)) < 0.05
 
 
-def test_a_small_step_passes_unchanged():
+def test_a_small_step_passes_unchanged() -> None:
     wanted = {joint: from_axis_angle((1.0, 0.0, 0.0), 0.003) for joint in MOVING}
     limited = SpeedLimit(body())(body(wanted), FRAME)
     assert {joint: limited.rotation(joint) for joint in MOVING} == wanted
 
 
-def test_a_distant_pose_is_reached_and_kept():
+def test_a_distant_pose_is_reached_and_kept() -> None:
     wanted = {"l_shoulder": from_axis_angle((1.0, 0.0, 0.0), -2.5), "skullbase": from_axis_angle((0.0, 1.0, 0.0), 1.0)}
     shown = followed(body(), (body(wanted), 60), (body(), 60))
     for joint, goal in wanted.items():
@@ -71,12 +71,12 @@ def test_a_distant_pose_is_reached_and_kept():
         assert shown[-1].rotation(joint) == pytest.approx(IDENTITY)
 
 
-def test_the_head_stays_within_the_limit_of_a_neck():
+def test_the_head_stays_within_the_limit_of_a_neck() -> None:
     limited = SpeedLimit(body())(body({"skullbase": from_axis_angle((0.0, 1.0, 0.0), 1.5)}), FRAME)
     assert angle(limited.rotation("skullbase")) == pytest.approx(8.0 * FRAME)
 
 
-def test_the_sign_of_a_quaternion_has_no_effect_on_the_limit():
+def test_the_sign_of_a_quaternion_has_no_effect_on_the_limit() -> None:
     turned = from_axis_angle((1.0, 0.0, 0.0), 0.4)
     w, x, y, z = from_axis_angle((1.0, 0.0, 0.0), 0.41)
     assert slowed({"l_elbow": turned}, {"l_elbow": (-w, -x, -y, -z)}, FRAME) == {"l_elbow": (-w, -x, -y, -z)}
@@ -84,7 +84,7 @@ def test_the_sign_of_a_quaternion_has_no_effect_on_the_limit():
 
 @settings(max_examples=25)
 @given(st.lists(st.tuples(pose, st.integers(1, 4)), min_size=2, max_size=3))
-def test_the_acceleration_of_a_wrist_is_limited(calls):
+def test_the_acceleration_of_a_wrist_is_limited(calls: list[tuple[JointRotations, int]]) -> None:
     shown = followed(body(), *((body(wanted), frames) for wanted, frames in calls))
     for wrist in WRISTS:
         moved = [0.0, *steps(shown, wrist)]
@@ -93,14 +93,14 @@ def test_the_acceleration_of_a_wrist_is_limited(calls):
 
 @settings(max_examples=10)
 @given(pose)
-def test_a_wrist_reaches_its_goal_without_overshooting(wanted):
+def test_a_wrist_reaches_its_goal_without_overshooting(wanted: JointRotations) -> None:
     shown = followed(body(), (body(wanted), 60))
     shares = [angle(difference(each.rotation("r_elbow"), wanted["r_elbow"])) for each in shown]
     assert all(after < before + 1e-9 for before, after in pairwise(shares))
     assert shares[-1] < 1e-6
 
 
-def test_a_wrist_that_reverses_starts_from_rest():
+def test_a_wrist_that_reverses_starts_from_rest() -> None:
     there = {"r_elbow": from_axis_angle((1.0, 0.0, 0.0), -2.0)}
     moved = steps(followed(body(), (body(there), 5), (body(), 2)), "r_wrist")
     assert moved[0] < 0.0151
@@ -108,12 +108,12 @@ def test_a_wrist_that_reverses_starts_from_rest():
     assert moved[5] < 0.0151, "and back slowly"
 
 
-def test_fingertips_move_less_than_3_cm_by_a_turn_of_the_wrist():
+def test_fingertips_move_less_than_3_cm_by_a_turn_of_the_wrist() -> None:
     shown = followed(body(), (body({"r_wrist": from_axis_angle((1.0, 0.0, 0.0), 1.5)}), 1))
     assert steps(shown, "r_middle3")[0] < 0.03
 
 
-def test_the_root_stays_below_2_m_per_second_and_carries_the_arms():
+def test_the_root_stays_below_2_m_per_second_and_carries_the_arms() -> None:
     shown = followed(body(), (body(root=(0.3, -0.4, 0.0)), 20))
     places = [each.root for each in shown]
     assert max(distance(a, b) for a, b in pairwise(places)) == pytest.approx(0.04)
@@ -122,41 +122,41 @@ def test_the_root_stays_below_2_m_per_second_and_carries_the_arms():
     assert steps(shown, "r_wrist")[0] == pytest.approx(0.04)
 
 
-def sunk(shown):
+def sunk(shown: Body) -> float:
     """How far its lowest foot is under the ground, m."""
     return depth(shown, soles(SKELETON))
 
 
-def bent(knees, root):
+def bent(knees: float, root: float) -> Body:
     turns = {"hip": -0.5 * knees, "knee": knees, "ankle": -0.5 * knees}
     pose = {f"{side}_{joint}": from_euler(turn, 0.0, 0.0) for side in "lr" for joint, turn in turns.items()}
     return body(pose, (0.0, root, 0.0))
 
 
-def test_getting_up_too_fast_does_not_push_the_feet_into_the_ground():
+def test_getting_up_too_fast_does_not_push_the_feet_into_the_ground() -> None:
     low = grounded(bent(2.0, 0.0))
     shown = followed(low, (body(), 40))
     assert max(map(sunk, shown)) < 0.001
     assert shown[-1].root == (0.0, 0.0, 0.0)
 
 
-def test_feet_may_be_requested_below_the_ground():
+def test_feet_may_be_requested_below_the_ground() -> None:
     shown = followed(body(), (bent(0.0, -0.3), 40))
     assert sunk(shown[-1]) == pytest.approx(0.3)
     assert steps(shown, "HumanoidRoot")[0] == pytest.approx(0.04)
 
 
-def squat(knees):
+def squat(knees: float) -> Body:
     return grounded(bent(knees, 0.0))
 
 
-def slid(shown):
+def slid(shown: list[Body]) -> float:
     """The furthest that an ankle was from where it stood at first, m."""
     ankles = ("l_ankle", "r_ankle")
     return max(distance(b.transform(j).position, shown[0].transform(j).position) for b in shown for j in ankles)
 
 
-def test_knees_compensate_for_a_root_that_lags_behind():
+def test_knees_compensate_for_a_root_that_lags_behind() -> None:
     low, high = squat(2.0), squat(0.3)
     for begin, end in ((low, high), (high, low)):
         shown = followed(begin, (end, 40))
@@ -166,7 +166,7 @@ def test_knees_compensate_for_a_root_that_lags_behind():
         assert shown[-1].root == end.root
 
 
-def test_a_leg_is_slowed_as_a_whole_so_that_its_sole_stays_level():
+def test_a_leg_is_slowed_as_a_whole_so_that_its_sole_stays_level() -> None:
     kneeling = bent(2.4, 0.0)
     shown = followed(body(), (kneeling, 3))
     for each in shown:
@@ -176,13 +176,13 @@ def test_a_leg_is_slowed_as_a_whole_so_that_its_sole_stays_level():
     )
 
 
-def test_feet_out_of_reach_stay_below_the_pelvis():
+def test_feet_out_of_reach_stay_below_the_pelvis() -> None:
     ahead = followed(body(), (body(root=(0.0, 0.0, 5.0)), 30))
     assert max(abs(b.transform("l_ankle").position[2] - b.transform("l_hip").position[2]) for b in ahead) < 0.15
     assert max(map(sunk, ahead)) < 0.001
 
 
-def test_a_figure_without_legs_is_limited_too():
+def test_a_figure_without_legs_is_limited_too() -> None:
     kept = [joint for joint in SKELETON.joints if joint not in LEGS]
     parents = [-1 if (above := SKELETON.parent(joint)) is None else kept.index(above) for joint in kept]
     bust = Skeleton(tuple(kept), tuple(parents), tuple(map(SKELETON.offset, kept)))
@@ -197,7 +197,7 @@ places = st.tuples(*[st.floats(-0.5, 0.5)] * 3)
 
 @settings(max_examples=50)
 @given(st.lists(st.tuples(lower, places, st.integers(1, 10)), min_size=2, max_size=4))
-def test_the_root_keeps_its_limit_for_any_request(calls):
+def test_the_root_keeps_its_limit_for_any_request(calls: list[tuple[JointRotations, Vec3, int]]) -> None:
     shown = followed(body(), *((body(pose, root), frames) for pose, root, frames in calls))
     assert max(steps(shown, "HumanoidRoot")) < 1.001 * 2.0 * FRAME
     for joint, most in {"HumanoidRoot": 4.0, **dict.fromkeys(LEGS, 15.0)}.items():

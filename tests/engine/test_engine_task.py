@@ -1,14 +1,18 @@
 """Engines play at once, their effects come in the order of their ranks, and one that fails fails alone."""
 
 import asyncio
+from collections.abc import AsyncIterator, Awaitable, Callable
 
 import pytest
 
+from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.behaviors import Wait
 from reactive_realizer.bml.names import BML, Location
 from reactive_realizer.clock.ticker import Tick
+from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.embodiment.audio import AudioChange
 from reactive_realizer.engine.effects import Play
-from reactive_realizer.engine.engine import DefaultEngine
+from reactive_realizer.engine.engine import DefaultEngine, Engine
 from reactive_realizer.engine.engine_task import EngineTask, play_all
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.time_peg import AnticipatorPeg, OffsetPeg
@@ -17,60 +21,73 @@ from reactive_realizer.planunit.timing import timing_at
 from reactive_realizer.reactive.graph import Graph
 
 
-def unit(name, start, end, *resources):
+def unit(name: str, start: float, end: float, *resources: str) -> PlanUnit:
     behavior = Wait(id=name, namespace=BML, name="wait", location=Location(1, 1), order=0)
     made = PlanUnit(BlockKey("alice", "b"), behavior, timing_at({"start": 0.0, "end": 1.0}), frozenset(resources))
     graph = Graph()
     times = {"start": start, "end": end}
     made.points = [
-        SyncPoint(sync, OffsetPeg(graph, sync, AnticipatorPeg(graph, sync, times[sync]), 0.0)) for sync in times
+        SyncPoint(sync, OffsetPeg(graph, sync, AnticipatorPeg(graph, sync, GlobalTime(times[sync])), 0.0))
+        for sync in times
     ]
     made.release()
     return made
 
 
-def engine(name, *units):
-    made = DefaultEngine(name)
+class FinishedUnits(DefaultEngine):
+    """Plays units that were made elsewhere."""
+
+    def plan(self, block: BlockKey, behavior: Behavior, prepared: object) -> PlanUnit:
+        raise NotImplementedError
+
+
+PlayEngines = Callable[..., Awaitable[list[Play]]]
+
+
+def engine(name: str, *units: PlanUnit) -> FinishedUnits:
+    made = FinishedUnits(name)
     for each in units:
         made.add(each)
     return made
 
 
 @pytest.fixture
-async def play():
-    running = []
+async def play() -> AsyncIterator[PlayEngines]:
+    running: list[asyncio.Future[None]] = []
 
-    async def play_engines(number, *engines):
+    async def play_engines(number: int, *engines: Engine) -> list[Play]:
         tasks = [EngineTask(each) for each in engines]
         running.extend(asyncio.ensure_future(task.run()) for task in tasks)
-        return await play_all(tasks, Tick(number, 0.0))
+        return await play_all(tasks, Tick(number, GlobalTime(0.0)))
 
     yield play_engines
     for task in running:
         task.cancel()
 
 
-def reached(play):
+def reached(play: Play) -> list[tuple[str, str, float]]:
     return [(each.unit.behavior.id, each.point.id, each.time) for each in play.reached]
 
 
-def dropped(play):
+def dropped(play: Play) -> list[tuple[str, str]]:
     return [(each.unit.behavior.id, each.fault.code) for each in play.dropped]
 
 
-async def test_effects_come_in_the_order_of_the_engines(play) -> None:
+async def test_effects_come_in_the_order_of_the_engines(play: PlayEngines) -> None:
     plays = await play(100, engine("one", unit("a", 0.0, 2.0)), engine("two", unit("b", 0.5, 0.7)))
     assert [reached(each) for each in plays] == [[("a", "start", 0.0)], [("b", "start", 0.5), ("b", "end", 0.7)]]
 
 
-async def test_a_playing_unit_keeps_its_resource_and_the_newer_one_is_dropped(play) -> None:
+async def test_a_playing_unit_keeps_its_resource_and_the_newer_one_is_dropped(play: PlayEngines) -> None:
     arms = engine("arms", unit("late", 0.5, 2.0, "arm"), unit("early", 0.0, 2.0, "arm"), unit("other", 0.5, 2.0, "leg"))
     (played,) = await play(100, arms)
     assert dropped(played) == [("late", "resource-taken")]
     assert [each.behavior.id for each in arms.player.playing] == ["early", "other"]
 
 
-async def test_a_unit_that_ends_frees_its_resource_for_one_that_starts_in_the_same_tick(play) -> None:
+async def test_a_unit_that_ends_frees_its_resource_for_one_that_starts_in_the_same_tick(
+    play: PlayEngines,
+) -> None:
     arms = engine("arms", unit("first", 0.0, 0.9, "arm"))
     await play(10, arms)
     arms.add(unit("second", 0.9, 2.0, "arm"))
@@ -78,9 +95,9 @@ async def test_a_unit_that_ends_frees_its_resource_for_one_that_starts_in_the_sa
     assert reached(played) == [("first", "end", 0.9), ("second", "start", 0.9)]
 
 
-async def test_an_engine_that_raises_drops_its_units_and_the_others_play(play) -> None:
-    class Broken(DefaultEngine):
-        def play(self, tick):
+async def test_an_engine_that_raises_drops_its_units_and_the_others_play(play: PlayEngines) -> None:
+    class Broken(FinishedUnits):
+        def play(self, tick: Tick) -> Play:
             raise ZeroDivisionError
 
     broken = Broken("alice/broken")
@@ -92,9 +109,9 @@ async def test_an_engine_that_raises_drops_its_units_and_the_others_play(play) -
     assert reached(second) == [("c", "start", 0.0)]
 
 
-async def test_an_engine_that_fails_after_firing_reports_the_points_reached(play) -> None:
-    class Broken(DefaultEngine):
-        def audio(self, tick):
+async def test_an_engine_that_fails_after_firing_reports_the_points_reached(play: PlayEngines) -> None:
+    class Broken(FinishedUnits):
+        def audio(self, tick: Tick) -> tuple[AudioChange, ...]:
             raise ZeroDivisionError
 
     arms = Broken("alice/broken")
@@ -103,16 +120,16 @@ async def test_an_engine_that_fails_after_firing_reports_the_points_reached(play
     (played,) = await play(100, arms)
     assert reached(played) == [("a", "start", 0.0), ("c", "start", 0.0), ("c", "end", 0.5)]
     assert dropped(played) == [("b", "resource-taken"), ("a", "engine-failed")]
-    assert arms.fail(1.0, played.dropped[0].fault) == Play()
+    assert arms.fail(GlobalTime(1.0), played.dropped[0].fault) == Play()
 
 
 async def test_engines_go_on_after_a_cancelled_round() -> None:
     tasks = [EngineTask(engine("one")), EngineTask(engine("two"))]
     running = [asyncio.ensure_future(task.run()) for task in tasks]
-    given_up = asyncio.ensure_future(play_all(tasks, Tick(0, 0.0)))
+    given_up = asyncio.ensure_future(play_all(tasks, Tick(0, GlobalTime(0.0))))
     await asyncio.sleep(0)
     given_up.cancel()
     await asyncio.gather(given_up, return_exceptions=True)
-    assert len(await play_all(tasks, Tick(1, 0.0))) == 2
+    assert len(await play_all(tasks, Tick(1, GlobalTime(0.0)))) == 2
     for task in running:
         task.cancel()

@@ -22,7 +22,9 @@ def arm(id_: str, tied: tuple[str, ...] = (), **times: float) -> PlanUnit:
     behavior = Wait(id=id_, namespace=BML, name="wait", location=Location(1, 1), order=0)
     unit = PlanUnit(BlockKey("alice", "b"), behavior, timing_at(times), frozenset({"arm"}))
     graph = Graph()
-    pegs = {sync: OffsetPeg(graph, sync, AnticipatorPeg(graph, sync, time), 0.0) for sync, time in times.items()}
+    pegs = {
+        sync: OffsetPeg(graph, sync, AnticipatorPeg(graph, sync, GlobalTime(time)), 0.0) for sync, time in times.items()
+    }
     unit.points = [SyncPoint(sync, peg, sync in tied) for sync, peg in pegs.items()]
     unit.release()
     return unit
@@ -43,26 +45,26 @@ def interrupt(unit: PlanUnit, time: float) -> None:
         unit.interrupt(GlobalTime(time))
 
 
-def test_a_unit_past_its_relax_ends_when_the_next_begins_one_round_later(player) -> None:
+def test_a_unit_past_its_relax_ends_when_the_next_begins_one_round_later(player: Player) -> None:
     first, second = arm("first", start=0.0, relax=1.0, end=2.0), arm("second", start=1.25, end=3.0)
     player.add(first)
     player.add(second)
     play(player, 1.0)
     assert play(player, 1.3) == []
-    assert player.take_ending() == (EndUnit(first, 1.25),)
+    assert player.take_ending() == (EndUnit(first, GlobalTime(1.25)),)
     assert player.take_ending() == ()
     interrupt(first, 1.25)
     assert play(player, 1.3) == ["second:start"]
     assert player.take_dropped() == ()
 
 
-def test_the_relax_and_the_next_start_may_be_due_in_one_tick(player) -> None:
+def test_the_relax_and_the_next_start_may_be_due_in_one_tick(player: Player) -> None:
     first, second = arm("first", start=0.0, relax=1.001, end=2.0), arm("second", start=1.004, end=3.0)
     player.add(first)
     player.add(second)
     play(player, 0.0)
     assert play(player, 1.01) == ["first:relax"]
-    assert player.take_ending() == (EndUnit(first, 1.004),)
+    assert player.take_ending() == (EndUnit(first, GlobalTime(1.004)),)
 
 
 @pytest.mark.parametrize(
@@ -74,7 +76,7 @@ def test_the_relax_and_the_next_start_may_be_due_in_one_tick(player) -> None:
     ],
     ids=["it is not that far", "BML says when it ends", "it has no way back"],
 )
-def test_a_unit_before_its_relax_keeps_its_resource(player, first) -> None:
+def test_a_unit_before_its_relax_keeps_its_resource(player: Player, first: PlanUnit) -> None:
     second = arm("second", start=1.25, end=3.0)
     player.add(first)
     player.add(second)
@@ -85,7 +87,7 @@ def test_a_unit_before_its_relax_keeps_its_resource(player, first) -> None:
     assert first.live
 
 
-def test_a_relax_that_comes_after_the_start_of_the_next_within_a_tick_is_too_late(player) -> None:
+def test_a_relax_that_comes_after_the_start_of_the_next_within_a_tick_is_too_late(player: Player) -> None:
     first, second = arm("first", start=0.0, relax=1.004, end=2.0), arm("second", start=1.001, end=3.0)
     player.add(first)
     player.add(second)
@@ -95,7 +97,9 @@ def test_a_relax_that_comes_after_the_start_of_the_next_within_a_tick_is_too_lat
 
 
 @pytest.mark.parametrize("interrupted", [None, 1.25])
-def test_a_unit_that_ended_in_a_late_tick_still_had_its_resource_before(player, interrupted) -> None:
+def test_a_unit_that_ended_in_a_late_tick_still_had_its_resource_before(
+    player: Player, interrupted: float | None
+) -> None:
     first, second = arm("first", start=0.0, end=1.25), arm("second", start=1.2, end=3.0)
     player.add(first)
     play(player, 1.0)
@@ -108,7 +112,7 @@ def test_a_unit_that_ended_in_a_late_tick_still_had_its_resource_before(player, 
     assert [(each.unit, each.fault.code) for each in player.take_dropped()] == [(second, "resource-taken")]
 
 
-def test_a_resource_given_away_before_the_end_is_free(player) -> None:
+def test_a_resource_given_away_before_the_end_is_free(player: Player) -> None:
     first, second = arm("first", start=0.0, relax=1.0, end=1.25), arm("second", start=1.2, end=3.0)
     player.add(first)
     player.add(second)
@@ -116,7 +120,7 @@ def test_a_resource_given_away_before_the_end_is_free(player) -> None:
     assert play(player, 1.3) == ["first:relax", "first:end", "second:start"]
 
 
-def test_a_unit_that_ended_before_the_last_tick_is_forgotten(player) -> None:
+def test_a_unit_that_ended_before_the_last_tick_is_forgotten(player: Player) -> None:
     unit = arm("first", start=0.0, end=1.0)
     forgotten = weakref.ref(unit)
     player.add(unit)
@@ -126,7 +130,7 @@ def test_a_unit_that_ended_before_the_last_tick_is_forgotten(player) -> None:
     assert forgotten() is None
 
 
-def test_a_unit_that_joins_late_competes_with_those_that_play_now(player) -> None:
+def test_a_unit_that_joins_late_competes_with_those_that_play_now(player: Player) -> None:
     first, second = arm("first", start=0.0, end=1.25), arm("second", start=0.5, relax=1.3, end=3.0)
     third = arm("third", start=0.9, end=3.0)
     player.add(first)
@@ -136,4 +140,4 @@ def test_a_unit_that_joins_late_competes_with_those_that_play_now(player) -> Non
     assert play(player, 1.3) == ["second:start", "second:relax"]
     player.add(third)
     assert play(player, 1.3) == []
-    assert player.take_ending() == (EndUnit(second, 1.3),)
+    assert player.take_ending() == (EndUnit(second, GlobalTime(1.3)),)

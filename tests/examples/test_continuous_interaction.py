@@ -3,7 +3,7 @@
 import itertools
 import runpy
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +20,7 @@ Play = Callable[[str], dict[str, Any]]
 
 
 @pytest.fixture
-def example(monkeypatch: pytest.MonkeyPatch) -> Play:
+def example(monkeypatch: pytest.MonkeyPatch) -> Iterator[Play]:
     """What a program of the examples defines, by its name."""
     monkeypatch.syspath_prepend(str(EXAMPLES))
     yield lambda name: runpy.run_path(str(EXAMPLES / f"{name}.py"))

@@ -1,16 +1,19 @@
 """Feedback has the forms of BML 1.0, and one order."""
 
 import logging
+from collections.abc import Mapping, Sequence
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from lxml import etree
 
+from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.document import parse
 from reactive_realizer.bml.names import BML, BMLA, BMLT, OWN, is_sync_id
+from reactive_realizer.clock.units import BlockTime, GlobalTime
 from reactive_realizer.errors import WarningType
-from reactive_realizer.feedback.feedback_manager import FeedbackManager, ProgressOrder
+from reactive_realizer.feedback.feedback_manager import FeedbackManager, ProgressOrder, Report
 from reactive_realizer.feedback.messages import (
     BehaviorPrediction,
     BlockProgress,
@@ -22,16 +25,26 @@ from reactive_realizer.feedback.xml import seconds, to_xml
 from reactive_realizer.limits import Limits
 
 
-def read(message):
+def read(message: BlockProgress | SyncPointProgress | WarningFeedback | PredictionFeedback) -> etree._Element:
     xml = to_xml(message)
     assert "\n" not in xml
     return etree.fromstring(xml)
 
 
+def attributes(element: etree._Element) -> dict[str, str]:
+    return {str(name): str(value) for name, value in element.attrib.items()}
+
+
+def behaviors(text: str) -> Sequence[Behavior]:
+    (parsed,) = parse(text, Limits())
+    assert parsed.block
+    return parsed.block.behaviors
+
+
 def test_block_progress_has_id_time_character_and_status() -> None:
-    element = read(BlockProgress("alice", "b", "start", 1.5, "IN_EXEC"))
+    element = read(BlockProgress("alice", "b", "start", GlobalTime(1.5), "IN_EXEC"))
     assert element.tag == f"{{{BML}}}blockProgress"
-    assert dict(element.attrib) == {
+    assert attributes(element) == {
         "id": "b:start",
         "globalTime": "1.5",
         "characterId": "alice",
@@ -40,9 +53,9 @@ def test_block_progress_has_id_time_character_and_status() -> None:
 
 
 def test_sync_point_progress_has_the_time_in_its_block_and_on_the_clock() -> None:
-    element = read(SyncPointProgress("alice", "b", "h", "stroke:1", 0.5, 2.0, {"word": "3"}))
+    element = read(SyncPointProgress("alice", "b", "h", "stroke:1", BlockTime(0.5), GlobalTime(2.0), {"word": "3"}))
     assert element.tag == f"{{{BML}}}syncPointProgress"
-    assert dict(element.attrib) == {
+    assert attributes(element) == {
         "id": "b:h:stroke:1",
         "time": "0.5",
         "globalTime": "2",
@@ -53,7 +66,7 @@ def test_sync_point_progress_has_the_time_in_its_block_and_on_the_clock() -> Non
 
 def test_a_warning_has_a_type_and_a_reason() -> None:
     element = read(WarningFeedback("alice", "b:h", WarningType.NO_SUCH_TARGET, "there is no <such> target & no other"))
-    assert dict(element.attrib) == {"id": "b:h", "type": "NO_SUCH_TARGET", "characterId": "alice"}
+    assert attributes(element) == {"id": "b:h", "type": "NO_SUCH_TARGET", "characterId": "alice"}
     assert element.text == "there is no <such> target & no other"
 
 
@@ -62,18 +75,18 @@ def test_a_warning_of_a_document_names_no_character() -> None:
 
 
 @given(st.text(), st.text(), st.text(), st.text())
-def test_any_name_and_any_reason_can_be_written_as_xml(character, block, name, text) -> None:
-    read(BlockProgress(character, block, name, 1.0, "IN_EXEC"))
-    read(SyncPointProgress(character, block, name, text, 0.0, 1.0, {"word": text}))
+def test_any_name_and_any_reason_can_be_written_as_xml(character: str, block: str, name: str, text: str) -> None:
+    read(BlockProgress(character, block, name, GlobalTime(1.0), "IN_EXEC"))
+    read(SyncPointProgress(character, block, name, text, BlockTime(0.0), GlobalTime(1.0), {"word": text}))
     read(WarningFeedback(character, block, WarningType.EXECUTION_FAILURE, text))
-    read(PredictionFeedback(character, block, 0.0, 1.0, "LURKING"))
+    read(PredictionFeedback(character, block, GlobalTime(0.0), GlobalTime(1.0), "LURKING"))
 
 
 @pytest.mark.parametrize(
     ("time", "text"),
     [(0.0, "0"), (-0.0, "0"), (1.0, "1"), (0.1 + 0.2, "0.3"), (1 / 3, "0.333333"), (1e-7, "0"), (100.0, "100")],
 )
-def test_times_have_at_most_six_decimals_and_no_more_than_they_need(time, text) -> None:
+def test_times_have_at_most_six_decimals_and_no_more_than_they_need(time: float, text: str) -> None:
     assert seconds(time) == text
 
 
@@ -84,47 +97,47 @@ PREDICTED = """
 
 
 @pytest.mark.parametrize("namespace", [f' xmlns="{BML}"', ""])
-def test_a_prediction_has_every_behavior_as_it_was_written_with_its_known_times(namespace) -> None:
-    (parsed,) = parse(f'<bml{namespace} id="b">{PREDICTED}</bml>', Limits())
-    say, head = parsed.block.behaviors
+def test_a_prediction_has_every_behavior_as_it_was_written_with_its_known_times(namespace: str) -> None:
+    say, head = behaviors(f'<bml{namespace} id="b">{PREDICTED}</bml>')
     predicted = (
-        BehaviorPrediction(say, {"start": 1.0, "now": 1.4, "end": 2.0}),
-        BehaviorPrediction(head, {"start": 1.0, "stroke:1": 1.4, "end": 3.25}),
+        BehaviorPrediction(say, {"start": BlockTime(1.0), "now": BlockTime(1.4), "end": BlockTime(2.0)}),
+        BehaviorPrediction(head, {"start": BlockTime(1.0), "stroke:1": BlockTime(1.4), "end": BlockTime(3.25)}),
     )
-    element = read(PredictionFeedback("alice", "b", 10.0, 13.25, "LURKING", predicted))
+    element = read(PredictionFeedback("alice", "b", GlobalTime(10.0), GlobalTime(13.25), "LURKING", predicted))
     (block,) = element.findall(f"{{{BML}}}bml")
-    assert dict(block.attrib) == {
+    assert attributes(block) == {
         "id": "b",
         "globalStart": "10",
         "globalEnd": "13.25",
         f"{{{BMLA}}}status": "LURKING",
     }
-    speech, nod = element[1:]
+    _, speech, nod = element
     assert (etree.QName(speech).localname, speech.get("id"), speech.get("start")) == ("speech", "b:say", "1")
-    assert "".join(speech.itertext()).strip() == "Well then."
+    assert "".join(str(text) for text in speech.itertext()).strip() == "Well then."
     assert next(e for e in speech.iter() if etree.QName(e).localname == "sync").get(f"{{{OWN}}}time") == "1.4"
-    assert dict(nod.attrib) == {"id": "b:h", "lexeme": "NOD", "amount": "0.3", "start": "1", "end": "3.25"}
+    assert attributes(nod) == {"id": "b:h", "lexeme": "NOD", "amount": "0.3", "start": "1", "end": "3.25"}
 
 
 KEYFRAME = f'<bmlt:keyframe xmlns:bmlt="{BMLT}" id="k" name="wave"/>'
 
 
-def predicted(times):
+def predicted(times: Mapping[str, BlockTime]) -> dict[str, str]:
     """The attributes of a keyframe animation with these points in a prediction."""
-    (parsed,) = parse(f'<bml xmlns="{BML}" id="b">{KEYFRAME}</bml>', Limits())
-    (keyframe,) = parsed.block.behaviors
-    behaviors = (BehaviorPrediction(keyframe, times),)
-    return dict(read(PredictionFeedback("alice", "b", 0.0, 1.0, "LURKING", behaviors))[1].attrib)
+    (keyframe,) = behaviors(f'<bml xmlns="{BML}" id="b">{KEYFRAME}</bml>')
+    predictions = (BehaviorPrediction(keyframe, times),)
+    return attributes(
+        read(PredictionFeedback("alice", "b", GlobalTime(0.0), GlobalTime(1.0), "LURKING", predictions))[1]
+    )
 
 
 @given(
     st.text() | st.sampled_from(["id", "name", "xmlns", "xmlns:a", "a b", "1x", "{x}", "{urn:x}y", "a+b", "", "é-1.a"])
 )
-def test_a_point_is_predicted_by_an_attribute_of_its_name_or_left_out_if_that_is_no_attribute_name(sync) -> None:
-    attributes = predicted({sync: 0.5})
-    assert attributes.pop("id") == "b:k"
-    assert attributes.pop("name") == "wave"
-    assert attributes == ({sync: "0.5"} if is_sync_id(sync) and sync != "name" else {})
+def test_a_point_is_predicted_by_an_attribute_of_its_name_or_left_out_if_that_is_no_attribute_name(sync: str) -> None:
+    found = predicted({sync: BlockTime(0.5)})
+    assert found.pop("id") == "b:k"
+    assert found.pop("name") == "wave"
+    assert found == ({sync: "0.5"} if is_sync_id(sync) and sync != "name" else {})
 
 
 @pytest.mark.parametrize(
@@ -137,23 +150,29 @@ def test_a_point_is_predicted_by_an_attribute_of_its_name_or_left_out_if_that_is
         ),
     ],
 )
-def test_a_sync_id_is_a_legal_attribute_name(name, may) -> None:
+def test_a_sync_id_is_a_legal_attribute_name(name: str, may: bool) -> None:
     assert is_sync_id(name) is may
 
 
 @pytest.fixture
-def told():
+def told() -> tuple[FeedbackManager, list[Report]]:
     manager = FeedbackManager()
-    reports = []
+    reports: list[Report] = []
     manager.listen(reports.append)
     return manager, reports
 
 
-def progress(name, time):
-    return SyncPointProgress("alice", "b", name, "start", 0.0, time)
+def fail(report: Report) -> None:
+    raise ZeroDivisionError
 
 
-def test_within_a_tick_progress_is_sent_by_time_then_block_then_behavior_then_sync_point(told) -> None:
+def progress(name: str, time: float) -> SyncPointProgress:
+    return SyncPointProgress("alice", "b", name, "start", BlockTime(0.0), GlobalTime(time))
+
+
+def test_within_a_tick_progress_is_sent_by_time_then_block_then_behavior_then_sync_point(
+    told: tuple[FeedbackManager, list[Report]],
+) -> None:
     manager, reports = told
     places = {
         "late": ProgressOrder(2.0, 0.0, 1, 0, 0),
@@ -166,21 +185,23 @@ def test_within_a_tick_progress_is_sent_by_time_then_block_then_behavior_then_sy
     for name, place in places.items():
         manager.add_progress(progress(name, place.time), place)
     manager.add(WarningFeedback("alice", "b", WarningType.NO_SUCH_TARGET, "said last, told first"))
-    manager.flush(2.0)
+    manager.flush(GlobalTime(2.0))
     told_ids = [getattr(report.message, "behavior", "warning") for report in reports]
     assert told_ids == ["warning", *reversed(places)]
     assert {report.time for report in reports} == {2.0}
-    manager.flush(3.0)
+    manager.flush(GlobalTime(3.0))
     assert len(reports) == 7, "nothing is told twice"
 
 
-def test_a_listener_that_fails_does_not_stop_the_others(told, caplog) -> None:
+def test_a_listener_that_fails_does_not_stop_the_others(
+    told: tuple[FeedbackManager, list[Report]], caplog: pytest.LogCaptureFixture
+) -> None:
     manager, reports = told
-    stop = manager.listen(lambda report: 1 / 0)
+    stop = manager.listen(fail)
     manager.listen(lambda report: stop())
     with caplog.at_level(logging.CRITICAL):
         for _ in range(2):
             manager.add_progress(progress("h", 0.0), ProgressOrder(0.0, 0.0, 1, 0, 0))
-            manager.flush(0.0)
+            manager.flush(GlobalTime(0.0))
     assert len(reports) == 2
     stop()

@@ -4,6 +4,7 @@ import pytest
 
 from reactive_realizer.bml.behaviors import Wait
 from reactive_realizer.bml.names import BML, Location
+from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.time_peg import AnticipatorPeg, BeforePeg, OffsetPeg
 from reactive_realizer.planunit.phase_clock import PhaseClock
@@ -15,50 +16,53 @@ from reactive_realizer.reactive.graph import Graph
 class Told(PlanUnit):
     """Notes what it is told."""
 
-    def __init__(self, **times) -> None:
+    def __init__(self, **times: float | None) -> None:
         behavior = Wait(id="w", namespace=BML, name="wait", location=Location(1, 1), order=0)
         known = {sync: float(i) for i, sync in enumerate(times)}
         super().__init__(BlockKey("alice", "b"), behavior, timing_at(known))
-        self.told: list[tuple] = []
+        self.told: list[tuple[str, float]] = []
         self.graph = Graph()
-        self.sources = {sync: AnticipatorPeg(self.graph, sync, time) for sync, time in times.items()}
+        self.sources = {
+            sync: AnticipatorPeg(self.graph, sync, None if time is None else GlobalTime(time))
+            for sync, time in times.items()
+        }
         self.points = [SyncPoint(sync, OffsetPeg(self.graph, sync, peg, 0.0)) for sync, peg in self.sources.items()]
         self.release()
 
-    def on_start(self, time):
+    def on_start(self, time: GlobalTime) -> None:
         self.told.append(("begins", time))
 
-    def on_sync(self, sync, time):
+    def on_sync(self, sync: str, time: GlobalTime) -> None:
         self.told.append((sync, time))
 
-    def on_finish(self, time):
+    def on_finish(self, time: GlobalTime) -> None:
         self.told.append(("finished", time))
 
-    def move(self, sync, time):
+    def move(self, sync: str, time: float) -> None:
         with self.graph.transaction("move"):
-            self.sources[sync].set(time)
+            self.sources[sync].set(GlobalTime(time))
             self.keep_order()
 
-    def fired(self, now):
-        due = self.due_points(now)
-        self.fire(due, now)
+    def fired(self, now: float) -> list[tuple[str, float]]:
+        due = self.due_points(GlobalTime(now))
+        self.fire(due, GlobalTime(now))
         with self.graph.transaction("reached"):
             for point, time in due:
                 point.peg.pin(time)
         return [(point.id, time) for point, time in due]
 
-    def cut(self, now):
+    def cut(self, now: float) -> list[tuple[str, float | None]]:
         with self.graph.transaction("interrupt"):
-            return [(point.id, point.peg.value) for point in self.interrupt(now)]
+            return [(point.id, point.peg.value) for point in self.interrupt(GlobalTime(now))]
 
 
 def test_a_unit_begins_when_its_block_plays_and_its_start_is_due() -> None:
     unit = Told(start=1.0, end=2.0)
     unit.state = UnitState.PENDING
-    assert not unit.due(1.0)
+    assert not unit.due(GlobalTime(1.0))
     unit.release()
-    assert not unit.due(0.99)
-    assert unit.due(1.0)
+    assert not unit.due(GlobalTime(0.99))
+    assert unit.due(GlobalTime(1.0))
 
 
 def test_points_fire_with_the_time_of_their_peg_and_only_once() -> None:
@@ -90,7 +94,7 @@ def test_a_point_that_was_overtaken_returns_when_its_successor_is_late_again() -
 
 def test_a_point_is_overtaken_by_one_that_depends_on_it_too() -> None:
     unit = Told(start=1.0, stroke=2.0, end=9.0)
-    limit = AnticipatorPeg(unit.graph, "limit", 8.0)
+    limit = AnticipatorPeg(unit.graph, "limit", GlobalTime(8.0))
     natural = OffsetPeg(unit.graph, "natural", unit.point("stroke").peg, 1.0)
     unit.point("end").peg = BeforePeg(unit.graph, "end", natural, [(limit, 0.0)])
     unit.sources["limit"] = limit
@@ -124,18 +128,21 @@ def test_a_unit_interrupted_after_its_relax_reports_only_its_end() -> None:
 def test_a_unit_is_finished_when_it_is_dropped_only_if_it_plays() -> None:
     playing, waiting = Told(start=0.0, end=4.0), Told(start=0.0, end=4.0)
     playing.begin()
-    playing.drop(1.0)
-    waiting.drop(1.0)
+    playing.drop(GlobalTime(1.0))
+    waiting.drop(GlobalTime(1.0))
     assert playing.told == [("finished", 1.0)]
     assert waiting.told == []
     assert not playing.live
 
 
 def test_a_unit_is_dropped_even_if_on_finish_raises() -> None:
-    unit = Told(start=0.0, end=4.0)
-    unit.on_finish = lambda time: 1 / 0
+    class Failing(Told):
+        def on_finish(self, time: GlobalTime) -> None:
+            raise ZeroDivisionError
+
+    unit = Failing(start=0.0, end=4.0)
     unit.begin()
-    unit.drop(1.0)
+    unit.drop(GlobalTime(1.0))
     assert unit.state is UnitState.DROPPED
 
 
@@ -158,8 +165,8 @@ def test_a_timing_knows_its_offsets_and_whether_it_can_be_stretched() -> None:
         Timing(("start", "end"), ())
 
 
-def phases(unit, clock, *times):
-    return pytest.approx([clock.advance(unit, time) for time in times])
+def phases(unit: Told, clock: PhaseClock, *times: float) -> object:
+    return pytest.approx([clock.advance(unit, GlobalTime(time)) for time in times])
 
 
 def test_the_phase_walks_evenly_from_key_to_key() -> None:
@@ -173,7 +180,7 @@ def test_a_key_that_moves_changes_the_rate_and_never_the_phase() -> None:
     unit = Told(start=0.0, stroke=1.0, end=3.0)
     clock = PhaseClock({"start": 0.0, "stroke": 0.5, "end": 1.0})
     unit.begin()
-    assert clock.advance(unit, 0.5) == pytest.approx(0.25)
+    assert clock.advance(unit, GlobalTime(0.5)) == pytest.approx(0.25)
     unit.move("stroke", 1.5)
     assert phases(unit, clock, 0.5, 1.0, 1.5) == [0.25, 0.375, 0.5]
 

@@ -4,7 +4,7 @@ from reactive_realizer.assembly.scene import SceneOptions, open_scene
 from reactive_realizer.bml.document import parse
 from reactive_realizer.clock.clock import ManualClock
 from reactive_realizer.clock.ticker import Tick
-from reactive_realizer.realizer.inputs import BmlText
+from reactive_realizer.realizer.inputs import BmlText, TickInputs
 from reactive_realizer.server.intake import Intake
 from reactive_realizer.server.live_scene import LiveScene
 from reactive_realizer.testing.pilot import block, open_pilot
@@ -20,11 +20,15 @@ async def test_a_parsed_document_enters_as_it_was_parsed() -> None:
 
 
 async def test_the_server_parses_a_document_for_the_realizer_too() -> None:
-    entered = []
+    entered: list[BmlText] = []
     async with open_scene(SceneOptions(voice="text")) as scene:
         live = LiveScene(scene, ManualClock())
-        live.realizer.record(lambda each: entered.extend(each.inputs))
+
+        def note(inputs: TickInputs) -> None:
+            entered.extend(each for each in inputs.inputs if isinstance(each, BmlText))
+
+        live.realizer.record(note)
         for name, enter in (("b", Intake(live).document), ("c", Intake(live).blocks)):
             assert await enter(block(name, WAIT)) == [name]
         await live.step(Tick.following(None, 0))
-    assert [[parsed.block.id for parsed in entry.parsed] for entry in entered] == [["b"], ["c"]]
+    assert [[each.block and each.block.id for each in entry.parsed or ()] for entry in entered] == [["b"], ["c"]]

@@ -41,13 +41,13 @@ async def requested(background: BackgroundTasks, *results: object) -> list[objec
     return handed
 
 
-async def test_ready_results_are_numbered_in_order_of_request_and_name_failures(background) -> None:
+async def test_ready_results_are_numbered_in_order_of_request_and_name_failures(background: BackgroundTasks) -> None:
     await requested(background, "one", RealizerError(NoAsset(name="two")), ValueError("three"))
     failures = [None, NoAsset(name="two"), WorkFailed(reason="three")]
     assert background.ready() == tuple(Delivery(number, fault) for number, fault in enumerate(failures, 1))
 
 
-async def test_only_named_results_are_delivered(background) -> None:
+async def test_only_named_results_are_delivered(background: BackgroundTasks) -> None:
     handed = await requested(background, "one", "two", "three")
     background.deliver([Delivery(2)], NOW)
     assert handed == ["two"]
@@ -56,7 +56,9 @@ async def test_only_named_results_are_delivered(background) -> None:
     assert not background.busy
 
 
-async def test_work_that_failed_in_the_recording_fails_again_although_it_succeeds_now(background) -> None:
+async def test_work_that_failed_in_the_recording_fails_again_although_it_succeeds_now(
+    background: BackgroundTasks,
+) -> None:
     handed = await requested(background, "fine")
     background.deliver([Delivery(1, VoiceFailed(reason="it was killed"))], NOW)
     (failure,) = handed
@@ -64,7 +66,9 @@ async def test_work_that_failed_in_the_recording_fails_again_although_it_succeed
     assert failure.fault.code == "voice-failed"
 
 
-async def test_a_result_that_was_never_requested_is_an_error_and_nothing_is_delivered(background) -> None:
+async def test_a_result_that_was_never_requested_is_an_error_and_nothing_is_delivered(
+    background: BackgroundTasks,
+) -> None:
     handed = await requested(background, "one")
     with pytest.raises(RealizerError, match=r"at 0\.5 s.* work item 2"):
         background.deliver([Delivery(1), Delivery(2)], NOW)

@@ -4,23 +4,30 @@ import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.pegboard.time_peg import OffsetPeg
-from reactive_realizer.testing.pilot import open_pilot
+from reactive_realizer.realizer.inputs import TickInputs
+from reactive_realizer.realizer.realizer import Realizer
+from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 WAIT = '<wait id="w" duration="1" start="2"/>'
 
 
-async def broken(pilot, lengths=(3.0,)) -> None:
+async def broken(pilot: RealizerPilot, lengths: tuple[float, ...] = (3.0,)) -> None:
     """Makes a wait longer than its constraints allow, once a tick, behind the scheduler's back."""
     pilot.block("b", WAIT)
     await pilot.advance(0.1)
     assert pilot.feedback.warnings == []
     left = list(lengths)
-    pilot.realizer.record(lambda _: left and lengthen(pilot.realizer, left.pop(0)))
+
+    def meddle(_: TickInputs) -> None:
+        if left:
+            lengthen(pilot.realizer, left.pop(0))
+
+    pilot.realizer.record(meddle)
     for _ in lengths:
         await pilot.tick()
 
 
-def lengthen(realizer, length) -> None:
+def lengthen(realizer: Realizer, length: float) -> None:
     (block,) = realizer.scheduler.blocks.alive
     start, end = block.units[0].points
     with realizer.board.graph.transaction("meddling"):
@@ -28,7 +35,7 @@ def lengthen(realizer, length) -> None:
         realizer.board.replace(block.units[0].key("end"), end.peg)
 
 
-def put_off(realizer) -> None:
+def put_off(realizer: Realizer) -> None:
     (block,) = realizer.scheduler.blocks.alive
     start = block.units[0].points[0]
     with realizer.board.graph.transaction("meddling"):
@@ -36,18 +43,18 @@ def put_off(realizer) -> None:
         realizer.board.replace(block.units[0].key("start"), start.peg)
 
 
-def said(pilot) -> list[str]:
+def said(pilot: RealizerPilot) -> list[str]:
     """The warnings that have an equation number of the thesis."""
-    texts = [line.element.text for line in pilot.feedback.of("warningFeedback")]
+    texts = [line.text for line in pilot.feedback.of("warningFeedback")]
     return [text for text in texts if "; thesis " in text]
 
 
-async def test_an_equation_that_does_not_hold_is_a_warning_of_its_block(caplog) -> None:
+async def test_an_equation_that_does_not_hold_is_a_warning_of_its_block(caplog: pytest.LogCaptureFixture) -> None:
     async with open_pilot(SceneOptions(voice="text", verify=True)) as pilot:
         await broken(pilot)
     assert pilot.feedback.warnings == [("b", "IMPOSSIBLE_TO_SCHEDULE")]
     (warning,) = pilot.feedback.of("warningFeedback")
-    assert "'1 s from w:start to its end' is missed by 2 s (w:start, w:end; thesis 7.1.4)" in warning.element.text
+    assert "'1 s from w:start to its end' is missed by 2 s (w:start, w:end; thesis 7.1.4)" in warning.text
     assert [record.levelname for record in caplog.records if record.name.endswith("verifier")] == ["ERROR"]
 
 
@@ -111,7 +118,7 @@ async def test_plans_are_not_verified_by_default() -> None:
 
 
 @pytest.mark.parametrize("strategy", ["smartbody", "embr", "convex"])
-async def test_a_plan_that_follows_moving_times_has_no_violation(strategy) -> None:
+async def test_a_plan_that_follows_moving_times_has_no_violation(strategy: str) -> None:
     async with open_pilot(SceneOptions(voice="text", strategy=strategy, verify=True)) as pilot:
         pilot.predict("partner", "hit", 2.0)
         pilot.block("b", '<gesture id="g" lexeme="BEAT" stroke="anticipators:partner:hit"/>')

@@ -1,13 +1,16 @@
 """The transitions of a block: each row of the table happens, and nothing else does."""
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import pytest
 
 import reactive_realizer
 from reactive_realizer.bml.document import parse
+from reactive_realizer.clock.ticker import Tick
+from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.engine.effects import Play
 from reactive_realizer.limits import Limits
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.pegboard import PegBoard
@@ -49,7 +52,9 @@ def interrupt(start: str) -> str:
     return f'<bmla:interrupt id="x" target="b" start="{start}"/>'
 
 
-LIVES = {
+Sent = Sequence[BlockState | tuple[str, str, dict[str, str]]]
+
+LIVES: dict[str, tuple[Sent, list[BlockEvent]]] = {
     "it plays": ([("b", NOD, {})], [PLAN, START, FINISH]),
     "it has a way back to rest": ([("b", BEAT, {})], [PLAN, START, SUBSIDE, FINISH]),
     "it is interrupted": ([("b", NOD, {}), ("c", interrupt("0.2"), {})], [PLAN, START, INTERRUPT]),
@@ -79,12 +84,13 @@ LIVES = {
 
 def make_block() -> BMLBlock:
     (parsed,) = parse(bml("b"), Limits())
-    return BMLBlock(PegBoard(Graph()), BlockKey("alice", "b"), parsed.block, 1, 0.0, ())
+    assert parsed.block
+    return BMLBlock(PegBoard(Graph()), BlockKey("alice", "b"), parsed.block, 1, GlobalTime(0.0), ())
 
 
 def path_to(state: BlockState) -> tuple[BlockEvent, ...]:
     """Events that lead a new block to a state."""
-    paths = {BlockState.IN_PREP: ()}
+    paths: dict[BlockState, tuple[BlockEvent, ...]] = {BlockState.IN_PREP: ()}
     while state not in paths:
         for row in TRANSITIONS:
             for source in row.sources:
@@ -95,7 +101,7 @@ def path_to(state: BlockState) -> tuple[BlockEvent, ...]:
 
 @pytest.mark.parametrize("event", BlockEvent)
 @pytest.mark.parametrize("state", BlockState)
-def test_a_block_takes_the_transitions_of_the_table_and_no_other(state, event) -> None:
+def test_a_block_takes_the_transitions_of_the_table_and_no_other(state: BlockState, event: BlockEvent) -> None:
     block = make_block()
     for each in path_to(state):
         block.take(each)
@@ -110,11 +116,12 @@ def test_a_block_takes_the_transitions_of_the_table_and_no_other(state, event) -
 
 
 @pytest.fixture
-def taken(monkeypatch) -> list[BlockTransition]:
+def taken(monkeypatch: pytest.MonkeyPatch) -> list[BlockTransition]:
     """The transitions that block b has taken."""
     found = []
+    original = BMLBlock.take
 
-    def take(block, event, original=BMLBlock.take):
+    def take(block: BMLBlock, event: BlockEvent) -> BlockTransition:
         row = original(block, event)
         if block.key.block == "b":
             found.append(row)
@@ -124,7 +131,11 @@ def taken(monkeypatch) -> list[BlockTransition]:
     return found
 
 
-async def live(sent: list, taken: list[BlockTransition]) -> FeedbackList:
+def fail(tick: Tick) -> Play:
+    raise RuntimeError
+
+
+async def live(sent: Sent, taken: list[BlockTransition]) -> FeedbackList:
     """The feedback of blocks that are sent at once; engines fail when block b comes to a state, if one is named."""
     async with open_pilot() as pilot:
         for each in sent:
@@ -139,12 +150,14 @@ async def live(sent: list, taken: list[BlockTransition]) -> FeedbackList:
             assert all(block.peg(point).pinned for row in taken for point in row.pins)
             if block.state in sent:
                 for engine in pilot.realizer.characters["alice"].engines:
-                    engine.play = None
+                    engine.play = fail  # type: ignore[method-assign]
         return pilot.feedback
 
 
 @pytest.mark.parametrize(("sent", "events"), LIVES.values(), ids=LIVES)
-async def test_a_block_pins_and_reports_what_the_table_says(taken, sent, events) -> None:
+async def test_a_block_pins_and_reports_what_the_table_says(
+    taken: list[BlockTransition], sent: Sent, events: list[BlockEvent]
+) -> None:
     feedback = await live(sent, taken)
     assert [row.event for row in taken] == events
     reports = [f"b:{sync}" for row in taken for sync in row.reports if sync != PREDICTION]

@@ -15,7 +15,7 @@ from reactive_realizer.scheduler.convex.span import Bound, Row, Span
 preferred = st.floats(0.05, 5.0)
 
 
-def spans_around(phases, total):
+def spans_around(phases: list[tuple[PhaseKind, float, bool]], total: float) -> list[Span]:
     """Phases (kind, preferred, forward?) from the block's start through all variables and back to `total` (s)."""
     nodes = [*range(len(phases)), 0]
     spans = []
@@ -27,19 +27,20 @@ def spans_around(phases, total):
     return spans
 
 
-def pull(span, length):
+def pull(span: Span, length: float) -> float:
     """How much a span's cost rises with its length."""
     if span.elastic:
         return 1.0 - span.goal / length
     return STIFFNESS * (1.0 - (span.goal + SLACK) / (length + SLACK))
 
 
-def lengths_of(spans, times):
+def lengths_of(spans: list[Span], times: dict[int, float] | None) -> list[float]:
+    assert times is not None
     return [times[span.head] - times[span.tail] + span.shift for span in spans]
 
 
 @given(st.lists(preferred, min_size=2, max_size=6), st.floats(0.1, 30.0))
-def test_elastic_phases_between_two_times_are_stretched_alike(durations, total):
+def test_elastic_phases_between_two_times_are_stretched_alike(durations: list[float], total: float) -> None:
     spans = spans_around([(PhaseKind.ELASTIC, duration, True) for duration in durations], total)
     times = solve_circles(spans, [])
     ratios = [length / span.goal for span, length in zip(spans, lengths_of(spans, times), strict=True)]
@@ -50,7 +51,9 @@ kinds = st.sampled_from([PhaseKind.ELASTIC, PhaseKind.HOLD])
 
 
 @given(st.lists(st.tuples(kinds, preferred, st.booleans()), min_size=2, max_size=6), st.floats(-10.0, 20.0))
-def test_what_is_not_at_a_limit_is_pulled_with_one_force(phases, total):
+def test_what_is_not_at_a_limit_is_pulled_with_one_force(
+    phases: list[tuple[PhaseKind, float, bool]], total: float
+) -> None:
     spans = spans_around(phases, total)
     times = solve_circles(spans, [])
     if times is None:
@@ -64,47 +67,47 @@ def test_what_is_not_at_a_limit_is_pulled_with_one_force(phases, total):
     assert forces == pytest.approx(forces[:1] * len(forces), rel=1e-3, abs=1e-6)
 
 
-def assert_out_of_reach(phases, total):
+def assert_out_of_reach(phases: list[tuple[PhaseKind, float, bool]], total: float) -> None:
     """Phases that all lead the same way cannot lead back."""
     ways = {forward for _, _, forward in phases}
     assert len(ways) == 1
     assert (total if True in ways else -total) <= 1e-3
 
 
-def test_holds_take_the_time_first():
+def test_holds_take_the_time_first() -> None:
     spans = spans_around([(PhaseKind.ELASTIC, 1.0, True), (PhaseKind.HOLD, 1.0, True)], 9.0)
     elastic, hold = lengths_of(spans, solve_circles(spans, []))
     assert 1.0 < elastic < 1.06
     assert hold == pytest.approx(9.0 - elastic)
 
 
-def test_a_limit_is_kept_and_the_others_give():
+def test_a_limit_is_kept_and_the_others_give() -> None:
     spans = spans_around([(PhaseKind.ELASTIC, 1.0, True), (PhaseKind.ELASTIC, 1.0, True)], 4.0)
     spans[0].maximum = 1.2
     assert lengths_of(spans, solve_circles(spans, [])) == pytest.approx([1.2, 2.8])
 
 
-def test_a_hold_lasts_no_time_at_least():
+def test_a_hold_lasts_no_time_at_least() -> None:
     spans = spans_around([(PhaseKind.ELASTIC, 1.0, True), (PhaseKind.HOLD, 0.1, True)], 0.3)
     assert lengths_of(spans, solve_circles(spans, [])) == pytest.approx([0.3, 0.0])
 
 
-def bound(later, earlier, distance=0.0):
+def bound(later: int, earlier: int, distance: float = 0.0) -> Bound:
     return Bound(later, earlier, distance, Row(later, earlier, distance, GIVEN))
 
 
-def test_what_has_to_start_within_its_block_is_hurried():
+def test_what_has_to_start_within_its_block_is_hurried() -> None:
     stroke = Span(0, (0,), PhaseKind.ELASTIC, 0.8, 0, 0, tail=1, head=0, shift=0.3, goal=0.8)  # it is at 0.3 s
     times = solve_circles([stroke], [bound(1, 0)])
     assert times == pytest.approx({0: 0.0, 1: 0.0})
 
 
-def test_a_bound_that_is_kept_anyway_pulls_at_nothing():
+def test_a_bound_that_is_kept_anyway_pulls_at_nothing() -> None:
     stroke = Span(0, (0,), PhaseKind.ELASTIC, 0.8, 0, 0, tail=1, head=0, shift=2.0, goal=0.8)
     times = solve_circles([stroke], [bound(1, 0)])
     assert times == pytest.approx({0: 0.0, 1: 1.2})
 
 
-def test_more_than_circles_is_left_to_others():
+def test_more_than_circles_is_left_to_others() -> None:
     sides = [Span(0, (k,), PhaseKind.ELASTIC, 1.0 + k, 0, 0, tail=1, head=2, goal=1.0 + k) for k in range(3)]
     assert solve_circles(sides, []) is None

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from reactive_realizer.planunit.timing import Phase, PhaseKind, Timing, timing_at
 from reactive_realizer.scheduler.convex.convex_strategy import ConvexStrategy
 from reactive_realizer.scheduler.plan_view import PlanView
-from reactive_realizer.scheduler.problem import Point, SchedulingProblem
+from reactive_realizer.scheduler.problem import Point, Precedence, SchedulingProblem, Tie
 from reactive_realizer.scheduler.strategy import solve
 from reactive_realizer.testing.problems import at, problems
 
@@ -24,7 +24,7 @@ def test_on_a_single_chain_every_phase_stretches_alike() -> None:
 
 
 @given(st.lists(st.floats(0.05, 3.0), min_size=1, max_size=12), st.floats(0.05, 8.0))
-def test_whatever_the_chain_and_the_stretch(durations, factor) -> None:
+def test_whatever_the_chain_and_the_stretch(durations: list[float], factor: float) -> None:
     items = {f"b{i}": timing_at({"start": 0.0, "end": d}) for i, d in enumerate(durations)}
     ties = [at(f"b{i}:start", f"b{i - 1}:end") for i in range(1, len(items))]
     ends = at("b0:start", START), at(f"b{len(items) - 1}:end", START, factor * sum(durations))
@@ -40,7 +40,7 @@ def test_rigid_phases_keep_their_length_and_the_elastic_ones_of_the_same_behavio
 
 
 @given(st.floats(2.0, 60.0))
-def test_holds_take_time_before_elastic_phases_which_stretch_by_a_twentieth_at_most(end) -> None:
+def test_holds_take_time_before_elastic_phases_which_stretch_by_a_twentieth_at_most(end: float) -> None:
     plan = Plan({"g": HELD}, at("g:start", START), at("g:end", START, end))
     attack, hold, decay = plan.lengths("g")
     assert attack == pytest.approx(decay)
@@ -58,22 +58,19 @@ def test_a_hold_gives_all_its_time_before_elastic_phases_give_a_tenth_of_theirs(
 def test_no_elastic_phase_is_pressed_under_a_tenth_while_its_neighbors_could_give(asked: SchedulingProblem) -> None:
     solution = solve(ConvexStrategy(), asked)
     view = PlanView.of_solution(asked, solution)
-    named = {node for each in (*asked.ties, *asked.orders) for node in each.nodes}
+    constraints: tuple[Tie | Precedence, ...] = (*asked.ties, *asked.orders)
+    named = {node for each in constraints for node in each.nodes}
+    times = {point: time for point, time in view.times.items() if time is not None}
+    if len(times) < len(view.times):
+        return
     for each in (each for each in asked.items if each.behavior.id in solution.behaviors):
         points = [Point(each.behavior.id, sync) for sync in each.timing.points]
         for k, phase in enumerate(each.timing.phases):
             inside = {points[k], points[k + 1]}.isdisjoint(named)
-            if (
-                phase.kind is PhaseKind.ELASTIC
-                and inside
-                and 0 < k < len(points) - 2
-                and None not in view.times.values()
-            ):
-                ratio = (view.times[points[k + 1]] - view.times[points[k]]) / phase.duration
+            if phase.kind is PhaseKind.ELASTIC and inside and 0 < k < len(points) - 2:
+                ratio = (times[points[k + 1]] - times[points[k]]) / phase.duration
                 neighbors = [(k + step, each.timing.phases[k + step]) for step in (-1, 1)]
-                rest = [
-                    view.times[points[n + 1]] - view.times[points[n]] for n, p in neighbors if p.kind is PhaseKind.HOLD
-                ]
+                rest = [times[points[n + 1]] - times[points[n]] for n, p in neighbors if p.kind is PhaseKind.HOLD]
                 assert ratio > 0.1 or all(length < 0.1 for length in rest), each
 
 

@@ -4,16 +4,16 @@ from itertools import pairwise
 
 import pytest
 
+from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.pegboard.time_peg import AnticipatorPeg
 from reactive_realizer.planunit.timing import Phase, PhaseKind, Timing, timing_at
 from reactive_realizer.scheduler.embr.differences import Differences, Row
 from reactive_realizer.scheduler.embr.embr_strategy import EmbrStrategy
 from reactive_realizer.scheduler.plan_view import PlanView
-from reactive_realizer.scheduler.problem import Origin, Point
+from reactive_realizer.scheduler.problem import Origin, Point, Precedence, Tie
 from reactive_realizer.scheduler.strategy import solve
 from reactive_realizer.testing.problems import TIMINGS, after, at, item, outer, peg_times, pegs_of, problem
 from reactive_realizer.testing.strategy_contract import violations
-
-from .convex_plan import move
 
 START = Origin.BLOCK_START
 NOD, BEAT, SPEECH, CHANGE = TIMINGS["nod"], TIMINGS["beat"], TIMINGS["speech"], TIMINGS["change"]
@@ -22,25 +22,27 @@ NOD, BEAT, SPEECH, CHANGE = TIMINGS["nod"], TIMINGS["beat"], TIMINGS["speech"], 
 class Plan:
     """What came out, as times; nothing of it breaks an equation."""
 
-    def __init__(self, items, *constraints) -> None:
+    def __init__(self, items: dict[str, Timing], *constraints: Tie | Precedence) -> None:
         asked = problem([item(id_, timing) for id_, timing in items.items()], *constraints)
         self.solution = solve(EmbrStrategy(), asked)
         self.view = PlanView.of_solution(asked, self.solution)
         self.timings = items
         assert violations(asked, self.solution) == []
 
-    def __getitem__(self, point) -> float | None:
-        return self.view.times[Point(*point.split(":"))]
+    def __getitem__(self, point: str) -> float:
+        time = self.view.times[Point(*point.split(":"))]
+        assert time is not None
+        return time
 
-    def times(self, behavior):
-        return [self.view.times[Point(behavior, sync)] for sync in self.timings[behavior].points]
+    def times(self, behavior: str) -> list[float]:
+        return [self[f"{behavior}:{sync}"] for sync in self.timings[behavior].points]
 
     @property
-    def losses(self):
+    def losses(self) -> list[tuple[str | None, str]]:
         return [(loss.behavior, loss.fault.code) for loss in self.solution.losses]
 
     @property
-    def deviation(self):
+    def deviation(self) -> float:
         """EMBR's measure, s."""
         total = 0.0
         for id_, timing in self.timings.items():
@@ -126,14 +128,18 @@ def test_a_before_is_an_after_the_other_way_round() -> None:
     assert plan.deviation == pytest.approx(0.5)
 
 
-def moved(point, hit, moves, *constraints):
+def moved(
+    point: str, hit: AnticipatorPeg, moves: tuple[float | None, ...], *constraints: Precedence | Tie
+) -> list[float | None]:
     """The times of a point of a nod as a time from outside moves and nothing is solved again."""
     asked = problem([item("n", NOD)], *constraints)
     solution = EmbrStrategy().solve(asked)
     assert solution.losses == ()
-    peg, times = pegs_of(asked, solution)[Point(*point.split(":"))], []
+    peg = pegs_of(asked, solution)[Point(*point.split(":"))]
+    times: list[float | None] = []
     for time in moves:
-        move(hit, time)
+        with hit.graph.transaction("test"):
+            hit.set(None if time is None else GlobalTime(time))
         times.append(peg.value)
     return times
 
@@ -168,7 +174,9 @@ def test_clusters_that_wait_for_each_other_in_a_circle_are_planned() -> None:
 def test_before_and_after_go_before_at_does() -> None:
     plan = Plan({"a": NOD, "b": NOD}, after("a:start", "b:end"), at("b:start", "a:end"))
     assert plan.losses == [(None, "contradictory-tie")]
-    assert plan.solution.losses[0].constraint.text == "a:start after b:end + 0"
+    (loss,) = plan.solution.losses
+    assert loss.constraint
+    assert loss.constraint.text == "a:start after b:end + 0"
     assert plan["b:start"] == plan["a:end"]
 
 

@@ -4,6 +4,7 @@ from itertools import pairwise
 
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from hypothesis.strategies._internal.random import ArtificialRandom
 
 from reactive_realizer.scheduler.convex.longest_path import TOLERANCE, Arc, longest_path
 
@@ -36,7 +37,9 @@ def test_times_are_the_least_that_meet_all_arcs_or_there_is_a_circle_that_gains_
 
 @settings(derandomize=True, max_examples=100)
 @given(st.permutations(range(40)), st.randoms(use_true_random=False))
-def test_a_chain_takes_as_long_as_its_links_in_whatever_order_they_and_its_nodes_are(order: list[int], random) -> None:
+def test_a_chain_takes_as_long_as_its_links_in_whatever_order_they_and_its_nodes_are(
+    order: list[int], random: ArtificialRandom
+) -> None:
     arcs = [Arc(tail, head, 0.5, None) for tail, head in pairwise(order)]
     random.shuffle(arcs)
     times, circle = longest_path(len(order), arcs)

@@ -1,6 +1,8 @@
 """The order of planning: a block comes after those that it names."""
 
 from collections import Counter
+from collections.abc import Mapping, Sequence
+from typing import TypeVar
 
 import pytest
 from hypothesis import given
@@ -8,11 +10,12 @@ from hypothesis import strategies as st
 
 from reactive_realizer.scheduler.planning_order import dependency_order
 
+T = TypeVar("T", int, str)
 MANY = 20_000
 NAMES = st.dictionaries(st.integers(0, 8), st.lists(st.integers(0, 8)))
 
 
-def ordered(names, waiting=None):
+def ordered(names: Mapping[T, Sequence[T]], waiting: list[T] | None = None) -> list[T]:
     return dependency_order(names if waiting is None else waiting, lambda each: names.get(each, []))
 
 
@@ -27,7 +30,9 @@ def ordered(names, waiting=None):
         ({"a": ["d"]}, "da"),
     ],
 )
-def test_an_item_comes_after_its_dependencies_and_all_else_stays_in_order(names, order) -> None:
+def test_an_item_comes_after_its_dependencies_and_all_else_stays_in_order(
+    names: dict[str, list[str]], order: str
+) -> None:
     assert "".join(ordered(names)) == order
 
 
@@ -40,12 +45,14 @@ def test_an_item_comes_after_its_dependencies_and_all_else_stays_in_order(names,
         ({"x": ["a"], "a": ["b", "d"], "b": ["a"], "d": []}, "bdax"),
     ],
 )
-def test_one_item_of_a_circle_is_first_and_items_outside_of_it_wait_as_usual(names, order) -> None:
+def test_one_item_of_a_circle_is_first_and_items_outside_of_it_wait_as_usual(
+    names: dict[str, list[str]], order: str
+) -> None:
     assert "".join(ordered(names)) == order
 
 
 @given(NAMES)
-def test_each_item_comes_once_and_only_a_circle_puts_one_before_a_dependency(names) -> None:
+def test_each_item_comes_once_and_only_a_circle_puts_one_before_a_dependency(names: dict[int, list[int]]) -> None:
     order = ordered(names)
     place = {each: number for number, each in enumerate(order)}
     assert len(place) == len(order)
@@ -56,10 +63,10 @@ def test_each_item_comes_once_and_only_a_circle_puts_one_before_a_dependency(nam
 
 
 @pytest.mark.parametrize("step", [1, -1])
-def test_a_long_chain_is_asked_once_an_item_and_needs_no_deeper_stack(step) -> None:
-    asked = Counter()
+def test_a_long_chain_is_asked_once_an_item_and_needs_no_deeper_stack(step: int) -> None:
+    asked = Counter[int]()
 
-    def named(each):
+    def named(each: int) -> list[int]:
         asked[each] += 1
         return [each + step] if 0 <= each + step < MANY else []
 

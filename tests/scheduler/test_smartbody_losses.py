@@ -1,16 +1,18 @@
 """SmartBody's scheduling: what is lost leaves nothing behind (thesis 7.2.2, 7.24)."""
 
+from collections.abc import Mapping
+
 import pytest
 
 from reactive_realizer.scheduler.plan_view import PlanView
-from reactive_realizer.scheduler.problem import Origin, Point
+from reactive_realizer.scheduler.problem import Origin, Point, Tie
 from reactive_realizer.scheduler.smartbody.smartbody_strategy import SmartBodyStrategy
 from reactive_realizer.testing.problems import TIMINGS, at, item, outer, problem
 
 START = Origin.BLOCK_START
 
 
-def solved(behaviors, *ties):
+def solved(behaviors: dict[str, str], *ties: Tie) -> tuple[Mapping[Point, float | None], list[tuple[str, bool]]]:
     """Kinds by id: the times of all points, and the losses as (code, required)."""
     asked = problem([item(id_, TIMINGS[kind]) for id_, kind in behaviors.items()], *ties)
     solution = SmartBodyStrategy().solve(asked)
@@ -41,7 +43,7 @@ def test_a_tie_that_a_rigid_behavior_cannot_meet_places_it_no_more() -> None:
 
 
 @pytest.mark.parametrize("required", [False, True])
-def test_the_loss_of_a_behavior_fails_its_block_if_something_required_names_it(required) -> None:
+def test_the_loss_of_a_behavior_fails_its_block_if_something_required_names_it(required: bool) -> None:
     ties = at("lost:start", START, 3.0), at("lost:end", START, 2.0), at("nod:start", "lost:start", required=required)
     _, losses = solved({"lost": "beat", "nod": "nod"}, *ties)
     assert losses == [("out-of-order", required)]
@@ -64,7 +66,7 @@ def test_but_what_the_outside_itself_brings_there_joins_late() -> None:
 
 
 @pytest.mark.parametrize("other", [at("b:start", START), at("b:start", outer("hit", 0.25))], ids=["block", "outside"])
-def test_a_point_before_the_block_costs_its_behavior_also_while_nobody_knows_when_that_starts(other) -> None:
+def test_a_point_before_the_block_costs_its_behavior_also_while_nobody_knows_when_that_starts(other: Tie) -> None:
     ties = other, at("n:start", outer("unknown", None)), at("n:stroke", "b:start", -0.5)
     _, losses = solved({"b": "beat", "n": "nod"}, *ties)
     assert losses == [("before-block", False)]

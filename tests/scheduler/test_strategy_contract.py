@@ -5,9 +5,9 @@ import pytest
 from reactive_realizer.planunit.timing import PhaseKind, timing_at
 from reactive_realizer.scheduler.convex.convex_strategy import ConvexStrategy
 from reactive_realizer.scheduler.embr.embr_strategy import EmbrStrategy
-from reactive_realizer.scheduler.problem import Origin
+from reactive_realizer.scheduler.problem import Item, Origin, Precedence, Tie
 from reactive_realizer.scheduler.smartbody.smartbody_strategy import SmartBodyStrategy
-from reactive_realizer.scheduler.strategy import solve
+from reactive_realizer.scheduler.strategy import SchedulingStrategy, solve
 from reactive_realizer.testing.problems import TIMINGS, after, at, item, problem
 from reactive_realizer.testing.strategy_contract import CompleteStrategyContract, StrategyContract, violations
 
@@ -28,7 +28,7 @@ START = Origin.BLOCK_START
 NOD, BEAT, SPEECH = TIMINGS["nod"], TIMINGS["beat"], TIMINGS["speech"]
 WALK = timing_at({"start": 0.0, "relax": 3.0, "end": 3.5}, PhaseKind.ELASTIC)
 
-EXAMPLES = {
+EXAMPLES: dict[str, tuple[list[Item], list[Tie | Precedence]]] = {
     "26": (
         [item("speech1", SPEECH), item("point1", BEAT), item("walk1", WALK)],
         [
@@ -52,7 +52,7 @@ EXAMPLES = {
 }
 """As the thesis prints them first; "b" is the same the other way round."""
 
-LOST = {
+LOST: dict[str, dict[str, int]] = {
     "smartbody": {"26": 2, "26b": 2, "28b": 1, "29b": 1},
     "embr": {},
     "convex": {},
@@ -64,7 +64,7 @@ LOST = {
     "strategy", [SmartBodyStrategy(), EmbrStrategy(), ConvexStrategy()], ids=lambda each: each.name
 )
 @pytest.mark.parametrize("name", [f"{number}{order}" for number in EXAMPLES for order in ("", "b")])
-def test_the_examples_of_the_thesis_in_both_orders(strategy, name) -> None:
+def test_the_examples_of_the_thesis_in_both_orders(strategy: SchedulingStrategy, name: str) -> None:
     items, constraints = EXAMPLES[name.removesuffix("b")]
     turn = -1 if name.endswith("b") else 1
     asked = problem(items[::turn], *constraints)

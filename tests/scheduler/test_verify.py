@@ -1,13 +1,14 @@
 """The thesis's equations as corrected: a plan that breaks one is told which, for which points, by how much."""
 
-from types import SimpleNamespace
+from collections.abc import Collection, Mapping
 
 import pytest
 
 from reactive_realizer.clock.units import GlobalTime
-from reactive_realizer.planunit.timing import PhaseKind, timing_at
+from reactive_realizer.planunit.timing import PhaseKind, Timing, timing_at
+from reactive_realizer.scheduler.faults import ContradictoryTie
 from reactive_realizer.scheduler.plan_view import PlanView
-from reactive_realizer.scheduler.problem import Origin, Point, Solution
+from reactive_realizer.scheduler.problem import Loss, Origin, Point, Precedence, Solution, Tie
 from reactive_realizer.scheduler.verify import verify
 from reactive_realizer.testing.pilot import open_pilot
 from reactive_realizer.testing.problems import TIMINGS, after, at, item, outer, problem
@@ -16,7 +17,16 @@ START = Origin.BLOCK_START
 NOD = TIMINGS["nod"]
 
 
-def view(times, *kept, start=0.0, now=0.0, past=(), end=None, end_floor=0.0, timings=None):
+def view(
+    times: Mapping[str, tuple[float | None, ...]],
+    *kept: Tie | Precedence,
+    start: float = 0.0,
+    now: float = 0.0,
+    past: Collection[str] = (),
+    end: float | None = None,
+    end_floor: float = 0.0,
+    timings: Mapping[str, Timing] | None = None,
+) -> PlanView:
     """A plan of nods, ``{"a": (start, stroke, end)}``, unless other timings are given."""
     timings = timings or dict.fromkeys(times, NOD)
     points = {
@@ -29,7 +39,7 @@ def view(times, *kept, start=0.0, now=0.0, past=(), end=None, end_floor=0.0, tim
     return PlanView(timings, points, gone, kept, cells, start, max(start, now), end, end_floor)
 
 
-def broken(plan):
+def broken(plan: PlanView) -> list[tuple[str, tuple[str, ...], object]]:
     return [(each.equation, each.points, pytest.approx(each.amount)) for each in verify(plan)]
 
 
@@ -59,7 +69,9 @@ def test_a_plan_that_keeps_everything_breaks_nothing() -> None:
     ],
     ids=lambda value: value if isinstance(value, str) else "",
 )
-def test_a_constraint_that_is_missed_is_named_with_its_equation(constraint, equation, points, amount) -> None:
+def test_a_constraint_that_is_missed_is_named_with_its_equation(
+    constraint: Tie | Precedence, equation: str, points: tuple[str, str], amount: float
+) -> None:
     assert (equation, points, pytest.approx(amount)) in broken(view(TWO, constraint))
 
 
@@ -163,7 +175,9 @@ def test_a_view_of_a_solution_has_its_times_and_what_was_kept() -> None:
     kept, lost = at("a:start", START, 1.0), at("a:end", START, 9.0)
     asked = problem([item("a", NOD)], kept, lost)
     times = {Point("a", "start"): 1.0, Point("a", "stroke"): 1.4, Point("a", "end"): 2.0}
-    plan = PlanView.of_solution(asked, Solution(times, (SimpleNamespace(constraint=lost),)))
+    plan = PlanView.of_solution(
+        asked, Solution(times, (Loss("a", ContradictoryTie(tie=lost.text, gap=7.0), False, False, lost),))
+    )
     assert plan.kept == (kept,)
     assert plan.times == times
     assert verify(plan) == []

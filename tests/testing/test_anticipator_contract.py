@@ -5,8 +5,10 @@ from itertools import count
 
 import pytest
 
+from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.errors import NotANumber, RealizerError
 from reactive_realizer.pegboard.anticipator import Anticipator
+from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.testing.anticipator_contract import AnticipatorContract
 from reactive_realizer.testing.anticipator_harness import AnticipatorEvent
 
@@ -19,55 +21,55 @@ class Clock(Anticipator):
     kind = "clock"
     events = ("throw",)
 
-    def event(self, name, value, now):
+    def event(self, name: str, value: float | None, now: GlobalTime) -> None:
         if name == "throw":
-            self.predict("hit", now + 1.0, now)
+            self.predict("hit", GlobalTime(now + 1.0), now)
 
 
 class Late(Clock):
     """Sets a time in the past, without the base class."""
 
-    def event(self, name, value, now):
+    def event(self, name: str, value: float | None, now: GlobalTime) -> None:
         if name == "throw":
-            self._board.predicted(self.id, "hit").set(now - 0.1)
+            self._board.predicted(self.id, "hit").set(GlobalTime(now - 0.1))
 
 
 class Magic(Clock):
     """Uses a number for an unknown time."""
 
-    def forecast(self, sync):
-        return -1.0
+    def forecast(self, sync: str) -> GlobalTime | None:
+        return GlobalTime(-1.0)
 
-    def event(self, name, value, now):
+    def event(self, name: str, value: float | None, now: GlobalTime) -> None:
         self.predict("hit", None, now)
 
 
 class Intruder(Clock):
     """Writes points of another anticipator."""
 
-    def event(self, name, value, now):
-        self._board.predicted("other", "hit").set(now + 1.0)
+    def event(self, name: str, value: float | None, now: GlobalTime) -> None:
+        self._board.predicted("other", "hit").set(GlobalTime(now + 1.0))
 
 
 class Trembling(Clock):
     """Changes its prediction without a new event."""
 
-    def event(self, name, value, now):
+    def event(self, name: str, value: float | None, now: GlobalTime) -> None:
         self.calls = getattr(self, "calls", 0) + 1
-        self.predict("hit", now + 1.0 + self.calls / 1e6, now)
+        self.predict("hit", GlobalTime(now + 1.0 + self.calls / 1e6), now)
 
 
 class Restless(Clock):
     """Predicts without an event."""
 
-    def advance(self, now):
-        self.predict("hit", now + 1.0, now)
+    def advance(self, now: GlobalTime) -> None:
+        self.predict("hit", GlobalTime(now + 1.0), now)
 
 
 class Excitable(Clock):
     """Takes unknown events."""
 
-    def check(self, name, value):
+    def check(self, name: str, value: float | None) -> None:
         pass
 
 
@@ -80,34 +82,34 @@ class Resentful(Clock):
 
     patience = 1.0
 
-    def check(self, name, value):
+    def check(self, name: str, value: float | None) -> None:
         super().check(name, value)
         if value is not None and value < 0:
             self.patience = 2.0
             raise RealizerError(NotANumber())
 
-    def event(self, name, value, now):
-        self.predict("hit", now + self.patience, now)
+    def event(self, name: str, value: float | None, now: GlobalTime) -> None:
+        self.predict("hit", GlobalTime(now + self.patience), now)
 
 
 class Littering(Clock):
     """Makes a point for each event."""
 
-    def event(self, name, value, now):
-        self.predict(f"hit{now}", now + 1.0, now)
+    def event(self, name: str, value: float | None, now: GlobalTime) -> None:
+        self.predict(f"hit{now}", GlobalTime(now + 1.0), now)
 
 
 class Gullible(Clock):
     """Takes predictions of others although it makes its own."""
 
-    def check_prediction(self):
+    def check_prediction(self) -> None:
         pass
 
 
 class Demanding(Clock):
     """Has an option without a default."""
 
-    def __init__(self, id, board, word):  # noqa: A002
+    def __init__(self, id: str, board: PegBoard, word: str) -> None:  # noqa: A002
         super().__init__(id, board)
 
 
@@ -116,17 +118,17 @@ class Chancy(Clock):
 
     chances = count()
 
-    def event(self, name, value, now):
-        self.predict("hit", now + 1.0 + next(self.chances) / 1e6, now)
+    def event(self, name: str, value: float | None, now: GlobalTime) -> None:
+        self.predict("hit", GlobalTime(now + 1.0 + next(self.chances) / 1e6), now)
 
 
-def anticipator_contract(kind: Callable) -> type[AnticipatorContract]:
+def anticipator_contract(kind: Callable[..., Clock]) -> type[AnticipatorContract]:
     class Contract(AnticipatorContract):
         points = ("hit",)
         events = (AnticipatorEvent("throw"), AnticipatorEvent("throw", 1.0))
         refused = (AnticipatorEvent("throw", -1.0),)
 
-        def anticipator(self, id, board):  # noqa: A002
+        def anticipator(self, id: str, board: PegBoard) -> Clock:  # noqa: A002
             return kind(id, board, "word") if kind is Demanding else kind(id, board)
 
     return Contract
@@ -146,7 +148,7 @@ def anticipator_contract(kind: Callable) -> type[AnticipatorContract]:
         (Chancy, "test_the_same_events_make_the_same_predictions"),
     ],
 )
-def test_an_anticipator_that_breaks_its_contract_is_found(kind, test) -> None:
+def test_an_anticipator_that_breaks_its_contract_is_found(kind: type[Clock], test: str) -> None:
     broken(anticipator_contract(kind), test)
 
 
@@ -158,6 +160,6 @@ def test_an_anticipator_that_breaks_its_contract_is_found(kind, test) -> None:
         (Gullible, "test_only_a_remote_anticipator_takes_predictions_of_others"),
     ],
 )
-def test_an_anticipator_that_refuses_nothing_is_found(kind, test) -> None:
+def test_an_anticipator_that_refuses_nothing_is_found(kind: type[Clock], test: str) -> None:
     with pytest.raises(pytest.fail.Exception, match="DID NOT RAISE"):
         getattr(anticipator_contract(kind)(), test)()

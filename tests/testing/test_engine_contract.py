@@ -7,12 +7,19 @@ from types import MappingProxyType
 
 import pytest
 
+from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.behaviors import Wait
+from reactive_realizer.clock.ticker import Tick
+from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.engine.context import EngineContext
 from reactive_realizer.engine.effects import Play
 from reactive_realizer.engine.engine import DefaultEngine
 from reactive_realizer.engine.player import Player
 from reactive_realizer.engines.wait_engine import WaitEngine
+from reactive_realizer.errors import Fault
+from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.parameter import Parameter, Range
+from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.reactive.cell import Source
 from reactive_realizer.testing.engine_contract import EngineContract
 
@@ -24,7 +31,7 @@ ELEMENT = '<wait id="w" duration="1"/>'
 class TickTimed(WaitEngine):
     """Reports the time of the tick instead of the time of the peg."""
 
-    def play(self, tick):
+    def play(self, tick: Tick) -> Play:
         play = super().play(tick)
         return replace(play, reached=tuple(replace(each, time=tick.time) for each in play.reached))
 
@@ -32,7 +39,7 @@ class TickTimed(WaitEngine):
 class Repeating(WaitEngine):
     """Reports every point twice."""
 
-    def play(self, tick):
+    def play(self, tick: Tick) -> Play:
         play = super().play(tick)
         return replace(play, reached=play.reached * 2)
 
@@ -40,7 +47,7 @@ class Repeating(WaitEngine):
 class Hasty(WaitEngine):
     """Plays units that were only planned."""
 
-    def plan(self, block, behavior, prepared):
+    def plan(self, block: BlockKey, behavior: Behavior, prepared: object) -> PlanUnit:
         unit = super().plan(block, behavior, prepared)
         self.player.add(unit)
         return unit
@@ -49,7 +56,7 @@ class Hasty(WaitEngine):
 class OneOff(WaitEngine):
     """Makes one unit for all plans of a behavior."""
 
-    def plan(self, block, behavior, prepared):
+    def plan(self, block: BlockKey, behavior: Behavior, prepared: object) -> PlanUnit:
         self.made = getattr(self, "made", None) or super().plan(block, behavior, prepared)
         return self.made
 
@@ -57,7 +64,7 @@ class OneOff(WaitEngine):
 class Greedy(WaitEngine):
     """Supports every behavior."""
 
-    def supports(self, behavior):
+    def supports(self, behavior: Behavior) -> bool:
         return True
 
 
@@ -72,11 +79,11 @@ class Resizable(WaitEngine):
 
     parameters = MappingProxyType({Wait: {"size": Range(0.0, 1.0)}})
 
-    def __init__(self, context):
+    def __init__(self, context: EngineContext) -> None:
         super().__init__(context)
         self.graph = context.graph
 
-    def plan(self, block, behavior, prepared):
+    def plan(self, block: BlockKey, behavior: Behavior, prepared: object) -> PlanUnit:
         unit = super().plan(block, behavior, prepared)
         unit.parameters["size"] = Parameter(Source(self.graph, "size", 1.0), Range(0.0, 1.0))
         return unit
@@ -85,7 +92,7 @@ class Resizable(WaitEngine):
 class Meddling(Resizable):
     """Writes a cell while it plays."""
 
-    def play(self, tick):
+    def play(self, tick: Tick) -> Play:
         for unit in self.player.playing:
             unit.parameters["size"].set(tick.time % 1.0)
         return super().play(tick)
@@ -96,7 +103,7 @@ class Sticky(WaitEngine):
 
     weight = 0.0
 
-    def face(self, tick):
+    def face(self, tick: Tick) -> dict[str, float]:
         self.weight = 1.0 if self.player.playing else self.weight
         return {"jawOpen": self.weight}
 
@@ -106,21 +113,21 @@ class Moody(WaitEngine):
 
     moods = count()
 
-    def face(self, tick):
+    def face(self, tick: Tick) -> dict[str, float]:
         return {"jawOpen": next(self.moods) / 1e6}
 
 
 class Invisible(WaitEngine):
     """Shows weights that are not numbers."""
 
-    def face(self, tick):
+    def face(self, tick: Tick) -> dict[str, float]:
         return {"jawOpen": float("nan")}
 
 
 class Silent(WaitEngine):
     """Drops units without reporting it."""
 
-    def add(self, unit):
+    def add(self, unit: PlanUnit) -> None:
         if not self.player.units:
             super().add(unit)
 
@@ -128,19 +135,19 @@ class Silent(WaitEngine):
 class Fragile(WaitEngine):
     """Fails when one of its units fails."""
 
-    def __init__(self, context):
+    def __init__(self, context: EngineContext) -> None:
         super().__init__(context)
         self.player = Player()
-        self.player._fail = self.fall
+        self.player._fail = self.fall  # type: ignore[method-assign]
 
-    def fall(self, unit, failure, now):
+    def fall(self, unit: PlanUnit, failure: Exception, now: GlobalTime) -> None:
         raise failure
 
 
 class Forgetful(WaitEngine):
     """Does not report the units that it drops."""
 
-    def fail(self, time, fault):
+    def fail(self, time: GlobalTime, fault: Fault) -> Play:
         super().fail(time, fault)
         return Play()
 
@@ -148,10 +155,10 @@ class Forgetful(WaitEngine):
 class Deaf(WaitEngine):
     """Does not remove units, and plays all in its list."""
 
-    def remove(self, unit):
+    def remove(self, unit: PlanUnit) -> None:
         pass
 
-    def play(self, tick):
+    def play(self, tick: Tick) -> Play:
         for unit in self.player.units:
             unit.state = type(unit.state).LURKING if not unit.begun else unit.state
         return super().play(tick)
@@ -163,11 +170,11 @@ class Impatient(Deaf):
     remove = DefaultEngine.remove
 
 
-def engine_contract(engine: Callable) -> type[EngineContract]:
+def engine_contract(engine: Callable[[EngineContext], WaitEngine]) -> type[EngineContract]:
     class Contract(EngineContract):
         elements = (ELEMENT,)
 
-        def engine(self, context):
+        def engine(self, context: EngineContext) -> WaitEngine:
             return engine(context)
 
     return Contract
@@ -195,5 +202,5 @@ def engine_contract(engine: Callable) -> type[EngineContract]:
         (Impatient, "test_a_behavior_waits_for_the_start_of_its_block"),
     ],
 )
-def test_an_engine_that_breaks_its_contract_is_found(engine, test) -> None:
+def test_an_engine_that_breaks_its_contract_is_found(engine: type[WaitEngine], test: str) -> None:
     broken(engine_contract(engine), test, ELEMENT)

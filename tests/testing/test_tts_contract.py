@@ -6,16 +6,19 @@ from itertools import count
 
 import pytest
 
+from reactive_realizer.engine.tts import Utterance
 from reactive_realizer.engines.speech.text_voice import TextVoice
 from reactive_realizer.testing.tts_contract import Speaker, TTSContract
 
 from .conftest import broken
 
+Marks = tuple[tuple[str, int], ...]
+
 
 class Shifted(TextVoice):
     """Counts characters from 1."""
 
-    def synthesize(self, text, marks, voice=None):
+    def synthesize(self, text: str, marks: Marks, voice: str | None = None) -> Utterance:
         said = super().synthesize(text, marks, voice)
         return replace(said, words=tuple(replace(word, first=word.first + 1) for word in said.words))
 
@@ -23,7 +26,7 @@ class Shifted(TextVoice):
 class Backward(TextVoice):
     """Lists the words in reverse order."""
 
-    def synthesize(self, text, marks, voice=None):
+    def synthesize(self, text: str, marks: Marks, voice: str | None = None) -> Utterance:
         said = super().synthesize(text, marks, voice)
         return replace(said, words=said.words[::-1])
 
@@ -31,7 +34,12 @@ class Backward(TextVoice):
 class Markless(TextVoice):
     """Omits marks at the end."""
 
-    def synthesize(self, text, marks, voice=None):
+    def synthesize(
+        self,
+        text: str,
+        marks: Marks,
+        voice: str | None = None,
+    ) -> Utterance:
         return super().synthesize(text, tuple(mark for mark in marks if mark[1] < len(text)), voice)
 
 
@@ -40,7 +48,7 @@ class Tired(TextVoice):
 
     spoken = count(1)
 
-    def synthesize(self, text, marks, voice=None):
+    def synthesize(self, text: str, marks: Marks, voice: str | None = None) -> Utterance:
         said = super().synthesize(text, marks, voice)
         return replace(said, duration=said.duration * next(self.spoken))
 
@@ -48,14 +56,16 @@ class Tired(TextVoice):
 class Short(TextVoice):
     """Has too little audio."""
 
-    def synthesize(self, text, marks, voice=None):
+    def synthesize(self, text: str, marks: Marks, voice: str | None = None) -> Utterance:
         return replace(super().synthesize(text, marks, voice), audio=bytes(100))
 
 
 class Confused(TextVoice):
     """Answers every request with the last text."""
 
-    async def synthesize(self, text, marks, voice=None):
+    async def synthesize(  # type: ignore[override]  # a voice may be asynchronous
+        self, text: str, marks: Marks, voice: str | None = None
+    ) -> Utterance:
         self.asked = text
         await asyncio.sleep(0)
         return super().synthesize(self.asked, marks, voice)
@@ -64,7 +74,7 @@ class Confused(TextVoice):
 class Unsorted(TextVoice):
     """Lists its voices in arbitrary order."""
 
-    async def voices(self):
+    async def voices(self) -> tuple[str, ...]:
         return ("b", "a")
 
 
@@ -73,10 +83,10 @@ class Mute(TextVoice):
 
     refused = False
 
-    async def voices(self):
+    async def voices(self) -> tuple[str, ...]:
         return ("a",)
 
-    def synthesize(self, text, marks, voice=None):
+    def synthesize(self, text: str, marks: Marks, voice: str | None = None) -> Utterance:
         self.refused |= voice not in (None, "a")
         if self.refused:
             raise AssertionError("nobody's")
@@ -97,7 +107,7 @@ class Mute(TextVoice):
         (Mute, "test_an_unknown_voice_raises_an_error_and_does_not_affect_the_next_text"),
     ],
 )
-def test_a_voice_that_breaks_its_contract_is_found(voice, test) -> None:
+def test_a_voice_that_breaks_its_contract_is_found(voice: type[TextVoice], test: str) -> None:
     with asyncio.Runner() as runner:
         contract = type("OfThisVoice", (TTSContract,), {"tts": lambda _: voice()})
         broken(contract, test, Speaker(voice(), runner))

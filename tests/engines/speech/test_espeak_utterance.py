@@ -1,37 +1,47 @@
 """The SSML for espeak-ng, and the utterance made of its reply; the replies are made by hand."""
 
+from collections.abc import Sequence
+
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from lxml import etree
 
+from reactive_realizer.engine.tts import Utterance
 from reactive_realizer.engines.speech.espeak_messages import WorkerMessage
 from reactive_realizer.engines.speech.espeak_utterance import as_utterance, marked_up
 
 RATE = 1000
 
 
-def utterance(text, words=(), marks=(), reported=(), phonemes=(), duration=2000):
+def utterance(
+    text: str,
+    words: Sequence[tuple[int, int]] = (),
+    marks: Sequence[tuple[str, int]] = (),
+    reported: Sequence[tuple[str, int]] = (),
+    phonemes: Sequence[tuple[int, str]] = (),
+    duration: int = 2000,
+) -> Utterance:
     """Words are reported at (time in ms, character of the text), phonemes as (time in ms, symbol)."""
     markup = marked_up(text, tuple(place for _, place in marks))
     positions = [(time, markup.origins.index(character) + 1) for time, character in words]
     header = {"sample_rate": RATE, "words": positions, "marks": reported, "phonemes": phonemes}
-    return as_utterance(WorkerMessage(header, bytes(2 * duration)), text, marks, markup)
+    return as_utterance(WorkerMessage(header, bytes(2 * duration)), text, tuple(marks), markup)
 
 
-def starts(spoken):
+def starts(spoken: Utterance) -> list[tuple[str, float]]:
     return [(word.text, word.start) for word in spoken.words]
 
 
-def test_the_duration_is_the_duration_of_the_audio():
+def test_the_duration_is_the_duration_of_the_audio() -> None:
     assert utterance("a", duration=1234).duration == 1.234
 
 
-def test_words_have_the_reported_times():
+def test_words_have_the_reported_times() -> None:
     assert starts(utterance("red box", [(100, 0), (400, 4)])) == [("red", 0.1), ("box", 0.4)]
 
 
-def test_a_number_that_is_spoken_as_several_words_has_the_time_of_the_first():
+def test_a_number_that_is_spoken_as_several_words_has_the_time_of_the_first() -> None:
     assert starts(utterance("in 1984 again", [(0, 0), (200, 3), (500, 4), (700, 4), (900, 8)])) == [
         ("in", 0.0),
         ("1984", 0.2),
@@ -39,39 +49,39 @@ def test_a_number_that_is_spoken_as_several_words_has_the_time_of_the_first():
     ]
 
 
-def test_a_word_reported_at_its_opening_quotation_mark_is_found():
+def test_a_word_reported_at_its_opening_quotation_mark_is_found() -> None:
     assert starts(utterance('so "good" it', [(0, 0), (300, 3), (600, 10)])) == [("so", 0.0), ("good", 0.3), ("it", 0.6)]
 
 
-def test_a_word_that_is_not_reported_has_an_interpolated_time():
+def test_a_word_that_is_not_reported_has_an_interpolated_time() -> None:
     assert starts(utterance("of a b", [(0, 0), (500, 5)])) == [("of", 0.0), ("a", pytest.approx(0.3)), ("b", 0.5)]
 
 
-def test_a_last_word_that_is_not_reported_starts_before_the_sound_ends():
+def test_a_last_word_that_is_not_reported_starts_before_the_sound_ends() -> None:
     spoken = utterance("think of", [(0, 0)], phonemes=[(0, "θ"), (600, "ə"), (800, ""), (1900, "")])
     assert 0.0 < spoken.words[1].start < 0.8
 
 
-def test_the_times_of_words_never_decrease():
+def test_the_times_of_words_never_decrease() -> None:
     assert starts(utterance("a b c", [(0, 0), (500, 2), (400, 4)])) == [("a", 0.0), ("b", 0.5), ("c", 0.5)]
 
 
-def test_marks_have_the_reported_times_and_their_own_names():
+def test_marks_have_the_reported_times_and_their_own_names() -> None:
     spoken = utterance("red box", [(0, 0), (400, 4)], [("x'\"<", 4), ("end", 7)], [("m1", 900), ("m0", 400)])
     assert dict(spoken.marks) == {"x'\"<": 0.4, "end": 0.9}
 
 
-def test_a_mark_that_is_not_reported_has_the_time_of_the_next_word_or_of_the_end():
+def test_a_mark_that_is_not_reported_has_the_time_of_the_next_word_or_of_the_end() -> None:
     spoken = utterance("red box", [(0, 0), (400, 4)], [("a", 4), ("b", 7)])
     assert dict(spoken.marks) == {"a": 0.4, "b": 2.0}
 
 
-def test_the_times_of_marks_are_in_the_order_of_the_text():
+def test_the_times_of_marks_are_in_the_order_of_the_text() -> None:
     spoken = utterance("a b c", [(0, 0), (200, 2), (400, 4)], [("late", 4), ("early", 2)], [("m1", 500)])
     assert list(spoken.marks.items()) == [("early", 0.5), ("late", 0.5)]
 
 
-def test_a_phoneme_lasts_until_the_next_one_or_the_end():
+def test_a_phoneme_lasts_until_the_next_one_or_the_end() -> None:
     spoken = utterance("a", phonemes=[(100, "ə"), (250, "n"), (400, "")], duration=1000)
     assert [(p.symbol, p.start, round(p.duration, 9)) for p in spoken.phonemes] == [
         ("ə", 0.1, 0.15),
@@ -86,21 +96,21 @@ def test_a_phoneme_lasts_until_the_next_one_or_the_end():
 TEXTS = st.text(st.characters(exclude_categories=["Cs", "Cc"]), max_size=30)
 
 
-def test_marks_are_numbered_and_at_their_indices():
+def test_marks_are_numbered_and_at_their_indices() -> None:
     assert marked_up("ab", (2, 0)).ssml == '<speak><mark name="m1"/>ab<mark name="m0"/></speak>'
 
 
-def test_marks_at_one_index_keep_their_order():
+def test_marks_at_one_index_keep_their_order() -> None:
     assert marked_up("a", (0, 0)).ssml == '<speak><mark name="m0"/><mark name="m1"/>a</speak>'
 
 
-def test_a_position_in_the_ssml_counts_from_1_and_maps_to_an_index_of_the_text():
+def test_a_position_in_the_ssml_counts_from_1_and_maps_to_an_index_of_the_text() -> None:
     markup = marked_up("a & b", (4,))
     assert markup.origin(markup.ssml.index("b") + 1) == 4
     assert markup.origin(markup.ssml.index("amp;") + 1) == 2
 
 
-def test_a_tag_maps_to_the_character_after_it_and_positions_outside_map_to_the_ends():
+def test_a_tag_maps_to_the_character_after_it_and_positions_outside_map_to_the_ends() -> None:
     markup = marked_up("a b", (2,))
     assert markup.origin(markup.ssml.index("<mark") + 1) == 2
     assert (markup.origin(0), markup.origin(1000)) == (0, 3)
@@ -108,19 +118,21 @@ def test_a_tag_maps_to_the_character_after_it_and_positions_outside_map_to_the_e
 
 @settings(derandomize=True)
 @given(text=TEXTS, data=st.data())
-def test_the_ssml_is_well_formed_and_has_the_same_text(text, data):
+def test_the_ssml_is_well_formed_and_has_the_same_text(text: str, data: st.DataObject) -> None:
     marks = tuple(data.draw(st.lists(st.integers(0, len(text)), max_size=4)))
     markup = marked_up(text, marks)
     root = etree.fromstring(markup.ssml)
-    assert "".join(root.itertext()) == text
-    assert sorted(mark.get("name") for mark in root) == sorted(f"m{n}" for n in range(len(marks)))
-    for mark in root:
-        place = marks[int(mark.get("name")[1:])]
-        assert "".join(root.xpath("//mark[@name=$name]/preceding::text()", name=mark.get("name"))) == text[:place]
+    assert "".join(map(str, root.itertext())) == text
+    names = [mark.get("name", "") for mark in root]
+    assert sorted(names) == sorted(f"m{n}" for n in range(len(marks)))
+    for name in names:
+        before = root.xpath("//mark[@name=$name]/preceding::text()", name=name)
+        assert isinstance(before, list)
+        assert "".join(map(str, before)) == text[: marks[int(name[1:])]]
 
 
 @settings(derandomize=True)
 @given(TEXTS)
-def test_every_character_of_the_text_has_a_position_in_the_ssml(text):
+def test_every_character_of_the_text_has_a_position_in_the_ssml(text: str) -> None:
     origins = marked_up(text, ()).origins
     assert sorted(set(origins)) == list(range(len(text) + 1))

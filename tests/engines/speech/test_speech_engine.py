@@ -10,17 +10,19 @@ VOICES = ["text", pytest.param("espeak", marks=pytest.mark.speech)]
 
 @pytest.mark.parametrize("voice", VOICES)
 @pytest.mark.parametrize("text", ["<text/>", "<text>...</text>", '<text><sync id="m"/></text>'])
-async def test_a_speech_without_a_word_is_dropped_with_a_warning_and_the_rest_of_the_block_plays(voice, text) -> None:
+async def test_a_speech_without_a_word_is_dropped_with_a_warning_and_the_rest_of_the_block_plays(
+    voice: str, text: str
+) -> None:
     async with open_pilot(SceneOptions(voice=voice)) as pilot:
         pilot.block("b", f'<speech id="s">{text}</speech><wait id="w" duration="0.1"/>')
         await pilot.advance(1)
         assert pilot.feedback.warnings == [("b:s", "CANNOT_CREATE_BEHAVIOR")]
-        assert "no word" in pilot.feedback.of("warningFeedback")[0].element.text
+        assert "no word" in pilot.feedback.of("warningFeedback")[0].text
         assert pilot.feedback.reached("b:w:end")
 
 
 @pytest.mark.parametrize("voice", VOICES)
-async def test_a_speech_starts_with_its_block_and_reports_its_mark(voice) -> None:
+async def test_a_speech_starts_with_its_block_and_reports_its_mark(voice: str) -> None:
     async with open_pilot(SceneOptions(voice=voice)) as pilot:
         pilot.block("b", '<speech id="s"><text>Put it <sync id="m"/>here.</text></speech>')
         await pilot.advance(3)
