@@ -1,8 +1,6 @@
 """Finds mistakes in BML documents, and behaviors that the scene cannot play."""
 
-import logging
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from contextlib import suppress
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -23,10 +21,8 @@ from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.realizer.realizer import Realizer
 from reactive_realizer.scheduler.admission import Admission
-from reactive_realizer.scheduler.engine_routing import EngineRouting
-from reactive_realizer.scheduler.faults import NoSuchBehavior, UnknownTargetBlock, WorkFailed
-
-logger = logging.getLogger(__name__)
+from reactive_realizer.scheduler.engine_routing import EngineRouting, Result, RoutedBehavior
+from reactive_realizer.scheduler.faults import NoSuchBehavior, UnknownTargetBlock
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,34 +46,24 @@ async def rehearse(block: BehaviorBlock | DefineProc, routing: EngineRouting) ->
     The plan ignores the effects of earlier blocks. For an unknown character, no behavior has an engine.
     """
     character = (isinstance(block, BehaviorBlock) and block.character) or routing.characters[0]
-    played = routing.engines_for(character, block.behaviors) if character in routing.characters else {}
+    played = routing.route(character, block.behaviors) if character in routing.characters else {}
     units: dict[str, PlanUnit] = {}
     faults: list[Fault] = []
-    for id_, (behavior, engine) in played.items():
-        place = behavior.location
+    for id_, routed in played.items():
+        place = routed.behavior.location
         try:
-            units[id_] = await _unit(BlockKey(character, block.id), behavior, engine)
+            units[id_] = routed.plan(BlockKey(character, block.id), await _prepared(routed), lambda _: None)
         except RealizerError as refused:
             faults.append(refused.fault.located(place.line, place.column))
-        except Exception as failure:
-            logger.exception("%s could not be made", id_)
-            faults.append(WorkFailed(reason=str(failure), line=place.line, column=place.column))
-    return Rehearsal({id_: engine for id_, (_, engine) in played.items()}, units, faults)
+    return Rehearsal({id_: routed.engine for id_, routed in played.items()}, units, faults)
 
 
-async def _unit(block: BlockKey, behavior: Behavior, engine: Engine) -> PlanUnit:
-    """Plans the first description of a behavior that can be planned.
-
-    Raises:
-        RealizerError: none can; what is wrong with the behavior itself.
-    """
-    forms = [form for form in behavior.forms if engine.supports(form)]
-    work = engine.prepare(forms[0])
-    prepared = None if work is None else await work
-    for form in forms[:-1]:
-        with suppress(RealizerError):
-            return engine.plan(block, form, prepared)
-    return engine.plan(block, forms[-1], prepared)
+async def _prepared(routed: RoutedBehavior) -> Result:
+    try:
+        work = routed.prepare()
+        return None if work is None else await work
+    except Exception as failure:
+        return failure
 
 
 _UNPLAYABLE = WarningType.CANNOT_CREATE_BEHAVIOR

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.realizer.inputs import Delivery
+from reactive_realizer.scheduler.engine_routing import Result
 from reactive_realizer.scheduler.faults import WorkFailed
-from reactive_realizer.scheduler.preparation import Result
 
 Done = Callable[[Result, GlobalTime], None]
 

@@ -12,13 +12,13 @@ from reactive_realizer.pegboard.time_peg import TimePeg
 from reactive_realizer.planunit.plan_unit import PlanUnit, UnitState
 from reactive_realizer.scheduler.block_composition import BlockComposition
 from reactive_realizer.scheduler.block_feedback import BlockFeedback
-from reactive_realizer.scheduler.block_planner import BlockPlanner, Draft
+from reactive_realizer.scheduler.block_planner import BlockPlanner
 from reactive_realizer.scheduler.block_state import PREDICTION, REMAINING, BlockEvent, BlockState
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock, Predecessor
 from reactive_realizer.scheduler.engine_routing import EngineRouting
-from reactive_realizer.scheduler.faults import ActivatedAlready, AllPast, CutTie, DroppedTie, NotPreplanned
-from reactive_realizer.scheduler.planning import Planning
+from reactive_realizer.scheduler.faults import ActivatedAlready, AllPast, CutTie, DroppedTie, NotAwaited, NotPreplanned
+from reactive_realizer.scheduler.planning import Plan, Planning
 from reactive_realizer.scheduler.predictions import Predictions
 from reactive_realizer.scheduler.problem import Loss
 from reactive_realizer.scheduler.tie_release import TieRelease
@@ -94,15 +94,15 @@ class BlockLifecycle:
         """
         self._end(self._new_block(composition, (), now), BlockEvent.FAIL, now)
 
-    def plan(self, block: BMLBlock, draft: Draft, now: GlobalTime) -> None:
+    def plan(self, block: BMLBlock, plan: Plan, now: GlobalTime) -> None:
         """Commit the plan of a block, or fail the block if something required is lost."""
-        if self._fails_by(block, draft.losses, now):
+        if self._fails_by(block, plan.losses, now):
             return
         with self._board.graph.transaction(f"plan {block.key.block}"):
-            holds = self._planning.lay_out(block, draft.plan)
-            block.set_plan(now, draft.plan.units, draft.plan.times, draft.plan.kept, holds)
-        for unit in draft.plan.units:
-            self._routing.assign(unit, draft.engines[unit])
+            holds = self._planning.lay_out(block, plan)
+            block.set_plan(now, plan.units, plan.layout.times, plan.kept, holds)
+        for unit in plan.units:
+            self._routing.assign(unit)
         self._take(block, BlockEvent.PREPLAN if block.awaits_activation else BlockEvent.PLAN, now)
 
     # --- start
@@ -233,12 +233,12 @@ class BlockLifecycle:
         key = BlockKey(composition.character, description.id)
         block = BMLBlock(self._board, key, description, self._arrivals, now, predecessors)
         self._blocks.add(block)
-        self._feedback.unknown_attributes(block, description.extensions, description)
+        self._feedback.foreign_attributes(key, description)
         return block
 
     def _fails_by(self, block: BMLBlock, losses: Sequence[Loss], now: GlobalTime) -> bool:
         """Warn of losses; whether the block fails by them."""
-        self._feedback.losses(block, losses)
+        self._feedback.losses(block.key, losses)
         fails = any(loss.required for loss in losses)
         if fails:
             self._end(block, BlockEvent.FAIL, now)
@@ -258,11 +258,14 @@ class BlockLifecycle:
         if block.failing:
             self.fail(block, now)
             return
-        self._feedback.not_awaited(block)
+        for other in dict.fromkeys(each.block for each in block.predecessors if each.block.only_persists):
+            persisting = ", ".join(unit.behavior.id for unit in other.live_units)
+            not_awaited = NotAwaited(block=other.key.block, behaviors=persisting)
+            self._feedback.warn_element(block.key, block.description, not_awaited)
         for name in block.description.on_start:
             fault = self.activate(block.key.character, name, time)
             if fault is not None:
-                self._feedback.warn_block(block, fault)
+                self._feedback.warn_element(block.key, block.description, fault)
 
     def _renew(self, block: BMLBlock, start: GlobalTime, now: GlobalTime) -> None:
         """Within a transaction, give a block that starts a new plan, if it needs one."""

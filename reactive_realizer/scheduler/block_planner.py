@@ -1,30 +1,28 @@
-"""Drafts the plan of an accepted block: engines prepare and plan its behaviors, the strategy times them."""
+"""Plans accepted blocks: engines prepare and make the units of their behaviors, and the strategy times them."""
 
 import asyncio
-import logging
-from collections.abc import Callable, Container, Iterator, Mapping
+from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.names import BML, BML_EXT
 from reactive_realizer.clock.units import GlobalTime
-from reactive_realizer.engine.engine import Engine
+from reactive_realizer.engine.faults import UnknownParameter
+from reactive_realizer.errors import Fault
 from reactive_realizer.planunit.plan_unit import PlanUnit
+from reactive_realizer.planunit.timing import Timing
 from reactive_realizer.scheduler.block_feedback import BlockFeedback
 from reactive_realizer.scheduler.block_state import BlockState
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock
-from reactive_realizer.scheduler.engine_routing import EngineRouting
-from reactive_realizer.scheduler.faults import ForeignNotSupported, NotSupported
+from reactive_realizer.scheduler.engine_routing import EngineRouting, Result, RoutedBehavior
+from reactive_realizer.scheduler.faults import DescriptionLeftOut, ForeignNotSupported, NotSupported
 from reactive_realizer.scheduler.losses import lost_behavior
 from reactive_realizer.scheduler.planning import BlockProblem, Plan, Planning
 from reactive_realizer.scheduler.planning_order import dependency_order
-from reactive_realizer.scheduler.preparation import BackgroundWork, Preparation, Result
+from reactive_realizer.scheduler.preparation import BackgroundWork, Preparation
 from reactive_realizer.scheduler.problem import Loss
 from reactive_realizer.scheduler.procedures import Procedures
-
-logger = logging.getLogger(__name__)
-
 
 _MOST_AT_ONCE = 50
 """Behaviors of a block that is solved on the event loop; a bigger block is solved in a thread."""
@@ -33,32 +31,20 @@ _MOST_OFTEN = 3
 """Solutions of one block. If times still move then, the last one is committed: its pegs follow them."""
 
 
-@dataclass(frozen=True, slots=True)
-class Draft:
-    """The plan of a block, before anything of it is committed.
-
-    Attributes:
-        plan: its behaviors with their pegs.
-        engines: the engine of each behavior.
-        losses: what could not be kept, and what engines could not make.
-    """
-
-    plan: Plan
-    engines: Mapping[PlanUnit, Engine]
-    losses: tuple[Loss, ...]
-
-
 @dataclass(slots=True, eq=False)
-class _Solving:
+class _Draft:
     """A block while it is solved.
 
     Attributes:
+        timings: its behaviors, with their preferences.
+        refused: the behaviors that engines could not make.
         plan: None until it is solved.
         times: how often it has been solved.
+        cancel: cancels the work of a thread.
     """
 
-    engines: Mapping[PlanUnit, Engine]
-    refused: list[Loss]
+    timings: Mapping[PlanUnit, Timing]
+    refused: Sequence[Loss]
     posed: BlockProblem
     plan: Plan | None = None
     times: int = 0
@@ -66,7 +52,7 @@ class _Solving:
 
 
 class BlockPlanner:
-    """Prepares blocks in parallel and drafts their plans in order of arrival."""
+    """Prepares blocks in parallel, and plans them in order of arrival."""
 
     def __init__(
         self,
@@ -84,23 +70,23 @@ class BlockPlanner:
         self._background = background
         self._feedback = feedback
         self._preparations: dict[BMLBlock, Preparation] = {}
-        self._solving: dict[BMLBlock, _Solving] = {}
+        self._drafts: dict[BMLBlock, _Draft] = {}
 
     def prepare(self, block: BMLBlock) -> list[Loss]:
         """Start the engines' background work for a block; the losses are the behaviors that no engine plays."""
-        prepared = self._procedures.preparation(block.key.character, block.description)
-        behaviors = block.description.behaviors
-        engines = self._routing.engines_for(block.key.character, behaviors)
-        losses = [_unsupported(behavior) for behavior in behaviors if behavior.id not in engines]
-        for behavior in behaviors:
-            _, engine = engines.get(behavior.id, (behavior, None))
-            known = engine.extensions if engine is not None else frozenset()
-            unknown = [name for name in behavior.extensions if name not in known]
-            self._feedback.unknown_attributes(block, unknown, behavior)
+        description = block.description
+        prepared = self._procedures.preparation(block.key.character, description)
+        routed = self._routing.route(block.key.character, description.behaviors)
+        losses = [_unsupported(behavior) for behavior in description.behaviors if behavior.id not in routed]
+        for behavior in description.behaviors:
+            engine = routed[behavior.id].engine if behavior.id in routed else None
+            self._feedback.foreign_attributes(block.key, behavior, engine.extensions if engine else frozenset())
             if behavior.parameters and engine is not None and not engine.reads_parameters:
-                self._feedback.unread_parameters(block, behavior)
+                names = ", ".join(sorted(behavior.parameters))
+                fault = UnknownParameter(names=names, element=behavior.name, known="none")
+                self._feedback.warn_element(block.key, behavior, fault)
         if not any(loss.required for loss in losses):
-            self._preparations[block] = prepared or self._begin(engines)
+            self._preparations[block] = prepared or Preparation(routed, self._background)
         return losses
 
     def cancel(self, block: BMLBlock) -> None:
@@ -108,63 +94,65 @@ class BlockPlanner:
         preparation = self._preparations.pop(block, None)
         if preparation is not None and block.description.procedure is None:
             preparation.cancel()
-        if block in self._solving:
-            self._solving.pop(block).cancel()
+        if block in self._drafts:
+            self._drafts.pop(block).cancel()
 
-    def drafts(self, now: GlobalTime) -> Iterator[tuple[BMLBlock, Draft]]:
-        """Drafts of the blocks that are ready, as if they were to start now, in order of arrival.
+    def plans(self, now: GlobalTime) -> Iterator[tuple[BMLBlock, Plan]]:
+        """Plans of the blocks that are ready, as if they were to start now, in order of arrival.
 
-        A block waits until those that it names are planned; of a circle of blocks one is first.
+        A block waits until the blocks that it names are planned; in a circle of blocks, one is first.
         """
         late: set[BMLBlock] = set()
         for block in self._in_order():
             if block in self._preparations and self._may_plan(block, late):
-                engines, refused = self._preparations.pop(block).units(block, self._feedback)
-                timings = {unit: unit.timing for unit in engines}
-                self._solving[block] = _Solving(engines, refused, self._planning.build_problem(block, timings, now))
-                self._solve(block, self._solving[block])
-            if block in self._solving and (draft := self._draft(block, self._solving[block], now)) is not None:
-                yield block, draft
+                self._begin(block, self._preparations.pop(block), now)
+            if block in self._drafts and (plan := self._finished(block, self._drafts[block], now)) is not None:
+                yield block, plan
             if block.state is BlockState.IN_PREP:
                 late.add(block)
 
-    def _begin(self, engines: Mapping[str, tuple[Behavior, Engine]]) -> Preparation:
-        preparation = Preparation(engines, self._background)
-        preparation.begin()
-        return preparation
+    def _begin(self, block: BMLBlock, preparation: Preparation, now: GlobalTime) -> None:
+        """Have the engines make the units of a block, and solve it."""
 
-    def _solve(self, block: BMLBlock, solving: _Solving) -> None:
+        def left_out(routed: RoutedBehavior, fault: Fault) -> None:
+            self._feedback.warn_element(block.key, routed.behavior, DescriptionLeftOut(reason=fault.sentence))
+
+        units, refused = preparation.units(block.key, block.cancelled, left_out)
+        timings = {unit: unit.timing for unit in units}
+        posed = self._planning.build_problem(block, timings, now, refused)
+        self._drafts[block] = _Draft(timings, refused, posed)
+        self._solve(block, self._drafts[block])
+
+    def _solve(self, block: BMLBlock, draft: _Draft) -> None:
         """Solve at once, or in a thread if that would hold up the event loop."""
-        solving.times += 1
-        if len(solving.posed.units) <= _MOST_AT_ONCE:
-            solving.plan = self._planning.solve(solving.posed)
+        draft.times += 1
+        if len(draft.posed.units) <= _MOST_AT_ONCE:
+            draft.plan = self._planning.solve(draft.posed)
             return
 
         def receive(result: Result, now: GlobalTime) -> None:
-            solving.cancel = lambda: None  # it leads back here: only the garbage collector would find them
+            draft.cancel = lambda: None  # it leads back here: only the garbage collector would find them
             if isinstance(result, Plan):
-                solving.plan = result
+                draft.plan = result
 
-        work = asyncio.to_thread(self._planning.solve, solving.posed)
-        solving.plan = None
-        solving.cancel = self._background.request(f"solve {block.key.block}", work, receive)
+        work = asyncio.to_thread(self._planning.solve, draft.posed)
+        draft.plan = None
+        draft.cancel = self._background.request(f"solve {block.key.block}", work, receive)
 
-    def _draft(self, block: BMLBlock, solving: _Solving, now: GlobalTime) -> Draft | None:
-        """The draft of a block that is solved; it is solved again if times from outside have moved since."""
-        if solving.plan is None:
-            return None
-        stale = solving.times < _MOST_OFTEN and self._planning.is_stale(solving.posed)
-        if stale or self._planning.is_cyclic(block, solving.posed):
-            timings = {unit: unit.timing for unit in solving.engines}
-            solving.posed = self._planning.build_problem(block, timings, now)
-            self._solve(block, solving)
-            return self._draft(block, solving, now) if solving.plan is not None else None
-        del self._solving[block]
-        return Draft(solving.plan, solving.engines, (*solving.refused, *solving.plan.losses))
+    def _finished(self, block: BMLBlock, draft: _Draft, now: GlobalTime) -> Plan | None:
+        """The plan of a block that is solved; it is solved again if times from outside have moved since."""
+        while (plan := draft.plan) is not None:
+            stale = draft.times < _MOST_OFTEN and self._planning.is_stale(draft.posed)
+            if not stale and not self._planning.is_cyclic(block, draft.posed):
+                del self._drafts[block]
+                return plan
+            draft.posed = self._planning.build_problem(block, draft.timings, now, draft.refused)
+            self._solve(block, draft)
+        return None
 
     def _in_order(self) -> list[BMLBlock]:
         """The blocks in preparation, each after those that it names; none while none can be planned."""
-        if not self._solving and not any(preparation.complete for preparation in self._preparations.values()):
+        if not self._drafts and not any(preparation.complete for preparation in self._preparations.values()):
             return []
         preparing = [block for block in self._blocks.alive if block.state is BlockState.IN_PREP]
         return dependency_order(preparing, self._awaited)
@@ -177,6 +165,6 @@ class BlockPlanner:
 
 
 def _unsupported(behavior: Behavior) -> Loss:
-    core = behavior.namespace in (BML, BML_EXT)
-    foreign = ForeignNotSupported(element=behavior.name, namespace=behavior.namespace)
-    return lost_behavior(behavior, NotSupported(element=behavior.name) if core else foreign)
+    if behavior.namespace in (BML, BML_EXT):
+        return lost_behavior(behavior, NotSupported(element=behavior.name))
+    return lost_behavior(behavior, ForeignNotSupported(element=behavior.name, namespace=behavior.namespace))

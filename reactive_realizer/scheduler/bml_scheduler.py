@@ -118,8 +118,8 @@ class BMLScheduler:
 
     def advance(self, now: GlobalTime) -> bool:
         """Plan what is prepared, then end and start what is due; whether anything started or ended."""
-        for block, draft in self._planner.drafts(now):
-            self._lifecycle.plan(block, draft, now)
+        for block, plan in self._planner.plans(now):
+            self._lifecycle.plan(block, plan, now)
         ended = self._lifecycle.end_due(now)
         return self._lifecycle.start_due(now) or ended
 

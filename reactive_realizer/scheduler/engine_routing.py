@@ -1,11 +1,70 @@
 """The engines of each character, and which engine plays which behavior."""
 
-from collections.abc import Iterable, Mapping, Sequence
+import logging
+from collections.abc import Awaitable, Callable, Iterable, Mapping, Sequence
+from typing import NamedTuple
 
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.clock.units import GlobalTime, is_due
 from reactive_realizer.engine.engine import Engine
+from reactive_realizer.errors import Fault, RealizerError
+from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.plan_unit import PlanUnit
+from reactive_realizer.scheduler.faults import WorkFailed
+
+logger = logging.getLogger(__name__)
+
+Result = object | Exception
+"""The result of background work: a value, or the exception that it raised."""
+
+
+class RoutedBehavior(NamedTuple):
+    """A behavior with the engine that plays it.
+
+    Attributes:
+        forms: the forms of the behavior that the engine supports, best first.
+    """
+
+    behavior: Behavior
+    engine: Engine
+    forms: Sequence[Behavior]
+
+    def prepare(self) -> Awaitable[object] | None:
+        """The slow work to be done before planning; None if there is none."""
+        return self.engine.prepare(self.forms[0])
+
+    def plan(self, block: BlockKey, result: Result, left_out: Callable[[Fault], None]) -> PlanUnit:
+        """A unit for the best form that can be made.
+
+        Args:
+            block: in which it is played.
+            result: of the slow work.
+            left_out: called with the fault of each better form.
+
+        Raises:
+            RealizerError: the slow work failed, or no form can be made.
+        """
+        if isinstance(result, RealizerError):
+            raise result
+        if isinstance(result, Exception):
+            raise RealizerError(WorkFailed(reason=str(result))) from result
+        try:
+            unit = self._best(block, result, left_out)
+        except RealizerError:
+            raise
+        except Exception as failure:
+            logger.exception("%s/%s:%s could not be made", *block, self.behavior.id)
+            raise RealizerError(WorkFailed(reason=str(failure))) from failure
+        unit.behavior = self.behavior  # feedback names the behavior, whatever form of it is played
+        return unit
+
+    def _best(self, block: BlockKey, result: object, left_out: Callable[[Fault], None]) -> PlanUnit:
+        for form in self.forms[:-1]:
+            try:
+                return self.engine.plan(block, form, result)
+            except RealizerError as problem:
+                left_out(problem.fault)
+        return self.engine.plan(block, self.forms[-1], result)
 
 
 class EngineRouting:
@@ -31,13 +90,14 @@ class EngineRouting:
         """All engines, in rank order."""
         return tuple(engine for own in self._engines.values() for engine in own)
 
-    def engines_for(self, character: str, behaviors: Iterable[Behavior]) -> dict[str, tuple[Behavior, Engine]]:
+    def route(self, character: str, behaviors: Iterable[Behavior]) -> dict[str, RoutedBehavior]:
         """Behaviors by id, with the engine that plays each; a behavior that no engine supports is left out."""
-        found = ((behavior, self._engine_for(character, behavior)) for behavior in behaviors)
-        return {behavior.id: (behavior, engine) for behavior, engine in found if engine is not None}
+        found = (self._routed(character, behavior) for behavior in behaviors)
+        return {routed.behavior.id: routed for routed in found if routed is not None}
 
-    def assign(self, unit: PlanUnit, engine: Engine) -> None:
-        """Have an engine play a unit that has its pegs."""
+    def assign(self, unit: PlanUnit) -> None:
+        """Have the engine of its behavior play a unit that has its pegs."""
+        engine = self.route(unit.block.character, [unit.behavior])[unit.behavior.id].engine
         self._engine_of[unit] = engine
         self._units[engine][unit] = None
         engine.add(unit)
@@ -65,10 +125,14 @@ class EngineRouting:
         points = (point for unit in self._units[engine] for point in unit.points)
         return self._take_changed(engine) or any(not p.fired and is_due(p.peg.value, now) for p in points)
 
-    def _engine_for(self, character: str, behavior: Behavior) -> Engine | None:
-        """The first engine of a character that supports the best form of a behavior."""
-        engines = self._engines[character]
-        return next((engine for form in behavior.forms for engine in engines if engine.supports(form)), None)
+    def _routed(self, character: str, behavior: Behavior) -> RoutedBehavior | None:
+        """A behavior with the first engine of a character that supports its best form."""
+        forms = behavior.forms
+        engines = (engine for form in forms for engine in self._engines[character] if engine.supports(form))
+        engine = next(engines, None)
+        if engine is None:
+            return None
+        return RoutedBehavior(behavior, engine, [form for form in forms if engine.supports(form)])
 
     def _take_changed(self, engine: Engine) -> bool:
         changed = engine in self._changed

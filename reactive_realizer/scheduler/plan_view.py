@@ -1,4 +1,4 @@
-"""A plan as times at one moment: what can be checked of a solution and of a block that plays."""
+"""A plan as times at one moment, for the checks of `verify`."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -17,17 +17,17 @@ class PlanView:
     """The points of a block and their times (s), all on one axis.
 
     Attributes:
-        timings: what each behavior prefers, by id.
-        times: of the points that are still to come or have come, None while unknown; cut ones are not among them.
-        past: the points that keep their times whatever happens: fired, or pinned.
+        timings: the preferred timing of each behavior, by id.
+        times: of the points, None while unknown; points that were cut are missing.
+        past: the points whose times are final: fired, or pinned.
         kept: the constraints of the plan.
-        outer: times of the pegs that these name outside of the block.
+        outer: times of the pegs outside of the block that these name.
         start: of the block, None while unknown.
-        earliest: at which what has not begun could begin.
-        end: of the block; None where that is not known.
-        end_floor: before which the block does not end whatever its behaviors do.
-        settled: the constraints that nothing is expected of any more.
-        lurking: ids of behaviors on the board that have not begun; they are judged when they do, and until then times
+        earliest: at which a behavior that has not begun could begin.
+        end: of the block; None if it is unknown.
+        end_floor: before which the block does not end.
+        settled: the constraints that need not hold any more.
+        lurking: ids of behaviors on the board that have not begun. They are checked when they begin; until then, times
             from outside may bring them out of order, or before their block.
     """
 
@@ -45,57 +45,44 @@ class PlanView:
 
     @classmethod
     def of_solution(cls, problem: SchedulingProblem, solution: Solution) -> Self:
-        """What a strategy answered, in times after the start of the block."""
-        kept = solution.kept_of(problem)
-        return cls(
-            timings={item.behavior.id: item.timing for item in kept.items},
-            times=PegLayout(problem, solution).times,
-            past=frozenset(),
-            kept=(*kept.ties, *kept.orders),
-            outer=problem.times,
-            start=0.0,
-            earliest=0.0,
-        )
+        """The solution of a strategy, in times after the start of the block."""
+        layout = PegLayout(problem, solution)
+        timings = {item.behavior.id: item.timing for item in layout.kept.items}
+        return cls(timings, layout.times, frozenset(), layout.kept.constraints, problem.times, start=0.0, earliest=0.0)
 
     @classmethod
     def of_block(cls, block: BMLBlock, now: GlobalTime) -> Self:
         """A block on the board, in global times, at the end of the tick at ``now``."""
         points = {Point(unit.behavior.id, p.id): p for unit in block.units for p in unit.points}
         start = block.start.value
+        # What the start waited for need not hold once the block has started.
+        waited = (each for each in block.kept if not any(isinstance(node, Point) for node in each.nodes))
         return cls(
-            # The end of what persists is nobody's business before it comes.
-            timings={
-                unit.behavior.id: unit.timing if unit.points[-1].fired else unit.timing.closed for unit in block.units
-            },
-            times={key: p.peg.value for key, p in points.items()},
-            past=frozenset(key for key, p in points.items() if p.peg.pinned),
-            kept=block.kept,
-            settled=_settled(block),
-            lurking=frozenset(unit.behavior.id for unit in block.units if not unit.begun),
-            outer={n: n.value for each in block.kept for n in each.nodes if not isinstance(n, Point | Origin)},
-            start=start,
-            earliest=None if start is None else max(start, now),
-            end=block.end.value,
-            end_floor=block.end.floor,
+            # The end of a persistent behavior is not checked before it is ended.
+            {unit.behavior.id: unit.timing if unit.points[-1].fired else unit.timing.closed for unit in block.units},
+            {key: point.peg.value for key, point in points.items()},
+            frozenset(key for key, point in points.items() if point.peg.pinned),
+            block.kept,
+            {n: n.value for each in block.kept for n in each.nodes if not isinstance(n, Point | Origin)},
+            start,
+            None if start is None else max(start, now),
+            block.end.value,
+            block.end.floor,
+            frozenset(block.settled.union(waited) if block.state.plays else block.settled),
+            frozenset(unit.behavior.id for unit in block.units if not unit.begun),
         )
 
     @property
     def expected(self) -> list[Tie | Precedence]:
-        """The constraints that are to hold."""
+        """The constraints that have to hold."""
         return [each for each in self.kept if each not in self.settled]
 
     def time(self, node: Node) -> float | None:
-        """When something is; None while it is unknown, or if it is not there (any more)."""
+        """The time of a node; None while it is unknown, or if it was cut."""
         if isinstance(node, Point):
             return self.times.get(node)
         return self.start if isinstance(node, Origin) else self.outer[node]
 
     def movable(self, node: Node) -> bool:
-        """Whether what is asked of it can still be met; the outside is as it is."""
+        """Whether the plan can still satisfy a constraint on a node; times from outside are given."""
         return not isinstance(node, Point) or (node in self.times and node not in self.past)
-
-
-def _settled(block: BMLBlock) -> frozenset[Tie | Precedence]:
-    """Also what its start waited for, once it has started."""
-    waited = (each for each in block.kept if not any(isinstance(node, Point) for node in each.nodes))
-    return frozenset(block.settled.union(waited) if block.state.plays else block.settled)

@@ -12,20 +12,11 @@ from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
 from reactive_realizer.planunit.timing import OPEN, Timing
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock
-from reactive_realizer.scheduler.constraints import ReferenceResolver, drop_unplaceable, holding, orders_of, ties_of
+from reactive_realizer.scheduler.constraints import ReferenceResolver, bound_on_start, constraints_of
 from reactive_realizer.scheduler.faults import WorkFailed
 from reactive_realizer.scheduler.free_points import through_free
 from reactive_realizer.scheduler.peg_layout.peg_layout import PegLayout
-from reactive_realizer.scheduler.problem import (
-    Item,
-    Loss,
-    Origin,
-    Point,
-    Precedence,
-    SchedulingProblem,
-    Solution,
-    Tie,
-)
+from reactive_realizer.scheduler.problem import Item, Loss, Origin, Point, Precedence, SchedulingProblem, Solution, Tie
 from reactive_realizer.scheduler.strategy import SchedulingStrategy, solve
 
 logger = logging.getLogger(__name__)
@@ -39,10 +30,10 @@ class BlockProblem:
 
     Attributes:
         units: its behaviors that can be placed.
-        problem: what the strategy gets.
-        losses: what was lost before.
+        problem: the input of the strategy.
+        losses: behaviors and constraints that were lost before.
         start: when the block was expected to start.
-        holds: constraints that the block keeps by starting later, with the bounds that they put on its start.
+        holds: constraints that the block satisfies by starting later, with the bounds that they put on its start.
     """
 
     units: tuple[PlanUnit, ...]
@@ -52,29 +43,26 @@ class BlockProblem:
     holds: Mapping[Tie | Precedence, Bound]
 
 
-@dataclass(frozen=True, slots=True)
 class Plan:
     """A solved block; nothing of it is on the board yet.
 
     Attributes:
+        posed: the problem.
+        solution: of the strategy.
+        layout: how the points depend on each other.
         units: the behaviors that have times.
-        losses: what was lost before and by the strategy.
+        losses: those of the problem and of the strategy.
         kept: the constraints that are kept.
-        holds: the bounds on the start of the block.
     """
 
-    units: tuple[PlanUnit, ...]
-    problem: SchedulingProblem
-    solution: Solution
-    layout: PegLayout
-    losses: tuple[Loss, ...]
-    kept: tuple[Tie | Precedence, ...]
-    holds: tuple[Bound, ...]
-
-    @property
-    def times(self) -> Mapping[Point, float | None]:
-        """When its points are, s after the start of the block; None for those that wait for an unknown time."""
-        return self.layout.times
+    def __init__(self, posed: BlockProblem, solution: Solution) -> None:
+        self.posed = posed
+        self.solution = solution
+        self.layout = PegLayout(posed.problem, solution)
+        planned = {item.behavior.id for item in self.layout.kept.items}
+        self.units = [unit for unit in posed.units if unit.behavior.id in planned]
+        self.losses = (*posed.losses, *solution.losses)
+        self.kept = (*self.layout.kept.constraints, *posed.holds)
 
 
 class Planning:
@@ -87,58 +75,46 @@ class Planning:
         self._listeners: list[PlanListener] = []
 
     def listen(self, listener: PlanListener) -> None:
-        """Call ``listener(block, problem, solution)`` of each plan that is put on the board."""
+        """Call ``listener(block, problem, solution)`` for each plan that is put on the board."""
         self._listeners.append(listener)
 
-    def build_problem(self, block: BMLBlock, timings: Mapping[PlanUnit, Timing], now: GlobalTime) -> BlockProblem:
+    def build_problem(
+        self, block: BMLBlock, timings: Mapping[PlanUnit, Timing], now: GlobalTime, losses: Iterable[Loss] = ()
+    ) -> BlockProblem:
         """The problem of a block that is ready to start; the board stays as it is.
 
         Args:
             block: in preparation, or about to start.
             timings: its behaviors, with their preferences.
             now: the earliest start.
+            losses: behaviors that were lost before.
         """
-        kept = {unit.behavior.id: unit for unit in timings}
-        for unit in kept.values():
+        for unit in timings:
             self._open(unit)
-        resolver = ReferenceResolver(block, kept, self._board, self._blocks)
-        losses = drop_unplaceable(kept, resolver)
-        ties, lost_ties = ties_of(block.description, kept, resolver)
-        orders, lost_orders = orders_of(block.description, resolver)
-        wanted = [Item(unit.behavior, timings[unit].closed) for unit in kept.values()]
-        items, ties, orders = through_free(wanted, ties, orders)
-        holds = _holds([*ties, *orders], _predicted_start(block, now))
-        ties, orders = [tie for tie in ties if tie not in holds], [order for order in orders if order not in holds]
-        start = _held_start(block, holds.values(), now)
-        times = _outer_times([*ties, *orders], start)
-        problem = SchedulingProblem(items, tuple(ties), times, tuple(orders))
-        return BlockProblem(tuple(kept.values()), problem, (*losses, *lost_ties, *lost_orders), start, holds)
-
-    def _open(self, unit: PlanUnit) -> None:
-        """Give a behavior that persists pegs for its unknown points, so that others may hang on them."""
-        if unit.timing.persistent and not unit.open:
-            graph = self._board.graph
-            unit.open = {sync: OpenPeg(graph, str(unit.key(sync))) for sync in unit.timing.points if sync in OPEN}
+        resolver = ReferenceResolver(block, {unit.behavior.id: unit for unit in timings}, self._board, self._blocks)
+        dropped = resolver.drop_unplaceable()
+        ties, orders, lost = constraints_of(block.description, resolver)
+        units = tuple(resolver.units.values())
+        items, ties, orders = through_free([Item(unit.behavior, timings[unit].closed) for unit in units], ties, orders)
+        start = max(now, block.start.value or now)
+        holds = _holds([*ties, *orders], start)
+        if holds:
+            ties, orders = [tie for tie in ties if tie not in holds], [order for order in orders if order not in holds]
+        start = max([start, *(time for bound in holds.values() for time in _known(bound))])
+        problem = SchedulingProblem(items, tuple(ties), _outer_times([*ties, *orders], start), tuple(orders))
+        return BlockProblem(units, problem, (*losses, *dropped, *lost), start, holds)
 
     def solve(self, posed: BlockProblem) -> Plan:
         """A plan by the strategy; thread-safe, because it reads only the problem.
 
-        A strategy that raises fails the block, and nothing else.
+        If the strategy raises, only this block fails.
         """
         try:
-            solution = solve(self._strategy, posed.problem)
-            layout = PegLayout(posed.problem, solution)
+            return Plan(posed, solve(self._strategy, posed.problem))
         except Exception as failure:
             logger.exception("the strategy %s failed", self._strategy.name)
             fault = WorkFailed(reason=str(failure))
-            solution = Solution({}, (Loss(None, fault, dropped=False, required=True),))
-            layout = PegLayout(posed.problem, solution)
-        left = layout.kept
-        behaviors = {item.behavior.id for item in left.items}
-        planned = tuple(unit for unit in posed.units if unit.behavior.id in behaviors)
-        kept = (*left.ties, *left.orders, *posed.holds)
-        losses = (*posed.losses, *solution.losses)
-        return Plan(planned, posed.problem, solution, layout, losses, kept, tuple(posed.holds.values()))
+            return Plan(posed, Solution({}, (Loss(None, fault, dropped=False, required=True),)))
 
     def is_stale(self, posed: BlockProblem) -> bool:
         """Whether times from outside have moved since the problem was posed.
@@ -153,12 +129,7 @@ class Planning:
         return any(cell.depends_on(block.start) for cell in cells)
 
     def renewed(self, block: BMLBlock, start: GlobalTime, now: GlobalTime) -> Plan | None:
-        """A new plan of a block that starts, with the preferences of its engines now (thesis 12.1.4).
-
-        Args:
-            block: about to start.
-            start: its time, s.
-            now: the time of the tick.
+        """A new plan of a block that starts at ``start``, with the preferences of its engines ``now`` (thesis 12.1.4).
 
         Returns:
             None if the present plan is still good, or the new one would lose anything.
@@ -169,16 +140,18 @@ class Planning:
         return None if plan.losses or len(plan.units) < len(block.units) else plan
 
     def lay_out(self, block: BMLBlock, plan: Plan) -> list[TimePeg]:
-        """Within a transaction, put the pegs of a plan on the board; those that the block's start waits for."""
-        self._board.add_block(block.key, self._hang(block, plan))
-        holds = self._holds(block, plan)
+        """Within a transaction, put the pegs of a plan on the board; returns those that the block's start waits for."""
+        self._board.add_block(block.key, self._build(block, plan))
+        name, bounds = f"{block.key.block}:start as constrained", plan.posed.holds.values()
+        holds: list[TimePeg] = [OffsetPeg(self._board.graph, name, cell, offset) for cell, offset in bounds]
+        self._board.add_unnamed(block.key, holds)
         self._announce(block, plan)
         return holds
 
     def replace(self, block: BMLBlock, plan: Plan) -> dict[TimeCell, TimeCell]:
         """Within a transaction, replace the plan on the board; returns the new pegs by the old ones."""
         replaced: dict[TimeCell, TimeCell] = {}
-        for key, peg in self._hang(block, plan).items():
+        for key, peg in self._build(block, plan).items():
             if (old := self._board.get(key)) is peg:
                 continue
             if old is not None:
@@ -187,76 +160,62 @@ class Planning:
         self._announce(block, plan)
         return replaced
 
+    def _open(self, unit: PlanUnit) -> None:
+        """Give a behavior that persists pegs for its unknown points, so that others may depend on them."""
+        if unit.timing.persistent and not unit.open:
+            graph = self._board.graph
+            unit.open = {sync: OpenPeg(graph, str(unit.key(sync))) for sync in unit.timing.points if sync in OPEN}
+
     def _announce(self, block: BMLBlock, plan: Plan) -> None:
         for listener in self._listeners:
-            listener(block, plan.problem, plan.solution)
+            listener(block, plan.posed.problem, plan.solution)
 
-    def _holds(self, block: BMLBlock, plan: Plan) -> list[TimePeg]:
-        """Pegs for the bounds that constraints put on the start of a block."""
-        name = f"{block.key.block}:start as constrained"
-        holds: list[TimePeg] = [OffsetPeg(self._board.graph, name, cell, offset) for cell, offset in plan.holds]
-        self._board.add_unnamed(block.key, holds)
-        return holds
-
-    def _hang(self, block: BMLBlock, plan: Plan) -> dict[PegKey, TimePeg]:
-        """Make the pegs of a plan, and have the points of its units reached at them."""
+    def _build(self, block: BMLBlock, plan: Plan) -> dict[PegKey, TimePeg]:
+        """Make the pegs of a plan, and give them to the points of its units."""
         pegs, unnamed = plan.layout.build(self._board.graph, block.key.block, block.start)
         self._board.add_unnamed(block.key, unnamed)
-        reasons = _reasons(plan.kept)
-        points: dict[str, dict[str, TimePeg]] = {unit.behavior.id: {} for unit in plan.units}
-        for point, peg in pegs.items():
-            points[point.behavior][point.sync] = peg
+        reasons: dict[Point, list[str]] = {}
+        for each in plan.kept:
+            for node in each.nodes:
+                if isinstance(node, Point):
+                    reasons.setdefault(node, []).append(each.text)
+        units = {unit.behavior.id: unit for unit in plan.units}
+        known: dict[PegKey, TimePeg] = {}
         for unit in plan.units:
-            named = reasons.get(unit.behavior.id, {})
-            own = points[unit.behavior.id]
-            for sync, texts in named.items():
-                own[sync].why = "; ".join(texts)
-            unit.points = [SyncPoint(sync, peg, sync in named) for sync, peg in own.items()]
+            unit.points = []
+        for point, peg in pegs.items():
+            if point in reasons:
+                peg.why = "; ".join(reasons[point])
+            unit = units[point.behavior]
+            unit.points.append(SyncPoint(point.sync, peg, point in reasons))
+            known[unit.key(point.sync)] = peg
+        for unit in plan.units:
             unit.points += [SyncPoint(sync, peg) for sync, peg in unit.open.items()]
-        known = {unit.key(sync): peg for unit in plan.units for sync, peg in points[unit.behavior.id].items()}
         return known | {unit.key(sync): peg for unit in plan.units for sync, peg in unit.open.items()}
-
-
-def _reasons(constraints: Iterable[Tie | Precedence]) -> dict[str, dict[str, list[str]]]:
-    """The points of each behavior that constraints name, with the texts of these."""
-    found: dict[str, dict[str, list[str]]] = {}
-    for each in constraints:
-        for node in each.nodes:
-            if isinstance(node, Point):
-                found.setdefault(node.behavior, {}).setdefault(node.sync, []).append(each.text)
-    return found
 
 
 def _is_outdated(block: BMLBlock, start: GlobalTime) -> bool:
     """Whether a block is to be planned again when it starts.
 
-    It is a chunk, and gestures are prepared from where the hands are; or something of it has come to lie before its
-    start, because times from outside are no longer those it was planned with.
+    So is a chunk, because gestures are prepared from the position of the hands; and a block with points that have come
+    to lie before its start, because times from outside have moved.
     """
     times = (point.peg.value for unit in block.units for point in unit.points)
     early = any(time is not None and time < start - RESOLUTION for time in times)
     return early or any(each.chunk for each in block.predecessors)
 
 
-def _predicted_start(block: BMLBlock, now: GlobalTime) -> GlobalTime:
-    """When a block that has not started is expected to start."""
-    return max(now, block.start.value or now)
-
-
 def _holds(constraints: Iterable[Tie | Precedence], start: GlobalTime) -> dict[Tie | Precedence, Bound]:
-    """The constraints that a block keeps by starting later; it cannot start earlier for an `at`."""
-    bounds = ((each, bound) for each in constraints if (bound := holding(each)) is not None)
-    return {each: bound for each, bound in bounds if isinstance(each, Precedence) or not _before(bound, start)}
+    """The constraints that a block satisfies by starting later; it cannot start earlier for an `at`."""
+    bounds = ((each, bound) for each in constraints if (bound := bound_on_start(each)) is not None)
+    early = start - RESOLUTION
+    return {each: b for each, b in bounds if isinstance(each, Precedence) or not any(t < early for t in _known(b))}
 
 
-def _before(bound: Bound, time: GlobalTime) -> bool:
+def _known(bound: Bound) -> list[GlobalTime]:
+    """The time of a bound; empty if it is unknown."""
     cell, distance = bound
-    return cell.value is not None and cell.value + distance < time - RESOLUTION
-
-
-def _held_start(block: BMLBlock, holds: Iterable[Bound], now: GlobalTime) -> GlobalTime:
-    known = [GlobalTime(cell.value + distance) for cell, distance in holds if cell.value is not None]
-    return max([_predicted_start(block, now), *known])
+    return [] if cell.value is None else [GlobalTime(cell.value + distance)]
 
 
 def _outer_times(constraints: Sequence[Tie | Precedence], start: GlobalTime) -> dict[TimeCell, float | None]:

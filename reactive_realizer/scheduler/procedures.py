@@ -38,12 +38,8 @@ class Procedures:
         if block.procedure is None:
             return block
         definition = self._procedures[block.procedure].definition
-        return replace(
-            block,
-            behaviors=definition.behaviors,
-            constraints=definition.constraints,
-            unread=definition.unread,
-        )
+        behaviors, constraints, unread = definition.behaviors, definition.constraints, definition.unread
+        return replace(block, behaviors=behaviors, constraints=constraints, unread=unread)
 
     def preparation(self, character: str, block: BehaviorBlock) -> Preparation | None:
         """The preparation of the procedure that a block uses; None for other blocks."""
@@ -52,7 +48,6 @@ class Procedures:
 
     def _prepare(self, procedure: _Procedure, character: str) -> Preparation:
         if character not in procedure.prepared:
-            engines = self._routing.engines_for(character, procedure.definition.behaviors)
-            procedure.prepared[character] = Preparation(engines, self._background)
-            procedure.prepared[character].begin()
+            routed = self._routing.route(character, procedure.definition.behaviors)
+            procedure.prepared[character] = Preparation(routed, self._background)
         return procedure.prepared[character]

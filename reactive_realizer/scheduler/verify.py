@@ -1,15 +1,15 @@
 """The equations of the thesis, checked on a plan (thesis 7.1 and 7.3.1; docs/time.md says where they are corrected)."""
 
 import itertools
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from math import inf
 
 from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.time_peg import AnticipatorPeg
 from reactive_realizer.planunit.timing import SHORTEST, PhaseKind
-from reactive_realizer.scheduler.clusters import Cluster, clusters_of
 from reactive_realizer.scheduler.faults import ConstraintBroken
+from reactive_realizer.scheduler.offset_union_find import OffsetUnionFind
 from reactive_realizer.scheduler.plan_view import PlanView
 from reactive_realizer.scheduler.problem import Node, Origin, Point, Precedence, Tie
 
@@ -23,9 +23,9 @@ class Violation:
 
     Attributes:
         equation: its number in the thesis, or the section where it has none.
-        points: what it is about: ``behavior:sync``, or the name of a peg.
+        points: that it is about: ``behavior:sync``, or the name of a peg.
         amount: by how much it is missed, s.
-        text: what should hold, for people.
+        text: the requirement in words.
     """
 
     equation: str
@@ -35,7 +35,7 @@ class Violation:
 
     @property
     def fault(self) -> Fault:
-        """What is said of it."""
+        """The fault that reports it."""
         points = ", ".join(self.points)
         return ConstraintBroken(text=self.text, amount=self.amount, points=points, equation=self.equation)
 
@@ -43,40 +43,33 @@ class Violation:
 def verify(plan: PlanView) -> list[Violation]:
     """The equations that a plan breaks.
 
-    Not judged is what nobody knows or can help any more: unknown times, points that were cut, `at` constraints of
-    points that have passed, and before/after constraints of which the later point has.
+    Unknown times, points that were cut, `at` constraints of past points, and before/after constraints whose later point
+    is past are not checked.
     """
-    checks = (_ties, _orders, _not_before_block, _durations, _sequences, _rigid_phases, _early_clusters, _block_end)
+    checks = (_constraints, _not_before_block, _durations, _sequences, _rigid_phases, _early_clusters, _block_end)
     return [violation for check in checks for violation in check(plan) if violation.amount > TOLERANCE]
 
 
 def missed(constraint: Tie | Precedence, first: float | None, second: float | None) -> float:
-    """By how much (s) a constraint is missed with its nodes at some times; minus infinity if one is unknown."""
-    late = _late(first, second, constraint.offset)
-    return abs(late) if isinstance(constraint, Tie) and late > -inf else late
+    """By how much (s) a constraint is missed if its nodes have these times; minus infinity if one is unknown."""
+    if first is None or second is None:
+        return -inf
+    late = second + constraint.offset - first
+    return abs(late) if isinstance(constraint, Tie) else late
 
 
-def _ties(plan: PlanView) -> Iterator[Violation]:
-    """7.8, 7.11, 7.32: ``f(left) = f(right) + offset``."""
-    for tie in plan.expected:
-        if isinstance(tie, Tie) and plan.movable(tie.left) and plan.movable(tie.right):
-            amount = missed(tie, *map(plan.time, tie.nodes))
-            yield Violation(_equation(tie.nodes, "7.8", "7.11", "7.32"), _names(*tie.nodes), amount, tie.text)
-
-
-def _orders(plan: PlanView) -> Iterator[Violation]:
-    """7.9, 7.10, 7.12, 7.33, 7.34: ``f(later) >= f(earlier) + offset``."""
-    for order in plan.expected:
-        if isinstance(order, Precedence) and plan.movable(order.later):
-            amount = missed(order, *map(plan.time, order.nodes))
-            before = not isinstance(order.later, Point)
-            numbers = ("7.10", "7.12", "7.34") if before else ("7.9", "7.12", "7.33")
-            yield Violation(_equation(order.nodes, *numbers), _names(*order.nodes), amount, order.text)
+def _constraints(plan: PlanView) -> Iterator[Violation]:
+    """7.8-7.12, 7.32-7.34: ``f(left) = f(right) + offset``, ``f(later) >= f(earlier) + offset``."""
+    for each in plan.expected:
+        first, second = each.nodes
+        if plan.movable(first) and (isinstance(each, Precedence) or plan.movable(second)):
+            amount = missed(each, plan.time(first), plan.time(second))
+            yield Violation(_equation(each), _names(*each.nodes), amount, each.text)
 
 
 def _not_before_block(plan: PlanView) -> Iterator[Violation]:
-    """7.13: nothing comes before the start of its block, but what joins an outer time that passed before it."""
-    late = [cluster.behaviors for cluster in clusters_of(plan, plan.timings) if cluster.joins_late(plan)]
+    """7.13: no point comes before the start of its block, unless its behavior joins a past time from outside."""
+    late = [behaviors for behaviors, ties in _clusters(plan, plan.timings) if _joins_late(plan, ties)]
     excused = plan.lurking.union(*late)
     for point in plan.times:
         if point.behavior not in excused and plan.movable(point):
@@ -85,7 +78,7 @@ def _not_before_block(plan: PlanView) -> Iterator[Violation]:
 
 
 def _durations(plan: PlanView) -> Iterator[Violation]:
-    """7.14: a behavior takes time, unless it is an event."""
+    """7.14: a behavior has a duration, unless it is instant."""
     for id_, timing in plan.timings.items():
         start, end = Point(id_, timing.points[0]), Point(id_, timing.points[-1])
         if not timing.instant and plan.movable(end) and id_ not in plan.lurking:
@@ -103,35 +96,37 @@ def _sequences(plan: PlanView) -> Iterator[Violation]:
 
 
 def _rigid_phases(plan: PlanView) -> Iterator[Violation]:
-    """7.1.4: what is rigid takes the time that it wants."""
+    """7.1.4: a rigid phase has its preferred duration."""
     for id_, timing in plan.timings.items():
         points = [Point(id_, sync) for sync in timing.points]
         for phase, (point, after) in zip(timing.phases, itertools.pairwise(points), strict=True):
             if phase.kind is PhaseKind.RIGID and plan.movable(point) and plan.movable(after):
-                short = _gap(plan, after, point, phase.duration)
-                long = _gap(plan, point, after, -phase.duration)
+                short, long = _gap(plan, after, point, phase.duration), _gap(plan, point, after, -phase.duration)
                 text = f"{phase.duration:g} s from {id_}:{point.sync} to its {after.sync}"
                 yield Violation("7.1.4", _names(point, after), max(short, long), text)
 
 
 def _early_clusters(plan: PlanView) -> Iterator[Violation]:
-    """7.24, 7.37: a cluster that nothing grounds starts as soon as the block, now and its `after`s let it."""
-    for cluster in clusters_of(plan, [id_ for id_, timing in plan.timings.items() if not timing.free]):
-        points = [Point(id_, sync) for id_ in sorted(cluster.behaviors) for sync in plan.timings[id_].points]
-        if not cluster.grounded and all(plan.movable(point) for point in points):
-            starts = _names(*(Point(id_, plan.timings[id_].points[0]) for id_ in sorted(cluster.behaviors)))
-            yield Violation("7.24", starts, _could_be_earlier(plan, cluster), f"{', '.join(starts)} as early as can be")
+    """7.24, 7.37: a cluster without times from outside starts as early as the block, now and its `after`s allow."""
+    for behaviors, ties in _clusters(plan, [id_ for id_, timing in plan.timings.items() if not timing.free]):
+        ids = sorted(behaviors)
+        points = [Point(id_, sync) for id_ in ids for sync in plan.timings[id_].points]
+        if all(plan.movable(point) for point in points) and all(
+            isinstance(node, Point) and node.behavior in behaviors for tie in ties for node in tie.nodes
+        ):
+            starts = _names(*(Point(id_, plan.timings[id_].points[0]) for id_ in ids))
+            yield Violation("7.24", starts, _earliness(plan, behaviors), f"{', '.join(starts)} as early as can be")
 
 
-def _could_be_earlier(plan: PlanView, cluster: Cluster) -> float:
-    """How much earlier (s) a cluster could be as a whole."""
-    times = [time for point, time in plan.times.items() if point.behavior in cluster.behaviors]
+def _earliness(plan: PlanView, cluster: Collection[str]) -> float:
+    """How much earlier (s) a cluster could be as a whole; 0 if some of its times are unknown."""
+    times = [time for point, time in plan.times.items() if point.behavior in cluster]
     known = [time for time in times if time is not None]
     if plan.earliest is None or len(known) < len(times):
         return 0.0
     room = min(known) - plan.earliest
     for order in plan.kept:
-        inside = [isinstance(node, Point) and node.behavior in cluster.behaviors for node in order.nodes]
+        inside = [isinstance(node, Point) and node.behavior in cluster for node in order.nodes]
         if isinstance(order, Precedence) and inside == [True, False]:
             gap = missed(order, *map(plan.time, order.nodes))
             room = min(room, 0.0 if gap == -inf else -gap)
@@ -140,29 +135,54 @@ def _could_be_earlier(plan: PlanView, cluster: Cluster) -> float:
 
 def _block_end(plan: PlanView) -> Iterator[Violation]:
     """7.27: a block ends with the last of its behaviors."""
-    ends = (Point(id_, timing.points[-1]) for id_, timing in plan.timings.items())
-    known = {point: time for point in ends if (time := plan.time(point)) is not None}
     if plan.end is None or plan.start is None:
         return
+    ends = (Point(id_, timing.points[-1]) for id_, timing in plan.timings.items())
+    known = {point: time for point in ends if (time := plan.time(point)) is not None}
     for point, time in known.items():
         yield Violation("7.27", _names(point), time - plan.end, f"the block ends not before {_name(point)}")
     latest = max([plan.start, plan.end_floor, *known.values()])
     yield Violation("7.27", _names(*known), plan.end - latest, "the block ends with its last behavior")
 
 
+def _clusters(plan: PlanView, behaviors: Collection[str]) -> list[tuple[frozenset[str], list[Tie]]]:
+    """The clusters of some behaviors, as if there were no others, each with its ties (thesis 7.1.3.1, 7.16, 7.17)."""
+    groups = OffsetUnionFind[str]()
+    own: dict[str, list[Tie]] = {id_: [] for id_ in behaviors}
+    for tie in plan.kept:
+        ids = [node.behavior for node in tie.nodes if isinstance(node, Point) and node.behavior in own]
+        if isinstance(tie, Tie) and ids:
+            own[ids[0]].append(tie)
+            groups.union(ids[0], ids[-1])
+    members: dict[str, list[str]] = {}
+    for id_ in behaviors:
+        members.setdefault(groups.find(id_)[0], []).append(id_)
+    return [(frozenset(ids), [tie for id_ in ids for tie in own[id_]]) for ids in members.values()]
+
+
+def _joins_late(plan: PlanView, ties: Collection[Tie]) -> bool:
+    """Whether a time from outside places a cluster before its block, or a point that one is tied to was cut."""
+    tied = [tie for tie in ties if not plan.outer.keys().isdisjoint(tie.nodes)]
+    times = [time for tie in tied for node in tie.nodes if (time := plan.time(node)) is not None]
+    cut = any(isinstance(node, Point) and node not in plan.times for tie in ties for node in tie.nodes)
+    return cut or (plan.start is not None and any(time < plan.start for time in times))
+
+
 def _gap(plan: PlanView, later: Node, earlier: Node, offset: float = 0.0) -> float:
-    """By how much (s) ``later >= earlier + offset`` is missed; minus infinity if nobody knows."""
-    return _late(plan.time(later), plan.time(earlier), offset)
+    """By how much (s) ``later >= earlier + offset`` is missed; minus infinity if a time is unknown."""
+    late, early = plan.time(later), plan.time(earlier)
+    return -inf if late is None or early is None else early + offset - late
 
 
-def _late(later: float | None, earlier: float | None, offset: float) -> float:
-    return -inf if later is None or earlier is None else earlier + offset - later
-
-
-def _equation(nodes: tuple[Node, Node], absolute: str, relative: str, predicted: str) -> str:
-    if Origin.BLOCK_START in nodes:
-        return absolute
-    return predicted if any(isinstance(node, AnticipatorPeg) for node in nodes) else relative
+def _equation(constraint: Tie | Precedence) -> str:
+    """The number of the equation: about the start of the block, two points, or a prediction."""
+    if isinstance(constraint, Tie):
+        numbers = "7.8", "7.11", "7.32"
+    else:
+        numbers = ("7.9", "7.12", "7.33") if isinstance(constraint.later, Point) else ("7.10", "7.12", "7.34")
+    if Origin.BLOCK_START in constraint.nodes:
+        return numbers[0]
+    return numbers[1 + any(isinstance(node, AnticipatorPeg) for node in constraint.nodes)]
 
 
 def _names(*nodes: Node) -> tuple[str, ...]:

@@ -25,18 +25,24 @@ def unit() -> PlanUnit:
     return PlanUnit(BlockKey("alice", "b"), behavior, timing_at({"start": 0.0, "end": 1.0}))
 
 
+class WaitEngine(IdleEngine):
+    """Plays waits."""
+
+    behaviors = frozenset({Wait})
+
+
 def active(routing: EngineRouting) -> list[str]:
     return [engine.name for engine in routing.engines if routing.take_active(engine)]
 
 
 def test_an_engine_is_active_while_it_has_units_and_once_after_it_lost_one() -> None:
-    one, two = IdleEngine("one"), IdleEngine("two")
+    one, two = IdleEngine("one"), WaitEngine("two")
     routing = EngineRouting({"alice": [one, two]})
     assert active(routing) == ["one", "two"]  # each plays once at the beginning
     assert active(routing) == []
     first, second = unit(), unit()
-    routing.assign(first, two)
-    routing.assign(second, two)
+    routing.assign(first)
+    routing.assign(second)
     assert active(routing) == active(routing) == ["two"]
     routing.unassign(first)
     routing.unassign(second)
@@ -46,7 +52,7 @@ def test_an_engine_is_active_while_it_has_units_and_once_after_it_lost_one() -> 
 
 
 def test_an_engine_that_has_played_in_a_tick_plays_again_when_a_point_has_become_due() -> None:
-    one = IdleEngine("one")
+    one = WaitEngine("one")
     routing = EngineRouting({"alice": [one]})
     assert active(routing) == ["one"]
     playing, graph = unit(), Graph()
@@ -54,7 +60,7 @@ def test_an_engine_that_has_played_in_a_tick_plays_again_when_a_point_has_become
         SyncPoint("start", LatestPeg(graph, "start", GlobalTime(1.0), ())),
         SyncPoint("end", OffsetPeg(graph, "end", AnticipatorPeg(graph, "unknown", None), 0.0)),
     ]
-    routing.assign(playing, one)
+    routing.assign(playing)
     assert [routing.take_due(one, GlobalTime(now)) for now in (0.9, 1.0, 1.1)] == [False, True, True]
     playing.points[0].fired = True
     assert not routing.take_due(one, GlobalTime(1.1))
