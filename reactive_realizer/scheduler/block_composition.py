@@ -11,9 +11,9 @@ from reactive_realizer.scheduler.faults import CyclicComposition, StartedAlready
 
 
 class BlockComposition:
-    """The composition attributes of one new block, resolved to blocks alive.
+    """The composition attributes of one new block, resolved to blocks that are alive.
 
-    A target that has ended counts as over. So does an unknown one; `unknown` has a fault for it.
+    Targets that have ended are left out, and so are unknown ones; `unknown` has a fault for each of these.
 
     Attributes:
         character: of the new block.
@@ -36,13 +36,13 @@ class BlockComposition:
 
     @property
     def ended(self) -> list[BMLBlock]:
-        """The blocks that it ends, the later ones first, because they may hang on the earlier ones."""
+        """The blocks that it ends, the later ones first, because they may depend on the earlier ones."""
         replaced = self._blocks.of(self.character) if self.replaces else []
         return sorted({*replaced, *self._interrupted}, key=lambda block: -block.arrival)
 
     @property
     def predecessors(self) -> list[Predecessor]:
-        """What the new block waits for, once the blocks that it ends have ended."""
+        """The blocks that the new one waits for, once the blocks that it ends have ended."""
         last = self._blocks.last_of(self.character) if self.description.composition is Composition.APPEND else []
         return [
             *(Predecessor(block, implied=True) for block in last),
@@ -51,17 +51,12 @@ class BlockComposition:
         ]
 
     def delayed_by(self, block: BMLBlock) -> Iterator[tuple[BMLBlock, Predecessor]]:
-        """The blocks that the new one, now made, is put before, each with what it has to wait for."""
-        for later in self._before:
-            yield later, Predecessor(block)
-        for later in self._before_chunks:
-            yield later, Predecessor(block, chunk=True)
+        """The blocks that the new one, ``block``, is put before, each with its new predecessor."""
+        yield from ((later, Predecessor(block)) for later in self._before)
+        yield from ((later, Predecessor(block, chunk=True)) for later in self._before_chunks)
 
     def fault(self) -> Fault | None:
-        """Why the block cannot be put before another one, if it cannot.
-
-        The other one has started, or the new one would wait for it in turn.
-        """
+        """Why the block cannot be put before another one: that has started, or would have to come first itself."""
         predecessors = self.predecessors
         ended = self.ended
         for block in (each for each in (*self._before, *self._before_chunks) if each not in ended):

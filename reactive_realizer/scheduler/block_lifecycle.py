@@ -1,38 +1,31 @@
-"""The life of a block, from its arrival to its end: the one owner of its state, its pegs and its progress."""
+"""The life of a block from its arrival to its end; the only code that changes its state, its pegs and its progress."""
 
-import logging
 from collections.abc import Callable, Collection, Iterable, Sequence
 
 from reactive_realizer.clock.units import GlobalTime, is_due
-from reactive_realizer.engine.effects import Dropped, Reached
+from reactive_realizer.engine.effects import Reached
 from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.pegboard.time_peg import TimePeg
 from reactive_realizer.planunit.plan_unit import PlanUnit, UnitState
 from reactive_realizer.scheduler.block_composition import BlockComposition
 from reactive_realizer.scheduler.block_feedback import BlockFeedback
 from reactive_realizer.scheduler.block_planner import BlockPlanner
-from reactive_realizer.scheduler.block_state import PREDICTION, REMAINING, BlockEvent, BlockState
+from reactive_realizer.scheduler.block_state import BlockEvent, BlockState
+from reactive_realizer.scheduler.block_transitions import BlockTransitions
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock, Predecessor
 from reactive_realizer.scheduler.engine_routing import EngineRouting
 from reactive_realizer.scheduler.faults import ActivatedAlready, AllPast, CutTie, DroppedTie, NotAwaited, NotPreplanned
 from reactive_realizer.scheduler.planning import Plan, Planning
 from reactive_realizer.scheduler.predictions import Predictions
-from reactive_realizer.scheduler.problem import Loss
+from reactive_realizer.scheduler.problem import Loss, Precedence, Tie
 from reactive_realizer.scheduler.tie_release import TieRelease
 from reactive_realizer.scheduler.unit_lifecycle import UnitLifecycle
 
-logger = logging.getLogger(__name__)
-
 
 class BlockLifecycle:
-    """Takes blocks through the transitions of `TRANSITIONS`; nothing else writes a block.
-
-    Attributes:
-        failed: how many blocks ended FAILED.
-    """
+    """Takes blocks from their arrival to their end; nothing else writes a block."""
 
     def __init__(
         self,
@@ -44,7 +37,6 @@ class BlockLifecycle:
         feedback: BlockFeedback,
         predictions: Predictions,
     ) -> None:
-        self.failed = 0
         self._board = board
         self._routing = routing
         self._blocks = blocks
@@ -54,25 +46,24 @@ class BlockLifecycle:
         self._predictions = predictions
         self._units = UnitLifecycle(board, routing, blocks, feedback)
         self._ties = TieRelease(board, blocks, self._units, feedback)
+        self._transitions = BlockTransitions(board, routing, blocks, self._ties, feedback, predictions)
         self._arrivals = 0
-        self._listeners: list[Callable[[BMLBlock], None]] = []
 
     def listen(self, listener: Callable[[BMLBlock], None]) -> None:
         """Call ``listener(block)`` when a block has ended, while its points are still on the board."""
-        self._listeners.append(listener)
+        self._transitions.listeners.append(listener)
 
     # --- arrival and planning
 
     def accept(self, composition: BlockComposition, failed: bool, now: GlobalTime) -> None:
-        """Make a block, in the place that its composition gives it, and have it prepared.
+        """Make a block, end the blocks that it replaces or interrupts, and have it prepared.
 
         Args:
             composition: of the block, without a fault.
             failed: whether something required could not be read, so that the block ends at once.
             now: the time of the tick.
         """
-        # Before the new block is known to others.
-        for other in composition.ended:
+        for other in composition.ended:  # before the new block is among those alive
             self.interrupt(other, now)
         if composition.replaces:
             self._routing.reset(composition.character, now)
@@ -83,16 +74,16 @@ class BlockLifecycle:
         for fault in composition.unknown:
             self._feedback.warn(block.key.character, block.key.block, fault)
         if failed:
-            self._end(block, BlockEvent.FAIL, now)
+            self._transitions.end(block, BlockEvent.FAIL, now)
         elif not self._fails_by(block, self._planner.prepare(block), now):
             self._predictions.request(block)
 
     def accept_failed(self, composition: BlockComposition, now: GlobalTime) -> None:
-        """Make a block that cannot have the place it asks for, and end it.
+        """Make a block that cannot be put before the blocks that it names, and fail it.
 
-        Its sender may have been told already that it is accepted: nothing was known of the fault then.
+        It is not refused, because its sender may have been told already that it is accepted.
         """
-        self._end(self._new_block(composition, (), now), BlockEvent.FAIL, now)
+        self._transitions.end(self._new_block(composition, (), now), BlockEvent.FAIL, now)
 
     def plan(self, block: BMLBlock, plan: Plan, now: GlobalTime) -> None:
         """Commit the plan of a block, or fail the block if something required is lost."""
@@ -103,12 +94,12 @@ class BlockLifecycle:
             block.set_plan(now, plan.units, plan.layout.times, plan.kept, holds)
         for unit in plan.units:
             self._routing.assign(unit)
-        self._take(block, BlockEvent.PREPLAN if block.awaits_activation else BlockEvent.PLAN, now)
+        self._transitions.take(block, BlockEvent.PREPLAN if block.awaits_activation else BlockEvent.PLAN, now)
 
     # --- start
 
     def activate(self, character: str, name: str, time: GlobalTime) -> Fault | None:
-        """Have a preplanned block start at a time, unless it waits for something else; why it cannot, if so."""
+        """Have a preplanned block start at a time, unless it waits for something else; a fault if it cannot."""
         block = self._blocks.find(character, name)
         if block is None:
             return self._blocks.missing(character, name)
@@ -118,7 +109,7 @@ class BlockLifecycle:
             return ActivatedAlready(block=name)
         with self._board.graph.transaction(f"activate {name}"):
             block.activation.set(time)
-        self._take(block, BlockEvent.ACTIVATE, time)
+        self._transitions.take(block, BlockEvent.ACTIVATE, time)
         return None
 
     def start_due(self, now: GlobalTime) -> bool:
@@ -134,29 +125,28 @@ class BlockLifecycle:
         """Pin and report sync points; a block may subside by them."""
         self._units.sync_points_reached(reached)
         for key in {each.unit.block: None for each in reached}:
-            self._subside(self._blocks.get(key))
+            self._transitions.subside(key)
 
     def begin_behavior(self, unit: PlanUnit, now: GlobalTime) -> None:
         """Begin a behavior, if it is due, before its engine plays."""
         self.sync_points_reached(self._units.begin(unit, now))
 
     def finish_behavior(self, unit: PlanUnit, time: GlobalTime) -> None:
-        """End a playing behavior of its own accord, before what was planned."""
+        """End a playing behavior by itself at a time that was not planned."""
         self._units.finish(unit, time)
-        self._subside(self._blocks.get(unit.block))
+        self._transitions.subside(unit.block)
 
     def drop_behavior(self, unit: PlanUnit, fault: Fault, now: GlobalTime) -> None:
-        """Drop a behavior that cannot be played on."""
-        unit.drop(now)
-        self.behavior_dropped(Dropped(unit, fault), now)
-
-    def behavior_dropped(self, dropped: Dropped, now: GlobalTime) -> None:
-        """Take a behavior that its engine dropped out of its block, and release what hung on it."""
-        missed = self._ties.missed_by_drop(dropped.unit)
-        self._units.dropped(dropped, now)
-        block = self._blocks.get(dropped.unit.block)
+        """Drop a behavior that cannot be played any more, and release the behaviors that depend on it."""
+        missed = self._ties.missed_by_drop(unit)
+        self._units.drop(unit, fault, now)
+        block = self._blocks.get(unit.block)
         if block is not None and not block.failing:
             self._ties.release(block, missed, DroppedTie, now)
+
+    def settle(self, block: BMLBlock, constraint: Tie | Precedence) -> None:
+        """Have a constraint not be checked any more."""
+        block.settled.add(constraint)
 
     # --- end
 
@@ -177,20 +167,20 @@ class BlockLifecycle:
         return bool(failing or cuts or over)
 
     def fail(self, block: BMLBlock, now: GlobalTime) -> None:
-        """Fail a block: what plays of it is broken off, and what has not begun vanishes."""
+        """Fail a block: its playing behaviors are cut, and those that have not begun are removed."""
         self._units.remove([unit for unit in block.live_units if not unit.begun], now)
         for unit in block.live_units:
             self._units.cut(unit, now)
-        self._end(block, BlockEvent.FAIL, now)
+        self._transitions.end(block, BlockEvent.FAIL, now)
 
     def interrupt(self, block: BMLBlock, time: GlobalTime, spared: Collection[str] = (), gently: bool = False) -> None:
-        """Cut a block at a time: what is due happens first; a block that has not started is revoked.
+        """Cut a block at a time, after its due points have fired; a block that has not started is revoked.
 
         Args:
             block: alive.
             time: not after this tick.
-            spared: ids of behaviors that go on.
-            gently: whether each may end what it cannot break off in the middle of: a speech its word.
+            spared: ids of behaviors that continue.
+            gently: whether each behavior may first end what should not be cut in the middle, as a speech its word.
         """
         if not block.state.plays:
             self._revoke(block, time, spared)
@@ -203,27 +193,6 @@ class BlockLifecycle:
         self._cut(block, [unit for unit in chosen if ends.get(unit, time) <= time], time)
 
     # --- transitions
-
-    def _take(self, block: BMLBlock, event: BlockEvent, time: GlobalTime) -> list[TimePeg]:
-        """Do what the table says of an event: write the state, pin, report; the pegs that the end of a block cut.
-
-        Raises:
-            IllegalTransitionError: the event cannot happen to the block now.
-        """
-        row = block.take(event)
-        cut: list[TimePeg] = []
-        with self._board.graph.transaction(f"{'end' if row.target.ended else event.value} {block.key.block}"):
-            for point in row.pins:
-                if point == REMAINING:
-                    cut = self._board.pin_block(block.key)
-                elif not block.peg(point).pinned:
-                    block.peg(point).pin(time)
-        for report in row.reports:
-            if report == PREDICTION:
-                self._predictions.request(block)
-            else:
-                self._feedback.block_progress(block, report, time)
-        return cut
 
     def _new_block(
         self, composition: BlockComposition, predecessors: Iterable[Predecessor], now: GlobalTime
@@ -241,19 +210,19 @@ class BlockLifecycle:
         self._feedback.losses(block.key, losses)
         fails = any(loss.required for loss in losses)
         if fails:
-            self._end(block, BlockEvent.FAIL, now)
+            self._transitions.end(block, BlockEvent.FAIL, now)
         return fails
 
     def _start(self, block: BMLBlock, now: GlobalTime) -> None:
         time = block.start.value or GlobalTime(0.0)
         with self._board.graph.transaction(f"start {block.key.block}"):
-            self._take(block, BlockEvent.START, time)
+            self._transitions.take(block, BlockEvent.START, time)
             self._renew(block, time, now)
         block.started_at = now
         for unit in list(block.units):
             unit.release()
             if unit.over_before(time):
-                # What hangs on its points knows when they were.
+                # Its points are left on the board: the behaviors that depend on them keep their times.
                 self._units.drop(unit, AllPast(late=time - (unit.time("end") or 0.0)), now)
         if block.failing:
             self.fail(block, now)
@@ -276,38 +245,8 @@ class BlockLifecycle:
                 other.rename_pegs(replaced)
             block.set_units(block.end.floor, plan.units, plan.kept)
 
-    def _subside(self, block: BMLBlock | None) -> None:
-        time = None if block is None else block.relax.value
-        if block is not None and time is not None and block.state is BlockState.IN_EXEC and block.subsides():
-            self._take(block, BlockEvent.SUBSIDE, time)
-
     def _finish(self, block: BMLBlock, now: GlobalTime) -> None:
-        self._end(block, BlockEvent.FINISH, now if block.end.value is None else block.end.value)
-
-    def _end(self, block: BMLBlock, event: BlockEvent, time: GlobalTime) -> None:
-        """End a block, and release what others had tied to it."""
-        self._predictions.close(block, time)
-        cut = self._take(block, event, time)
-        for listener in self._listeners:
-            listener(block)
-        self._blocks.end(block, time)
-        for unit in block.units:
-            self._routing.unassign(unit)
-        self._hand_over_predecessors(block)
-        self._ties.release_from(block.key, cut, time, CutTie, began=block.started_at is not None)
-        self._board.remove_block(block.key)
-        self.failed += block.state is BlockState.FAILED
-        logger.info("%s/%s %s at %.2f s, %d behaviors", *block.key, block.state.value, time, len(block.units))
-
-    def _hand_over_predecessors(self, ended: BMLBlock) -> None:
-        """Have blocks that wait for an ended one as the last of all wait for what that one still waited for."""
-        left = tuple(each for each in ended.predecessors if not each.over)
-        with self._board.graph.transaction(f"after {ended.key.block}"):
-            for block in self._blocks.alive if left else ():
-                if any(each.implied and each.block is ended for each in block.predecessors):
-                    others = (each for each in block.predecessors if each.block is not ended)
-                    block.set_predecessors((*others, *left))
-        ended.predecessors = ()
+        self._transitions.end(block, BlockEvent.FINISH, now if block.end.value is None else block.end.value)
 
     def _revoke(self, block: BMLBlock, time: GlobalTime, spared: Collection[str]) -> None:
         """Remove behaviors of a block that has not started, and the block with the last of them."""
@@ -318,7 +257,7 @@ class BlockLifecycle:
         self._units.remove(units, time)
         if gone == names:
             self._planner.cancel(block)
-            self._end(block, BlockEvent.REVOKE, time)
+            self._transitions.end(block, BlockEvent.REVOKE, time)
             return
         with self._board.graph.transaction(f"revoke a part of {block.key.block}"):
             block.units = [unit for unit in block.units if unit not in units]
@@ -332,8 +271,8 @@ class BlockLifecycle:
         block.units = [unit for unit in block.units if unit.state is not UnitState.DROPPED]
         if block.live_units:
             self._ties.release(block, missed, CutTie, time)
-            self._subside(self._blocks.get(block.key))
+            self._transitions.subside(block.key)
         elif any(cut):
-            self._end(block, BlockEvent.INTERRUPT, time)
+            self._transitions.end(block, BlockEvent.INTERRUPT, time)
         else:
             self._finish(block, time)

@@ -5,7 +5,7 @@ from enum import Enum
 
 
 class BlockState(Enum):
-    """Where a block stands; the values are those of BMLA's status."""
+    """The state of a block; the values are those of BMLA's status."""
 
     IN_PREP = "IN_PREP"
     PENDING = "PENDING"
@@ -49,10 +49,10 @@ class BlockTransition:
 
     Attributes:
         sources: the states in which the event is legal.
-        event: what happens.
+        event: that leads to the target.
         target: the state after it.
-        writes: what is written beside the state and the pins, in words.
-        pins: the points of the block that get their last time, in order.
+        writes: other writes than the state and the pins, in words.
+        pins: the points of the block whose times become final, in order.
         reports: the feedback: sync points of ``blockProgress``, and ``predictionFeedback`` at the end of the tick.
     """
 
@@ -65,7 +65,7 @@ class BlockTransition:
 
 
 REMAINING = "remaining"
-"""In `BlockTransition.pins`: every point that is not pinned yet, at the time predicted last."""
+"""In `BlockTransition.pins`: every point that is not pinned yet, at its last predicted time."""
 
 PREDICTION = "prediction"
 """In `BlockTransition.reports`: ``predictionFeedback``."""
@@ -101,13 +101,13 @@ TRANSITIONS = (
     _end(_WAITING, BlockEvent.REVOKE, BlockState.REVOKED),
     _end((*_WAITING, *_PLAYING), BlockEvent.FAIL, BlockState.FAILED),
 )
-"""Everything that can happen to the state of a block. A block is accepted into IN_PREP; an ended one stays ended."""
+"""All transitions. A block starts in IN_PREP; an ended one stays ended."""
 
 _ROWS = {(source, row.event): row for row in TRANSITIONS for source in row.sources}
 
 
 class IllegalTransitionError(Exception):
-    """The scheduler had an event happen to a block in a state that has no such transition."""
+    """An event happened to a block in a state that has no such transition."""
 
 
 def transition(state: BlockState, event: BlockEvent) -> BlockTransition:

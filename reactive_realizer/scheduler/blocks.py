@@ -34,9 +34,6 @@ class Blocks:
         self._alive: dict[BlockKey, BMLBlock] = {}
         self._ended: dict[BlockKey, EndedBlock] = {}
 
-    def __contains__(self, key: BlockKey) -> bool:
-        return key in self._alive
-
     @property
     def alive(self) -> tuple[BMLBlock, ...]:
         """Accepted and not ended, in order of arrival."""
@@ -56,10 +53,7 @@ class Blocks:
         return self._alive.get(key)
 
     def last_of(self, character: str) -> list[BMLBlock]:
-        """The blocks of a character that no other block waits for: when they have ended, all have.
-
-        Preplanned blocks that are not activated do not count.
-        """
+        """The blocks of a character, except for preplanned ones, that no other block waits for."""
         own = [block for block in self.of(character) if not block.awaits_activation]
         awaited = {each.block for block in own for each in block.predecessors if not each.chunk}
         return [block for block in own if block not in awaited]
@@ -90,15 +84,10 @@ class Blocks:
         return [block for block in self.alive if block.key in owners or not block.outside.isdisjoint(moved)]
 
     def planned_before(self, block: BMLBlock) -> list[BMLBlock]:
-        """The blocks in preparation that are planned before another one.
-
-        They are those whose points it names, and the earlier ones whose parameters it changes.
-        """
+        """The blocks in preparation whose points a block names, and the earlier ones whose parameters it changes."""
         changed = self._preparing(block, block.named_blocks.parameters)
-        return [
-            *self._preparing(block, block.named_blocks.points),
-            *(other for other in changed if other.arrival < block.arrival),
-        ]
+        earlier = [other for other in changed if other.arrival < block.arrival]
+        return self._preparing(block, block.named_blocks.points) + earlier
 
     def add(self, block: BMLBlock) -> None:
         """Add an accepted block."""

@@ -43,7 +43,7 @@ class Predecessor:
 
 
 class BMLBlock:
-    """A block alive, and its pegs. `BlockLifecycle` alone writes it, but for `settled`, which is `ConstraintMonitor`'s.
+    """A block that is alive, and its pegs; only `BlockLifecycle` writes it.
 
     Attributes:
         key: its name.
@@ -51,21 +51,21 @@ class BMLBlock:
         named_blocks: the other blocks that the description names.
         arrival: number of arrival over all characters.
         started_at: time of the tick in which it started, None before; its peg may lie before that.
-        predicted: the points of anticipators that it names, by anticipator and sync id, as they were meant when it
-            arrived: by the time it is planned one may have come, and its name mean the next time.
-        activation: when a preplanned block was activated, None before; None for others.
+        predicted: the points of anticipators that it names, by anticipator and sync id, as of its arrival: when it is
+            planned, one may have passed, and its name mean the next occurrence.
+        activation: the time at which a preplanned block was activated, None before; None for other blocks.
         start: its peg; pinned when it starts.
-        relax: when it subsides: the latest relax of its behaviors, or end of those that have none.
-        end: the latest end of its behaviors; those that persist have none, and count with their last known point.
+        relax: the time at which it subsides: the latest relax of its behaviors, or end of those without a relax.
+        end: the latest end of its behaviors; persistent ones count with their last known point.
         predecessors: the blocks that it starts after.
-        holds: pegs that its constraints say it does not start before.
+        holds: pegs before which its constraints do not let it start.
         units: its behaviors that are planned and not dropped, in document order.
         cancelled: ids of behaviors that were interrupted before the block started.
         dropped: ids of behaviors that were planned and could not be played.
-        planned_times: when the points of its plan are, s after its start; None while that is unknown.
+        planned_times: of the points of its plan, s after its start; None for unknown ones.
         kept: the constraints of its plan.
         outside: the pegs of other blocks and of anticipators that these name.
-        settled: the constraints that are checked no more: they were missed, or are met and past.
+        settled: the constraints that are not checked any more: they were missed, or are met and past.
         failing: whether something required was lost, so that the block is to end FAILED.
     """
 
@@ -102,18 +102,18 @@ class BMLBlock:
         for sync in ("start", "relax", "end"):
             board.add(PegKey(*key, None, sync), self.peg(sync))
         self.predicted = _predicted(board, description)
-        # The board forgets the names of points that nothing hangs on.
+        # The board forgets the names of points without dependents.
         board.add_unnamed(key, [OffsetPeg(board.graph, peg.name, peg, 0.0) for peg in self.predicted.values()])
 
     # --- state
 
     @property
     def state(self) -> BlockState:
-        """Where it stands; `take` alone changes it."""
+        """Its state; only `take` changes it."""
         return self._state
 
     def take(self, event: BlockEvent) -> BlockTransition:
-        """Go to the state that an event leads to; the row of the table that says so.
+        """Go to the state to which an event leads; the row of the table.
 
         Raises:
             IllegalTransitionError: the event cannot happen in the present state.
@@ -129,18 +129,18 @@ class BMLBlock:
 
     @property
     def may_start(self) -> bool:
-        """Whether it is planned and waits for nothing but its time."""
-        # The last one is most likely to be still there: of a long queue each block looks at one.
+        """Whether it is planned and waits only for its time."""
+        # The last predecessor is the most likely to be alive: each block of a long queue checks only one.
         return self.state is BlockState.LURKING and all(each.over for each in reversed(self.predecessors))
 
     @property
     def only_persists(self) -> bool:
-        """Whether only behaviors that persist are left; no block waits for these."""
+        """Whether only persistent behaviors are left; no block waits for these."""
         live = self.live_units if self.state.plays else ()
         return bool(live) and all(unit.only_persists for unit in live)
 
     def subsides(self) -> bool:
-        """Whether nothing but ways back to rest is, or in a late tick was, ahead of it."""
+        """Whether only returns to rest are left, or were left before its end in a late tick."""
         relax, end = self.relax.value, self.end.value
         early = relax is not None and (end is None or not is_due(end, relax))
         return early and all(_subsiding(unit).fired for unit in self.units)
@@ -153,7 +153,7 @@ class BMLBlock:
 
     @property
     def times_ahead(self) -> list[GlobalTime]:
-        """The known times at which something of it happens next; none while it waits for other blocks."""
+        """The known times of its future points; of a block that has not started, only the start, if it may start."""
         if self.state.plays:
             times = [point.peg.value for unit in self.live_units for point in unit.ahead()]
         else:
@@ -168,14 +168,14 @@ class BMLBlock:
 
     @property
     def awaited(self) -> list[str]:
-        """Names of the ends, activations and predictions without which nothing of it moves, each once."""
+        """Names of the ends, activations and predictions that it waits for, each once."""
         pegs = [point.peg for unit in self.live_units for point in unit.ahead()]
         ends = [each.peg.name for each in self.predecessors if not each.over]
         return list(dict.fromkeys([*ends, *unknown_sources([self.start, *pegs])]))
 
     @property
     def live_units(self) -> list[PlanUnit]:
-        """The behaviors of which something is ahead."""
+        """The behaviors that are neither done nor dropped."""
         return [unit for unit in self.units if unit.live]
 
     # --- writing, within a transaction
@@ -188,14 +188,14 @@ class BMLBlock:
         kept: Sequence[Tie | Precedence],
         holds: Sequence[TimeCell],
     ) -> None:
-        """Have the behaviors of a plan; start when all that is waited for is over, and not before ``floor``."""
+        """Have the behaviors of a plan; start after everything that it waits for, and not before ``floor``."""
         self.holds = tuple(holds)
         self.planned_times = times
         self.set_units(floor, units, kept)
         self.start.wait_for(floor, self._awaited())
 
     def set_units(self, floor: GlobalTime, units: Sequence[PlanUnit], kept: Sequence[Tie | Precedence]) -> None:
-        """Have other behaviors, or other pegs; end not before ``floor``."""
+        """Have other behaviors, or the same with other pegs; end not before ``floor``."""
         self.units, self.kept = list(units), tuple(kept)
         self.outside = _outside(self.kept)
         self.update_end(floor)
@@ -210,6 +210,12 @@ class BMLBlock:
         """Wait for other blocks."""
         self.predecessors = tuple(predecessors)
         self.start.wait_for(self.start.floor, self._awaited())
+
+    def take_over_predecessors(self, ended: "BMLBlock") -> None:
+        """Wait for the blocks that an ended block still waited for, if that stood for them too."""
+        left = [each for each in ended.predecessors if not each.over]
+        if left and any(each.implied and each.block is ended for each in self.predecessors):
+            self.set_predecessors((*(each for each in self.predecessors if each.block is not ended), *left))
 
     def update_end(self, floor: GlobalTime | None = None) -> None:
         """Have ``relax`` and ``end`` follow the behaviors that are left, and not come before ``floor``."""
@@ -228,7 +234,7 @@ def _predicted(board: PegBoard, description: BehaviorBlock) -> dict[tuple[str, s
 
 
 def _subsiding(unit: PlanUnit) -> SyncPoint:
-    """Its relax, or its end if it has none; of one that persists, its last point before these."""
+    """Its relax, or its end if it has none; for a persistent one, the last known point."""
     relax = next((point for point in unit.points if point.id == "relax"), unit.points[-1])
     return unit.last_known if unit.timing.persistent and not relax.fired else relax
 

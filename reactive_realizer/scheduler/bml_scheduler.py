@@ -16,6 +16,7 @@ from reactive_realizer.scheduler.block_composition import BlockComposition
 from reactive_realizer.scheduler.block_feedback import BlockFeedback
 from reactive_realizer.scheduler.block_lifecycle import BlockLifecycle
 from reactive_realizer.scheduler.block_planner import BlockPlanner
+from reactive_realizer.scheduler.block_state import BlockState
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.scheduler.constraint_monitor import ConstraintMonitor
@@ -35,6 +36,7 @@ class BMLScheduler:
     Attributes:
         blocks: those alive, and what is remembered of those that ended.
         refused: how many blocks were not accepted.
+        failed: how many blocks ended FAILED.
     """
 
     def __init__(
@@ -47,7 +49,7 @@ class BMLScheduler:
         limits: Limits,
     ) -> None:
         self.blocks = Blocks(limits.remembered_blocks)
-        self.refused = 0
+        self.refused = self.failed = 0
         self._board = board
         self._routing = routing
         self._limits = limits
@@ -60,13 +62,8 @@ class BMLScheduler:
             board, routing, self.blocks, self._planner, self._planning, self._feedback, self._predictions
         )
         self._requests = EngineRequests(self.blocks, self._lifecycle, self._feedback)
-        self._monitor = ConstraintMonitor(board, self.blocks, self._feedback)
-        self._lifecycle.listen(self._monitor.block_ended)
-
-    @property
-    def failed(self) -> int:
-        """How many blocks ended FAILED."""
-        return self._lifecycle.failed
+        self._monitor = ConstraintMonitor(board, self.blocks, self._lifecycle, self._feedback)
+        self._lifecycle.listen(self._count)
 
     def listen(self, listener: Callable[[BMLBlock], None]) -> None:
         """Call ``listener(block)`` when a block has ended, while its points are still on the board."""
@@ -132,7 +129,7 @@ class BMLScheduler:
         """Apply what the engines played, in their order; whether anything changed."""
         for play in plays:
             for dropped in play.dropped:
-                self._lifecycle.behavior_dropped(dropped, now)
+                self._lifecycle.drop_behavior(dropped.unit, dropped.fault, now)
             if play.reached:
                 self._lifecycle.sync_points_reached(play.reached)
         asked = self._requests.carry_out([each for play in plays for each in play.requests], now)
@@ -163,6 +160,9 @@ class BMLScheduler:
         for block in self.blocks.alive:
             fault = NeverMoves(waits=", ".join(block.awaited))
             self._feedback.warn(block.key.character, block.key.block, fault)
+
+    def _count(self, ended: BMLBlock) -> None:
+        self.failed += ended.state is BlockState.FAILED
 
     # --- accepting
 

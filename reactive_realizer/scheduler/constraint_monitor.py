@@ -1,14 +1,14 @@
-"""Warns of constraints that held and can no longer be kept (thesis 7.3.6: drop a violated constraint)."""
+"""Warns of constraints that held and can no longer be satisfied (thesis 7.3.6: drop a violated constraint)."""
 
 from collections.abc import Iterable, Mapping
 from typing import Any
 
 from reactive_realizer.clock.units import GlobalTime, Time, is_due
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.pegboard.time_peg import TimeCell
 from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.reactive.graph import Cell, Commit
 from reactive_realizer.scheduler.block_feedback import BlockFeedback
+from reactive_realizer.scheduler.block_lifecycle import BlockLifecycle
 from reactive_realizer.scheduler.block_state import BlockState
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock
@@ -17,29 +17,22 @@ from reactive_realizer.scheduler.problem import Node, Origin, Point, Precedence,
 from reactive_realizer.scheduler.verify import TOLERANCE, missed
 
 _NOTICEABLE = 0.1
-"""A gesture that misses its moment by less (s) looks on time."""
-
-Moved = Mapping[Cell[Any], Any]
-"""Cells that changed in a tick, with their values before."""
+"""A gesture that is early or late by less (s) looks on time."""
 
 
 class ConstraintMonitor:
-    """Warns once of each constraint of a committed plan that can no longer be kept.
+    """Warns once of each constraint of a committed plan that can no longer be satisfied.
 
-    Pegs keep a constraint until one side has passed, or two times from outside come closer than what lies between
-    them can be.
+    Pegs keep a constraint until one side has passed, or until two times from outside move too close together.
     """
 
-    def __init__(self, board: PegBoard, blocks: Blocks, feedback: BlockFeedback) -> None:
+    def __init__(self, board: PegBoard, blocks: Blocks, lifecycle: BlockLifecycle, feedback: BlockFeedback) -> None:
         self._board = board
         self._blocks = blocks
+        self._lifecycle = lifecycle
         self._feedback = feedback
         self._ended: list[BMLBlock] = []
-
-    def block_ended(self, block: BMLBlock) -> None:
-        """Check a block that ended by itself once more: the tick may have broken a constraint of it."""
-        if block.state is BlockState.DONE:
-            self._ended.append(block)
+        lifecycle.listen(self._note_end)
 
     def check(self, commits: Iterable[Commit], now: GlobalTime) -> None:
         """Check the blocks of which the commits of the tick at ``now`` moved something."""
@@ -48,22 +41,44 @@ class ConstraintMonitor:
             moved.setdefault(change.cell, change.old)
         ended, self._ended = self._ended, []
         for block in (*ended, *self._blocks.affected_by(moved, self._board)):
-            self._check(block, moved, now)
+            units = {unit.behavior.id: unit for unit in block.units}
+            for each in block.kept:
+                if each not in block.settled and not _cut(each, units):
+                    self._check(each, block, units, moved, now)
 
-    def _check(self, block: BMLBlock, moved: Moved, now: GlobalTime) -> None:
-        units = {unit.behavior.id: unit for unit in block.units}
-        for each in block.kept:
-            if each in block.settled or _cut(each, units):
-                continue
-            late = missed(each, *(_time(node, block, units) for node in each.nodes))
-            renewed = _renewed(each, block, units, moved, now)
-            if late <= TOLERANCE or _slight(each, late, block, units):
-                if renewed and any(node.value is None for node in _outside(each)):
-                    block.settled.add(each)  # withdrawn: what is predicted from now on is the next time
-                continue
-            block.settled.add(each)
-            if not renewed:
-                self._warn(block, each, late)
+    def _note_end(self, block: BMLBlock) -> None:
+        """A block that ended by itself is checked once more: the tick may have broken a constraint of it."""
+        if block.state is BlockState.DONE:
+            self._ended.append(block)
+
+    def _check(
+        self,
+        constraint: Tie | Precedence,
+        block: BMLBlock,
+        units: Mapping[str, PlanUnit],
+        moved: Mapping[Cell[Any], Any],
+        now: GlobalTime,
+    ) -> None:
+        """Check a constraint.
+
+        Args:
+            constraint: of the plan.
+            block: that it belongs to.
+            units: of the block, by id.
+            moved: the cells that changed in this tick, with their values before.
+            now: the time of the tick.
+        """
+        late = missed(constraint, *(_time(node, block, units) for node in constraint.nodes))
+        outside = [node for node in constraint.nodes if not isinstance(node, Point | Origin)]
+        fired = bool(outside) and _fired(constraint, block, units)
+        # A new prediction of a time that has passed, after all tied points have fired, means its next occurrence.
+        renewed = fired and any(is_due(moved.get(node), now) for node in outside)
+        slight = fired and isinstance(constraint, Tie) and late <= _NOTICEABLE
+        lost = late > TOLERANCE and not slight
+        if lost and not renewed:
+            self._warn(block, constraint, late)
+        if lost or (renewed and any(node.value is None for node in outside)):
+            self._lifecycle.settle(block, constraint)
 
     def _warn(self, block: BMLBlock, constraint: Tie | Precedence, late: float) -> None:
         owner = constraint.owner if isinstance(constraint, Tie) else None
@@ -80,32 +95,12 @@ def _time(node: Node, block: BMLBlock, units: Mapping[str, PlanUnit]) -> Time:
 
 def _cut(constraint: Tie | Precedence, units: Mapping[str, PlanUnit]) -> bool:
     """Whether a point of it was dropped or interrupted, which gives a warning of its own."""
-    points = [node for node in constraint.nodes if isinstance(node, Point)]
+    points = (node for node in constraint.nodes if isinstance(node, Point))
     return any(point.behavior not in units or units[point.behavior].was_cut(point.sync) for point in points)
 
 
-def _slight(constraint: Tie | Precedence, late: float, block: BMLBlock, units: Mapping[str, PlanUnit]) -> bool:
-    """Whether a time from outside is corrected unnoticeably after everything that is tied to it has come.
-
-    A behavior that was tied to a beat is then a little ahead of it, or behind, as people are.
-    """
-    tied = isinstance(constraint, Tie) and bool(_outside(constraint))
-    return tied and late <= _NOTICEABLE and _came(constraint, block, units)
-
-
-def _renewed(
-    constraint: Tie | Precedence, block: BMLBlock, units: Mapping[str, PlanUnit], moved: Moved, now: GlobalTime
-) -> bool:
-    """Whether a time from outside that had come, like all that names it, is predicted anew: it means the next time."""
-    return any(is_due(moved.get(node), now) for node in _outside(constraint)) and _came(constraint, block, units)
-
-
-def _outside(constraint: Tie | Precedence) -> list[TimeCell]:
-    return [node for node in constraint.nodes if not isinstance(node, Point | Origin)]
-
-
-def _came(constraint: Tie | Precedence, block: BMLBlock, units: Mapping[str, PlanUnit]) -> bool:
-    """Whether everything that it names of its block has come."""
+def _fired(constraint: Tie | Precedence, block: BMLBlock, units: Mapping[str, PlanUnit]) -> bool:
+    """Whether all points of the block that it names have fired."""
     points = [node for node in constraint.nodes if isinstance(node, Point)]
     started = block.started_at is not None or Origin.BLOCK_START not in constraint.nodes
     return started and all(units[point.behavior].point(point.sync).fired for point in points)

@@ -35,7 +35,7 @@ def named_blocks(block: BehaviorBlock) -> NamedBlocks:
 def dependency_order(items: Iterable[T], dependencies: Callable[[T], Iterable[T]]) -> list[T]:
     """Items and all that they depend on, directly or not: each after its dependencies, else in the order given.
 
-    Of a circle one item has to be first: the one that depends on the item of the circle that was visited first.
+    In a circle, the item that depends on the one that was visited first comes first.
 
     Args:
         items: in order.

@@ -1,13 +1,13 @@
 """Prediction feedback: reported when it is requested, and again when a reported time has moved."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 
 from reactive_realizer.clock.units import BlockTime, GlobalTime, Time
 from reactive_realizer.feedback.feedback_manager import FeedbackManager
 from reactive_realizer.feedback.messages import BehaviorPrediction, PredictionFeedback
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.planunit.plan_unit import PlanUnit
+from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
 from reactive_realizer.reactive.graph import Commit
 from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.scheduler.problem import Point
@@ -15,12 +15,12 @@ from reactive_realizer.scheduler.problem import Point
 _NOTICEABLE = 1e-3
 """Seconds by which a reported time must have moved to be reported again."""
 
-_Times = Mapping[str, Mapping[str, Time]]
-"""Of the points of each behavior; those of the block have no behavior."""
+_Times = Mapping[tuple[str, str], Time]
+"""By behavior and sync id; the points of the block have no behavior."""
 
 
 class Predictions:
-    """Reports ``predictionFeedback``, at most once a block a tick, at the end of the tick: so it is the latest."""
+    """Reports ``predictionFeedback``, at most once for each block and tick, with the times at the end of the tick."""
 
     def __init__(self, feedback: FeedbackManager, board: PegBoard) -> None:
         self._feedback = feedback
@@ -42,14 +42,15 @@ class Predictions:
                 self._publish(block, now)
 
     def close(self, block: BMLBlock, now: GlobalTime) -> None:
-        """Forget a block that ends; what is still requested is reported, if the block plays."""
+        """Forget a block that ends; a prediction that was requested is reported if the block plays."""
         if block in self._requested and block.state.plays:
             self._publish(block, now)
         self._requested.discard(block)
         self._published.pop(block, None)
 
     def _publish(self, block: BMLBlock, now: GlobalTime) -> None:
-        times = _times(block)
+        times = {("", "start"): block.start.value, ("", "end"): block.end.value}
+        times |= {(unit.behavior.id, point.id): point.peg.value for unit in block.units for point in unit.points}
         if block in self._requested or _moved(self._published.get(block, {}), times):
             self._requested.discard(block)
             self._published[block] = times
@@ -59,47 +60,37 @@ class Predictions:
         self._moved.update(self._board.owner(change.cell) for change in commit.changes)
 
 
-def _times(block: BMLBlock) -> _Times:
-    own = {"start": block.start.value, "end": block.end.value}
-    return {"": own} | {unit.behavior.id: {point.id: point.peg.value for point in unit.points} for unit in block.units}
-
-
 def _moved(old: _Times, new: _Times) -> bool:
-    behaviors = old.keys() | new.keys()
-    return old != new and any(_any_moved(old.get(name, {}), new.get(name, {})) for name in behaviors)
-
-
-def _any_moved(old: Mapping[str, Time], new: Mapping[str, Time]) -> bool:
-    return not old.keys() >= new.keys() or any(_differ(time, new.get(sync)) for sync, time in old.items())
-
-
-def _differ(old: Time, new: Time) -> bool:
-    if old is None or new is None:
-        return old is not new
-    return abs(old - new) > _NOTICEABLE
+    """Whether a time has moved noticeably, or become known or unknown; points that were cut do not count."""
+    if old == new:
+        return False
+    pairs = [(time, new.get(key)) for key, time in old.items()]
+    return not old.keys() >= new.keys() or any(
+        one is not other if one is None or other is None else abs(one - other) > _NOTICEABLE for one, other in pairs
+    )
 
 
 def _prediction(block: BMLBlock, now: GlobalTime) -> PredictionFeedback:
-    """All that is known of a block; where its start is not, as it was planned, as if it came now."""
+    """The known times of a block; if its start is unknown, the times that were planned, as if it started now."""
     start = now if block.start.value is None else block.start.value
-    times = {unit: dict(_known_times(block, unit, start)) for unit in block.units}
+    known = {unit: _known_times(block, unit, start) for unit in block.units}
     end = block.end.value
     if end is None:
-        end = max([start, *(time for known in times.values() for time in known.values())])
-    behaviors = tuple(BehaviorPrediction(unit.behavior, _local(known, start)) for unit, known in times.items())
-    status = block.state.value
-    return PredictionFeedback(block.key.character, block.key.block, start, end, status, behaviors)
+        end = max([start, *(time for times in known.values() for time in times.values())])
+    behaviors = tuple(
+        BehaviorPrediction(unit.behavior, {sync: BlockTime(time - start) for sync, time in times.items()})
+        for unit, times in known.items()
+    )
+    return PredictionFeedback(*block.key, start, end, block.state.value, behaviors)
 
 
-def _known_times(block: BMLBlock, unit: PlanUnit, start: GlobalTime) -> Iterator[tuple[str, GlobalTime]]:
-    for point in unit.points:
-        time = point.peg.value
-        if time is None and block.start.value is None:
-            planned = block.planned_times.get(Point(unit.behavior.id, point.id))
-            time = None if planned is None else GlobalTime(start + planned)
-        if time is not None:
-            yield point.id, time
+def _known_times(block: BMLBlock, unit: PlanUnit, start: GlobalTime) -> dict[str, GlobalTime]:
+    times = ((point.id, _time(block, unit, point, start)) for point in unit.points)
+    return {sync: time for sync, time in times if time is not None}
 
 
-def _local(times: Mapping[str, GlobalTime], start: GlobalTime) -> dict[str, BlockTime]:
-    return {sync: BlockTime(time - start) for sync, time in times.items()}
+def _time(block: BMLBlock, unit: PlanUnit, point: SyncPoint, start: GlobalTime) -> Time:
+    if point.peg.value is not None or block.start.value is not None:
+        return point.peg.value
+    planned = block.planned_times.get(Point(unit.behavior.id, point.id))
+    return None if planned is None else GlobalTime(start + planned)

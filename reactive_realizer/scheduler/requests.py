@@ -33,9 +33,9 @@ class EngineRequests:
         self._feedback = feedback
 
     def carry_out(self, requests: Iterable[Request], now: GlobalTime) -> bool:
-        """Carry out requests in order of time; whether more than parameters changed.
+        """Carry out requests in order of time; whether anything but parameters changed.
 
-        Values are set first: a change that ends as another one begins has reached its target by then.
+        Values are set first, so that a change that ends as another one begins has reached its target.
         """
         for each in requests:
             if isinstance(each, SetParameter) and each.parameter.owner is each.unit:
@@ -49,7 +49,7 @@ class EngineRequests:
 
     def _carry_out(self, request: _Timed, now: GlobalTime) -> None:
         if request.unit.state is UnitState.DROPPED:
-            return  # by an earlier request
+            return  # an earlier request dropped it
         character = request.unit.block.character
         match request:
             case ActivateBlock(unit, target, time):
@@ -87,14 +87,14 @@ class EngineRequests:
         if unknown and spared == names:
             self._reject(request.unit, fault, now)
             return
-        # The behavior that asks begins before anything is cut: it may hang on that, or be of the same block.
+        # The requesting behavior begins first, because it may depend on the block that is cut, or belong to it.
         self._lifecycle.begin_behavior(request.unit, now)
         if unknown:
             self._feedback.warn_behavior(request.unit, fault)
         self._lifecycle.interrupt(block, request.time, spared, gently=request.gently)
 
     def _interrupt_missing(self, request: InterruptBlock, character: str, now: GlobalTime) -> None:
-        """Interrupt a block that is not alive: nothing happens, and only a block that never was gives a warning."""
+        """Interrupt a block that is not alive: nothing happens, and a block that never existed gives a warning."""
         self._lifecycle.begin_behavior(request.unit, now)
         missing = self._blocks.missing(character, request.target)
         if isinstance(missing, NoSuchBlock):

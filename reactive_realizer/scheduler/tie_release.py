@@ -1,4 +1,4 @@
-"""Ties to points that never come: what hangs on them keeps the time predicted last, or is dropped."""
+"""Ties to points that never come: behaviors that depend on them keep the last predicted time, or are dropped."""
 
 from collections.abc import Collection, Container, Iterable, Mapping, Sequence
 
@@ -16,7 +16,7 @@ from reactive_realizer.scheduler.problem import Node, Point, Precedence, Tie
 from reactive_realizer.scheduler.unit_lifecycle import UnitLifecycle
 
 MissedPoints = Mapping[Point, TimePeg]
-"""Points that will not be reached as planned, with the pegs that others may hang on."""
+"""Points that will not be reached as planned, with the pegs on which others may depend."""
 
 
 class TieRelease:
@@ -42,9 +42,9 @@ class TieRelease:
         return self._pegs_of(unit, unit.ahead())
 
     def release(self, block: BMLBlock, missed: MissedPoints, kind: type[DroppedTie | CutTie], time: GlobalTime) -> None:
-        """Have what hangs on missed points of a block that goes on keep its times, with a warning of this kind."""
-        hanging = _dependents_of({point.behavior for point in missed}, block.kept)
-        others = [unit for unit in block.live_units if unit.behavior.id not in hanging]
+        """Have behaviors that depend on missed points of a continuing block keep their times, with a warning."""
+        dependent = _dependents_of({point.behavior for point in missed}, block.kept)
+        others = [unit for unit in block.live_units if unit.behavior.id not in dependent]
         living = {point.peg for unit in others for point in unit.ahead()}
         old = dict.fromkeys(missed.values())
         pegs = [peg for peg in old if not peg.pinned and living.isdisjoint({peg, *followers_of(peg)})]
@@ -53,7 +53,7 @@ class TieRelease:
                 peg.pin(peg.value)
             block.update_end()
         warned = self.release_from(block.key, pegs, time, kind, began=block.state.plays)
-        for unit in [unit for unit in block.live_units if unit.behavior.id in hanging and unit not in warned]:
+        for unit in [unit for unit in block.live_units if unit.behavior.id in dependent and unit not in warned]:
             point = _tied_point(unit.behavior.id, missed, block.kept)
             if isinstance(point, Point):
                 self._feedback.warn_behavior(unit, kind(point=str(PegKey(*block.key, *point))))
@@ -67,10 +67,10 @@ class TieRelease:
         *,
         began: bool,
     ) -> set[PlanUnit]:
-        """Have behaviors that hang on pinned pegs of a block keep their times; the behaviors that were warned.
+        """Have behaviors that depend on pinned pegs of a block keep their times; the behaviors that were warned.
 
-        One without such a time is dropped; so is one that has not begun, if the block never began. Of other blocks only
-        the behaviors that are tied to such a point themselves are warned: what hangs on these stays tied to them.
+        A behavior without such a time is dropped; so is one that has not begun, if the block never began. In other
+        blocks, only behaviors that are tied to such a point directly are warned; their dependents stay tied to them.
         """
         warned = set()
         gone = frozenset(cut)
@@ -103,9 +103,9 @@ class TieRelease:
 
 
 def _dependents_of(named: Collection[str], kept: Iterable[Tie | Precedence]) -> set[str]:
-    """Ids of the other behaviors that name some behaviors, or share a constraint with them, in any number of steps.
+    """Ids of the other behaviors that name some behaviors, or share a `synchronize` with them, directly or not.
 
-    The dependency is one way: a speech goes on whatever becomes of the nod that is tied to its words.
+    A behavior does not depend on those that name it: a speech continues without the nod that is tied to its words.
     """
     ties = [tie for tie in kept if isinstance(tie, Tie)]
     ends = [(tie.owner, {node.behavior for node in tie.nodes if isinstance(node, Point)}) for tie in ties]

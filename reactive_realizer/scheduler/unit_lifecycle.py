@@ -1,11 +1,11 @@
-"""How behaviors reach their sync points, and how they end: of their own accord, cut short, or dropped."""
+"""The life of single behaviors: they reach their sync points, and finish, are cut or are dropped."""
 
 import logging
 from collections.abc import Collection, Iterable, Sequence
 from typing import Any
 
 from reactive_realizer.clock.units import GlobalTime, is_due
-from reactive_realizer.engine.effects import Dropped, Reached
+from reactive_realizer.engine.effects import Reached
 from reactive_realizer.engine.faults import UnitFailed
 from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.pegboard import PegBoard
@@ -30,10 +30,7 @@ class UnitLifecycle:
         board.graph.before_commit(self._correct_points)
 
     def sync_points_reached(self, reached: Sequence[Reached]) -> None:
-        """Pin each sync point at the time at which it was reached, and report it.
-
-        This is the only way of a sync point to feedback.
-        """
+        """Pin each sync point at the time at which it was reached, and report it; no other code reports one."""
         with self._board.graph.transaction("sync points reached"):
             for each in reached:
                 each.point.peg.pin(each.time)
@@ -41,7 +38,7 @@ class UnitLifecycle:
             self._feedback.sync_point_reached(each)
 
     def begin(self, unit: PlanUnit, now: GlobalTime) -> list[Reached]:
-        """Begin a behavior that is due before its engine plays; the points that it reaches, which are not told yet."""
+        """Begin a behavior, if it is due, before its engine plays; the points that it reaches are not reported yet."""
         if not unit.due(now):
             return []
         unit.begin()
@@ -62,7 +59,7 @@ class UnitLifecycle:
             return True
 
     def schedule_cut(self, unit: PlanUnit, time: GlobalTime) -> None:
-        """Have a playing behavior be cut at a later time, which is its end from now on."""
+        """Have a playing behavior cut at a later time, which is its end from now on."""
         self._scheduled_cuts[unit] = time
         block = self._blocks.get(unit.block)
         with self._board.graph.transaction(f"cut {unit.key('end')}"):
@@ -80,11 +77,11 @@ class UnitLifecycle:
         return sorted(due, key=lambda cut: cut[0])
 
     def forget_cut(self, unit: PlanUnit) -> None:
-        """A scheduled cut is done."""
+        """Forget a scheduled cut that is done."""
         self._scheduled_cuts.pop(unit, None)
 
     def finish(self, unit: PlanUnit, time: GlobalTime) -> None:
-        """End a playing behavior of its own accord, before what was planned: its end moves to a time."""
+        """End a playing behavior by itself at a time that was not planned; dependents of its end move along."""
         block = self._blocks.get(unit.block)
         if block is None or unit.state is not UnitState.IN_EXEC:
             return
@@ -102,15 +99,10 @@ class UnitLifecycle:
             block.update_end()
 
     def drop(self, unit: PlanUnit, fault: Fault, now: GlobalTime) -> None:
-        """Take a behavior that cannot be played on out of its plan."""
+        """Drop a behavior with a warning; if it had begun, it ends now. The block of a required one fails."""
         unit.drop(now)
-        self.dropped(Dropped(unit, fault), now)
-
-    def dropped(self, dropped: Dropped, now: GlobalTime) -> None:
-        """Warn of a behavior that left its plan; one that had begun ends now, a required one fails its block."""
-        unit = dropped.unit
         block = self._blocks.get(unit.block)
-        self._feedback.warn_behavior(unit, dropped.fault)
+        self._feedback.warn_behavior(unit, fault)
         if block is not None and unit in block.units:
             block.units.remove(unit)
             block.dropped.add(unit.behavior.id)
@@ -132,8 +124,8 @@ class UnitLifecycle:
     def _correct_points(self, changed: Collection[Cell[Any]]) -> None:
         """Correct points that a transaction has moved, before it commits (docs/semantics.md, pegs).
 
-        Of a block that plays, a point ahead that comes to lie before the last tick is pinned at this one. Of a behavior
-        that plays, a point that is overtaken by its successor moves with that from then on. ``changed`` grows by these.
+        In a playing block, a point that has moved before the last tick is pinned at this one. In a playing behavior, a
+        point that is overtaken by its successor moves with it from then on. These are added to ``changed``.
         """
         while units := self._moved(changed):
             begun = (unit for unit in units if unit.begun)
@@ -141,17 +133,17 @@ class UnitLifecycle:
                 return
 
     def _moved(self, changed: Collection[Cell[Any]]) -> list[PlanUnit]:
-        """The units of playing blocks of which a point has changed; one with a scheduled cut is left alone."""
+        """The units of playing blocks of which a point has changed, except for those with a scheduled cut."""
         blocks = (block for block in self._blocks.affected_by(changed, self._board) if block.state.plays)
         units = (unit for block in blocks for unit in block.live_units if not self.cut_scheduled(unit))
         return [unit for unit in units if any(point.peg in changed for point in unit.points)]
 
     def _pin_past(self, units: Collection[PlanUnit], changed: Collection[Cell[Any]]) -> bool:
-        """Pin points that were moved into the past at now; whether there were any."""
+        """Pin points that were moved into the past at the present time; whether there were any."""
         pegs = [point.peg for unit in units for point in unit.ahead() if point.peg in changed]
         pinned = False
         for peg in sorted(pegs, key=lambda peg: peg.rank):
-            # Lowest rank first: the pegs that hang on one that is pinned at now may no longer lie in the past.
+            # Lowest rank first: pegs that depend on one that is pinned here may no longer lie in the past.
             if not peg.pinned and peg.value is not None and peg.value < self._board.previous:
                 peg.pin(self._board.time)
                 pinned = True
