@@ -192,8 +192,9 @@ def written(path: Path) -> Iterator[str]:
 
 
 def attribute_of_block(node: ast.AST) -> list[str]:
-    of_block = isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name)
-    return [node.attr] if of_block and node.value.id in ("block", "other", "later") else []
+    if not isinstance(node, ast.Attribute) or not isinstance(node.value, ast.Name):
+        return []
+    return [node.attr] if node.value.id in ("block", "other", "later") else []
 
 
 def called(path: Path) -> Iterator[str]:
