@@ -85,13 +85,13 @@ class GestureBinding:
         return self._matches(behavior, namespace, tuple(attributes.items()))
 
     def _match(self, behavior: str, namespace: str, attributes: _Attributes) -> tuple[UnitSpec, ...]:
-        said = normalized(dict(attributes))
+        values = normalized(dict(attributes))
         others = self._by_lexeme.get((namespace, behavior, None), ())
-        specs = self._by_lexeme.get((namespace, behavior, said.get(_LEXEME)), others)
-        exact = [spec for spec in specs if spec.fits(said)]
-        if _MODE in said:
+        specs = self._by_lexeme.get((namespace, behavior, values.get(_LEXEME)), others)
+        exact = [spec for spec in specs if spec.fits(values)]
+        if _MODE in values:
             return (*exact[:1], *(spec for spec in exact[1:] if _MODE in spec.constraints))
-        return (*exact, *(spec for spec in specs if _MODE in spec.constraints and spec.fits(said, _MODE)))
+        return (*exact, *(spec for spec in specs if _MODE in spec.constraints and spec.fits(values, _MODE)))
 
     def constrained_attributes(self, behavior: str, namespace: str) -> frozenset[str]:
         """Return the attributes that the entries for an element constrain."""

@@ -42,15 +42,15 @@ class UnitSpec:
     def __post_init__(self) -> None:
         object.__setattr__(self, "normalized_constraints", normalized(self.constraints))
 
-    def fits(self, said: Mapping[str, str], ignoring: str | None = None) -> bool:
+    def fits(self, attributes: Mapping[str, str], ignoring: str | None = None) -> bool:
         """Return whether a behavior meets every constraint.
 
         Args:
-            said: `normalized` attributes of the behavior.
+            attributes: `normalized` attributes of the behavior.
             ignoring: an attribute whose constraint is ignored.
         """
         required = {name: value for name, value in self.normalized_constraints.items() if name != ignoring}
-        return required.items() <= said.items()
+        return required.items() <= attributes.items()
 
     def parameters(self, attributes: Mapping[str, str], own: Mapping[str, str] = _NONE) -> dict[str, str]:
         """Return the parameters of the unit for a behavior; the defaults apply where the behavior sets none.
@@ -59,8 +59,8 @@ class UnitSpec:
             attributes: of the behavior (`behavior_attributes`).
             own: parameters that the behavior sets by the names of the unit.
         """
-        said = {to: attributes[name] for name, to in self.parameter_map.items() if name in attributes}
-        return {**self.defaults, **own, **said}
+        mapped = {to: attributes[name] for name, to in self.parameter_map.items() if name in attributes}
+        return {**self.defaults, **own, **mapped}
 
 
 def normalized(attributes: Mapping[str, str]) -> dict[str, str]:

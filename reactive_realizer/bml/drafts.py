@@ -129,9 +129,9 @@ def _speech(tree: Tree, source: BlockSource) -> None:
 def _wrap_text(tree: Tree, source: BlockSource) -> None:
     """Moves the text and its sync points into a ``<text>`` element."""
     inside = [child for child in tree if name_of(child) != "description"]
-    said, tree.text = tree.text, None
+    written, tree.text = tree.text, None
     text = _add(tree, "text", {}, source)
-    text.text = said
+    text.text = written
     text.extend(inside)
 
 

@@ -117,16 +117,16 @@ def read_case(name: str, text: bytes) -> ConformanceCase:
     root = etree.fromstring(text)
     sends = tuple(map(_send, root.iterchildren("send")))
     warnings = tuple(map(_warned, root.iterchildren("warning")))
-    ends = {_said(element, "block"): _said(element, "status") for element in root.iterchildren("end")}
-    return ConformanceCase(name, _said(root, "title"), sends, warnings, ends)
+    ends = {_attribute(element, "block"): _attribute(element, "status") for element in root.iterchildren("end")}
+    return ConformanceCase(name, _attribute(root, "title"), sends, warnings, ends)
 
 
-def _said(element: etree._Element, name: str) -> str:
+def _attribute(element: etree._Element, name: str) -> str:
     return str(element.attrib[name])
 
 
 def _warned(element: etree._Element) -> Warned:
-    return Warned(_said(element, "id"), _said(element, "type"), element.get("plays") == "true")
+    return Warned(_attribute(element, "id"), _attribute(element, "type"), element.get("plays") == "true")
 
 
 def _send(element: etree._Element) -> Send:

@@ -119,10 +119,10 @@ class RealizerClient:
         if message.type is not aiohttp.WSMsgType.TEXT:
             raise self._not_reached(f"the connection was lost ({self._socket.close_code})")
         try:
-            said = json.loads(message.data)
+            decoded = json.loads(message.data)
         except ValueError:
-            said = None
-        return said if isinstance(said, dict) else {"type": None, "text": message.data}
+            decoded = None
+        return decoded if isinstance(decoded, dict) else {"type": None, "text": message.data}
 
     def _take(self, message: dict[str, Any]) -> None:
         self._silent = False

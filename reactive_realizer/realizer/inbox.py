@@ -97,7 +97,7 @@ class Inbox:
                 self._make_room(anticipator, sync, now)
                 self._anticipator(anticipator).predict(sync, time, now)
             case Event(anticipator):
-                _tell(self._anticipator(anticipator), entry, now)
+                _deliver_event(self._anticipator(anticipator), entry, now)
             case TargetMoved(target, position):
                 self._world.move(target, position)
             case BmlText():
@@ -128,7 +128,7 @@ def _try(what: object, act: Callable[..., None], *arguments: object) -> None:
         logger.exception("%s is skipped", what)
 
 
-def _tell(anticipator: Anticipator, event: Event, now: GlobalTime) -> None:
+def _deliver_event(anticipator: Anticipator, event: Event, now: GlobalTime) -> None:
     if event.text is None:
         anticipator.check(event.name, event.value)
         anticipator.event(event.name, event.value, now)

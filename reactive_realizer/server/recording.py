@@ -28,8 +28,8 @@ def message_of(entry: Input) -> Message:
         case Prediction(anticipator, sync, time):
             return {"type": "predict", "anticipator": anticipator, "sync": sync, "time": time}
         case Event(anticipator, name, value, text):
-            said = {key: what for key, what in (("value", value), ("text", text)) if what is not None}
-            return {"type": "event", "anticipator": anticipator, "event": name, **said}
+            content = {key: what for key, what in (("value", value), ("text", text)) if what is not None}
+            return {"type": "event", "anticipator": anticipator, "event": name, **content}
         case TargetMoved(target, position):
             return {"type": "world", "set": {target: position}}
         case _:

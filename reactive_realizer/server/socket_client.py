@@ -126,13 +126,13 @@ class SocketClient:
         if Stream.FEEDBACK in self._streams:
             stack.callback(self._live.feedback.subscribers.subscribe(lambda entry: self._queue.put(entry.text)))
         if Stream.AUDIO in self._streams:
-            stack.callback(self._live.sounds.subscribers.subscribe(self._tell))
+            stack.callback(self._live.sounds.subscribers.subscribe(self._enqueue))
         if Stream.BOARD in self._streams:
-            stack.callback(self._live.board.subscribers.subscribe(self._tell))
+            stack.callback(self._live.board.subscribers.subscribe(self._enqueue))
         if Stream.FRAMES in self._streams:
             stack.callback(self._live.frames.subscribe(self._queue.put_frame))
 
-    def _tell(self, message: Message) -> None:
+    def _enqueue(self, message: Message) -> None:
         self._queue.put(encode(message))
 
     async def _send(self) -> None:
@@ -162,7 +162,7 @@ class SocketClient:
             if not self._rate.allows():
                 limit = self._live.limits.messages_per_second
                 self._reason = TooManyMessages
-                self._tell(refused(RealizerError(TooManyMessages(limit=limit))))
+                self._enqueue(refused(RealizerError(TooManyMessages(limit=limit))))
                 break
             await self._take(message)
         self._queue.end()
@@ -177,22 +177,22 @@ class SocketClient:
             check(message)
             blocks = await self._answer(message)
         except NoNumber as refusal:
-            self._tell(refused(refusal, ref_of(refusal.message)))
+            self._enqueue(refused(refusal, ref_of(refusal.message)))
         except BlocksRefused as refusal:
-            self._tell(refused(refusal, ref, refusal.entered))
+            self._enqueue(refused(refusal, ref, refusal.entered))
         except RealizerError as refusal:
-            self._tell(refused(refusal, ref))
+            self._enqueue(refused(refusal, ref))
         else:
             if ref is not None:
-                self._tell(accepted(ref, blocks))
+                self._enqueue(accepted(ref, blocks))
 
     async def _answer(self, message: Message) -> list[str] | None:
         """Handles a message; for BML, returns the ids of its blocks."""
         match message["type"]:
             case "ping":
-                self._tell({"type": "pong", "t": message["t"], "time": round(self._live.now, 6)})
+                self._enqueue({"type": "pong", "t": message["t"], "time": round(self._live.now, 6)})
             case "clock":
-                self._tell({"type": "clock", "time": round(self._live.now, 6)})
+                self._enqueue({"type": "clock", "time": round(self._live.now, 6)})
             case "bml":
                 return await self._intake.blocks(message["xml"])
             case _:

@@ -83,57 +83,59 @@ class TTSContract(ABC):
 
     def test_words_are_in_the_text_and_their_times_in_its_order(self, speaker: Speaker) -> None:
         for text in (*_TEXTS, *_NO_WORDS):
-            said = speaker.say(text)
-            assert said.text == text
-            assert all(text[word.first : word.last] == word.text for word in said.words), text
-            assert all(word.text == word.text.strip() != "" for word in said.words), text
-            assert all(one.last <= next_.first for one, next_ in pairwise(said.words)), text
-            _assert_in_order([word.start for word in said.words], said)
+            utterance = speaker.say(text)
+            assert utterance.text == text
+            assert all(text[word.first : word.last] == word.text for word in utterance.words), text
+            assert all(word.text == word.text.strip() != "" for word in utterance.words), text
+            assert all(one.last <= next_.first for one, next_ in pairwise(utterance.words)), text
+            _assert_in_order([word.start for word in utterance.words], utterance)
 
     def test_marks_at_all_indices_have_times_in_their_order(self, speaker: Speaker) -> None:
         for text in (*_TEXTS, *_NO_WORDS):
             places = range(min(len(text), 80) + 1)
-            said = speaker.say(text, *((f"mark{place}", place) for place in places))
-            assert said.marks.keys() == {f"mark{place}" for place in places}
-            _assert_in_order([said.marks[f"mark{place}"] for place in places], said)
+            utterance = speaker.say(text, *((f"mark{place}", place) for place in places))
+            assert utterance.marks.keys() == {f"mark{place}" for place in places}
+            _assert_in_order([utterance.marks[f"mark{place}"] for place in places], utterance)
 
     def test_a_mark_before_a_word_has_its_time_and_one_at_the_end_is_after_the_last_word(
         self, speaker: Speaker
     ) -> None:
         marked = ("Please", "red", "table")
         marks = [(word, _SENTENCE.index(word)) for word in marked]
-        said = speaker.say(_SENTENCE, *marks, ("end", len(_SENTENCE)))
-        starts = {word.text: word.start for word in said.words}
+        utterance = speaker.say(_SENTENCE, *marks, ("end", len(_SENTENCE)))
+        starts = {word.text: word.start for word in utterance.words}
         for word in marked:
-            assert said.marks[word] == pytest.approx(starts[word], abs=0.05)
-        assert said.marks["end"] > said.words[-1].start
+            assert utterance.marks[word] == pytest.approx(starts[word], abs=0.05)
+        assert utterance.marks["end"] > utterance.words[-1].start
 
     def test_marks_at_one_index_have_the_same_time(self, speaker: Speaker) -> None:
-        said = speaker.say("one two", ("a", 4), ("b", 4))
-        assert said.marks["a"] == said.marks["b"]
+        utterance = speaker.say("one two", ("a", 4), ("b", 4))
+        assert utterance.marks["a"] == utterance.marks["b"]
 
     def test_more_words_take_more_time(self, speaker: Speaker) -> None:
-        said = speaker.say(_SENTENCE)
-        assert [word.text for word in said.words[:6]] == ["Please", "put", "the", "red", "box", "on"]
-        assert 1.0 < said.duration < 20.0
-        assert speaker.say("Please put the red box").duration < said.duration
+        utterance = speaker.say(_SENTENCE)
+        assert [word.text for word in utterance.words[:6]] == ["Please", "put", "the", "red", "box", "on"]
+        assert 1.0 < utterance.duration < 20.0
+        assert speaker.say("Please put the red box").duration < utterance.duration
 
     def test_a_text_without_words_has_times_for_its_marks(self, speaker: Speaker) -> None:
         for text in _NO_WORDS:
-            said = speaker.say(text, ("mark", len(text)))
-            assert said.words == (), text
-            assert 0.0 <= said.marks["mark"] <= said.duration, text
+            utterance = speaker.say(text, ("mark", len(text)))
+            assert utterance.words == (), text
+            assert 0.0 <= utterance.marks["mark"] <= utterance.duration, text
 
     def test_audio_and_phonemes_last_as_long_as_the_utterance(self, speaker: Speaker) -> None:
         for text in _TEXTS:
-            said = speaker.say(text)
-            assert len(said.audio) % 2 == 0, text
-            if said.audio:
-                assert len(said.audio) / 2 / said.sample_rate == pytest.approx(said.duration, abs=1e-3), text
-            for one, next_ in pairwise(said.phonemes):
+            utterance = speaker.say(text)
+            assert len(utterance.audio) % 2 == 0, text
+            if utterance.audio:
+                assert len(utterance.audio) / 2 / utterance.sample_rate == pytest.approx(
+                    utterance.duration, abs=1e-3
+                ), text
+            for one, next_ in pairwise(utterance.phonemes):
                 assert one.start + one.duration == pytest.approx(next_.start, abs=1e-3), text
-            _assert_in_order([phoneme.start for phoneme in said.phonemes], said)
-            assert all(phoneme.duration >= 0.0 for phoneme in said.phonemes), text
+            _assert_in_order([phoneme.start for phoneme in utterance.phonemes], utterance)
+            assert all(phoneme.duration >= 0.0 for phoneme in utterance.phonemes), text
 
     def test_the_same_text_gives_the_same_utterance_after_another_one(self, speaker: Speaker) -> None:
         first = speaker.say(_SENTENCE, ("red", 15))
@@ -162,6 +164,6 @@ class TTSContract(ABC):
         assert speaker.say("one two").words
 
 
-def _assert_in_order(times: list[float], said: Utterance) -> None:
+def _assert_in_order(times: list[float], utterance: Utterance) -> None:
     assert times == sorted(times)
-    assert all(0.0 <= time <= said.duration + RESOLUTION for time in times)
+    assert all(0.0 <= time <= utterance.duration + RESOLUTION for time in times)

@@ -294,25 +294,25 @@ _log = logging.getLogger(__name__)
 
 
 class FailureIsolation:
-    """Isolates failures outside of units, such as in idle animation: the figure lives on without the failing part."""
+    """Isolates failures outside of units, such as in idle animation: the other parts continue to move."""
 
     def __init__(self, figure: str) -> None:
         """Isolate the failures of a figure, given by name for messages."""
         self._figure = figure
-        self._told: set[str] = set()
+        self._logged: set[str] = set()
 
-    def __call__(self, what: str, show: Callable[[], T], fallback: T) -> T:
+    def __call__(self, part: str, show: Callable[[], T], fallback: T) -> T:
         """Return a part of the figure's motion, or a fallback in frames in which it fails. The first failure is logged.
 
         Args:
-            what: name of the part, for the log.
+            part: its name, for the log.
             show: returns the part.
             fallback: returned if that fails.
         """
         try:
             return show()
         except Exception:
-            if what not in self._told:
-                self._told.add(what)
-                _log.exception("%s: %s failed and is left out", self._figure, what)
+            if part not in self._logged:
+                self._logged.add(part)
+                _log.exception("%s: %s failed and is left out", self._figure, part)
             return fallback

@@ -7,9 +7,9 @@ class NoMotionFor(CreationFault):
     """A behavior that no entry of the binding matches."""
 
     code = "no-motion-for"
-    template = "no entry of the binding plays <{element}>{said}"
+    template = "no entry of the binding plays <{element}>{condition}"
     element: str
-    said: str
+    condition: str
 
 
 class NoUnit(CreationFault):

@@ -165,7 +165,7 @@ class Blinks:
     def __init__(self, random: Random) -> None:
         """Draw from a generator that must not be shared."""
         self._episodes = Episodes(None, lambda: (random.uniform(*_BLINK_PAUSE), None))
-        self._asked = -_BLINK
+        self._requested = -_BLINK
 
     def request_blink(self, time: float) -> None:
         """Blink at a time as well, s. People do so with large turns of gaze.
@@ -173,15 +173,15 @@ class Blinks:
         C. Evinger and others, "Not looking while leaping: the linkage of blinking and saccadic gaze shifts"
         (Experimental Brain Research 100, 1994).
         """
-        if time - self._asked >= _BLINK:
-            self._asked = time
+        if time - self._requested >= _BLINK:
+            self._requested = time
 
     def closed(self, time: float) -> float:
         """Return how far the lids are closed, 0 to 1."""
         now, _ = self._episodes.at(time)
         # The first episode starts with open eyes.
         own = _shut(time - now.since) if now.since > 0.0 else 0.0
-        return max(own, _shut(time - self._asked))
+        return max(own, _shut(time - self._requested))
 
 
 def _shut(passed: float) -> float:

@@ -34,20 +34,20 @@ def example_behavior(spec: UnitSpec, target: str) -> str | None:
     element = ELEMENTS.get(spec.behavior)
     attributes = element.attributes if element and element.namespace == spec.namespace else ()
     targets = {each.name: target for each in attributes if isinstance(each.type, Target)}
-    said = {"id": "example", **targets, **spec.constraints}
+    values = {"id": "example", **targets, **spec.constraints}
     known = {"id", *(each.name for each in attributes)}
-    missing = {each.name for each in attributes if each.required} - said.keys()
-    mapped = {to for source, to in spec.parameter_map.items() if source not in said}
+    missing = {each.name for each in attributes if each.required} - values.keys()
+    mapped = {to for source, to in spec.parameter_map.items() if source not in values}
     if missing or mapped & _FROM_BEHAVIOR:
         return None
     tree = etree.Element(f"{{{spec.namespace}}}{spec.behavior}")
-    for name, value in said.items():
+    for name, value in values.items():
         if name in known or name.startswith("{"):
             tree.set(name, value)
         elif name != "stance":
             etree.SubElement(tree, f"{{{BMLT}}}parameter", name=name, value=value)
     if element and "stance" in element.children:
-        etree.SubElement(tree, f"{{{BML}}}stance", type=said.get("stance", "STANDING").upper())
+        etree.SubElement(tree, f"{{{BML}}}stance", type=values.get("stance", "STANDING").upper())
     return etree.tostring(tree, encoding="unicode")
 
 
@@ -72,19 +72,19 @@ def binding_lexicon(library: MotionLibrary, target: str) -> Iterator[LexiconEntr
 
 
 def _entry(spec: UnitSpec, text: str, library: MotionLibrary) -> LexiconEntry:
-    said = dict(spec.constraints)
-    lexeme = next((said.pop(name) for name in _LEXEME_ATTRIBUTES if name in said), "")
+    constraints = dict(spec.constraints)
+    lexeme = next((constraints.pop(name) for name in _LEXEME_ATTRIBUTES if name in constraints), "")
     try:
         behavior = _behavior(text)
         candidate = library.candidate(spec, behavior, behavior_attributes(behavior))
     except RealizerError as problem:
-        return LexiconEntry(spec.behavior, lexeme, said, file=spec.file, problem=problem.fault.sentence)
+        return LexiconEntry(spec.behavior, lexeme, constraints, file=spec.file, problem=problem.fault.sentence)
     motion = candidate.motion
     timing = motion_timing(behavior, motion, keys_of(behavior, motion))
     return LexiconEntry(
         spec.behavior,
         lexeme,
-        said,
+        constraints,
         timing.points,
         sum(phase.duration for phase in timing.phases),
         {name: Changeable(motion.parameters[own], motion.ranges[own]) for name, own in candidate.names.items()},

@@ -105,9 +105,9 @@ class MotionLibrary:
         attributes = behavior_attributes(behavior)
         specs = self.binding.match(behavior.name, behavior.namespace, attributes)
         if not specs:
-            said = self.binding.constrained_attributes(behavior.name, behavior.namespace) & attributes.keys()
-            words = " and ".join(f"{name}='{attributes[name]}'" for name in sorted(said))
-            raise RealizerError(NoMotionFor(element=behavior.name, said=f" with {words}" if words else ""))
+            named = self.binding.constrained_attributes(behavior.name, behavior.namespace) & attributes.keys()
+            words = " and ".join(f"{name}='{attributes[name]}'" for name in sorted(named))
+            raise RealizerError(NoMotionFor(element=behavior.name, condition=f" with {words}" if words else ""))
         return Candidates(self._made(specs, behavior, attributes))
 
     def refresh(self) -> None:

@@ -23,9 +23,9 @@ def parameter_values(texts: Mapping[str, str], ranges: Mapping[str, Range]) -> d
         RealizerError: "bad-parameter": a value is not a number, or not within its range.
     """
     found = finite_numbers(texts)
-    said = {name: found.get(name, texts[name]) for name in ranges if name in texts}
-    check_ranges(said, ranges)
-    return {name: found[name] for name in said}
+    given = {name: found.get(name, texts[name]) for name in ranges if name in texts}
+    check_ranges(given, ranges)
+    return {name: found[name] for name in given}
 
 
 def check_ranges(values: Mapping[str, float | str], ranges: Mapping[str, Range]) -> None:
@@ -36,8 +36,8 @@ def check_ranges(values: Mapping[str, float | str], ranges: Mapping[str, Range])
     """
     for name, value in values.items():
         if value not in ranges[name]:
-            said = value if isinstance(value, str) else f"{value:g}"
-            raise RealizerError(BadParameter(name=name, value=said, low=ranges[name].low, high=ranges[name].high))
+            given = value if isinstance(value, str) else f"{value:g}"
+            raise RealizerError(BadParameter(name=name, value=given, low=ranges[name].low, high=ranges[name].high))
 
 
 REPLACEMENT_GROUP = "replacementgroup"
@@ -70,7 +70,7 @@ def unused_behavior_parameters(spec: UnitSpec, behavior: Behavior, motion: Motio
     names = behavior.parameters.keys() - heard
     if not names:
         return None
-    return UnknownParameter(names=listed(names), element=behavior.name, known=listed(_as_said(known, spec)))
+    return UnknownParameter(names=listed(names), element=behavior.name, known=listed(_bml_names(known, spec)))
 
 
 def unused_entry_parameters(spec: UnitSpec, motion: MotionUnit) -> set[str]:
@@ -88,10 +88,10 @@ def unused_entry_parameters(spec: UnitSpec, motion: MotionUnit) -> set[str]:
     )
 
 
-def _as_said(names: Iterable[str], spec: UnitSpec) -> set[str]:
+def _bml_names(names: Iterable[str], spec: UnitSpec) -> set[str]:
     """Return parameters by the names that a behavior uses."""
-    said = {own: name for name, own in spec.parameter_map.items()}
-    return {said.get(own, own) for own in names}
+    given = {own: name for name, own in spec.parameter_map.items()}
+    return {given.get(own, own) for own in names}
 
 
 def listed(names: Iterable[str]) -> str:

@@ -115,7 +115,7 @@ class PostureLibrary:
         self._asset = asset
         self._rest_poses = rest_poses
         self._lengths = _lengths(skeleton)
-        self._told: set[StanceType] = set()
+        self._logged: set[StanceType] = set()
         for stance in StanceType:
             self._rest_pose(stance)
 
@@ -163,8 +163,8 @@ class PostureLibrary:
         try:
             rotations = read_skeleton_pose(self._asset(name))
         except RealizerError as problem:
-            if stance not in self._told:
-                self._told.add(stance)
+            if stance not in self._logged:
+                self._logged.add(stance)
                 _log.warning("the default rest pose of %s is used: %s", stance.value, problem.fault.sentence)
             return {}
         return {joint: turn for joint, turn in rotations.items() if joint in self._skeleton}
@@ -200,8 +200,8 @@ class PostureLibrary:
             values = animation.values({**self._lengths, **_root(body)})
             posed = animation.sample(0.0, values, body)
             checked(Layer(LayerKind.BASE, posed.rotations, root=posed.root))
-            said = posed.root is not None
-            body = body.posed(posed.rotations, posed.root) if said else _turned(body, posed.rotations)
+            places_root = posed.root is not None
+            body = body.posed(posed.rotations, posed.root) if places_root else _turned(body, posed.rotations)
         return body
 
 
