@@ -19,7 +19,9 @@ from reactive_realizer.testing.engine_harness import minimal_context
 class SlowVoice(TextVoice):
     """A voice that synthesizes asynchronously, with audio (silence)."""
 
-    async def synthesize(self, text, marks, voice=None) -> Utterance:
+    async def synthesize(  # type: ignore[override]  # a voice may be asynchronous
+        self, text: str, marks: tuple[tuple[str, int], ...], voice: str | None = None
+    ) -> Utterance:
         utterance = super().synthesize(text, marks, voice)
         return replace(utterance, audio=bytes(2 * round(utterance.duration * 8000)), sample_rate=8000)
 

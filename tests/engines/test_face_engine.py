@@ -2,12 +2,15 @@
 
 import os
 import signal
+from collections.abc import AsyncIterator
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from reactive_realizer.assembly.scene import SceneOptions
-from reactive_realizer.testing.pilot import open_pilot
+from reactive_realizer.engines.speech.espeak_voice import EspeakVoice
+from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 SMILE = (
     '<faceLexeme id="f" lexeme="RAISE_MOUTH_CORNERS" amount="{amount}" start="0" attackPeak="0.5" relax="1.5" end="2"/>'
@@ -15,19 +18,19 @@ SMILE = (
 
 
 @pytest.fixture
-async def pilot():
+async def pilot() -> AsyncIterator[RealizerPilot]:
     async with open_pilot() as pilot:
         pilot.watch()
         yield pilot
 
 
-def weight(pilot, morph):
+def weight(pilot: RealizerPilot, morph: str) -> NDArray[np.float64]:
     """The weight of a morph target in each frame, (F,)."""
     morphs = pilot.realizer.characters["alice"].humanoid.avatar.morphs
     return np.array([frame.weights for frame in pilot.frames["alice"]])[:, morphs.index(morph)]
 
 
-async def test_a_face_is_held_from_its_attack_peak_to_its_relax_and_is_gone_at_its_end(pilot) -> None:
+async def test_a_face_is_held_from_its_attack_peak_to_its_relax_and_is_gone_at_its_end(pilot: RealizerPilot) -> None:
     pilot.block("b", SMILE.format(amount=1))
     await pilot.advance(3)
     smile = weight(pilot, "mouthSmileLeft")
@@ -38,7 +41,7 @@ async def test_a_face_is_held_from_its_attack_peak_to_its_relax_and_is_gone_at_i
     assert np.abs(np.diff(smile)).max() < 0.1
 
 
-async def test_the_amount_scales_a_face(pilot) -> None:
+async def test_the_amount_scales_a_face(pilot: RealizerPilot) -> None:
     pilot.block("b", SMILE.format(amount=1))
     await pilot.advance(3)
     full = weight(pilot, "mouthSmileLeft").max()
@@ -48,7 +51,7 @@ async def test_the_amount_scales_a_face(pilot) -> None:
     assert weight(pilot, "mouthSmileLeft").max() == pytest.approx(full / 2, rel=0.01)
 
 
-async def test_an_interrupted_face_fades_without_a_jump(pilot) -> None:
+async def test_an_interrupted_face_fades_without_a_jump(pilot: RealizerPilot) -> None:
     pilot.block("b", SMILE.format(amount=1))
     await pilot.advance(1)
     pilot.block("stop", composition="REPLACE")
@@ -59,7 +62,7 @@ async def test_an_interrupted_face_fades_without_a_jump(pilot) -> None:
     assert smile[-1] == 0
 
 
-async def test_of_two_faces_that_need_the_mouth_one_is_dropped_and_brows_play_along(pilot) -> None:
+async def test_of_two_faces_that_need_the_mouth_one_is_dropped_and_brows_play_along(pilot: RealizerPilot) -> None:
     faces = ("RAISE_MOUTH_CORNERS", "LOWER_MOUTH_CORNERS", "RAISE_BROWS")
     pilot.block("b", "".join(f'<faceLexeme id="f{i}" lexeme="{name}"/>' for i, name in enumerate(faces)))
     await pilot.advance(3)
@@ -67,11 +70,11 @@ async def test_of_two_faces_that_need_the_mouth_one_is_dropped_and_brows_play_al
     assert pilot.feedback.reached("b:f2:end")
 
 
-async def test_the_warning_of_an_unknown_lexeme_lists_the_known_ones(pilot) -> None:
+async def test_the_warning_of_an_unknown_lexeme_lists_the_known_ones(pilot: RealizerPilot) -> None:
     pilot.block("b", '<faceLexeme id="f" lexeme="SMIRK"/><wait id="w" duration="0.1"/>')
     await pilot.advance(1)
     assert pilot.feedback.warnings == [("b:f", "CANNOT_CREATE_BEHAVIOR")]
-    assert "RAISE_BROWS" in pilot.feedback.of("warningFeedback")[0].element.text
+    assert "RAISE_BROWS" in pilot.feedback.of("warningFeedback")[0].text
     assert pilot.feedback.reached("b:w:end")
 
 
@@ -113,11 +116,14 @@ async def test_a_smile_has_half_its_mouth_during_the_whole_speech_and_never_jump
 async def test_killing_the_speech_worker_drops_only_the_speech() -> None:
     async with open_pilot(SceneOptions()) as pilot:
         pilot.block("b", '<speech id="s"><text>Never heard.</text></speech><head id="h" lexeme="NOD"/>')
-        os.kill(pilot.scene.tts._process.pid, signal.SIGKILL)
+        voice = pilot.scene.tts
+        assert isinstance(voice, EspeakVoice)
+        assert voice._process
+        os.kill(voice._process.pid, signal.SIGKILL)
         await pilot.advance(2)
         assert pilot.feedback.warnings == [("b:s", "CANNOT_CREATE_BEHAVIOR")]
         assert pilot.feedback.reached("b:h:end")
         pilot.block("c", '<speech id="s"><text>Here again.</text></speech>')
         await pilot.advance(2)
         assert pilot.feedback.reached("c:s:end")
-        assert pilot.scene.tts.restarts == 1
+        assert voice.restarts == 1

@@ -1,5 +1,7 @@
 """A parameter value change between pegs that may move, and the built-in trajectories."""
 
+from collections.abc import Callable
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -8,6 +10,7 @@ from reactive_realizer.assembly.registry import load, names
 from reactive_realizer.bml.behaviors import Wait
 from reactive_realizer.bml.extensions import ParameterValueChange, Trajectory
 from reactive_realizer.bml.names import BMLA, BMLT, Location
+from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.engine.effects import EndUnit, SetParameter
 from reactive_realizer.engines.parameter_value_change import ParameterValueChangeUnit, ease_in_ease_out, instant, linear
 from reactive_realizer.errors import RealizerError
@@ -20,60 +23,77 @@ from reactive_realizer.reactive.cell import Source
 from reactive_realizer.reactive.graph import Graph
 
 BLOCK = BlockKey("alice", "b")
-PLACE = {"location": Location(1, 1), "order": 0}
+PLACE = Location(1, 1)
 
 
 class Bench:
     """A change from 0 s to 1 s, and its parameter, whose range is 0 to 100 and whose value is 40."""
 
-    def __init__(self, trajectory=linear, target=80.0, initial=None, namespace=BMLA, **syncs) -> None:
+    def __init__(
+        self,
+        trajectory: Callable[[float], float] = linear,
+        target: float = 80.0,
+        initial: float | None = None,
+        namespace: str = BMLA,
+    ) -> None:
         self.graph = Graph()
         said = Trajectory(type="any", target_value=target, initial_value=initial)
-        names = {"id": "p", "namespace": namespace, "name": "parametervaluechange", "syncs": syncs}
-        change = ParameterValueChange(target="b:s", parameter="volume", trajectory=said, **names, **PLACE)
+        change = ParameterValueChange(
+            id="p",
+            namespace=namespace,
+            name="parametervaluechange",
+            location=PLACE,
+            order=0,
+            target="b:s",
+            parameter="volume",
+            trajectory=said,
+        )
         self.requested: list[object] = []
         self.unit = ParameterValueChangeUnit(BLOCK, change, trajectory, self.requested.append)
         self.times = {
-            sync: AnticipatorPeg(self.graph, sync, float(sync != "start")) for sync in self.unit.timing.points
+            sync: AnticipatorPeg(self.graph, sync, GlobalTime(float(sync != "start")))
+            for sync in self.unit.timing.points
         }
         self.unit.points = [SyncPoint(s, OffsetPeg(self.graph, s, peg, 0.0)) for s, peg in self.times.items()]
         self.unit.release()
-        wait = Wait(id="s", namespace=BMLA, name="wait", **PLACE)
+        wait = Wait(id="s", namespace=BMLA, name="wait", location=PLACE, order=0)
         self.target = PlanUnit(BLOCK, wait, timing_at({"start": 0.0, "end": 9.0}))
-        self.target.points = [SyncPoint("end", OffsetPeg(self.graph, "e", AnticipatorPeg(self.graph, "e", 9.0), 0.0))]
+        self.target.points = [
+            SyncPoint("end", OffsetPeg(self.graph, "e", AnticipatorPeg(self.graph, "e", GlobalTime(9.0)), 0.0))
+        ]
         self.parameter = Parameter(Source(self.graph, "volume", 40.0), Range(0.0, 100.0))
 
-    def bind(self):
+    def bind(self) -> None:
         self.unit.bind(self.target, self.parameter)
 
-    def play(self, *times):
+    def play(self, *times: float) -> list[float]:
         """The values of the parameter at some times."""
         return [self._play(time) for time in times]
 
-    def _play(self, time):
-        if self.unit.due(time):
+    def _play(self, time: float) -> float:
+        if self.unit.due(GlobalTime(time)):
             self.unit.begin()
         if self.unit.state is UnitState.IN_EXEC:
-            self.unit.fire(self.unit.due_points(time), time)
-            self.unit.follow(time)
+            self.unit.fire(self.unit.due_points(GlobalTime(time)), GlobalTime(time))
+            self.unit.follow(GlobalTime(time))
         for each in self.requested:
             if isinstance(each, SetParameter):
                 self.parameter.set(each.value)
         return self.parameter.value
 
-    def move(self, sync, time):
+    def move(self, sync: str, time: float | None) -> None:
         with self.graph.transaction("move"):
-            self.times[sync].set(time)
+            self.times[sync].set(None if time is None else GlobalTime(time))
 
 
 def test_a_change_starts_only_once_its_parameter_is_bound() -> None:
     bench = Bench()
-    assert not bench.unit.wants_parameter(-0.01)
-    assert bench.unit.wants_parameter(0.0)
-    assert not bench.unit.due(0.0)
+    assert not bench.unit.wants_parameter(GlobalTime(-0.01))
+    assert bench.unit.wants_parameter(GlobalTime(0.0))
+    assert not bench.unit.due(GlobalTime(0.0))
     bench.bind()
-    assert not bench.unit.wants_parameter(0.0)
-    assert bench.unit.due(0.0)
+    assert not bench.unit.wants_parameter(GlobalTime(0.0))
+    assert bench.unit.due(GlobalTime(0.0))
 
 
 def test_a_change_goes_from_the_present_value_to_exactly_the_target_value() -> None:
@@ -107,7 +127,7 @@ def test_the_value_stays_while_the_end_is_unknown() -> None:
 
 
 @pytest.mark.parametrize("trajectory", [instant, linear, ease_in_ease_out])
-def test_a_late_tick_sets_the_target_value(trajectory) -> None:
+def test_a_late_tick_sets_the_target_value(trajectory: Callable[[float], float]) -> None:
     bench = Bench(trajectory)
     bench.bind()
     assert bench.play(3.0) == [80.0]
@@ -124,16 +144,16 @@ def test_the_target_value_is_reached_at_a_stroke_before_the_end() -> None:
 @pytest.mark.parametrize(
     ("ended", "told"), [(0.6, 0.6), (-0.1, 0.0)], ids=["during the change", "just before the change"]
 )
-def test_a_change_requests_its_end_when_its_target_has_ended(ended, told) -> None:
+def test_a_change_requests_its_end_when_its_target_has_ended(ended: float, told: float) -> None:
     bench = Bench()
     bench.bind()
     bench.play(0.0)
     with bench.graph.transaction("end"):
-        bench.target.points[-1].peg.pin(ended)
+        bench.target.points[-1].peg.pin(GlobalTime(ended))
     bench.target.points[-1].fired = True
     bench.target.state = UnitState.DONE
     bench.play(0.61)
-    assert bench.requested[-1] == EndUnit(bench.unit, told)
+    assert bench.requested[-1] == EndUnit(bench.unit, GlobalTime(told))
 
 
 def test_a_change_ends_now_when_its_target_was_dropped() -> None:
@@ -142,11 +162,11 @@ def test_a_change_ends_now_when_its_target_was_dropped() -> None:
     bench.play(0.0)
     bench.target.state = UnitState.DROPPED
     bench.play(0.61)
-    assert bench.requested[-1] == EndUnit(bench.unit, 0.61)
+    assert bench.requested[-1] == EndUnit(bench.unit, GlobalTime(0.61))
 
 
 @pytest.mark.parametrize("value", [100.1, -0.1, float("nan"), float("inf"), -float("inf")])
-def test_a_value_outside_the_range_is_refused(value) -> None:
+def test_a_value_outside_the_range_is_refused(value: float) -> None:
     for bench in (Bench(target=value), Bench(initial=value)):
         with pytest.raises(RealizerError, match="volume of 's' must be between 0 and 100"):
             bench.bind()
@@ -185,7 +205,7 @@ def test_every_trajectory_ends_at_1() -> None:
 
 @pytest.mark.parametrize("name", BUILT_IN)
 @given(early=st.floats(0, 1), late=st.floats(0, 1))
-def test_every_trajectory_is_monotonic_and_stays_between_0_and_1(name, early, late) -> None:
+def test_every_trajectory_is_monotonic_and_stays_between_0_and_1(name: str, early: float, late: float) -> None:
     trajectory = load("trajectories", name)
     early, late = sorted((early, late))
     assert 0.0 <= trajectory(early) <= trajectory(late) + 1e-15 <= 1.0 + 1e-15

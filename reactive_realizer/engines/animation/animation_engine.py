@@ -57,6 +57,7 @@ from reactive_realizer.engines.animation.posture.foot_planting import FootPlanti
 from reactive_realizer.engines.animation.posture.posture_library import BodyPosture, PostureLibrary
 from reactive_realizer.engines.animation.posture.rest_posture import RestPosture
 from reactive_realizer.pegboard.peg_key import BlockKey
+from reactive_realizer.planunit.parameter import Range
 from reactive_realizer.planunit.plan_unit import PlanUnit, UnitState
 from reactive_realizer.reactive.graph import Graph
 
@@ -68,7 +69,7 @@ class AnimationEngine(DefaultEngine):
 
     behaviors = MOTIONS | {Gesture, Head, HeadDirectionShift, Gaze, GazeShift, Pointing, Posture, PostureShift}
     reads_parameters = True
-    parameters = MappingProxyType(
+    parameters: Mapping[type[Behavior], Mapping[str, Range]] = MappingProxyType(
         {
             Gesture: {"amount": AMOUNT_RANGE},
             Head: {"amount": AMOUNT_RANGE},

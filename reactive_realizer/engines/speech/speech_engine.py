@@ -16,6 +16,7 @@ from reactive_realizer.engines.speech.speech_unit import VOLUME_RANGE, SpeechUni
 from reactive_realizer.engines.speech.visemes import VisemeTrack
 from reactive_realizer.errors import CreationFault, RealizerError
 from reactive_realizer.pegboard.peg_key import BlockKey
+from reactive_realizer.planunit.parameter import Range
 
 
 class NothingToSay(CreationFault):
@@ -29,7 +30,7 @@ class SpeechEngine(DefaultEngine):
     """Speaks with the voice of its character, and provides its lip sync (`LipSyncProvider`)."""
 
     behaviors = frozenset({Speech})
-    parameters = MappingProxyType({Speech: {"volume": VOLUME_RANGE}})
+    parameters: Mapping[type[Behavior], Mapping[str, Range]] = MappingProxyType({Speech: {"volume": VOLUME_RANGE}})
 
     def __init__(self, context: EngineContext) -> None:
         super().__init__(f"{context.character}/speech")

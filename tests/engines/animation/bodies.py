@@ -3,10 +3,11 @@
 from reactive_realizer.assembly.assets import Assets
 from reactive_realizer.bml.behaviors import Pose
 from reactive_realizer.bml.vocabulary import PosePart, StanceType
+from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.avatar import Avatar
 from reactive_realizer.embodiment.body import Body, Skeleton
 from reactive_realizer.embodiment.quaternion import Quat, angle, difference, slerp
-from reactive_realizer.engines.animation.motion_unit import Moment
+from reactive_realizer.engines.animation.motion_unit import Moment, MotionUnit
 from reactive_realizer.engines.animation.posture.posture_library import BodyPosture, PostureLibrary
 
 SOLES = ("l_ankle", "r_ankle", "l_midtarsal", "r_midtarsal")
@@ -58,8 +59,8 @@ REST_POSE = body_in(Avatar.read(ASSET("avatars/female.glb")).skeleton).pose
 """Joint -> rotation of a figure that stands at ease; the same for every figure."""
 
 
-def shown(unit, phase: float, body: Body, below: Body | None = None) -> dict[str, Quat]:
+def shown(unit: MotionUnit, phase: float, body: Body, below: Body | None = None) -> dict[str, Quat]:
     """The rotations of its joints at a phase, over what lies below: the body itself, if nothing else is said."""
     below = below or body
-    posed = unit.pose(Moment(phase, phase * unit.preferred_duration, body))
+    posed = unit.pose(Moment(phase, GlobalTime(phase * unit.preferred_duration), body))
     return {joint: slerp(below.rotation(joint), goal, posed.weight) for joint, goal in posed.rotations.items()}

@@ -96,7 +96,8 @@ def bvh(
         return " ".join(f"{number:.6f}" for number in finite_numbers)
 
     figure = joint(bones[0][0]).removeprefix("JOINT")
-    rows = [row(frame, place) for frame, place in zip(frames, places or [None] * len(frames), strict=True)]
+    walk: Sequence[Vec3 | None] = places or [None] * len(frames)
+    rows = [row(frame, place) for frame, place in zip(frames, walk, strict=True)]
     motion = f"Frames: {len(frames)}\nFrame Time: {step}\n" + "\n".join(rows)
     return f"HIERARCHY\nROOT{figure}MOTION\n{motion}\n"
 

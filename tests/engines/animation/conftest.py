@@ -15,12 +15,12 @@ ASSETS = Path(str(files("reactive_realizer"))) / "assets"
 
 
 @pytest.fixture(scope="session", params=["female", "male"])
-def avatar(request) -> Avatar:
+def avatar(request: pytest.FixtureRequest) -> Avatar:
     return Avatar.read(ASSETS / "avatars" / f"{request.param}.glb")
 
 
 @pytest.fixture(scope="session")
-def skeleton(avatar) -> Skeleton:
+def skeleton(avatar: Avatar) -> Skeleton:
     return avatar.skeleton
 
 
@@ -30,7 +30,7 @@ def animations() -> Path:
 
 
 @pytest.fixture
-def read(tmp_path) -> Callable[..., ProceduralAnimation]:
+def read(tmp_path: Path) -> Callable[..., ProceduralAnimation]:
     """Reads what a ProcAnimation says inside, and of its durations."""
 
     def read_text(content: str, durations: str = 'prefDuration="1"') -> ProceduralAnimation:

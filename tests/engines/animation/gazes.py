@@ -1,7 +1,9 @@
 """Directions as angles, and gazes, for tests."""
 
 import math
+from collections.abc import Callable
 from types import SimpleNamespace
+from typing import cast
 
 from reactive_realizer.bml.vocabulary import Influence
 from reactive_realizer.embodiment.body import Body
@@ -9,7 +11,8 @@ from reactive_realizer.embodiment.quaternion import from_euler, rotate
 from reactive_realizer.embodiment.vector import FORWARD, Vec3, add, dot, scale
 from reactive_realizer.engines.animation.gaze.eyes import EyeSockets, GazeTarget, direction_between
 from reactive_realizer.engines.animation.gaze.head_turn import default_weights
-from reactive_realizer.engines.animation.motions.gaze import LOOK, GazeMotionUnit
+from reactive_realizer.engines.animation.motions.gaze import LOOK, GazeKind, GazeMotionUnit
+from reactive_realizer.engines.animation.posture.rest_posture import RestPosture
 
 
 def way(yaw: float, pitch: float) -> Vec3:
@@ -34,7 +37,14 @@ def miss(body: Body, eye: str, target: Vec3) -> float:
     return between(rotate(body.transform(eye).rotation, FORWARD), toward)
 
 
-def gaze(body: Body, target, influence: Influence = Influence.HEAD, course=LOOK, **weights: float) -> GazeMotionUnit:
+def gaze(
+    body: Body,
+    target: Vec3 | Callable[[], Vec3],
+    influence: Influence = Influence.HEAD,
+    course: GazeKind = LOOK,
+    **weights: float,
+) -> GazeMotionUnit:
     """A gaze of a figure whose rest is a body; a target that moves is a function."""
     aim = GazeTarget(target if callable(target) else lambda: target)
-    return GazeMotionUnit(aim, default_weights(influence) | weights, SimpleNamespace(pose=body.pose, body=body), course)
+    rest = cast("RestPosture", SimpleNamespace(pose=body.pose, body=body))
+    return GazeMotionUnit(aim, default_weights(influence) | weights, rest, course)

@@ -1,16 +1,19 @@
 """Motions between pegs, as frames show them."""
 
 import math
+from collections.abc import AsyncIterator
 from pathlib import Path
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.embodiment.body import Body
-from reactive_realizer.engines.animation.motion_unit import MotionPose
+from reactive_realizer.embodiment.quaternion import Quat
+from reactive_realizer.engines.animation.motion_unit import Moment, MotionPose
 from reactive_realizer.engines.animation.motions.procedural import ProceduralMotionUnit
-from reactive_realizer.testing.pilot import open_pilot
+from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 BINDING = """
 <gesturebinding>
@@ -29,7 +32,7 @@ LIFT = '<ProcAnimation prefDuration="2"><Rotation target="r_elbow" rotation="0 -
 
 
 @pytest.fixture
-async def pilot(tmp_path: Path):
+async def pilot(tmp_path: Path) -> AsyncIterator[RealizerPilot]:
     for name, text in {"gesturebinding.xml": BINDING, "breaks.xml": BREAKS, "lift.xml": LIFT}.items():
         (tmp_path / name).write_text(text, encoding="utf-8")
     async with open_pilot(SceneOptions(voice="text", assets=(tmp_path,))) as pilot:
@@ -37,18 +40,20 @@ async def pilot(tmp_path: Path):
         yield pilot
 
 
-def rotations(pilot, joint):
+def rotations(pilot: RealizerPilot, joint: str) -> NDArray[np.float64]:
     """A joint's rotation in each frame, (F, 4)."""
     joints = pilot.realizer.characters["alice"].humanoid.avatar.skeleton.joints
-    return np.array([frame.rotations for frame in pilot.frames["alice"]])[:, joints.index(joint)]
+    index = joints.index(joint)
+    return np.array([frame.rotations[index] for frame in pilot.frames["alice"]])
 
 
-def turns(path):
+def turns(path: NDArray[np.float64]) -> NDArray[np.float64]:
     """By how much a joint turned from each frame to the next, rad, (F - 1,)."""
-    return 2 * np.arccos(np.clip(np.abs(np.sum(path[1:] * path[:-1], axis=1)), 0, 1))
+    cosines: NDArray[np.float64] = np.abs(np.sum(path[1:] * path[:-1], axis=1))
+    return 2 * np.arccos(np.clip(cosines, 0, 1))
 
 
-async def test_a_motion_without_a_pose_stops_with_a_warning_and_others_continue(pilot) -> None:
+async def test_a_motion_without_a_pose_stops_with_a_warning_and_others_continue(pilot: RealizerPilot) -> None:
     pilot.block("b", '<gesture id="bad" lexeme="BREAKS"/><gesture id="good" lexeme="LIFT"/>')
     await pilot.advance(4)
     assert pilot.feedback.warnings == [("b:bad", "EXECUTION_FAILURE")]
@@ -59,11 +64,11 @@ async def test_a_motion_without_a_pose_stops_with_a_warning_and_others_continue(
 
 @pytest.mark.parametrize("wrong", [(math.nan, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0), (2.0, 0.0, 0.0, 0.0)])
 async def test_a_motion_with_an_invalid_rotation_stops_with_a_warning_before_it_is_shown(
-    pilot, monkeypatch, wrong
+    pilot: RealizerPilot, monkeypatch: pytest.MonkeyPatch, wrong: Quat
 ) -> None:
     pose = ProceduralMotionUnit.pose
 
-    def goes_wrong(self, moment):
+    def goes_wrong(self: ProceduralMotionUnit, moment: Moment) -> MotionPose:
         posed = pose(self, moment)
         return MotionPose({"r_elbow": wrong}) if moment.phase > 0.4 and "r_elbow" in posed.rotations else posed
 
@@ -72,14 +77,14 @@ async def test_a_motion_with_an_invalid_rotation_stops_with_a_warning_before_it_
     await pilot.advance(4)
     (warning,) = pilot.feedback.of("warningFeedback")
     assert (warning.id, warning.element.get("type")) == ("b:bad", "EXECUTION_FAILURE")
-    assert "its motion sets r_elbow to" in warning.element.text
+    assert "its motion sets r_elbow to" in warning.text
     assert pilot.feedback.time("b:good:end") == 3.0
     seen = np.array([frame.rotations for frame in pilot.frames["alice"]])
     assert np.abs(np.linalg.norm(seen, axis=2) - 1.0).max() < 1e-6
     assert turns(rotations(pilot, "r_elbow")).max() < 0.1, "back to rest without a jump"
 
 
-async def test_a_cut_motion_returns_to_rest_without_a_jump(pilot) -> None:
+async def test_a_cut_motion_returns_to_rest_without_a_jump(pilot: RealizerPilot) -> None:
     await pilot.advance(0.1)
     pilot.block("b", '<gesture id="g" lexeme="LIFT"/>')
     await pilot.advance(1)
@@ -90,7 +95,7 @@ async def test_a_cut_motion_returns_to_rest_without_a_jump(pilot) -> None:
     assert turns(path[[0, -1]]) < 0.01
 
 
-async def test_an_idle_figure_breathes_and_blinks(pilot) -> None:
+async def test_an_idle_figure_breathes_and_blinks(pilot: RealizerPilot) -> None:
     await pilot.advance(10)
     assert turns(rotations(pilot, "vt6")).max() > 0
     morphs = pilot.realizer.characters["alice"].humanoid.avatar.morphs
@@ -100,7 +105,7 @@ async def test_an_idle_figure_breathes_and_blinks(pilot) -> None:
 
 
 @pytest.mark.parametrize(("hit", "moved", "to"), [(1.3, 1.0, 1.0), (5.0, 4.6, 4.62)], ids=["to now", "much nearer"])
-async def test_a_stroke_that_is_moved_late_does_not_make_the_hand_jerk(hit, moved, to) -> None:
+async def test_a_stroke_that_is_moved_late_does_not_make_the_hand_jerk(hit: float, moved: float, to: float) -> None:
     async with open_pilot(SceneOptions(voice="text")) as pilot:
         pilot.watch()
         pilot.predict("test", "hit", hit)

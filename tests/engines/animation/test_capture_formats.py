@@ -3,6 +3,7 @@
 Each variant occurs in a published file; the figures here are made for the tests.
 """
 
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -10,6 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from reactive_realizer.embodiment.avatar import Avatar
+from reactive_realizer.embodiment.body import JointRotations
 from reactive_realizer.embodiment.quaternion import from_axis_angle, normalize, rotate
 from reactive_realizer.embodiment.vector import UP
 from reactive_realizer.engines.animation.keyframe.bvh_reader import read_capture
@@ -57,7 +59,7 @@ NAMES = {
 
 
 @pytest.fixture
-def clip(tmp_path: Path):
+def clip(tmp_path: Path) -> Callable[[str], Clip]:
     def read(text: str) -> Clip:
         path = tmp_path / "some.bvh"
         path.write_text(text)
@@ -67,7 +69,7 @@ def clip(tmp_path: Path):
 
 
 @pytest.mark.parametrize("kind", NAMES)
-def test_joint_names_of_several_vendors_are_known(clip, kind):
+def test_joint_names_of_several_vendors_are_known(clip: Callable[[str], Clip], kind: str) -> None:
     found = clip(bvh(POSE, POSE, names=NAMES[kind]))
     assert_same_directions(found, 0.0, SKELETON, POSE)
     assert {"HumanoidRoot", "vl5", "vt6", "vc4", "skullbase"} <= set(found.joints)
@@ -81,7 +83,9 @@ def test_joint_names_of_several_vendors_are_known(clip, kind):
         (["Chest", "Chest2", "Chest3", "Chest4"], ["vl5", "vt10", "vt6"]),
     ],
 )
-def test_a_spine_with_any_number_of_joints_is_mapped(clip, spine, ours):
+def test_a_spine_with_any_number_of_joints_is_mapped(
+    clip: Callable[[str], Clip], spine: list[str], ours: list[str]
+) -> None:
     """The lowest, one of the middle and the highest are ours, whatever they are called."""
     bones = [bone for bone in T_POSE if bone[0] not in ("Spine", "Spine1")]
     trunk = [(name, above, (0.0, 8.0, 0.0)) for name, above in zip(spine, ["Hips", *spine], strict=False)]
@@ -90,7 +94,9 @@ def test_a_spine_with_any_number_of_joints_is_mapped(clip, spine, ours):
     assert [joint for joint in found.joints if joint in ("vl5", "vt10", "vt6")] == ours
 
 
-def test_extra_joints_between_pelvis_and_thigh_and_in_the_neck_are_ignored(clip):
+def test_extra_joints_between_pelvis_and_thigh_and_in_the_neck_are_ignored(
+    clip: Callable[[str], Clip],
+) -> None:
     """As in the captures of Carnegie Mellon University, of B. Hahne's form."""
     between = (("LHipJoint", "Hips", (0.0, 0.0, 0.0)), ("Neck1", "Neck", (0.0, 5.0, 0.0)))
     moved = {"LeftUpLeg": "LHipJoint", "Head": "Neck1"}
@@ -99,7 +105,9 @@ def test_extra_joints_between_pelvis_and_thigh_and_in_the_neck_are_ignored(clip)
     assert_same_directions(clip(bvh(POSE, POSE, bones=bones)), 0.0, SKELETON, POSE)
 
 
-def test_the_root_follows_the_pelvis_below_an_extra_root_joint(clip):
+def test_the_root_follows_the_pelvis_below_an_extra_root_joint(
+    clip: Callable[[str], Clip],
+) -> None:
     """Bandai Namco's joint_Root, MotionBuilder's Reference."""
     bones = (("Reference", None, (0.0, 0.0, 0.0)), ("Hips", "Reference", (0.0, 98.0, 0.0)), *T_POSE[1:])
     found = clip(bvh(POSE, POSE, bones=bones, places=[(0.0, 98.0, 5.0), (0.0, 98.0, 25.0)]))
@@ -107,19 +115,25 @@ def test_the_root_follows_the_pelvis_below_an_extra_root_joint(clip):
     assert_same_directions(found, 0.0, SKELETON, POSE)
 
 
-def test_position_channels_of_all_joints_are_accepted(clip):
+def test_position_channels_of_all_joints_are_accepted(
+    clip: Callable[[str], Clip],
+) -> None:
     """Mixamo's, as some converters write them."""
     found = clip(bvh(POSE, POSE, moved=[name for name, _, _ in T_POSE]))
     assert_same_directions(found, 0.0, SKELETON, POSE)
 
 
-def test_a_capture_without_positions_stays_in_place(clip):
+def test_a_capture_without_positions_stays_in_place(
+    clip: Callable[[str], Clip],
+) -> None:
     found = clip(bvh(POSE, POSE, moved=()))
     assert found.root_at(0.01) == (0.0, 0.0, 0.0)
     assert_same_directions(found, 0.0, SKELETON, POSE)
 
 
-def test_a_file_with_z_up_is_turned(clip):
+def test_a_file_with_z_up_is_turned(
+    clip: Callable[[str], Clip],
+) -> None:
     bones, frames = with_axes(T_POSE, [{}, POSE], Z_UP, {})
     places = [rotate(Z_UP, place) for place in ((0.0, 98.0, 0.0), (0.0, 98.0, 20.0))]
     found = clip(bvh(*frames, bones=bones, places=places))
@@ -133,7 +147,9 @@ axes = st.fixed_dictionaries({name: turns.map(normalize) for name, _, _ in T_POS
 
 @settings(max_examples=40, deadline=None, derandomize=True)
 @given(axes)
-def test_joints_with_axes_of_their_own_are_read_relative_to_the_first_frame(tmp_path_factory, own):
+def test_joints_with_axes_of_their_own_are_read_relative_to_the_first_frame(
+    tmp_path_factory: pytest.TempPathFactory, own: JointRotations
+) -> None:
     """Of Maya, of Rokoko: without rotations this figure is a heap of bones."""
     bones, frames = with_axes(T_POSE, [{}, POSE], from_axis_angle(UP, 0.0), own)
     path = tmp_path_factory.mktemp("capture") / "some.bvh"
@@ -143,7 +159,9 @@ def test_joints_with_axes_of_their_own_are_read_relative_to_the_first_frame(tmp_
     assert_same_directions(found, 0.01, SKELETON, POSE)
 
 
-def test_the_error_names_the_missing_joints(clip):
+def test_the_error_names_the_missing_joints(
+    clip: Callable[[str], Clip],
+) -> None:
     names = {"LeftUpLeg": "thing"}
     with pytest.raises(RealizerError, match="known name for HumanoidRoot, l_hip, skullbase"):
         clip(bvh(POSE, POSE, names=names))

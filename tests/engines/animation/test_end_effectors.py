@@ -1,9 +1,11 @@
 """End effectors and the root in procedural animations."""
 
+from collections.abc import Callable
+
 import pytest
 
 from reactive_realizer.clock.units import GlobalTime
-from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.body import Body, Skeleton
 from reactive_realizer.embodiment.pose import LayerKind
 from reactive_realizer.embodiment.quaternion import (
     IDENTITY,
@@ -14,13 +16,16 @@ from reactive_realizer.embodiment.quaternion import (
 )
 from reactive_realizer.embodiment.two_bone_ik import Arm
 from reactive_realizer.embodiment.vector import add, dot, subtract
-from reactive_realizer.engines.animation.motion_unit import Moment
+from reactive_realizer.engines.animation.motion_unit import Moment, MotionUnit
 from reactive_realizer.engines.animation.motions.gesture import GestureMotionUnit
 from reactive_realizer.engines.animation.motions.procedural import ProceduralMotionUnit
+from reactive_realizer.engines.animation.procedural.procedural_animation import ProceduralAnimation
 
 
 @pytest.mark.parametrize("side", ["l", "r"])
-def test_a_local_end_effector_places_the_wrist_relative_to_the_leaning_trunk(read, skeleton, side):
+def test_a_local_end_effector_places_the_wrist_relative_to_the_leaning_trunk(
+    read: Callable[..., ProceduralAnimation], skeleton: Skeleton, side: str
+) -> None:
     animation = read(f'<EndEffector target="{side}_wrist" local="true" translation="0.05;-0.2;0.25" swivel="0.3"/>')
     for lean in (IDENTITY, from_axis_angle((1.0, 0.0, 0.0), 0.4)):
         body = Body(skeleton, {"vl5": lean})
@@ -30,7 +35,9 @@ def test_a_local_end_effector_places_the_wrist_relative_to_the_leaning_trunk(rea
 
 
 @pytest.mark.parametrize("side", ["l", "r"])
-def test_a_global_end_effector_places_the_wrist_above_the_ground(read, skeleton, side):
+def test_a_global_end_effector_places_the_wrist_above_the_ground(
+    read: Callable[..., ProceduralAnimation], skeleton: Skeleton, side: str
+) -> None:
     x = 0.15 if side == "l" else -0.15
     animation = read(f'<EndEffector target="{side}_wrist" local="false" translation="{x};1.15;0.3"/>')
     body = Body(skeleton, {"vl5": from_axis_angle((0.0, 1.0, 0.0), 0.2)})
@@ -38,7 +45,9 @@ def test_a_global_end_effector_places_the_wrist_above_the_ground(read, skeleton,
     assert moved.transform(f"{side}_wrist").position == pytest.approx((x, 1.15, 0.3), abs=1e-6)
 
 
-def test_the_forearm_makes_half_of_the_wrists_twist_and_the_hand_keeps_its_pose(read, skeleton):
+def test_the_forearm_makes_half_of_the_wrists_twist_and_the_hand_keeps_its_pose(
+    read: Callable[..., ProceduralAnimation], skeleton: Skeleton
+) -> None:
     arm = '<EndEffector target="l_wrist" local="true" translation="0;-0.2;0.25"/>'
     plain, twisted = (
         read(arm + f'<Rotation target="l_wrist" rotation="0;{twist};0"/>').sample(0.0, {}, Body(skeleton)).rotations
@@ -53,7 +62,9 @@ def test_the_forearm_makes_half_of_the_wrists_twist_and_the_hand_keeps_its_pose(
 
 
 @pytest.mark.parametrize("side", ["l", "r"])
-def test_a_global_end_effector_places_the_ankle_and_keeps_the_foot_flat(read, skeleton, side):
+def test_a_global_end_effector_places_the_ankle_and_keeps_the_foot_flat(
+    read: Callable[..., ProceduralAnimation], skeleton: Skeleton, side: str
+) -> None:
     x = 0.15 if side == "l" else -0.15
     animation = read(f'<EndEffector target="{side}_ankle" translation="{x};0.25;0.2" swivel="0.2"/>').fitted_to(
         skeleton
@@ -71,7 +82,9 @@ def test_a_global_end_effector_places_the_ankle_and_keeps_the_foot_flat(read, sk
 
 
 @pytest.mark.parametrize("side", ["l", "r"])
-def test_a_local_end_effector_places_the_ankle_relative_to_the_hip(read, skeleton, side):
+def test_a_local_end_effector_places_the_ankle_relative_to_the_hip(
+    read: Callable[..., ProceduralAnimation], skeleton: Skeleton, side: str
+) -> None:
     animation = read(f'<EndEffector target="{side}_ankle" local="true" translation="0.05;-0.6;0.2"/>').fitted_to(
         skeleton
     )
@@ -82,13 +95,15 @@ def test_a_local_end_effector_places_the_ankle_relative_to_the_hip(read, skeleto
     assert way == pytest.approx(rotate(turn, (0.05, -0.6, 0.2)), abs=1e-6)
 
 
-def test_a_rotation_of_the_ankle_turns_the_foot(read, skeleton):
+def test_a_rotation_of_the_ankle_turns_the_foot(read: Callable[..., ProceduralAnimation], skeleton: Skeleton) -> None:
     leg = '<EndEffector target="l_ankle" translation="0.1;0.3;0.1"/>'
     animation = read(leg + '<Rotation target="l_ankle" rotation="0.4;0;0"/>').fitted_to(skeleton)
     assert animation.sample(0.0, {}, Body(skeleton)).rotations["l_ankle"] == from_euler(0.4, 0.0, 0.0)
 
 
-def test_end_effectors_at_the_current_ankles_change_nothing(read, skeleton):
+def test_end_effectors_at_the_current_ankles_change_nothing(
+    read: Callable[..., ProceduralAnimation], skeleton: Skeleton
+) -> None:
     body = Body(skeleton)
     left, right = (body.transform(f"{side}_ankle").position for side in "lr")
     animation = read(
@@ -101,21 +116,28 @@ def test_end_effectors_at_the_current_ankles_change_nothing(read, skeleton):
 
 
 @pytest.mark.parametrize("name", ["root", "HumanoidRoot"])
-def test_the_root_is_placed_above_the_ground_or_relative_to_its_default(read, skeleton, name):
+def test_the_root_is_placed_above_the_ground_or_relative_to_its_default(
+    read: Callable[..., ProceduralAnimation], skeleton: Skeleton, name: str
+) -> None:
     at_rest = skeleton.offset("HumanoidRoot")
     for local, expected in (("false", subtract((0.1, 0.8, 0.2), at_rest)), ("true", (0.1, 0.8, 0.2))):
         animation = read(f'<EndEffector target="{name}" local="{local}" translation="0.1;1.6*t;0.2"/>').fitted_to(
             skeleton
         )
         posed = animation.sample(0.5, {}, Body(skeleton))
-        assert (posed.rotations, posed.root) == ({}, pytest.approx(expected))
+        assert posed.rotations == {}
+        assert posed.root == pytest.approx(expected)
 
 
-def test_an_animation_without_a_root_track_leaves_the_root_alone(read, skeleton):
+def test_an_animation_without_a_root_track_leaves_the_root_alone(
+    read: Callable[..., ProceduralAnimation], skeleton: Skeleton
+) -> None:
     assert read('<Rotation target="vc4" rotation="0;0;0"/>').sample(0.0, {}, Body(skeleton)).root is None
 
 
-def test_feet_stay_in_place_while_the_root_sinks_and_turns(read, skeleton):
+def test_feet_stay_in_place_while_the_root_sinks_and_turns(
+    read: Callable[..., ProceduralAnimation], skeleton: Skeleton
+) -> None:
     feet = "".join(
         f'<EndEffector target="{side}_ankle" translation="{x};0.1;0"/>' for side, x in (("l", 0.1), ("r", -0.1))
     )
@@ -129,7 +151,9 @@ def test_feet_stay_in_place_while_the_root_sinks_and_turns(read, skeleton):
         assert moved.transform("r_ankle").position == pytest.approx((-0.1, 0.1, 0.0), abs=1e-6)
 
 
-def test_mirroring_exchanges_the_feet_and_the_side_of_the_root(read, skeleton):
+def test_mirroring_exchanges_the_feet_and_the_side_of_the_root(
+    read: Callable[..., ProceduralAnimation], skeleton: Skeleton
+) -> None:
     root = '<EndEffector target="root" local="true" translation="0.1;-0.2;0.05"/>'
     foot = '<EndEffector target="r_ankle" local="true" translation="-0.05;-0.6;0.1" swivel="0.3"/>'
     animation = read(root + foot).fitted_to(skeleton)
@@ -140,7 +164,9 @@ def test_mirroring_exchanges_the_feet_and_the_side_of_the_root(read, skeleton):
         assert mirrored.rotations[f"l_{joint}"] == pytest.approx((w, x, -y, -z), abs=0.02)
 
 
-def test_an_animation_restricted_to_the_root_moves_only_the_root(read, skeleton):
+def test_an_animation_restricted_to_the_root_moves_only_the_root(
+    read: Callable[..., ProceduralAnimation], skeleton: Skeleton
+) -> None:
     root = '<EndEffector target="root" local="true" translation="0.1;-0.2;0.05"/>'
     animation = (
         read(root + '<Rotation target="vc4" rotation="1;0;0"/>')
@@ -151,7 +177,9 @@ def test_an_animation_restricted_to_the_root_moves_only_the_root(read, skeleton)
     assert (posed.rotations, posed.root) == ({}, (0.1, -0.2, 0.05))
 
 
-def test_an_animation_restricted_to_the_neck_does_not_move_the_root(read, skeleton):
+def test_an_animation_restricted_to_the_neck_does_not_move_the_root(
+    read: Callable[..., ProceduralAnimation], skeleton: Skeleton
+) -> None:
     root = '<EndEffector target="root" local="true" translation="0.1;-0.2;0.05"/>'
     animation = (
         read(root + '<Rotation target="vc4" rotation="1;0;0"/>').restricted_to(frozenset({"vc4"})).fitted_to(skeleton)
@@ -161,7 +189,9 @@ def test_an_animation_restricted_to_the_neck_does_not_move_the_root(read, skelet
 
 @pytest.mark.parametrize("side", ["l", "r"])
 @pytest.mark.parametrize(("above", "missing"), [(-0.005, None), (0.1, 0.1), (1.0, 1.0)])
-def test_missing_a_global_goal_by_more_than_a_centimeter_is_reported(read, skeleton, side, above, missing):
+def test_missing_a_global_goal_by_more_than_a_centimeter_is_reported(
+    read: Callable[..., ProceduralAnimation], skeleton: Skeleton, side: str, above: float, missing: float | None
+) -> None:
     limb, shoulder = Arm.of(skeleton, side), Body(skeleton).transform(f"{side}_shoulder").position
     x, y, z = add(shoulder, (0.0, 0.0, limb.reach + above))
     fault = (
@@ -170,6 +200,7 @@ def test_missing_a_global_goal_by_more_than_a_centimeter_is_reported(read, skele
     if missing is None:
         assert fault is None
     else:
+        assert fault
         assert fault.code == "not-reachable"
         assert fault.details["joint"] == f"{side}_wrist"
         assert fault.details["phase"] == 0.3
@@ -177,13 +208,19 @@ def test_missing_a_global_goal_by_more_than_a_centimeter_is_reported(read, skele
 
 
 @pytest.mark.parametrize("side", ["l", "r"])
-def test_a_leg_that_is_too_short_for_its_goal_is_reported(read, skeleton, side):
+def test_a_leg_that_is_too_short_for_its_goal_is_reported(
+    read: Callable[..., ProceduralAnimation], skeleton: Skeleton, side: str
+) -> None:
     animation = read(f'<EndEffector target="{side}_ankle" translation="0;-0.3;0"/>').fitted_to(skeleton)
-    assert animation.sample(0.0, {}, Body(skeleton)).fault.details["joint"] == f"{side}_ankle"
+    fault = animation.sample(0.0, {}, Body(skeleton)).fault
+    assert fault
+    assert fault.details["joint"] == f"{side}_ankle"
 
 
 @pytest.mark.parametrize(("stretch", "told"), [(1.0, False), (1.45, False), (1.6, True)])
-def test_a_local_goal_may_be_that_of_an_arm_half_as_long_again(read, skeleton, stretch, told):
+def test_a_local_goal_may_be_that_of_an_arm_half_as_long_again(
+    read: Callable[..., ProceduralAnimation], skeleton: Skeleton, stretch: float, told: bool
+) -> None:
     far = stretch * Arm.of(skeleton, "l").reach
     posed = read(f'<EndEffector target="l_wrist" local="true" translation="0;0;{far}"/>').sample(
         0.0, {}, Body(skeleton)
@@ -198,11 +235,17 @@ def test_a_local_goal_may_be_that_of_an_arm_half_as_long_again(read, skeleton, s
         lambda file, rest: GestureMotionUnit(file, {}, rest),
     ],
 )
-def test_a_motion_reports_a_missed_goal_only_when_it_is_shown(read, skeleton, make):
+def test_a_motion_reports_a_missed_goal_only_when_it_is_shown(
+    read: Callable[..., ProceduralAnimation],
+    skeleton: Skeleton,
+    make: Callable[[ProceduralAnimation, Body], MotionUnit],
+) -> None:
     body = Body(skeleton)
     motion = make(read('<EndEffector target="l_wrist" translation="0;3;0"/>').fitted_to(skeleton), body)
     motion.pose(Moment(0.5, GlobalTime(0.0), body))
-    assert motion.fault is None
+    hidden = motion.fault
+    assert hidden is None
     for phase in (0.5, 0.6):
         motion.pose(Moment(phase, GlobalTime(0.0), body, body))
+    assert motion.fault
     assert motion.fault.code == "not-reachable"

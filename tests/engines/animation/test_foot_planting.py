@@ -19,7 +19,7 @@ def walking(skeleton: Skeleton, way: float, share: float) -> Body:
     return compose(skeleton, (below, goal, *FootPlanting(skeleton).layers((below, goal), GlobalTime(0.0)))).shown
 
 
-def test_long_walks_keep_the_pelvis_up_between_the_feet(skeleton):
+def test_long_walks_keep_the_pelvis_up_between_the_feet(skeleton: Skeleton) -> None:
     bodies = [walking(skeleton, 3.0, i / 300) for i in range(301)]
     leads = [
         [body.transform(ankle).position[2] - body.transform("l_hip").position[2] for ankle in ("l_ankle", "r_ankle")]
@@ -31,7 +31,7 @@ def test_long_walks_keep_the_pelvis_up_between_the_feet(skeleton):
     assert height(bodies[-1], "l_ankle") == pytest.approx(height(bodies[0], "l_ankle"), abs=1e-6)
 
 
-def test_a_foot_on_the_ground_does_not_slide(skeleton):
+def test_a_foot_on_the_ground_does_not_slide(skeleton: Skeleton) -> None:
     bodies = [walking(skeleton, 3.0, i / 300) for i in range(301)]
     for ankle in ("l_ankle", "r_ankle"):
         ground = height(bodies[0], ankle)
@@ -41,7 +41,7 @@ def test_a_foot_on_the_ground_does_not_slide(skeleton):
                 assert math.dist((x, z), (to_x, to_z)) < 1e-6
 
 
-def test_the_pelvis_sinks_little_for_feet_that_it_has_left_behind(skeleton):
+def test_the_pelvis_sinks_little_for_feet_that_it_has_left_behind(skeleton: Skeleton) -> None:
     pushed = Layer(LayerKind.ADDITIVE, {}, root=(1.5, 0.0, 0.0))
     lowered, _ = FootPlanting(skeleton).layers((Layer(LayerKind.BASE, {}), pushed), GlobalTime(0.0))
     assert lowered.root == pytest.approx((0.0, -0.25, 0.0))

@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from reactive_realizer.embodiment.vector import Vec3
 from reactive_realizer.engines.animation.expression.compiler import compile_formulas
 from reactive_realizer.engines.animation.expression.functions import (
     FUNCTIONS,
@@ -68,19 +69,19 @@ def value(text: str, **names: float) -> float:
         ("if(1 < 2 || 0, 5, 6)", 5.0),
     ],
 )
-def test_a_formula_means_what_it_does_in_mathematics(text, expected):
+def test_a_formula_means_what_it_does_in_mathematics(text: str, expected: float) -> None:
     assert value(text) == pytest.approx(expected)
 
 
-def test_names_are_variables_unless_they_are_pi_or_e():
+def test_names_are_variables_unless_they_are_pi_or_e() -> None:
     assert list(variables(parse("a * sin(2 * pi * r * t) + e"))) == ["a", "r", "t"]
 
 
-def test_only_the_chosen_branch_is_evaluated():
+def test_only_the_chosen_branch_is_evaluated() -> None:
     assert value("if(t == 0, 1, sin(t) / t)", t=0.0) == 1.0
 
 
-def test_a_constant_without_a_value_fails_only_when_it_is_evaluated():
+def test_a_constant_without_a_value_fails_only_when_it_is_evaluated() -> None:
     assert value("if(t < 1, 0, 1 / 0)", t=0.5) == 0.0
     with pytest.raises(ZeroDivisionError):
         value("if(t < 1, 0, 1 / 0)", t=1.5)
@@ -89,12 +90,12 @@ def test_a_constant_without_a_value_fails_only_when_it_is_evaluated():
 @pytest.mark.parametrize(
     "text", ["(-8) ^ (1 / 3)", "log(0 * t)", "9 ^ 9 ^ 9", "exp(1000)", "1 / (t - t)", "floor(1e999)"]
 )
-def test_a_formula_without_a_value_raises_an_arithmetic_or_value_error(text):
+def test_a_formula_without_a_value_raises_an_arithmetic_or_value_error(text: str) -> None:
     with pytest.raises((ArithmeticError, ValueError)):
         value(text, t=0.5)
 
 
-def test_equal_formulas_are_evaluated_once():
+def test_equal_formulas_are_evaluated_once() -> None:
     formulas = [parse("t + 1"), parse("t+1"), parse("2 * t")]
     assert compile_formulas(formulas, ["t"])(3.0) == (4.0, 4.0, 6.0)
 
@@ -103,7 +104,7 @@ BINARY = {"+": operator.add, "-": operator.sub, "*": operator.mul, "<": operator
 
 
 @st.composite
-def formula(draw, depth: int = 4) -> tuple[str, float]:
+def formula(draw: st.DrawFn, depth: int = 4) -> tuple[str, float]:
     """A text and what Python says it is worth for t = 0.25."""
     if depth == 0 or draw(st.booleans()):
         if draw(st.booleans()):
@@ -126,7 +127,7 @@ def formula(draw, depth: int = 4) -> tuple[str, float]:
 
 @settings(derandomize=True)
 @given(formula())
-def test_any_formula_has_the_value_that_python_computes(case):
+def test_any_formula_has_the_value_that_python_computes(case: tuple[str, float]) -> None:
     text, expected = case
     assert float(value(text, t=0.25)) == expected
 
@@ -158,7 +159,7 @@ def test_any_formula_has_the_value_that_python_computes(case):
         ("1" + "^1" * 200, "nested deeper than 80", 163),
     ],
 )
-def test_an_invalid_formula_is_reported_with_reason_and_position(text, reason, at):
+def test_an_invalid_formula_is_reported_with_reason_and_position(text: str, reason: str, at: int) -> None:
     with pytest.raises(RealizerError) as with_reached_root:
         parse(text)
     fault = with_reached_root.value.fault
@@ -182,18 +183,18 @@ def test_an_invalid_formula_is_reported_with_reason_and_position(text, reason, a
         "{t}",
     ],
 )
-def test_a_formula_cannot_reach_python(text):
+def test_a_formula_cannot_reach_python(text: str) -> None:
     with pytest.raises(RealizerError):
         parse(text)
 
 
 @pytest.mark.parametrize("name", ["class", "None", "__builtins__", "_sin", "p0", "r0", "exec"])
-def test_names_of_python_are_ordinary_variables(name):
+def test_names_of_python_are_ordinary_variables(name: str) -> None:
     assert value(f"{name} + 1", **{name: 2.0}) == 3.0
 
 
 @pytest.mark.parametrize("depth", [79, 40])
-def test_the_deepest_formula_that_is_parsed_can_be_compiled(depth):
+def test_the_deepest_formula_that_is_parsed_can_be_compiled(depth: int) -> None:
     assert value("sin(" * depth + "t" + ")" * depth, t=0.0) == 0.0
     assert value("t" + "+t" * depth, t=1.0) == depth + 1
     assert value("if(1," * depth + "t" + ",0)" * depth, t=3.0) == 3.0
@@ -204,7 +205,7 @@ number = st.floats(-2.0, 2.0)
 
 @settings(derandomize=True)
 @given(st.lists(number, min_size=2, max_size=8), number, number)
-def test_a_hermite_curve_has_its_points_and_end_slopes(points, start, end):
+def test_a_hermite_curve_has_its_points_and_end_slopes(points: list[float], start: float, end: float) -> None:
     last = len(points) - 1
     assert [hermite(float(i), start, end, *points) for i in range(len(points))] == pytest.approx(points)
     step = 1e-6
@@ -214,7 +215,7 @@ def test_a_hermite_curve_has_its_points_and_end_slopes(points, start, end):
 
 @settings(derandomize=True)
 @given(st.lists(number, min_size=3, max_size=8), st.integers(1, 6))
-def test_a_hermite_curve_is_smooth(points, i):
+def test_a_hermite_curve_is_smooth(points: list[float], i: int) -> None:
     i = min(i, len(points) - 2)
     step = 1e-6
     before = (points[i] - hermite(i - step, 0.0, 0.0, *points)) / step
@@ -234,7 +235,7 @@ shape = st.tuples(st.floats(-1, 1), st.floats(-1, 1), st.floats(-1, 1))
 
 @settings(derandomize=True)
 @given(st.lists(number, min_size=2, max_size=6), shape)
-def test_a_tcb_curve_passes_its_keys_with_any_tension_continuity_and_bias(values, shape):
+def test_a_tcb_curve_passes_its_keys_with_any_tension_continuity_and_bias(values: list[float], shape: Vec3) -> None:
     times = [0.1 * i + 0.02 * i * i for i in range(len(values))]
     keys = flat_keys(values, times, shape)
     assert [tcbspline(t, 0.0, 0.0, *keys) for t in times] == pytest.approx(values)
@@ -244,7 +245,9 @@ def test_a_tcb_curve_passes_its_keys_with_any_tension_continuity_and_bias(values
 
 @settings(derandomize=True)
 @given(st.lists(number, min_size=3, max_size=6), st.floats(-1, 1), st.floats(-1, 1))
-def test_a_tcb_curve_with_full_continuity_is_smooth_at_unequal_intervals(values, tension, bias):
+def test_a_tcb_curve_with_full_continuity_is_smooth_at_unequal_intervals(
+    values: list[float], tension: float, bias: float
+) -> None:
     times = [0.1 * i + 0.05 * i * i for i in range(len(values))]
     keys = flat_keys(values, times, (tension, 0.0, bias))
     step = 1e-7
@@ -253,7 +256,7 @@ def test_a_tcb_curve_with_full_continuity_is_smooth_at_unequal_intervals(values,
     assert before == pytest.approx(after, abs=2e-2)
 
 
-def test_reduced_continuity_makes_a_corner():
+def test_reduced_continuity_makes_a_corner() -> None:
     keys = flat_keys([0.0, 1.0, 0.0], [0.0, 0.5, 1.0], (0.0, -1.0, 0.0))
     assert tcbspline(0.499, 0.0, 0.0, *keys) < 0.999
     assert tcbspline(0.499, 0.0, 0.0, *flat_keys([0.0, 1.0, 0.0], [0.0, 0.5, 1.0], (0.0, 0.0, 0.0))) > 0.9999
@@ -261,13 +264,13 @@ def test_reduced_continuity_makes_a_corner():
 
 @settings(derandomize=True)
 @given(st.integers(0, 1000), st.floats(-300.0, 300.0))
-def test_noise_stays_within_1_and_is_0_at_integers(seed, x):
+def test_noise_stays_within_1_and_is_0_at_integers(seed: int, x: float) -> None:
     wave = PerlinNoise(seed)
     assert -1.0 <= wave(x) <= 1.0
     assert wave(float(math.floor(x))) == pytest.approx(0.0, abs=1e-9)
 
 
-def test_noise_is_smooth():
+def test_noise_is_smooth() -> None:
     wave, step = PerlinNoise(5), 0.01
     values = [wave(-3.0 + step * i) for i in range(1001)]
     speeds = [(after - before) / step for before, after in pairwise(values)]
@@ -276,7 +279,7 @@ def test_noise_is_smooth():
     assert max(map(abs, accelerations)) < 20.0
 
 
-def test_noise_depends_on_its_seed_only():
+def test_noise_depends_on_its_seed_only() -> None:
     values = [[PerlinNoise(seed)(0.37 * i) for i in range(100)] for seed in (1, 1, 2)]
     assert values[0] == values[1] != values[2]
     assert max(values[0]) > 0.3
@@ -285,20 +288,20 @@ def test_noise_depends_on_its_seed_only():
 
 @settings(derandomize=True)
 @given(st.floats(-100.0, 100.0), st.integers(1, 8), st.floats(0.0, 2.0))
-def test_octaves_add_faster_waves_and_stay_within_1(x, count, persistence):
+def test_octaves_add_faster_waves_and_stay_within_1(x: float, count: int, persistence: float) -> None:
     assert -1.0 <= perlin(x, float(count), persistence) <= 1.0
     assert perlin(x, float(count), 0.0) == perlin(x, 1.0)
 
 
 @settings(derandomize=True)
 @given(st.floats(-20.0, 20.0), st.integers(1, 12))
-def test_the_noise_of_published_files_repeats_after_its_number_of_points(x, points):
+def test_the_noise_of_published_files_repeats_after_its_number_of_points(x: float, points: int) -> None:
     assert noise(x, float(points)) == pytest.approx(noise(x + points, float(points)), abs=1e-6)
     assert -0.2 <= noise(x, float(points)) <= 1.2
 
 
 @pytest.mark.parametrize("text", ["noise(t, 0)", "noise(t, 300)", "perlin(t, 0)", "perlin(t, 1e9)", "perlin(t, 2, -1)"])
-def test_noise_with_invalid_arguments_has_no_value(text):
+def test_noise_with_invalid_arguments_has_no_value(text: str) -> None:
     with pytest.raises(ValueError, match="noise"):
         value(text, t=0.5)
 
@@ -312,22 +315,22 @@ def wobble(x: float, strength: float = 2.0) -> float:
 OURS = {**FUNCTIONS, "wobble": Function.of("wobble", wobble)}
 
 
-def test_a_formula_may_call_a_function_of_a_plug_in():
+def test_a_formula_may_call_a_function_of_a_plug_in() -> None:
     (result,) = compile_formulas([parse("wobble(t) + wobble(t, 3)", OURS)], ["t"])(0.5)
     assert result == 2.5
 
 
-def test_a_plug_in_function_takes_as_many_numbers_as_in_python():
+def test_a_plug_in_function_takes_as_many_numbers_as_in_python() -> None:
     with pytest.raises(RealizerError, match=r"wobble takes \(x: float, strength: float = 2.0\) -> float, not 3"):
         parse("wobble(1, 2, 3)", OURS)
 
 
-def test_a_failing_plug_in_function_has_no_value():
+def test_a_failing_plug_in_function_has_no_value() -> None:
     with pytest.raises(ValueError, match="wobble: only ahead"):
         compile_formulas([parse("wobble(t)", OURS)], ["t"])(-1.0)
 
 
 @pytest.mark.parametrize("name", ["sin", "if"])
-def test_a_plug_in_cannot_redefine_a_function_of_the_language(name):
+def test_a_plug_in_cannot_redefine_a_function_of_the_language(name: str) -> None:
     with pytest.raises(RealizerError, match=f"'{name}' in the plug-in group functions is defined more than once"):
         plugin_functions({name: wobble})

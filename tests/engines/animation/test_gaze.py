@@ -6,8 +6,9 @@ from itertools import pairwise
 import pytest
 
 from reactive_realizer.bml.vocabulary import Influence, OffsetDirection
-from reactive_realizer.embodiment.body import Body
-from reactive_realizer.embodiment.quaternion import IDENTITY, angle, difference, from_axis_angle
+from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.embodiment.body import Body, Skeleton
+from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, angle, difference, from_axis_angle
 from reactive_realizer.embodiment.vector import subtract, unit
 from reactive_realizer.engines.animation.gaze.eyes import EyeSockets, GazeTarget
 from reactive_realizer.engines.animation.motion_unit import Moment
@@ -17,11 +18,11 @@ from .bodies import shown
 from .gazes import between, gaze, target_at, way
 
 
-def apart(a, b) -> float:
+def apart(a: Quat, b: Quat) -> float:
     return angle(difference(a, b))
 
 
-def test_a_gaze_starts_from_the_current_head_and_ends_in_the_layers_below_without_a_jump(skeleton):
+def test_a_gaze_starts_from_the_current_head_and_ends_in_the_layers_below_without_a_jump(skeleton: Skeleton) -> None:
     aside = {"skullbase": from_axis_angle((0.0, 1.0, 0.0), -0.5), "vc4": IDENTITY}
     begun, below = Body(skeleton, aside), Body(skeleton)
     unit_ = gaze(below, target_at(below, 45, 5))
@@ -34,7 +35,7 @@ def test_a_gaze_starts_from_the_current_head_and_ends_in_the_layers_below_withou
     assert steps[0] < 1e-3 > steps[-1]
 
 
-def test_the_head_accelerates_and_decelerates_symmetrically(skeleton):
+def test_the_head_accelerates_and_decelerates_symmetrically(skeleton: Skeleton) -> None:
     body = Body(skeleton)
     unit_ = gaze(body, target_at(body, 40, 10))
     unit_.start(body)
@@ -45,52 +46,53 @@ def test_the_head_accelerates_and_decelerates_symmetrically(skeleton):
     assert max(steps) == pytest.approx(1.875 * turns[-1] / 50, rel=0.01)
 
 
-def test_a_shift_reaches_its_target_at_its_end_and_stays(skeleton):
+def test_a_shift_reaches_its_target_at_its_end_and_stays(skeleton: Skeleton) -> None:
     body = Body(skeleton)
     for course in (GAZE_SHIFT, HEAD_SHIFT):
         unit_ = gaze(body, target_at(body, 40, 10), course=course)
         unit_.start(body)
-        last = unit_.pose(Moment(1.0, 9.0, body))
+        last = unit_.pose(Moment(1.0, GlobalTime(9.0), body))
         assert last.weight == 1.0
         assert unit_.persists_as is not None
         assert angle(last.rotations["skullbase"]) > 0.2
         assert unit_.looks(1.0)
 
 
-def test_the_eyes_leave_first(skeleton):
+def test_the_eyes_leave_first(skeleton: Skeleton) -> None:
     unit_ = gaze(Body(skeleton), target_at(Body(skeleton), 0, 0))
     assert unit_.looks(0.0)
     assert unit_.looks(0.74)
     assert not unit_.looks(0.75)
 
 
-def test_the_head_follows_a_slow_target_at_once_and_eases_to_one_that_jumps(skeleton):
+def test_the_head_follows_a_slow_target_at_once_and_eases_to_one_that_jumps(skeleton: Skeleton) -> None:
     body = Body(skeleton)
     at = [target_at(body, 20, 0)]
     unit_ = gaze(body, lambda: at[0])
     unit_.start(body)
 
-    def head(frame: int) -> tuple:
-        return unit_.pose(Moment(0.5, 0.02 * frame, body)).rotations["skullbase"]
+    def head(frame: int) -> Quat:
+        return unit_.pose(Moment(0.5, GlobalTime(0.02 * frame), body)).rotations["skullbase"]
 
-    for i in range(20):
+    followed = head(0)
+    for i in range(1, 20):
         at[0] = target_at(body, 20 - 0.5 * i, 0)
         followed = head(i)
-    assert apart(followed, gaze(body, at[0]).pose(Moment(0.5, 0.0, body)).rotations["skullbase"]) < 1e-9
+    assert apart(followed, gaze(body, at[0]).pose(Moment(0.5, GlobalTime(0.0), body)).rotations["skullbase"]) < 1e-9
     at[0] = target_at(body, -30, 0)
     poses = [head(20 + i) for i in range(40)]
     steps = [apart(a, b) for a, b in pairwise([followed, *poses])]
     assert max(steps) < 0.05
     assert steps[0] < 0.01
-    assert apart(poses[-1], gaze(body, at[0]).pose(Moment(0.5, 0.0, body)).rotations["skullbase"]) < 1e-9
+    assert apart(poses[-1], gaze(body, at[0]).pose(Moment(0.5, GlobalTime(0.0), body)).rotations["skullbase"]) < 1e-9
 
 
-def test_weights_may_change_while_it_plays(skeleton):
+def test_weights_may_change_while_it_plays(skeleton: Skeleton) -> None:
     body = Body(skeleton)
     unit_ = gaze(body, target_at(body, 30, 0), Influence.WAIST)
-    before = unit_.pose(Moment(0.5, 0.0, body)).rotations
+    before = unit_.pose(Moment(0.5, GlobalTime(0.0), body)).rotations
     unit_.parameters["back"] = 0.0
-    later = unit_.pose(Moment(0.5, 0.0, body)).rotations
+    later = unit_.pose(Moment(0.5, GlobalTime(0.0), body)).rotations
     assert "vl5" in before
     assert "vl5" not in later
     assert set(unit_.ranges) == {"back", "chest", "neck", "head", "eyes"}
@@ -110,7 +112,9 @@ def test_weights_may_change_while_it_plays(skeleton):
         (OffsetDirection.DOWNLEFT, 1, -1),
     ],
 )
-def test_an_offset_is_an_angle_from_the_target_as_the_figure_sees_it(skeleton, side, left, up, target):
+def test_an_offset_is_an_angle_from_the_target_as_the_figure_sees_it(
+    skeleton: Skeleton, side: OffsetDirection, left: int, up: int, target: tuple[int, int]
+) -> None:
     eyes = EyeSockets.of(Body(skeleton)).middle
     point = GazeTarget(lambda: target_at(Body(skeleton), *target), 20.0, side).point(eyes)
     toward = unit(subtract(point, eyes))
@@ -122,12 +126,12 @@ def test_an_offset_is_an_angle_from_the_target_as_the_figure_sees_it(skeleton, s
         assert (pitch - target[1]) * up > 5
 
 
-def test_an_offset_from_straight_above_is_defined(skeleton):
+def test_an_offset_from_straight_above_is_defined(skeleton: Skeleton) -> None:
     eyes = EyeSockets.of(Body(skeleton)).middle
     point = GazeTarget(lambda: target_at(Body(skeleton), 0, 90), 30.0, OffsetDirection.DOWN).point(eyes)
     assert between(unit(subtract(point, eyes)), way(0, 60)) < 0.01
 
 
-def test_an_offset_from_a_target_between_the_eyes_is_that_target(skeleton):
+def test_an_offset_from_a_target_between_the_eyes_is_that_target(skeleton: Skeleton) -> None:
     eyes = EyeSockets.of(Body(skeleton)).middle
     assert GazeTarget(lambda: eyes, 30.0, OffsetDirection.LEFT).point(eyes) == eyes

@@ -1,12 +1,15 @@
 """Gestures: preparation, stroke, hold and retraction."""
 
+from collections.abc import Callable
 from itertools import pairwise
+from pathlib import Path
 
 import pytest
 
-from reactive_realizer.embodiment.body import Body
+from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.embodiment.body import Body, JointRotations, Skeleton
 from reactive_realizer.embodiment.quaternion import IDENTITY, angle, difference, from_axis_angle, from_euler
-from reactive_realizer.embodiment.vector import UP, distance, subtract
+from reactive_realizer.embodiment.vector import UP, Vec3, distance, subtract
 from reactive_realizer.engines.animation.easing import minimum_jerk
 from reactive_realizer.engines.animation.motion_unit import AMOUNT, GESTURE_POINTS, Moment
 from reactive_realizer.engines.animation.motions.gesture import HOLD, GestureMotionUnit
@@ -17,10 +20,13 @@ from .bodies import REST_POSE, shown
 GESTURES = ["beat_right", "beat_both", "offer_right", "offer_both", "greet_right", "conduct_right", "self_right"]
 RAISED = {"r_shoulder": from_euler(-1.4, 0.3, -0.4), "r_elbow": from_euler(-0.9, 0.0, 0.0)}
 
+PlanGesture = Callable[..., tuple[GestureMotionUnit, Body]]
+Reach = Callable[[bool], GestureMotionUnit]
+
 
 @pytest.fixture
-def gesture(animations, skeleton):
-    def plan(name: str, pose=REST_POSE, **parameters: float) -> tuple[GestureMotionUnit, Body]:
+def gesture(animations: Path, skeleton: Skeleton) -> PlanGesture:
+    def plan(name: str, pose: JointRotations = REST_POSE, **parameters: float) -> tuple[GestureMotionUnit, Body]:
         rest = Body(skeleton, {**REST_POSE, **pose})
         animation = read_procedural_animation(animations / f"{name}.xml").fitted_to(skeleton)
         return GestureMotionUnit(animation, parameters, rest), rest
@@ -28,12 +34,12 @@ def gesture(animations, skeleton):
     return plan
 
 
-def wrist(body: Body, side: str = "r"):
+def wrist(body: Body, side: str = "r") -> Vec3:
     return body.transform(f"{side}_wrist").position
 
 
 @pytest.mark.parametrize("name", GESTURES)
-def test_a_gesture_starts_from_the_current_arms_and_ends_in_the_rest_pose(gesture, name):
+def test_a_gesture_starts_from_the_current_arms_and_ends_in_the_rest_pose(gesture: PlanGesture, name: str) -> None:
     unit, rest = gesture(name)
     body = rest.posed(RAISED)
     unit.start(body)
@@ -45,7 +51,9 @@ def test_a_gesture_starts_from_the_current_arms_and_ends_in_the_rest_pose(gestur
 
 @pytest.mark.parametrize("name", GESTURES)
 @pytest.mark.parametrize("pose", [REST_POSE, RAISED], ids=["at rest", "raised"])
-def test_at_its_preferred_speed_no_hand_moves_more_than_4_cm_in_20_ms(gesture, name, pose):
+def test_at_its_preferred_speed_no_hand_moves_more_than_4_cm_in_20_ms(
+    gesture: PlanGesture, name: str, pose: JointRotations
+) -> None:
     unit, body = gesture(name, pose)
     frames = round(unit.preferred_duration / 0.02)
     for side in ("l", "r"):
@@ -55,7 +63,9 @@ def test_at_its_preferred_speed_no_hand_moves_more_than_4_cm_in_20_ms(gesture, n
 
 @pytest.mark.parametrize("name", GESTURES)
 @pytest.mark.parametrize("pose", [REST_POSE, RAISED], ids=["at rest", "raised"])
-def test_at_its_preferred_speed_no_finger_moves_more_than_5_cm_in_20_ms(gesture, name, pose):
+def test_at_its_preferred_speed_no_finger_moves_more_than_5_cm_in_20_ms(
+    gesture: PlanGesture, name: str, pose: JointRotations
+) -> None:
     unit, body = gesture(name, pose)
     frames = round(unit.preferred_duration / 0.02)
     shapes = [body.posed(shown(unit, i / frames, body)) for i in range(frames + 1)]
@@ -65,7 +75,7 @@ def test_at_its_preferred_speed_no_finger_moves_more_than_5_cm_in_20_ms(gesture,
 
 
 @pytest.mark.parametrize("name", GESTURES)
-def test_hands_move_smoothly_between_phases(gesture, name):
+def test_hands_move_smoothly_between_phases(gesture: PlanGesture, name: str) -> None:
     unit, body = gesture(name)
     step = 1e-5
     for phase in list(unit.key_positions.values())[1:-1]:
@@ -75,7 +85,7 @@ def test_hands_move_smoothly_between_phases(gesture, name):
 
 
 @pytest.mark.parametrize("name", GESTURES)
-def test_the_hands_are_at_rest_at_ready_and_at_relax(gesture, name):
+def test_the_hands_are_at_rest_at_ready_and_at_relax(gesture: PlanGesture, name: str) -> None:
     unit, body = gesture(name)
     step = 1e-4
     for point in ("start", "ready", "relax", "end"):
@@ -86,7 +96,9 @@ def test_the_hands_are_at_rest_at_ready_and_at_relax(gesture, name):
 
 
 @pytest.mark.parametrize("name", GESTURES)
-def test_the_seven_points_are_in_order_and_preparation_takes_longer_from_further_away(gesture, name):
+def test_the_seven_points_are_in_order_and_preparation_takes_longer_from_further_away(
+    gesture: PlanGesture, name: str
+) -> None:
     unit, _ = gesture(name)
     assert list(unit.key_positions) == list(GESTURE_POINTS)
     assert list(unit.key_positions.values()) == sorted(unit.key_positions.values())
@@ -97,7 +109,9 @@ def test_the_seven_points_are_in_order_and_preparation_takes_longer_from_further
     assert again.key_positions["ready"] * again.preferred_duration == pytest.approx(0.25, abs=0.01)
 
 
-def test_a_beat_goes_down_to_its_stroke_and_lifts_a_little_before(gesture):
+def test_a_beat_goes_down_to_its_stroke_and_lifts_a_little_before(
+    gesture: PlanGesture,
+) -> None:
     unit, body = gesture("beat_right")
     keys = unit.key_positions
     phases = [keys["ready"] + i * (keys["strokeEnd"] - keys["ready"]) / 100 for i in range(101)]
@@ -108,7 +122,7 @@ def test_a_beat_goes_down_to_its_stroke_and_lifts_a_little_before(gesture):
     assert max(heights) - heights[lowest] > 0.08
 
 
-def test_the_hand_of_a_beat_is_in_front_of_the_belly(gesture):
+def test_the_hand_of_a_beat_is_in_front_of_the_belly(gesture: PlanGesture) -> None:
     unit, body = gesture("beat_right")
     at = body.posed(shown(unit, unit.key_positions["stroke"], body))
     x, y, z = subtract(wrist(at), at.transform("vt10").position)
@@ -117,13 +131,15 @@ def test_the_hand_of_a_beat_is_in_front_of_the_belly(gesture):
     assert 0.15 < z < 0.45
 
 
-def test_the_conductors_hand_comes_up_to_where_it_was(gesture):
+def test_the_conductors_hand_comes_up_to_where_it_was(gesture: PlanGesture) -> None:
     unit, body = gesture("conduct_right")
     ready, relax = (wrist(body.posed(shown(unit, unit.key_positions[p], body))) for p in ("ready", "relax"))
     assert distance(ready, relax) < 0.001
 
 
-def test_hands_hold_after_the_stroke_as_long_as_the_binding_says(gesture):
+def test_hands_hold_after_the_stroke_as_long_as_the_binding_says(
+    gesture: PlanGesture,
+) -> None:
     without, _ = gesture("offer_right")
     unit, body = gesture("offer_right", **{HOLD: 0.8})
     assert unit.preferred_duration - without.preferred_duration == pytest.approx(0.8)
@@ -131,19 +147,23 @@ def test_hands_hold_after_the_stroke_as_long_as_the_binding_says(gesture):
     assert shown(unit, begin + 0.01, body) == shown(unit, end - 0.01, body)
 
 
-def test_an_arm_that_moved_after_planning_starts_from_its_current_pose(gesture, skeleton):
+def test_an_arm_that_moved_after_planning_starts_from_its_current_pose(
+    gesture: PlanGesture, skeleton: Skeleton
+) -> None:
     unit, _ = gesture("beat_right")
     moved = Body(skeleton, {**REST_POSE, **RAISED})
     unit.start(moved)
     assert distance(wrist(moved.posed(shown(unit, 0.0, moved))), wrist(moved)) < 1e-9
 
 
-def test_a_gesture_leaves_the_other_arm_alone(gesture):
+def test_a_gesture_leaves_the_other_arm_alone(gesture: PlanGesture) -> None:
     unit, _ = gesture("beat_right")
     assert all(joint.startswith("r_") for joint in unit.joints)
 
 
-def test_a_bigger_beat_has_a_longer_path_and_may_grow_while_it_plays(gesture):
+def test_a_bigger_beat_has_a_longer_path_and_may_grow_while_it_plays(
+    gesture: PlanGesture,
+) -> None:
     unit, body = gesture("beat_right")
     stroke = unit.key_positions["stroke"]
     before = wrist(body.posed(shown(unit, stroke, body)))
@@ -151,7 +171,7 @@ def test_a_bigger_beat_has_a_longer_path_and_may_grow_while_it_plays(gesture):
     assert wrist(body.posed(shown(unit, stroke, body)))[1] < before[1] - 0.05
 
 
-def test_a_reach_of_minimum_jerk_starts_and_stops_softly_and_is_symmetric():
+def test_a_reach_of_minimum_jerk_starts_and_stops_softly_and_is_symmetric() -> None:
     step = 1e-4
     assert (minimum_jerk(0.0), minimum_jerk(0.5), minimum_jerk(1.0)) == (0.0, 0.5, 1.0)
     assert minimum_jerk(step) / step < 1e-6
@@ -162,7 +182,7 @@ def test_a_reach_of_minimum_jerk_starts_and_stops_softly_and_is_symmetric():
 
 
 @pytest.mark.parametrize("name", GESTURES)
-def test_an_amount_scales_the_distance_from_the_rest_pose(gesture, name):
+def test_an_amount_scales_the_distance_from_the_rest_pose(gesture: PlanGesture, name: str) -> None:
     unit, rest = gesture(name)
     body = rest.posed(RAISED)
     unit.start(body)
@@ -179,7 +199,7 @@ def test_an_amount_scales_the_distance_from_the_rest_pose(gesture, name):
 
 
 @pytest.mark.parametrize("name", GESTURES)
-def test_preparation_takes_longer_from_further_away(gesture, name):
+def test_preparation_takes_longer_from_further_away(gesture: PlanGesture, name: str) -> None:
     unit, body = gesture(name)
     planned = unit.key_positions["ready"] * unit.preferred_duration
     assert unit.preparation(body) == pytest.approx(planned)
@@ -187,7 +207,9 @@ def test_preparation_takes_longer_from_further_away(gesture, name):
     assert unit.preparation(there) < 0.3 < planned
 
 
-def test_a_copy_has_the_same_durations_and_moves_independently(gesture):
+def test_a_copy_has_the_same_durations_and_moves_independently(
+    gesture: PlanGesture,
+) -> None:
     unit, body = gesture("beat_right")
     other = unit.copy()
     assert (other.preferred_duration, other.key_positions) == (unit.preferred_duration, unit.key_positions)
@@ -210,7 +232,7 @@ HOLDING = 0.5
 
 
 @pytest.fixture
-def reaching(tmp_path, skeleton):
+def reaching(tmp_path: Path, skeleton: Skeleton) -> Reach:
     """A gesture to a place from the shoulder, or in the figure's axes."""
 
     def make(local: bool) -> GestureMotionUnit:
@@ -223,11 +245,14 @@ def reaching(tmp_path, skeleton):
     return make
 
 
-def poses(gesture, *bodies):
-    return [gesture.pose(Moment(HOLDING, 0.0, body)).rotations for body in bodies]
+def poses(gesture: GestureMotionUnit, *bodies: Body) -> list[JointRotations]:
+    return [gesture.pose(Moment(HOLDING, GlobalTime(0.0), body)).rotations for body in bodies]
 
 
-def test_a_hand_that_holds_a_global_goal_stays_there_while_the_trunk_turns(reaching, skeleton) -> None:
+def test_a_hand_that_holds_a_global_goal_stays_there_while_the_trunk_turns(
+    reaching: Reach,
+    skeleton: Skeleton,
+) -> None:
     straight = Body(skeleton)
     turned = straight.posed({"vl5": from_axis_angle(UP, 0.3)})
     first, second = poses(reaching(False), straight, turned)
@@ -235,13 +260,19 @@ def test_a_hand_that_holds_a_global_goal_stays_there_while_the_trunk_turns(reach
     assert after.position == pytest.approx(before.position, abs=1e-6)
 
 
-def test_a_hand_that_holds_a_local_goal_turns_with_the_trunk(reaching, skeleton) -> None:
+def test_a_hand_that_holds_a_local_goal_turns_with_the_trunk(
+    reaching: Reach,
+    skeleton: Skeleton,
+) -> None:
     straight = Body(skeleton)
     first, second = poses(reaching(True), straight, straight.posed({"vl5": from_axis_angle(UP, 0.3)}))
     assert first == second
 
 
-def test_a_parameter_change_during_a_hold_takes_effect_at_once(reaching, skeleton) -> None:
+def test_a_parameter_change_during_a_hold_takes_effect_at_once(
+    reaching: Reach,
+    skeleton: Skeleton,
+) -> None:
     gesture, body = reaching(True), Body(skeleton)
     (before,) = poses(gesture, body)
     gesture.parameters["a"] = 2.0

@@ -7,9 +7,10 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from reactive_realizer.bml.vocabulary import Influence
-from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.body import Body, JointRotations, Skeleton
 from reactive_realizer.embodiment.quaternion import (
     IDENTITY,
+    Quat,
     angle,
     conjugate,
     difference,
@@ -20,7 +21,7 @@ from reactive_realizer.embodiment.quaternion import (
     rotate,
 )
 from reactive_realizer.embodiment.quaternion import between as shortest
-from reactive_realizer.embodiment.vector import FORWARD, unit
+from reactive_realizer.embodiment.vector import FORWARD, Vec3, add, scale, unit
 from reactive_realizer.engines.animation.gaze.eyes import eye_range
 from reactive_realizer.engines.animation.gaze.head_turn import (
     GAZE_WEIGHTS,
@@ -41,18 +42,20 @@ equation = settings(
 )
 
 
-def head_turn_toward(body: Body, rest, target, weights) -> dict:
+def head_turn_toward(body: Body, rest: JointRotations, target: Vec3, weights: dict[str, float]) -> JointRotations:
     """Toward a point, whatever the eyes."""
     return turned_toward(body, rest, lambda _: target, weights).rotations
 
 
-def head_of(body: Body, rotations) -> tuple:
+def head_of(body: Body, rotations: JointRotations) -> Quat:
     return body.posed(rotations).transform("skullbase").rotation
 
 
 @equation
 @frontal
-def test_the_head_makes_nine_tenths_of_the_horizontal_three_tenths_of_the_vertical_and_donders_roll(yaw, pitch):
+def test_the_head_makes_nine_tenths_of_the_horizontal_three_tenths_of_the_vertical_and_donders_roll(
+    yaw: float, pitch: float
+) -> None:
     whole = shortest(FORWARD, way(yaw, pitch))
     _, x, y, z = head_turn(way(yaw, pitch), 1.0, 10.0)
     assert x == pytest.approx(0.3 * whole[1], abs=1e-9)
@@ -62,19 +65,21 @@ def test_the_head_makes_nine_tenths_of_the_horizontal_three_tenths_of_the_vertic
 
 @equation
 @frontal
-def test_the_head_leaves_no_more_than_a_comfortable_turn_to_the_eyes(yaw, pitch):
+def test_the_head_leaves_no_more_than_a_comfortable_turn_to_the_eyes(yaw: float, pitch: float) -> None:
     turn = head_turn(way(yaw, pitch), 1.0, WILLING)
     left = shortest(FORWARD, rotate(conjugate(turn), way(yaw, pitch)))
     assert angle(left) <= WILLING * eye_range(left) + 1e-6
 
 
-def test_a_head_without_the_eyes_points_at_the_target():
+def test_a_head_without_the_eyes_points_at_the_target() -> None:
     assert between(rotate(head_turn(way(40, 25), 1.0, 0.0), FORWARD), way(40, 25)) < 1e-4
 
 
 @equation
 @given(st.floats(-70, 70), st.floats(-35, 35), st.sampled_from(list(Influence)[1:]))
-def test_the_head_turns_the_same_with_any_joints(skeleton, yaw, pitch, influence):
+def test_the_head_turns_the_same_with_any_joints(
+    skeleton: Skeleton, yaw: float, pitch: float, influence: Influence
+) -> None:
     body = Body(skeleton)
     target = target_at(body, yaw, pitch, 1000.0)
     turned = head_of(body, head_turn_toward(body, {}, target, default_weights(influence)))
@@ -83,38 +88,38 @@ def test_the_head_turns_the_same_with_any_joints(skeleton, yaw, pitch, influence
     assert angle(difference(turned, alone)) < 2e-3
 
 
-def test_all_joints_turn_about_one_axis_so_that_the_head_does_on_its_way(skeleton):
+def test_all_joints_turn_about_one_axis_so_that_the_head_does_on_its_way(skeleton: Skeleton) -> None:
     body = Body(skeleton)
     goal = head_turn_toward(body, {}, target_at(body, 50, 20), default_weights(Influence.WAIST))
     axes = []
     for part in (0.2, 0.5, 0.9):
-        _, *axis = head_of(body, {joint: power(turn, part) for joint, turn in goal.items()})
-        axes.append(unit(tuple(axis)))
+        _, x, y, z = head_of(body, {joint: power(turn, part) for joint, turn in goal.items()})
+        axes.append(unit((x, y, z)))
     assert all(between(axis, axes[0]) < 1e-3 for axis in axes)
 
 
-def test_a_leaning_trunk_keeps_leaning_under_a_gaze_of_the_waist(skeleton):
+def test_a_leaning_trunk_keeps_leaning_under_a_gaze_of_the_waist(skeleton: Skeleton) -> None:
     leaning = {"vl5": from_euler(0.2, 0.0, 0.0), "vt6": from_euler(0.0, 0.0, 0.1)}
     body = Body(skeleton, leaning)
     straight_ahead = target_at(body, 0, 0)
     ahead = body.transform("skullbase").rotation
-    target = tuple(a + 5.0 * b for a, b in zip(straight_ahead, rotate(ahead, FORWARD), strict=True))
+    target = add(straight_ahead, scale(rotate(ahead, FORWARD), 5.0))
     rotations = head_turn_toward(body, leaning, target, default_weights(Influence.WAIST))
     for joint in ("vl5", "vt6", "vc4"):
         assert angle(difference(rotations[joint], leaning.get(joint, IDENTITY))) < 0.1
 
 
-def test_joints_over_a_leaning_trunk_turn_the_head_as_one(skeleton):
+def test_joints_over_a_leaning_trunk_turn_the_head_as_one(skeleton: Skeleton) -> None:
     leaning = {"vl5": from_euler(0.15, 0.0, 0.1), "vt6": from_euler(0.1, 0.2, 0.0)}
     body = Body(skeleton, leaning)
     ahead = body.transform("skullbase").rotation
     # Far away, in the axes of the head as the trunk carries it.
-    target = tuple(1e4 * part for part in rotate(ahead, way(30, 10)))
+    target = scale(rotate(ahead, way(30, 10)), 1e4)
     turned = head_of(body, head_turn_toward(body, leaning, target, default_weights(Influence.WAIST)))
     assert angle(difference(turned, multiply(ahead, head_turn(way(30, 10), 1.0, WILLING)))) < 1e-3
 
 
-def test_each_influence_includes_the_joints_of_the_one_before():
+def test_each_influence_includes_the_joints_of_the_one_before() -> None:
     sets = [set(joint_weights(default_weights(influence))) for influence in Influence]
     assert sets == [
         set(),
@@ -125,12 +130,12 @@ def test_each_influence_includes_the_joints_of_the_one_before():
     ]
 
 
-def test_the_groups_are_those_of_the_back_up_to_the_eyes():
+def test_the_groups_are_those_of_the_back_up_to_the_eyes() -> None:
     assert list(GAZE_WEIGHTS) == ["back", "chest", "neck", "head", "eyes"]
     assert all(sum(joints.values()) == 1.0 for joints in JOINT_GROUPS.values())
 
 
-def test_weights_share_the_turn(skeleton):
+def test_weights_share_the_turn(skeleton: Skeleton) -> None:
     body = Body(skeleton)
     target = target_at(body, 30, 0)
     turns = {
@@ -144,7 +149,7 @@ def test_weights_share_the_turn(skeleton):
     assert turns["skullbase"] == pytest.approx(2 * turns["vc4"])
 
 
-def test_weights_below_one_turn_the_head_less_and_weights_above_one_no_further(skeleton):
+def test_weights_below_one_turn_the_head_less_and_weights_above_one_no_further(skeleton: Skeleton) -> None:
     body = Body(skeleton)
     target = target_at(body, 20, 0)
 
@@ -156,7 +161,7 @@ def test_weights_below_one_turn_the_head_less_and_weights_above_one_no_further(s
     assert yaw(1.0, 1.0) == pytest.approx(yaw(0.5, 0.5))
 
 
-def test_other_joints_make_up_for_a_joint_at_its_limit(skeleton):
+def test_other_joints_make_up_for_a_joint_at_its_limit(skeleton: Skeleton) -> None:
     body = Body(skeleton)
     weights = {"back": 0.0, "chest": 0.0, "neck": 0.9, "head": 0.1, "eyes": 1.0}
     turns = head_turn_toward(body, {}, target_at(body, 60, 0), weights)
@@ -166,7 +171,9 @@ def test_other_joints_make_up_for_a_joint_at_its_limit(skeleton):
 
 @pytest.mark.parametrize(("yaw", "pitch"), [(180, 0), (179, 10), (-179, 10), (150, -60), (0, 90), (0, -90), (90, 89)])
 @pytest.mark.parametrize("influence", list(Influence)[1:])
-def test_no_joint_exceeds_its_limit_for_any_target(skeleton, yaw, pitch, influence):
+def test_no_joint_exceeds_its_limit_for_any_target(
+    skeleton: Skeleton, yaw: float, pitch: float, influence: Influence
+) -> None:
     body = Body(skeleton)
     turns = head_turn_toward(body, {}, target_at(body, yaw, pitch), default_weights(influence))
     path_length = {"vl5": 0.35, "vt10": 0.25, "vt6": 0.25, "vc4": 0.6, "skullbase": 0.75}
@@ -176,7 +183,7 @@ def test_no_joint_exceeds_its_limit_for_any_target(skeleton, yaw, pitch, influen
 
 
 @pytest.mark.parametrize("side", [1, -1])
-def test_the_head_turns_to_a_target_behind_over_the_shoulder(skeleton, side):
+def test_the_head_turns_to_a_target_behind_over_the_shoulder(skeleton: Skeleton, side: int) -> None:
     body = Body(skeleton)
     turned = head_of(
         body, head_turn_toward(body, {}, target_at(body, side * 170, 15), default_weights(Influence.WAIST))
@@ -186,13 +193,13 @@ def test_the_head_turns_to_a_target_behind_over_the_shoulder(skeleton, side):
     assert abs(nose[1]) < 0.5
 
 
-def test_a_target_between_the_eyes_turns_nothing(skeleton):
+def test_a_target_between_the_eyes_turns_nothing(skeleton: Skeleton) -> None:
     body = Body(skeleton)
     turns = head_turn_toward(body, {}, target_at(body, 0, 0, 0.0), default_weights(Influence.WAIST))
     assert all(angle(turn) == 0.0 for turn in turns.values())
 
 
-def test_current_rotations_of_the_joints_have_no_effect(skeleton):
+def test_current_rotations_of_the_joints_have_no_effect(skeleton: Skeleton) -> None:
     aside = Body(skeleton, {"skullbase": from_axis_angle((0.0, 1.0, 0.0), -0.5)})
     body = Body(skeleton)
     target = target_at(body, 30, 10)
@@ -201,7 +208,7 @@ def test_current_rotations_of_the_joints_have_no_effect(skeleton):
 
 
 @pytest.mark.parametrize("weight", [5e-324, 1e-300, 1e-12])
-def test_a_tiny_weight_turns_very_little(skeleton, weight):
+def test_a_tiny_weight_turns_very_little(skeleton: Skeleton, weight: float) -> None:
     body = Body(skeleton)
     weights = {"back": 0.0, "chest": 0.0, "neck": 0.0, "head": weight, "eyes": 1.0}
     assert angle(head_turn_toward(body, {}, target_at(body, 20, 0), weights)["skullbase"]) < 1e-9

@@ -8,7 +8,8 @@ from weakref import ref
 
 import pytest
 
-from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.body import Body, JointRotations, Skeleton
+from reactive_realizer.embodiment.pose import Layer
 from reactive_realizer.embodiment.quaternion import angle, difference, rotate
 from reactive_realizer.embodiment.vector import FORWARD, distance
 from reactive_realizer.engines.animation.idle import Idle
@@ -23,12 +24,12 @@ def blinks(idle: Idle, seconds: float) -> list[float]:
     return [i / 100 for i, (a, b) in enumerate(pairwise(frames)) if a == 0.0 < b]
 
 
-def life(idle: Idle, time: float):
+def life(idle: Idle, time: float) -> tuple[Layer, dict[str, float], JointRotations]:
     """All of it."""
     return idle.layer(time, 0.0), idle.weights(time), idle.eyes(time)
 
 
-def test_the_figure_blinks_every_two_to_six_seconds():
+def test_the_figure_blinks_every_two_to_six_seconds() -> None:
     times = blinks(Idle(Random(7)), 300.0)
     gaps = [after - before for before, after in pairwise(times)]
     assert 50 < len(times) < 100
@@ -36,7 +37,7 @@ def test_the_figure_blinks_every_two_to_six_seconds():
     assert 5.0 < max(gaps) <= 6.05
 
 
-def test_a_blink_closes_both_lids_and_opens_them_within_200_ms():
+def test_a_blink_closes_both_lids_and_opens_them_within_200_ms() -> None:
     idle = Idle(Random(7))
     (start, *_) = blinks(idle, 20.0)
     during = [idle.weights(start + i / 1000) for i in range(250)]
@@ -45,7 +46,7 @@ def test_a_blink_closes_both_lids_and_opens_them_within_200_ms():
     assert sum(weights["eyeBlinkLeft"] > 0.0 for weights in during) <= 201
 
 
-def test_lids_close_faster_than_they_open():
+def test_lids_close_faster_than_they_open() -> None:
     """By 40 to 47 %: C. Sforza and others (Ophthalmic and Physiological Optics 28, 2008)."""
     idle = Idle(Random(7))
     (start, *_) = blinks(idle, 20.0)
@@ -54,14 +55,14 @@ def test_lids_close_faster_than_they_open():
     assert 1.40 < max(speeds) / -min(speeds) < 1.47
 
 
-def test_the_same_seed_gives_the_same_idle_animation_in_any_order_of_queries():
+def test_the_same_seed_gives_the_same_idle_animation_in_any_order_of_queries() -> None:
     forward, backward = Idle(Random(3)), Idle(Random(3))
     times = [i / 10 for i in range(600)]
     seen = {time: life(forward, time) for time in times}
     assert seen == {time: life(backward, time) for time in reversed(times)}
 
 
-def test_only_the_last_episodes_are_kept():
+def test_only_the_last_episodes_are_kept() -> None:
     class What:
         pass
 
@@ -80,7 +81,7 @@ def test_only_the_last_episodes_are_kept():
     assert sum(what() is not None for what in drawn) == Episodes.KEPT
 
 
-def test_two_figures_blink_and_breathe_independently():
+def test_two_figures_blink_and_breathe_independently() -> None:
     one, other = Idle(Random(1)), Idle(Random(2))
     assert blinks(one, 60.0) != blinks(other, 60.0)
     assert one.rotations(1.0) != other.rotations(1.0)
@@ -88,7 +89,7 @@ def test_two_figures_blink_and_breathe_independently():
     assert [one.eyes(t) for t in range(60)] != [other.eyes(t) for t in range(60)]
 
 
-def test_the_figure_is_never_quite_still_or_restless(skeleton):
+def test_the_figure_is_never_quite_still_or_restless(skeleton: Skeleton) -> None:
     idle = Idle(Random(5))
     places = [Body(skeleton, idle.rotations(i / 10)).transform("skullbase") for i in range(600)]
     for before, after in zip(places, places[10:], strict=False):
@@ -111,7 +112,7 @@ def peaks(values: list[float]) -> list[int]:
     return [i for i, (before, at, after) in enumerate(triples, 1) if before < at >= after]
 
 
-def test_the_shoulders_rise_and_fall_twelve_to_eighteen_times_a_minute_with_variation():
+def test_the_shoulders_rise_and_fall_twelve_to_eighteen_times_a_minute_with_variation() -> None:
     lift = lungs(Idle(Random(5)), 600)
     breaths = [(b - a) / 50 for a, b in pairwise(peaks(lift))]
     assert 60.0 / 18.0 < min(breaths) < 3.7
@@ -122,21 +123,21 @@ def test_the_shoulders_rise_and_fall_twelve_to_eighteen_times_a_minute_with_vari
     assert stdev(depths) / mean(depths) > stdev(breaths) / mean(breaths) > 0.05
 
 
-def test_inhalation_is_shorter_than_exhalation():
+def test_inhalation_is_shorter_than_exhalation() -> None:
     """Ours: breathing in is 0.42 of a breath."""
     lift = lungs(Idle(Random(5)), 600)
     rising = sum(b > a for a, b in pairwise(lift)) / len(lift)
     assert rising == pytest.approx(0.42, abs=0.01)
 
 
-def test_a_breath_is_smooth():
+def test_a_breath_is_smooth() -> None:
     lift = lungs(Idle(Random(5)), 600)
     speeds = [(b - a) * 50 for a, b in pairwise(lift)]
     assert max(map(abs, speeds)) < 0.03
     assert max(abs(b - a) for a, b in pairwise(speeds)) < 0.003
 
 
-def test_a_requested_blink_starts_at_once():
+def test_a_requested_blink_starts_at_once() -> None:
     idle = Idle(Random(7))
     (start, *_) = blinks(idle, 20.0)
     asked = start + 0.5
@@ -150,12 +151,19 @@ def test_a_requested_blink_starts_at_once():
 # --- weight
 
 
+def aside(idle: Idle, time: float, sunk: float = 0.0) -> float:
+    """How far the pelvis is to the side, m."""
+    root = idle.layer(time, sunk).root
+    assert root is not None
+    return root[0]
+
+
 def stances(idle: Idle, seconds: int) -> list[float]:
     """Where the pelvis is to the side, ten times a second, m."""
-    return [idle.layer(i / 10, 0.0).root[0] for i in range(10 * seconds)]
+    return [aside(idle, i / 10) for i in range(10 * seconds)]
 
 
-def test_a_standing_figure_shifts_its_weight_from_time_to_time():
+def test_a_standing_figure_shifts_its_weight_from_time_to_time() -> None:
     places = stances(Idle(Random(5)), 600)
     resting = sum(a == b for a, b in pairwise(places))
     assert resting > 0.8 * len(places)
@@ -164,26 +172,27 @@ def test_a_standing_figure_shifts_its_weight_from_time_to_time():
     assert 0.02 < max(map(abs, places)) <= 0.031
 
 
-def test_a_weight_shift_is_slow_and_smooth():
+def test_a_weight_shift_is_slow_and_smooth() -> None:
     places = stances(Idle(Random(5)), 600)
     speeds = [abs(b - a) * 10 for a, b in pairwise(places)]
     assert max(speeds) < 0.07
     assert max(abs(b - a) for a, b in pairwise(speeds)) < 0.03
 
 
-def test_a_lower_pelvis_shifts_less_weight():
+def test_a_lower_pelvis_shifts_less_weight() -> None:
     idle = Idle(Random(5))
-    time = next(i / 10 for i in range(600) if abs(idle.layer(i / 10, 0.0).root[0]) > 0.02)
-    ways = [abs(idle.layer(time, sunk).root[0]) for sunk in (0.0, 0.03, 0.07, 0.1, 0.4)]
+    time = next(i / 10 for i in range(600) if abs(aside(idle, i / 10)) > 0.02)
+    ways = [abs(aside(idle, time, sunk)) for sunk in (0.0, 0.03, 0.07, 0.1, 0.4)]
     assert ways == sorted(ways, reverse=True)
     assert ways[-2:] == [0.0, 0.0]
 
 
-def test_a_weight_shift_keeps_the_head_level(skeleton):
+def test_a_weight_shift_keeps_the_head_level(skeleton: Skeleton) -> None:
     idle = Idle(Random(5))
     still = Idle(Random(5))
     for i in range(0, 600, 7):
         layer = idle.layer(float(i), 0.0)
+        assert layer.root is not None
         head = Body(skeleton, layer.rotations, layer.root).transform("skullbase").rotation
         alone = Body(skeleton, still.rotations(float(i))).transform("skullbase").rotation
         assert angle(difference(alone, head)) < 0.02
@@ -198,19 +207,19 @@ def directions(idle: Idle, seconds: float, rate: int = 100) -> list[tuple[float,
     return [(math.degrees(math.atan2(x, z)), math.degrees(math.asin(y))) for x, y, z in turns]
 
 
-def test_idle_eyes_look_ahead_most_of_the_time_and_glance_aside():
+def test_idle_eyes_look_ahead_most_of_the_time_and_glance_aside() -> None:
     seen = directions(Idle(Random(9)), 600.0, 50)
     ahead = sum(math.hypot(*each) < 0.05 for each in seen) / len(seen)
     # Lee, Badler and Badler 2002, of a listener: 237.5 frames at the other, 13 frames away.
     assert ahead == pytest.approx(237.5 / (237.5 + 13.0), abs=0.03)
 
 
-def test_idle_eyes_stay_within_five_degrees():
+def test_idle_eyes_stay_within_five_degrees() -> None:
     amplitudes = [math.hypot(*each) for each in directions(Idle(Random(9)), 600.0, 50)]
     assert 3.0 < max(amplitudes) <= 5.01
 
 
-def test_idle_eyes_prefer_horizontal_and_vertical_glances():
+def test_idle_eyes_prefer_horizontal_and_vertical_glances() -> None:
     # Of the directions of Lee, Badler and Badler 2002, 70 % are within 22.5 degrees of an axis.
     seen = directions(Idle(Random(9)), 6000.0, 10)
     aside = [each for each in seen if math.hypot(*each) > 1.0]
@@ -218,7 +227,7 @@ def test_idle_eyes_prefer_horizontal_and_vertical_glances():
     assert along / len(aside) == pytest.approx(0.70, abs=0.06)
 
 
-def test_idle_eyes_turn_together_by_saccades():
+def test_idle_eyes_turn_together_by_saccades() -> None:
     idle = Idle(Random(9))
     assert all(len(set(idle.eyes(i / 10).values())) == 1 for i in range(600))
     seen = directions(idle, 60.0, 1000)
@@ -229,7 +238,9 @@ def test_idle_eyes_turn_together_by_saccades():
 
 
 @pytest.mark.parametrize(("side", "outward"), [("l", 1.0), ("r", -1.0)])
-def test_at_rest_the_hands_hang_beside_the_hips_with_loose_fingers(skeleton, side, outward):
+def test_at_rest_the_hands_hang_beside_the_hips_with_loose_fingers(
+    skeleton: Skeleton, side: str, outward: float
+) -> None:
     body = body_in(skeleton)
     shoulder, wrist, hip = (body.transform(f"{side}_{joint}").position for joint in ("shoulder", "wrist", "hip"))
     assert wrist[1] < shoulder[1] - 0.35

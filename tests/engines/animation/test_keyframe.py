@@ -7,8 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from reactive_realizer.embodiment.body import Body
-from reactive_realizer.embodiment.quaternion import IDENTITY, angle, from_axis_angle
+from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.embodiment.body import Body, Skeleton
+from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, angle, from_axis_angle
 from reactive_realizer.engines.animation.keyframe.clip import Clip, KeyPoint
 from reactive_realizer.engines.animation.keyframe.keyframe_files import (
     read_interpolator_file,
@@ -34,11 +35,11 @@ def arm_clip() -> Clip:
     )
 
 
-def about_y(rotation) -> float:
+def about_y(rotation: Quat) -> float:
     return 2.0 * math.atan2(rotation[2], rotation[0])
 
 
-def test_between_keys_a_joint_turns_evenly_along_the_shortest_arc():
+def test_between_keys_a_joint_turns_evenly_along_the_shortest_arc() -> None:
     turning = clip("0 0 1 0 0   1 0 1 0 1   3 0 1 0 0.5")
     turns = [about_y(turning.rotations_at(time)["skullbase"]) for time in (0.0, 0.25, 1.0, 2.0, 3.0)]
     assert turns == pytest.approx([0.0, 0.25, 1.0, 0.75, 0.5])
@@ -46,7 +47,7 @@ def test_between_keys_a_joint_turns_evenly_along_the_shortest_arc():
     assert about_y(turning.rotations_at(9.0)["skullbase"]) == pytest.approx(0.5)
 
 
-def test_a_file_may_use_either_sign_of_a_quaternion():
+def test_a_file_may_use_either_sign_of_a_quaternion() -> None:
     turning = clip("0 1 0 0 0  1 -0.9689124 0 -0.247404 0", 'parts="skullbase" encoding="R"')
     assert about_y(turning.rotations_at(0.5)["skullbase"]) == pytest.approx(0.25, abs=1e-6)
 
@@ -55,16 +56,16 @@ def test_a_file_may_use_either_sign_of_a_quaternion():
     ("encoding", "numbers"),
     [("quaternions", "2 0 2 0"), ("Quat", "1 0 1 0"), ("XYZW", "0 1 0 1"), ("axisangles", "0 3 0 1.5707963")],
 )
-def test_rotations_have_several_encodings(encoding, numbers):
+def test_rotations_have_several_encodings(encoding: str, numbers: str) -> None:
     turning = clip(f"0 {numbers}  1 {numbers}", f'parts="vl5" encoding="R" rotationEncoding="{encoding}"')
     assert turning.rotations_at(0.0)["vl5"] == pytest.approx(from_axis_angle(Y, math.pi / 2), abs=1e-6)
 
 
-def test_an_axis_without_a_length_is_valid_for_angle_0():
+def test_an_axis_without_a_length_is_valid_for_angle_0() -> None:
     assert clip("0 0 0 0 0  1 0 1 0 1").rotations_at(0.0)["skullbase"] == IDENTITY
 
 
-def test_the_root_is_displaced_relative_to_the_first_row():
+def test_the_root_is_displaced_relative_to_the_first_row() -> None:
     walking = clip(
         "0 5 0.95 7 1 0 0 0  2 5 0.85 9 1 0 0 0", 'parts="HumanoidRoot" encoding="T1R" rotationEncoding="quaternions"'
     )
@@ -72,14 +73,14 @@ def test_the_root_is_displaced_relative_to_the_first_row():
     assert walking.root_at(1.0) == pytest.approx((0.0, -0.05, 1.0))
 
 
-def test_mirroring_exchanges_left_and_right():
+def test_mirroring_exchanges_left_and_right() -> None:
     turning = clip(
         "0 0 0 1 0.4  1 0 0 1 0.4", 'parts="l_shoulder" encoding="R" rotationEncoding="axisangles"'
     ).mirrored()
     assert turning.rotations_at(0.0) == {"r_shoulder": pytest.approx(from_axis_angle(Z, -0.4))}
 
 
-def test_a_selection_moves_the_root_only_if_it_is_included():
+def test_a_selection_moves_the_root_only_if_it_is_included() -> None:
     whole = clip(
         "0 0 0.9 0 1 0 0 0 1 0 0 0  1 0 0.9 1 1 0 0 0 1 0 0 0",
         'parts="HumanoidRoot l_hip" encoding="T1R" rotationEncoding="quaternions"',
@@ -89,7 +90,7 @@ def test_a_selection_moves_the_root_only_if_it_is_included():
     assert whole.only({"HumanoidRoot"}).root_at(1.0) == (0.0, 0.0, 1.0)
 
 
-def test_a_filter_keeps_slow_motion_removes_fast_motion_and_adds_no_delay():
+def test_a_filter_keeps_slow_motion_removes_fast_motion_and_adds_no_delay() -> None:
     """Thesis 3.2.2.2, equations 3.10 to 3.12: at the cutoff a sine keeps 1/sqrt(2) of its height, there and back."""
     times = tuple(np.arange(601) / 120.0)
     heights = {}
@@ -106,7 +107,7 @@ def test_a_filter_keeps_slow_motion_removes_fast_motion_and_adds_no_delay():
     assert abs(heights[45.0]) < 0.05
 
 
-def test_a_filter_ignores_the_sign_of_quaternions():
+def test_a_filter_ignores_the_sign_of_quaternions() -> None:
     """Thesis 3.2.2.1, equations 3.8 and 3.9."""
     halves = [0.4 * math.sin(2.0 * math.pi * i / 60) for i in range(60)]
 
@@ -120,29 +121,29 @@ def test_a_filter_ignores_the_sign_of_quaternions():
 
 
 @pytest.mark.parametrize("cutoff", [1e-300, 0.09])
-def test_a_too_low_cutoff_is_refused(cutoff):
+def test_a_too_low_cutoff_is_refused(cutoff: float) -> None:
     with pytest.raises(RealizerError, match=r"shake: the cutoff must be at least 0\.1 Hz, not"):
         clip("0 0 1 0 0  1 0 1 0 1  2 0 1 0 0").filtered(cutoff)
 
 
-def test_only_evenly_spaced_keys_can_be_filtered():
+def test_only_evenly_spaced_keys_can_be_filtered() -> None:
     with pytest.raises(RealizerError, match="shake: only evenly spaced keys"):
         clip("0 0 1 0 0  1 0 1 0 1  3 0 1 0 0").filtered(0.1)
 
 
-def test_a_cutoff_above_the_sample_rate_filters_nothing():
+def test_a_cutoff_above_the_sample_rate_filters_nothing() -> None:
     turning = clip("0 0 1 0 0  1 0 1 0 1  2 0 1 0 0")
     assert np.array_equal(turning.filtered(20.0).rotations, turning.rotations)
 
 
-def test_a_file_names_sync_points_and_exits():
+def test_a_file_names_sync_points_and_exits() -> None:
     turning = clip(
         '<KeyPosition id="beat" time="0.5"/>0 0 1 0 0 <KeyPosition id="out" time="1" leave="true"/> 2 0 1 0 1'
     )
     assert turning.points == {"beat": KeyPoint(0.5), "out": KeyPoint(1.0, leave=True)}
 
 
-def test_points_of_a_file_are_sync_points_of_its_motion(skeleton):
+def test_points_of_a_file_are_sync_points_of_its_motion(skeleton: Skeleton) -> None:
     named = clip('<KeyPosition id="late" time="3"/><KeyPosition id="out" time="2" leave="true"/>1 0 1 0 0  5 0 1 0 1')
     unit = KeyframeMotionUnit(named, skeleton)
     assert list(unit.key_positions.items()) == [("start", 0.0), ("out", 0.25), ("late", 0.5), ("end", 1.0)]
@@ -150,12 +151,12 @@ def test_points_of_a_file_are_sync_points_of_its_motion(skeleton):
     assert unit.preferred_duration == 4.0
 
 
-def test_a_keyframe_motion_starts_from_the_current_body_without_a_jump(skeleton):
+def test_a_keyframe_motion_starts_from_the_current_body_without_a_jump(skeleton: Skeleton) -> None:
     begin = from_axis_angle(X, 0.5)
     unit = KeyframeMotionUnit(arm_clip(), skeleton)
     body = Body(skeleton, {"r_shoulder": begin})
     unit.start(body)
-    shown = [unit.pose(Moment(step / 300, 0.0, body)).rotations["r_shoulder"] for step in range(301)]
+    shown = [unit.pose(Moment(step / 300, GlobalTime(0.0), body)).rotations["r_shoulder"] for step in range(301)]
     assert shown[0] == pytest.approx(begin)
     clean = arm_clip()
     assert shown[30] == pytest.approx(clean.rotations_at(1.0 + 3.0 * 0.1)["r_shoulder"])
@@ -163,39 +164,39 @@ def test_a_keyframe_motion_starts_from_the_current_body_without_a_jump(skeleton)
     assert max(abs(b - a) for a, b in pairwise(turns)) < 0.06  # 6 rad/s; a jump would be of 0.5 rad
 
 
-def test_a_keyframe_motion_that_starts_at_the_current_body_is_not_changed(skeleton):
+def test_a_keyframe_motion_that_starts_at_the_current_body_is_not_changed(skeleton: Skeleton) -> None:
     unit = KeyframeMotionUnit(arm_clip(), skeleton)
     body = Body(skeleton, {})
     unit.start(body)
     for phase in (0.0, 0.02, 0.05, 0.5):
         expected = arm_clip().rotations_at(1.0 + 3.0 * phase)["r_shoulder"]
-        assert unit.pose(Moment(phase, 0.0, body)).rotations["r_shoulder"] == pytest.approx(expected)
+        assert unit.pose(Moment(phase, GlobalTime(0.0), body)).rotations["r_shoulder"] == pytest.approx(expected)
 
 
-def test_a_keyframe_motion_that_joins_late_starts_from_the_current_body(skeleton):
+def test_a_keyframe_motion_that_joins_late_starts_from_the_current_body(skeleton: Skeleton) -> None:
     unit = KeyframeMotionUnit(arm_clip(), skeleton)
     body = Body(skeleton, {})
     unit.start(body)
-    assert unit.pose(Moment(0.4, 0.0, body)).rotations["r_shoulder"] == pytest.approx(IDENTITY)
+    assert unit.pose(Moment(0.4, GlobalTime(0.0), body)).rotations["r_shoulder"] == pytest.approx(IDENTITY)
     expected = arm_clip().rotations_at(1.0 + 3.0 * 0.52)["r_shoulder"]
-    assert unit.pose(Moment(0.52, 0.0, body)).rotations["r_shoulder"] == pytest.approx(expected)
+    assert unit.pose(Moment(0.52, GlobalTime(0.0), body)).rotations["r_shoulder"] == pytest.approx(expected)
 
 
-def test_a_motion_owns_the_arms_that_it_moves_and_with_a_leg_the_stance(skeleton):
+def test_a_motion_owns_the_arms_that_it_moves_and_with_a_leg_the_stance(skeleton: Skeleton) -> None:
     legs = clip("0 1 0 0 0  1 1 0 0 0", 'parts="l_knee" encoding="R"')
     assert KeyframeMotionUnit(arm_clip(), skeleton).resources == {Resource.RIGHT_ARM}
     assert KeyframeMotionUnit(legs, skeleton).resources == {Resource.STANCE}
     assert KeyframeMotionUnit(clip("0 0 1 0 0  1 0 1 0 0"), skeleton).resources == frozenset()
 
 
-def test_a_crouch_made_for_another_body_stands_on_the_ground(skeleton):
+def test_a_crouch_made_for_another_body_stands_on_the_ground(skeleton: Skeleton) -> None:
     """The file says 0.7 m of a body whose height nobody knows: here the feet decide."""
     bend = "0 0.7 0 1 0 0 0 1 0 0 -1.2 1 0 0 -1.2 1 0 0 2.4 1 0 0 2.4 1 0 0 -1.2 1 0 0 -1.2"
     crouch = clip(
         f"0 {bend} 1 {bend}",
         'parts="HumanoidRoot l_hip r_hip l_knee r_knee l_ankle r_ankle" encoding="T1R" rotationEncoding="axisangles"',
     )
-    posed = KeyframeMotionUnit(crouch, skeleton).pose(Moment(0.5, 0.0, Body(skeleton)))
+    posed = KeyframeMotionUnit(crouch, skeleton).pose(Moment(0.5, GlobalTime(0.0), Body(skeleton)))
     body = Body(skeleton).posed(posed.rotations, posed.root)
     for ankle in ("l_ankle", "r_ankle"):
         height = Body(skeleton).transform(ankle).position[1]
@@ -236,27 +237,27 @@ def test_a_crouch_made_for_another_body_stands_on_the_ground(skeleton):
         ('<KeyPosition id="id" time="1"/>0 0 1 0 0 1 0 1 0 0', 'parts="vl5" encoding="R"', "id='id' cannot name"),
     ],
 )
-def test_errors_name_the_position(rows, attributes, message):
+def test_errors_name_the_position(rows: str, attributes: str, message: str) -> None:
     with pytest.raises(RealizerError, match=message) as with_reached_root:
         clip(rows, attributes)
     assert with_reached_root.value.fault.code == "bad-asset"
     assert "shake, line 1" in str(with_reached_root.value)
 
 
-def test_start_and_end_may_be_named_at_their_positions(skeleton):
+def test_start_and_end_may_be_named_at_their_positions(skeleton: Skeleton) -> None:
     rows = '<KeyPosition id="end" time="2"/><KeyPosition id="zoom" time="2"/><KeyPosition id="start" time="1"/>'
     motion = KeyframeMotionUnit(clip(f"1 1 0 0 0 2 0 1 0 0{rows}", 'parts="vl5" encoding="R"'), skeleton)
     assert list(motion.key_positions.items()) == [("start", 0.0), ("zoom", 1.0), ("end", 1.0)]
 
 
-def test_a_file_that_is_no_animation_is_refused(tmp_path):
+def test_a_file_that_is_no_animation_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "some.xml"
     path.write_text("<SkeletonPose/>")
     with pytest.raises(RealizerError, match=r"some\.xml, line 1, <SkeletonPose>: the file should begin with"):
         read_interpolator_file(path)
 
 
-def test_a_pose_file_is_one_row_without_a_time(tmp_path):
+def test_a_pose_file_is_one_row_without_a_time(tmp_path: Path) -> None:
     path = tmp_path / "rest.xml"
     path.write_text(
         '<SkeletonPose rotationEncoding="axisangles" parts="HumanoidRoot l_shoulder" encoding="T1R">'
@@ -266,14 +267,14 @@ def test_a_pose_file_is_one_row_without_a_time(tmp_path):
     assert read_skeleton_pose(path) == {"HumanoidRoot": IDENTITY, "l_shoulder": turned}
 
 
-def test_a_pose_file_with_several_rows_is_refused(tmp_path):
+def test_a_pose_file_with_several_rows_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "rest.xml"
     path.write_text('<SkeletonPose parts="vl5" encoding="R">1 0 0 0 1 0 0 0</SkeletonPose>')
     with pytest.raises(RealizerError, match="2 rows; a pose has one"):
         read_skeleton_pose(path)
 
 
-def test_the_peers_files_are_read(shared_cases: Path):
+def test_the_peers_files_are_read(shared_cases: Path) -> None:
     fists = read_interpolator_file(shared_cases / "asap" / "keyframe" / "clench_fists.xml")
     assert (fists.duration, len(fists.joints)) == (1.0, 22)
     assert angle(fists.rotations_at(1.0)["r_index1"]) == pytest.approx(1.57)

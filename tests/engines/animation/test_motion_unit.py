@@ -21,7 +21,9 @@ from reactive_realizer.engines.animation.motion_unit import (
         ({"l_eyeball_joint", "vc4", "vl5"}, set()),
     ],
 )
-def test_a_motion_owns_an_arm_with_any_of_its_joints_and_the_stance_with_any_of_a_leg_or_the_root(joints, owns):
+def test_a_motion_owns_an_arm_with_any_of_its_joints_and_the_stance_with_any_of_a_leg_or_the_root(
+    joints: set[str], owns: set[str]
+) -> None:
     assert resources_used(frozenset(joints)) == owns
 
 
@@ -29,7 +31,7 @@ def test_a_motion_owns_an_arm_with_any_of_its_joints_and_the_stance_with_any_of_
     "authored",
     [{}, {"stroke": 0.4}, {"ready": 0.2, "relax": 0.9}, {"strokeStart": 0.3, "strokeEnd": 0.5, "beat1": 0.7}],
 )
-def test_missing_points_coincide_with_their_neighbors_and_all_are_in_order(authored):
+def test_missing_points_coincide_with_their_neighbors_and_all_are_in_order(authored: dict[str, float]) -> None:
     keys = with_gesture_points(authored)
     assert [point for point in keys if point in GESTURE_POINTS] == list(GESTURE_POINTS)
     assert list(keys.values()) == sorted(keys.values())

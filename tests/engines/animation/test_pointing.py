@@ -7,9 +7,10 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
+from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body, Skeleton
 from reactive_realizer.embodiment.quaternion import angle, from_euler
-from reactive_realizer.embodiment.vector import add, distance, dot, scale, subtract, unit
+from reactive_realizer.embodiment.vector import Vec3, add, distance, dot, scale, subtract, unit
 from reactive_realizer.engines.animation.motion_unit import GESTURE_POINTS, Moment, Resource
 from reactive_realizer.engines.animation.motions.pointing import ASYMMETRY, DEFAULTS, PointingMotionUnit
 from reactive_realizer.engines.animation.motions.pointing_arm import PointingArm
@@ -24,14 +25,14 @@ LEANS = st.tuples(st.floats(-0.4, 0.4), st.floats(-0.6, 0.6), st.floats(-0.3, 0.
 AHEAD = (0.0, 1.3, 2.5)
 
 
-def miss(body: Body, side: str, target) -> float:
+def miss(body: Body, side: str, target: Vec3) -> float:
     """The angle, degrees, between the line of the index finger and the way from its base to a target."""
     base, tip = (body.transform(f"{side}_index{i}").position for i in (1, 3))
     cosine = dot(unit(subtract(tip, base)), unit(subtract(target, base)))
     return math.degrees(math.acos(min(1.0, cosine)))
 
 
-def pointing(body: Body, target=AHEAD, sides: str = "r", **parameters: float) -> PointingMotionUnit:
+def pointing(body: Body, target: Vec3 = AHEAD, sides: str = "r", **parameters: float) -> PointingMotionUnit:
     arms = [PointingArm(body.skeleton, side) for side in sides]
     return PointingMotionUnit("it", arms, lambda time=None: target, lambda: body, body, {**DEFAULTS, **parameters})
 
@@ -44,7 +45,7 @@ def speeds(unit_: PointingMotionUnit, body: Body, first: float, last: float, cou
 
 
 @given(target=st.one_of(PLACES, NEAR), lean=LEANS)
-def test_the_finger_points_exactly_at_every_reachable_target(skeleton, target, lean):
+def test_the_finger_points_exactly_at_every_reachable_target(skeleton: Skeleton, target: Vec3, lean: Vec3) -> None:
     body = Body(skeleton, {"vl5": from_euler(*lean), "r_sternoclavicular": from_euler(0.0, 0.0, -0.1)})
     for side in SIDES:
         aim = PointingArm(skeleton, side).aim(body, target)
@@ -53,7 +54,9 @@ def test_the_finger_points_exactly_at_every_reachable_target(skeleton, target, l
 
 
 @given(target=st.one_of(PLACES, NEAR), length=st.sampled_from([0.001, 0.01, 0.05, 0.6]))
-def test_an_arm_with_unusual_proportions_points_as_well_as_possible(skeleton, target, length):
+def test_an_arm_with_unusual_proportions_points_as_well_as_possible(
+    skeleton: Skeleton, target: Vec3, length: float
+) -> None:
     offsets = [
         scale(unit(offset), length) if joint.endswith("_wrist") else offset
         for joint, offset in zip(skeleton.joints, skeleton.offsets, strict=True)
@@ -66,7 +69,7 @@ def test_an_arm_with_unusual_proportions_points_as_well_as_possible(skeleton, ta
 
 @given(target=st.one_of(PLACES, NEAR))
 @example(target=(1.0, 0.0, -1.0))
-def test_elbow_and_wrist_stay_within_human_ranges(skeleton, target):
+def test_elbow_and_wrist_stay_within_human_ranges(skeleton: Skeleton, target: Vec3) -> None:
     for side in SIDES:
         rotations = PointingArm(skeleton, side).aim(Body(skeleton), target).rotations
         body = Body(skeleton, rotations)
@@ -78,7 +81,7 @@ def test_elbow_and_wrist_stay_within_human_ranges(skeleton, target):
 
 
 @given(way=st.tuples(st.floats(-2, 2), st.floats(-2, 2), st.floats(-1, 3)))
-def test_left_and_right_arm_are_mirror_images(skeleton, way):
+def test_left_and_right_arm_are_mirror_images(skeleton: Skeleton, way: Vec3) -> None:
     body, tips = Body(skeleton), []
     for side, mirror in (("l", 1.0), ("r", -1.0)):
         shoulder = body.transform(f"{side}_shoulder").position
@@ -94,13 +97,17 @@ def test_left_and_right_arm_are_mirror_images(skeleton, way):
     [(0.0, 1.3, 3.0), (0.1, 4.0, 0.3), (0.2, 0.0, 0.8), (2.0, 1.2, 1.0), (-2.0, 1.2, 1.0), (0.1, 1.3, 0.55)],
     ids=["ahead", "up", "down", "left", "right", "near"],
 )
-def test_either_arm_reaches_targets_ahead_above_below_aside_across_and_near(skeleton, side, target):
+def test_either_arm_reaches_targets_ahead_above_below_aside_across_and_near(
+    skeleton: Skeleton, side: str, target: Vec3
+) -> None:
     assert PointingArm(skeleton, side).aim(Body(skeleton), target).fault is None
 
 
 @pytest.mark.parametrize("side", SIDES)
 @pytest.mark.parametrize("target", [(0.0, 1.3, -3.0), (0.0, 0.2, -1.0)], ids=["behind", "behind and below"])
-def test_a_target_behind_the_back_is_pointed_at_as_far_as_is_natural(skeleton, side, target):
+def test_a_target_behind_the_back_is_pointed_at_as_far_as_is_natural(
+    skeleton: Skeleton, side: str, target: Vec3
+) -> None:
     aim = PointingArm(skeleton, side).aim(Body(skeleton), target)
     assert aim.fault is not None
     assert "behind" in aim.fault
@@ -109,7 +116,7 @@ def test_a_target_behind_the_back_is_pointed_at_as_far_as_is_natural(skeleton, s
 
 
 @pytest.mark.parametrize("side", SIDES)
-def test_a_target_nearer_than_a_hand_is_out_of_reach(skeleton, side):
+def test_a_target_nearer_than_a_hand_is_out_of_reach(skeleton: Skeleton, side: str) -> None:
     body = Body(skeleton)
     shoulder = body.transform(f"{side}_shoulder").position
     for way in ((0.0, 0.0, 0.0), (0.0, 0.0, 0.1), (0.02, 0.1, 0.0)):
@@ -117,7 +124,7 @@ def test_a_target_nearer_than_a_hand_is_out_of_reach(skeleton, side):
 
 
 @pytest.mark.parametrize("side", SIDES)
-def test_the_arm_is_nearly_straight_for_a_far_target_and_its_elbow_hangs(skeleton, side):
+def test_the_arm_is_nearly_straight_for_a_far_target_and_its_elbow_hangs(skeleton: Skeleton, side: str) -> None:
     body = Body(skeleton)
     body = body.posed(PointingArm(skeleton, side).aim(body, (0.3 if side == "l" else -0.3, 1.3, 5.0)).rotations)
     shoulder, elbow, wrist = (body.transform(f"{side}_{joint}").position for joint in ("shoulder", "elbow", "wrist"))
@@ -127,7 +134,7 @@ def test_the_arm_is_nearly_straight_for_a_far_target_and_its_elbow_hangs(skeleto
 
 
 @pytest.mark.parametrize("side", SIDES)
-def test_a_small_move_of_the_target_moves_the_arm_a_little(skeleton, side):
+def test_a_small_move_of_the_target_moves_the_arm_a_little(skeleton: Skeleton, side: str) -> None:
     arm, body = PointingArm(skeleton, side), Body(skeleton)
     circle = [2.2 * i / 500 for i in range(-500, 501)]
     path = [(2.0 * math.sin(a), 1.3 + 0.9 * math.sin(3.0 * a), 0.6 + 1.4 * math.cos(a)) for a in circle]
@@ -137,7 +144,7 @@ def test_a_small_move_of_the_target_moves_the_arm_a_little(skeleton, side):
         assert max(distance(a, b) for a, b in pairwise(places)) < 0.06
 
 
-def test_only_the_index_finger_is_stretched(skeleton):
+def test_only_the_index_finger_is_stretched(skeleton: Skeleton) -> None:
     body = Body(skeleton)
     body = body.posed(PointingArm(skeleton, "r").aim(body, AHEAD).rotations)
     for finger in ("index", "middle", "ring", "pinky"):
@@ -148,7 +155,9 @@ def test_only_the_index_finger_is_stretched(skeleton):
 
 @pytest.mark.parametrize("steepness", [1.5, 2.0, 3.0, 4.0])
 @pytest.mark.parametrize("asymmetry", [-0.6, -0.1, 0.0, 0.4])
-def test_the_sigmoid_has_one_peak_of_speed_with_the_given_steepness_and_asymmetry(steepness, asymmetry):
+def test_the_sigmoid_has_one_peak_of_speed_with_the_given_steepness_and_asymmetry(
+    steepness: float, asymmetry: float
+) -> None:
     count = 2000
     way = [sigmoid(i / count, steepness, asymmetry) for i in range(count + 1)]
     speed = [(b - a) * count for a, b in pairwise(way)]
@@ -160,7 +169,7 @@ def test_the_sigmoid_has_one_peak_of_speed_with_the_given_steepness_and_asymmetr
     assert (peak + 0.5) / count == pytest.approx(0.5 * (1.0 + asymmetry), abs=0.002)
 
 
-def test_the_speed_of_the_hand_is_bell_shaped_both_ways(skeleton):
+def test_the_speed_of_the_hand_is_bell_shaped_both_ways(skeleton: Skeleton) -> None:
     body = Body(skeleton)
     unit_ = pointing(body)
     keys = unit_.key_positions
@@ -172,17 +181,17 @@ def test_the_speed_of_the_hand_is_bell_shaped_both_ways(skeleton):
         assert 10 * max(bell[0], bell[-1]) < bell[peak]
 
 
-def test_asymmetry_moves_the_peak(skeleton):
+def test_asymmetry_moves_the_peak(skeleton: Skeleton) -> None:
     body, peaks = Body(skeleton), []
     for asymmetry in (-0.5, 0.0, 0.5):
-        unit_ = pointing(body, **{ASYMMETRY: asymmetry})
+        unit_ = pointing(body, AHEAD, "r", **{ASYMMETRY: asymmetry})
         bell = speeds(unit_, body, 0.0, unit_.key_positions["ready"])
         peaks.append(max(range(len(bell)), key=bell.__getitem__))
     early, middle, late = peaks
     assert early < middle - 8 < middle + 8 < late
 
 
-def test_pointing_has_seven_points_and_symmetric_durations(skeleton):
+def test_pointing_has_seven_points_and_symmetric_durations(skeleton: Skeleton) -> None:
     unit_ = pointing(Body(skeleton))
     keys = unit_.key_positions
     assert tuple(keys) == GESTURE_POINTS
@@ -190,7 +199,7 @@ def test_pointing_has_seven_points_and_symmetric_durations(skeleton):
     assert keys["ready"] == pytest.approx(1.0 - keys["relax"])
 
 
-def test_pointing_starts_from_the_current_arm_and_ends_in_the_layers_below(skeleton):
+def test_pointing_starts_from_the_current_arm_and_ends_in_the_layers_below(skeleton: Skeleton) -> None:
     unit_ = pointing(Body(skeleton))
     raised = Body(skeleton, {"r_shoulder": from_euler(-1.4, 0.3, -0.4), "r_elbow": from_euler(-0.9, 0.0, 0.0)})
     unit_.start(raised)
@@ -200,9 +209,9 @@ def test_pointing_starts_from_the_current_arm_and_ends_in_the_layers_below(skele
         assert distance(body.transform("r_index3").position, raised.transform("r_index3").position) < 1e-9
 
 
-def test_pointing_with_both_hands_owns_both_arms(skeleton):
+def test_pointing_with_both_hands_owns_both_arms(skeleton: Skeleton) -> None:
     body = Body(skeleton)
     unit_ = pointing(body, sides="lr")
-    posed = body.posed(unit_.pose(Moment(unit_.key_positions["stroke"], 0.0, body)).rotations)
+    posed = body.posed(unit_.pose(Moment(unit_.key_positions["stroke"], GlobalTime(0.0), body)).rotations)
     assert unit_.resources == {Resource.LEFT_ARM, Resource.RIGHT_ARM}
     assert max(miss(posed, side, AHEAD) for side in SIDES) < 2.0

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from reactive_realizer.assembly.assets import Assets
+from reactive_realizer.embodiment.body import Skeleton
 from reactive_realizer.embodiment.quaternion import angle
 from reactive_realizer.engines.animation.posture.posture_library import BodyPosture, PostureLibrary
 from reactive_realizer.errors import RealizerError
@@ -14,19 +15,21 @@ from .bodies import ASSET, apart, body_in, posture
 
 
 @pytest.fixture
-def own(tmp_path) -> Path:
+def own(tmp_path: Path) -> Path:
     """A folder of assets in which a user keeps postures."""
     (tmp_path / "postures").mkdir()
     return tmp_path
 
 
-def test_a_file_of_the_user_is_a_new_word(skeleton, own):
+def test_a_file_of_the_user_is_a_new_word(skeleton: Skeleton, own: Path) -> None:
     shutil.copy(ASSET("postures/arms_akimbo.xml"), own / "postures" / "hands_up.xml")
     library = PostureLibrary(skeleton, Assets((own,)))
     assert library.body(posture(ARMS="HANDS_UP")).pose == body_in(skeleton, ARMS="ARMS_AKIMBO").pose
 
 
-def test_a_stance_of_the_user_replaces_that_of_the_package_and_may_place_the_pelvis(skeleton, own):
+def test_a_stance_of_the_user_replaces_that_of_the_package_and_may_place_the_pelvis(
+    skeleton: Skeleton, own: Path
+) -> None:
     (own / "postures" / "sitting.xml").write_text(
         '<ProcAnimation prefDuration="1">'
         '<EndEffector target="HumanoidRoot" local="true" translation="0;-0.2;0.1"/>'
@@ -38,7 +41,7 @@ def test_a_stance_of_the_user_replaces_that_of_the_package_and_may_place_the_pel
         assert angle(body.rotation("l_knee")) == pytest.approx(1.0)
 
 
-def test_a_changed_file_is_read_again(skeleton, own):
+def test_a_changed_file_is_read_again(skeleton: Skeleton, own: Path) -> None:
     file = own / "postures" / "arms_up.xml"
     text = '<ProcAnimation prefDuration="1"><Rotation target="l_elbow" rotation="{};0;0"/></ProcAnimation>'
     library = PostureLibrary(skeleton, Assets((own,)))
@@ -49,7 +52,7 @@ def test_a_changed_file_is_read_again(skeleton, own):
     assert seen == pytest.approx([0.5, 1.5])
 
 
-def test_an_invalid_posture_file_is_refused_with_its_line(skeleton, own):
+def test_an_invalid_posture_file_is_refused_with_its_line(skeleton: Skeleton, own: Path) -> None:
     (own / "postures" / "arms_up.xml").write_text('<ProcAnimation prefDuration="1">\n<Rotation target="l_elbow"/>')
     with pytest.raises(RealizerError) as refused:
         PostureLibrary(skeleton, Assets((own,))).body(posture(ARMS="ARMS_UP"))
@@ -60,7 +63,7 @@ REST_POSE = """<SkeletonPose rotationEncoding="axisangles" parts="HumanoidRoot r
 0 1.9 0 1 0 0 0 0 0 1 -0.4 0 0 1 0.4</SkeletonPose>"""
 
 
-def test_a_binding_may_set_a_rest_pose_and_the_feet_stay_on_the_ground(skeleton, own):
+def test_a_binding_may_set_a_rest_pose_and_the_feet_stay_on_the_ground(skeleton: Skeleton, own: Path) -> None:
     (own / "mine.xml").write_text(REST_POSE)
     library = PostureLibrary(skeleton, Assets((own,)), {"STANDING": "mine.xml"})
     body = library.body(BodyPosture())
@@ -69,7 +72,9 @@ def test_a_binding_may_set_a_rest_pose_and_the_feet_stay_on_the_ground(skeleton,
     assert apart(body, body_in(skeleton), "l_elbow") < 1e-9
 
 
-def test_a_rest_pose_that_is_missing_is_logged_and_the_default_is_used(skeleton, caplog):
+def test_a_rest_pose_that_is_missing_is_logged_and_the_default_is_used(
+    skeleton: Skeleton, caplog: pytest.LogCaptureFixture
+) -> None:
     library = PostureLibrary(skeleton, ASSET, {"SITTING": "nowhere.xml"})
     said = ["the default rest pose of SITTING is used: there is no asset named 'nowhere.xml'"]
     assert [record.getMessage() for record in caplog.records] == said, "before anybody sits"
@@ -77,7 +82,7 @@ def test_a_rest_pose_that_is_missing_is_logged_and_the_default_is_used(skeleton,
     assert len(caplog.records) == 1
 
 
-def test_a_posture_file_that_moves_the_root_too_far_is_refused(skeleton, own):
+def test_a_posture_file_that_moves_the_root_too_far_is_refused(skeleton: Skeleton, own: Path) -> None:
     (own / "postures" / "arms_up.xml").write_text(
         '<ProcAnimation prefDuration="1"><EndEffector target="HumanoidRoot" local="true" translation="0;0;1e300"/>'
         '<Rotation target="l_elbow" rotation="1;0;0"/></ProcAnimation>'

@@ -1,6 +1,7 @@
 """ProcAnimation files: content and errors."""
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -20,24 +21,26 @@ from reactive_realizer.errors import RealizerError
 STILL = '<Rotation target="vc4" rotation="0;0;0"/>'
 
 
-def test_a_rotation_is_a_formula_of_phase_and_parameters(read, skeleton):
+def test_a_rotation_is_a_formula_of_phase_and_parameters(
+    read: Callable[..., ProceduralAnimation], skeleton: Skeleton
+) -> None:
     animation = read('<Rotation target="vc4" rotation="a*t;0;0.1"/><Parameter sid="a" value="0.5"/>')
     assert animation.joints == {"vc4"}
     assert animation.sample(0.5, {"a": 0.8}, Body(skeleton)).rotations == {"vc4": from_euler(0.4, 0.0, 0.1)}
 
 
-def test_an_undeclared_name_is_a_parameter_with_value_0(read):
+def test_an_undeclared_name_is_a_parameter_with_value_0(read: Callable[..., ProceduralAnimation]) -> None:
     animation = read('<Rotation target="vc4" rotation="xoff;0;0"/><KeyPosition id="stroke" time="0.5 + late"/>')
     assert animation.parameters == {"late": 0.0, "xoff": 0.0}
 
 
-def test_equal_durations_are_no_limits(read):
+def test_equal_durations_are_no_limits(read: Callable[..., ProceduralAnimation]) -> None:
     assert read(STILL, 'prefDuration="2" minDuration="2" maxDuration="2.0"').timing({}).limits is None
     assert read(STILL, 'prefDuration="2"').timing({}).limits is None
     assert read(STILL, 'prefDuration="2" minDuration="1" maxDuration="3"').timing({}).limits == (1.0, 3.0)
 
 
-def test_durations_and_key_positions_may_depend_on_parameters(read):
+def test_durations_and_key_positions_may_depend_on_parameters(read: Callable[..., ProceduralAnimation]) -> None:
     points = '<KeyPosition id="stroke" time="0.5/r"/><Parameter sid="r" value="1"/>'
     animation = read(STILL + points, 'prefDuration="0.5*r"')
     timing = animation.timing({"r": 4.0})
@@ -45,7 +48,9 @@ def test_durations_and_key_positions_may_depend_on_parameters(read):
     assert timing.key_positions == {"stroke": 0.125}
 
 
-def test_global_keyframes_turn_a_hand_in_the_figures_axes(read, skeleton):
+def test_global_keyframes_turn_a_hand_in_the_figures_axes(
+    read: Callable[..., ProceduralAnimation], skeleton: Skeleton
+) -> None:
     palm_to_the_front = "0;0.7071068;0;0.7071068"
     animation = read(
         '<EndEffector target="r_wrist" local="true" translation="-0.2;0.1;0.2"/>'
@@ -69,7 +74,9 @@ def test_global_keyframes_turn_a_hand_in_the_figures_axes(read, skeleton):
         ("euler", "t; 0; 0"),
     ],
 )
-def test_keyframes_are_quaternions_or_turns_about_axes_or_angles(read, skeleton, encoding, value):
+def test_keyframes_are_quaternions_or_turns_about_axes_or_angles(
+    read: Callable[..., ProceduralAnimation], skeleton: Skeleton, encoding: str, value: str
+) -> None:
     keyframe = f'<Keyframe time="0" value="{value}"/>'
     animation = read(f'<Keyframes target="vc4" encoding="{encoding}">{keyframe}</Keyframes>')
     rotation = animation.sample(1.0, {}, Body(skeleton)).rotations["vc4"]
@@ -77,7 +84,9 @@ def test_keyframes_are_quaternions_or_turns_about_axes_or_angles(read, skeleton,
 
 
 @pytest.mark.parametrize("encoding", ["quaternion", "axisangles", "euler"])
-def test_mirroring_works_for_every_encoding_of_keyframes(read, skeleton, encoding):
+def test_mirroring_works_for_every_encoding_of_keyframes(
+    read: Callable[..., ProceduralAnimation], skeleton: Skeleton, encoding: str
+) -> None:
     value = {"quaternion": "0.8;0.4;0.3;0.2", "axisangles": "1;2;3;0.7", "euler": "0.4;0.3;0.2"}[encoding]
     frames = f'<Keyframes target="l_wrist" encoding="{encoding}"><Keyframe time="0" value="{value}"/></Keyframes>'
     animation = read(frames)
@@ -86,21 +95,27 @@ def test_mirroring_works_for_every_encoding_of_keyframes(read, skeleton, encodin
     assert mirrored == pytest.approx((w, x, -y, -z))
 
 
-def test_a_rotation_that_is_not_local_is_in_the_figures_axes(read, skeleton):
+def test_a_rotation_that_is_not_local_is_in_the_figures_axes(
+    read: Callable[..., ProceduralAnimation], skeleton: Skeleton
+) -> None:
     animation = read('<Rotation target="skullbase" local="false" rotation="0;0.4;0"/>')
     body = Body(skeleton, {"vl5": from_euler(0.3, 0.2, 0.1)})
     head = body.posed(animation.sample(0.0, {}, body).rotations).transform("skullbase").rotation
     assert head == pytest.approx(from_euler(0.0, 0.4, 0.0))
 
 
-def test_a_global_rotation_of_the_root_is_its_local_rotation(read, skeleton):
+def test_a_global_rotation_of_the_root_is_its_local_rotation(
+    read: Callable[..., ProceduralAnimation], skeleton: Skeleton
+) -> None:
     for local in ("true", "false"):
         animation = read(f'<Rotation target="HumanoidRoot" local="{local}" rotation="0;0.4;0"/>')
         rotations = animation.sample(0.0, {}, Body(skeleton)).rotations
         assert rotations == {"HumanoidRoot": pytest.approx(from_euler(0.0, 0.4, 0.0))}
 
 
-def test_an_interpolator_is_stretched_to_the_duration_of_the_animation(read, skeleton):
+def test_an_interpolator_is_stretched_to_the_duration_of_the_animation(
+    read: Callable[..., ProceduralAnimation], skeleton: Skeleton
+) -> None:
     animation = read(
         '<SkeletonInterpolator rotationEncoding="axisangles" encoding="R" parts="l_thumb1 vc4">'
         "2 1 0 0 0.2 0 1 0 0\n 6 1 0 0 0.6 0 1 0 0.8</SkeletonInterpolator>"
@@ -116,7 +131,9 @@ def test_an_interpolator_is_stretched_to_the_duration_of_the_animation(read, ske
     }
 
 
-def test_joints_are_turned_from_the_root_outward_in_any_order_of_the_file(read, skeleton):
+def test_joints_are_turned_from_the_root_outward_in_any_order_of_the_file(
+    read: Callable[..., ProceduralAnimation], skeleton: Skeleton
+) -> None:
     hand = '<Rotation target="l_index1" local="false" rotation="0;0;0"/>'
     trunk = '<Keyframes target="vl5" encoding="euler"><Keyframe time="0" value="0.2;0.3;0.1"/></Keyframes>'
     arm = '<EndEffector target="l_wrist" translation="0.2;1.2;0.3"/>'
@@ -127,7 +144,9 @@ def test_joints_are_turned_from_the_root_outward_in_any_order_of_the_file(read, 
     assert moved.transform("l_wrist").position == pytest.approx((0.2, 1.2, 0.3), abs=1e-6)
 
 
-def test_joints_that_a_figure_lacks_are_left_out_and_logged_once(read, skeleton, caplog):
+def test_joints_that_a_figure_lacks_are_left_out_and_logged_once(
+    read: Callable[..., ProceduralAnimation], skeleton: Skeleton, caplog: pytest.LogCaptureFixture
+) -> None:
     animation = read('<Rotation target="vc7" rotation="1;0;0"/><Rotation target="vc4" rotation="t;0;0"/>')
     with caplog.at_level("WARNING"):
         fitted = animation.fitted_to(skeleton)
@@ -137,7 +156,9 @@ def test_joints_that_a_figure_lacks_are_left_out_and_logged_once(read, skeleton,
     assert [record.message for record in caplog.records] == ["some.xml: this figure cannot turn vc7; left out"]
 
 
-def test_a_limb_with_a_bone_without_a_length_is_left_out(read, skeleton):
+def test_a_limb_with_a_bone_without_a_length_is_left_out(
+    read: Callable[..., ProceduralAnimation], skeleton: Skeleton
+) -> None:
     offsets = [
         (0.0, 0.0, 0.0) if joint == "l_wrist" else offset
         for joint, offset in zip(skeleton.joints, skeleton.offsets, strict=True)
@@ -147,7 +168,9 @@ def test_a_limb_with_a_bone_without_a_length_is_left_out(read, skeleton):
     assert read(both).fitted_to(stump).joints == {"r_shoulder", "r_elbow"}
 
 
-def test_an_animation_is_restricted_to_joints_after_mirroring(read, skeleton):
+def test_an_animation_is_restricted_to_joints_after_mirroring(
+    read: Callable[..., ProceduralAnimation], skeleton: Skeleton
+) -> None:
     arm = (
         '<EndEffector target="r_wrist" local="true" translation="-0.1;0;0.2"/><Rotation target="vc4" rotation="1;0;0"/>'
     )
@@ -160,7 +183,9 @@ def test_an_animation_is_restricted_to_joints_after_mirroring(read, skeleton):
         mirrored.restricted_to(frozenset({"r_thumb1", "l_hip"}))
 
 
-def test_between_keyframes_a_joint_turns_evenly_the_short_way(read, skeleton):
+def test_between_keyframes_a_joint_turns_evenly_the_short_way(
+    read: Callable[..., ProceduralAnimation], skeleton: Skeleton
+) -> None:
     animation = read(
         '<Keyframes target="vc4" encoding="quaternion"><Keyframe time="0.2" local="true" value="1;0;0;0"/>'
         f'<Keyframe time="0.7" local="true" value="{math.cos(0.3)};{math.sin(0.3)};0;0"/></Keyframes>'
@@ -171,7 +196,7 @@ def test_between_keyframes_a_joint_turns_evenly_the_short_way(read, skeleton):
     assert turns == pytest.approx([0.0, 0.0, 0.3, 0.6, 0.6], abs=1e-6)
 
 
-def test_a_mirrored_animation_exchanges_the_arms(skeleton, animations):
+def test_a_mirrored_animation_exchanges_the_arms(skeleton: Skeleton, animations: Path) -> None:
     animation = read_procedural_animation(animations / "greet_right.xml")
     mirrored = animation.mirrored()
     assert mirrored.joints == {joint.replace("r_", "l_", 1) for joint in animation.joints}
@@ -222,14 +247,16 @@ def test_a_mirrored_animation_exchanges_the_arms(skeleton, animations):
         ("<Rotation", r"some\.xml, line \d, <ProcAnimation>: "),
     ],
 )
-def test_an_invalid_file_is_refused_with_file_line_element_and_reason(read, content, message):
+def test_an_invalid_file_is_refused_with_file_line_element_and_reason(
+    read: Callable[..., ProceduralAnimation], content: str, message: str
+) -> None:
     with pytest.raises(RealizerError, match=message) as with_reached_root:
         read(content)
     assert with_reached_root.value.fault.code == "bad-asset"
     assert "some.xml" in str(with_reached_root.value)
 
 
-def test_no_shortest_duration_is_longer_than_the_longest(read):
+def test_no_shortest_duration_is_longer_than_the_longest(read: Callable[..., ProceduralAnimation]) -> None:
     with pytest.raises(
         RealizerError, match=r"some\.xml, line 1, <ProcAnimation>: it lasts at least 3 s and at most 2 s"
     ):
@@ -238,7 +265,7 @@ def test_no_shortest_duration_is_longer_than_the_longest(read):
 
 
 @pytest.mark.parametrize("head", ['<!DOCTYPE x [<!ENTITY a "b">]><ProcAnimation/>', "<gesturebinding/>", "", "junk"])
-def test_a_file_that_is_no_animation_is_refused(tmp_path, head):
+def test_a_file_that_is_no_animation_is_refused(tmp_path: Path, head: str) -> None:
     path = tmp_path / "some.xml"
     path.write_text(head)
     with pytest.raises(RealizerError, match=r"some\.xml, line"):
@@ -246,14 +273,18 @@ def test_a_file_that_is_no_animation_is_refused(tmp_path, head):
 
 
 @pytest.mark.parametrize("formula", ["1/(t-0.5)", "log(t-1)", "exp(2000*t)", "1e308*10*t"])
-def test_a_formula_without_a_value_is_reported_with_its_phase(read, skeleton, formula):
+def test_a_formula_without_a_value_is_reported_with_its_phase(
+    read: Callable[..., ProceduralAnimation], skeleton: Skeleton, formula: str
+) -> None:
     animation = read(f'<Rotation target="vc4" rotation="{formula};0;0"/>')
     with pytest.raises(RealizerError, match=r"some\.xml gives no pose at phase 0\.5"):
         animation.sample(0.5, {}, Body(skeleton))
 
 
 @pytest.mark.parametrize("value", ["t;0;0;0", "1e200;0;1e200;0"])
-def test_a_keyframe_that_is_not_a_rotation_is_reported(read, skeleton, value):
+def test_a_keyframe_that_is_not_a_rotation_is_reported(
+    read: Callable[..., ProceduralAnimation], skeleton: Skeleton, value: str
+) -> None:
     keyframe = f'<Keyframe time="0" local="true" value="{value}"/>'
     animation = read(f'<Keyframes target="vc4" encoding="quaternion">{keyframe}</Keyframes>')
     with pytest.raises(RealizerError, match=r"gives no pose at phase 0: the rotation of vc4 is undefined"):
@@ -270,19 +301,23 @@ def test_a_keyframe_that_is_not_a_rotation_is_reported(read, skeleton, value):
         ("", 'prefDuration="1" minDuration="2" maxDuration="1+a"'),
     ],
 )
-def test_a_motion_without_a_duration_or_with_points_outside_cannot_be_planned(read, content, durations):
+def test_a_motion_without_a_duration_or_with_points_outside_cannot_be_planned(
+    read: Callable[..., ProceduralAnimation], content: str, durations: str
+) -> None:
     reasons = r"it would last 0 s|key positions lie from 0 to 1, start at 0 and end at 1|at least 2 s and at most 1 s"
     with pytest.raises(RealizerError, match=reasons):
         ProceduralMotionUnit(read(STILL + content, durations), {}, LayerKind.ADDITIVE)
 
 
-def test_files_may_contain_start_and_end(read):
+def test_files_may_contain_start_and_end(read: Callable[..., ProceduralAnimation]) -> None:
     points = '<KeyPosition id="start" time="0"/><KeyPosition id="stroke" time="0.5"/><KeyPosition id="end" time="1"/>'
     motion = ProceduralMotionUnit(read(STILL + points), {}, LayerKind.ADDITIVE)
     assert motion.key_positions == {"start": 0.0, "stroke": 0.5, "end": 1.0}
 
 
-def test_formulas_win_over_keyframes_and_keyframes_over_interpolators(read, skeleton):
+def test_formulas_win_over_keyframes_and_keyframes_over_interpolators(
+    read: Callable[..., ProceduralAnimation], skeleton: Skeleton
+) -> None:
     clip = '<SkeletonInterpolator encoding="R" parts="vc4">0 0.8 0.6 0 0 1 0.8 0.6 0 0</SkeletonInterpolator>'
     keyed = '<Keyframes target="vc4" encoding="euler"><Keyframe time="0" value="0.2;0;0"/></Keyframes>'
     turned = '<Rotation target="vc4" rotation="0.1;0;0"/>'
@@ -291,7 +326,9 @@ def test_formulas_win_over_keyframes_and_keyframes_over_interpolators(read, skel
         assert rotations == {"vc4": pytest.approx(from_euler(expected, 0.0, 0.0))}
 
 
-def test_tracks_of_joints_that_an_end_effector_controls_are_left_out_and_logged(read, skeleton, caplog):
+def test_tracks_of_joints_that_an_end_effector_controls_are_left_out_and_logged(
+    read: Callable[..., ProceduralAnimation], skeleton: Skeleton, caplog: pytest.LogCaptureFixture
+) -> None:
     arm = '<EndEffector target="l_wrist" local="true" translation="0;-0.2;0.25"/>'
     with caplog.at_level("INFO"):
         animation = read(arm + '<Rotation target="l_elbow" rotation="1;0;0"/>')
@@ -316,8 +353,8 @@ def look_through(path: Path, skeleton: Skeleton) -> None:
         assert rotations.keys() == unit.joints
         assert all(math.isclose(math.hypot(*rotation), 1.0, abs_tol=1e-6) for rotation in rotations.values())
         for track, formulas in paths:
-            *goal, _ = formulas(phase, *unit.parameters.values())
-            assert missed(track, tuple(goal), Body(skeleton, rotations)) < 0.01
+            x, y, z, _ = formulas(phase, *unit.parameters.values())
+            assert missed(track, (x, y, z), Body(skeleton, rotations)) < 0.01
 
 
 def missed(track: EffectorTrack, goal: Vec3, body: Body) -> float:
@@ -329,14 +366,18 @@ def missed(track: EffectorTrack, goal: Vec3, body: Body) -> float:
     return distance(goal, end) if 0.6 * reach < distance(first, goal) < reach else 0.0
 
 
-def test_every_published_animation_has_a_pose_at_every_phase_and_reaches_its_goals(shared_cases, skeleton):
+def test_every_published_animation_has_a_pose_at_every_phase_and_reaches_its_goals(
+    shared_cases: Path, skeleton: Skeleton
+) -> None:
     files = sorted((shared_cases / "asap" / "procanimation").rglob("*.xml"))
     assert len(files) == 11
     for path in files:
         look_through(path, skeleton)
 
 
-def test_every_animation_of_the_package_has_a_pose_at_every_phase_and_reaches_its_goals(animations, skeleton):
+def test_every_animation_of_the_package_has_a_pose_at_every_phase_and_reaches_its_goals(
+    animations: Path, skeleton: Skeleton
+) -> None:
     files = sorted(animations.rglob("*.xml"))
     assert len(files) == 54
     for path in files:

@@ -1,15 +1,18 @@
 """Procedural animations as motions, among them nods and shakes."""
 
 import math
+from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 
 from reactive_realizer.clock.units import GlobalTime
-from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.body import Body, Skeleton
 from reactive_realizer.embodiment.pose import LayerKind
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, angle, difference, from_euler
 from reactive_realizer.engines.animation.motion_unit import Moment, Resource
 from reactive_realizer.engines.animation.motions.procedural import ProceduralMotionUnit, kind_of
+from reactive_realizer.engines.animation.procedural.procedural_animation import ProceduralAnimation
 from reactive_realizer.engines.animation.procedural.procedural_animation_reader import read_procedural_animation
 from reactive_realizer.errors import RealizerError
 
@@ -18,18 +21,20 @@ from .bodies import shown
 RISING = '<Rotation target="r_elbow" rotation="0-0.5-t;0;0"/>'
 
 
-def rotation(unit, phase, body, joint="r_elbow"):
+def rotation(unit: ProceduralMotionUnit, phase: float, body: Body, joint: str = "r_elbow") -> Quat:
     posed = unit.pose(Moment(phase, GlobalTime(0.0), body))
     assert posed.weight == 1.0
     return posed.rotations[joint]
 
 
-def gap(a, b):
+def gap(a: Quat, b: Quat) -> float:
     return angle(difference(a, b))
 
 
 @pytest.mark.parametrize(("duration", "arrived"), [(3.0, 0.1), (0.4, 0.25)])
-def test_it_starts_from_the_current_body_and_soon_plays_the_file(read, skeleton, duration, arrived):
+def test_it_starts_from_the_current_body_and_soon_plays_the_file(
+    read: Callable[..., ProceduralAnimation], skeleton: Skeleton, duration: float, arrived: float
+) -> None:
     unit = ProceduralMotionUnit(read(RISING, f'prefDuration="{duration}"'), {}, LayerKind.GESTURE)
     body = Body(skeleton, {"r_elbow": from_euler(-1.5, 0.0, 0.3)})
     unit.start(body)
@@ -43,7 +48,9 @@ def test_it_starts_from_the_current_body_and_soon_plays_the_file(read, skeleton,
         assert rotation(unit, phase, body) == pytest.approx(from_euler(-0.5 - phase, 0.0, 0.0))
 
 
-def test_an_animation_that_starts_at_the_current_body_plays_the_file_from_the_first_frame(read, skeleton):
+def test_an_animation_that_starts_at_the_current_body_plays_the_file_from_the_first_frame(
+    read: Callable[..., ProceduralAnimation], skeleton: Skeleton
+) -> None:
     unit = ProceduralMotionUnit(read(RISING), {}, LayerKind.GESTURE)
     body = Body(skeleton, {"r_elbow": from_euler(-0.5, 0.0, 0.0)})
     unit.start(body)
@@ -51,14 +58,18 @@ def test_an_animation_that_starts_at_the_current_body_plays_the_file_from_the_fi
         assert rotation(unit, phase, body) == pytest.approx(from_euler(-0.5 - phase, 0.0, 0.0))
 
 
-def test_the_first_frame_shows_the_progress_since_the_start(read, skeleton):
+def test_the_first_frame_shows_the_progress_since_the_start(
+    read: Callable[..., ProceduralAnimation], skeleton: Skeleton
+) -> None:
     unit = ProceduralMotionUnit(read(RISING), {}, LayerKind.GESTURE)
     body = Body(skeleton, {"r_elbow": from_euler(-0.5, 0.0, 0.0)})
     unit.start(body)
     assert rotation(unit, 0.013, body) == pytest.approx(from_euler(-0.513, 0.0, 0.0))
 
 
-def test_an_animation_that_joins_late_starts_from_the_current_body(read, skeleton):
+def test_an_animation_that_joins_late_starts_from_the_current_body(
+    read: Callable[..., ProceduralAnimation], skeleton: Skeleton
+) -> None:
     unit = ProceduralMotionUnit(read(RISING), {}, LayerKind.GESTURE)
     body = Body(skeleton, {"r_elbow": from_euler(0.0, 0.0, 0.0)})
     unit.start(body)
@@ -66,7 +77,9 @@ def test_an_animation_that_joins_late_starts_from_the_current_body(read, skeleto
     assert rotation(unit, 0.75, body) == pytest.approx(from_euler(-1.25, 0.0, 0.0))
 
 
-def test_the_root_starts_from_its_current_position(read, skeleton):
+def test_the_root_starts_from_its_current_position(
+    read: Callable[..., ProceduralAnimation], skeleton: Skeleton
+) -> None:
     animation = read('<EndEffector target="root" local="true" translation="0;0-0.2;0"/>')
     unit = ProceduralMotionUnit(animation, {}, LayerKind.FULL_BODY)
     body = Body(skeleton, {}, (0.1, 0.0, 0.0))
@@ -75,7 +88,9 @@ def test_the_root_starts_from_its_current_position(read, skeleton):
     assert roots == [pytest.approx((0.1, 0.0, 0.0)), pytest.approx((0.0, -0.2, 0.0))]
 
 
-def test_an_additive_animation_plays_the_file_from_the_start(read, skeleton):
+def test_an_additive_animation_plays_the_file_from_the_start(
+    read: Callable[..., ProceduralAnimation], skeleton: Skeleton
+) -> None:
     unit = ProceduralMotionUnit(read(RISING), {}, LayerKind.ADDITIVE)
     unit.start(Body(skeleton, {"r_elbow": from_euler(-1.5, 0.0, 0.3)}))
     assert rotation(unit, 0.0, Body(skeleton)) == pytest.approx(from_euler(-0.5, 0.0, 0.0))
@@ -97,13 +112,17 @@ def test_an_additive_animation_plays_the_file_from_the_start(read, skeleton):
         ('<EndEffector target="l_ankle" translation="0;0.2;0"/>', LayerKind.FULL_BODY, {Resource.STANCE}),
     ],
 )
-def test_motion_of_legs_or_root_lies_below_gaze_and_gestures_and_owns_the_stance(read, content, kind, owns):
+def test_motion_of_legs_or_root_lies_below_gaze_and_gestures_and_owns_the_stance(
+    read: Callable[..., ProceduralAnimation], content: str, kind: LayerKind, owns: set[str]
+) -> None:
     animation = read(content)
     assert kind_of(animation) is kind
     assert ProceduralMotionUnit(animation, {}, kind).resources == owns
 
 
-def test_a_parameter_change_while_playing_affects_the_motion_but_not_its_timing(read, skeleton):
+def test_a_parameter_change_while_playing_affects_the_motion_but_not_its_timing(
+    read: Callable[..., ProceduralAnimation], skeleton: Skeleton
+) -> None:
     content = (
         '<Rotation target="vc4" rotation="a*t;0;0"/><KeyPosition id="stroke" time="a/4"/><Parameter sid="a" value="1"/>'
     )
@@ -114,7 +133,7 @@ def test_a_parameter_change_while_playing_affects_the_motion_but_not_its_timing(
 
 
 @pytest.mark.parametrize("times", [100.0, 101.0, -1.0, 1e9])
-def test_a_stroke_repeats_at_most_a_hundred_times(read, times):
+def test_a_stroke_repeats_at_most_a_hundred_times(read: Callable[..., ProceduralAnimation], times: float) -> None:
     animation = read(RISING + '<KeyPosition id="stroke" time="0.5/r"/><Parameter sid="r" value="1"/>')
     if times <= 100.0 and times > 0.0:
         assert "stroke:100" in ProceduralMotionUnit(animation, {"r": times}, LayerKind.ADDITIVE).key_positions
@@ -123,9 +142,12 @@ def test_a_stroke_repeats_at_most_a_hundred_times(read, times):
             ProceduralMotionUnit(animation, {"r": times}, LayerKind.ADDITIVE)
 
 
+HeadMotion = Callable[..., tuple[ProceduralMotionUnit, Callable[[float], Quat]]]
+
+
 @pytest.fixture
-def head(animations, skeleton):
-    def unit(name: str, **parameters: float):
+def head(animations: Path, skeleton: Skeleton) -> HeadMotion:
+    def unit(name: str, **parameters: float) -> tuple[ProceduralMotionUnit, Callable[[float], Quat]]:
         motion = ProceduralMotionUnit(
             read_procedural_animation(animations / f"smartbody/{name}.xml"), parameters, LayerKind.ADDITIVE
         )
@@ -140,7 +162,7 @@ def about(axis: int, q: Quat) -> float:
 
 @pytest.mark.parametrize("name", ["nod", "shake"])
 @pytest.mark.parametrize("repeats", [1, 2, 3])
-def test_it_starts_and_ends_at_rest(head, name, repeats):
+def test_it_starts_and_ends_at_rest(head: HeadMotion, name: str, repeats: int) -> None:
     _, turn = head(name, a=1.0, r=repeats)
     step = 1e-4
     for phase, inside in ((0.0, step), (1.0, 1.0 - step)):
@@ -151,7 +173,13 @@ def test_it_starts_and_ends_at_rest(head, name, repeats):
 
 @pytest.mark.parametrize(("name", "axis", "first"), [("nod", 1, 1.0), ("shake", 2, 1.0)])
 @pytest.mark.parametrize("repeats", [1, 2, 3])
-def test_each_stroke_is_at_a_peak_a_nod_goes_down_and_a_shake_to_the_left_first(head, name, axis, first, repeats):
+def test_each_stroke_is_at_a_peak_a_nod_goes_down_and_a_shake_to_the_left_first(
+    head: HeadMotion,
+    name: str,
+    axis: int,
+    first: float,
+    repeats: int,
+) -> None:
     unit, turn = head(name, a=0.5, r=repeats)
     strokes = [unit.key_positions["stroke"]]
     if repeats > 1:
@@ -165,7 +193,7 @@ def test_each_stroke_is_at_a_peak_a_nod_goes_down_and_a_shake_to_the_left_first(
 
 
 @pytest.mark.parametrize("name", ["nod", "shake"])
-def test_the_amount_is_the_amplitude_and_may_change_while_it_plays(head, name):
+def test_the_amount_is_the_amplitude_and_may_change_while_it_plays(head: HeadMotion, name: str) -> None:
     unit, turn = head(name, a=0.5)
     stroke = unit.key_positions["stroke"]
     small = 1.0 - turn(stroke)[0]
@@ -174,13 +202,16 @@ def test_the_amount_is_the_amplitude_and_may_change_while_it_plays(head, name):
 
 
 @pytest.mark.parametrize("name", ["nod", "shake"])
-def test_more_repeats_take_longer(head, name):
+def test_more_repeats_take_longer(head: HeadMotion, name: str) -> None:
     once, _ = head(name)
     thrice, _ = head(name, r=3)
     assert thrice.preferred_duration > 2.0 * once.preferred_duration
+    assert once.limits
     assert once.limits[0] < once.preferred_duration < once.limits[1]
 
 
-def test_an_unknown_parameter_has_no_effect(head):
+def test_an_unknown_parameter_has_no_effect(
+    head: HeadMotion,
+) -> None:
     unit, _ = head("nod", priority=3.0)
     assert unit.parameters == {"a": 0.5, "r": 1.0}

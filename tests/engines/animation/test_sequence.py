@@ -7,15 +7,16 @@ import numpy as np
 import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
-from reactive_realizer.embodiment.body import Body
-from reactive_realizer.embodiment.pose import Layer, LayerKind, compose
+from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.embodiment.body import Body, Skeleton
+from reactive_realizer.embodiment.pose import ComposedBody, Layer, LayerKind, compose
 from reactive_realizer.embodiment.quaternion import angle, from_axis_angle
-from reactive_realizer.embodiment.vector import UP
+from reactive_realizer.embodiment.vector import UP, Vec3
 from reactive_realizer.engines.animation.keyframe import bvh_reader
 from reactive_realizer.engines.animation.motion_unit import Moment, MotionPose, MotionUnit, layer_of
 from reactive_realizer.engines.animation.motions.sequence import SequenceMotionUnit, SequencePart
 from reactive_realizer.planunit.parameter import Range
-from reactive_realizer.testing.pilot import open_pilot
+from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 from .capturing import bvh
 
@@ -26,43 +27,57 @@ class Turning(MotionUnit):
     preferred_duration = 1.0
     key_positions = {"start": 0.0, "stroke": 0.5, "end": 1.0}  # noqa: RUF012
 
-    def __init__(self, radians, *joints, kind=LayerKind.GESTURE, root=None, **parameters):
+    def __init__(
+        self,
+        radians: float,
+        *joints: str,
+        kind: LayerKind = LayerKind.GESTURE,
+        root: Vec3 | None = None,
+        **parameters: float,
+    ) -> None:
         self.kind = kind
         self.joints = frozenset(joints)
         self.parameters = parameters
         self.ranges = dict.fromkeys(parameters, Range(0.0, 1.0))
-        self.begun = []
+        self.begun: list[Body] = []
         self._radians, self._root = radians, root
 
-    def start(self, body):
+    def start(self, body: Body) -> None:
         self.begun.append(body)
 
-    def pose(self, moment):
+    def pose(self, moment: Moment) -> MotionPose:
         return MotionPose(
             dict.fromkeys(self.joints, from_axis_angle(UP, self._radians * moment.phase)), root=self._root
         )
 
 
-@pytest.fixture
-def shown(skeleton):
-    """The angle of a joint, rad, at a time, s, of parts over a body whose joints are turned by 0.4 rad."""
+class Shown:
+    """Parts over a body whose joints are turned by 0.4 rad."""
 
-    def angle_of(parts, time, joint="skullbase"):
-        return angle(composed(parts, time).shown.pose[joint])
+    def __init__(self, skeleton: Skeleton) -> None:
+        self.skeleton = skeleton
 
-    def composed(parts, time):
+    def __call__(self, parts: list[SequencePart], time: float, joint: str = "skullbase") -> float:
+        """The angle of a joint, rad, at a time, s."""
+        return angle(self.composed(parts, time).shown.pose[joint])
+
+    def composed(self, parts: list[SequencePart], time: float) -> ComposedBody:
         whole = SequenceMotionUnit(parts, {})
         below = Layer(LayerKind.BASE, dict.fromkeys(("skullbase", "vc4", "vl5"), from_axis_angle(UP, 0.4)))
-        body = Body(skeleton)
+        body = Body(self.skeleton)
         whole.start(body)
-        moment = Moment(time / whole.preferred_duration, time, body)
-        return compose(skeleton, [below, layer_of(whole, moment)])
-
-    angle_of.composed = composed
-    return angle_of
+        moment = Moment(time / whole.preferred_duration, GlobalTime(time), body)
+        return compose(self.skeleton, [below, layer_of(whole, moment)])
 
 
-def test_a_part_is_shifted_to_its_start_and_stretched_to_its_end(shown):
+@pytest.fixture
+def shown(skeleton: Skeleton) -> Shown:
+    return Shown(skeleton)
+
+
+def test_a_part_is_shifted_to_its_start_and_stretched_to_its_end(
+    shown: Shown,
+) -> None:
     parts = [SequencePart(Turning(1.0, "skullbase"), 1.0, 3.0), SequencePart(Turning(1.0, "vl5"), 0.0, 4.0)]
     assert shown(parts, 0.5) == pytest.approx(0.4), "what lies below"
     assert shown(parts, 1.5) == pytest.approx(0.25)
@@ -70,7 +85,9 @@ def test_a_part_is_shifted_to_its_start_and_stretched_to_its_end(shown):
     assert shown(parts, 3.5) == pytest.approx(0.4)
 
 
-def test_a_part_fades_in_and_out_over_the_layers_below(shown):
+def test_a_part_fades_in_and_out_over_the_layers_below(
+    shown: Shown,
+) -> None:
     parts = [SequencePart(Turning(0.0, "skullbase"), 0.0, 2.0, ease_in=1.0, ease_out=0.5)]
     assert shown(parts, 0.0) == pytest.approx(0.4)
     assert shown(parts, 0.5) == pytest.approx(0.2)
@@ -79,7 +96,9 @@ def test_a_part_fades_in_and_out_over_the_layers_below(shown):
     assert shown(parts, 2.0) == pytest.approx(0.4)
 
 
-def test_later_parts_lie_over_earlier_ones_by_their_weights(shown):
+def test_later_parts_lie_over_earlier_ones_by_their_weights(
+    shown: Shown,
+) -> None:
     half = {"ease_in": 1.0}
     low, high = Turning(0.0, "skullbase"), Turning(1.6, "skullbase")
     assert shown([SequencePart(low, 0.0, 1.0), SequencePart(high, 0.0, 1.0, **half)], 0.5) == pytest.approx(0.4)
@@ -88,7 +107,7 @@ def test_later_parts_lie_over_earlier_ones_by_their_weights(shown):
     assert shown(both, 0.5) == pytest.approx(0.5 * 0.8 + 0.25 * 0.0 + 0.25 * 0.4)
 
 
-def test_joints_of_parts_are_weighted_separately(shown):
+def test_joints_of_parts_are_weighted_separately(shown: Shown) -> None:
     parts = [
         SequencePart(Turning(0.0, "skullbase"), 0.0, 1.0),
         SequencePart(Turning(0.0, "vc4"), 0.0, 1.0, ease_in=1.0),
@@ -97,7 +116,7 @@ def test_joints_of_parts_are_weighted_separately(shown):
     assert shown(parts, 0.5, "vc4") == pytest.approx(0.2)
 
 
-def test_additive_parts_add_up(shown):
+def test_additive_parts_add_up(shown: Shown) -> None:
     parts = [
         SequencePart(Turning(0.2, "skullbase", kind=LayerKind.ADDITIVE), 0.0, 1.0),
         SequencePart(Turning(0.4, "skullbase", kind=LayerKind.ADDITIVE), 0.0, 1.0, ease_out=1.0),
@@ -105,7 +124,9 @@ def test_additive_parts_add_up(shown):
     assert shown(parts, 0.5) == pytest.approx(0.4 + 0.1 + 0.1)
 
 
-def test_the_root_is_weighted_with_the_part_that_moves_it(shown):
+def test_the_root_is_weighted_with_the_part_that_moves_it(
+    shown: Shown,
+) -> None:
     parts = [
         SequencePart(Turning(0.0, "skullbase"), 0.0, 1.0),
         SequencePart(Turning(0.0, root=(0.0, -0.2, 0.0)), 0.0, 1.0, ease_in=1.0),
@@ -113,29 +134,29 @@ def test_the_root_is_weighted_with_the_part_that_moves_it(shown):
     assert shown.composed(parts, 0.5).shown.root == pytest.approx((0.0, -0.1, 0.0))
 
 
-def test_each_part_starts_once_from_the_body_at_its_time(skeleton):
+def test_each_part_starts_once_from_the_body_at_its_time(skeleton: Skeleton) -> None:
     first, second = Turning(1.0, "skullbase"), Turning(1.0, "vc4")
     whole = SequenceMotionUnit([SequencePart(first, 0.0, 1.0), SequencePart(second, 1.0, 2.0)], {})
     bodies = [Body(skeleton) for _ in range(5)]
     whole.start(bodies[0])
     for phase, body in zip((0.0, 0.3, 0.6, 0.9), bodies[1:], strict=True):
-        whole.pose(Moment(phase, phase, body))
+        whole.pose(Moment(phase, GlobalTime(phase), body))
     assert [len(part.begun) for part in (first, second)] == [1, 1]
     assert second.begun[0] is bodies[3]
 
 
-def test_a_parameter_with_equal_values_in_all_parts_is_a_parameter_of_the_sequence(skeleton):
+def test_a_parameter_with_equal_values_in_all_parts_is_a_parameter_of_the_sequence(skeleton: Skeleton) -> None:
     first, second = Turning(1.0, "vc4", amount=1.0, a=0.2), Turning(1.0, "vl5", amount=1.0, a=0.3)
     whole = SequenceMotionUnit([SequencePart(first, 0.0, 1.0), SequencePart(second, 0.0, 1.0)], {})
     assert whole.parameters == {"amount": 1.0}
     assert list(whole.ranges) == ["amount"]
     whole.parameters["amount"] = 0.5
-    whole.pose(Moment(0.5, 0.5, Body(skeleton)))
+    whole.pose(Moment(0.5, GlobalTime(0.5), Body(skeleton)))
     assert first.parameters == {"amount": 0.5, "a": 0.2}
     assert second.parameters == {"amount": 0.5, "a": 0.3}
 
 
-def test_a_sequence_has_only_its_named_points_in_order():
+def test_a_sequence_has_only_its_named_points_in_order() -> None:
     keys = SequenceMotionUnit([SequencePart(Turning(1.0, "vc4"), 0.0, 4.0)], {"late": 3.0, "early": 1.0}).key_positions
     assert list(keys.items()) == [("start", 0.0), ("early", 0.25), ("late", 0.75), ("end", 1.0)]
 
@@ -163,7 +184,7 @@ BINDING = """
 """
 
 
-async def perform(folder: Path, sequence: str):
+async def perform(folder: Path, sequence: str) -> RealizerPilot:
     for name, text in {"gesturebinding.xml": BINDING, "lift.xml": LIFT, "two.xml": sequence}.items():
         (folder / name).write_text(text, encoding="utf-8")
     async with open_pilot(SceneOptions(voice="text", assets=(folder,))) as pilot:
@@ -173,7 +194,7 @@ async def perform(folder: Path, sequence: str):
         return pilot
 
 
-async def test_a_sequence_of_a_file_plays_as_one_behavior_with_its_parts_points(tmp_path) -> None:
+async def test_a_sequence_of_a_file_plays_as_one_behavior_with_its_parts_points(tmp_path: Path) -> None:
     pilot = await perform(tmp_path, TWO)
     assert pilot.feedback.warnings == []
     assert pilot.feedback.time("b:g:lifted") == 2.0
@@ -203,13 +224,15 @@ async def test_a_sequence_of_a_file_plays_as_one_behavior_with_its_parts_points(
         (TWO.replace("KeyPosition", "Point"), "known are Motion, KeyPosition"),
     ],
 )
-async def test_an_invalid_sequence_file_is_refused_with_the_reason(sequence, said, tmp_path) -> None:
+async def test_an_invalid_sequence_file_is_refused_with_the_reason(sequence: str, said: str, tmp_path: Path) -> None:
     pilot = await perform(tmp_path, sequence)
     assert [warning for _, warning in pilot.feedback.warnings] == ["CANNOT_CREATE_BEHAVIOR"]
-    assert said in pilot.feedback.of("warningFeedback")[0].element.text
+    assert said in pilot.feedback.of("warningFeedback")[0].text
 
 
-async def test_a_capture_in_a_sequence_is_read_in_another_thread(tmp_path, monkeypatch) -> None:
+async def test_a_capture_in_a_sequence_is_read_in_another_thread(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     reads = []
 
     def read_bytes(path: Path) -> bytes:
@@ -225,13 +248,11 @@ async def test_a_capture_in_a_sequence_is_read_in_another_thread(tmp_path, monke
     assert [thread is threading.main_thread() for thread in reads] == [False]
 
 
-async def test_exponentially_nested_files_are_refused(tmp_path) -> None:
+async def test_exponentially_nested_files_are_refused(tmp_path: Path) -> None:
     for i in range(12):
         inner = f'type="Sequence" file="s{i + 1}.xml"' if i < 11 else 'type="ProcAnimation" file="lift.xml"'
         part = f'<Motion {inner} start="0"/>'
         (tmp_path / f"s{i}.xml").write_text(f"<Sequence>{part}{part}</Sequence>")
     outer = '<Sequence><Motion type="Sequence" file="s0.xml" start="0"/></Sequence>'
     pilot = await perform(tmp_path, outer)
-    assert "a sequence, with nested ones, has more than 100 parts" in str(
-        pilot.feedback.of("warningFeedback")[0].element.text
-    )
+    assert "a sequence, with nested ones, has more than 100 parts" in str(pilot.feedback.of("warningFeedback")[0].text)

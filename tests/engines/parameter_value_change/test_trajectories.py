@@ -14,13 +14,13 @@ def test_the_built_in_ones_stand_in_the_group_of_plug_ins() -> None:
 
 
 @pytest.mark.parametrize("name", BUILT_IN)
-def test_each_has_come_to_its_end_after_all_of_its_time(name) -> None:
+def test_each_has_come_to_its_end_after_all_of_its_time(name: str) -> None:
     assert load("trajectories", name)(1.0) == 1.0
 
 
 @pytest.mark.parametrize("name", BUILT_IN)
 @given(early=st.floats(0, 1), late=st.floats(0, 1))
-def test_each_stays_between_its_ends_and_never_turns_back(name, early, late) -> None:
+def test_each_stays_between_its_ends_and_never_turns_back(name: str, early: float, late: float) -> None:
     trajectory = load("trajectories", name)
     early, late = sorted((early, late))
     assert 0.0 <= trajectory(early) <= trajectory(late) + 1e-15 <= 1.0 + 1e-15
