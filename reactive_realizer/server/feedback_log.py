@@ -6,9 +6,11 @@ from dataclasses import dataclass
 from lxml import etree
 
 from reactive_realizer.bml.names import BML, BMLA
+from reactive_realizer.errors import RealizerError
 from reactive_realizer.feedback.feedback_manager import Report
 from reactive_realizer.limits import Limits
-from reactive_realizer.server.protocol import encode
+from reactive_realizer.server.faults import FeedbackGone
+from reactive_realizer.server.protocol import encode, refused
 from reactive_realizer.server.subscribers import Subscribers
 
 etree.register_namespace("bmla", BMLA)  # the prefix that lxml makes up if the document declares none
@@ -81,9 +83,14 @@ class FeedbackLog:
         """The messages after a number that are still kept."""
         return [entry for entry in self._kept if entry.seq > seq]
 
+    def gap(self, seq: int) -> str | None:
+        """The error message for a client that resumes after a number; None if no message after it is forgotten."""
+        forgotten = self.forgotten
+        return None if seq >= forgotten else encode(refused(RealizerError(FeedbackGone(seq=forgotten))))
+
     @property
     def forgotten(self) -> int:
-        """Number of the last message that is not kept any more; 0 if all are."""
+        """Number of the last message that is no longer kept; 0 if all are."""
         return self._kept[0].seq - 1 if self._kept else self.seq
 
     def _keep(self, entry: Entry) -> None:

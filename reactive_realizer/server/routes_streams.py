@@ -5,12 +5,9 @@ from contextlib import ExitStack
 
 from aiohttp import web
 
-from reactive_realizer.errors import RealizerError
 from reactive_realizer.server.client_limits import ClientQueue
-from reactive_realizer.server.faults import FeedbackGone
 from reactive_realizer.server.feedback_log import Entry, FeedbackLog
 from reactive_realizer.server.keys import INTAKE, LIVE, SHUTDOWN
-from reactive_realizer.server.protocol import encode, refused
 from reactive_realizer.server.socket_client import SocketClient, Stream, after_of, streams_of
 
 _HEARTBEAT = 30.0
@@ -70,9 +67,8 @@ async def feedback(request: web.Request) -> web.StreamResponse:
 def _missed(log: FeedbackLog, after: int | None) -> list[str]:
     if after is None:
         return []
-    gone = encode(refused(RealizerError(FeedbackGone(seq=log.forgotten))))
-    gap = [f"event: gone\ndata: {gone}\n\n"] if after < log.forgotten else []
-    return gap + [_event(entry) for entry in log.after(after)]
+    gap = log.gap(after)
+    return [*([] if gap is None else [f"event: gone\ndata: {gap}\n\n"]), *map(_event, log.after(after))]
 
 
 def _event(entry: Entry) -> str:

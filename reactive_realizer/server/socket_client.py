@@ -10,7 +10,7 @@ from aiohttp import WSMessage, WSMsgType, web
 
 from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.server.client_limits import ClientQueue, RateLimit
-from reactive_realizer.server.faults import BadQuery, BinaryMessage, FeedbackGone, GoingAway, TooManyMessages, TooSlow
+from reactive_realizer.server.faults import BadQuery, BinaryMessage, GoingAway, TooManyMessages, TooSlow
 from reactive_realizer.server.intake import BlocksRefused, Intake
 from reactive_realizer.server.live_scene import LiveScene
 from reactive_realizer.server.protocol import Message, NoNumber, accepted, check, decode, encode, ref_of, refused
@@ -119,8 +119,8 @@ class SocketClient:
         log = self._live.feedback
         if after is None or Stream.FEEDBACK not in self._streams:
             return []
-        gap = [encode(refused(RealizerError(FeedbackGone(seq=log.forgotten))))] if after < log.forgotten else []
-        return gap + [entry.text for entry in log.after(after)]
+        gap = log.gap(after)
+        return [*([] if gap is None else [gap]), *(entry.text for entry in log.after(after))]
 
     def _follow(self, stack: ExitStack) -> None:
         if Stream.FEEDBACK in self._streams:
