@@ -1,6 +1,7 @@
 """SmartBody's scheduling with Elckerlyc's sorting (thesis 7.2.2, 7.3.5)."""
 
-from collections.abc import Mapping
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
 from math import isfinite
 
 from reactive_realizer.errors import Fault, RealizerError
@@ -8,35 +9,24 @@ from reactive_realizer.planunit.timing import SHORTEST
 from reactive_realizer.scheduler.faults import AllPast, BeforeBlock, ContradictoryTie, NoOrder, OuterTie, Rigid
 from reactive_realizer.scheduler.losses import lost_behavior, lost_constraint, with_required
 from reactive_realizer.scheduler.offset_union_find import TIE_TOLERANCE, OffsetUnionFind
-from reactive_realizer.scheduler.problem import (
-    Item,
-    Loss,
-    Node,
-    Origin,
-    Point,
-    Precedence,
-    SchedulingProblem,
-    Solution,
-    Tie,
-)
+from reactive_realizer.scheduler.problem import Item, Loss, Node, Origin, Point, SchedulingProblem, Solution, Tie
 from reactive_realizer.scheduler.smartbody.placement import Cluster, Fixed, Placement, check_given, check_playable, fill
-from reactive_realizer.scheduler.smartbody.sorting import sort_items
 
 _SAME = 1e-3
-"""Times closer than this (s) are no contradiction for a rigid behavior."""
+"""A rigid behavior may miss a time by less (s)."""
 
 
 class SmartBodyStrategy:
-    """Behaviors one by one, each tied to those already placed; at last free clusters are moved to the block start.
+    """Places behaviors one by one, each by its ties to earlier ones; then moves free clusters to the block's start.
 
-    It keeps no before/after constraints, and what it can place depends on the order of the behaviors (thesis 7.1.6):
-    it is the reference that better strategies are measured by.
+    It keeps no before/after constraints, and its plans depend on the order of the behaviors (thesis 7.1.6). It is the
+    reference for better strategies.
     """
 
     name = "smartbody"
 
     def solve(self, problem: SchedulingProblem) -> Solution:
-        """See `SchedulingStrategy`; the rest of what is lost is placed once more, as if that had never been."""
+        """See `SchedulingStrategy`; after a loss, the rest is placed again without it."""
         left, lost = problem, list[Loss]()
         while (solution := _Run(left).solve()).losses:
             lost += [with_required(loss, problem) for loss in solution.losses]
@@ -61,34 +51,45 @@ class _Run:
     def solve(self) -> Solution:
         for tie in self._problem.ties:
             self._tie(tie)
-        self._losses += [_unkept(order) for order in self._problem.orders]
-        for item in sort_items(self._problem, self._ties):
+        for order in self._problem.orders:
+            self._losses.append(lost_constraint(order, NoOrder(strategy=SmartBodyStrategy.name, text=order.text)))
+        for item in _sorted(self._problem, self._ties):
             try:
                 self._place(item)
             except RealizerError as problem:
                 self._losses.append(lost_behavior(item.behavior, problem.fault))
         earliest = self._earliest()
-        self._drop_past()
+        for item in self._problem.items:
+            fault = self._past(self._placed.get(item.behavior.id, ()))
+            if fault is not None:
+                del self._placed[item.behavior.id]
+                self._losses.append(lost_behavior(item.behavior, fault))
         times = {
-            Point(item.behavior.id, sync): placed.time - earliest.get(self._cluster(placed), 0.0)
-            for item in self._kept()
-            for sync, placed in zip(item.timing.points, self._placed[item.behavior.id], strict=True)
+            point: placed.time - earliest.get(self._cluster(placed), 0.0)
+            for item in self._problem.items
+            if item.behavior.id in self._placed
+            for point, placed in zip(_points(item), self._placed[item.behavior.id], strict=True)
         }
         return Solution(times, tuple(self._losses))
 
     def _tie(self, tie: Tie) -> None:
         gap = self._ties.union(tie.left, tie.right, tie.offset)
         if gap is None:
-            self._tied |= {*tie.nodes}
+            self._tied.update(tie.nodes)
         elif abs(gap) > TIE_TOLERANCE:
             contradiction = ContradictoryTie(tie=tie.text, gap=abs(gap))
             self._losses.append(lost_constraint(tie, contradiction if isfinite(gap) else OuterTie(tie=tie.text)))
 
     def _place(self, item: Item) -> None:
-        """Find the place of every point; those of earlier behaviors stand."""
-        tied = self._with_own_ties(item, self._known(item) or self._anchor(item))
+        """Place every point of a behavior; the placements of earlier behaviors stay."""
+        points = _points(item)
+        tied = self._known(item, points)
+        if not tied:  # it begins a cluster with its first tied point, or its start
+            first = next((i for i, point in enumerate(points) if point in self._tied), 0)
+            tied = {first: Placement(item.timing.offsets[first], known=True, cluster=item.behavior.id)}
+        tied = self._with_own_ties(item, points, tied)
         if item.timing.rigid:
-            tied = self._met(item, tied)
+            tied = self._met(item, points, tied)
         first = min(tied)
         known = self._not_before_the_block(item, {first: tied[first]} if item.timing.rigid else tied)
         check_given(item, known)
@@ -96,80 +97,82 @@ class _Run:
         if item.timing.rigid:  # it stays in one piece when its start has passed
             placed = fill(item, {0: placed[0]})
         check_playable(item, placed)
-        first_cluster, *others = [placed.cluster for placed in (*tied.values(), *known.values())]
-        for cluster in others:
-            self._clusters.union(first_cluster, cluster)
-        self._accept(item, placed)
+        cluster, *others = [placed.cluster for placed in (*tied.values(), *known.values())]
+        for other in others:
+            self._clusters.union(cluster, other)
+        self._placed[item.behavior.id] = placed
+        for point, placement in zip(points, placed, strict=True):
+            root, distance = self._ties.find(point)
+            if isinstance(root, Point):
+                # The first one counts: a rigid behavior may have missed its place, which is no measure for others.
+                self._roots.setdefault(root, (placement, distance))
 
-    def _known(self, item: Item) -> dict[int, Placement]:
-        """The points whose places follow from ties to what stands already, by index."""
-        nodes = [Point(item.behavior.id, sync) for sync in item.timing.points]
-        known = {i: placed for i, node in enumerate(nodes) if (placed := self._at(node)) is not None}
-        for i, node in enumerate(nodes):
-            root, distance = self._ties.find(node)
+    def _known(self, item: Item, points: Sequence[Point]) -> dict[int, Placement]:
+        """The points that are tied to placed or given ones, by index."""
+        known = self._all_at(points)
+        for i, point in enumerate(points):
+            root, distance = self._ties.find(point)
             if i not in known and root in self._given:
                 suits = fill(item, known)[i].time if known else item.timing.offsets[i]
-                self._roots[root] = (
-                    Placement(suits, known=False, cluster=Fixed.OUTSIDE, outer=frozenset([root])),
-                    distance,
-                )
-                known = {k: placed for k, node in enumerate(nodes) if (placed := self._at(node)) is not None}
+                self._roots[root] = Placement(suits, False, Fixed.OUTSIDE, frozenset([root])), distance
+                known = self._all_at(points)
         return known
 
-    def _at(self, node: Node) -> Placement | None:
-        """The place of a node, at its distance from the root of what it is tied to; None while nothing is there."""
-        root, distance = self._ties.find(node)
+    def _all_at(self, points: Sequence[Point]) -> dict[int, Placement]:
+        return {i: placed for i, point in enumerate(points) if (placed := self._at(point)) is not None}
+
+    def _at(self, point: Point) -> Placement | None:
+        """The placement of a point by the root of its ties; None while that has none."""
+        root, distance = self._ties.find(point)
         if root not in self._roots and (time := self._given.get(root)) is not None:
-            self._roots[root] = Placement(time, known=True, cluster=Fixed.OUTSIDE, outer=frozenset([root])), 0.0
+            self._roots[root] = Placement(time, True, Fixed.OUTSIDE, frozenset([root])), 0.0
         if root not in self._roots:
             return None
         placed, at = self._roots[root]
         return placed.moved(distance - at)
 
-    def _anchor(self, item: Item) -> dict[int, Placement]:
-        """A behavior that hangs on nothing yet begins a cluster with its first tied point, or its start."""
-        nodes = [Point(item.behavior.id, sync) for sync in item.timing.points]
-        index = next((i for i, node in enumerate(nodes) if node in self._tied), 0)
-        return {index: Placement(item.timing.offsets[index], known=True, cluster=item.behavior.id)}
-
-    def _with_own_ties(self, item: Item, known: dict[int, Placement]) -> dict[int, Placement]:
-        """Points that only the behavior itself ties to each other: the first stays where it would be, others follow."""
+    def _with_own_ties(self, item: Item, points: Sequence[Point], known: dict[int, Placement]) -> dict[int, Placement]:
+        """Also the points that the behavior ties to each other: the first one has its place, the others follow it."""
         leaders: dict[Node, tuple[int, float]] = {}
-        for i, sync in enumerate(item.timing.points):
-            root, distance = self._ties.find(Point(item.behavior.id, sync))
+        for i, point in enumerate(points):
+            root, distance = self._ties.find(point)
             leader, at = leaders.setdefault(root, (i, distance))
             if i not in known and leader != i:
                 first = known.get(leader) or fill(item, known)[leader]
                 known = {**known, leader: first, i: first.moved(distance - at)}
         return known
 
-    def _met(self, item: Item, known: Mapping[int, Placement]) -> dict[int, Placement]:
-        """The first point places a rigid behavior; a tie of another one that it cannot meet is lost: rigid wins."""
-        met = {}
+    def _met(self, item: Item, points: Sequence[Point], known: Mapping[int, Placement]) -> dict[int, Placement]:
+        """The points that a rigid behavior placed by its first one meets; the ties of the others are lost."""
+        met, first = {}, min(known)
         for i, placed in sorted(known.items()):
-            gap = self._gap(item, known, i)
-            if gap is None or abs(gap) > _SAME:
-                self._lose_ties(item, i, gap)
-            else:
+            gap = self._gap(item, points, known, first, i)
+            if gap is not None and abs(gap) <= _SAME:
                 met[i] = placed
+                continue
+            lost = [loss.constraint for loss in self._losses]
+            for tie in (tie for tie in self._problem.ties if points[i] in tie.nodes and tie not in lost):
+                rigid = Rigid(tie=tie.text, point=":".join(points[i]), gap=abs(gap or 0.0))
+                place, fault = item.behavior.location, OuterTie(tie=tie.text) if gap is None else rigid
+                located = fault.located(place.line, place.column)
+                self._losses.append(Loss(item.behavior.id, located, False, tie.required, tie))
         return met
 
-    def _gap(self, item: Item, known: Mapping[int, Placement], index: int) -> float | None:
-        """By how much (s) a rigid behavior placed by its first known point misses another; None if nobody knows yet."""
-        first = min(known)
+    def _gap(
+        self, item: Item, points: Sequence[Point], known: Mapping[int, Placement], first: int, index: int
+    ) -> float | None:
+        """By how much (s) a rigid behavior that is placed by one point misses another; None if it is unknown."""
         preferred = item.timing.offsets[index] - item.timing.offsets[first]
         before, after = known[first], known[index]
         if before.known and after.known:
             return after.time - before.time - preferred
-        (root, here), (other, there) = (
-            self._ties.find(Point(item.behavior.id, item.timing.points[i])) for i in (first, index)
-        )
+        (root, here), (other, there) = self._ties.find(points[first]), self._ties.find(points[index])
         return there - here - preferred if root == other else None
 
     def _not_before_the_block(self, item: Item, known: dict[int, Placement]) -> dict[int, Placement]:
-        """A start before its block (thesis 7.13) is tied to the block's: the way to the first given point shortens.
+        """Have a behavior that would start before its block start with it, by shortening its first phases (7.13).
 
-        That binds neither free clusters, which are moved later, nor what hangs on an outer time that has passed.
+        This does not concern clusters that are moved later, and behaviors that join a past time from outside.
         """
         first = min((i for i, placed in known.items() if placed.known), default=None)
         if first is None:
@@ -183,7 +186,7 @@ class _Run:
         return {0: self._start, **known}
 
     def _joins_late(self, given: Placement) -> bool:
-        """Whether an outer time that it hangs on is before the block, or brings a point there that is tied to it."""
+        """Whether a time from outside on which a point depends, or a point tied to such a time, is before the block."""
         for tie in self._problem.ties if given.cluster is Fixed.OUTSIDE else ():
             for node in given.outer.intersection(tie.nodes):
                 time, offset = self._given[node], tie.offset if tie.right == node else -tie.offset
@@ -195,59 +198,56 @@ class _Run:
         return self._clusters.find(placed.cluster)[0]
 
     def _is_free(self, placed: Placement) -> bool:
-        """Whether its cluster is tied to nothing fixed, and is moved at last."""
+        """Whether its cluster is tied to nothing fixed, and will be moved."""
         return isinstance(self._cluster(placed), str)
 
-    def _accept(self, item: Item, placed: list[Placement]) -> None:
-        self._placed[item.behavior.id] = placed
-        for sync, point in zip(item.timing.points, placed, strict=True):
-            root, distance = self._ties.find(Point(item.behavior.id, sync))
-            if isinstance(root, Point):
-                # The first one leads: a point that a rigid behavior could not bring there is no measure for others.
-                self._roots.setdefault(root, (point, distance))
-
     def _earliest(self) -> dict[Cluster, float]:
-        """By how much (s) each free cluster is moved back so that it starts with the block (thesis 7.24)."""
+        """By how much (s) each free cluster is moved so that it starts with the block (thesis 7.24)."""
         earliest: dict[Cluster, float] = {}
         for placed in (placed for points in self._placed.values() for placed in points if self._is_free(placed)):
             cluster = self._cluster(placed)
             earliest[cluster] = min(earliest.get(cluster, placed.time), placed.time)
         return earliest
 
-    def _drop_past(self) -> None:
-        """A later behavior may have tied a cluster to something fixed while it lay before the block."""
-        for item in self._kept():
-            points = self._placed[item.behavior.id]
-            past = [placed for placed in points if self._is_past(placed)]
-            early = next((placed for placed in past if placed.cluster is not Fixed.OUTSIDE), None)
-            if early is not None:
-                self._remove(item, BeforeBlock(early=-early.time))
-            elif self._is_past(points[-1]):
-                self._remove(item, AllPast(late=-points[-1].time))
-
-    def _is_past(self, placed: Placement) -> bool:
-        return placed.known and placed.time < -SHORTEST and not self._is_free(placed)
-
-    def _remove(self, item: Item, fault: Fault) -> None:
-        del self._placed[item.behavior.id]
-        self._losses.append(lost_behavior(item.behavior, fault))
-
-    def _lose_ties(self, item: Item, index: int, gap: float | None) -> None:
-        """A point of a rigid behavior is not where its ties want it: so far (s) away, or nobody knows how far."""
-        point, place = Point(item.behavior.id, item.timing.points[index]), item.behavior.location
-        lost = [loss.constraint for loss in self._losses]
-        for tie in self._problem.ties:
-            if point in tie.nodes and tie not in lost:
-                rigid = Rigid(tie=tie.text, point=":".join(point), gap=abs(gap or 0.0))
-                fault = OuterTie(tie=tie.text) if gap is None else rigid
-                located = fault.located(place.line, place.column)
-                self._losses.append(
-                    Loss(item.behavior.id, located, dropped=False, required=tie.required, constraint=tie)
-                )
-
-    def _kept(self) -> list[Item]:
-        return [item for item in self._problem.items if item.behavior.id in self._placed]
+    def _past(self, placed: Sequence[Placement]) -> Fault | None:
+        """The fault of a behavior before its block, whose cluster a later behavior has tied to something fixed."""
+        past = [each for each in placed if each.known and each.time < -SHORTEST and not self._is_free(each)]
+        early = next((each for each in past if each.cluster is not Fixed.OUTSIDE), None)
+        if early is not None:
+            return BeforeBlock(early=-early.time)
+        return AllPast(late=-past[-1].time) if past and past[-1] is placed[-1] else None
 
 
-def _unkept(order: Precedence) -> Loss:
-    return lost_constraint(order, NoOrder(strategy=SmartBodyStrategy.name, text=order.text))
+def _sorted(problem: SchedulingProblem, ties: OffsetUnionFind[Node]) -> list[Item]:
+    """The order of scheduling (thesis 7.3.5): rigid behaviors whose time is given, then all others.
+
+    Among these, a rigid behavior comes before the behaviors with which it is in a cycle of ties.
+    Otherwise, behaviors stay in document order. (The thesis's third group, completely flexible behaviors,
+    follows with the first behavior of that kind.)
+    """
+    rigid = [item for item in problem.items if item.timing.rigid]
+    grounded = [item for item in rigid if any(not isinstance(ties.find(node)[0], Point) for node in _points(item))]
+    order = [item for item in problem.items if item not in grounded]
+    flexible = {item.behavior.id for item in problem.items if not item.timing.rigid}
+    pairs = [tie.nodes for tie in problem.ties]
+    links = [(one, other) for one, other in pairs if isinstance(one, Point) and isinstance(other, Point)]
+    groups = OffsetUnionFind[str]()
+    for one, other in links:
+        if {one.behavior, other.behavior} <= flexible:
+            groups.union(one.behavior, other.behavior)
+    for item in [item for item in order if item.timing.rigid]:
+        touched: defaultdict[str, set[str]] = defaultdict(set)
+        for here, there in [*links, *((other, one) for one, other in links)]:
+            if here.behavior == item.behavior.id and there.behavior in flexible:
+                touched[groups.find(there.behavior)[0]].add(here.sync)
+        cycles = {group for group, points in touched.items() if len(points) > 1}
+        ahead = order[: order.index(item)]
+        place = next((i for i, each in enumerate(ahead) if groups.find(each.behavior.id)[0] in cycles), None)
+        if place is not None:
+            order.remove(item)
+            order.insert(place, item)
+    return grounded + order
+
+
+def _points(item: Item) -> list[Point]:
+    return [Point(item.behavior.id, sync) for sync in item.timing.points]
