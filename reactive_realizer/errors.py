@@ -52,7 +52,7 @@ class Fault(_Kind):
 
     Attributes:
         code: the name of the kind. Programs rely on it, so it never changes.
-        template: the sentence for people. Fields stand in braces; tuples are listed.
+        template: the sentence for people. Fields are in braces; tuples are listed.
         warning: the type of the warningFeedback that reports it; None if feedback does not.
         line: 1-based line of the element in its document; None without a document.
         column: 1-based column of the start tag of the element.

@@ -172,7 +172,7 @@ class CompositionValue:
     """The value of a ``composition`` attribute.
 
     Attributes:
-        composition: its word; MERGE where the attribute lists blocks instead.
+        composition: its word; MERGE if the attribute lists blocks instead.
         append_after: ids of the blocks that end before this one starts.
         chunk_after: ids of the blocks that subside before this one starts.
     """

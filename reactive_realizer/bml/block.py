@@ -158,7 +158,7 @@ class Problem:
 
     Attributes:
         fault: the reason and the place; the type of its warning is ``fault.warning``.
-        id: of the block, ``block:behavior``, or "bml" where no id could be read.
+        id: of the block, ``block:behavior``, or "bml" if no id could be read.
     """
 
     fault: Fault

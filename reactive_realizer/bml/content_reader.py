@@ -17,7 +17,7 @@ _REQUIRED: Final = "required"
 _CONSTRAINT: Final = "constraint"
 _SYNCHRONIZE: Final = "synchronize"
 _CONSTRAINTS: Final = (_SYNCHRONIZE, *OrderKind)
-"""The elements that may stand in a ``<constraint>``."""
+"""The elements that a ``<constraint>`` may contain."""
 
 
 class ContentReader:

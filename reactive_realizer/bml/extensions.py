@@ -79,7 +79,7 @@ class ParameterValueChange(Behavior):
     The parameter reaches its target value at the end, which BMLT also calls stroke.
 
     Attributes:
-        target: id of the behavior, after the id of its block where that is another block: ``b1:speech1``.
+        target: id of the behavior, after the id of its block if that is another block: ``b1:speech1``.
         parameter: name of the parameter, such as volume.
         trajectory: the course of its values.
     """

@@ -37,7 +37,7 @@ def name_of(tree: Tree) -> str:
 
 
 def namespace_of(tree: Tree) -> str:
-    """Its namespace, empty where there is none."""
+    """Its namespace; empty if there is none."""
     return tree.tag[1:].rpartition("}")[0]
 
 
@@ -54,7 +54,7 @@ def is_continuous(tree: Tree) -> bool:
 def is_part(child: Tree, tree: Tree) -> bool:
     """Whether a child is in the language of its parent: BML 1.0, or continuous interaction if its parent is.
 
-    A parameter is in BMLT, and may stand in any behavior.
+    A parameter is in BMLT, and any behavior may contain it.
     """
     if name_of(child) == PARAMETER:
         return is_continuous(child) or is_continuous(tree)

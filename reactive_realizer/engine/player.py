@@ -49,7 +49,7 @@ class Player:
         self._units.append(unit)
 
     def remove(self, unit: PlanUnit) -> None:
-        """Take a unit out of the plan, if it is there."""
+        """Remove a unit from the plan, if it is in the plan."""
         if unit in self._units:
             self._units.remove(unit)
             self._note_end(unit)

@@ -37,7 +37,7 @@ class Recorder:
     """Records the inputs of a realizer, tick by tick, before they have any effect.
 
     So even a killed session can be replayed up to its last tick. If the file cannot be written any
-    more, recording ends, and the session goes on.
+    more, recording ends, and the session continues.
 
     Args:
         stream: the open file.

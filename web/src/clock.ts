@@ -95,7 +95,7 @@ export class Pings {
 /**
  * The realizer time that is shown and heard now.
  *
- * It follows a master: the audio clock while speech plays, else the server's clock less the playout delay. It glides
+ * It follows a master: the audio clock while speech plays, otherwise the server's clock less the playout delay. It glides
  * towards its master, so that neither corrections nor the coarse steps of the audio clock make motion jerk.
  */
 export class PlayoutClock {

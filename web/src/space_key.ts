@@ -34,7 +34,7 @@ export class SpaceKey {
 
   private press(event: KeyEvent): void {
     if (event.code !== "Space" || !this.idle()) return;
-    event.preventDefault(); // else the page scrolls
+    event.preventDefault(); // otherwise, the page scrolls
     if (event.repeat || this.down) return;
     this.down = true;
     this.onMove("press");

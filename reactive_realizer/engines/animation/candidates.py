@@ -61,7 +61,7 @@ class Candidates:
 
 
 def select(candidates: Iterable[Candidate], taken: frozenset[str], time: float | None) -> Candidate:
-    """Select the candidate to play: the first free one that has enough time, else the shortest free one.
+    """Select the candidate to play: the first free one that has enough time, or else the shortest free one.
 
     Thesis 8.17 names both as uses of a binding with several motions for one behavior.
 

@@ -121,7 +121,7 @@ _SIDES: Mapping[str, str] = {Mode.LEFT_HAND: "l", Mode.RIGHT_HAND: "r", Mode.BOT
 class PointingMaker:
     """Makes pointing gestures at targets of the world.
 
-    The behavior's mode chooses the hand, else the binding's parameter ``hand`` with the same values, else the position
+    The behavior's mode chooses the hand, or the binding's parameter ``hand`` with the same values, or the position
     of the target: the hand on that side if it can point there, otherwise the other one.
     """
 
