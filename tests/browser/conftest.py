@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import pytest
+import pytest_asyncio
 from aiohttp import web
 from playwright.async_api import Browser, Page, ViewportSize, async_playwright
 
@@ -23,19 +24,21 @@ SMALL: ViewportSize = {"width": 900, "height": 500}
 
 
 @dataclass
-class Theater:
-    """A live scene, and a browser to see it in."""
+class ServedScene:
+    """A live scene that is served, and a browser to open it in."""
 
     live: LiveScene
     address: str
     browser: Browser
-    complaints: list[str] = field(default_factory=list)
+    pages: list[Page] = field(default_factory=list)
+    errors: list[str] = field(default_factory=list)
 
     async def open(self, query: str = "?quality=low") -> Page:
-        """A page that shows every character; what it complains of is kept."""
+        """A page that shows every character; errors of the page are kept."""
         page = await self.browser.new_page(viewport=SMALL)
-        page.on("pageerror", lambda problem: self.complaints.append(str(problem)))
-        page.on("console", lambda said: self.complaints.append(said.text) if said.type == "error" else None)
+        self.pages.append(page)
+        page.on("pageerror", lambda error: self.errors.append(str(error)))
+        page.on("console", lambda message: self.errors.append(message.text) if message.type == "error" else None)
         await page.goto(self.address + query)
         everybody = [(id_, "Hips") for id_ in self.live.realizer.characters]
         await page.wait_for_function(
@@ -45,27 +48,35 @@ class Theater:
         return page
 
 
-Open = Callable[..., AbstractAsyncContextManager[Theater]]
+Serve = Callable[..., AbstractAsyncContextManager[ServedScene]]
+
+
+@pytest_asyncio.fixture(scope="module", loop_scope="module")
+async def browser(chromium: str) -> AsyncIterator[Browser]:
+    """One Chromium for all tests of a module: to start it takes longer than most of them."""
+    async with async_playwright() as playwright:
+        browser = await playwright.chromium.launch(executable_path=chromium, args=[*FLAGS, WITH_SOUND])
+        yield browser
+        await browser.close()
 
 
 @pytest.fixture
-def theater(chromium: str, tmp_path: Path) -> Open:
-    """Puts the scene of a human file on the air, and a browser before it."""
+def serve(browser: Browser, tmp_path: Path) -> Serve:
+    """Serves the scene of a human file."""
 
     @asynccontextmanager
-    async def open_(human: str, voice: str = "text") -> AsyncIterator[Theater]:
+    async def open_(human: str, voice: str = "text") -> AsyncIterator[ServedScene]:
         file = tmp_path / "human.toml"
         file.write_text(human, encoding="utf-8")
         async with (
             open_scene(SceneOptions(file, voice)) as scene,
             served(LiveScene(scene, SystemClock())) as (live, address),
-            async_playwright() as playwright,
         ):
-            browser = await playwright.chromium.launch(executable_path=chromium, args=[*FLAGS, WITH_SOUND])
-            stage = Theater(live, address, browser)
-            yield stage
-            await browser.close()
-            assert not stage.complaints
+            served_scene = ServedScene(live, address, browser)
+            yield served_scene
+            for page in served_scene.pages:
+                await page.close()
+            assert not served_scene.errors
 
     return open_
 

@@ -1,13 +1,13 @@
-"""The page as somebody at a browser sees it."""
+"""The page in a browser."""
 
 import pytest
 from playwright.async_api import Page, expect
 
 from anticipators.metronome import Metronome
 
-from .conftest import Open
+from .conftest import Serve
 
-pytestmark = [pytest.mark.browser, pytest.mark.timeout(120)]
+pytestmark = [pytest.mark.browser, pytest.mark.timeout(120), pytest.mark.asyncio(loop_scope="module")]
 
 BML = 'xmlns="http://www.bml-initiative.org/bml/bml-1.0"'
 ALICE = '[character.alice]\nvoice = "en-us+f3"\n[anticipator.metronome]\nkind = "metronome"\n'
@@ -21,9 +21,9 @@ async def send(page: Page, xml: str) -> None:
     await expect(page.locator("#bml-answer")).to_have_text("Accepted")
 
 
-async def test_the_page_loads_shows_a_figure_and_runs_nothing_that_is_not_from_here(theater: Open) -> None:
-    async with theater(ALICE) as stage:
-        page = await stage.open()
+async def test_the_page_shows_a_figure_and_loads_nothing_from_elsewhere(serve: Serve) -> None:
+    async with serve(ALICE) as scene:
+        page = await scene.open()
         hips = await page.evaluate("viewer.bone('alice', 'Hips')")
         assert hips == pytest.approx([0, 0.95, 0], abs=0.1)
         head, foot = [await page.evaluate(f"viewer.bone('alice', '{bone}')[1]") for bone in ("Head", "LeftFoot")]
@@ -31,15 +31,15 @@ async def test_the_page_loads_shows_a_figure_and_runs_nothing_that_is_not_from_h
         assert foot < 0.2
 
 
-async def test_it_shows_the_figure_in_full_quality_too(theater: Open) -> None:
-    async with theater(ALICE) as stage:
-        page = await stage.open("")
+async def test_it_shows_the_figure_in_full_quality_too(serve: Serve) -> None:
+    async with serve(ALICE) as scene:
+        page = await scene.open("")
         assert await page.evaluate("viewer.quality") == "normal"
 
 
-async def test_bml_that_is_sent_from_the_page_moves_the_arm_and_its_feedback_appears(theater: Open) -> None:
-    async with theater(ALICE) as stage:
-        page = await stage.open()
+async def test_bml_that_is_sent_from_the_page_moves_the_arm_and_its_feedback_appears(serve: Serve) -> None:
+    async with serve(ALICE) as scene:
+        page = await scene.open()
         before = await page.evaluate("viewer.bone('alice', 'RightHand')")
         await send(page, GESTURE)
         await page.wait_for_function(
@@ -48,9 +48,9 @@ async def test_bml_that_is_sent_from_the_page_moves_the_arm_and_its_feedback_app
         await expect(page.locator("#feedback")).to_contain_text("hand:g:stroke")
 
 
-async def test_bml_that_is_wrong_is_answered_in_the_page_as_text(theater: Open) -> None:
-    async with theater(ALICE) as stage:
-        page = await stage.open()
+async def test_bml_that_is_wrong_is_answered_in_the_page_as_text(serve: Serve) -> None:
+    async with serve(ALICE) as scene:
+        page = await scene.open()
         await page.fill("#bml-text", f'<bml {BML} id="b"><img src="x" onerror="alert(1)"')
         await page.click("#bml-form button[type=submit]")
         await expect(page.locator("#bml-answer")).to_contain_text("line 1")
@@ -58,9 +58,9 @@ async def test_bml_that_is_wrong_is_answered_in_the_page_as_text(theater: Open) 
 
 
 @pytest.mark.speech
-async def test_speech_sounds_and_moves_the_mouth(theater: Open) -> None:
-    async with theater(ALICE, voice="espeak") as stage:
-        page = await stage.open()
+async def test_speech_sounds_and_moves_the_mouth(serve: Serve) -> None:
+    async with serve(ALICE, voice="espeak") as scene:
+        page = await scene.open()
         text = "Round the rugged rock the ragged rascal ran, and on he went for ever."
         await send(page, f'<bml {BML} id="say"><speech id="s" start="1"><text>{text}</text></speech></bml>')
         await page.wait_for_function("() => viewer.speech.some(clip => clip.begin !== null)")
@@ -70,22 +70,22 @@ async def test_speech_sounds_and_moves_the_mouth(theater: Open) -> None:
 
 
 @pytest.mark.speech
-async def test_a_page_that_joins_late_shows_and_hears_what_is_going_on(theater: Open) -> None:
-    async with theater(TWO, voice="espeak") as stage:
-        first = await stage.open()
+async def test_a_page_that_is_opened_late_plays_the_speech_from_its_current_position(serve: Serve) -> None:
+    async with serve(TWO, voice="espeak") as scene:
+        first = await scene.open()
         text = "This is a long story about a patient speaker. " * 8
         await send(first, f'<bml {BML} id="say"><speech id="s"><text>{text}</text></speech></bml>')
         await first.wait_for_function("() => viewer.speech.some(clip => clip.begin !== null)")
-        late = await stage.open()
+        late = await scene.open()
         await late.wait_for_function("() => viewer.speech.some(clip => clip.begin !== null)")
         starts = [await page.evaluate("viewer.speech[0].start") for page in (first, late)]
         assert starts[0] == starts[1]
         await late.wait_for_function("() => viewer.morph('alice', 'jawOpen') > 0.05")
 
 
-async def test_two_figures_of_one_scene_each_do_what_is_theirs(theater: Open) -> None:
-    async with theater(TWO) as stage:
-        page = await stage.open()
+async def test_each_of_two_figures_performs_its_own_behavior(serve: Serve) -> None:
+    async with serve(TWO) as scene:
+        page = await scene.open()
         roots = [await page.evaluate(f"viewer.bone('{id_}', 'Hips')[0]") for id_ in ("alice", "bert")]
         assert roots == pytest.approx([0, 1], abs=0.1)
         before = {id_: await page.evaluate(f"viewer.bone('{id_}', 'RightHand')[1]") for id_ in ("alice", "bert")}
@@ -94,20 +94,20 @@ async def test_two_figures_of_one_scene_each_do_what_is_theirs(theater: Open) ->
         assert abs(await page.evaluate("viewer.bone('alice', 'RightHand')[1]") - before["alice"]) < 0.05
 
 
-async def test_the_tempo_of_the_metronome_is_dragged_in_the_page(theater: Open) -> None:
-    async with theater(ALICE) as stage:
-        page = await stage.open()
+async def test_the_tempo_of_the_metronome_is_dragged_in_the_page(serve: Serve) -> None:
+    async with serve(ALICE) as scene:
+        page = await scene.open()
         await page.locator("#tempo").fill("120")
         await expect(page.locator("#tempo-value")).to_contain_text("120")
-        metronome = stage.live.realizer.anticipators["metronome"]
+        metronome = scene.live.realizer.anticipators["metronome"]
         assert isinstance(metronome, Metronome)
         while round(metronome.tempo) != 120:
-            await page.wait_for_function("last => viewer.lastFrameTime > last", arg=stage.live.now)
+            await page.wait_for_function("last => viewer.lastFrameTime > last", arg=scene.live.now)
 
 
-async def test_the_space_bar_is_followed_while_nothing_has_the_focus(theater: Open) -> None:
-    async with theater(ALICE + '[anticipator.spacebar]\nkind = "spacebar"\n') as stage:
-        page = await stage.open()
+async def test_the_space_bar_is_followed_while_nothing_has_the_focus(serve: Serve) -> None:
+    async with serve(ALICE + '[anticipator.spacebar]\nkind = "spacebar"\n') as scene:
+        page = await scene.open()
         await send(page, f'<bml {BML} id="b"><wait id="w" start="anticipators:spacebar:press" duration="0.1"/></bml>')
         typed = page.locator("#bml-text")
         before = await typed.input_value()
@@ -119,9 +119,9 @@ async def test_the_space_bar_is_followed_while_nothing_has_the_focus(theater: Op
         await page.keyboard.up("Space")
 
 
-async def test_the_board_lists_pegs_and_what_moved_them(theater: Open) -> None:
-    async with theater(ALICE) as stage:
-        page = await stage.open()
+async def test_the_board_lists_pegs_and_what_moved_them(serve: Serve) -> None:
+    async with serve(ALICE) as scene:
+        page = await scene.open()
         await page.click("#pegs-tab")
         await send(page, f'<bml {BML} id="late"><wait id="w" start="anticipators:test:hit" duration="30"/></bml>')
         await expect(page.locator("#pegs-rows")).to_contain_text("late:w:end")
