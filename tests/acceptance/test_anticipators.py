@@ -297,7 +297,7 @@ SAID = [
 
 @pytest.mark.parametrize(("anticipator", "name", "value"), SAID)
 async def test_an_event_that_cannot_be_changes_nothing(
-    pilot: RealizerPilot, anticipator: str, name: str, value: float, caplog: pytest.LogCaptureFixture
+    pilot: RealizerPilot, anticipator: str, name: str, value: float | None, caplog: pytest.LogCaptureFixture
 ) -> None:
     pilot.block("b", '<wait id="w" duration="1"/>')
     pilot.event(anticipator, name, value)

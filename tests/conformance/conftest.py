@@ -1,4 +1,4 @@
-"""Realizers to try: ours, quick, and one that does everything wrong."""
+"""Realizers under test: this one, at five times its speed, and a fake one with wrong feedback."""
 
 import asyncio
 import re
@@ -21,7 +21,7 @@ _SPEED = 5
 
 
 class QuickClock(SystemClock):
-    """Five seconds a second."""
+    """A clock that runs five times as fast as the machine's."""
 
     def now(self) -> GlobalTime:
         return GlobalTime(_SPEED * super().now())
@@ -32,7 +32,7 @@ class QuickClock(SystemClock):
 
 @pytest.fixture
 async def realizer() -> AsyncIterator[str]:
-    """The address of our own."""
+    """The address of this realizer."""
     async with open_scene(SceneOptions(voice="text")) as scene, asyncio.TaskGroup() as group:
         live = LiveScene(scene, QuickClock())
         ticking = group.create_task(live.run())
@@ -42,7 +42,7 @@ async def realizer() -> AsyncIterator[str]:
 
 
 class WrongRealizer:
-    """A fake that speaks the protocol and does all wrong: tells ends first, starts twice, and nothing else."""
+    """A fake that reports the end of a block before its start, its start twice, and nothing else."""
 
     def __init__(self, hello: dict[str, object] | None = None) -> None:
         self._hello = hello or {"type": "hello", "protocol": 1}
@@ -64,7 +64,7 @@ class WrongRealizer:
 
 @asynccontextmanager
 async def address_of(handler: Callable[[web.Request], Awaitable[web.StreamResponse]]) -> AsyncIterator[str]:
-    """Where somebody serves a socket."""
+    """The address of a server whose route ``/ws`` has this handler."""
     app = web.Application()
     app.router.add_get("/ws", handler)
     async with TestServer(app) as server:

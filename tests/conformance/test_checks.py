@@ -1,4 +1,4 @@
-"""What is derived from a script is true of a realizer that does it, and of no other."""
+"""The checks that are derived from a script pass on correct feedback and fail on wrong feedback."""
 
 import re
 from collections.abc import Iterator
@@ -48,17 +48,17 @@ def progress(told: Told) -> Iterator[int]:
     return (number for number, (_, xml) in enumerate(told) if "Progress " in xml and ':relax"' not in xml[:200])
 
 
-async def test_a_realizer_that_does_what_the_script_says_has_no_problem() -> None:
+async def test_feedback_that_follows_the_script_has_no_problem() -> None:
     assert problems(case_of(SCRIPT), await played(SCRIPT)) == []
 
 
-async def test_whatever_is_not_told_is_missed() -> None:
+async def test_missing_progress_is_reported() -> None:
     told = await played(SCRIPT)
     for number in progress(told):
         assert problems(case_of(SCRIPT), told[:number] + told[number + 1 :]), told[number]
 
 
-async def test_whatever_is_told_twice_is_one_time_too_many() -> None:
+async def test_repeated_progress_is_reported() -> None:
     told = await played(SCRIPT)
     for number in progress(told):
         assert problems(case_of(SCRIPT), [*told[: number + 1], *told[number:]]), told[number]
@@ -75,7 +75,7 @@ async def test_whatever_is_told_twice_is_one_time_too_many() -> None:
         ("b:end", "the last prediction"),
     ],
 )
-async def test_a_point_that_comes_at_another_time_breaks_what_the_script_says_of_it(point: str, source: str) -> None:
+async def test_a_late_sync_point_is_reported_with_the_constraint_that_it_breaks(point: str, source: str) -> None:
     def late(xml: str) -> str:
         if f'id="{point}"' not in xml:
             return xml
@@ -86,7 +86,7 @@ async def test_a_point_that_comes_at_another_time_breaks_what_the_script_says_of
 
 
 def moved(xml: str, attribute: str, seconds: float) -> str:
-    """A message whose times of one name are later."""
+    """A message in which the times of one attribute are later."""
     return re.sub(f' ({attribute})="([0-9.]*)"', lambda found: f' {found[1]}="{float(found[2]) + seconds}"', xml)
 
 
@@ -102,7 +102,7 @@ def moved(xml: str, attribute: str, seconds: float) -> str:
         (r"\w+:time", "b:s:m"),
     ],
 )
-async def test_a_prediction_that_does_not_come_true_is_a_problem(attribute: str, missed: str) -> None:
+async def test_a_wrong_prediction_is_reported(attribute: str, missed: str) -> None:
     told = [
         (at, moved(xml, attribute, 0.02) if "<predictionFeedback" in xml else xml) for at, xml in await played(SCRIPT)
     ]
@@ -110,7 +110,7 @@ async def test_a_prediction_that_does_not_come_true_is_a_problem(attribute: str,
     assert any(f"{missed} was reached" in each and "the last prediction before it" in each for each in found), found
 
 
-async def test_a_prediction_counts_only_for_what_is_told_after_it() -> None:
+async def test_a_prediction_that_comes_after_the_progress_does_not_count() -> None:
     told = await played(SCRIPT)
     late = sorted(told, key=lambda line: "<predictionFeedback" in line[1])
     assert "nothing was predicted of b before b:start was reported (the last prediction before it)" in problems(
@@ -118,7 +118,7 @@ async def test_a_prediction_counts_only_for_what_is_told_after_it() -> None:
     )
 
 
-async def test_a_behavior_of_which_nothing_is_predicted_is_a_problem() -> None:
+async def test_a_missing_prediction_is_reported() -> None:
     told = [(at, re.sub(r"<(\w+:)?head .*?/>", "", xml)) for at, xml in await played(SCRIPT)]
     assert problems(case_of(SCRIPT), told) == ["b:h:start was not predicted (the last prediction before it)"]
 
@@ -128,7 +128,7 @@ def waiting(id_: str, attribute: str = "composition", value: str = "MERGE") -> s
     return block(id_, '<wait id="w" start="0.1" duration="0.5"/>', **{attribute: value})
 
 
-async def test_the_time_of_progress_is_that_since_the_start_of_its_block() -> None:
+async def test_the_time_of_progress_is_relative_to_the_start_of_its_block() -> None:
     script = waiting("a") + waiting("b", "composition", "APPEND")
     told = await played(script)
     wrong = [(at, moved(xml, "time", 0.5) if "syncPointProgress" in xml else xml) for at, xml in told]
@@ -153,7 +153,9 @@ PREPARED = waiting("b", "bmla:preplan", "true")
         (PREPARED + block("a", '<bmla:activate id="i" target="b" start="0.5"/>'), "a:i:start"),
     ],
 )
-async def test_what_waits_starts_with_the_last_that_it_waits_for(script: str, last: str, seconds: float) -> None:
+async def test_a_waiting_block_starts_when_the_last_of_its_predecessors_is_over(
+    script: str, last: str, seconds: float
+) -> None:
     told = await played(script)
     assert problems(case_of(script), told) == []
 
@@ -178,14 +180,14 @@ async def test_what_waits_starts_with_the_last_that_it_waits_for(script: str, la
         ('<synchronize><sync ref="0.45"/><sync ref="h:start"/></synchronize>', False),
     ],
 )
-async def test_a_constraint_is_held_against_the_times_that_were_told(constraint: str, holds: bool) -> None:
+async def test_constraints_are_checked_against_the_reported_times(constraint: str, holds: bool) -> None:
     own = '<wait id="w" duration="0.4"/><head id="h" lexeme="NOD" start="w:end"/>'
     told = await played(block("b", own))
     found = problems(case_of(block("b", f"{own}<constraint>{constraint}</constraint>")), told)
     assert (found == []) == holds, found
 
 
-async def test_a_warning_that_was_not_to_come_is_a_problem_and_one_that_did_not_come_too() -> None:
+async def test_unexpected_and_missing_warnings_are_reported() -> None:
     script = block("b", '<gaze id="g" target="nobody"/>')
     warned = '<warning id="b:g" type="NO_SUCH_TARGET"/>'
     told = await played(script)
@@ -195,7 +197,7 @@ async def test_a_warning_that_was_not_to_come_is_a_problem_and_one_that_did_not_
     assert problems(case_of(script, warned), without) == ["no warning of b:g NO_SUCH_TARGET (warnings)"]
 
 
-def test_every_case_of_the_suite_has_a_title_and_blocks_of_its_own(subtests: pytest.Subtests) -> None:
+def test_every_case_of_the_suite_has_a_title_blocks_and_checks(subtests: pytest.Subtests) -> None:
     for case in read_suite():
         with subtests.test(case.name):
             assert case.title[0].isupper()
@@ -205,6 +207,6 @@ def test_every_case_of_the_suite_has_a_title_and_blocks_of_its_own(subtests: pyt
             assert len(list(checks_of(case))) > 1
 
 
-def test_no_two_cases_use_one_id() -> None:
+def test_every_block_of_the_suite_has_a_different_id() -> None:
     ids = [block.id for case in read_suite() for block in case.blocks]
     assert len(set(ids)) == len(ids)

@@ -1,4 +1,4 @@
-"""The suite against our own realizer, and against those that are none or bad ones."""
+"""The conformance suite against this realizer, against faulty ones, and against servers that are not realizers."""
 
 import asyncio
 import json
@@ -30,20 +30,20 @@ async def outcomes(url: str, *names: str, patience: float = suite.PATIENCE) -> l
     return [outcome async for outcome in run_suite(url, cases, patience)]
 
 
-async def test_our_own_realizer_passes_every_case_of_what_it_realizes(realizer: str) -> None:
+async def test_this_realizer_passes_every_case_that_it_supports(realizer: str) -> None:
     came = await outcomes(realizer)
     assert [(o.case.name, o.problems) for o in came if o.verdict is Verdict.FAILED] == []
     assert {o.case.name for o in came if o.verdict is Verdict.UNSUPPORTED} <= NOT_REALIZED
     assert sum(o.checks for o in came) > 700
 
 
-async def test_it_may_be_run_again_and_stops_whatever_plays(realizer: str) -> None:
+async def test_the_suite_can_be_repeated_and_stops_all_blocks_before_each_case(realizer: str) -> None:
     names = ("two-voices", "replace")
     for _ in range(2):
         assert {o.verdict for o in await outcomes(realizer, *names)} == {Verdict.PASSED}
 
 
-async def test_a_realizer_that_does_everything_wrong_fails_every_case() -> None:
+async def test_a_realizer_with_wrong_feedback_fails_every_case() -> None:
     async with address_of(WrongRealizer().serve) as url:
         came = await outcomes(url, patience=0.02)
     assert Counter(o.verdict for o in came) == {Verdict.FAILED: len(read_suite())}
@@ -59,7 +59,9 @@ async def conformance(*arguments: str) -> int:
     return await asyncio.to_thread(main, ["conformance", *arguments])
 
 
-async def test_that_all_cases_passed_is_0_and_a_table(realizer: str, capsys: pytest.CaptureFixture[str]) -> None:
+async def test_the_exit_status_is_0_and_a_table_is_printed_if_all_cases_pass(
+    realizer: str, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert await conformance(realizer, "--case", "empty", "--case", "locomotion", "--case", "wait") == 0
     captured = capsys.readouterr()
     assert captured.err == ""
@@ -70,7 +72,9 @@ async def test_that_all_cases_passed_is_0_and_a_table(realizer: str, capsys: pyt
     assert captured.out.splitlines()[-1].endswith("0 failed, 1 unsupported")
 
 
-async def test_that_a_case_failed_is_1_and_the_table_says_why(capsys: pytest.CaptureFixture[str]) -> None:
+async def test_the_exit_status_is_1_and_the_table_gives_the_reasons_if_a_case_fails(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
     async with address_of(WrongRealizer().serve) as url:
         assert await conformance(url, "--case", "empty") == 1
     out = capsys.readouterr().out
@@ -78,7 +82,7 @@ async def test_that_a_case_failed_is_1_and_the_table_says_why(capsys: pytest.Cap
     assert "  nothing was predicted of nothing before nothing:end was reported (the last prediction before it)\n" in out
 
 
-async def test_json_says_the_same(realizer: str, capsys: pytest.CaptureFixture[str]) -> None:
+async def test_the_json_output_has_the_results_of_the_table(realizer: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert await conformance(realizer, "--case", "speech", "--json") == 0
     told = json.loads(capsys.readouterr().out)
     assert (told["passed"], told["failed"], told["unsupported"]) == (1, 0, 0)
@@ -87,7 +91,7 @@ async def test_json_says_the_same(realizer: str, capsys: pytest.CaptureFixture[s
     assert case["checks"] > 4
 
 
-async def test_that_nobody_is_there_is_2(capsys: pytest.CaptureFixture[str]) -> None:
+async def test_the_exit_status_is_2_if_no_server_listens(capsys: pytest.CaptureFixture[str]) -> None:
     url = f"http://127.0.0.1:{unused_port()}"
     assert await conformance(url) == 2
     captured = capsys.readouterr()
@@ -96,12 +100,12 @@ async def test_that_nobody_is_there_is_2(capsys: pytest.CaptureFixture[str]) -> 
 
 
 @pytest.mark.parametrize("url", ["nonsense", "http://", "ftp://127.0.0.1:1", "http://127.0.0.1:notaport"])
-async def test_what_is_no_address_is_2(url: str, capsys: pytest.CaptureFixture[str]) -> None:
+async def test_the_exit_status_is_2_for_an_invalid_address(url: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert await conformance(url) == 2
     assert len(capsys.readouterr().err.splitlines()) == 1
 
 
-async def test_a_server_of_something_else_is_2(capsys: pytest.CaptureFixture[str]) -> None:
+async def test_the_exit_status_is_2_if_the_server_is_not_a_realizer(capsys: pytest.CaptureFixture[str]) -> None:
     async def page(request: web.Request) -> web.Response:
         return web.Response(text="welcome")
 
@@ -110,13 +114,13 @@ async def test_a_server_of_something_else_is_2(capsys: pytest.CaptureFixture[str
     assert "no realizer can be reached at" in capsys.readouterr().err
 
 
-async def test_a_realizer_of_another_protocol_is_2(capsys: pytest.CaptureFixture[str]) -> None:
+async def test_the_exit_status_is_2_for_another_protocol_version(capsys: pytest.CaptureFixture[str]) -> None:
     async with address_of(WrongRealizer({"type": "hello", "protocol": 2}).serve) as url:
         assert await conformance(url) == 2
     assert 'protocol": 2' in capsys.readouterr().err
 
 
-async def test_a_realizer_that_goes_away_is_2(capsys: pytest.CaptureFixture[str]) -> None:
+async def test_the_exit_status_is_2_if_the_connection_is_lost(capsys: pytest.CaptureFixture[str]) -> None:
     async def leave(request: web.Request) -> web.WebSocketResponse:
         socket = web.WebSocketResponse()
         await socket.prepare(request)
@@ -129,7 +133,7 @@ async def test_a_realizer_that_goes_away_is_2(capsys: pytest.CaptureFixture[str]
     assert "the connection was lost" in capsys.readouterr().err
 
 
-async def test_a_realizer_that_says_hello_and_then_nothing_is_2_without_trying_every_case(
+async def test_the_exit_status_is_2_after_one_case_if_the_realizer_does_not_respond(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(command, "run_suite", partial(run_suite, patience=0.05))
@@ -148,14 +152,14 @@ async def test_a_realizer_that_says_hello_and_then_nothing_is_2_without_trying_e
     assert len(listened) == 1
 
 
-def test_a_case_that_there_is_not_is_2(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_exit_status_is_2_for_an_unknown_case(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as ended:
         main(["conformance", "http://127.0.0.1:1", "--case", "no-such-case"])
     assert ended.value.code == 2
     assert "no-such-case" in capsys.readouterr().err
 
 
-def test_its_help_has_an_example(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_help_contains_an_example(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit):
         main(["conformance", "--help"])
     assert "example: reactive-realizer conformance" in capsys.readouterr().out

@@ -1,4 +1,4 @@
-"""The pages, what stands in them as code, and a server for what wants one."""
+"""The text and the code blocks of the pages, and a server for their programs."""
 
 import asyncio
 import re
@@ -16,7 +16,7 @@ from reactive_realizer.server.live_scene import LiveScene
 from reactive_realizer.server.security import Security
 
 ADDRESS = "http://127.0.0.1:8088"
-"""Where the server of a page is."""
+"""The address of the server in the examples."""
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 DOCS = REPOSITORY / "docs"

@@ -1,4 +1,4 @@
-"""Plug-ins as pip would leave them."""
+"""Installs plug-ins for a test, as pip would."""
 
 import shutil
 import tomllib

@@ -1,4 +1,4 @@
-"""docs/anticipators.md: its examples do what it says, and its plug-ins are found and predict."""
+"""docs/anticipators.md: its examples behave as described, and its plug-ins are found and predict."""
 
 import json
 from collections.abc import AsyncIterator
@@ -21,7 +21,7 @@ def installed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.usefixtures("installed")
-async def test_the_answer_comes_when_the_turn_is_predicted_to_end_and_waits_when_that_is_taken_back() -> None:
+async def test_the_answer_starts_at_the_predicted_end_of_the_turn_and_waits_while_it_is_unknown() -> None:
     async with open_pilot(SceneOptions(PLUGIN / "human.toml", "text")) as pilot:
         pilot.perform((PLUGIN / "reply.xml").read_bytes())
         await pilot.advance(1)
@@ -40,7 +40,7 @@ async def test_the_answer_comes_when_the_turn_is_predicted_to_end_and_waits_when
 
 
 @pytest.mark.usefixtures("installed")
-async def test_a_model_of_turns_of_ones_own_stands_in(tmp_path: Path) -> None:
+async def test_a_custom_turn_model_replaces_the_built_in_one(tmp_path: Path) -> None:
     human = tmp_path / "human.toml"
     human.write_text('[character.alice]\n[anticipator.user]\nkind = "patient_stop"\n', encoding="utf-8")
     async with open_pilot(SceneOptions(human, "text")) as pilot:
@@ -77,7 +77,7 @@ def ready(language: str) -> list[Fence]:
 
 @pytest.fixture
 async def pilot(tmp_path: Path) -> AsyncIterator[RealizerPilot]:
-    """A scene as the default one, with the anticipators of the page."""
+    """The default scene with the anticipators of the page."""
     human = tmp_path / "human.toml"
     human.write_text(DEFAULT_HUMAN.read_text("utf-8") + "".join(fence.text for fence in ready("toml")), "utf-8")
     async with open_pilot(SceneOptions(human, "text")) as pilot:
@@ -86,7 +86,7 @@ async def pilot(tmp_path: Path) -> AsyncIterator[RealizerPilot]:
         yield pilot
 
 
-async def test_the_key_is_followed(pilot: RealizerPilot) -> None:
+async def test_the_gesture_of_the_page_follows_the_key(pilot: RealizerPilot) -> None:
     await pilot.advance(1)
     pilot.event("spacebar", "press")
     await pilot.advance(0.3)
@@ -102,7 +102,7 @@ async def test_the_key_is_followed(pilot: RealizerPilot) -> None:
 @pytest.mark.parametrize(
     ("words", "silence"), [("", 0.88), ("I live in a house.", 0.19), ("I live in a", 1.76)], ids=str
 )
-async def test_the_answer_comes_after_a_silence_as_long_as_the_page_says(
+async def test_the_answer_starts_after_the_silence_that_the_page_gives(
     pilot: RealizerPilot, words: str, silence: float
 ) -> None:
     pilot.event("user", "voice", 1.0)
@@ -113,7 +113,7 @@ async def test_the_answer_comes_after_a_silence_as_long_as_the_page_says(
     assert pilot.feedback.time("reply:words:start") == pytest.approx(1 + silence + 0.2, abs=0.01)
 
 
-async def test_the_trainer_is_ahead(pilot: RealizerPilot) -> None:
+async def test_the_trainer_moves_ahead_of_the_user(pilot: RealizerPilot) -> None:
     while pilot.now < 8:
         phase = pilot.now % 2  # down at every odd second, up 0.6 s later
         pilot.event("trainee", "sample", 18.0 if 1.0 <= phase < 1.1 or 1.6 <= phase < 1.7 else 9.81)
@@ -121,7 +121,7 @@ async def test_the_trainer_is_ahead(pilot: RealizerPilot) -> None:
     assert pilot.feedback.time("ahead:push:stroke") == pytest.approx(4.7, abs=0.05)
 
 
-async def test_the_orchestra_is_followed(pilot: RealizerPilot) -> None:
+async def test_the_conductor_follows_the_orchestra(pilot: RealizerPilot) -> None:
     for _ in range(10):
         pilot.event("orchestra", "beat")
         await pilot.advance(0.8)
@@ -131,7 +131,7 @@ async def test_the_orchestra_is_followed(pilot: RealizerPilot) -> None:
     assert pilot.feedback.status("conduct") == "DONE"
 
 
-async def test_every_event_of_the_page_means_something_to_its_anticipator(pilot: RealizerPilot) -> None:
+async def test_every_event_on_the_page_is_accepted_by_its_anticipator(pilot: RealizerPilot) -> None:
     for fence in ready("json"):
         message = json.loads(fence.text)
         if message["type"] == "event":

@@ -1,4 +1,4 @@
-"""docs/binding.md: its folder of assets plays, and its tables are those of the code."""
+"""docs/binding.md: its folder of assets plays, and its tables match the code."""
 
 import re
 from pathlib import Path
@@ -21,7 +21,7 @@ PACKAGE = "asap.animationengine."
 
 @pytest.fixture
 def assets(tmp_path: Path) -> Path:
-    """The folder of the page."""
+    """The folder of assets on the page."""
     folder = tmp_path / "my_assets"
     folder.mkdir()
     for fence in fences(PAGE, "xml"):
@@ -45,7 +45,7 @@ def moved(pilot: RealizerPilot, joint: str, behavior: str) -> float:
     return float(np.ptp(pilot.path(joint)[start:end], axis=0).max())
 
 
-async def test_the_block_of_the_page_plays_with_the_files_of_the_page(assets: Path) -> None:
+async def test_the_block_on_the_page_plays_with_the_files_on_the_page(assets: Path) -> None:
     pilot = await play(assets, (assets / "block.xml").read_text("utf-8"))
     told = pilot.feedback
     assert told.warnings == []
@@ -57,7 +57,7 @@ async def test_the_block_of_the_page_plays_with_the_files_of_the_page(assets: Pa
     assert min(moved(pilot, "l_wrist", "play:come"), moved(pilot, "r_wrist", "play:come")) > 0.2
 
 
-async def test_an_interrupt_that_is_gentle_lets_the_catch_go_on_to_where_it_may_be_left(assets: Path) -> None:
+async def test_a_gentle_interrupt_ends_the_catch_at_its_next_exit(assets: Path) -> None:
     spaces = 'xmlns="http://www.bml-initiative.org/bml/bml-1.0" xmlns:bmla="http://www.asap-project.org/bmla"'
     catch = f'<bml {spaces} id="a"><gesture id="g" lexeme="CATCH" start="0"/></bml>'
     stop = f'<bml {spaces} id="b"><bmla:interrupt id="i" target="a" start="0.3" speech="word"/></bml>'
@@ -65,7 +65,7 @@ async def test_an_interrupt_that_is_gentle_lets_the_catch_go_on_to_where_it_may_
     assert pilot.feedback.time("a:g:end") - pilot.feedback.time("a:start") == pytest.approx(0.9)
 
 
-def test_the_binding_with_rests_is_read(tmp_path: Path) -> None:
+def test_the_binding_with_rest_poses_is_valid(tmp_path: Path) -> None:
     (example,) = [fence for fence in fences(PAGE, "xml") if fence.note == "reads"]
     file = tmp_path / "gesturebinding.xml"
     file.write_text(example.text, encoding="utf-8")
@@ -74,14 +74,14 @@ def test_the_binding_with_rests_is_read(tmp_path: Path) -> None:
     assert [(spec.behavior, spec.unit) for spec in binding.specs] == [("gazeShift", "rest-gaze")]
 
 
-def test_the_page_has_every_kind_of_motion() -> None:
+def test_the_page_lists_every_kind_of_motion() -> None:
     table = TEXT.partition("## Kinds of motion")[2].partition("## Rest")[0]
     firsts = [line.split(" | ")[0] for line in table.splitlines() if line.startswith("| `")]
     named = [name for first in firsts for name in re.findall(r"`([\w-]+)`", first)]
     assert sorted(set(named) - {"type", "class"}) == sorted({*MAKERS, "Sequence"})
 
 
-def test_the_page_has_every_class_and_what_it_is_here() -> None:
+def test_the_page_maps_every_class_to_its_kind() -> None:
     table = TEXT.partition("## Classes of AsapRealizer")[2]
     rows = re.findall(r"^\| (`.*`) \| `(.*)` \|$", table, re.MULTILINE)
     named = {f"{PACKAGE}{name}": unit for names, unit in rows for name in re.findall(r"`([\w.]+)`", names)}

@@ -1,4 +1,4 @@
-"""Every example of docs/bml.md does what the page says."""
+"""docs/bml.md: its examples play without other warnings than those on the page."""
 
 import re
 
@@ -16,7 +16,7 @@ EXAMPLES = fences("docs/bml.md", "xml")
 
 
 def said_to_warn(example: Fence) -> list[tuple[str, str]]:
-    """Id and type of the warnings that the page tells of."""
+    """Id and type of the warnings that the page announces."""
     said = example.note.removeprefix("warns: ")
     return [(id_, type_) for id_, _, type_ in (one.partition(" ") for one in said.split(", ") if one)]
 
@@ -29,7 +29,7 @@ async def feedback_of(example: Fence) -> FeedbackList:
 
 
 @pytest.mark.parametrize("example", EXAMPLES, ids=str)
-async def test_every_block_of_an_example_ends_and_warns_of_nothing_but_what_the_page_says(example: Fence) -> None:
+async def test_every_block_of_an_example_ends_with_the_warnings_of_the_page_only(example: Fence) -> None:
     blocks = [parsed.block.id for parsed in parse(example.text, Limits()) if parsed.block]
     assert blocks
     feedback = await feedback_of(example)
@@ -37,7 +37,7 @@ async def test_every_block_of_an_example_ends_and_warns_of_nothing_but_what_the_
     assert feedback.warnings == said_to_warn(example)
 
 
-async def test_a_warning_on_the_page_is_told_in_these_words() -> None:
+async def test_a_warning_on_the_page_has_the_reported_text() -> None:
     told = [
         line.element
         for each in EXAMPLES

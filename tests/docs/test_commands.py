@@ -1,4 +1,4 @@
-"""The commands on the pages do what the pages say; what a page shows of their output is what they print."""
+"""The commands on the pages run, and print the output that the pages show."""
 
 import re
 import shlex
@@ -17,14 +17,14 @@ RUN = ("realize", "check")
 
 
 def commands(session: Fence) -> Iterator[tuple[list[str], list[str]]]:
-    """Each command and the lines that are shown under it."""
+    """Each command with the output below it."""
     for command in re.split(r"^\$ ", session.text, flags=re.MULTILINE)[1:]:
         line, *shown = command.splitlines()
         yield shlex.split(line), shown
 
 
 def fits(printed: str, shown: str) -> bool:
-    """Whether a line is as shown; three dots stand for the rest of it."""
+    """Whether a line matches the page, where three dots stand for the rest of a line."""
     return printed.startswith(shown[:-3]) if shown.endswith("...") else printed == shown
 
 
@@ -37,14 +37,14 @@ def run(arguments: list[str]) -> int:
 
 @pytest.fixture
 def elsewhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A folder with the examples, into which commands may write."""
+    """A copy of the examples in a folder in which commands may write."""
     (tmp_path / "examples").symlink_to(EXAMPLES)
     monkeypatch.chdir(tmp_path)
 
 
 @pytest.mark.usefixtures("elsewhere")
 @pytest.mark.parametrize("session", SESSIONS, ids=str)
-def test_a_session_of_a_page_goes_as_it_is_shown(session: Fence, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_session_on_a_page_prints_the_output_on_the_page(session: Fence, capsys: pytest.CaptureFixture[str]) -> None:
     status = 0
     for (program, *arguments), shown in commands(session):
         if program == "reactive-realizer" and arguments[0] in RUN:
@@ -54,19 +54,19 @@ def test_a_session_of_a_page_goes_as_it_is_shown(session: Fence, capsys: pytest.
             assert [line for line, whole in zip(printed, shown, strict=True) if not fits(line, whole)] == []
         elif program == "echo":
             assert shown == [str(status)]
-        else:  # servers and their clients are run elsewhere
+        else:  # other tests run servers and their clients
             assert program in ("reactive-realizer", "make", "python", "curl")
 
 
 @pytest.mark.usefixtures("elsewhere")
-def test_the_frames_of_the_page_are_read_as_it_says(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_program_on_the_page_reads_the_frames(capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["realize", "examples/say_hello.xml", "--voice", "text", "--frames", "hello.npz"]) == 0
     (program,) = fences("docs/cli.md", "python")
     exec(compile(program.text, str(program), "exec"), {})
     assert re.fullmatch(r"\(\d+, 4\)\n", capsys.readouterr().out)
 
 
-def test_the_lexicon_has_the_lines_that_are_shown(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_lexicon_has_the_lines_on_the_page(capsys: pytest.CaptureFixture[str]) -> None:
     section = page("docs/cli.md").partition("## lexicon")[2].partition("\n## ")[0]
     shown = re.findall(r"^ {4}(RAISE_HAND.*)$", section, re.MULTILINE)
     assert run(["lexicon", "--assets", str(EXAMPLES / "gesture")]) == 0
@@ -75,7 +75,7 @@ def test_the_lexicon_has_the_lines_that_are_shown(capsys: pytest.CaptureFixture[
 
 
 @pytest.mark.parametrize("command", ["realize", "check", "lexicon", "serve", "demo", "conformance"])
-def test_the_page_names_every_option(command: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_page_lists_every_option(command: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert run([command, "--help"]) == 0
     options = set(re.findall(r"--[a-z-]+", capsys.readouterr().out)) - {"--help"}
     text = (REPOSITORY / "docs" / "cli.md").read_text(encoding="utf-8")

@@ -1,4 +1,4 @@
-"""docs/conformance.md: what it shows is what comes, and it names every case."""
+"""docs/conformance.md: its output is what the command prints, and it lists every case."""
 
 import asyncio
 import json
@@ -15,7 +15,7 @@ from .conftest import ADDRESS, fences, page
 PAGE = "docs/conformance.md"
 
 
-async def test_the_session_goes_as_it_is_shown(server: str, capsys: pytest.CaptureFixture[str]) -> None:
+async def test_the_session_prints_the_output_on_the_page(server: str, capsys: pytest.CaptureFixture[str]) -> None:
     (session,) = fences(PAGE, "console")
     command, *shown = session.text.removeprefix("$ ").splitlines()
     program, *arguments = shlex.split(command.replace(ADDRESS, server))
@@ -24,17 +24,17 @@ async def test_the_session_goes_as_it_is_shown(server: str, capsys: pytest.Captu
     assert capsys.readouterr().out.splitlines() == shown
 
 
-async def test_the_json_has_the_fields_that_are_shown(server: str, capsys: pytest.CaptureFixture[str]) -> None:
+async def test_the_json_output_has_the_fields_on_the_page(server: str, capsys: pytest.CaptureFixture[str]) -> None:
     shown = json.loads(fences(PAGE, "json")[0].text)
     assert await asyncio.to_thread(main, ["conformance", server, "--case", "empty", "--json"]) == 0
     assert json.loads(capsys.readouterr().out) == shown | {"url": server}
 
 
-def test_the_page_shows_the_case_as_it_is() -> None:
+def test_the_page_shows_the_case_of_the_suite() -> None:
     (case,) = fences(PAGE, "xml")
     assert read_case("replace", case.text.encode()) == read_case("replace", (SUITE / "replace.xml").read_bytes())
 
 
-def test_the_page_names_every_case_and_what_it_tries() -> None:
+def test_the_page_lists_every_case_with_its_title() -> None:
     rows = re.findall(r"^\| `([\w-]+)` \| (.*) \|$", page(PAGE), re.MULTILINE)
     assert rows == [(case.name, case.title) for case in read_suite()]

@@ -1,4 +1,4 @@
-"""docs/continuous.md: its examples are played as it says, and what it says can go wrong is told in that way."""
+"""docs/continuous.md: its examples play as described, and its table of faults matches the warnings."""
 
 import re
 from collections.abc import Callable
@@ -61,7 +61,7 @@ WRONG = {
     "resource-taken": [("talk", WORDS, ""), ("b", WORDS, "")],
     "unknown-procedure": [],
 }
-"""For each row of the table the blocks that lead to it."""
+"""The blocks that cause the fault of each row of the table."""
 
 
 def block(id_: str, inside: str, attributes: str) -> str:
@@ -69,7 +69,7 @@ def block(id_: str, inside: str, attributes: str) -> str:
 
 
 def ends(example: Fence) -> dict[str, str]:
-    """How the blocks of an example end."""
+    """The final status of each block of an example."""
     said = dict(each.split() for each in example.note.removeprefix("ends: ").split(", ") if each)
     blocks = [parsed.block.id for parsed in parse(example.text, Limits()) if parsed.block]
     return dict.fromkeys(blocks, "DONE") | said
@@ -84,7 +84,7 @@ async def test_every_block_of_an_example_ends_as_the_page_says_and_without_a_war
         assert pilot.feedback.warnings == []
 
 
-async def test_the_end_of_a_speech_that_was_broken_off_is_told_as_the_page_shows_it() -> None:
+async def test_the_end_of_an_interrupted_speech_is_reported_as_on_the_page() -> None:
     example = next(each for each in EXAMPLES if 'speech="word"' in each.text)
     (line,) = re.findall(r"^ {4}<syncPointProgress.*$", page(PAGE), re.MULTILINE)
     shown = dict(re.findall(r'(\w+)="(.*?)"', line))
@@ -95,7 +95,7 @@ async def test_the_end_of_a_speech_that_was_broken_off_is_told_as_the_page_shows
     assert {str(name).rpartition("}")[2]: value for name, value in told.items()}.items() >= shown.items()
 
 
-async def test_the_rest_of_a_speech_that_was_broken_off_is_found_as_the_page_says_however_it_was_written() -> None:
+async def test_the_program_on_the_page_finds_the_rest_of_an_interrupted_speech_with_any_white_space() -> None:
     (code,) = fences(PAGE, "python")
     found: dict[str, Callable[[str, int], str]] = {}
     exec(code.text, found)
@@ -111,7 +111,7 @@ async def test_the_rest_of_a_speech_that_was_broken_off_is_found_as_the_page_say
 
 
 @pytest.mark.parametrize(("code", "warning"), ROWS)
-async def test_what_can_go_wrong_is_told_in_the_words_of_its_code(code: str, warning: str) -> None:
+async def test_each_fault_in_the_table_causes_its_warning(code: str, warning: str) -> None:
     assert FAULTS[code].warning == warning
     sentence = re.sub(r"\\\{.*?\\\}", ".*", re.escape(FAULTS[code].template))
     async with open_pilot() as pilot:

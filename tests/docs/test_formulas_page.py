@@ -1,4 +1,4 @@
-"""docs/formulas.md: its formulas are worth what it says, it names every function, and its animation plays."""
+"""docs/formulas.md: its formulas have the values that it gives, it lists every function, and its animation plays."""
 
 import re
 from itertools import pairwise, product
@@ -34,12 +34,12 @@ async def warned(assets: Path, behavior: str) -> list[tuple[str | None, str]]:
 
 
 @pytest.mark.parametrize(("formula", "t", "value"), VALUES)
-def test_a_formula_of_the_table_is_worth_what_stands_beside_it(formula: str, t: str, value: str) -> None:
+def test_a_formula_in_the_table_has_the_value_beside_it(formula: str, t: str, value: str) -> None:
     compiled = compile_formulas([parse(formula)], ["t"])
     assert compiled(float(t or "nan")) == pytest.approx((float(value),))
 
 
-def test_the_table_of_formulas_is_read() -> None:
+def test_the_table_has_nine_formulas() -> None:
     assert len(VALUES) == 9
 
 
@@ -51,7 +51,7 @@ def test_the_page_has_a_row_for_every_function_and_no_other() -> None:
     assert set(named) == {"if", *FUNCTIONS}
 
 
-def test_each_row_of_operators_holds_more_tightly_than_the_one_above_and_goes_from_left_to_right() -> None:
+def test_each_row_of_operators_binds_more_tightly_than_the_one_above_and_is_left_associative() -> None:
     table = TEXT.partition("| operators |")[2].partition("\n\n")[0]
     cells = [re.split(r"(?<!\\)\|", line)[1].replace("\\|", "|") for line in table.splitlines()[2:]]
     rows = [re.findall(r"`([^`]+)`", cell) for cell in cells]
@@ -88,7 +88,7 @@ async def test_the_animation_with_a_function_of_a_plug_in_plays(
     assert await warned(assets, PLAY.format(animation.note)) == []
 
 
-async def test_a_formula_that_makes_no_sense_is_told_as_the_page_shows_it(tmp_path: Path) -> None:
+async def test_the_error_of_an_invalid_formula_has_the_text_on_the_page(tmp_path: Path) -> None:
     formula = re.search(r" of '(.*)'$", REFUSED)
     assert formula
     text = f'<ProcAnimation prefDuration="1">\n<Rotation target="vc4" rotation="0;0;{formula[1]}"/></ProcAnimation>'
@@ -99,7 +99,7 @@ async def test_a_formula_that_makes_no_sense_is_told_as_the_page_shows_it(tmp_pa
 
 
 @pytest.mark.parametrize("formula", ["1/(t > 0.5)", "log(0 - t)", "(-8)^0.5"])
-async def test_a_formula_without_a_value_stops_its_behavior_and_nothing_else(tmp_path: Path, formula: str) -> None:
+async def test_a_formula_without_a_value_stops_only_its_behavior(tmp_path: Path, formula: str) -> None:
     text = f'<ProcAnimation prefDuration="1"><Rotation target="vc4" rotation="{formula};0;0"/></ProcAnimation>'
     (tmp_path / "x.xml").write_text(text.replace("&", "&amp;"), encoding="utf-8")
     ((type_, _),) = await warned(tmp_path, PLAY.format("x.xml") + '<head id="n" lexeme="NOD" start="1"/>')

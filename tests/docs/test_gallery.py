@@ -1,4 +1,4 @@
-"""The gallery: whatever plays has its strip, and each strip plays."""
+"""The gallery: every lexeme and motion has a strip, and each strip plays."""
 
 import importlib
 from pathlib import Path
@@ -24,7 +24,7 @@ SCENE = SceneOptions(voice="text")
 
 @pytest.fixture
 def gallery(monkeypatch: pytest.MonkeyPatch) -> ModuleType:
-    """What makes the gallery."""
+    """The module that makes the gallery."""
     monkeypatch.syspath_prepend(str(DOCS))
     return importlib.import_module("make_gallery")
 
@@ -46,22 +46,22 @@ def shown(entry: "Entry") -> set[tuple[str, str]]:
     return {(etree.QName(one).localname, one.get("lexeme") or one.get("name") or "") for one in elements}
 
 
-async def test_whatever_plays_has_a_strip(entries: list["Entry"]) -> None:
+async def test_every_lexeme_and_motion_has_a_strip(entries: list["Entry"]) -> None:
     there = {pair for entry in entries for pair in shown(entry)}
     assert {(entry.element, entry.lexeme) for entry in await lexicon()} <= there
     assert {behavior.__name__.lower() for behavior in MOTIONS} <= {element.lower() for element, _ in there}
 
 
-async def test_strips_have_names_of_their_own_and_all_of_them_are_there(entries: list["Entry"]) -> None:
+async def test_every_strip_has_its_own_file(entries: list["Entry"]) -> None:
     names = [entry.name for entry in entries]
     assert sorted(names) == sorted(file.stem for file in (DOCS / "gallery").glob("*.webp"))
 
 
-async def test_the_page_of_the_gallery_shows_them_all(gallery: ModuleType, entries: list["Entry"]) -> None:
+async def test_the_page_of_the_gallery_shows_all_strips(gallery: ModuleType, entries: list["Entry"]) -> None:
     assert page("docs/gallery/README.md") == gallery.index(entries), "run `make gallery`"
 
 
-async def test_each_strip_plays_as_it_is_asked_for(entries: list["Entry"]) -> None:
+async def test_each_strip_plays_without_a_warning(entries: list["Entry"]) -> None:
     async with open_pilot(SCENE) as pilot:
         for entry in entries:
             pilot.perform(entry.block.replace("<bml ", '<bml composition="REPLACE" ', 1))
@@ -69,7 +69,7 @@ async def test_each_strip_plays_as_it_is_asked_for(entries: list["Entry"]) -> No
         assert pilot.feedback.warnings == []
 
 
-def test_a_strip_that_nobody_knows_is_refused(
+def test_an_unknown_strip_is_refused(
     gallery: ModuleType, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr("sys.argv", ["make_gallery.py", "--browser", "sh", "head-nod", "head-nood"])
@@ -80,7 +80,7 @@ def test_a_strip_that_nobody_knows_is_refused(
 
 @pytest.mark.browser
 @pytest.mark.timeout(120)
-async def test_a_strip_is_the_same_as_itself_and_differs_from_another(
+async def test_a_comparison_finds_equal_and_different_strips(
     gallery: ModuleType,
     entries: list["Entry"],
     chromium: str,

@@ -1,4 +1,4 @@
-"""docs/gesture.md: the gesture of its example is played, and the page shows the files as they are."""
+"""docs/gesture.md: the gesture of its example plays, and the page shows its files."""
 
 import os
 import re
@@ -45,7 +45,7 @@ async def play(text: str, assets: Path = GESTURE) -> RealizerPilot:
 @pytest.mark.parametrize(
     ("mode", "raised", "other"), [("", "r", "l"), ('mode="RIGHT_HAND"', "r", "l"), ('mode="LEFT_HAND"', "l", "r")]
 )
-async def test_the_hand_goes_up_stays_there_and_comes_down_again(mode: str, raised: str, other: str) -> None:
+async def test_the_hand_is_raised_held_and_lowered(mode: str, raised: str, other: str) -> None:
     pilot = await play(QUESTION.replace('lexeme="RAISE_HAND"', f'lexeme="RAISE_HAND" {mode}'))
     assert pilot.feedback.status("question") == "DONE"
     assert pilot.feedback.warnings == []
@@ -66,7 +66,7 @@ async def test_the_left_hand_is_raised_while_the_right_one_is_busy() -> None:
     assert above_shoulder(pilot, "r").max() < 0
 
 
-async def test_a_file_that_is_saved_while_it_runs_is_read_anew(tmp_path: Path) -> None:
+async def test_a_file_that_is_saved_during_a_session_is_read_again(tmp_path: Path) -> None:
     own = tmp_path / "own"
     shutil.copytree(GESTURE, own)
     animation = own / "procanimation" / "raise_hand.xml"
@@ -83,7 +83,7 @@ async def test_a_file_that_is_saved_while_it_runs_is_read_anew(tmp_path: Path) -
         assert highest - above_shoulder(pilot, "r").max() == pytest.approx(0.1, abs=0.02)
 
 
-async def test_the_parameter_says_how_high(tmp_path: Path) -> None:
+async def test_the_parameter_sets_the_height_of_the_hand(tmp_path: Path) -> None:
     lower = tmp_path / "lower"
     shutil.copytree(GESTURE, lower)
     binding = lower / "gesturebinding.xml"
@@ -93,7 +93,7 @@ async def test_the_parameter_says_how_high(tmp_path: Path) -> None:
 
 
 def said(element: etree._Element) -> str:
-    """What an element says, comments and white space aside."""
+    """An element in canonical form, without comments and white space."""
     return canonicalize(etree.tostring(element, encoding="unicode", with_tail=False), strip_text=True)
 
 

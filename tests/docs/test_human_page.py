@@ -1,4 +1,4 @@
-"""docs/human.md: its example is played, and its tables are those of the code."""
+"""docs/human.md: its example plays, and its tables match the code."""
 
 import re
 from dataclasses import fields
@@ -16,7 +16,7 @@ from .conftest import EXAMPLES, fences, page
 HUMAN, BLOCKS = EXAMPLES / "two_characters.toml", EXAMPLES / "two_characters.xml"
 
 
-async def test_both_characters_play_and_one_waits_for_the_words_of_the_other() -> None:
+async def test_both_characters_play_and_one_waits_for_the_speech_of_the_other() -> None:
     async with open_pilot(SceneOptions(HUMAN, "text")) as pilot:
         pilot.watch()
         pilot.perform(BLOCKS.read_bytes())
@@ -30,7 +30,7 @@ async def test_both_characters_play_and_one_waits_for_the_words_of_the_other() -
             assert max(abs(frame.rotations - frames[0].rotations).max() for frame in frames) > 0.1
 
 
-async def test_a_file_of_the_user_is_a_new_pose(tmp_path: Path) -> None:
+async def test_a_file_in_the_folder_of_the_user_is_a_new_pose(tmp_path: Path) -> None:
     file = fences("docs/human.md", "xml")[1]
     (tmp_path / "postures").mkdir()
     (tmp_path / file.note).write_text(file.text, encoding="utf-8")
@@ -45,7 +45,7 @@ async def test_a_file_of_the_user_is_a_new_pose(tmp_path: Path) -> None:
         assert abs(nods[-1]) < 0.01
 
 
-async def test_without_idle_life_nothing_moves(tmp_path: Path) -> None:
+async def test_nothing_moves_without_idle_animation(tmp_path: Path) -> None:
     human = tmp_path / "human.toml"
     human.write_text("[character.alice]\nidle = false\n", encoding="utf-8")
     async with open_pilot(SceneOptions(human, "text")) as pilot:

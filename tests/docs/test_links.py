@@ -1,4 +1,4 @@
-"""Links between the pages lead somewhere, and pages stand alone."""
+"""The links between the pages lead to existing files and headings."""
 
 import re
 from pathlib import Path

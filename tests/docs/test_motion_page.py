@@ -1,4 +1,4 @@
-"""docs/motion.md: its block plays, its programs print what it shows, and what it refers to is there."""
+"""docs/motion.md: its block plays, its programs print their output, and the tests that it names exist."""
 
 import re
 import subprocess
@@ -19,12 +19,12 @@ LAWS = TEXT.partition("## Which laws hold")[2].partition("\n## ")[0]
 
 
 @pytest.mark.parametrize(("program", "shown"), PROGRAMS, ids=str)
-def test_a_program_of_the_page_prints_what_is_shown_under_it(program: Fence, shown: Fence) -> None:
+def test_a_program_on_the_page_prints_the_output_below_it(program: Fence, shown: Fence) -> None:
     printed = subprocess.run([sys.executable, "-c", program.text], capture_output=True, text=True, check=True).stdout
     assert printed == shown.text
 
 
-async def test_the_transition_of_the_page_leads_from_bar_to_bar() -> None:
+async def test_the_transition_on_the_page_leads_from_one_bar_to_the_next() -> None:
     (block,) = fences(PAGE, "xml")
     async with open_pilot() as pilot:
         pilot.perform(block.text)
@@ -34,11 +34,11 @@ async def test_the_transition_of_the_page_leads_from_bar_to_bar() -> None:
         assert pilot.feedback.time("swing:over:end") == pilot.feedback.time("swing:beat:start") == pytest.approx(2.3)
 
 
-def test_the_transitions_of_the_page_are_there() -> None:
+def test_the_transitions_on_the_page_exist() -> None:
     assert set(re.findall(r"`(\w+Transition)`", TEXT)) <= set(CURVES)
 
 
-def test_the_speeds_are_those_of_the_code() -> None:
+def test_the_speed_limits_on_the_page_match_the_code() -> None:
     assert f"{WRIST_SPEED:g} m/s, and {WRIST_ACCELERATION:g} m/s²" in TEXT
     assert f"| the root | {ROOT_SPEED:g} m/s |" in TEXT
 

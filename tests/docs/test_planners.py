@@ -1,4 +1,4 @@
-"""The planners of the pages, as programs of their own, against a server on the machine's clock."""
+"""The planners of the pages run as separate programs against a server on the machine's clock."""
 
 import asyncio
 import os
@@ -19,7 +19,7 @@ TO_ITS_END = "what no program prints"
 
 
 def node() -> tuple[str, ...]:
-    """What runs a module of JavaScript with a WebSocket; the test is left out where there is none."""
+    """The command that runs a JavaScript module with a WebSocket; without one, the test is skipped."""
     found = shutil.which("node", path=f"{Path(sys.executable).parent}:{os.environ['PATH']}")
     if found is None:
         pytest.skip("no node")
@@ -27,7 +27,7 @@ def node() -> tuple[str, ...]:
 
 
 async def run(name: str, server: str, last: str) -> list[str]:
-    """What an example prints, up to a line that contains something."""
+    """The output of an example, up to a line that contains a text."""
     text = (EXAMPLES / name).read_text(encoding="utf-8")
     return await run_program(text, server, last, PYTHON)
 
@@ -55,15 +55,15 @@ async def test_the_first_planner_prints_feedback_until_its_block_ends(server: st
     assert [line for line in printed if "warningFeedback" in line] == []
 
 
-async def test_the_moving_peg_is_reached_where_it_was_moved_to(server: str) -> None:
+async def test_the_moving_peg_is_reached_at_its_last_predicted_time(server: str) -> None:
     printed = await run("moving_peg.py", server, "together:end")
     times = {id_: float(time) for id_, time in (line.split() for line in printed)}
-    # The stroke was to be two seconds after the block was sent, then two seconds after the hands had set out.
+    # It was first predicted 2 s after the block was sent, then 2 s after the hands had started.
     assert times["together:clap:stroke"] - times["together:clap:start"] > 1.99
     assert times["together:end"] == times["together:clap:end"] > times["together:clap:stroke"]
 
 
-def test_the_program_of_the_readme_prints_what_the_readme_says() -> None:
+def test_the_program_of_the_readme_prints_the_output_in_the_readme() -> None:
     (program,) = fences("README.md", "python")
     printed = subprocess.run([*PYTHON, program.text], capture_output=True, text=True, check=True).stdout
     assert f"It prints `{printed.strip()}`." in page("README.md")
@@ -75,8 +75,8 @@ def test_the_program_of_the_readme_prints_what_the_readme_says() -> None:
 PLANNERS = "docs/planners.md"
 
 
-async def test_whoever_barges_in_is_given_way_to_and_the_planner_knows_what_was_heard(server: str) -> None:
-    for _ in range(2):  # also where somebody barged in before
+async def test_a_planner_that_is_interrupted_yields_and_knows_which_words_were_heard(server: str) -> None:
+    for _ in range(2):  # the second time, blocks of the first run have ended
         (printed,) = await run("barge_in.py", server, TO_ITS_END)
         assert printed.strip() in page(PLANNERS)
 
@@ -89,7 +89,7 @@ async def test_whoever_barges_in_is_given_way_to_and_the_planner_knows_what_was_
         (None, {"talk": "DONE", "more": "DONE", "yield": "INTERRUPTED", "away": "DONE"}),
     ],
 )
-async def test_a_story_goes_on_beside_what_waits_to_break_it_off(barges_in: float, statuses: dict[str, str]) -> None:
+async def test_a_story_plays_on_while_an_interrupt_waits(barges_in: float | None, statuses: dict[str, str]) -> None:
     (story,) = fences(PLANNERS, "xml")
     async with open_pilot() as pilot:
         pilot.perform(story.text)
@@ -102,14 +102,14 @@ async def test_a_story_goes_on_beside_what_waits_to_break_it_off(barges_in: floa
         assert pilot.feedback.warnings == []
 
 
-async def test_the_same_in_javascript(server: str) -> None:
+async def test_the_javascript_planner_yields_too(server: str) -> None:
     program = (EXAMPLES / "barge_in.mjs").read_text(encoding="utf-8")
     for _ in range(2):
         (printed,) = await run_program(program, server, TO_ITS_END, node())
         assert printed.strip() in page(PLANNERS)
 
 
-async def test_a_planner_needs_nothing_but_http(server: str) -> None:
+async def test_a_planner_can_use_http_alone(server: str) -> None:
     predicted, accepted, *told = await run("over_http.py", server, "wave:end")
     assert predicted.startswith("{'time': ")
     assert accepted == "{'blocks': ['wave']}\n"
@@ -117,19 +117,19 @@ async def test_a_planner_needs_nothing_but_http(server: str) -> None:
     assert 'bmla:status="DONE"' in told[-1]
 
 
-async def test_a_block_is_posted_from_javascript(server: str) -> None:
+async def test_the_javascript_on_the_page_posts_a_block(server: str) -> None:
     _, program = fences(PLANNERS, "javascript")
     (printed,) = await run_program(program.text, server, "202", node())
     assert f"`{printed.strip()}`" in page(PLANNERS)
 
 
-def test_a_planner_is_tested_without_a_server() -> None:
+def test_the_test_on_the_page_runs_a_planner_without_a_server() -> None:
     program = fences(PLANNERS, "python")[-1]
     printed = subprocess.run([*PYTHON, program.text], capture_output=True, text=True, check=True).stdout
     assert f"It prints `{printed.strip()}`." in page(PLANNERS)
 
 
-def test_the_page_shows_the_programs_as_they_are() -> None:
+def test_the_page_shows_the_programs_of_the_examples() -> None:
     planner, barge_in, over_http, _ = fences(PLANNERS, "python")
     in_javascript, _ = fences(PLANNERS, "javascript")
     shown = {"planner.py": planner, "barge_in.py": barge_in, "over_http.py": over_http, "barge_in.mjs": in_javascript}
@@ -137,7 +137,7 @@ def test_the_page_shows_the_programs_as_they_are() -> None:
         assert program.text == (EXAMPLES / name).read_text(encoding="utf-8")
 
 
-def test_the_page_names_programs_that_are_there() -> None:
+def test_the_programs_that_the_page_names_exist() -> None:
     named = re.findall(r"^\| `(\w+\.py)` \|", page(PLANNERS), re.MULTILINE)
     assert len(named) > 5
     assert [name for name in named if not (EXAMPLES / name).exists()] == []

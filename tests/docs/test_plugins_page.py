@@ -1,4 +1,4 @@
-"""docs/plugins.md: its plug-ins are found, play, and pass the contracts as a stranger would run them."""
+"""docs/plugins.md: its plug-ins are found, play, and pass their contracts outside of this repository."""
 
 import os
 import shutil
@@ -29,7 +29,7 @@ def installed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.usefixtures("installed")
-async def test_engine_voice_and_trajectory_have_their_part_in_the_block_of_the_page() -> None:
+async def test_the_block_on_the_page_uses_the_engine_the_voice_and_the_trajectory() -> None:
     options = SceneOptions(PLUGIN / "human.toml", "beep")
     async with open_pilot(options) as pilot:
         pilot.watch()
@@ -49,7 +49,7 @@ async def test_engine_voice_and_trajectory_have_their_part_in_the_block_of_the_p
 
 
 @pytest.mark.usefixtures("installed")
-async def test_the_strategy_stretches_nothing_and_says_what_it_drops() -> None:
+async def test_the_strategy_stretches_nothing_and_reports_dropped_constraints() -> None:
     async with open_pilot(SceneOptions(voice="text", strategy="earliest")) as pilot:
         pilot.block("b", '<gesture id="g" lexeme="BEAT" start="1" end="9"/><head id="n" lexeme="NOD" start="g:end"/>')
         await pilot.advance(5)
@@ -60,7 +60,7 @@ async def test_the_strategy_stretches_nothing_and_says_what_it_drops() -> None:
 
 
 @pytest.mark.usefixtures("installed")
-def test_the_command_line_takes_them_by_their_names(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_command_line_accepts_plug_ins_by_name(capsys: pytest.CaptureFixture[str]) -> None:
     options = ["--human", str(PLUGIN / "human.toml"), "--voice", "beep", "--strategy", "earliest", "--feedback", "-"]
     assert main(["realize", str(PLUGIN / "wink.xml"), *options]) == 0
     assert "hint:eye:end" in capsys.readouterr().out
@@ -68,7 +68,7 @@ def test_the_command_line_takes_them_by_their_names(capsys: pytest.CaptureFixtur
 
 @pytest.mark.usefixtures("installed")
 @pytest.mark.parametrize("command", ["realize", "serve", "demo"])
-def test_the_help_of_a_command_names_them(command: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_help_of_a_command_lists_plug_ins(command: str, capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit, match="0"):
         main([command, "--help"])
     told = capsys.readouterr().out
@@ -77,7 +77,7 @@ def test_the_help_of_a_command_names_them(command: str, capsys: pytest.CaptureFi
 
 
 @pytest.mark.usefixtures("installed")
-def test_each_is_found_under_the_name_of_the_page() -> None:
+def test_each_plug_in_is_found_under_its_name_on_the_page() -> None:
     for group, name in [("engines", "wink"), ("tts", "beep"), ("strategies", "earliest")]:
         assert name in names(group)
         assert load(group, name).__module__
@@ -85,7 +85,7 @@ def test_each_is_found_under_the_name_of_the_page() -> None:
 
 
 @pytest.mark.usefixtures("installed")
-async def test_what_the_engine_cannot_play_is_told_in_a_warning() -> None:
+async def test_the_engine_warns_of_behaviors_that_it_cannot_play() -> None:
     async with open_pilot(SceneOptions(PLUGIN / "human.toml", "text")) as pilot:
         pilot.block("b", '<wink xmlns="urn:example:wink" id="w" eye="third"/>')
         await pilot.advance(0.1)
@@ -96,7 +96,7 @@ async def test_what_the_engine_cannot_play_is_told_in_a_warning() -> None:
 
 
 @pytest.mark.timeout(300)
-def test_the_contracts_are_passed_by_pytest_alone(tmp_path: Path) -> None:
+def test_the_contract_tests_on_the_page_pass_in_a_separate_pytest(tmp_path: Path) -> None:
     for folder in ("plugin", "anticipator"):
         shutil.copytree(EXAMPLES / folder, tmp_path / "examples" / folder)
     plain = ["-p", "no:asyncio", "-p", "no:cacheprovider", "-q"]
@@ -121,7 +121,7 @@ def test_the_page_shows_the_files_of_the_examples() -> None:
     assert entry_points.text in (PLUGIN / "pyproject.toml").read_text(encoding="utf-8")
 
 
-def test_the_page_names_every_kind_of_plug_in() -> None:
+def test_the_page_lists_every_kind_of_plug_in() -> None:
     table = {
         line.split("`")[1] for line in (REPOSITORY / PAGE).read_text("utf-8").splitlines() if line.startswith("| [")
     }

@@ -1,4 +1,4 @@
-"""docs/cli.md, a session again: the file that is shown is one, and is replayed."""
+"""docs/cli.md: the recording that it shows is valid and can be replayed."""
 
 import json
 import re
@@ -13,7 +13,9 @@ from reactive_realizer.__main__ import main
 from .conftest import fences, page
 
 
-def test_the_session_that_is_shown_is_replayed_as_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_recording_on_the_page_is_replayed_with_the_feedback_on_the_page(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.chdir(tmp_path)
     (session,) = fences("docs/cli.md", "jsonl")
     Path("session.jsonl").write_text(session.text, "utf-8")

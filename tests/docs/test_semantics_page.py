@@ -1,4 +1,4 @@
-"""docs/semantics.md shows the transitions of a block as the code has them."""
+"""docs/semantics.md shows all transitions of a block."""
 
 from reactive_realizer.scheduler.block_state import TRANSITIONS
 

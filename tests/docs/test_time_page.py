@@ -1,4 +1,4 @@
-"""docs/time.md: its pictures are those of the code, its programs print what it shows, its tables are complete."""
+"""docs/time.md: its drawings are up to date, its programs print their output, and its tables are complete."""
 
 import re
 import runpy
@@ -19,19 +19,19 @@ PROGRAMS = list(zip(fences(PAGE, "python"), fences(PAGE, "text"), strict=True))
 
 
 @pytest.mark.parametrize(("program", "shown"), PROGRAMS, ids=str)
-def test_a_program_of_the_page_prints_what_is_shown_under_it(program: Fence, shown: Fence) -> None:
+def test_a_program_on_the_page_prints_the_output_below_it(program: Fence, shown: Fence) -> None:
     printed = subprocess.run([sys.executable, "-c", program.text], capture_output=True, text=True, check=True).stdout
     assert printed == shown.text
 
 
-def test_the_drawings_are_as_boards_and_plans_are() -> None:
+def test_the_drawings_are_up_to_date() -> None:
     made = runpy.run_path(str(DOCS / "make_drawings.py"))["drawings"]()
     drawn = {path.name: path.read_text(encoding="utf-8") for path in (DOCS / "pictures").glob("time-*.svg")}
     assert made == drawn, "run `make docs`"
     assert set(re.findall(r"\(pictures/(.+?)\)", page(PAGE))) == set(drawn)
 
 
-async def test_the_later_of_the_words_and_the_hit_decides_when_the_nod_is() -> None:
+async def test_the_nod_happens_at_the_later_of_the_word_and_the_hit() -> None:
     (block,) = fences(PAGE, "xml")
     async with open_pilot() as pilot:
         pilot.predict("partner", "hit", 0.3)

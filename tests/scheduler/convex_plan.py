@@ -1,4 +1,4 @@
-"""What tests of the strategy `convex` plan: some timings, and a plan whose times follow its pegs."""
+"""Timings and plans for tests of the strategy `convex`."""
 
 from itertools import pairwise
 
@@ -19,7 +19,7 @@ CHANGE = timing_at({"start": 0.0, "end": 1.0}, PhaseKind.FREE)
 
 
 class Plan:
-    """What came out, as times of pegs, which move with times from outside."""
+    """The solution of a problem: the times of its pegs, which follow outer times."""
 
     def __init__(self, items: dict[str, Timing], *constraints: Tie | Precedence) -> None:
         self.asked = problem([item(id_, timing) for id_, timing in items.items()], *constraints)

@@ -1,4 +1,4 @@
-"""The transitions of a block: each row of the table happens, and nothing else does."""
+"""The transitions of a block: every row of the table can be taken, and no other transition."""
 
 import ast
 from collections.abc import Iterator, Sequence
@@ -79,7 +79,7 @@ LIVES: dict[str, tuple[Sent, list[BlockEvent]]] = {
     "its engines fail while it plays": ([("b", REQUIRED, {}), BlockState.IN_EXEC], [PLAN, START, FAIL]),
     "its engines fail on the way back": ([("b", REQUIRED, {}), BlockState.SUBSIDING], [PLAN, START, SUBSIDE, FAIL]),
 }
-"""What is sent, and the state in which engines fail, if they do; the events of block b that follow."""
+"""The blocks that are sent, with the state of block b in which the engines fail, if any; the events of block b."""
 
 
 def make_block() -> BMLBlock:
@@ -136,7 +136,7 @@ def fail(tick: Tick) -> Play:
 
 
 async def live(sent: Sent, taken: list[BlockTransition]) -> FeedbackList:
-    """The feedback of blocks that are sent at once; engines fail when block b comes to a state, if one is named."""
+    """The feedback of blocks that are sent at once; the engines fail when block b enters a state that is listed."""
     async with open_pilot() as pilot:
         for each in sent:
             if not isinstance(each, BlockState):
@@ -164,7 +164,7 @@ async def test_a_block_pins_and_reports_what_the_table_says(
     assert [line.id for line in feedback.of("blockProgress") if line.id.startswith("b:")] == reports
 
 
-def test_these_lives_take_every_row_of_the_table() -> None:
+def test_the_lives_cover_every_row_of_the_table() -> None:
     rows = set()
     for _, events in LIVES.values():
         state = BlockState.IN_PREP
@@ -174,7 +174,7 @@ def test_these_lives_take_every_row_of_the_table() -> None:
     assert rows == LEGAL.keys()
 
 
-def test_only_its_lifecycle_writes_a_block() -> None:
+def test_only_the_lifecycle_writes_blocks() -> None:
     fields = {each for each in vars(make_block()) if not each.startswith("_")}
     for path in sorted((PACKAGE / "scheduler").rglob("*.py")):
         if path.name not in OWNERS:
@@ -204,7 +204,7 @@ def called(path: Path) -> Iterator[str]:
             yield node.func.attr
 
 
-def test_sync_points_reach_feedback_by_one_way() -> None:
+def test_sync_points_are_reported_in_one_place() -> None:
     modules = [path for path in sorted(PACKAGE.rglob("*.py")) if path.name != "messages.py"]
     assert [path.name for path in modules if "SyncPointProgress(" in path.read_text(encoding="utf-8")] == [
         "block_feedback.py"

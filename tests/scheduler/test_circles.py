@@ -1,4 +1,4 @@
-"""Stretching what is tied at both ends: everything on the way is pulled with one force."""
+"""Stretching of spans that are tied at both ends: all spans of a circle are under equal force."""
 
 from itertools import pairwise
 
@@ -28,7 +28,7 @@ def spans_around(phases: list[tuple[PhaseKind, float, bool]], total: float) -> l
 
 
 def pull(span: Span, length: float) -> float:
-    """How much a span's cost rises with its length."""
+    """The derivative of a span's cost by its length."""
     if span.elastic:
         return 1.0 - span.goal / length
     return STIFFNESS * (1.0 - (span.goal + SLACK) / (length + SLACK))
@@ -51,7 +51,7 @@ kinds = st.sampled_from([PhaseKind.ELASTIC, PhaseKind.HOLD])
 
 
 @given(st.lists(st.tuples(kinds, preferred, st.booleans()), min_size=2, max_size=6), st.floats(-10.0, 20.0))
-def test_what_is_not_at_a_limit_is_pulled_with_one_force(
+def test_spans_that_are_not_at_a_limit_have_equal_forces(
     phases: list[tuple[PhaseKind, float, bool]], total: float
 ) -> None:
     spans = spans_around(phases, total)
@@ -68,26 +68,26 @@ def test_what_is_not_at_a_limit_is_pulled_with_one_force(
 
 
 def assert_out_of_reach(phases: list[tuple[PhaseKind, float, bool]], total: float) -> None:
-    """Phases that all lead the same way cannot lead back."""
+    """The only circles without a solution: all phases have one direction, and the total has the other."""
     ways = {forward for _, _, forward in phases}
     assert len(ways) == 1
     assert (total if True in ways else -total) <= 1e-3
 
 
-def test_holds_take_the_time_first() -> None:
+def test_holds_absorb_extra_time_first() -> None:
     spans = spans_around([(PhaseKind.ELASTIC, 1.0, True), (PhaseKind.HOLD, 1.0, True)], 9.0)
     elastic, hold = lengths_of(spans, solve_circles(spans, []))
     assert 1.0 < elastic < 1.06
     assert hold == pytest.approx(9.0 - elastic)
 
 
-def test_a_limit_is_kept_and_the_others_give() -> None:
+def test_a_span_stays_within_its_limit_and_the_others_stretch_more() -> None:
     spans = spans_around([(PhaseKind.ELASTIC, 1.0, True), (PhaseKind.ELASTIC, 1.0, True)], 4.0)
     spans[0].maximum = 1.2
     assert lengths_of(spans, solve_circles(spans, [])) == pytest.approx([1.2, 2.8])
 
 
-def test_a_hold_lasts_no_time_at_least() -> None:
+def test_a_hold_may_shrink_to_zero() -> None:
     spans = spans_around([(PhaseKind.ELASTIC, 1.0, True), (PhaseKind.HOLD, 0.1, True)], 0.3)
     assert lengths_of(spans, solve_circles(spans, [])) == pytest.approx([0.3, 0.0])
 
@@ -96,18 +96,18 @@ def bound(later: int, earlier: int, distance: float = 0.0) -> Bound:
     return Bound(later, earlier, distance, Row(later, earlier, distance, GIVEN))
 
 
-def test_what_has_to_start_within_its_block_is_hurried() -> None:
+def test_a_behavior_is_shortened_to_start_within_its_block() -> None:
     stroke = Span(0, (0,), PhaseKind.ELASTIC, 0.8, 0, 0, tail=1, head=0, shift=0.3, goal=0.8)  # it is at 0.3 s
     times = solve_circles([stroke], [bound(1, 0)])
     assert times == pytest.approx({0: 0.0, 1: 0.0})
 
 
-def test_a_bound_that_is_kept_anyway_pulls_at_nothing() -> None:
+def test_an_inactive_bound_has_no_effect() -> None:
     stroke = Span(0, (0,), PhaseKind.ELASTIC, 0.8, 0, 0, tail=1, head=0, shift=2.0, goal=0.8)
     times = solve_circles([stroke], [bound(1, 0)])
     assert times == pytest.approx({0: 0.0, 1: 1.2})
 
 
-def test_more_than_circles_is_left_to_others() -> None:
+def test_spans_that_are_not_simple_circles_are_not_solved() -> None:
     sides = [Span(0, (k,), PhaseKind.ELASTIC, 1.0 + k, 0, 0, tail=1, head=2, goal=1.0 + k) for k in range(3)]
     assert solve_circles(sides, []) is None

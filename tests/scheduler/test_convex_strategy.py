@@ -1,4 +1,4 @@
-"""The strategy `convex`: earliest starts, behaviors that are free, plans that are the same in any order."""
+"""The strategy `convex`: earliest starts, free behaviors, and plans that do not depend on the order of the input."""
 
 import random
 from typing import TypeVar
@@ -21,7 +21,7 @@ T = TypeVar("T")
 # --- starts
 
 
-def test_example_26_starts_with_the_after_that_lets_it_start_last() -> None:
+def test_example_26_starts_at_the_latest_of_its_after_constraints() -> None:
     items = {"speech": SPEECH, "point": BEAT, "walk": timing_at({"start": 0.0, "relax": 3.0, "end": 3.5})}
     orders = after("point:start", "walk:relax"), after("speech:start", START, 2.0)
     plan = Plan(items, at("point:stroke", "speech:sync1"), *orders)
@@ -31,12 +31,12 @@ def test_example_26_starts_with_the_after_that_lets_it_start_last() -> None:
     assert plan["walk:start"] == 0.0
 
 
-def test_before_squeezes_what_cannot_start_earlier() -> None:
+def test_a_before_constraint_shortens_a_behavior_that_cannot_start_earlier() -> None:
     plan = Plan({"n": NOD}, after(START, "n:end", -0.5))
     assert plan.times("n") == pytest.approx([0.0, 0.2, 0.5])
 
 
-def test_a_cluster_is_as_early_as_allowed_also_after_what_it_waits_for_was_moved() -> None:
+def test_a_cluster_starts_as_early_as_possible_after_its_outer_time_moved() -> None:
     hit = outer("hit", 2.0)
     plan = Plan({"n": NOD, "g": BEAT}, after("n:start", hit, 0.5), at("g:start", "n:end"))
     assert plan["n:start"] == pytest.approx(2.5)
@@ -47,8 +47,8 @@ def test_a_cluster_is_as_early_as_allowed_also_after_what_it_waits_for_was_moved
 
 
 @given(feasible_problems(), st.floats(0.0, 6.0))
-def test_also_after_any_move_no_cluster_could_start_earlier(asked: SchedulingProblem, time: float) -> None:
-    # Nothing of the clusters is tied to the outside, so that whatever moves can be followed.
+def test_all_clusters_start_as_early_as_possible_after_any_move(asked: SchedulingProblem, time: float) -> None:
+    # No cluster is tied to an outer time, so the plan can follow any move.
     ties = [tie for tie in asked.ties if all(isinstance(node, Point) for node in tie.nodes)]
     hit = outer("hit", 3.0)
     orders = [after(Point(each.behavior.id, each.timing.points[0]), hit) for each in asked.items[:1]]
@@ -65,7 +65,7 @@ def test_also_after_any_move_no_cluster_could_start_earlier(asked: SchedulingPro
 
 
 @given(feasible_problems())
-def test_free_behaviors_move_nothing(asked: SchedulingProblem) -> None:
+def test_free_behaviors_do_not_move_others(asked: SchedulingProblem) -> None:
     points = [Point(each.behavior.id, sync) for each in asked.items for sync in each.timing.points]
     ends = random.Random(len(points)).choices(points, k=2)
     ties = at("free:start", ends[0]), at("free:end", ends[1])
@@ -74,7 +74,7 @@ def test_free_behaviors_move_nothing(asked: SchedulingProblem) -> None:
     assert {point: with_it.times[point] for point in points} == without.times
 
 
-def test_a_free_behavior_ties_nothing_together() -> None:
+def test_a_free_behavior_does_not_connect_the_behaviors_at_its_ends() -> None:
     ties = at("free:start", "a:end"), at("free:end", "b:start", 5.0)
     plan = Plan({"a": NOD, "b": NOD, "free": CHANGE}, *ties)
     assert plan.losses == []
@@ -82,7 +82,7 @@ def test_a_free_behavior_ties_nothing_together() -> None:
     assert plan.times("free") == pytest.approx([1.0, 5.0])
 
 
-# --- any order
+# --- order of the input
 
 
 @given(problems(), st.randoms(use_true_random=False))

@@ -1,4 +1,4 @@
-"""Earliest times under inequalities: the least that meet all, or a circle that nothing can meet."""
+"""Earliest times under inequalities: the least times that meet all, or a cycle that no times can meet."""
 
 from itertools import pairwise
 
@@ -15,7 +15,7 @@ arcs_between = st.lists(st.builds(Arc, nodes, nodes, lengths, st.none()), max_si
 
 
 def plainly(arcs: list[Arc[None]]) -> list[float]:
-    """As many passes as there can be nodes on a path."""
+    """The reference: relax all arcs as many times as there are nodes."""
     times = [0.0] * SIZE
     for _ in range(SIZE):
         for arc in arcs:
@@ -25,7 +25,7 @@ def plainly(arcs: list[Arc[None]]) -> list[float]:
 
 @settings(derandomize=True, max_examples=400)
 @given(arcs_between)
-def test_times_are_the_least_that_meet_all_arcs_or_there_is_a_circle_that_gains_time(arcs: list[Arc[None]]) -> None:
+def test_times_are_the_least_that_meet_all_arcs_or_there_is_a_positive_cycle(arcs: list[Arc[None]]) -> None:
     times, circle = longest_path(SIZE, arcs)
     if circle:
         assert all(arc in arcs for arc in circle)
@@ -37,7 +37,7 @@ def test_times_are_the_least_that_meet_all_arcs_or_there_is_a_circle_that_gains_
 
 @settings(derandomize=True, max_examples=100)
 @given(st.permutations(range(40)), st.randoms(use_true_random=False))
-def test_a_chain_takes_as_long_as_its_links_in_whatever_order_they_and_its_nodes_are(
+def test_the_time_of_a_chain_does_not_depend_on_the_order_of_arcs_and_nodes(
     order: list[int], random: ArtificialRandom
 ) -> None:
     arcs = [Arc(tail, head, 0.5, None) for tail, head in pairwise(order)]
@@ -47,7 +47,7 @@ def test_a_chain_takes_as_long_as_its_links_in_whatever_order_they_and_its_nodes
     assert [times[node] for node in order] == [0.5 * place for place in range(len(order))]
 
 
-def test_a_chain_of_thousands_is_no_matter_of_depth_or_of_many_passes() -> None:
+def test_a_chain_of_thousands_needs_no_recursion_and_few_passes() -> None:
     arcs = [Arc(node, node - 1, 1.0, None) for node in range(1, 20_000)]
     times, circle = longest_path(20_000, arcs)
     assert circle == []

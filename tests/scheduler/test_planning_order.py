@@ -1,4 +1,4 @@
-"""The order of planning: a block comes after those that it names."""
+"""The order of planning: a block comes after the blocks that it refers to."""
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -30,7 +30,7 @@ def ordered(names: Mapping[T, Sequence[T]], waiting: list[T] | None = None) -> l
         ({"a": ["d"]}, "da"),
     ],
 )
-def test_an_item_comes_after_its_dependencies_and_all_else_stays_in_order(
+def test_an_item_comes_after_its_dependencies_and_the_others_keep_their_order(
     names: dict[str, list[str]], order: str
 ) -> None:
     assert "".join(ordered(names)) == order
@@ -45,14 +45,12 @@ def test_an_item_comes_after_its_dependencies_and_all_else_stays_in_order(
         ({"x": ["a"], "a": ["b", "d"], "b": ["a"], "d": []}, "bdax"),
     ],
 )
-def test_one_item_of_a_circle_is_first_and_items_outside_of_it_wait_as_usual(
-    names: dict[str, list[str]], order: str
-) -> None:
+def test_one_item_of_a_cycle_comes_first_and_items_outside_of_it_wait(names: dict[str, list[str]], order: str) -> None:
     assert "".join(ordered(names)) == order
 
 
 @given(NAMES)
-def test_each_item_comes_once_and_only_a_circle_puts_one_before_a_dependency(names: dict[int, list[int]]) -> None:
+def test_each_item_comes_once_and_precedes_a_dependency_only_in_a_cycle(names: dict[int, list[int]]) -> None:
     order = ordered(names)
     place = {each: number for number, each in enumerate(order)}
     assert len(place) == len(order)
@@ -63,7 +61,7 @@ def test_each_item_comes_once_and_only_a_circle_puts_one_before_a_dependency(nam
 
 
 @pytest.mark.parametrize("step", [1, -1])
-def test_a_long_chain_is_asked_once_an_item_and_needs_no_deeper_stack(step: int) -> None:
+def test_each_item_of_a_long_chain_is_visited_once_without_recursion(step: int) -> None:
     asked = Counter[int]()
 
     def named(each: int) -> list[int]:

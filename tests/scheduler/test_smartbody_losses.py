@@ -1,4 +1,4 @@
-"""SmartBody's scheduling: what is lost leaves nothing behind (thesis 7.2.2, 7.24)."""
+"""SmartBody's scheduling: dropped behaviors and constraints have no further effect (thesis 7.2.2, 7.24)."""
 
 from collections.abc import Mapping
 
@@ -13,14 +13,14 @@ START = Origin.BLOCK_START
 
 
 def solved(behaviors: dict[str, str], *ties: Tie) -> tuple[Mapping[Point, float | None], list[tuple[str, bool]]]:
-    """Kinds by id: the times of all points, and the losses as (code, required)."""
+    """The times of all points, and the losses as (code, required), of behaviors given as id -> kind."""
     asked = problem([item(id_, TIMINGS[kind]) for id_, kind in behaviors.items()], *ties)
     solution = SmartBodyStrategy().solve(asked)
     times = PlanView.of_solution(asked, solution).times
     return times, [(loss.fault.code, loss.required) for loss in solution.losses]
 
 
-def test_what_was_tied_to_a_behavior_that_is_lost_starts_with_its_block() -> None:
+def test_a_behavior_tied_to_a_dropped_one_starts_with_its_block() -> None:
     hit = outer("hit", 3.0)
     ties = at("lost:start", hit), at("lost:end", hit), at("nod:start", "lost:start", 0.5)
     times, losses = solved({"lost": "beat", "nod": "nod"}, *ties)
@@ -28,14 +28,14 @@ def test_what_was_tied_to_a_behavior_that_is_lost_starts_with_its_block() -> Non
     assert times[Point("nod", "start")] == 0.0
 
 
-def test_what_leaned_on_it_in_a_cluster_starts_as_early_as_it_may_without_it() -> None:
+def test_a_cluster_is_placed_without_its_dropped_behavior() -> None:
     ties = at("n:start", "lost:end", 2.0), at("lost:start", "b:end"), at("lost:end", "b:end")
     times, losses = solved({"b": "beat", "lost": "nod", "n": "nod"}, *ties)
     assert losses == [("too-short", False)]
     assert times[Point("n", "start")] == times[Point("b", "start")] == 0.0
 
 
-def test_a_tie_that_a_rigid_behavior_cannot_meet_places_it_no_more() -> None:
+def test_a_tie_that_a_rigid_behavior_cannot_meet_does_not_determine_its_time() -> None:
     ties = at("s:start", "s:end", 0.5), at("s:end", outer("hit", 4.0))
     times, losses = solved({"s": "speech"}, *ties)
     assert losses == [("rigid", False), ("rigid", False)]
@@ -43,20 +43,20 @@ def test_a_tie_that_a_rigid_behavior_cannot_meet_places_it_no_more() -> None:
 
 
 @pytest.mark.parametrize("required", [False, True])
-def test_the_loss_of_a_behavior_fails_its_block_if_something_required_names_it(required: bool) -> None:
+def test_the_loss_of_a_behavior_fails_the_block_if_a_required_constraint_refers_to_it(required: bool) -> None:
     ties = at("lost:start", START, 3.0), at("lost:end", START, 2.0), at("nod:start", "lost:start", required=required)
     _, losses = solved({"lost": "beat", "nod": "nod"}, *ties)
     assert losses == [("out-of-order", required)]
 
 
-def test_what_would_be_before_its_block_is_lost_though_its_distance_is_from_a_time_of_the_outside_ahead() -> None:
+def test_a_behavior_before_its_block_is_dropped_also_if_it_follows_a_future_outer_time() -> None:
     ties = at("s:end", outer("hit", 2.5)), at("n:start", "s:start", -1.0)
     times, losses = solved({"s": "speech", "n": "nod"}, *ties)
     assert losses == [("before-block", False)]
     assert times[Point("s", "start")] == 0.5
 
 
-def test_but_what_the_outside_itself_brings_there_joins_late() -> None:
+def test_a_behavior_tied_directly_to_an_outer_time_before_its_block_joins_late() -> None:
     for hit, offset in ((-0.5, 0.0), (0.5, -1.0)):
         times, losses = solved(
             {"n": "nod", "m": "nod"}, at("n:start", outer("hit", hit), offset), at("m:start", "n:start")
@@ -66,13 +66,13 @@ def test_but_what_the_outside_itself_brings_there_joins_late() -> None:
 
 
 @pytest.mark.parametrize("other", [at("b:start", START), at("b:start", outer("hit", 0.25))], ids=["block", "outside"])
-def test_a_point_before_the_block_costs_its_behavior_also_while_nobody_knows_when_that_starts(other: Tie) -> None:
+def test_a_behavior_with_a_point_before_the_block_is_dropped_also_if_its_start_is_unknown(other: Tie) -> None:
     ties = other, at("n:start", outer("unknown", None)), at("n:stroke", "b:start", -0.5)
     _, losses = solved({"b": "beat", "n": "nod"}, *ties)
     assert losses == [("before-block", False)]
 
 
-def test_a_behavior_that_would_take_no_time_is_lost_though_a_point_within_is_unknown() -> None:
+def test_a_behavior_without_a_duration_is_dropped_also_if_one_of_its_points_is_unknown() -> None:
     ties = at("b:start", START, 1.0), at("b:stroke", "b:start"), at("b:strokeStart", outer("hit", None))
     _, losses = solved({"b": "beat"}, *ties)
     assert losses == [("too-short", False)]

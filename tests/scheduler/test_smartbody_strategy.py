@@ -57,7 +57,7 @@ def outer(time: float | None) -> AnticipatorPeg:
 
 
 class Plan:
-    """What came out, as times."""
+    """The solution of a problem, as times."""
 
     def __init__(self, items: list[Item], *ties: Tie) -> None:
         cells = {n for t in ties for n in (t.left, t.right) if isinstance(n, AnticipatorPeg)}
@@ -87,7 +87,9 @@ class Plan:
 
 
 @pytest.mark.parametrize("order", [1, -1], ids=["27a", "27b"])
-def test_27_a_nod_stretches_to_the_words_in_either_order_because_rigid_ones_of_a_cycle_go_first(order: int) -> None:
+def test_27_a_nod_stretches_to_the_words_in_either_order_because_rigid_behaviors_of_a_cycle_come_first(
+    order: int,
+) -> None:
     items = [speech(), item("nod1", NOD)][::order]
     plan = Plan(items, tie("nod1:start", "speech1:start"), tie("nod1:end", "speech1:sync1"))
     assert plan.losses == []
@@ -110,7 +112,7 @@ def test_28a_a_beat_follows_the_stroke_of_a_nod_between_two_times() -> None:
     assert plan["beat1:start"] == pytest.approx(3.3)
 
 
-def test_28b_the_other_way_round_the_nod_cannot_be_kept_and_is_dropped() -> None:
+def test_28b_in_the_other_order_the_nod_is_dropped() -> None:
     plan = Plan([item("beat1", BEAT), item("nod1", NOD)], *EXAMPLE_28)
     assert plan.losses == [("nod1", "out-of-order", True)]
     assert plan.times("beat1") == pytest.approx(list(BEAT.values()))
@@ -123,7 +125,7 @@ EXAMPLE_29 = (
 )
 
 
-def test_29a_a_cycle_of_ties_with_offsets_is_met_where_the_nod_comes_last() -> None:
+def test_29a_a_cycle_of_ties_with_offsets_is_met_if_the_nod_comes_last() -> None:
     plan = Plan([item("g1", BEAT), item("g2", BEAT), item("nod1", NOD)], *EXAMPLE_29)
     assert plan.losses == []
     assert (plan["nod1:start"], plan["g1:start"]) == pytest.approx((0.0, 2.0))
@@ -131,30 +133,30 @@ def test_29a_a_cycle_of_ties_with_offsets_is_met_where_the_nod_comes_last() -> N
     assert plan["nod1:end"] == pytest.approx(plan["g2:end"] + 3.0)
 
 
-def test_29b_with_the_nod_first_one_of_the_gestures_is_lost() -> None:
+def test_29b_one_of_the_gestures_is_dropped_if_the_nod_comes_first() -> None:
     plan = Plan([item("nod1", NOD), item("g1", BEAT), item("g2", BEAT)], *EXAMPLE_29)
     assert [(loss, code) for loss, code, _ in plan.losses] == [("g2", "out-of-order")]
     assert plan.kept == {"nod1", "g1"}
 
 
-# --- where points come to lie
+# --- times of points
 
 
-def test_what_is_tied_to_nothing_starts_with_its_block_and_takes_the_time_it_wants() -> None:
+def test_a_behavior_without_ties_starts_with_its_block_and_has_its_preferred_duration() -> None:
     assert Plan([item("g", BEAT)]).times("g") == list(BEAT.values())
 
 
-def test_between_two_ties_all_phases_stretch_alike() -> None:
+def test_phases_between_two_ties_stretch_by_the_same_factor() -> None:
     plan = Plan([item("g", BEAT)], tie("g:start", START, 1.0), tie("g:end", START, 1.0 + 2 * 1.2))
     assert plan.times("g") == pytest.approx([1.0 + 2 * time for time in BEAT.values()])
 
 
-def test_outside_of_two_ties_the_average_stretch_goes_on() -> None:
+def test_phases_outside_of_two_ties_stretch_by_the_average_factor() -> None:
     plan = Plan([item("g", BEAT)], tie("g:ready", START, 1.0), tie("g:relax", START, 2.0))
     assert plan.times("g") == pytest.approx([1 - 0.3 * 2, 1.0, 1.4, 2.0, 2.0 + 0.4 * 2])
 
 
-def test_between_three_ties_each_part_has_its_own_stretch_and_the_outside_the_average() -> None:
+def test_each_part_between_three_ties_has_its_own_factor_and_phases_outside_have_the_average() -> None:
     plan = Plan(
         [item("g", BEAT)],
         tie("g:ready", START, 1.0),
@@ -169,17 +171,17 @@ def test_one_tie_moves_a_behavior_as_a_whole() -> None:
     assert plan.times("g") == pytest.approx([1.5 + time for time in BEAT.values()])
 
 
-def test_an_offset_is_a_distance_to_the_point_that_is_named() -> None:
+def test_an_offset_is_the_distance_from_the_other_point() -> None:
     plan = Plan([item("a", NOD), item("b", NOD)], tie("b:start", "a:end", 0.25))
     assert plan["b:start"] == plan["a:end"] + 0.25
 
 
-def test_a_behavior_may_tie_its_own_points() -> None:
+def test_points_of_one_behavior_may_be_tied_to_each_other() -> None:
     plan = Plan([item("a", BEAT)], tie("a:end", "a:start", 2.4))
     assert plan.times("a") == pytest.approx([2 * time for time in BEAT.values()])
 
 
-def test_clusters_start_with_the_block_each_for_itself() -> None:
+def test_each_cluster_starts_with_the_block() -> None:
     ties = tie("b:end", "a:start"), tie("c:start", "d:end", 1.0)
     plan = Plan([item(name, NOD) for name in "abcd"], *ties)
     assert (plan["b:start"], plan["a:start"]) == pytest.approx((0.0, 1.0))
@@ -191,16 +193,16 @@ def test_a_cluster_with_a_given_time_is_not_moved() -> None:
     assert (plan["a:start"], plan["b:start"], plan["b:end"]) == pytest.approx((0.0, 1.0, 10.0))
 
 
-def test_what_would_start_before_its_block_starts_with_it_and_hurries() -> None:
+def test_a_behavior_that_would_start_before_its_block_is_shortened() -> None:
     plan = Plan([item("g", BEAT)], tie("g:stroke", START, 0.25))
     assert plan.times("g") == pytest.approx([time / 2 for time in BEAT.values()])
 
 
-def test_a_speech_can_not_hurry() -> None:
+def test_a_speech_that_would_start_before_its_block_is_dropped() -> None:
     assert Plan([speech()], tie("speech1:sync1", START, 0.25)).losses == [("speech1", "before-block", True)]
 
 
-def test_an_unknown_time_leaves_what_hangs_on_it_unknown() -> None:
+def test_points_that_depend_on_an_unknown_time_are_unknown() -> None:
     hit = outer(None)
     plan = Plan([item("g", BEAT), item("h", NOD)], tie("g:stroke", hit), tie("h:start", "g:end"))
     assert plan.losses == []
@@ -208,7 +210,7 @@ def test_an_unknown_time_leaves_what_hangs_on_it_unknown() -> None:
     assert plan.times("h") == [None] * len(NOD)
 
 
-def test_what_hangs_on_the_outside_follows_it() -> None:
+def test_a_behavior_tied_to_an_outer_time_follows_it() -> None:
     hit = outer(2.0)
     plan = Plan([item("g", BEAT)], tie("g:stroke", hit, 0.5))
     assert plan["g:start"] == 2.0
@@ -217,20 +219,20 @@ def test_what_hangs_on_the_outside_follows_it() -> None:
     assert plan["g:start"] == 3.0
 
 
-def test_what_hangs_on_a_point_that_has_passed_joins_late() -> None:
+def test_a_behavior_tied_to_a_past_point_joins_late() -> None:
     assert Plan([item("g", NOD)], tie("g:start", outer(-0.5))).times("g") == pytest.approx([-0.5, -0.1, 0.5])
 
 
-def test_unless_it_would_have_ended_by_now() -> None:
+def test_a_behavior_that_would_be_over_is_dropped() -> None:
     plan = Plan([item("g", NOD)], tie("g:start", outer(-1.5)))
     assert plan.losses == [("g", "all-past", True)]
     assert plan.kept == set()
 
 
-# --- what cannot be
+# --- conflicts
 
 
-def test_a_cycle_of_ties_that_says_the_same_twice_is_legal() -> None:
+def test_a_cycle_of_consistent_ties_is_legal() -> None:
     ties = (
         tie("b:start", "a:end"),
         tie("a:end", "b:start"),
@@ -242,7 +244,7 @@ def test_a_cycle_of_ties_that_says_the_same_twice_is_legal() -> None:
     assert plan["b:start"] == pytest.approx(plan["a:end"])
 
 
-def test_a_tie_that_contradicts_others_is_named_and_dropped_and_the_rest_holds() -> None:
+def test_a_contradictory_tie_is_dropped_and_reported_and_the_others_hold() -> None:
     ties = tie("b:start", "a:end"), tie("a:end", "b:start", 0.5, owner="a", required=True)
     plan = Plan([item("a", NOD), item("b", NOD)], *ties)
     assert plan.losses == [("a", "contradictory-tie", False)]
@@ -252,21 +254,21 @@ def test_a_tie_that_contradicts_others_is_named_and_dropped_and_the_rest_holds()
     assert plan["b:start"] == pytest.approx(plan["a:end"])
 
 
-def test_two_points_of_the_outside_cannot_be_made_one() -> None:
+def test_a_point_cannot_be_tied_to_two_outer_times() -> None:
     one, two = outer(1.0), outer(2.0)
     plan = Plan([item("a", NOD)], tie("a:start", one), tie("a:start", two))
     assert plan.losses == [("a", "outer-tie", False)]
     assert plan["a:start"] == 1.0
 
 
-def test_rigid_wins_and_the_tie_that_it_cannot_meet_is_lost_with_its_amount() -> None:
+def test_a_tie_that_a_rigid_behavior_cannot_meet_is_dropped_and_the_loss_has_the_gap() -> None:
     plan = Plan([speech()], tie("speech1:start", START, 1.0), tie("speech1:end", START, 4.0))
     assert plan.losses == [("speech1", "rigid", False)]
     assert plan.solution.losses[0].fault.details["gap"] == pytest.approx(1.0)
     assert plan.times("speech1") == [1.0, 1.5, 3.0]
 
 
-def test_what_a_rigid_behavior_meets_stays_with_it_when_clusters_are_moved() -> None:
+def test_ties_of_a_rigid_behavior_hold_when_clusters_are_moved() -> None:
     ties = tie("nod:end", "speech1:end", -0.5), tie("speech1:sync1", "beat:start")
     plan = Plan([item("nod", NOD), item("beat", BEAT), speech()], *ties)
     assert plan.losses == []
@@ -274,7 +276,7 @@ def test_what_a_rigid_behavior_meets_stays_with_it_when_clusters_are_moved() -> 
     assert plan["speech1:sync1"] == pytest.approx(plan["beat:start"])
 
 
-def test_a_rigid_behavior_cannot_hang_on_two_times_while_one_of_them_is_unknown() -> None:
+def test_a_rigid_behavior_cannot_be_tied_to_two_times_if_one_is_unknown() -> None:
     plan = Plan([speech()], tie("speech1:start", outer(None)), tie("speech1:end", START, 9.0))
     assert plan.losses == [("speech1", "outer-tie", False)]
     hit = outer(None)
@@ -282,25 +284,25 @@ def test_a_rigid_behavior_cannot_hang_on_two_times_while_one_of_them_is_unknown(
     assert plan.losses == []
 
 
-def test_points_out_of_order_cannot_be_played() -> None:
+def test_a_behavior_with_points_out_of_order_is_dropped() -> None:
     plan = Plan([item("g", BEAT), item("h", NOD)], tie("g:start", START, 3.0), tie("g:end", START, 2.0))
     assert plan.losses == [("g", "out-of-order", True)]
     assert plan.kept == {"h"}
 
 
-def test_no_time_at_all_is_too_short() -> None:
+def test_a_behavior_without_a_duration_is_dropped() -> None:
     assert Plan([item("g", BEAT)], tie("g:start", START, 3.0), tie("g:end", START, 3.0)).losses == [
         ("g", "too-short", True)
     ]
 
 
-def test_a_start_before_the_block_is_past() -> None:
+def test_a_behavior_tied_to_a_time_before_the_block_is_dropped() -> None:
     plan = Plan([item("g", BEAT)], tie("g:start", START, -1.0))
     assert plan.losses == [("g", "before-block", True)]
     assert plan.solution.losses[0].fault.details["early"] == pytest.approx(1.0)
 
 
-# --- whatever is asked
+# --- any problem
 
 
 _SYNCS = {"nod": list(NOD), "beat": list(BEAT), "speech": list(SPEECH)}
@@ -309,7 +311,7 @@ _OFFSETS = {"nod": NOD, "beat": BEAT, "speech": SPEECH}
 
 @st.composite
 def problems(draw: st.DrawFn) -> tuple[list[Item], list[Tie]]:
-    """Up to seven behaviors; ties to each other, the start of the block, and the outside; mostly too many."""
+    """Up to seven behaviors with ties to each other, the start of the block and outer times, usually in conflict."""
     kinds = draw(st.lists(st.sampled_from(sorted(_OFFSETS)), min_size=1, max_size=7))
     items = [item(f"{kind}{i}", _OFFSETS[kind], rigid=kind == "speech") for i, kind in enumerate(kinds)]
     points = [Point(each.behavior.id, sync) for each in items for sync in each.timing.points]
@@ -322,7 +324,7 @@ def problems(draw: st.DrawFn) -> tuple[list[Item], list[Tie]]:
 
 
 @given(problems())
-def test_whatever_is_kept_keeps_its_order_its_ties_and_does_not_start_before_its_block(
+def test_kept_behaviors_have_their_points_in_order_keep_their_ties_and_start_within_the_block(
     drawn: tuple[list[Item], list[Tie]],
 ) -> None:
     items, ties = drawn
@@ -352,7 +354,7 @@ def value(plan: Plan, side: Node) -> float | None:
 
 
 def hanging_on_outside(ties: list[Tie]) -> set[str]:
-    """Behaviors that the outside may pull before the start of their block."""
+    """Behaviors that outer times may move before the start of their block."""
     hanging: set[str] = set()
     for _ in ties:
         for each in ties:

@@ -1,4 +1,4 @@
-"""All strategies under the contract that plug-ins are tested by, and what each does with the thesis's examples."""
+"""Runs the contract for strategies on all built-in strategies, and the examples of the thesis."""
 
 import pytest
 
@@ -50,21 +50,21 @@ EXAMPLES: dict[str, tuple[list[Item], list[Tie | Precedence]]] = {
         [at("g2:start", "g1:end"), at("nod1:start", "g1:start", -2.0), at("nod1:end", "g2:end", 3.0)],
     ),
 }
-"""As the thesis prints them first; "b" is the same the other way round."""
+"""In the order in which the thesis prints them; "b" is the reverse order."""
 
 LOST: dict[str, dict[str, int]] = {
     "smartbody": {"26": 2, "26b": 2, "28b": 1, "29b": 1},
     "embr": {},
     "convex": {},
 }
-"""How much each strategy cannot keep (thesis 7.2.2, 7.2.3, 7.3.5)."""
+"""The number of losses of each strategy (thesis 7.2.2, 7.2.3, 7.3.5)."""
 
 
 @pytest.mark.parametrize(
     "strategy", [SmartBodyStrategy(), EmbrStrategy(), ConvexStrategy()], ids=lambda each: each.name
 )
 @pytest.mark.parametrize("name", [f"{number}{order}" for number in EXAMPLES for order in ("", "b")])
-def test_the_examples_of_the_thesis_in_both_orders(strategy: SchedulingStrategy, name: str) -> None:
+def test_examples_of_the_thesis_have_the_known_losses_in_both_orders(strategy: SchedulingStrategy, name: str) -> None:
     items, constraints = EXAMPLES[name.removesuffix("b")]
     turn = -1 if name.endswith("b") else 1
     asked = problem(items[::turn], *constraints)

@@ -1,4 +1,4 @@
-"""The thesis's equations as corrected: a plan that breaks one is told which, for which points, by how much."""
+"""The equations of the thesis, as corrected: a violation has its equation, its points and its amount."""
 
 from collections.abc import Collection, Mapping
 
@@ -47,12 +47,12 @@ FINE = {"a": (0.0, 0.4, 1.0)}
 TWO = {**FINE, "b": (0.0, 0.4, 1.0)}
 
 
-def test_a_plan_that_keeps_everything_breaks_nothing() -> None:
+def test_a_correct_plan_has_no_violations() -> None:
     later = {"a": (0.0, 0.4, 1.0), "b": (1.5, 1.9, 2.5)}
     assert broken(view(later, at("b:start", "a:end", 0.5), after("b:end", "a:end"), end=2.5)) == []
 
 
-# --- what was asked for
+# --- constraints
 
 
 @pytest.mark.parametrize(
@@ -69,43 +69,43 @@ def test_a_plan_that_keeps_everything_breaks_nothing() -> None:
     ],
     ids=lambda value: value if isinstance(value, str) else "",
 )
-def test_a_constraint_that_is_missed_is_named_with_its_equation(
+def test_a_missed_constraint_is_reported_with_its_equation(
     constraint: Tie | Precedence, equation: str, points: tuple[str, str], amount: float
 ) -> None:
     assert (equation, points, pytest.approx(amount)) in broken(view(TWO, constraint))
 
 
-def test_before_and_after_may_be_kept_with_room_to_spare_but_at_may_not() -> None:
+def test_before_and_after_constraints_are_inequalities_and_ties_are_not() -> None:
     apart = {"a": (0.0, 0.4, 1.0), "b": (0.0, 1.9, 2.5)}
     assert broken(view(apart, after("b:end", "a:end"))) == []
     assert broken(view(apart, at("b:end", "a:end"))) == [("7.11", ("b:end", "a:end"), 1.5)]
 
 
-# --- what is always so
+# --- every plan
 
 
-def test_nothing_is_before_its_block() -> None:
+def test_a_point_before_its_block_is_a_violation() -> None:
     assert broken(view({"a": (-0.5, 0.4, 1.0)})) == [("7.13", ("a:start",), 0.5)]
 
 
-def test_but_for_what_joins_a_time_of_the_outside_that_passed_before_it() -> None:
+def test_a_behavior_tied_to_an_outer_time_may_start_before_its_block() -> None:
     joined = {"a": (-0.5, -0.1, 0.5), "b": (-0.1, 0.3, 0.9)}
     hit = outer("hit", -0.5)
     assert broken(view(joined, at("a:start", hit), at("b:start", "a:stroke"))) == []
     assert broken(view({"a": (-0.5, 0.5, 1.0)}, at("a:stroke", outer("hit", 0.5)))) == [("7.13", ("a:start",), 0.5)]
 
 
-def test_a_behavior_takes_time_unless_it_is_an_event() -> None:
+def test_a_behavior_without_a_duration_is_a_violation_unless_it_is_an_event() -> None:
     assert [each[0] for each in broken(view({"a": (0.0, 0.0, 0.0)}))] == ["7.14"]
     event = {"e": TIMINGS["event"]}
     assert broken(view({"e": (0.0, 0.0)}, timings=event)) == []
 
 
-def test_the_points_of_a_behavior_come_in_order() -> None:
+def test_points_out_of_order_are_a_violation() -> None:
     assert broken(view({"a": (0.0, 1.25, 1.0)})) == [("7.15", ("a:stroke", "a:end"), 0.25)]
 
 
-def test_what_is_rigid_takes_the_time_it_wants() -> None:
+def test_a_changed_duration_of_a_rigid_phase_is_a_violation() -> None:
     speech = {"s": timing_at({"start": 0.0, "sync": 0.5, "end": 2.0}, PhaseKind.RIGID)}
     assert broken(view({"s": (0.0, 0.75, 2.25)}, timings=speech)) == [("7.1.4", ("s:start", "s:sync"), 0.25)]
     assert broken(view({"s": (0.0, 0.25, 1.75)}, timings=speech)) == [("7.1.4", ("s:start", "s:sync"), 0.25)]
@@ -114,26 +114,26 @@ def test_what_is_rigid_takes_the_time_it_wants() -> None:
 # --- clusters
 
 
-def test_a_cluster_that_nothing_holds_starts_with_its_block() -> None:
+def test_a_cluster_without_a_given_time_starts_with_its_block() -> None:
     late = {"a": (1.0, 1.4, 2.0), "b": (1.4, 1.8, 2.4)}
     assert broken(view(late, at("b:start", "a:stroke"))) == [("7.24", ("a:start", "b:start"), 1.0)]
     assert broken(view({"a": (1.0, 1.4, 2.0)}, at("a:start", START, 1.0))) == []
     assert broken(view({"a": (1.0, 1.4, 2.0)}, at("a:start", outer("hit", 1.0)))) == []
 
 
-def test_or_right_after_what_it_waits_for() -> None:
+def test_a_cluster_with_after_constraints_starts_as_early_as_they_allow() -> None:
     waiting = {"a": (0.0, 0.4, 1.0), "b": (1.5, 1.9, 2.5)}
     assert broken(view(waiting, after("b:start", "a:end", 0.5))) == []
     assert broken(view(waiting, after("b:start", "a:end"))) == [("7.24", ("b:start",), 0.5)]
     assert broken(view(waiting, after("b:start", START, 1.5))) == []
 
 
-def test_or_now_if_its_block_began_earlier() -> None:
+def test_a_cluster_starts_now_if_its_block_started_earlier() -> None:
     assert broken(view({"a": (1.0, 1.4, 2.0)}, now=1.0)) == []
     assert broken(view({"a": (1.0, 1.4, 2.0)}, now=0.25)) == [("7.24", ("a:start",), 0.75)]
 
 
-def test_what_is_free_holds_no_cluster_together_and_may_be_anywhere() -> None:
+def test_a_free_behavior_belongs_to_no_cluster_and_may_be_anywhere() -> None:
     timings = {"a": NOD, "c": TIMINGS["change"]}
     times = {"a": (0.0, 0.4, 1.0), "c": (3.0, 4.0)}
     assert broken(view(times, timings=timings)) == []
@@ -149,22 +149,22 @@ def test_a_block_ends_with_its_last_behavior() -> None:
     assert broken(view(TWO, end=1.5, end_floor=1.5)) == []
 
 
-# --- what nobody can judge
+# --- unchecked constraints
 
 
-def test_what_is_unknown_is_not_judged() -> None:
+def test_unknown_times_are_not_checked() -> None:
     assert broken(view({"a": (None, None, None), "b": (0.0, 0.4, 1.0)}, at("a:start", "b:end"), end=None)) == []
     assert broken(view(FINE, after("a:start", outer("hit", None)))) == []
 
 
-def test_what_has_passed_cannot_be_helped_but_what_is_ahead_can() -> None:
+def test_constraints_are_checked_only_if_one_of_their_points_is_ahead() -> None:
     passed = ["a:start", "a:stroke", "a:end"]
     assert broken(view(TWO, at("b:start", "a:end", 0.5), past=passed)) == []
     assert broken(view(TWO, after("a:start", "b:end"), past=passed)) == []
     assert ("7.12", ("b:start", "a:end"), 1.0) in broken(view(TWO, after("b:start", "a:end"), past=passed))
 
 
-def test_a_constraint_of_a_point_that_was_cut_is_not_judged() -> None:
+def test_constraints_of_removed_points_are_not_checked() -> None:
     assert broken(view({"b": (2.0, 2.4, 3.0)}, at("b:start", "a:end"))) == []
 
 
@@ -183,13 +183,13 @@ def test_a_view_of_a_solution_has_its_times_and_what_was_kept() -> None:
     assert verify(plan) == []
 
 
-def test_in_a_view_of_a_solution_what_hangs_on_unknown_times_is_unknown() -> None:
+def test_points_that_depend_on_unknown_times_are_unknown_in_a_view_of_a_solution() -> None:
     asked = problem([item("a", NOD), item("b", NOD)], at("a:start", outer("hit", None)), after("b:start", "a:end"))
     times = {Point(id_, sync): time for id_ in "ab" for sync, time in zip(NOD.points, NOD.offsets, strict=True)}
     assert set(PlanView.of_solution(asked, Solution(times, ())).times.values()) == {None}
 
 
-async def test_a_view_of_a_block_has_its_times_as_it_plays() -> None:
+async def test_a_view_of_a_block_has_its_current_times() -> None:
     async with open_pilot() as pilot:
         pilot.predict("partner", "hit", 2.0)
         pilot.block("b", '<gesture id="g" lexeme="BEAT" stroke="anticipators:partner:hit"/>')
