@@ -6,7 +6,7 @@ from itertools import count
 from typing import Generic, NamedTuple, TypeVar
 
 TOLERANCE = 5e-7
-"""s; a row missed by less is met: durations come out of a solver."""
+"""s; a row that is missed by less is met, because a solver computes durations."""
 
 N = TypeVar("N", bound=Hashable)
 
@@ -20,15 +20,15 @@ class Row(NamedTuple, Generic[N]):
 
 
 class Differences(Generic[N]):
-    """Rows that can be met together, and the least time of every node that meets them.
+    """Rows that can be met together, and the least times that meet them.
 
-    A row that is added raises the nodes after it, most first, each once; one that would have to raise its own earlier
-    side, or a fixed node, cannot be met together with the others (Cotton and Maler, Fast and flexible difference
-    constraint propagation for DPLL(T), 2006).
+    A row that is added raises the nodes that depend on it, most first, each once; if it would have to raise its own
+    earlier side, or a fixed node, it cannot be met together with the others (Cotton and Maler, Fast and flexible
+    difference constraint propagation for DPLL(T), 2006).
 
     Args:
-        floors: the time (s) before which each node may not be.
-        fixed: nodes that stay at theirs.
+        floors: the earliest time (s) of each node.
+        fixed: nodes that stay at that time.
     """
 
     def __init__(self, floors: Mapping[N, float], fixed: Iterable[N]) -> None:

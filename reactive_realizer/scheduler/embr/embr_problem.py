@@ -1,19 +1,38 @@
-"""Behaviors that are timed together, in an order that does not depend on how the block was written."""
+"""The problem of EMBR's strategy: behaviors cut into spans at the points to which constraints refer."""
 
-from collections.abc import Mapping, Sequence
+import itertools
+from collections.abc import Iterable, Mapping, Sequence
+from typing import NamedTuple
 
-from reactive_realizer.scheduler.embr.spans import knots_of, spans_of
+from reactive_realizer.planunit.timing import PhaseKind
 from reactive_realizer.scheduler.problem import Item, Node, Point, Precedence, Tie
 
 
+class Span(NamedTuple):
+    """The part of a behavior between two knots, which is stretched as a whole: its phases keep their proportions.
+
+    Attributes:
+        start: the earlier knot.
+        end: the later one.
+        preferred: duration, s.
+        rigid: whether it cannot be stretched; EMBR does not distinguish the other kinds of phases.
+    """
+
+    start: Point
+    end: Point
+    preferred: float
+    rigid: bool
+
+
 class EmbrProblem:
-    """One problem for the program.
+    """Behaviors that are timed together, in an order that does not depend on how the block was written.
 
     Attributes:
         items: by id.
-        constraints: required ones first, of these and of the others first the `at` ones; the last goes first.
-        given: times (s after the start of the block, None while unknown) of what they can be tied to and is not theirs.
-        knots: of each behavior, the indices of the points that matter.
+        constraints: in the order in which they are admitted: required ones first, and ties before precedences.
+        given: times (s after the start of the block, None while unknown) of the nodes outside of these behaviors.
+        knots: the indices of the first and last point of each behavior, of points that constraints name, and of the
+            limits of rigid parts.
         spans: of all behaviors.
     """
 
@@ -23,15 +42,16 @@ class EmbrProblem:
         self.items = {item.behavior.id: item for item in sorted(items, key=lambda item: item.behavior.id)}
         self.constraints = sorted(constraints, key=_rank)
         self.given = given
-        self.knots = knots_of(self.items.values(), constraints)
-        self.spans = tuple(spans_of(self.items.values(), self.knots))
+        named = {node for each in constraints for node in each.nodes}
+        self.knots = {id_: _knots(item, named) for id_, item in self.items.items()}
+        self.spans = [span for id_, item in self.items.items() for span in _spans(item, self.knots[id_])]
 
     def known(self, node: Node) -> float | None:
-        """The time (s) of what is given and known."""
+        """The time (s) of a node that is given and known."""
         return self.given.get(node)
 
     def movable(self, node: Node) -> Node | str | None:
-        """What moves with a node: its behavior, or the unknown time that it is; nothing moves with a known one."""
+        """The behavior of a point, or a node with an unknown given time; None for a known node, which does not move."""
         if self.known(node) is not None:
             return None
         return node.behavior if isinstance(node, Point) and node not in self.given else node
@@ -40,3 +60,19 @@ class EmbrProblem:
 def _rank(constraint: Tie | Precedence) -> tuple[bool, bool, str, str, float]:
     owner = constraint.owner or "" if isinstance(constraint, Tie) else constraint.name
     return not constraint.required, isinstance(constraint, Precedence), owner, constraint.text, constraint.offset
+
+
+def _knots(item: Item, named: Iterable[Node]) -> list[int]:
+    own = {i for i, sync in enumerate(item.timing.points) if Point(item.behavior.id, sync) in named}
+    rigid = [phase.kind is PhaseKind.RIGID for phase in item.timing.phases]
+    own.update(i for i in range(1, len(rigid)) if rigid[i] is not rigid[i - 1])
+    return sorted(own | {0, len(rigid)})
+
+
+def _spans(item: Item, knots: Sequence[int]) -> list[Span]:
+    points = [Point(item.behavior.id, sync) for sync in item.timing.points]
+    offsets, phases = item.timing.offsets, item.timing.phases
+    return [
+        Span(points[first], points[last], offsets[last] - offsets[first], phases[first].kind is PhaseKind.RIGID)
+        for first, last in itertools.pairwise(knots)
+    ]

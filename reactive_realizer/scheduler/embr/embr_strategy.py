@@ -1,6 +1,6 @@
 """EMBR's scheduling: a linear program of least deviations (thesis 7.2.3; Kipp, Heloir, Schröder and Gebhard 2010)."""
 
-from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from reactive_realizer.errors import Fault
 from reactive_realizer.planunit.timing import SHORTEST, TooShort
@@ -14,15 +14,15 @@ from reactive_realizer.scheduler.smartbody.placement import ratio_between
 
 
 class EmbrStrategy:
-    """Stretches as little as can be, in seconds over all phases, and keeps before/after constraints.
+    """Stretches phases as little as possible, in seconds over all phases, and keeps before/after constraints.
 
-    As the thesis describes it, but for three things. Any number of speeches is taken: rigid phases are not variables.
-    Clusters need not be grounded: those that are not start with the block, or as early as they may. And of equally good
-    plans, of which a linear program mostly has many, a second stage takes the one that spreads the deviation evenly and
-    rather stretches than shrinks.
+    This differs from the thesis in three ways. A block may have any number of speeches, because rigid phases are not
+    variables. A cluster that is not grounded starts with the block, or as early as it may. And of equally good plans,
+    of which a linear program often has many, a second stage chooses the one that spreads the deviation evenly and
+    stretches rather than shrinks.
 
-    Constraints that cannot be met with those before them are dropped: in the order required, `at`, before/after, and by
-    name. Limits of phases mean nothing here, and a hold is as stiff as a stroke.
+    Constraints are admitted in this order: required, `at`, before/after, and by name; those that contradict earlier
+    ones are dropped. Limits of phases are ignored, and a hold is as stiff as a stroke.
     """
 
     name = "embr"
@@ -39,7 +39,7 @@ class EmbrStrategy:
             times = {p: time for item in playable for p, time in _points(item, program.knots[item.behavior.id], knots)}
             ends = {item.behavior.id: times[Point(item.behavior.id, item.timing.points[-1])] for item in playable}
             past = {id_: ends[id_] for id_ in kept.late if ends[id_] < -SHORTEST}
-            if not past:  # else what is tied to them may be earlier without them
+            if not past:  # otherwise, the behaviors that are tied to them may be earlier without them
                 break
             faults |= {id_: AllPast(late=-end) for id_, end in past.items()}
         losses = [_dropped(item, constraints, faults[item.behavior.id]) for item in items if item not in playable]
@@ -47,7 +47,7 @@ class EmbrStrategy:
 
 
 def _points(item: Item, knots: Sequence[int], times: Mapping[Node, float]) -> Iterator[tuple[Point, float]]:
-    """The times of all points of a behavior: between knots all phases stretch alike."""
+    """The times of all points of a behavior: between knots, all phases are stretched evenly."""
     points = [Point(item.behavior.id, sync) for sync in item.timing.points]
     for i, point in enumerate(points):
         before, after = max(knot for knot in knots if knot <= i), min(knot for knot in knots if knot >= i)
@@ -55,25 +55,25 @@ def _points(item: Item, knots: Sequence[int], times: Mapping[Node, float]) -> It
         yield point, low + ratio_between(item.timing.offsets, before, i, after) * (high - low)
 
 
-def _is_of(node: Node, behaviors: Container[str]) -> bool:
-    return isinstance(node, Point) and node.behavior in behaviors
-
-
 def _alone(item: Item, constraints: Iterable[Tie | Precedence], given: Mapping[Node, float | None]) -> Fault | None:
-    """Why what a behavior says of itself cannot be, whatever others do; a rigid one rather loses a constraint."""
+    """The fault of a behavior that cannot be played because of its own constraints; a rigid one loses these instead."""
     if item.timing.rigid:
         never = not item.timing.instant and item.timing.offsets[-1] < SHORTEST
         return TooShort() if never else None
     id_ = item.behavior.id
     ties = [each for each in constraints if isinstance(each, Tie) and each.owner == id_]
-    own = [tie for tie in ties if all(node in given or _is_of(node, {id_}) for node in tie.nodes)]
+    own = [tie for tie in ties if all(node in given or _is_of(node, id_) for node in tie.nodes)]
     faults = (loss.fault for loss in keep(EmbrProblem([item], own, given)).losses) if own else iter(())
     clashes = (fault for fault in faults if isinstance(fault, ContradictoryTie))
     return next((SelfContradictory(tie=clash.tie, gap=clash.gap) for clash in clashes), None)
 
 
+def _is_of(node: Node, behavior: str) -> bool:
+    return isinstance(node, Point) and node.behavior == behavior
+
+
 def _dropped(item: Item, constraints: Iterable[Tie | Precedence], fault: Fault) -> Loss:
-    """A behavior goes, and with it the constraints on it; the block fails if one of these was required."""
+    """The loss of a behavior and of the constraints on it; the block fails if one of these is required."""
     own = {item.behavior.id}
     needed = any(each.required and each.names(own) for each in constraints)
     return lost_behavior(item.behavior, fault, needed=needed)

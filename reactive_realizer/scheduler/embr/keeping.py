@@ -1,4 +1,4 @@
-"""Which constraints can be met together."""
+"""Chooses the constraints that can be met together."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
@@ -11,20 +11,20 @@ from reactive_realizer.scheduler.offset_union_find import OffsetUnionFind
 from reactive_realizer.scheduler.problem import Loss, Node, Origin, Point, Precedence, Tie
 
 _LEAST = 2e-5
-"""What a behavior has at least, s: enough to be played (`SHORTEST`), whatever the solver's rounding takes."""
+"""The shortest duration of a behavior, s: it can be played (`SHORTEST`) even after the solver has rounded."""
 
 
 @dataclass(frozen=True, slots=True)
 class Kept:
-    """What is left of a problem.
+    """The part of a problem that can be kept.
 
     Attributes:
-        constraints: those that can be met together.
-        losses: the others.
+        constraints: that can be met together.
+        losses: the other constraints.
         groups: of points that `at` constraints and rigid phases hold together.
-        rows: what all times have to meet beside these; of ``constraints`` the before/after ones.
-        late: ids of the behaviors that hang on a given time before the start of the block: they may begin before it.
-        least: a solution, the earliest one.
+        rows: the other conditions on all times, including the before/after constraints.
+        late: ids of the behaviors that depend on a given time before the start of the block: they may begin before it.
+        least: the earliest solution.
     """
 
     constraints: tuple[Tie | Precedence, ...]
@@ -36,17 +36,17 @@ class Kept:
 
 
 def keep(problem: EmbrProblem) -> Kept:
-    """Admit constraints in their order, each unless it cannot be met together with those before it."""
+    """Admit constraints in their order, except for those that cannot be met together with earlier ones."""
     late = frozenset(_late(problem, problem.constraints))
     while True:
-        kept = _Keeping(problem, late).keep()
+        kept = _Admission(problem, late).keep()
         still = late.intersection(_late(problem, kept.constraints))
         if still == late:
             return kept
         late = still
 
 
-class _Keeping:
+class _Admission:
     """One pass over the constraints."""
 
     def __init__(self, problem: EmbrProblem, late: frozenset[str]) -> None:
@@ -64,25 +64,24 @@ class _Keeping:
                 self._groups.union(span.end, span.start, span.preferred)
                 self._differences.add(*_equal(span.end, span.start, span.preferred))
             else:
-                self._require(Row(span.end, span.start, 0.0))
+                self._add(Row(span.end, span.start, 0.0))
         for id_, item in self._problem.items.items():
             if not item.timing.instant:
-                first, last = (Point(id_, item.timing.points[i]) for i in (0, -1))
-                self._require(Row(last, first, _LEAST))
+                self._add(Row(Point(id_, item.timing.points[-1]), Point(id_, item.timing.points[0]), _LEAST))
         constraints = tuple(each for each in self._problem.constraints if self._admit(each))
         losses, rows = tuple(self._losses), tuple(self._rows)
         return Kept(constraints, losses, self._groups, rows, self._late, self._differences)
 
-    def _require(self, row: Row[Node]) -> None:
-        self._rows.append(row)
-        self._differences.add(row)
+    def _add(self, row: Row[Node]) -> float | None:
+        """Add a row; by how much it misses being met together with the others, None if it does not."""
+        gap = self._differences.add(row)
+        if gap is None:
+            self._rows.append(row)
+        return gap
 
     def _admit(self, constraint: Tie | Precedence) -> bool:
         if isinstance(constraint, Precedence):
-            row = Row(constraint.later, constraint.earlier, constraint.offset)
-            gap = self._differences.add(row)
-            if gap is None:
-                self._rows.append(row)
+            gap = self._add(Row(constraint.later, constraint.earlier, constraint.offset))
         elif self._outer(constraint):
             self._losses.append(lost_constraint(constraint, OuterTie(tie=constraint.text)))
             return False
@@ -91,37 +90,35 @@ class _Keeping:
             if gap is None:
                 self._groups.union(constraint.left, constraint.right, constraint.offset)
         if gap is not None:
-            fault = ContradictoryTie(tie=constraint.text, gap=gap)
-            self._losses.append(lost_constraint(constraint, fault))
+            self._losses.append(lost_constraint(constraint, ContradictoryTie(tie=constraint.text, gap=gap)))
         return gap is None
 
     def _outer(self, tie: Tie) -> bool:
-        """Whether it would make two given times one: one of them may move, and the other not."""
+        """Whether it would equate two given times, of which one may move without the other."""
         roots = {self._groups.find(node)[0] for node in tie.nodes}
         return len(roots) == 2 and roots <= self._problem.given.keys()
 
     def _floors(self) -> dict[Node, float]:
-        """Given times; of knots the start of the block, or for late ones a time before anything could be."""
+        """Given times; for knots the start of the block, or for late ones a time before all others."""
         floors = {node: time or 0.0 for node, time in self._problem.given.items()}
         wanted = sum(item.timing.offsets[-1] for item in self._problem.items.values())
         ever = min(floors.values()) - wanted - sum(abs(each.offset) for each in self._problem.constraints)
-        for id_, knots in self._problem.knots.items():
-            points = self._problem.items[id_].timing.points
-            floors |= {Point(id_, points[i]): ever if id_ in self._late else 0.0 for i in knots}
+        for span in self._problem.spans:
+            floors[span.start] = floors[span.end] = ever if span.start.behavior in self._late else 0.0
         return floors
 
 
 def _late(problem: EmbrProblem, constraints: Iterable[Tie | Precedence]) -> set[str]:
-    """The behaviors that `at` constraints hang, directly or not, on the outside before the start of the block."""
+    """The behaviors that ties connect, directly or not, to a given time before the start of the block."""
     ties = [each for each in constraints if isinstance(each, Tie)]
     late: set[str] = set()
-    while found := {id_ for tie in ties for id_ in _hanging(problem, tie, late)}.intersection(problem.items) - late:
+    while found := {id_ for tie in ties for id_ in _late_in(problem, tie, late)}.intersection(problem.items) - late:
         late |= found
     return late
 
 
-def _hanging(problem: EmbrProblem, tie: Tie, late: set[str]) -> Iterator[str]:
-    """The behaviors of a tie that hang on the past, or on one that is late."""
+def _late_in(problem: EmbrProblem, tie: Tie, late: set[str]) -> Iterator[str]:
+    """The behaviors of a tie to a past time, or to a late behavior."""
     for node, partner, offset in ((tie.left, tie.right, tie.offset), (tie.right, tie.left, -tie.offset)):
         time = None if partner is Origin.BLOCK_START else problem.known(partner)
         reach = 0.0 if isinstance(partner, Point) else min(0.0, offset)

@@ -1,4 +1,4 @@
-"""The least deviation from what is wished for, by a linear program (solved with daqp)."""
+"""Finds the times with the least deviation from wishes, by a linear program (solved with daqp)."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -13,17 +13,17 @@ _SQUARES = 1e-3
 """Weight of squared deviations against absolute ones."""
 
 _SHRINKING = 100.0
-"""How much more it weighs to shrink than to stretch, among what is equally good: the one ends at nothing."""
+"""Weight of shrinking against stretching, among equally good plans: only shrinking has a limit."""
 
 _HELD = 1e-4
-"""Curvature (1/s^2) that holds times where the last round put them: daqp wants some for each variable."""
+"""Curvature (1/s^2) that holds times at those of the last round: daqp needs some for each variable."""
 
 _ROUNDS = 20
 _SETTLED = 1e-7
 """s; a round that moves nothing by more is the last."""
 
 _TOLERANCES = (1e-10, 1e-9, 1e-8)
-"""By which daqp may miss a row, as it scales rows: a hundred times that in seconds. The first that works is taken."""
+"""By which daqp may miss a row, which it scales: a hundred times that in seconds. The first one that works is used."""
 
 _FAR = 1e30
 """daqp's infinity."""
@@ -36,7 +36,7 @@ Array = NDArray[np.float64]
 
 
 class Wish(NamedTuple):
-    """``later = earlier + distance`` (s) is wished for; of several the softer give way by more."""
+    """``later = earlier + distance`` (s), as far as possible; softer wishes give way by more."""
 
     row: Row[int]
     softness: float
@@ -45,17 +45,17 @@ class Wish(NamedTuple):
 def least_deviations(
     bounds: Sequence[tuple[float, float]], rows: Sequence[Row[int]], wishes: Sequence[Wish]
 ) -> list[float] | None:
-    """Times of variables by number, as near to all wishes as bounds and rows let them.
+    """Times of variables by number, as close to all wishes as bounds and rows allow.
 
-    The sum of absolute deviations, in seconds, is minimal: EMBR's measure of naturalness (thesis 7.2.3). Mostly many
-    plans are equally good by that; of these it is the one with the least weighted sum of squared deviations. Both
-    stages are one quadratic program: with few enough squares its solution is the one of the linear program that has the
-    least of them (Mangasarian and Meyer, Nonlinear perturbation of linear programs, 1979).
+    The sum of absolute deviations, in seconds, is minimal: EMBR's measure of naturalness (thesis 7.2.3). Of equally
+    good plans, the one with the least weighted sum of squared deviations is chosen. Both stages are one quadratic
+    program: if squares weigh little enough, its solution is the solution of the linear program with the least squares
+    (Mangasarian and Meyer, Nonlinear perturbation of linear programs, 1979).
 
     Args:
-        bounds: of each variable (s), infinite where there is none.
-        rows: that have to be met; they can be.
-        wishes: what is to be met as well as can be.
+        bounds: of each variable (s), infinite if there is none.
+        rows: conditions that have to be met, and can be.
+        wishes: conditions to be met as well as possible.
 
     Returns:
         The times (s); None if the solver finds none.

@@ -1,24 +1,23 @@
-"""When all knots are: as near to what behaviors prefer as can be, and then as early as can be."""
+"""Finds the times of all knots: as close to preferred durations as possible, and then as early as possible."""
 
 import itertools
 from collections import defaultdict
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from math import inf
 
 from reactive_realizer.scheduler.embr.differences import TOLERANCE, Differences, Row
-from reactive_realizer.scheduler.embr.embr_problem import EmbrProblem
+from reactive_realizer.scheduler.embr.embr_problem import EmbrProblem, Span
 from reactive_realizer.scheduler.embr.keeping import Kept
 from reactive_realizer.scheduler.embr.linear_program import Wish, least_deviations
-from reactive_realizer.scheduler.embr.spans import Span
 from reactive_realizer.scheduler.offset_union_find import TIE_TOLERANCE, OffsetUnionFind
 from reactive_realizer.scheduler.problem import Node, Origin, Point, Tie
 
 _STIFFEST = 0.1
-"""s; what prefers less time than this is no stiffer."""
+"""s; spans with shorter preferred durations are not stiffer."""
 
 
 def place(problem: EmbrProblem, kept: Kept) -> dict[Node, float]:
-    """The time (s after the block's start) of every knot; unknown given times are taken to be where that suits best."""
+    """The time (s after the block's start) of every knot; unknown given times are chosen as they suit best."""
     times: dict[Node, float] = {}
     for group in _groups(problem, kept):
         times |= group.place()
@@ -31,7 +30,7 @@ class _Group:
     Attributes:
         spans: of its behaviors.
         ties: its `at` constraints.
-        rows: all else that its times have to meet.
+        rows: the other conditions on its times.
     """
 
     def __init__(self, problem: EmbrProblem, kept: Kept) -> None:
@@ -42,16 +41,16 @@ class _Group:
         self.rows: list[Row[Node]] = []
 
     def place(self) -> dict[Node, float]:
-        """The time of every node: with preferred durations if that can be, else with those that deviate least."""
+        """The time of every node: with preferred durations if possible, or else with those that deviate least."""
         preferred = self._earliest([span.preferred for span in self.spans])
         if preferred is not None:
             return preferred
         times = self._least_deviating()
-        # Rounding of the solver may keep bodies from being moved: then they stay where it put them.
+        # If the solver's rounding keeps bodies from being moved, its times are taken.
         return self._earliest([times[span.end] - times[span.start] for span in self.spans]) or times
 
     def _earliest(self, durations: Sequence[float]) -> dict[Node, float] | None:
-        """The earliest times with these durations, if they can be kept: then only bodies as a whole are moved."""
+        """The earliest times with these durations; None if these contradict ties or rows."""
         bodies = self._bodies(durations)
         if bodies is None:
             return None
@@ -65,7 +64,7 @@ class _Group:
         return {node: least[root] + later for node in self._nodes() for root, later in [bodies.find(node)]}
 
     def _bodies(self, durations: Sequence[float]) -> OffsetUnionFind[Node] | None:
-        """Nodes at known distances from each other, the known times at theirs from the start of the block."""
+        """Nodes at known distances from each other, and known times at theirs from the start of the block."""
         distances: list[tuple[Node, Node, float]] = [
             (node, Origin.BLOCK_START, time)
             for node in self._nodes()
@@ -83,29 +82,31 @@ class _Group:
         bounds = {root: (floor, inf) for root, floor in self._floors(groups).items()}
         bounds |= {root: (time, time) for root in bounds if (time := self._problem.known(root)) is not None}
         numbers = {root: number for number, root in enumerate(bounds)}
-        rows = (_numbered(groups, row, numbers) for row in self.rows)
-        bounding = [row for row in rows if row is not None]
-        times = least_deviations(list(bounds.values()), bounding, self._wishes(numbers))
+        rows = [
+            Row(numbers[later], numbers[earlier], distance)
+            for row in self.rows
+            for later, earlier, distance in [_between_roots(groups, row)]
+            if later != earlier
+        ]
+        wishes = [
+            Wish(Row(numbers[later], numbers[earlier], distance), max(span.preferred, _STIFFEST))
+            for span in self.spans
+            for later, earlier, distance in [_between_roots(groups, Row(span.end, span.start, span.preferred))]
+            if later != earlier
+        ]
+        times = least_deviations(list(bounds.values()), rows, wishes)
         if times is None:
             return {node: self._kept.least[node] for node in self._nodes()}
         return {node: times[numbers[root]] + later for node in self._nodes() for root, later in [groups.find(node)]}
 
-    def _wishes(self, numbers: Mapping[Node, int]) -> list[Wish]:
-        wishes = []
-        for span in self.spans:
-            row = _numbered(self._kept.groups, Row[Node](span.end, span.start, span.preferred), numbers)
-            if row is not None:
-                wishes.append(Wish(row, max(span.preferred, _STIFFEST)))
-        return wishes
-
     def _nodes(self) -> list[Node]:
-        """Knots, and what is given that they are tied to."""
+        """Knots, and the given nodes that constraints on them name."""
         pairs: list[tuple[Node, Node]] = [(span.start, span.end) for span in self.spans]
         pairs += [(row.later, row.earlier) for row in self.rows]
         return list(dict.fromkeys(itertools.chain(*pairs, *(tie.nodes for tie in self.ties))))
 
     def _floors(self, groups: OffsetUnionFind[Node]) -> dict[Node, float]:
-        """The time before which the root of each class may not be; minus infinity where it may be any."""
+        """The earliest time of the root of each group; minus infinity if it has none."""
         floors: dict[Node, float] = {}
         for node in self._nodes():
             root, later = groups.find(node)
@@ -124,7 +125,7 @@ def _groups(problem: EmbrProblem, kept: Kept) -> Iterable[_Group]:
     found: dict[Node | str, _Group] = defaultdict(lambda: _Group(problem, kept))
 
     def concerned(*nodes: Node) -> Iterable[_Group]:
-        """The group of some nodes; none if all their times are given and known."""
+        """The group of some nodes, as a list; empty if all their times are given and known."""
         moved = [each for node in nodes if (each := problem.movable(node)) is not None]
         return [found[linked.find(each)[0]] for each in moved[:1]]
 
@@ -141,12 +142,6 @@ def _groups(problem: EmbrProblem, kept: Kept) -> Iterable[_Group]:
 
 
 def _between_roots(groups: OffsetUnionFind[Node], row: Row[Node]) -> Row[Node]:
-    """The same, said of the roots of groups."""
+    """The same condition on the roots of groups."""
     (root, later), (other, earlier) = groups.find(row.later), groups.find(row.earlier)
     return Row(root, other, row.distance + earlier - later)
-
-
-def _numbered(groups: OffsetUnionFind[Node], row: Row[Node], numbers: Mapping[Node, int]) -> Row[int] | None:
-    """The same, said of variables; None if both sides are one."""
-    later, earlier, distance = _between_roots(groups, row)
-    return None if later == earlier else Row(numbers[later], numbers[earlier], distance)
