@@ -16,7 +16,7 @@ from reactive_realizer.bml.extensions import BehaviorParameter, Trajectory
 from reactive_realizer.bml.names import BML, BML_EXT, BMLA, BMLT
 from reactive_realizer.engine.lexicon import lexicon_of
 from reactive_realizer.limits import Limits
-from reactive_realizer.scheduler.faults import NotSupported
+from reactive_realizer.scheduler.block_planner import NotSupported
 
 PAGE = Path(__file__).with_name("support.md")
 

@@ -21,8 +21,9 @@ from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.realizer.realizer import Realizer
 from reactive_realizer.scheduler.admission import Admission
+from reactive_realizer.scheduler.block_composition import UnknownTargetBlock
 from reactive_realizer.scheduler.engine_routing import EngineRouting, Result, RoutedBehavior
-from reactive_realizer.scheduler.faults import NoSuchBehavior, UnknownTargetBlock
+from reactive_realizer.scheduler.requests import NoSuchBehavior
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,16 +4,51 @@ from collections.abc import Iterable, Sequence
 
 from reactive_realizer.bml.block import BehaviorBlock, DefineProc
 from reactive_realizer.bml.vocabulary import Composition
-from reactive_realizer.errors import Fault
+from reactive_realizer.errors import Fault, ParsingFault, TargetFault
 from reactive_realizer.limits import Limits
 from reactive_realizer.pegboard.peg_key import BlockKey
-from reactive_realizer.scheduler.faults import (
-    DuplicateBlock,
-    TooManyBlocks,
-    TooManyProcedures,
-    UnknownCharacter,
-    UnknownProcedure,
-)
+
+
+class DuplicateBlock(ParsingFault):
+    """A block with the id of one that has not ended."""
+
+    code = "duplicate-block"
+    template = "there is already a block '{block}' that has not ended; this one is refused"
+    block: str
+
+
+class TooManyBlocks(ParsingFault):
+    """A block over the limit of live blocks."""
+
+    code = "too-many-blocks"
+    template = "the limit of {limit} live blocks is reached; this one is refused"
+    limit: int
+
+
+class TooManyProcedures(ParsingFault):
+    """A procedure over the limit."""
+
+    code = "too-many-procedures"
+    template = "the limit of {limit} procedures is reached; this one is refused"
+    limit: int
+
+
+class UnknownCharacter(TargetFault):
+    """No character has the id."""
+
+    code = "unknown-character"
+    template = "there is no character '{character}'; available: {known}"
+    character: str
+    known: tuple[str, ...]
+
+
+class UnknownProcedure(TargetFault):
+    """No procedure has the id."""
+
+    code = "unknown-procedure"
+    template = "there is no procedure '{procedure}'; available: {known}"
+    procedure: str
+    known: tuple[str, ...]
 
 
 class Admission:

@@ -4,10 +4,35 @@ from collections.abc import Iterator, Sequence
 
 from reactive_realizer.bml.block import BehaviorBlock
 from reactive_realizer.bml.vocabulary import Composition
-from reactive_realizer.errors import Fault
+from reactive_realizer.errors import Fault, SchedulingFault
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock, Predecessor
-from reactive_realizer.scheduler.faults import CyclicComposition, StartedAlready, UnknownTargetBlock
+
+
+class UnknownTargetBlock(SchedulingFault):
+    """An attribute that names a block that never existed."""
+
+    code = "unknown-target-block"
+    template = "{attribute}: there has never been a block '{block}'"
+    attribute: str
+    block: str
+
+
+class StartedAlready(SchedulingFault):
+    """A block put before one that has started."""
+
+    code = "started-already"
+    template = "'{block}' has already started, so nothing can be put before it; this block fails"
+    block: str
+
+
+class CyclicComposition(SchedulingFault):
+    """A block put before one that it waits for."""
+
+    code = "cyclic-composition"
+    template = "'{block}' should come before '{other}' but also waits for it; it fails"
+    block: str
+    other: str
 
 
 class BlockComposition:

@@ -16,11 +16,11 @@ from reactive_realizer.scheduler.block_transitions import BlockTransitions
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock, Predecessor
 from reactive_realizer.scheduler.engine_routing import EngineRouting
-from reactive_realizer.scheduler.faults import ActivatedAlready, AllPast, CutTie, DroppedTie, NotAwaited, NotPreplanned
+from reactive_realizer.scheduler.faults import ActivatedAlready, AllPast, NotAwaited, NotPreplanned
 from reactive_realizer.scheduler.planning import Plan, Planning
 from reactive_realizer.scheduler.predictions import Predictions
 from reactive_realizer.scheduler.problem import Loss, Precedence, Tie
-from reactive_realizer.scheduler.tie_release import TieRelease
+from reactive_realizer.scheduler.tie_release import CutTie, DroppedTie, TieRelease
 from reactive_realizer.scheduler.unit_lifecycle import UnitLifecycle
 
 

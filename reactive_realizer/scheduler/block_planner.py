@@ -8,7 +8,7 @@ from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.names import BML, BML_EXT
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.engine.faults import UnknownParameter
-from reactive_realizer.errors import Fault
+from reactive_realizer.errors import CreationFault, Fault, WarningType
 from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.planunit.timing import Timing
 from reactive_realizer.scheduler.block_feedback import BlockFeedback
@@ -16,7 +16,6 @@ from reactive_realizer.scheduler.block_state import BlockState
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.scheduler.engine_routing import EngineRouting, Result, RoutedBehavior
-from reactive_realizer.scheduler.faults import DescriptionLeftOut, ForeignNotSupported, NotSupported
 from reactive_realizer.scheduler.losses import lost_behavior
 from reactive_realizer.scheduler.planning import BlockProblem, Plan, Planning
 from reactive_realizer.scheduler.planning_order import dependency_order
@@ -29,6 +28,33 @@ _MOST_AT_ONCE = 50
 
 _MOST_OFTEN = 3
 """Solutions of one block. If times still move then, the last one is committed: its pegs follow them."""
+
+
+class NotSupported(Fault):
+    """A behavior of BML that no engine plays."""
+
+    code = "not-supported"
+    template = "<{element}> is not supported and is left out"
+    warning = WarningType.BEHAVIOR_TYPE_NOT_SUPPORTED
+    element: str
+
+
+class ForeignNotSupported(Fault):
+    """A behavior of another namespace that no engine plays."""
+
+    code = "foreign-not-supported"
+    template = "<{element}> of {namespace} is not supported and is left out"
+    warning = WarningType.CUSTOM_BEHAVIOUR_NOT_SUPPORTED
+    element: str
+    namespace: str
+
+
+class DescriptionLeftOut(CreationFault):
+    """A description of a behavior that cannot be played."""
+
+    code = "description-left-out"
+    template = "one of its descriptions is replaced by the next: {reason}"
+    reason: str
 
 
 @dataclass(slots=True, eq=False)

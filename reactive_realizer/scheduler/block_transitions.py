@@ -12,9 +12,8 @@ from reactive_realizer.scheduler.block_state import PREDICTION, REMAINING, Block
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.scheduler.engine_routing import EngineRouting
-from reactive_realizer.scheduler.faults import CutTie
 from reactive_realizer.scheduler.predictions import Predictions
-from reactive_realizer.scheduler.tie_release import TieRelease
+from reactive_realizer.scheduler.tie_release import CutTie, TieRelease
 
 logger = logging.getLogger(__name__)
 

@@ -4,13 +4,28 @@ from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 
 from reactive_realizer.clock.units import GlobalTime
-from reactive_realizer.errors import Fault
+from reactive_realizer.errors import Fault, SchedulingFault, TargetFault
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.pegboard.time_peg import TimeCell
 from reactive_realizer.scheduler.block_state import BlockState
 from reactive_realizer.scheduler.bml_block import BMLBlock
-from reactive_realizer.scheduler.faults import BlockEnded, NoSuchBlock
+
+
+class NoSuchBlock(TargetFault):
+    """No block ever had the id."""
+
+    code = "no-such-block"
+    template = "there has never been a block '{block}'"
+    block: str
+
+
+class BlockEnded(SchedulingFault):
+    """A block that has ended."""
+
+    code = "block-ended"
+    template = "the block '{block}' has ended"
+    block: str
 
 
 @dataclass(frozen=True, slots=True)

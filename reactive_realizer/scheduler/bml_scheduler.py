@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable, Sequence
 from reactive_realizer.bml.block import BehaviorBlock, DefineProc, Parsed
 from reactive_realizer.clock.units import GlobalTime, Time, is_due
 from reactive_realizer.engine.effects import Play
-from reactive_realizer.errors import Fault, RealizerError
+from reactive_realizer.errors import Fault, PlayingFault, RealizerError, SchedulingFault
 from reactive_realizer.feedback.feedback_manager import FeedbackManager
 from reactive_realizer.limits import Limits
 from reactive_realizer.pegboard.peg_key import BlockKey
@@ -21,13 +21,28 @@ from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.scheduler.constraint_monitor import ConstraintMonitor
 from reactive_realizer.scheduler.engine_routing import EngineRouting
-from reactive_realizer.scheduler.faults import NeverMoves, TooManyRounds
 from reactive_realizer.scheduler.planning import PlanListener, Planning
 from reactive_realizer.scheduler.predictions import Predictions
 from reactive_realizer.scheduler.preparation import BackgroundWork
 from reactive_realizer.scheduler.procedures import Procedures
 from reactive_realizer.scheduler.requests import EngineRequests
 from reactive_realizer.scheduler.strategy import SchedulingStrategy
+
+
+class NeverMoves(SchedulingFault):
+    """A block that would wait forever at the end of a session."""
+
+    code = "never-moves"
+    template = "it is still waiting for {waits}, but nothing more can happen"
+    waits: str
+
+
+class TooManyRounds(PlayingFault):
+    """A tick in which engines keep requesting changes."""
+
+    code = "too-many-rounds"
+    template = "the tick did not settle within {limit} rounds"
+    limit: int
 
 
 class BMLScheduler:

@@ -4,6 +4,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from reactive_realizer.clock.units import GlobalTime, Time, is_due
+from reactive_realizer.errors import SchedulingFault
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.reactive.graph import Cell, Commit
@@ -12,12 +13,20 @@ from reactive_realizer.scheduler.block_lifecycle import BlockLifecycle
 from reactive_realizer.scheduler.block_state import BlockState
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock
-from reactive_realizer.scheduler.faults import ConstraintLost
 from reactive_realizer.scheduler.problem import Node, Origin, Point, Precedence, Tie
 from reactive_realizer.scheduler.verify import TOLERANCE, missed
 
 _NOTICEABLE = 0.1
 """A gesture that is early or late by less (s) looks on time."""
+
+
+class ConstraintLost(SchedulingFault):
+    """A constraint that stopped holding after a change; ``gap`` in s."""
+
+    code = "constraint-lost"
+    template = "{constraint} no longer holds: it is off by {gap:g} s"
+    constraint: str
+    gap: float
 
 
 class ConstraintMonitor:

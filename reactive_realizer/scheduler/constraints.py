@@ -8,7 +8,7 @@ from reactive_realizer.bml.faults import LostWith, UnknownBlock, UnknownReferenc
 from reactive_realizer.bml.names import ANTICIPATORS
 from reactive_realizer.bml.sync_ref import SyncRef
 from reactive_realizer.bml.trees import listed
-from reactive_realizer.errors import Fault, RealizerError
+from reactive_realizer.errors import Fault, RealizerError, SchedulingFault
 from reactive_realizer.pegboard.peg_key import PegKey
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.pegboard.time_peg import Bound, TimeCell
@@ -16,9 +16,30 @@ from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.scheduler.block_state import BlockState
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock
-from reactive_realizer.scheduler.faults import CyclicReference, MutualReference
 from reactive_realizer.scheduler.losses import lost_behavior
 from reactive_realizer.scheduler.problem import Loss, Node, Origin, Point, Precedence, Tie
+
+
+class CyclicReference(SchedulingFault):
+    """A reference to a point that depends on the block itself."""
+
+    code = "cyclic-reference"
+    template = "{reference} depends on the block '{block}' itself"
+    reference: str
+    block: str
+
+
+class MutualReference(SchedulingFault):
+    """A reference to a block that refers back to this one."""
+
+    code = "mutual-reference"
+    template = (
+        "{reference}: '{other}' is not planned before '{block}', because it refers to it directly or through "
+        "other blocks"
+    )
+    reference: str
+    other: str
+    block: str
 
 
 class ReferenceResolver:

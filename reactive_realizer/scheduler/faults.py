@@ -1,118 +1,6 @@
-"""Faults of scheduling: blocks that are refused, constraints and behaviors that are dropped."""
+"""Faults of the strategies and of starting blocks; the other faults of scheduling are defined where they arise."""
 
-from reactive_realizer.errors import (
-    CreationFault,
-    Fault,
-    ParsingFault,
-    PlayingFault,
-    SchedulingFault,
-    TargetFault,
-    WarningType,
-)
-
-
-class DuplicateBlock(ParsingFault):
-    """A block with the id of one that has not ended."""
-
-    code = "duplicate-block"
-    template = "there is already a block '{block}' that has not ended; this one is refused"
-    block: str
-
-
-class TooManyBlocks(ParsingFault):
-    """A block over the limit of live blocks."""
-
-    code = "too-many-blocks"
-    template = "the limit of {limit} live blocks is reached; this one is refused"
-    limit: int
-
-
-class TooManyProcedures(ParsingFault):
-    """A procedure over the limit."""
-
-    code = "too-many-procedures"
-    template = "the limit of {limit} procedures is reached; this one is refused"
-    limit: int
-
-
-class UnknownCharacter(TargetFault):
-    """No character has the id."""
-
-    code = "unknown-character"
-    template = "there is no character '{character}'; available: {known}"
-    character: str
-    known: tuple[str, ...]
-
-
-class UnknownProcedure(TargetFault):
-    """No procedure has the id."""
-
-    code = "unknown-procedure"
-    template = "there is no procedure '{procedure}'; available: {known}"
-    procedure: str
-    known: tuple[str, ...]
-
-
-class NoSuchBlock(TargetFault):
-    """No block ever had the id."""
-
-    code = "no-such-block"
-    template = "there has never been a block '{block}'"
-    block: str
-
-
-class BlockEnded(SchedulingFault):
-    """A block that has ended."""
-
-    code = "block-ended"
-    template = "the block '{block}' has ended"
-    block: str
-
-
-class NoSuchBehavior(TargetFault):
-    """No behavior of a block has the id."""
-
-    code = "no-such-behavior"
-    template = "the block '{block}' has no behavior '{behavior}'"
-    block: str
-    behavior: str
-
-
-class BehaviorEnded(SchedulingFault):
-    """A behavior that has ended."""
-
-    code = "behavior-ended"
-    template = "'{behavior}' of the block '{block}' has ended"
-    block: str
-    behavior: str
-
-
-class NotPlanned(SchedulingFault):
-    """A behavior without a plan."""
-
-    code = "not-planned"
-    template = "'{behavior}' of the block '{block}' is still being prepared"
-    block: str
-    behavior: str
-
-
-class NoSuchParameter(TargetFault):
-    """No parameter of a behavior has the name."""
-
-    code = "no-such-parameter"
-    template = "'{behavior}' has no parameter '{parameter}'; it has {known}"
-    behavior: str
-    parameter: str
-    known: tuple[str, ...]
-
-
-class UnknownTargetBlock(SchedulingFault):
-    """An attribute that names a block that never existed."""
-
-    code = "unknown-target-block"
-    template = "{attribute}: there has never been a block '{block}'"
-    attribute: str
-    block: str
+from reactive_realizer.errors import CreationFault, SchedulingFault
 
 
 class NotAwaited(SchedulingFault):
@@ -124,23 +12,6 @@ class NotAwaited(SchedulingFault):
     )
     block: str
     behaviors: str
-
-
-class StartedAlready(SchedulingFault):
-    """A block put before one that has started."""
-
-    code = "started-already"
-    template = "'{block}' has already started, so nothing can be put before it; this block fails"
-    block: str
-
-
-class CyclicComposition(SchedulingFault):
-    """A block put before one that it waits for."""
-
-    code = "cyclic-composition"
-    template = "'{block}' should come before '{other}' but also waits for it; it fails"
-    block: str
-    other: str
 
 
 class NotPreplanned(SchedulingFault):
@@ -156,28 +27,6 @@ class ActivatedAlready(SchedulingFault):
 
     code = "activated-already"
     template = "the block '{block}' has already been activated"
-    block: str
-
-
-class CyclicReference(SchedulingFault):
-    """A reference to a point that depends on the block itself."""
-
-    code = "cyclic-reference"
-    template = "{reference} depends on the block '{block}' itself"
-    reference: str
-    block: str
-
-
-class MutualReference(SchedulingFault):
-    """A reference to a block that refers back to this one."""
-
-    code = "mutual-reference"
-    template = (
-        "{reference}: '{other}' is not planned before '{block}', because it refers to it directly or through "
-        "other blocks"
-    )
-    reference: str
-    other: str
     block: str
 
 
@@ -263,26 +112,6 @@ class NeverHolds(SchedulingFault):
     gap: float
 
 
-class ConstraintLost(SchedulingFault):
-    """A constraint that stopped holding after a change; ``gap`` in s."""
-
-    code = "constraint-lost"
-    template = "{constraint} no longer holds: it is off by {gap:g} s"
-    constraint: str
-    gap: float
-
-
-class ConstraintBroken(SchedulingFault):
-    """A constraint that a plan misses, found by ``--verify``; ``amount`` in s."""
-
-    code = "constraint-broken"
-    template = "'{text}' is missed by {amount:g} s ({points}; thesis {equation})"
-    text: str
-    amount: float
-    points: str
-    equation: str
-
-
 class NamesDropped(SchedulingFault):
     """A constraint on a behavior that was dropped."""
 
@@ -290,30 +119,6 @@ class NamesDropped(SchedulingFault):
     template = "{constraint} refers to '{behavior}', which is dropped"
     constraint: str
     behavior: str
-
-
-class DroppedTie(SchedulingFault):
-    """A point whose behavior was dropped after others were tied to it."""
-
-    code = "dropped-tie"
-    template = "the behavior of {point} is dropped; this behavior keeps the last predicted time"
-    point: str
-
-
-class CutTie(SchedulingFault):
-    """A point that was interrupted after others were tied to it."""
-
-    code = "cut-tie"
-    template = "{point} was interrupted; this behavior keeps the last predicted time"
-    point: str
-
-
-class NeverComes(SchedulingFault):
-    """A behavior tied to a point without a time."""
-
-    code = "never-comes"
-    template = "it is dropped: it depends on {point}, which will never come"
-    point: str
 
 
 class AllPast(SchedulingFault):
@@ -324,52 +129,9 @@ class AllPast(SchedulingFault):
     late: float
 
 
-class NotSupported(Fault):
-    """A behavior of BML that no engine plays."""
-
-    code = "not-supported"
-    template = "<{element}> is not supported and is left out"
-    warning = WarningType.BEHAVIOR_TYPE_NOT_SUPPORTED
-    element: str
-
-
-class ForeignNotSupported(Fault):
-    """A behavior of another namespace that no engine plays."""
-
-    code = "foreign-not-supported"
-    template = "<{element}> of {namespace} is not supported and is left out"
-    warning = WarningType.CUSTOM_BEHAVIOUR_NOT_SUPPORTED
-    element: str
-    namespace: str
-
-
-class DescriptionLeftOut(CreationFault):
-    """A description of a behavior that cannot be played."""
-
-    code = "description-left-out"
-    template = "one of its descriptions is replaced by the next: {reason}"
-    reason: str
-
-
 class WorkFailed(CreationFault):
     """An exception while a behavior was prepared."""
 
     code = "work-failed"
     template = "its preparation failed: {reason}"
     reason: str
-
-
-class NeverMoves(SchedulingFault):
-    """A block that would wait forever at the end of a session."""
-
-    code = "never-moves"
-    template = "it is still waiting for {waits}, but nothing more can happen"
-    waits: str
-
-
-class TooManyRounds(PlayingFault):
-    """A tick in which engines keep requesting changes."""
-
-    code = "too-many-rounds"
-    template = "the tick did not settle within {limit} rounds"
-    limit: int

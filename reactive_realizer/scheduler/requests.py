@@ -12,16 +12,52 @@ from reactive_realizer.engine.effects import (
     SetParameter,
     Warn,
 )
-from reactive_realizer.errors import Fault, RealizerError
+from reactive_realizer.errors import Fault, RealizerError, SchedulingFault, TargetFault
 from reactive_realizer.planunit.parameter import spelled
 from reactive_realizer.planunit.plan_unit import PlanUnit, UnitState
 from reactive_realizer.scheduler.block_feedback import BlockFeedback
 from reactive_realizer.scheduler.block_lifecycle import BlockLifecycle
 from reactive_realizer.scheduler.block_state import BlockState
-from reactive_realizer.scheduler.blocks import Blocks
-from reactive_realizer.scheduler.faults import BehaviorEnded, NoSuchBehavior, NoSuchBlock, NoSuchParameter, NotPlanned
+from reactive_realizer.scheduler.blocks import Blocks, NoSuchBlock
 
 _Timed = ActivateBlock | InterruptBlock | BindParameter | EndUnit
+
+
+class NoSuchBehavior(TargetFault):
+    """No behavior of a block has the id."""
+
+    code = "no-such-behavior"
+    template = "the block '{block}' has no behavior '{behavior}'"
+    block: str
+    behavior: str
+
+
+class BehaviorEnded(SchedulingFault):
+    """A behavior that has ended."""
+
+    code = "behavior-ended"
+    template = "'{behavior}' of the block '{block}' has ended"
+    block: str
+    behavior: str
+
+
+class NotPlanned(SchedulingFault):
+    """A behavior without a plan."""
+
+    code = "not-planned"
+    template = "'{behavior}' of the block '{block}' is still being prepared"
+    block: str
+    behavior: str
+
+
+class NoSuchParameter(TargetFault):
+    """No parameter of a behavior has the name."""
+
+    code = "no-such-parameter"
+    template = "'{behavior}' has no parameter '{parameter}'; it has {known}"
+    behavior: str
+    parameter: str
+    known: tuple[str, ...]
 
 
 class EngineRequests:

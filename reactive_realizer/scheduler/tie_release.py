@@ -3,6 +3,7 @@
 from collections.abc import Collection, Container, Iterable, Mapping, Sequence
 
 from reactive_realizer.clock.units import GlobalTime, is_due
+from reactive_realizer.errors import SchedulingFault
 from reactive_realizer.pegboard.peg_key import BlockKey, PegKey
 from reactive_realizer.pegboard.peg_view import followers_of
 from reactive_realizer.pegboard.pegboard import PegBoard
@@ -11,12 +12,35 @@ from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
 from reactive_realizer.scheduler.block_feedback import BlockFeedback
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock
-from reactive_realizer.scheduler.faults import CutTie, DroppedTie, NeverComes
 from reactive_realizer.scheduler.problem import Node, Point, Precedence, Tie
 from reactive_realizer.scheduler.unit_lifecycle import UnitLifecycle
 
 MissedPoints = Mapping[Point, TimePeg]
 """Points that will not be reached as planned, with the pegs on which others may depend."""
+
+
+class DroppedTie(SchedulingFault):
+    """A point whose behavior was dropped after others were tied to it."""
+
+    code = "dropped-tie"
+    template = "the behavior of {point} is dropped; this behavior keeps the last predicted time"
+    point: str
+
+
+class CutTie(SchedulingFault):
+    """A point that was interrupted after others were tied to it."""
+
+    code = "cut-tie"
+    template = "{point} was interrupted; this behavior keeps the last predicted time"
+    point: str
+
+
+class NeverComes(SchedulingFault):
+    """A behavior tied to a point without a time."""
+
+    code = "never-comes"
+    template = "it is dropped: it depends on {point}, which will never come"
+    point: str
 
 
 class TieRelease:

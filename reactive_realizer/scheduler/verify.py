@@ -5,16 +5,26 @@ from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from math import inf
 
-from reactive_realizer.errors import Fault
+from reactive_realizer.errors import Fault, SchedulingFault
 from reactive_realizer.pegboard.time_peg import AnticipatorPeg
 from reactive_realizer.planunit.timing import SHORTEST, PhaseKind
-from reactive_realizer.scheduler.faults import ConstraintBroken
 from reactive_realizer.scheduler.offset_union_find import OffsetUnionFind
 from reactive_realizer.scheduler.plan_view import PlanView
 from reactive_realizer.scheduler.problem import Node, Origin, Point, Precedence, Tie
 
 TOLERANCE = 1e-6
 """s by which an equation may be missed: times are sums of fractions."""
+
+
+class ConstraintBroken(SchedulingFault):
+    """A constraint that a plan misses, found by ``--verify``; ``amount`` in s."""
+
+    code = "constraint-broken"
+    template = "'{text}' is missed by {amount:g} s ({points}; thesis {equation})"
+    text: str
+    amount: float
+    points: str
+    equation: str
 
 
 @dataclass(frozen=True, slots=True)

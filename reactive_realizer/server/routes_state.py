@@ -8,7 +8,7 @@ from aiohttp import web
 
 from reactive_realizer import __version__
 from reactive_realizer.errors import RealizerError
-from reactive_realizer.scheduler.faults import UnknownCharacter
+from reactive_realizer.scheduler.admission import UnknownCharacter
 from reactive_realizer.server.capabilities import capabilities_of
 from reactive_realizer.server.keys import LIVE
 from reactive_realizer.server.live_scene import LiveScene

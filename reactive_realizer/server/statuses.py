@@ -20,15 +20,14 @@ from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.anticipator import PredictsItself
 from reactive_realizer.pegboard.pegboard import NoPoint
 from reactive_realizer.realizer.inbox import TooManyNames
-from reactive_realizer.scheduler.faults import (
-    BlockEnded,
+from reactive_realizer.scheduler.admission import (
     DuplicateBlock,
-    NoSuchBlock,
     TooManyBlocks,
     TooManyProcedures,
     UnknownCharacter,
     UnknownProcedure,
 )
+from reactive_realizer.scheduler.blocks import BlockEnded, NoSuchBlock
 from reactive_realizer.server.faults import (
     ForeignHost,
     ForeignOrigin,
