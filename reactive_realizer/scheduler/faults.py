@@ -65,34 +65,6 @@ class BeforeBlock(SchedulingFault):
     early: float
 
 
-class SelfContradictory(SchedulingFault):
-    """A behavior whose own constraints contradict each other; ``gap`` in s."""
-
-    code = "self-contradictory"
-    template = "this behavior is dropped: {tie} contradicts its other constraints by {gap:g} s"
-    tie: str
-    gap: float
-
-
-class OutOfOrder(SchedulingFault):
-    """A behavior with sync points in the wrong order; ``gap`` in s."""
-
-    code = "out-of-order"
-    template = "this behavior is dropped: its {sync} would come {gap:g} s after its {later}"
-    sync: str
-    later: str
-    gap: float
-
-
-class NoOrder(SchedulingFault):
-    """A before/after constraint under a strategy that does not keep them."""
-
-    code = "no-order"
-    template = "the strategy '{strategy}' does not support before/after constraints; '{text}' is dropped"
-    strategy: str
-    text: str
-
-
 class Conflicting(SchedulingFault):
     """A constraint or behavior that conflicts with others; ``gap`` in s."""
 

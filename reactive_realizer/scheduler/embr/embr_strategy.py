@@ -2,15 +2,24 @@
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
-from reactive_realizer.errors import Fault
+from reactive_realizer.errors import Fault, SchedulingFault
 from reactive_realizer.planunit.timing import SHORTEST, TooShort
 from reactive_realizer.scheduler.embr.embr_problem import EmbrProblem
 from reactive_realizer.scheduler.embr.keeping import keep
 from reactive_realizer.scheduler.embr.placing import place
-from reactive_realizer.scheduler.faults import AllPast, ContradictoryTie, SelfContradictory
+from reactive_realizer.scheduler.faults import AllPast, ContradictoryTie
 from reactive_realizer.scheduler.losses import lost_behavior
 from reactive_realizer.scheduler.problem import Item, Loss, Node, Point, Precedence, SchedulingProblem, Solution, Tie
 from reactive_realizer.scheduler.smartbody.placement import ratio_between
+
+
+class SelfContradictory(SchedulingFault):
+    """A behavior whose own constraints contradict each other; ``gap`` in s."""
+
+    code = "self-contradictory"
+    template = "this behavior is dropped: {tie} contradicts its other constraints by {gap:g} s"
+    tie: str
+    gap: float
 
 
 class EmbrStrategy:

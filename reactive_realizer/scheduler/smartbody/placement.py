@@ -5,10 +5,19 @@ from collections.abc import Iterable, Mapping, Sequence
 from enum import Enum
 from typing import NamedTuple
 
-from reactive_realizer.errors import RealizerError
+from reactive_realizer.errors import RealizerError, SchedulingFault
 from reactive_realizer.planunit.timing import SHORTEST, TooShort
-from reactive_realizer.scheduler.faults import OutOfOrder
 from reactive_realizer.scheduler.problem import Item, Node
+
+
+class OutOfOrder(SchedulingFault):
+    """A behavior with sync points in the wrong order; ``gap`` in s."""
+
+    code = "out-of-order"
+    template = "this behavior is dropped: its {sync} would come {gap:g} s after its {later}"
+    sync: str
+    later: str
+    gap: float
 
 
 class Fixed(Enum):
