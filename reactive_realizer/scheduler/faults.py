@@ -107,3 +107,12 @@ class WorkFailed(CreationFault):
     code = "work-failed"
     template = "its preparation failed: {reason}"
     reason: str
+
+
+class NoOrder(SchedulingFault):
+    """A before/after constraint under a strategy that does not keep them."""
+
+    code = "no-order"
+    template = "the strategy '{strategy}' does not support before/after constraints; '{text}' is dropped"
+    strategy: str
+    text: str

@@ -4,9 +4,9 @@ from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from math import isfinite
 
-from reactive_realizer.errors import Fault, RealizerError, SchedulingFault
+from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.planunit.timing import SHORTEST
-from reactive_realizer.scheduler.faults import AllPast, BeforeBlock, ContradictoryTie, OuterTie, Rigid
+from reactive_realizer.scheduler.faults import AllPast, BeforeBlock, ContradictoryTie, NoOrder, OuterTie, Rigid
 from reactive_realizer.scheduler.losses import lost_behavior, lost_constraint, with_required
 from reactive_realizer.scheduler.offset_union_find import TIE_TOLERANCE, OffsetUnionFind
 from reactive_realizer.scheduler.problem import Item, Loss, Node, Origin, Point, SchedulingProblem, Solution, Tie
@@ -14,15 +14,6 @@ from reactive_realizer.scheduler.smartbody.placement import Cluster, Fixed, Plac
 
 _SAME = 1e-3
 """A rigid behavior may miss a time by less (s)."""
-
-
-class NoOrder(SchedulingFault):
-    """A before/after constraint under a strategy that does not keep them."""
-
-    code = "no-order"
-    template = "the strategy '{strategy}' does not support before/after constraints; '{text}' is dropped"
-    strategy: str
-    text: str
 
 
 class SmartBodyStrategy:
