@@ -1,4 +1,4 @@
-"""A scene is what its files say, or says which line of them cannot be."""
+"""A scene is built from its files; errors name the file and the line."""
 
 import os
 from collections.abc import Callable
@@ -33,7 +33,7 @@ def test_the_default_has_one_character_and_the_usual_targets() -> None:
     assert default.limits == Limits()
 
 
-def test_what_a_character_does_not_say_has_its_default(human: Callable[[str], Path]) -> None:
+def test_missing_keys_of_a_character_have_their_defaults(human: Callable[[str], Path]) -> None:
     read = read_human_file(human("[character.alice]\nheading = 90\n[limits]\nclients = 3\n"))
     alice = read.characters["alice"]
     assert (alice.heading, alice.position) == (90.0, (0.0, 0.0, 0.0))
@@ -72,7 +72,9 @@ def test_what_a_character_does_not_say_has_its_default(human: Callable[[str], Pa
         (ALICE + "[limits]\ntime_seconds = 0.5", ["limits.time_seconds"]),
     ],
 )
-def test_a_key_that_is_unknown_or_wrong_is_named(human: Callable[[str], Path], text: str, mentions: list[str]) -> None:
+def test_the_error_of_an_unknown_or_invalid_key_names_it(
+    human: Callable[[str], Path], text: str, mentions: list[str]
+) -> None:
     with pytest.raises(RealizerError) as refused:
         read_human_file(human(text))
     assert all(mention in str(refused.value) for mention in mentions)
@@ -80,13 +82,13 @@ def test_a_key_that_is_unknown_or_wrong_is_named(human: Callable[[str], Path], t
 
 @pytest.mark.parametrize("id_", ["", "a b", "a:b", "a+b", "a\\u0000", "a\\u007f", "a\\n", "bml", "a" * 201])
 @pytest.mark.parametrize("section", ["character", "target", "anticipator"])
-def test_an_id_that_no_reference_can_name_is_refused(human: Callable[[str], Path], section: str, id_: str) -> None:
+def test_an_id_that_cannot_be_referenced_is_refused(human: Callable[[str], Path], section: str, id_: str) -> None:
     with pytest.raises(RealizerError) as refused:
         read_human_file(human(f'[character.alice]\n[{section}."{id_}"]'))
     assert all(part in str(refused.value) for part in ["human.toml", section, "control character"])
 
 
-def test_a_kind_of_binding_that_is_not_named_has_its_default(human: Callable[[str], Path]) -> None:
+def test_a_missing_kind_of_binding_has_its_default(human: Callable[[str], Path]) -> None:
     assert read_human_file(human(ALICE + "bindings = {}")).characters["alice"].bindings == DEFAULT_BINDINGS
 
 
@@ -111,7 +113,7 @@ def test_every_kind_of_binding_has_a_file_in_the_package() -> None:
         (ALICE + 'avatar = "nobody.glb"', ["nobody.glb"]),
     ],
 )
-async def test_what_a_scene_cannot_be_made_of_is_named(
+async def test_the_error_of_an_invalid_scene_names_the_cause(
     human: Callable[[str], Path], text: str, mentions: list[str]
 ) -> None:
     with pytest.raises(RealizerError) as refused:
@@ -120,7 +122,7 @@ async def test_what_a_scene_cannot_be_made_of_is_named(
     assert all(mention in str(refused.value) for mention in mentions)
 
 
-def test_the_built_in_plug_ins_stand_where_everybodys_do() -> None:
+def test_the_built_in_plug_ins_are_entry_points() -> None:
     assert set(names("engines")) >= {"animation", "face", "speech", "wait"}
     for kind in ("metronome", "remote", "spacebar", "speech_stop", "exercise", "conducting"):
         assert load("anticipators", kind).kind == kind
@@ -143,7 +145,7 @@ def folders(tmp_path: Path) -> tuple[Path, Path]:
     return one, two
 
 
-def test_a_name_is_looked_for_in_the_folders_in_their_order_and_then_in_the_package(folders: tuple[Path, Path]) -> None:
+def test_a_name_is_searched_in_the_folders_in_order_and_then_in_the_package(folders: tuple[Path, Path]) -> None:
     one, two = folders
     assets = Assets(folders)
     assert assets("sub/both.xml") == one / "sub" / "both.xml"
@@ -151,11 +153,11 @@ def test_a_name_is_looked_for_in_the_folders_in_their_order_and_then_in_the_pack
     assert assets("gesturebinding.xml") == PACKAGE_ASSETS / "gesturebinding.xml"
 
 
-def test_leading_folders_of_a_name_are_left_out_one_by_one(folders: tuple[Path, Path]) -> None:
+def test_leading_folders_of_a_name_are_dropped_one_by_one(folders: tuple[Path, Path]) -> None:
     assert Assets(folders)("Humanoids/shared/sub/both.xml") == folders[0] / "sub" / "both.xml"
 
 
-def test_a_name_may_be_looked_for_in_all_folders_of_one_root_after_the_other(folders: tuple[Path, Path]) -> None:
+def test_a_name_may_be_searched_in_all_folders_of_one_root_before_the_next(folders: tuple[Path, Path]) -> None:
     one, two = folders
     assets = Assets(folders)
     assert assets("**/both.xml") == one / "sub" / "both.xml"
@@ -167,7 +169,7 @@ def test_a_name_may_be_looked_for_in_all_folders_of_one_root_after_the_other(fol
         Assets(folders)("**/l*.xml")
 
 
-def test_what_comes_and_goes_in_a_folder_is_noticed(folders: tuple[Path, Path]) -> None:
+def test_files_that_appear_and_disappear_are_noticed(folders: tuple[Path, Path]) -> None:
     assets = Assets(folders)
     added = folders[1] / "sub" / "added.xml"
     with pytest.raises(RealizerError, match=r"no asset named 'added\.xml'"):
@@ -182,12 +184,12 @@ def test_what_comes_and_goes_in_a_folder_is_noticed(folders: tuple[Path, Path]) 
 
 
 def later(folder: Path) -> None:
-    """As if it had not been changed within the few ms that a file system tells apart."""
+    """Set its modification time 1 s later, because file systems may not distinguish changes within a few ms."""
     at = folder.stat().st_mtime_ns + 10**9
     os.utime(folder, ns=(at, at))
 
 
-def test_folders_are_walked_once_for_many_names(folders: tuple[Path, Path], monkeypatch: pytest.MonkeyPatch) -> None:
+def test_folders_are_walked_once_for_several_names(folders: tuple[Path, Path], monkeypatch: pytest.MonkeyPatch) -> None:
     walks = []
     walk = os.walk
 
@@ -204,13 +206,13 @@ def test_folders_are_walked_once_for_many_names(folders: tuple[Path, Path], monk
     assert walks == [*folders, PACKAGE_ASSETS]
 
 
-def test_a_name_that_several_files_of_one_root_bear_is_refused_with_all_of_them(folders: tuple[Path, Path]) -> None:
+def test_a_name_of_several_files_of_one_root_is_refused_with_all_of_them(folders: tuple[Path, Path]) -> None:
     (folders[0] / "both.xml").write_text("")
     with pytest.raises(RealizerError, match=r"several assets are named 'both\.xml': both\.xml, sub/both\.xml"):
         Assets(folders)("**/both.xml")
 
 
-def test_a_link_that_leads_out_of_its_folder_is_not_found_in_any(folders: tuple[Path, Path], tmp_path: Path) -> None:
+def test_a_search_does_not_find_a_link_that_leads_out_of_its_folder(folders: tuple[Path, Path], tmp_path: Path) -> None:
     (tmp_path / "secret.xml").write_text("")
     (folders[0] / "link.xml").symlink_to(tmp_path / "secret.xml")
     with pytest.raises(RealizerError, match=r"no asset named 'link\.xml'"):
@@ -227,7 +229,7 @@ def test_a_name_that_leaves_the_folders_is_refused(folders: tuple[Path, Path], n
     assert refused.value.fault.code == "forbidden-path"
 
 
-def test_a_link_that_leads_out_of_its_folder_is_no_file_of_it(folders: tuple[Path, Path], tmp_path: Path) -> None:
+def test_a_path_does_not_follow_a_link_that_leads_out_of_its_folder(folders: tuple[Path, Path], tmp_path: Path) -> None:
     (tmp_path / "secret.xml").write_text("")
     (folders[0] / "link.xml").symlink_to(tmp_path / "secret.xml")
     (folders[0] / "inner.xml").symlink_to(folders[0] / "only-one.xml")
@@ -238,11 +240,11 @@ def test_a_link_that_leads_out_of_its_folder_is_no_file_of_it(folders: tuple[Pat
 
 
 @pytest.mark.parametrize("name", ["nothing.xml", "sub", "x" * 1000, "a\0b", "**", "**/sub", "**/a\0b", "**/**"])
-def test_a_name_that_nothing_has_is_answered(folders: tuple[Path, Path], name: str) -> None:
+def test_an_unknown_or_invalid_name_is_refused(folders: tuple[Path, Path], name: str) -> None:
     with pytest.raises(RealizerError):
         Assets(folders)(name)
 
 
-def test_a_folder_that_is_not_there_is_named(tmp_path: Path) -> None:
+def test_the_error_of_a_missing_folder_names_it(tmp_path: Path) -> None:
     with pytest.raises(RealizerError, match="nowhere"):
         Assets((tmp_path / "nowhere",))

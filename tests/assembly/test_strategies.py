@@ -13,12 +13,12 @@ AFTER = """
 """
 
 
-def test_the_built_in_ones_are_found_by_their_names() -> None:
+def test_the_built_in_strategies_are_found_by_name() -> None:
     assert {"convex", "embr", "smartbody"} <= set(names("strategies"))
 
 
 @pytest.mark.parametrize(("strategy", "warnings", "start"), [("convex", 0, 0.5), ("smartbody", 1, 0.0)])
-async def test_a_scene_is_timed_by_the_one_that_was_chosen(strategy: str, warnings: int, start: float) -> None:
+async def test_a_scene_uses_the_chosen_strategy(strategy: str, warnings: int, start: float) -> None:
     async with open_pilot(SceneOptions(voice="text", strategy=strategy)) as pilot:
         pilot.block("x", AFTER)
         await pilot.advance(2)
@@ -30,7 +30,7 @@ def test_convex_is_the_default() -> None:
     assert SceneOptions().strategy == "convex"
 
 
-async def test_one_that_does_not_exist_is_refused_with_those_that_do() -> None:
+async def test_the_error_of_an_unknown_strategy_lists_the_known_ones() -> None:
     with pytest.raises(
         RealizerError, match="the plug-in group strategies has no 'best'; available: convex, embr, smartbody"
     ):

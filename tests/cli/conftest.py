@@ -1,4 +1,4 @@
-"""Files to give to the command line, and what it answers."""
+"""Files for the command line, and its output."""
 
 import json
 from collections.abc import Callable

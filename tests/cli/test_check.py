@@ -1,4 +1,4 @@
-"""`check`: what is wrong with a file, with its place."""
+"""The command `check`: problems of files with their locations."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -20,27 +20,23 @@ def check(capsys: pytest.CaptureFixture[str], *files: str) -> tuple[int, Any]:
     return status, capsys.readouterr().out.splitlines()
 
 
-def test_a_file_that_is_fine_is_answered_by_nothing(
-    bml: Callable[..., str], capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_check_prints_nothing_for_a_valid_file(bml: Callable[..., str], capsys: pytest.CaptureFixture[str]) -> None:
     assert check(capsys, bml(HELLO)) == (0, [])
 
 
-def test_what_is_legal_and_not_yet_realized_is_no_problem(
+def test_a_legal_element_that_is_not_realized_yet_is_no_problem(
     bml: Callable[..., str], capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert check(capsys, bml(block("b", '<locomotion id="go" target="bluebox"/>'))) == (0, [])
 
 
-def test_an_element_that_bml_does_not_have_is_a_problem(
-    bml: Callable[..., str], capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_an_unknown_element_is_a_problem(bml: Callable[..., str], capsys: pytest.CaptureFixture[str]) -> None:
     status, (line,) = check(capsys, bml(block("b", '<speach id="s"/>')))
     assert status == 1
     assert "<speach> is not a behavior" in line
 
 
-def test_a_block_may_refer_to_those_of_its_file_and_of_earlier_files(
+def test_a_block_may_refer_to_blocks_of_its_file_and_of_earlier_files(
     bml: Callable[..., str], capsys: pytest.CaptureFixture[str]
 ) -> None:
     late = block("zero", '<head id="h" lexeme="NOD" start="two:h:end"/>')
@@ -52,7 +48,7 @@ def test_a_block_may_refer_to_those_of_its_file_and_of_earlier_files(
     assert lines == [f"{second}:1:{lines[0].split(':')[2]}: two:h:end: the block 'two' is unknown or has ended"]
 
 
-def test_who_hangs_on_what_cannot_be_read_is_told_that_this_is_why(
+def test_the_problem_of_a_reference_to_an_unreadable_behavior_says_so(
     bml: Callable[..., str], capsys: pytest.CaptureFixture[str]
 ) -> None:
     status, lines = check(capsys, bml(block("b", '<head id="h"/><head id="i" lexeme="NOD" start="h:end"/>')))
@@ -61,7 +57,7 @@ def test_who_hangs_on_what_cannot_be_read_is_told_that_this_is_why(
     assert "h:end has no time because 'h' is dropped" in lines[1]
 
 
-def test_a_reference_to_a_block_that_there_is_not_is_a_problem_also_in_a_constraint(
+def test_a_reference_to_an_unknown_block_is_a_problem(
     bml: Callable[..., str], capsys: pytest.CaptureFixture[str]
 ) -> None:
     tie = '<constraint><synchronize><sync ref="h:start"/><sync ref="{}:w:end"/></synchronize></constraint>'
@@ -75,7 +71,7 @@ def test_a_reference_to_a_block_that_there_is_not_is_a_problem_also_in_a_constra
 BMLT = 'xmlns:x="http://hmi.ewi.utwente.nl/bmlt"'
 
 
-def test_a_sync_point_that_what_plays_a_behavior_does_not_know_is_a_problem(
+def test_a_sync_point_that_the_motion_of_a_behavior_lacks_is_a_problem(
     bml: Callable[..., str], capsys: pytest.CaptureFixture[str]
 ) -> None:
     nod = '<head id="h" lexeme="NOD"/><wait id="w" start="h:{}"/>'
@@ -85,7 +81,7 @@ def test_a_sync_point_that_what_plays_a_behavior_does_not_know_is_a_problem(
     assert "h:apex: 'h' has no sync point 'apex'; it has start, ready" in line
 
 
-def test_an_attribute_that_ties_a_point_which_its_motion_has_not_is_a_problem(
+def test_an_attribute_for_a_sync_point_that_the_motion_lacks_is_a_problem(
     bml: Callable[..., str], capsys: pytest.CaptureFixture[str]
 ) -> None:
     conduct = f'<x:procanimation {BMLT} id="p" name="conduct-3-beat" {{}}="2"/>'
@@ -95,7 +91,7 @@ def test_an_attribute_that_ties_a_point_which_its_motion_has_not_is_a_problem(
     assert "2: 'p' has no sync point 'beat9'; it has start, beat1, beat2, beat3, end" in line
 
 
-def test_a_change_of_a_behavior_that_its_block_has_not_is_a_problem(
+def test_a_parameter_change_of_an_unknown_behavior_is_a_problem(
     bml: Callable[..., str], capsys: pytest.CaptureFixture[str]
 ) -> None:
     change = (
@@ -121,7 +117,7 @@ def test_a_change_of_a_behavior_that_its_block_has_not_is_a_problem(
         ('name="amuont" value="1"', None),
     ],
 )
-def test_of_a_parameter_it_is_judged_how_it_is_written_not_what_it_says(
+def test_the_form_of_a_parameter_is_checked_and_its_name_and_value_are_not(
     bml: Callable[..., str], capsys: pytest.CaptureFixture[str], parameter: str, problem: str | None
 ) -> None:
     inside = f'<head id="h" lexeme="NOD"><x:parameter {BMLT} {parameter}/></head>'
@@ -141,7 +137,7 @@ FOREIGN = 'xmlns:f="urn:f" f:mood="glad"'
         (f'<bml xmlns="{BML}" id="b">\n <locomotion id="l" target="bluebox" {FOREIGN}/></bml>', "2:2"),
     ],
 )
-def test_an_attribute_of_another_namespace_that_means_nothing_here_is_told_on_stderr(
+def test_an_attribute_of_another_namespace_without_effect_is_reported_on_stderr(
     bml: Callable[..., str], capsys: pytest.CaptureFixture[str], text: str, place: str
 ) -> None:
     file = bml(text)
@@ -155,7 +151,7 @@ def test_an_attribute_of_another_namespace_that_means_nothing_here_is_told_on_st
     "inside",
     ['<f:dance id="d" xmlns:f="urn:f" f:mood="glad"/>', f'<gaze id="g" target="bluebox" {BMLT} x:dynamic="true"/>'],
 )
-def test_one_that_whoever_plays_its_behavior_knows_or_may_know_is_none(
+def test_a_foreign_attribute_that_an_engine_may_read_is_not_reported(
     bml: Callable[..., str], capsys: pytest.CaptureFixture[str], inside: str
 ) -> None:
     assert main(["check", bml(block("b", inside))]) == 0
@@ -175,7 +171,7 @@ def test_one_that_whoever_plays_its_behavior_knows_or_may_know_is_none(
         ('<speech id="s"><text>...</text></speech>', "its text contains no words"),
     ],
 )
-def test_what_this_scene_has_nothing_for_is_told_on_stderr_and_is_no_mistake(
+def test_a_behavior_that_this_scene_cannot_play_is_reported_on_stderr_only(
     bml: Callable[..., str], capsys: pytest.CaptureFixture[str], inside: str, reason: str
 ) -> None:
     file = bml(block("b", inside))
@@ -187,7 +183,7 @@ def test_what_this_scene_has_nothing_for_is_told_on_stderr_and_is_no_mistake(
     assert f": {reason}" in line
 
 
-def test_the_words_of_a_folder_of_assets_are_known_with_it(
+def test_lexemes_of_a_folder_of_assets_are_known_if_it_is_given(
     bml: Callable[..., str], capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
     file = bml(block("b", f'<x:procanimation {BMLT} id="p" name="hop"/>'))
@@ -198,7 +194,7 @@ def test_the_words_of_a_folder_of_assets_are_known_with_it(
     assert capsys.readouterr().err == ""
 
 
-def test_a_description_that_can_be_made_plays_for_what_nobody_has_a_motion_for(
+def test_a_behavior_without_a_motion_is_not_reported_if_its_description_plays(
     bml: Callable[..., str], capsys: pytest.CaptureFixture[str]
 ) -> None:
     inside = f"""<gesture id="g" lexeme="BAET"><description priority="1" type="application/bmlt">
@@ -207,7 +203,7 @@ def test_a_description_that_can_be_made_plays_for_what_nobody_has_a_motion_for(
     assert capsys.readouterr().err == ""
 
 
-def test_an_engine_that_fails_is_told_of_and_the_rest_is_checked(
+def test_an_engine_that_fails_is_reported_and_the_rest_is_checked(
     bml: Callable[..., str], capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(WaitEngine, "plan", lambda *_: 1 / 0)
@@ -219,14 +215,14 @@ def test_an_engine_that_fails_is_told_of_and_the_rest_is_checked(
     assert "nowhere" not in captured.err
 
 
-def test_blocks_that_are_activated_and_interrupted_are_no_targets_of_the_world(
+def test_targets_of_activate_and_interrupt_are_blocks_and_not_objects_of_the_world(
     bml: Callable[..., str], capsys: pytest.CaptureFixture[str]
 ) -> None:
     inside = f'<x:activate {BMLT} id="a" target="later"/><x:interrupt {BMLT} id="i" target="later"/>'
     assert check(capsys, bml(block("b", inside))) == (0, [])
 
 
-def test_a_block_that_joins_one_that_never_was_is_a_problem(
+def test_a_composition_with_an_unknown_block_is_a_problem(
     bml: Callable[..., str], capsys: pytest.CaptureFixture[str]
 ) -> None:
     after = f'<bml {BMLT} id="b" x:appendAfter="one,two" scheduling="chunk-after(one)"/>'
@@ -235,7 +231,7 @@ def test_a_block_that_joins_one_that_never_was_is_a_problem(
     assert "appendAfter: there has never been a block 'two'" in line
 
 
-def test_a_procedure_is_defined_before_it_is_used_and_judged_where_it_is_defined(
+def test_a_procedure_is_checked_at_its_definition_and_must_precede_its_uses(
     bml: Callable[..., str], capsys: pytest.CaptureFixture[str]
 ) -> None:
     definition = f'<x:defineproc {BMLT} id="p"><gaze id="look" target="{{}}"/></x:defineproc>'
@@ -247,7 +243,7 @@ def test_a_procedure_is_defined_before_it_is_used_and_judged_where_it_is_defined
     assert "there is no target 'nowhere'" in target
 
 
-def test_two_blocks_of_one_file_have_two_ids_unless_a_replace_ends_the_first(
+def test_a_repeated_id_in_a_file_is_a_problem_unless_a_replace_ends_the_first_block(
     bml: Callable[..., str], capsys: pytest.CaptureFixture[str]
 ) -> None:
     twice = bml(f"{block('b')}\n{block('b')}", "twice.xml")
@@ -290,6 +286,6 @@ def test_targets_are_those_of_the_human_file(
     assert check(capsys, file, "--human", str(tests_data / "humans" / "two.toml"))[0] == 0
 
 
-def test_check_answers_2_where_a_file_is_not_there(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_exit_status_of_check_is_2_for_a_missing_file(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["check", "no-such-file.xml"]) == 2
     assert "no-such-file.xml" in capsys.readouterr().err

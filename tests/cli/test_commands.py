@@ -1,4 +1,4 @@
-"""What all commands do alike."""
+"""The common properties of all commands."""
 
 from collections.abc import Callable
 
@@ -18,7 +18,7 @@ def test_every_command_has_help_with_an_example(command: str, capsys: pytest.Cap
 
 @pytest.mark.parametrize("command", ["realize", "check"])
 @pytest.mark.parametrize("mistake", ["bindings = { foo = 'x' }", "[limits]\nblocks_alive = -1"])
-def test_a_human_file_that_cannot_be_is_2_and_one_line_says_why(
+def test_the_exit_status_is_2_for_an_invalid_human_file_with_one_line_of_error(
     bml: Callable[..., str], capsys: pytest.CaptureFixture[str], command: str, mistake: str
 ) -> None:
     human = bml(f"[character.alice]\n{mistake}", "human.toml")

@@ -1,4 +1,4 @@
-"""The frames of `realize`, and that they and feedback are the same every time."""
+"""The frames of `realize`, and the repeatability of frames and feedback."""
 
 import os
 import subprocess
@@ -21,7 +21,7 @@ def frames_of(bml: Callable[..., str], tmp_path: Path, *options: str) -> Any:
     return np.load(file)
 
 
-def test_frames_have_the_names_shapes_and_times_that_are_promised(bml: Callable[..., str], tmp_path: Path) -> None:
+def test_frames_have_the_documented_names_shapes_and_times(bml: Callable[..., str], tmp_path: Path) -> None:
     frames = frames_of(bml, tmp_path)
     assert set(frames) == {"time", "joints", "parents", "offsets", "rotations", "root", "morphs", "weights"}
     count, joints, morphs = len(frames["time"]), len(frames["joints"]), len(frames["morphs"])
@@ -38,7 +38,7 @@ def test_frames_have_the_names_shapes_and_times_that_are_promised(bml: Callable[
     assert {"r_wrist", "skullbase"} <= set(frames["joints"])
 
 
-def test_with_two_characters_every_name_has_the_character_before_it(
+def test_names_have_the_character_as_a_prefix_if_there_are_two(
     bml: Callable[..., str], tmp_path: Path, tests_data: Path
 ) -> None:
     frames = frames_of(bml, tmp_path, "--human", str(tests_data / "humans" / "two.toml"))
@@ -59,7 +59,7 @@ def session(bml: Callable[..., str], tmp_path: Path, name: str, seed: str, *voic
 
 
 @pytest.mark.parametrize("voice", ["text", pytest.param("espeak", marks=pytest.mark.speech)])
-def test_the_same_input_gives_the_same_bytes_whatever_the_hash_seed(
+def test_the_same_input_gives_the_same_bytes_with_any_hash_seed(
     bml: Callable[..., str], tmp_path: Path, voice: str
 ) -> None:
     one = session(bml, tmp_path, "one", "0", "--voice", voice)

@@ -1,4 +1,4 @@
-"""`lexicon`, as whoever calls it sees it."""
+"""The command `lexicon`."""
 
 import json
 from collections.abc import Callable
@@ -29,7 +29,7 @@ BINDING = """<gesturebinding>
 
 @pytest.fixture
 def lexicon(capsys: pytest.CaptureFixture[str]) -> Callable[..., tuple[list[str], list[str]]]:
-    """Runs ``lexicon``: what it says and what it complains of, in lines."""
+    """Runs ``lexicon``: its lines on stdout and on stderr."""
 
     def run(*arguments: str | Path) -> tuple[list[str], list[str]]:
         assert main(["lexicon", *map(str, arguments)]) == 0
@@ -41,7 +41,7 @@ def lexicon(capsys: pytest.CaptureFixture[str]) -> Callable[..., tuple[list[str]
 
 @pytest.fixture
 def words(lexicon: Callable[..., tuple[list[str], list[str]]]) -> Callable[..., list[dict[str, Any]]]:
-    """The words of the default scene, as ``--json`` has them."""
+    """The entries of the default scene from ``--json``."""
 
     def run(*arguments: str | Path) -> list[dict[str, Any]]:
         (text,), _ = lexicon("--json", *arguments)
@@ -56,13 +56,13 @@ def word(words: list[dict[str, Any]], element: str, lexeme: str, **constraints: 
     return found
 
 
-def test_all_words_of_the_package_play(lexicon: Callable[..., tuple[list[str], list[str]]]) -> None:
+def test_all_lexemes_of_the_package_play(lexicon: Callable[..., tuple[list[str], list[str]]]) -> None:
     said, complaints = lexicon()
     assert complaints == []
     assert {"alice:", "  gesture", "  head", "  faceLexeme", "  pose", "  procanimation"} <= set(said)
 
 
-def test_a_line_has_the_word_its_constraints_duration_points_parameters_and_file(
+def test_a_line_has_the_lexeme_its_constraints_duration_points_parameters_and_file(
     lexicon: Callable[..., tuple[list[str], list[str]]],
 ) -> None:
     said, _ = lexicon()
@@ -72,7 +72,7 @@ def test_a_line_has_the_word_its_constraints_duration_points_parameters_and_file
     )
 
 
-def test_json_has_the_same(words: Callable[..., list[dict[str, Any]]]) -> None:
+def test_the_json_output_has_the_same_entries(words: Callable[..., list[dict[str, Any]]]) -> None:
     nod = word(words(), "head", "NOD")
     assert nod["syncPoints"] == ["start", "ready", "strokeStart", "stroke", "strokeEnd", "relax", "end"]
     assert nod["duration"] == pytest.approx(0.7)
@@ -87,7 +87,7 @@ def test_a_conducting_pattern_has_its_beats(words: Callable[..., list[dict[str, 
     assert [point for point in bar["syncPoints"] if point.startswith("beat")] == ["beat1", "beat2", "beat3"]
 
 
-def test_what_a_user_adds_comes_first_and_what_does_not_play_is_told_on_stderr(
+def test_entries_of_the_user_come_first_and_invalid_ones_are_listed_on_stderr(
     lexicon: Callable[..., tuple[list[str], list[str]]], tmp_path: Path
 ) -> None:
     (tmp_path / "gesturebinding.xml").write_text(BINDING)
@@ -109,7 +109,9 @@ def test_parameters_have_the_names_and_defaults_of_the_binding(
     assert {"name": "how_high", "default": 0.25, "low": None, "high": None} in jump["parameters"]
 
 
-def test_each_character_has_its_own_words(lexicon: Callable[..., tuple[list[str], list[str]]], tmp_path: Path) -> None:
+def test_each_character_has_its_own_lexemes(
+    lexicon: Callable[..., tuple[list[str], list[str]]], tmp_path: Path
+) -> None:
     human = tmp_path / "two.toml"
     human.write_text('[character.alice]\n[character.bob]\nengines = ["face"]')
     said, _ = lexicon("--human", human)
@@ -117,9 +119,7 @@ def test_each_character_has_its_own_words(lexicon: Callable[..., tuple[list[str]
     assert not any(line.startswith("  gesture") for line in said[said.index("bob:") :])
 
 
-def test_a_binding_that_is_not_well_formed_is_named_with_its_line(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_error_of_a_malformed_binding_has_its_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "gesturebinding.xml").write_text("<gesturebinding>\n<MotionUnitSpec>\n</gesturebinding>")
     assert main(["lexicon", "--assets", str(tmp_path)]) == 2
     assert "gesturebinding.xml, line 3" in capsys.readouterr().err

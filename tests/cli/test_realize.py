@@ -1,4 +1,4 @@
-"""`realize`, as whoever calls it sees it: when files enter, what is told, and how it ends."""
+"""The command `realize`: when files enter, its output, and its exit status."""
 
 import json
 from collections.abc import Callable
@@ -36,7 +36,7 @@ def test_files_enter_at_their_times_in_order(
     assert [(time, "two" in xml) for time, xml in starts] == [(0.0, False), (1.5, True)]
 
 
-def test_a_file_enters_also_when_all_before_it_has_ended_long_ago(
+def test_a_file_enters_at_its_time_after_all_earlier_blocks_have_ended(
     realize: Callable[..., tuple[int, list[tuple[float, str]], str]], bml: Callable[..., str]
 ) -> None:
     one, two = bml(block("one"), "one.xml"), bml(block("two"), "two.xml")
@@ -45,7 +45,7 @@ def test_a_file_enters_also_when_all_before_it_has_ended_long_ago(
     assert [time for time, xml in feedback if "two:start" in xml] == [30.0]
 
 
-def test_a_file_that_would_enter_after_the_end_of_the_session_is_told_of(
+def test_a_file_that_would_enter_after_the_end_of_the_session_is_reported(
     realize: Callable[..., tuple[int, list[tuple[float, str]], str]], bml: Callable[..., str]
 ) -> None:
     one, two = bml(block("one"), "one.xml"), bml(block("two"), "two.xml")
@@ -72,7 +72,9 @@ def test_a_number_may_be_written_in_any_way(
     assert [when for when, xml in feedback if "b:start" in xml] == [time]
 
 
-def test_a_time_that_is_never_is_a_wrong_option(bml: Callable[..., str], capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_time_that_is_not_finite_is_a_usage_error(
+    bml: Callable[..., str], capsys: pytest.CaptureFixture[str]
+) -> None:
     with pytest.raises(SystemExit) as end:
         main(["realize", f"{bml(block('b'))}@1e999"])
     assert end.value.code == 2
@@ -96,13 +98,13 @@ def test_a_time_that_is_never_is_a_wrong_option(bml: Callable[..., str], capsys:
         (block("b") + "<bml id='c'><oops></bml>" + block("d"), 1),
     ],
 )
-def test_the_exit_status_says_whether_every_block_was_taken_and_none_failed(
+def test_the_exit_status_is_0_if_all_blocks_were_accepted_and_none_failed(
     realize: Callable[..., tuple[int, list[tuple[float, str]], str]], bml: Callable[..., str], text: str, status: int
 ) -> None:
     assert realize(bml(text))[0] == status
 
 
-def test_a_malformed_block_is_told_with_its_own_line_and_reading_goes_on(
+def test_a_malformed_block_is_reported_with_its_line_and_the_others_are_read(
     realize: Callable[..., tuple[int, list[tuple[float, str]], str]], bml: Callable[..., str]
 ) -> None:
     text = f"<?xml version='1.0'?>\n<!-- one -->\n{block('a')}\n<bml id='bad'>\n<oops>\n</bml>\n{block('z')}"
@@ -112,7 +114,7 @@ def test_a_malformed_block_is_told_with_its_own_line_and_reading_goes_on(
     assert "line 6" in warning
 
 
-def test_what_still_waits_when_nothing_can_move_is_named(
+def test_blocks_that_wait_forever_are_listed_at_the_end(
     realize: Callable[..., tuple[int, list[tuple[float, str]], str]], bml: Callable[..., str]
 ) -> None:
     text = block("b", '<head id="h" lexeme="NOD" start="anticipators:never:comes" end="2"/>')
@@ -149,7 +151,7 @@ def test_until_ends_a_session(
         [],
     ],
 )
-def test_a_file_that_is_not_there_and_a_wrong_option_are_2(
+def test_the_exit_status_is_2_for_a_missing_file_or_a_usage_error(
     bml: Callable[..., str], arguments: Any, capsys: pytest.CaptureFixture[str]
 ) -> None:
     file = bml(block("b"))
@@ -165,16 +167,14 @@ def test_a_file_that_is_not_there_and_a_wrong_option_are_2(
     assert "Traceback" not in captured.err
 
 
-def test_feedback_goes_to_stdout_when_asked_and_nothing_else_does(
-    bml: Callable[..., str], capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_only_feedback_goes_to_stdout_if_requested(bml: Callable[..., str], capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["realize", bml(HELLO), "--voice", "text", "--feedback", "-"]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert len(lines) > 10
     assert all(set(json.loads(line)) == {"time", "xml"} for line in lines)
 
 
-def test_explain_writes_why_each_point_of_each_block_was_when_it_was(
+def test_explain_writes_the_explanation_of_every_sync_point(
     bml: Callable[..., str], realize: Callable[..., tuple[int, list[tuple[float, str]], str]], tmp_path: Path
 ) -> None:
     script = bml(block("one", '<wait id="w" duration="0.5"/>') + block("two", composition="APPEND"))

@@ -1,4 +1,4 @@
-"""A session on the air, recorded and played again."""
+"""Recording a served session, and replaying it."""
 
 import asyncio
 import json
@@ -26,14 +26,14 @@ BEAT = '<gesture id="g" lexeme="BEAT" stroke="s:m"/>'
 
 
 class HastyClock(SystemClock):
-    """Goes six times as fast as it waits, so that ticks are left out all the time."""
+    """A clock that is six times as fast as its waits, so that ticks are late."""
 
     def now(self) -> GlobalTime:
         return GlobalTime(6 * super().now())
 
 
 class Address(logging.Handler):
-    """Hands out where a server is."""
+    """Keeps the address that the server prints."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -45,7 +45,7 @@ class Address(logging.Handler):
 
 
 async def live_session(options: ServerOptions) -> list[tuple[float, str]]:
-    """Talks to a server in many ways; all feedback, as time and XML."""
+    """Sends all kinds of messages to a server; its feedback as (time, XML)."""
     logger, address = logging.getLogger(serving.__name__), Address()
     logger.addHandler(address)
     try:
@@ -90,7 +90,7 @@ async def talk(http: aiohttp.ClientSession) -> list[tuple[float, str]]:
 
 def replayed(recording: Path, folder: Path, name: str) -> tuple[list[tuple[float, str]], dict[str, bytes]]:
     feedback, frames = folder / f"{name}.jsonl", folder / f"{name}.npz"
-    # A block of the session was refused: that is 1, as with files.
+    # The exit status is 1, because a block of the session was refused.
     assert main(["realize", "--replay", str(recording), "--feedback", str(feedback), "--frames", str(frames)]) == 1
     lines = map(json.loads, feedback.read_text().splitlines())
     arrays = np.load(frames)
@@ -98,7 +98,7 @@ def replayed(recording: Path, folder: Path, name: str) -> tuple[list[tuple[float
 
 
 @pytest.mark.parametrize("voice", ["text", pytest.param("espeak", marks=pytest.mark.speech)])
-def test_a_live_session_with_late_ticks_is_the_same_again_to_the_last_byte(
+def test_a_recorded_session_with_late_ticks_is_replayed_with_identical_bytes(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture, voice: str
 ) -> None:
     monkeypatch.setattr(serving, "SystemClock", HastyClock)
@@ -121,7 +121,7 @@ def test_a_live_session_with_late_ticks_is_the_same_again_to_the_last_byte(
     assert (tmp_path / "unseen.jsonl").read_bytes() == (tmp_path / "one.jsonl").read_bytes(), "whoever looks on"
 
 
-def test_without_a_recording_and_without_items_there_is_nothing_to_realize(capsys: pytest.CaptureFixture[str]) -> None:
+def test_realize_needs_a_recording_or_items(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as ended:
         main(["realize"])
     assert ended.value.code == 2
@@ -129,7 +129,7 @@ def test_without_a_recording_and_without_items_there_is_nothing_to_realize(capsy
 
 
 @pytest.mark.parametrize("beside", [["a.xml"], ["--voice", "text"], ["--seed", "3"], ["--clock", "real"]])
-def test_what_a_recording_has_itself_cannot_be_said_beside_it(
+def test_options_that_a_recording_contains_cannot_be_given_with_it(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], beside: list[str]
 ) -> None:
     with pytest.raises(SystemExit) as ended:
@@ -138,12 +138,12 @@ def test_what_a_recording_has_itself_cannot_be_said_beside_it(
     assert "the recording sets them" in capsys.readouterr().err
 
 
-def test_a_recording_that_is_not_there_is_2(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_exit_status_is_2_for_a_missing_recording(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["realize", "--replay", "no-such-file.jsonl"]) == 2
     assert "no-such-file.jsonl" in capsys.readouterr().err
 
 
-def test_a_file_that_is_no_recording_is_2_and_one_line_says_where(
+def test_the_exit_status_is_2_for_an_invalid_recording_with_one_line_of_error(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     file = tmp_path / "session.jsonl"

@@ -1,4 +1,4 @@
-"""A scene on the air under a clock that stands still: real sockets, ticks by hand."""
+"""A served scene with real sockets, whose clock and ticks the test controls."""
 
 import json
 from collections.abc import AsyncIterator, Callable
@@ -36,13 +36,13 @@ _VALIDATORS = {
 
 
 def wait(id_: str = "b1", duration: float = 0.1) -> str:
-    """A block that only has time."""
+    """A block with one wait."""
     return WAIT.format(id=id_, duration=duration)
 
 
 @dataclass
 class Socket:
-    """A client; every message that it sees is held against the schema."""
+    """A client that validates every received message against the schema."""
 
     raw: ClientWebSocketResponse
     hello: dict[str, Any] = field(default_factory=dict)
@@ -55,7 +55,7 @@ class Socket:
         await self.raw.send_str(text)
 
     async def hear(self, *types: str) -> dict[str, Any]:
-        """The next text message of one of these types; frames and other messages are passed over."""
+        """The next text message of one of these types; frames and other messages are skipped."""
         while True:
             received = await self.raw.receive(timeout=10)
             if received.type is WSMsgType.TEXT:
@@ -67,7 +67,7 @@ class Socket:
                 raise ConnectionError(f"closed with {self.raw.close_code}")
 
     async def hear_feedback(self, part: str) -> dict[str, Any]:
-        """The next feedback whose XML contains something."""
+        """The next feedback whose XML contains a text."""
         while part not in (feedback := await self.hear("feedback"))["xml"]:
             pass
         return feedback
@@ -80,20 +80,20 @@ class Socket:
         return data
 
     async def close_code(self) -> int | None:
-        """Hear everything out, until the socket is closed."""
+        """Read messages until the socket is closed."""
         async for _ in self.raw:
             pass
         return self.raw.close_code
 
     async def ask(self, **message: Any) -> dict[str, Any]:
-        """Say something and hear what is answered."""
+        """Send a message and return the answer."""
         await self.say(**message, ref="asked")
         return await self.hear("accepted", "error")
 
 
 @dataclass
 class OnAir:
-    """A live scene and somebody who talks to it."""
+    """A served scene and a client."""
 
     live: LiveScene
     client: TestClient[Any, Any]
@@ -114,7 +114,7 @@ class OnAir:
 
 
 async def post(air: OnAir, path: str, body: str | bytes, headers: dict[str, str] = XML) -> tuple[int, dict[str, Any]]:
-    """The status and the body of what is answered."""
+    """Post a body; the status and the JSON of the answer."""
     async with air.client.post(path, data=body, headers=headers) as answer:
         return answer.status, await answer.json()
 
@@ -124,7 +124,7 @@ Open = Callable[..., AbstractAsyncContextManager[OnAir]]
 
 @pytest.fixture
 def on_air(tmp_path: Path) -> Open:
-    """Puts the scene of a human file on the air."""
+    """Serves the scene of a human file."""
 
     @asynccontextmanager
     async def open_(

@@ -1,4 +1,4 @@
-"""What a client must not say: each is answered, by a code and a sentence, and the socket stays open."""
+"""Invalid messages: each is answered with a code and a sentence, and the socket stays open."""
 
 import json
 
@@ -71,7 +71,7 @@ async def test_a_bad_message_is_answered_and_the_socket_stays_open(on_air: Open,
         assert await still_listens(socket)
 
 
-async def test_the_answer_bears_the_ref_even_of_a_message_that_is_wrong_otherwise(on_air: Open) -> None:
+async def test_the_answer_has_the_ref_of_an_invalid_message(on_air: Open) -> None:
     async with on_air() as air:
         socket = await air.connect()
         await socket.say_anything('{"type":"camera","position":[1,2],"ref":"r7"}')
@@ -82,7 +82,7 @@ async def test_the_answer_bears_the_ref_even_of_a_message_that_is_wrong_otherwis
         assert "ref" not in await socket.hear("error")
 
 
-async def test_so_does_the_answer_to_what_is_json_but_for_a_number(on_air: Open) -> None:
+async def test_the_answer_has_the_ref_of_a_message_with_an_invalid_number(on_air: Open) -> None:
     async with on_air() as air:
         socket = await air.connect()
         for number in ("NaN", "Infinity", "-Infinity"):
@@ -96,7 +96,7 @@ async def test_so_does_the_answer_to_what_is_json_but_for_a_number(on_air: Open)
 
 
 @pytest.mark.parametrize("name", ["two words", "a:b", "a+1", "", "a" * 201, "a\n"])
-async def test_what_a_name_may_not_have_in_it_is_said_in_words(on_air: Open, name: str) -> None:
+async def test_the_error_of_an_invalid_name_describes_valid_ones(on_air: Open, name: str) -> None:
     async with on_air() as air:
         socket = await air.connect()
         await socket.say_anything(json.dumps({"type": "predict", "anticipator": "a", "sync": name, "time": 1}))
@@ -128,7 +128,7 @@ async def test_unknown_fields_are_ignored(on_air: Open) -> None:
         assert (await socket.ask(type="clock", mood="bright"))["type"] == "accepted"
 
 
-async def test_malformed_bml_is_refused_with_its_place_and_told_in_feedback(on_air: Open) -> None:
+async def test_malformed_bml_is_refused_with_its_location_and_reported_in_feedback(on_air: Open) -> None:
     async with on_air() as air:
         socket = await air.connect()
         answer = await socket.ask(type="bml", xml=f'<bml {BML} id="b1">\n  <wait id="w"\n</bml>')
@@ -152,7 +152,7 @@ async def test_a_live_id_is_refused_while_the_other_block_of_the_document_plays(
         assert await socket.hear_feedback('"b2:start"')
 
 
-async def test_more_messages_than_the_limit_of_a_second_are_answered_once_and_end_the_connection(on_air: Open) -> None:
+async def test_too_many_messages_in_a_second_are_answered_once_and_end_the_connection(on_air: Open) -> None:
     async with on_air(ALICE + "[limits]\nmessages_per_second = 5\n") as air:
         socket, other = await air.connect(), await air.connect()
         for n in range(7):
@@ -189,7 +189,7 @@ async def test_more_predicted_points_than_the_limit_are_refused_and_known_ones_m
         assert (await socket.ask(type="predict", anticipator="t", sync="a", time=2))["type"] == "accepted"
 
 
-async def test_points_that_have_passed_make_room_for_new_ones(on_air: Open) -> None:
+async def test_points_that_have_passed_do_not_count(on_air: Open) -> None:
     async with on_air(ALICE + "[limits]\npredicted_points = 5\n") as air:
         socket = await air.connect()
         for turn in range(20):
@@ -203,7 +203,7 @@ async def test_points_that_have_passed_make_room_for_new_ones(on_air: Open) -> N
         assert list(air.live.realizer.board.predictions("user")) == [f"turn{turn}" for turn in range(15, 20)]
 
 
-async def test_points_that_were_withdrawn_make_room_for_new_ones(on_air: Open) -> None:
+async def test_withdrawn_points_do_not_count(on_air: Open) -> None:
     async with on_air(ALICE + "[limits]\npredicted_points = 5\n") as air:
         socket = await air.connect()
         for number in range(20):
@@ -213,7 +213,7 @@ async def test_points_that_were_withdrawn_make_room_for_new_ones(on_air: Open) -
                 await air.tick()
 
 
-async def test_points_that_a_block_waits_for_make_no_room(on_air: Open) -> None:
+async def test_withdrawn_points_that_a_block_waits_for_count(on_air: Open) -> None:
     async with on_air(ALICE + "[limits]\npredicted_points = 2\n") as air:
         socket = await air.connect()
         waits = "".join(f'<wait id="{sync}" start="anticipators:user:{sync}" duration="1"/>' for sync in ("a", "b"))
@@ -224,7 +224,7 @@ async def test_points_that_a_block_waits_for_make_no_room(on_air: Open) -> None:
         assert (await socket.ask(type="predict", anticipator="user", sync="a", time=0.1))["type"] == "accepted"
 
 
-async def test_more_anticipators_than_points_are_refused(on_air: Open) -> None:
+async def test_too_many_anticipators_are_refused(on_air: Open) -> None:
     async with on_air(ALICE + "[limits]\npredicted_points = 2\n") as air:
         socket = await air.connect()
         answers = []
@@ -246,13 +246,13 @@ async def test_more_targets_than_the_limit_are_refused_and_known_ones_may_still_
 
 
 @pytest.mark.parametrize("query", ["?streams=feedback,smell", "?after=yesterday", "?after=-1", "?after=" + "9" * 30])
-async def test_an_address_that_means_nothing_is_refused(on_air: Open, query: str) -> None:
+async def test_an_address_with_an_invalid_query_is_refused(on_air: Open, query: str) -> None:
     async with on_air() as air, air.client.get("/ws" + query) as answer:
         assert answer.status == 400
         assert (await answer.json())["error"]["code"] == "bad-query"
 
 
-async def test_a_request_that_is_no_handshake_is_refused(on_air: Open) -> None:
+async def test_a_request_without_a_websocket_handshake_is_refused(on_air: Open) -> None:
     async with on_air() as air, air.client.get("/ws") as answer:
         assert answer.status == 400
         assert (await answer.json())["error"]["code"] == "bad-request"

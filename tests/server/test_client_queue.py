@@ -1,4 +1,4 @@
-"""What waits for one client."""
+"""The queue of messages for one client."""
 
 import asyncio
 
@@ -30,7 +30,7 @@ async def test_texts_are_sent_in_order_until_the_end() -> None:
     assert await sent_of(queue) == ["hello", "a", "b"]
 
 
-async def test_of_frames_that_wait_the_newest_are_kept() -> None:
+async def test_only_the_newest_waiting_frames_are_kept() -> None:
     queue = ClientQueue(FEW)
     for n in range(100):
         queue.put_frame(bytes([n]))
@@ -45,7 +45,7 @@ async def test_of_frames_that_wait_the_newest_are_kept() -> None:
     assert sent == [bytes([n]) for n in range(90, 100)]
 
 
-async def test_texts_go_before_frames() -> None:
+async def test_texts_are_sent_before_frames() -> None:
     queue = ClientQueue(FEW)
     queue.put_frame(b"frame")
     queue.put("text")
@@ -61,14 +61,14 @@ async def test_texts_go_before_frames() -> None:
 
 
 @pytest.mark.parametrize("texts", [["a"] * 4, ["x" * 101], ["x" * 60] * 2])
-async def test_one_text_too_many_and_the_client_is_given_up(texts: list[str]) -> None:
+async def test_a_client_is_dropped_if_too_many_texts_wait(texts: list[str]) -> None:
     queue = ClientQueue(FEW)
     for text in texts:
         queue.put(text)
     assert not await queue.send_all(never)
 
 
-async def test_a_client_is_given_up_in_the_middle_of_a_sending_that_does_not_come_to_its_end() -> None:
+async def test_a_client_is_dropped_while_a_send_does_not_complete() -> None:
     queue = ClientQueue(FEW)
     queue.put("stuck")
     async with asyncio.TaskGroup() as group:
@@ -79,13 +79,13 @@ async def test_a_client_is_given_up_in_the_middle_of_a_sending_that_does_not_com
     assert sending.result() is False
 
 
-async def test_what_is_sent_first_does_not_count_as_piled_up() -> None:
+async def test_initial_messages_do_not_count_as_waiting() -> None:
     queue = ClientQueue(FEW, ["x" * 1000] * 10)
     queue.put("a")
     assert len(await sent_of(queue)) == 11
 
 
-async def test_a_timeout_of_the_sending_itself_is_not_taken_for_a_slow_client() -> None:
+async def test_a_timeout_error_of_the_send_itself_is_raised() -> None:
     async def fail(_: str | bytes) -> None:
         raise TimeoutError
 
@@ -98,7 +98,7 @@ async def never(_: str | bytes) -> None:
     await asyncio.Event().wait()
 
 
-async def test_a_rate_allows_a_second_at_once_and_then_what_time_brings() -> None:
+async def test_a_rate_limit_allows_one_second_of_messages_at_once_and_then_its_rate() -> None:
     clock = ManualClock()
     rate = RateLimit(10, clock)
     assert [rate.allows() for _ in range(12)] == [True] * 10 + [False] * 2

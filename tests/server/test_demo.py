@@ -1,11 +1,11 @@
-"""The demo: a performance that begins with the first page, and again on demand."""
+"""The demo: its performance starts with the first page, and again on request."""
 
 from .conftest import ALICE, Open, wait
 
 PLAY = wait("play", 5)
 
 
-async def test_the_performance_begins_with_the_first_page_that_opens_and_not_with_the_second(on_air: Open) -> None:
+async def test_the_performance_starts_when_the_first_page_opens_and_not_with_the_second(on_air: Open) -> None:
     async with on_air(ALICE, performance=PLAY) as air:
         planner = await air.connect("?streams=feedback")
         assert planner.hello["demo"] is True
@@ -22,7 +22,7 @@ async def test_the_performance_begins_with_the_first_page_that_opens_and_not_wit
         assert start < 2.0
 
 
-async def test_on_demand_it_begins_again_whatever_plays(on_air: Open) -> None:
+async def test_the_performance_can_be_restarted_at_any_time(on_air: Open) -> None:
     async with on_air(ALICE, performance=PLAY) as air:
         page = await air.connect()
         await air.tick_until(3.0)
@@ -33,7 +33,7 @@ async def test_on_demand_it_begins_again_whatever_plays(on_air: Open) -> None:
         assert not air.live.realizer.scheduler.refused
 
 
-async def test_its_metronome_counts_from_its_beginning(on_air: Open) -> None:
+async def test_the_metronome_counts_from_the_start_of_the_performance(on_air: Open) -> None:
     beat = wait("play").replace("<wait", '<wait start="anticipators:metronome:tick2"')
     async with on_air(ALICE, performance=beat) as air:
         page = await air.connect()
@@ -42,7 +42,7 @@ async def test_its_metronome_counts_from_its_beginning(on_air: Open) -> None:
         assert f'globalTime="{begun + 2:g}"' in (await page.hear_feedback('"play:w:start"'))["xml"]
 
 
-async def test_without_a_performance_opening_a_page_begins_nothing(on_air: Open) -> None:
+async def test_opening_a_page_starts_nothing_without_a_performance(on_air: Open) -> None:
     async with on_air() as air:
         assert (await air.connect()).hello["demo"] is False
         assert not air.live.realizer.busy

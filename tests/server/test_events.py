@@ -1,4 +1,4 @@
-"""Events over the socket: what a client perceives moves what hangs on it, or is answered with what is wrong."""
+"""Events over the socket move pegs, or are answered with an error."""
 
 import pytest
 
@@ -17,7 +17,7 @@ kind = "conducting"
 WAIT = f'<bml {BML} id="b"><wait id="w" start="anticipators:{{}}" duration="0.1"/></bml>'
 
 
-async def test_a_key_starts_what_hangs_on_it(on_air: Open) -> None:
+async def test_a_key_event_starts_a_behavior_that_is_tied_to_it(on_air: Open) -> None:
     async with on_air(HUMAN) as air:
         socket = await air.connect()
         await socket.ask(type="bml", xml=WAIT.format("spacebar:press"))
@@ -27,7 +27,7 @@ async def test_a_key_starts_what_hangs_on_it(on_air: Open) -> None:
         assert 'id="b:end"' in (await socket.hear_feedback("b:end"))["xml"]
 
 
-async def test_words_are_heard(on_air: Open) -> None:
+async def test_recognized_words_reach_the_anticipator(on_air: Open) -> None:
     async with on_air(HUMAN) as air:
         socket = await air.connect()
         await socket.ask(type="bml", xml=WAIT.format("user:stop"))
@@ -49,7 +49,7 @@ async def test_words_are_heard(on_air: Open) -> None:
         ("metronome", "tempo", None),
     ],
 )
-async def test_a_value_that_cannot_be_is_answered_with_its_range(
+async def test_the_answer_to_an_invalid_value_has_its_range(
     on_air: Open, anticipator: str, event: str, value: float | None
 ) -> None:
     async with on_air(HUMAN) as air:
@@ -73,9 +73,7 @@ NOT_KNOWN = {
 
 
 @pytest.mark.parametrize("name", NOT_KNOWN)
-async def test_an_event_that_its_anticipator_does_not_know_is_answered_with_those_that_it_knows(
-    on_air: Open, name: str
-) -> None:
+async def test_the_answer_to_an_unknown_event_lists_the_known_ones(on_air: Open, name: str) -> None:
     said, known = NOT_KNOWN[name]
     async with on_air(HUMAN) as air:
         socket = await air.connect()
@@ -89,7 +87,7 @@ async def test_an_event_that_its_anticipator_does_not_know_is_answered_with_thos
 @pytest.mark.parametrize(
     ("anticipator", "sync"), [("spacebar", "press"), ("user", "stop"), ("trainee", "1"), ("orchestra", "beat1")]
 )
-async def test_nobody_else_predicts_for_an_anticipator_of_the_scene(on_air: Open, anticipator: str, sync: str) -> None:
+async def test_a_client_cannot_predict_for_a_built_in_anticipator(on_air: Open, anticipator: str, sync: str) -> None:
     async with on_air(HUMAN) as air:
         socket = await air.connect()
         answer = await socket.ask(type="predict", anticipator=anticipator, sync=sync, **{"in": 1})

@@ -16,7 +16,7 @@ async def events(answer: ClientResponse) -> AsyncIterator[tuple[int, dict[str, o
         yield int(line.removeprefix("id: ")), json.loads(data.removeprefix("data: "))
 
 
-async def test_events_are_the_feedback_of_the_socket_numbered(on_air: Open) -> None:
+async def test_events_are_the_numbered_feedback_of_the_socket(on_air: Open) -> None:
     async with on_air() as air:
         socket = await air.connect()
         async with air.client.get("/feedback") as answer:
@@ -40,7 +40,7 @@ async def test_events_resume_after_the_last_one_of_the_address_or_of_the_header(
             assert (await anext(events(answer)))[0] == 4
 
 
-async def test_events_that_are_gone_are_told_of_before_those_that_are_kept(on_air: Open) -> None:
+async def test_lost_events_are_announced_before_those_that_are_kept(on_air: Open) -> None:
     async with on_air(ALICE + "[limits]\nremembered_feedback = 1\n") as air:
         for n in range(4):
             air.live.feedback.append(report(str(n)))
@@ -51,7 +51,7 @@ async def test_events_that_are_gone_are_told_of_before_those_that_are_kept(on_ai
             assert (await anext(events(answer)))[0] == 4
 
 
-async def test_a_reader_that_does_not_read_loses_its_connection(on_air: Open) -> None:
+async def test_a_reader_that_does_not_read_is_disconnected(on_air: Open) -> None:
     async with on_air(ALICE + "[limits]\nqueued_bytes = 1000000\n") as air:
         quick = await air.connect("?streams=feedback")
         async with air.client.get("/feedback") as slow:
@@ -62,7 +62,7 @@ async def test_a_reader_that_does_not_read_loses_its_connection(on_air: Open) ->
         assert (await quick.ask(type="clock"))["type"] == "accepted"
 
 
-async def test_a_reader_that_goes_is_forgotten(on_air: Open) -> None:
+async def test_a_reader_that_disconnects_is_removed(on_air: Open) -> None:
     async with on_air() as air:
         socket = await air.connect()
         async with air.client.get("/feedback"):

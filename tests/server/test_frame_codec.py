@@ -26,14 +26,14 @@ def test_a_frame_is_a_header_then_rotations_then_weights_little_endian() -> None
     )
 
 
-def test_the_header_keeps_what_follows_aligned() -> None:
+def test_the_header_keeps_the_numbers_aligned() -> None:
     assert len(encoded(rotations=np.zeros((0, 4)), weights=np.zeros(0))) == 32
 
 
-def test_numbers_that_rounding_carried_out_of_their_range_do_not_wrap() -> None:
+def test_numbers_that_are_rounded_out_of_range_do_not_wrap() -> None:
     frame = encoded(rotations=np.array([[1.0000001, 0, 0, 0]]), weights=np.array([1.0000001, -1e-9]))
     assert struct.unpack_from("<4h2H", frame, 32) == (32767, 0, 0, 0, 65535, 0)
 
 
-def test_the_sequence_wraps() -> None:
+def test_the_sequence_number_wraps() -> None:
     assert struct.unpack_from("<I", encoded(2**32 + 5), 4) == (5,)

@@ -1,4 +1,4 @@
-"""HTTP: what planners without a socket ask for, and what the page loads."""
+"""HTTP: requests of planners without a socket, and the files of the page."""
 
 import json
 from typing import Any
@@ -24,7 +24,7 @@ async def test_stop_ends_the_blocks_of_all_characters(on_air: Open) -> None:
             assert "INTERRUPTED" in (await socket.hear_feedback(f'id="{block}:end"'))["xml"]
 
 
-async def test_stopping_twice_is_no_mistake(on_air: Open) -> None:
+async def test_stopping_twice_is_allowed(on_air: Open) -> None:
     async with on_air() as air:
         first, second = [await post(air, "/stop", "") for _ in range(2)]
         assert first[0] == second[0] == 202
@@ -33,7 +33,7 @@ async def test_stopping_twice_is_no_mistake(on_air: Open) -> None:
         assert not air.live.realizer.scheduler.refused
 
 
-async def test_a_prediction_comes_as_json_for_a_time_or_for_so_many_seconds_from_now(on_air: Open) -> None:
+async def test_a_prediction_has_an_absolute_time_or_seconds_from_now(on_air: Open) -> None:
     async with on_air() as air:
         await air.tick_until(1.0)
         json_type = {"Content-Type": "application/json"}
@@ -53,13 +53,13 @@ async def test_a_prediction_comes_as_json_for_a_time_or_for_so_many_seconds_from
         ('{"anticipator":"a","sync":"s","time":-1e6}', "absurd-time"),
     ],
 )
-async def test_a_prediction_that_cannot_be_is_refused(on_air: Open, body: str, code: str) -> None:
+async def test_an_invalid_prediction_is_refused(on_air: Open, body: str, code: str) -> None:
     async with on_air() as air:
         status, answer = await post(air, "/predict", body)
         assert (status, answer["error"]["code"]) == (400, code)
 
 
-async def test_a_prediction_of_what_predicts_by_itself_is_refused_and_changes_nothing(on_air: Open) -> None:
+async def test_a_prediction_for_an_anticipator_with_its_own_predictions_is_refused(on_air: Open) -> None:
     async with on_air() as air:
         said = {"anticipator": "metronome", "sync": "tick3", "in": 0.5}
         status, answer = await post(air, "/predict", json.dumps(said))
@@ -67,7 +67,7 @@ async def test_a_prediction_of_what_predicts_by_itself_is_refused_and_changes_no
         assert not air.live.realizer.busy
 
 
-async def test_the_status_tells_how_it_goes(on_air: Open) -> None:
+async def test_the_status_has_ticks_clients_and_worker(on_air: Open) -> None:
     async with on_air() as air:
         await air.connect()
         await post(air, "/bml", wait("b1", 0.1) + wait("b2", 9))
@@ -86,7 +86,7 @@ async def test_the_status_tells_how_it_goes(on_air: Open) -> None:
         assert status["limits"]["clients"] == Limits().clients
 
 
-async def test_the_world_tells_where_everything_is(on_air: Open) -> None:
+async def test_the_world_lists_positions(on_air: Open) -> None:
     async with on_air(ALICE + "[target.bluebox]\nposition = [0.0, 1.0, 2.0]\n") as air:
         async with air.client.get("/world") as answer:
             targets = (await answer.json())["targets"]
@@ -94,7 +94,7 @@ async def test_the_world_tells_where_everything_is(on_air: Open) -> None:
         assert 1.4 < targets["alice"]["position"][1] < 1.9
 
 
-async def test_the_capabilities_tell_what_may_be_asked_for(on_air: Open) -> None:
+async def test_the_capabilities_list_elements_and_lexemes(on_air: Open) -> None:
     async with on_air() as air:
         async with air.client.get("/capabilities") as answer:
             capabilities = await answer.json()
@@ -109,7 +109,7 @@ async def test_the_capabilities_tell_what_may_be_asked_for(on_air: Open) -> None
         assert "alice" in capabilities["targets"]
 
 
-async def test_the_capabilities_tell_who_predicts_and_what_it_hears(on_air: Open) -> None:
+async def test_the_capabilities_list_anticipators_and_their_events(on_air: Open) -> None:
     kinds = {"user": "speech_stop", "metronome": "metronome", "trainer": "exercise"}
     scene = "".join(f'[anticipator.{id_}]\nkind = "{kind}"\n' for id_, kind in kinds.items())
     async with on_air(f'[character.alice]\n{scene}names = ["down", "up"]\n') as air:
@@ -155,7 +155,7 @@ async def test_the_avatars_of_hello_can_be_fetched(on_air: Open) -> None:
         ("/nothing/here", 404),
     ],
 )
-async def test_no_address_leads_out_of_what_is_served(on_air: Open, path: str, status: int) -> None:
+async def test_no_path_leads_out_of_the_served_folders(on_air: Open, path: str, status: int) -> None:
     async with on_air() as air:
         url = air.client.make_url("/").with_path(path, encoded=True)
         async with air.client.session.get(url) as answer:
@@ -163,14 +163,14 @@ async def test_no_address_leads_out_of_what_is_served(on_air: Open, path: str, s
             assert (await answer.json())["error"]["message"]
 
 
-async def test_a_method_that_is_not_taken_is_answered_with_those_that_are(on_air: Open) -> None:
+async def test_the_answer_to_an_unsupported_method_lists_the_supported_ones(on_air: Open) -> None:
     async with on_air() as air, air.client.get("/bml") as answer:
         assert answer.status == 405
         assert answer.headers["Allow"] == "POST"
         assert (await answer.json())["error"]["code"] == "wrong-method"
 
 
-async def test_the_page_is_served_and_may_run_only_what_comes_from_here(
+async def test_the_page_is_served_with_a_content_security_policy(
     on_air: Open, tmp_path: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     (tmp_path / "static").mkdir()
@@ -188,7 +188,7 @@ async def test_the_page_is_served_and_may_run_only_what_comes_from_here(
             assert answer.headers["X-Content-Type-Options"] == "nosniff"
 
 
-async def test_a_page_that_was_not_built_is_said_to_be_so(
+async def test_a_missing_page_is_reported_as_not_built(
     on_air: Open, tmp_path: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(routes_page, "STATIC", tmp_path / "static")
@@ -197,7 +197,7 @@ async def test_a_page_that_was_not_built_is_said_to_be_so(
         assert "make page" in (await answer.json())["error"]["message"]
 
 
-async def test_a_block_alive_explains_the_times_of_its_points(on_air: Open) -> None:
+async def test_the_points_of_a_live_block_are_explained(on_air: Open) -> None:
     async with on_air() as air:
         await post(air, "/bml", wait("b1", 9) + wait("b2"))
         await air.tick_until(0.3)

@@ -1,4 +1,4 @@
-"""Clients that come late, come back, do not read, or are too many."""
+"""Clients that connect late, reconnect, do not read, or exceed the limit."""
 
 import aiohttp
 import pytest
@@ -22,7 +22,7 @@ def clip(id_: str, start: float) -> AudioStart:
     return AudioStart("alice", AudioClip(id_, b"RIFF" + id_.encode(), 2.0), GlobalTime(start))
 
 
-async def test_sounds_are_told_and_can_be_fetched(on_air: Open) -> None:
+async def test_sounds_are_announced_and_can_be_fetched(on_air: Open) -> None:
     async with on_air() as air:
         socket = await air.connect()
         air.live.sounds.take(clip("c1", 0.5))
@@ -47,7 +47,7 @@ async def test_sounds_are_told_and_can_be_fetched(on_air: Open) -> None:
         assert await socket.hear("audio_stop") == {"type": "audio_stop", "id": "c1", "time": 1.0, "fade": 0.03}
 
 
-async def test_whoever_comes_late_is_told_of_the_sounds_that_have_not_ended_where_they_are_now(on_air: Open) -> None:
+async def test_a_late_client_gets_the_current_state_of_sounds_that_have_not_ended(on_air: Open) -> None:
     async with on_air() as air:
         sounds = air.live.sounds
         for change in (
@@ -73,7 +73,7 @@ async def test_whoever_comes_late_is_told_of_the_sounds_that_have_not_ended_wher
         assert [message["gain"] for message in told[:2]] == [0.5, 1.0]
 
 
-async def test_a_sound_is_kept_a_little_after_its_end_and_not_longer(on_air: Open) -> None:
+async def test_a_sound_is_kept_for_a_short_time_after_its_end(on_air: Open) -> None:
     async with on_air() as air:
         air.live.sounds.take(clip("c1", 0.0))
         await air.tick_until(5.0)
@@ -85,7 +85,7 @@ async def test_a_sound_is_kept_a_little_after_its_end_and_not_longer(on_air: Ope
             assert (await answer.json())["error"]["code"] == "no-clip"
 
 
-async def test_of_too_many_sounds_the_first_announced_go(on_air: Open) -> None:
+async def test_the_oldest_sounds_are_removed_above_the_limit(on_air: Open) -> None:
     async with on_air(ALICE + "[limits]\nsound_bytes = 13\n") as air:
         for id_ in ("c1", "c2", "c3"):
             air.live.sounds.take(clip(id_, 0.0))
@@ -93,7 +93,7 @@ async def test_of_too_many_sounds_the_first_announced_go(on_air: Open) -> None:
         assert [air.live.sounds.wav(id_) is None for id_ in ("c1", "c2", "c3")] == [True, False, False]
 
 
-async def test_whoever_comes_late_gets_frames_and_feedback_from_now_on(on_air: Open) -> None:
+async def test_a_late_client_gets_frames_and_feedback_from_now_on(on_air: Open) -> None:
     async with on_air() as air:
         air.live.feedback.append(report("before"))
         await air.tick_until(1.0)
@@ -104,7 +104,7 @@ async def test_whoever_comes_late_gets_frames_and_feedback_from_now_on(on_air: O
         assert await late.see()
 
 
-async def test_whoever_comes_back_gets_the_feedback_after_the_last_it_saw(on_air: Open) -> None:
+async def test_a_client_that_reconnects_gets_the_feedback_that_it_missed(on_air: Open) -> None:
     async with on_air() as air:
         for n in range(1, 6):
             air.live.feedback.append(report(f"number {n}"))
@@ -115,7 +115,7 @@ async def test_whoever_comes_back_gets_the_feedback_after_the_last_it_saw(on_air
         assert (await back.hear("feedback"))["seq"] == 6
 
 
-async def test_whoever_comes_back_too_late_is_told_that_something_is_gone(on_air: Open) -> None:
+async def test_a_client_that_reconnects_too_late_is_told_which_feedback_is_lost(on_air: Open) -> None:
     async with on_air(ALICE + "[limits]\nremembered_feedback = 2\n") as air:
         for n in range(5):
             air.live.feedback.append(report(str(n)))
@@ -124,14 +124,14 @@ async def test_whoever_comes_back_too_late_is_told_that_something_is_gone(on_air
         assert (await back.hear("feedback"))["seq"] == 4
 
 
-async def test_feedback_is_kept_up_to_a_size_too(on_air: Open) -> None:
+async def test_feedback_is_also_kept_up_to_a_total_size(on_air: Open) -> None:
     async with on_air(ALICE + "[limits]\nremembered_feedback_bytes = 30000\n") as air:
         for letter in "abcde":
             air.live.feedback.append(report(letter * 10_000))
         assert air.live.feedback.forgotten == 3
 
 
-async def test_all_that_is_kept_can_be_resumed_at_once(on_air: Open) -> None:
+async def test_all_feedback_that_is_kept_can_be_resumed_at_once(on_air: Open) -> None:
     async with on_air(ALICE + "[limits]\nremembered_feedback = 50\nqueued_messages = 10\n") as air:
         for n in range(50):
             air.live.feedback.append(report(str(n)))
@@ -140,7 +140,7 @@ async def test_all_that_is_kept_can_be_resumed_at_once(on_air: Open) -> None:
 
 
 async def slow_reader(air: OnAir, text: str) -> tuple[int, int | None]:
-    """How many messages a client got that did not read until it was given up, and its close code."""
+    """The number of messages that a client got which did not read until it was closed, and its close code."""
     slow, quick = await air.connect("?streams=feedback"), await air.connect("?streams=feedback")
     sent = 0
     while len(air.live.feedback.subscribers) == 2:
@@ -152,7 +152,7 @@ async def slow_reader(air: OnAir, text: str) -> tuple[int, int | None]:
     return len(got), slow.raw.close_code
 
 
-async def test_a_client_that_does_not_read_is_closed_and_nobody_else_misses_anything(on_air: Open) -> None:
+async def test_a_client_that_does_not_read_is_closed_and_the_others_get_everything(on_air: Open) -> None:
     async with on_air(ALICE + "[limits]\nqueued_bytes = 1000000\n") as air:
         got, code = await slow_reader(air, "x" * 100_000)
         assert got > 0
@@ -165,14 +165,14 @@ async def test_a_client_with_too_many_messages_waiting_is_closed(on_air: Open) -
         assert code == 1013
 
 
-async def test_a_closed_client_may_resume_where_it_stopped(on_air: Open) -> None:
+async def test_a_closed_client_can_resume_where_it_stopped(on_air: Open) -> None:
     async with on_air(ALICE + "[limits]\nqueued_messages = 20\n") as air:
         got, _ = await slow_reader(air, "x" * 100_000)
         back = await air.connect(f"?after={got}")
         assert (await back.hear("feedback"))["seq"] == got + 1
 
 
-async def test_no_more_clients_than_the_limit_are_let_in(on_air: Open) -> None:
+async def test_clients_above_the_limit_are_refused(on_air: Open) -> None:
     async with on_air(ALICE + "[limits]\nclients = 2\n") as air:
         one = await air.connect()
         async with air.client.get("/feedback"):
@@ -185,7 +185,7 @@ async def test_no_more_clients_than_the_limit_are_let_in(on_air: Open) -> None:
         assert (await air.connect()).hello
 
 
-async def test_all_are_sent_away_when_the_server_ends(on_air: Open) -> None:
+async def test_all_clients_are_disconnected_when_the_server_ends(on_air: Open) -> None:
     async with on_air() as air:
         socket = await air.connect()
         assert (await socket.ask(type="bml", xml=wait()))["type"] == "accepted"

@@ -1,4 +1,4 @@
-"""Documents that are posted: what is taken in, and what is refused at the door."""
+"""Posted documents: which are accepted, and which are refused."""
 
 from collections.abc import AsyncIterator
 
@@ -27,7 +27,7 @@ async def test_a_document_is_accepted_with_the_ids_of_its_blocks_and_plays(on_ai
         ("a character who is not there", f'<bml {BML} id="b1" characterId="zoe"/>', 404, "unknown-character", 1),
     ],
 )
-async def test_a_document_is_refused_at_the_door(
+async def test_a_document_that_cannot_be_parsed_is_refused(
     on_air: Open, name: str, body: str | bytes, status: int, code: str | None, line: int | None
 ) -> None:
     async with on_air() as air:
@@ -41,7 +41,7 @@ async def test_a_document_is_refused_at_the_door(
         assert not air.live.realizer.busy, "nothing of it has entered"
 
 
-async def test_a_document_enters_whole_or_not_at_all(on_air: Open) -> None:
+async def test_a_document_is_accepted_as_a_whole_or_not_at_all(on_air: Open) -> None:
     async with on_air() as air:
         await post(air, "/bml", wait("b1", 9))
         await air.tick()
@@ -50,14 +50,14 @@ async def test_a_document_enters_whole_or_not_at_all(on_air: Open) -> None:
         assert not air.live.realizer.busy
 
 
-async def test_blocks_of_a_document_are_judged_beside_those_before_them(on_air: Open) -> None:
+async def test_each_block_of_a_document_is_checked_against_those_before_it(on_air: Open) -> None:
     async with on_air() as air:
         status, body = await post(air, "/bml", wait("b1") + "\n" + wait("b1"))
         assert (status, body["error"]["code"], body["error"]["line"]) == (409, "duplicate-block", 2)
         assert not air.live.realizer.busy
 
 
-async def test_a_replace_makes_room_for_the_blocks_behind_it(on_air: Open) -> None:
+async def test_blocks_before_a_replace_in_a_document_do_not_count_against_the_limit(on_air: Open) -> None:
     async with on_air(ALICE + "[limits]\nblocks_alive = 2\n") as air:
         socket = await air.connect()
         await post(air, "/bml", wait("q1", 9) + wait("q2", 9))
@@ -70,7 +70,7 @@ async def test_a_replace_makes_room_for_the_blocks_behind_it(on_air: Open) -> No
         assert not air.live.realizer.scheduler.refused
 
 
-async def test_blocks_before_one_in_its_document_count_among_those_alive(on_air: Open) -> None:
+async def test_earlier_blocks_of_a_document_count_against_the_limit(on_air: Open) -> None:
     async with on_air(ALICE + "[limits]\nblocks_alive = 2\n") as air:
         await post(air, "/bml", wait("b1", 9))
         await air.tick()
@@ -78,7 +78,7 @@ async def test_blocks_before_one_in_its_document_count_among_those_alive(on_air:
         assert (status, body["error"]["code"]) == (429, "too-many-blocks")
 
 
-async def test_a_replace_makes_no_room_among_the_blocks_of_another_character(on_air: Open) -> None:
+async def test_a_replace_does_not_affect_the_limit_for_blocks_of_another_character(on_air: Open) -> None:
     async with on_air(ALICE + "[character.bert]\n") as air:
         await post(air, "/bml", wait("b1", 9))
         await air.tick()
@@ -86,7 +86,7 @@ async def test_a_replace_makes_no_room_among_the_blocks_of_another_character(on_
         assert (await post(air, "/bml", replace + wait("b1")))[0] == 409
 
 
-async def test_a_block_that_fails_at_once_leaves_its_id_to_the_next(on_air: Open) -> None:
+async def test_the_id_of_a_block_that_fails_at_once_can_be_used_again(on_air: Open) -> None:
     async with on_air() as air:
         fails = f'<bml {BML} id="b1"><required><wait id="w" duration="soon"/></required></bml>'
         assert (await post(air, "/bml", fails + wait("b1")))[0] == 202
@@ -109,7 +109,7 @@ SPEECH = f'<bml {BML} id="b1"><speech id="s"><text>d\u00e9j\u00e0 vu</text></spe
         ("utf-16le", SPEECH.encode("utf-16-le")),
     ],
 )
-async def test_a_charset_goes_before_the_declaration_and_a_byte_order_mark_before_both(
+async def test_a_charset_overrides_the_declaration_and_a_byte_order_mark_overrides_both(
     on_air: Open, charset: str, body: bytes
 ) -> None:
     async with on_air() as air:
@@ -120,7 +120,7 @@ async def test_a_charset_goes_before_the_declaration_and_a_byte_order_mark_befor
 
 
 @pytest.mark.parametrize("charset", ["klingon", "utf-7", "zlib", "rot13", '""'])
-async def test_a_charset_that_is_not_read_is_refused(on_air: Open, charset: str) -> None:
+async def test_an_unsupported_charset_is_refused(on_air: Open, charset: str) -> None:
     async with on_air() as air:
         status, body = await post(air, "/bml", wait(), {"Content-Type": f"text/xml; charset={charset}"})
         assert (status, body["error"]["code"]) == (415, "wrong-charset")
@@ -130,7 +130,7 @@ async def test_a_charset_that_is_not_read_is_refused(on_air: Open, charset: str)
     ("charset", "body", "code"),
     [("us-ascii", SPEECH.encode(), "malformed-xml"), ("utf-16", b"<bml/>?", "bad-encoding")],
 )
-async def test_bytes_that_are_not_of_their_charset_are_refused(
+async def test_bytes_that_are_invalid_in_their_charset_are_refused(
     on_air: Open, charset: str, body: bytes, code: str
 ) -> None:
     async with on_air() as air:
@@ -145,7 +145,7 @@ async def test_a_document_above_the_limit_of_bytes_is_refused(on_air: Open) -> N
         assert (status, body["error"]["code"]) == (413, "too-many-bytes")
 
 
-async def test_a_body_without_end_is_not_read_to_its_end(on_air: Open) -> None:
+async def test_a_body_above_the_limit_is_not_read_further(on_air: Open) -> None:
     spaces = iter([b" " * 100_000] * 1000)
 
     async def body() -> AsyncIterator[bytes]:
@@ -158,7 +158,7 @@ async def test_a_body_without_end_is_not_read_to_its_end(on_air: Open) -> None:
         assert len(list(spaces)) > 100, "most of it was never asked for"
 
 
-async def test_more_blocks_alive_than_the_limit_are_refused_until_they_are_stopped(on_air: Open) -> None:
+async def test_blocks_above_the_limit_are_refused_until_others_are_stopped(on_air: Open) -> None:
     async with on_air(ALICE + "[limits]\nblocks_alive = 1\n") as air:
         await post(air, "/bml", wait("b1", 9))
         await air.tick()

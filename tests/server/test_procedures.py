@@ -1,4 +1,4 @@
-"""Procedures over the network: a use is taken in where its definition has come before it."""
+"""Procedures over the network: a use is accepted after its definition."""
 
 import pytest
 
@@ -17,7 +17,7 @@ def use(procedure: str, block: str) -> str:
     return f'<bmlt:useproc {BMLT} procid="{procedure}" bmlid="{block}"/>'
 
 
-async def test_a_use_of_a_procedure_that_was_not_defined_is_refused_at_the_door(on_air: Open) -> None:
+async def test_a_use_of_an_undefined_procedure_is_refused_by_the_server(on_air: Open) -> None:
     async with on_air() as air:
         status, body = await post(air, "/bml", wait("b1") + "\n" + use("nothing", "b2"))
         assert (status, body["error"]["code"], body["error"]["line"]) == (404, "unknown-procedure", 2)
@@ -25,7 +25,7 @@ async def test_a_use_of_a_procedure_that_was_not_defined_is_refused_at_the_door(
         assert not air.live.realizer.busy, "nothing of it has entered"
 
 
-async def test_over_the_socket_it_is_none_of_the_blocks_that_have_entered(on_air: Open) -> None:
+async def test_over_the_socket_the_refused_use_is_not_among_the_accepted_blocks(on_air: Open) -> None:
     async with on_air() as air:
         socket = await air.connect()
         answer = await socket.ask(type="bml", xml=use("nothing", "b1") + wait("b2"))
@@ -39,7 +39,7 @@ async def test_over_the_socket_it_is_none_of_the_blocks_that_have_entered(on_air
     "documents", [[define("p") + use("p", "b1")], [define("p"), use("p", "b1")]], ids=["in one", "one after the other"]
 )
 @pytest.mark.parametrize("ticks", [0, 1])
-async def test_a_procedure_is_known_as_soon_as_its_definition_was_taken_in(
+async def test_a_procedure_can_be_used_as_soon_as_its_definition_is_accepted(
     on_air: Open, documents: list[str], ticks: int
 ) -> None:
     async with on_air() as air:
@@ -54,13 +54,13 @@ async def test_a_procedure_is_known_as_soon_as_its_definition_was_taken_in(
         assert "DONE" in (await socket.hear_feedback('"b1:end"'))["xml"]
 
 
-async def test_a_definition_that_was_refused_with_its_document_is_none(on_air: Open) -> None:
+async def test_a_definition_in_a_refused_document_has_no_effect(on_air: Open) -> None:
     async with on_air() as air:
         assert (await post(air, "/bml", define("p") + wait("b1") + wait("b1")))[0] == 409
         assert (await post(air, "/bml", use("p", "b2")))[0] == 404
 
 
-async def test_a_definition_that_was_refused_when_it_entered_is_none(on_air: Open) -> None:
+async def test_a_definition_that_the_realizer_refused_has_no_effect(on_air: Open) -> None:
     async with on_air(ALICE + "[limits]\nprocedures = 1\n") as air:
         air.live.realizer.put(BmlText(define("first")))
         assert (await post(air, "/bml", define("p")))[0] == 202
@@ -70,7 +70,7 @@ async def test_a_definition_that_was_refused_when_it_entered_is_none(on_air: Ope
         assert (await post(air, "/bml", use("first", "b2")))[0] == 202
 
 
-async def test_more_procedures_than_the_limit_are_refused_at_the_door_unless_they_take_the_place_of_others(
+async def test_procedures_above_the_limit_are_refused_unless_they_replace_others(
     on_air: Open,
 ) -> None:
     async with on_air(ALICE + "[limits]\nprocedures = 2\n") as air:

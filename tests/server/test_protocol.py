@@ -63,11 +63,11 @@ def accepts(message: Any) -> bool:
 
 @settings(max_examples=300)
 @given(messages | nearly_right | values)
-def test_messages_are_accepted_exactly_when_they_satisfy_the_schema(message: Any) -> None:
+def test_messages_are_accepted_if_and_only_if_they_satisfy_the_schema(message: Any) -> None:
     assert accepts(message) == FROM_CLIENT.is_valid(message)
 
 
-def test_the_schema_is_a_schema() -> None:
+def test_the_schema_is_valid() -> None:
     Draft202012Validator.check_schema(SCHEMA)
 
 
@@ -108,15 +108,15 @@ def test_an_error_shows_only_the_beginning_of_a_long_value() -> None:
 
 
 @given(leaves)
-def test_what_is_written_is_read_again(value: Any) -> None:
+def test_messages_are_read_as_they_were_written(value: Any) -> None:
     assert decode(encode({"value": value})) == {"value": value}
 
 
 @pytest.mark.parametrize("ref", ["r", 7, ""])
-def test_refs_are_texts_or_whole_numbers(ref: object) -> None:
+def test_refs_are_strings_or_integers(ref: object) -> None:
     assert ref_of({"ref": ref}) == ref
 
 
 @pytest.mark.parametrize("ref", [None, 1.5, [], True, "x" * 201])
-def test_other_refs_are_none(ref: object) -> None:
+def test_other_values_are_no_refs(ref: object) -> None:
     assert ref_of({"ref": ref}) is None

@@ -1,4 +1,4 @@
-"""What a recorded session says, line by line."""
+"""The file of a recorded session, line by line."""
 
 import io
 import json
@@ -64,11 +64,11 @@ def test_a_session_is_read_as_it_was_recorded(read: Callable[[str | bytes], Reco
     assert recording.started == 1234.5
 
 
-def test_every_kind_of_input_is_tried_with_all_that_it_can_hold() -> None:
+def test_the_examples_cover_every_field_of_every_kind_of_input() -> None:
     assert {type(entry) for entry in INPUTS} == set(get_args(Input))
     for kind in get_args(Input):
         own = [entry for entry in INPUTS if isinstance(entry, kind)]
-        said = [field.name for field in fields(kind) if field.compare]  # what was read of it follows from that
+        said = [field.name for field in fields(kind) if field.compare]  # the others are derived
         assert any(all(getattr(entry, name) is not None for name in said) for entry in own)
 
 
@@ -80,21 +80,21 @@ def test_every_option_of_a_scene_is_read_as_it_was(read: Callable[[str | bytes],
     assert [getattr(again, name) for name in others] == [getattr(options, name) for name in others]
 
 
-def test_an_input_stands_before_its_tick_with_its_number_and_time() -> None:
+def test_an_input_precedes_its_tick_with_its_number_and_time() -> None:
     *_, line, tick = map(json.loads, recorded(SESSION).splitlines())
     event = {"type": "event", "anticipator": "metronome", "event": "start"}
     assert line == {"seq": len(INPUTS) + 1, "tick": 9, "time": 0.09, "input": event}
     assert tick == {"tick": 9}
 
 
-def test_every_line_keeps_to_the_schema() -> None:
+def test_every_line_satisfies_the_schema() -> None:
     schema = json.loads(Path(room.__file__).with_name("recording.json").read_text("utf-8"))
     for number, line in enumerate(map(json.loads, recorded(SESSION).splitlines())):
         kind = "Header" if number == 0 else "Input" if "input" in line else "Tick"
         Draft202012Validator({"$ref": f"#/$defs/{kind}", "$defs": schema["$defs"]}).validate(line)
 
 
-def test_wherever_a_file_is_cut_off_all_ticks_that_are_whole_are_read(read: Callable[[str | bytes], Recording]) -> None:
+def test_all_complete_ticks_of_a_truncated_file_are_read(read: Callable[[str | bytes], Recording]) -> None:
     session = [
         TickInputs(0, (Event("metronome", "start"),)),
         TickInputs(3),
@@ -137,7 +137,7 @@ EVENT = '{"seq": 12, "tick": 10, "time": 0.1, "input": {"type": "event", "antici
         ),
     ],
 )
-def test_a_file_that_is_no_session_is_refused_with_the_line_and_the_reason(
+def test_an_invalid_recording_is_refused_with_line_and_reason(
     read: Callable[[str | bytes], Recording], lines: Any, row: int, part: str
 ) -> None:
     with pytest.raises(RealizerError) as refused:
@@ -146,7 +146,7 @@ def test_a_file_that_is_no_session_is_refused_with_the_line_and_the_reason(
     assert part in str(refused.value)
 
 
-def test_bytes_that_are_no_text_are_refused_with_the_line(read: Callable[[str | bytes], Recording]) -> None:
+def test_invalid_utf_8_is_refused_with_its_line(read: Callable[[str | bytes], Recording]) -> None:
     with pytest.raises(RealizerError, match="line 2: not valid JSON"):
         read(GOOD[0].encode() + b"\n\xff\xff\n")
 

@@ -1,4 +1,4 @@
-"""A peg that moves while the body plays: predictions over the socket and over HTTP."""
+"""Predictions over the socket and over HTTP move pegs while the body moves."""
 
 import json
 import struct
@@ -19,7 +19,7 @@ BEAT = (
 
 
 class Hand:
-    """Follows the right wrist, m."""
+    """The positions of the right wrist, m."""
 
     def __init__(self, air: OnAir) -> None:
         self.places: list[Any] = []
@@ -44,7 +44,7 @@ async def predict_by_post(air: OnAir, socket: Socket, time: float) -> None:
 
 
 @pytest.mark.parametrize("predict", [predict_by_socket, predict_by_post])
-async def test_a_stroke_follows_its_prediction_while_the_arm_is_on_its_way(on_air: Open, predict: Any) -> None:
+async def test_a_stroke_follows_its_prediction_while_the_arm_moves(on_air: Open, predict: Any) -> None:
     async with on_air() as air:
         socket = await air.connect("?streams=feedback")
         hand = Hand(air)
@@ -69,7 +69,7 @@ async def test_a_stroke_follows_its_prediction_while_the_arm_is_on_its_way(on_ai
 
 
 async def predicted_end(socket: Socket, block: str) -> float:
-    """The last prediction of a block's end that has been told."""
+    """The last reported prediction of a block's end."""
     await socket.say(type="clock")
     end = None
     while (message := await socket.hear("feedback", "clock"))["type"] != "clock":
@@ -83,7 +83,7 @@ def attribute(xml: str, name: str) -> float:
     return float(xml.partition(f'{name}="')[2].partition('"')[0])
 
 
-async def test_a_prediction_may_be_withdrawn_and_said_anew(on_air: Open) -> None:
+async def test_a_prediction_may_be_withdrawn_and_repeated(on_air: Open) -> None:
     async with on_air() as air:
         socket = await air.connect("?streams=feedback")
         xml = f'<bml {BML} id="b1"><wait id="w" start="anticipators:test:hit" duration="0.1"/></bml>'
@@ -109,7 +109,7 @@ async def test_a_prediction_for_the_past_means_now(on_air: Open) -> None:
         assert 'globalTime="1.01"' in (await socket.hear_feedback('id="b1:w:start"'))["xml"]
 
 
-async def test_the_frames_show_the_arm_that_goes_to_the_stroke(on_air: Open) -> None:
+async def test_the_frames_show_the_arm_on_its_way_to_the_stroke(on_air: Open) -> None:
     async with on_air() as air:
         socket = await air.connect()
         arm = socket.hello["characters"][0]["joints"].index("RightArm")

@@ -1,4 +1,4 @@
-"""Who is let in."""
+"""Access control: origins, host names and tokens."""
 
 from pathlib import Path
 
@@ -13,7 +13,7 @@ from .conftest import Open
 ELSEWHERE = "https://elsewhere.example"
 
 
-async def test_a_page_from_elsewhere_is_not_let_in(on_air: Open) -> None:
+async def test_a_page_of_another_origin_is_refused(on_air: Open) -> None:
     async with on_air() as air:
         for path in ("/status", "/feedback", "/protocol.json"):
             async with air.client.get(path, headers={"Origin": ELSEWHERE}) as answer:
@@ -24,13 +24,13 @@ async def test_a_page_from_elsewhere_is_not_let_in(on_air: Open) -> None:
         assert refused.value.status == 403
 
 
-async def test_requests_without_origin_and_from_the_page_itself_are_let_in(on_air: Open) -> None:
+async def test_requests_without_an_origin_and_from_the_page_itself_are_allowed(on_air: Open) -> None:
     async with on_air() as air:
         assert (await air.connect()).hello
         assert (await air.connect(origin=str(air.client.make_url("/").origin()))).hello
 
 
-async def test_a_page_of_an_allowed_origin_is_let_in_and_may_read_the_answers(on_air: Open) -> None:
+async def test_a_page_of_an_allowed_origin_may_send_requests_and_read_answers(on_air: Open) -> None:
     async with on_air(security=Security(origins=(ELSEWHERE,))) as air:
         assert (await air.connect(origin=ELSEWHERE)).hello
         async with air.client.get("/status", headers={"Origin": ELSEWHERE}) as answer:
@@ -45,19 +45,19 @@ async def test_a_page_of_an_allowed_origin_is_let_in_and_may_read_the_answers(on
 
 
 @pytest.mark.parametrize("host", ["elsewhere.example", "elsewhere.example:8088", "192.168.1.7", "[::"])
-async def test_a_name_that_is_not_this_machines_is_refused(on_air: Open, host: str) -> None:
+async def test_an_unknown_host_name_is_refused(on_air: Open, host: str) -> None:
     async with on_air() as air, air.client.get("/status", headers={"Host": host}) as answer:
         assert answer.status == 403
         assert (await answer.json())["error"]["code"] == "foreign-host"
 
 
 @pytest.mark.parametrize("host", ["localhost:8088", "127.0.0.1", "[::1]:8088"])
-async def test_the_names_of_the_loopback_are_known(on_air: Open, host: str) -> None:
+async def test_the_names_of_the_loopback_interface_are_allowed(on_air: Open, host: str) -> None:
     async with on_air() as air, air.client.get("/status", headers={"Host": host}) as answer:
         assert answer.status == 200
 
 
-async def test_an_exposed_server_is_known_by_its_numbers_and_by_the_hosts_of_allowed_origins(on_air: Open) -> None:
+async def test_an_exposed_server_allows_its_addresses_and_the_hosts_of_allowed_origins(on_air: Open) -> None:
     exposed = Security("0.0.0.0", origins=("http://robot.local:8088",))
     async with on_air(security=exposed) as air:
         for host, status in (("192.168.1.7:8088", 200), ("robot.local:8088", 200), ("elsewhere.example", 403)):
@@ -65,7 +65,7 @@ async def test_an_exposed_server_is_known_by_its_numbers_and_by_the_hosts_of_all
                 assert answer.status == status
 
 
-async def test_where_a_token_is_wanted_nobody_comes_in_without(on_air: Open) -> None:
+async def test_requests_without_the_token_are_refused_if_one_is_set(on_air: Open) -> None:
     async with on_air(security=Security(token="s3cret")) as air:
         wrong: list[tuple[dict[str, str], dict[str, str]]] = [
             ({}, {}),
@@ -82,7 +82,7 @@ async def test_where_a_token_is_wanted_nobody_comes_in_without(on_air: Open) -> 
         assert refused.value.status == 401
 
 
-async def test_a_token_is_shown_as_a_header_or_in_the_address(on_air: Open) -> None:
+async def test_a_token_may_be_in_a_header_or_in_the_address(on_air: Open) -> None:
     async with on_air(security=Security(token="s3cret")) as air:
         async with air.client.get("/status", headers={"Authorization": "Bearer s3cret"}) as answer:
             assert answer.status == 200
@@ -113,5 +113,5 @@ async def test_a_page_that_is_opened_with_the_token_keeps_it_as_a_cookie_and_not
     ("host", "exposed"),
     [("127.0.0.1", False), ("::1", False), ("localhost", False), ("0.0.0.0", True), ("robot.local", True)],
 )
-def test_other_machines_can_come_where_the_address_is_not_the_loopback(host: str, exposed: bool) -> None:
+def test_other_machines_can_connect_if_the_server_listens_on_all_interfaces(host: str, exposed: bool) -> None:
     assert Security(host).exposed is exposed

@@ -1,4 +1,4 @@
-"""A whole server on the machine's clock, from its options to its end."""
+"""A server on the machine's clock, from its command line to its end."""
 
 import asyncio
 import logging
@@ -16,7 +16,7 @@ TEXT = SceneOptions(voice="text")
 
 
 class Lines(logging.Handler):
-    """Hands out what a logger says."""
+    """A handler that keeps the messages of a logger."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -36,7 +36,7 @@ def lines(caplog: pytest.LogCaptureFixture) -> Iterator[Lines]:
     logger.removeHandler(handler)
 
 
-async def test_it_says_where_it_is_ticks_by_itself_and_ends_on_sigterm(lines: Lines) -> None:
+async def test_the_server_prints_its_address_ticks_and_ends_on_sigterm(lines: Lines) -> None:
     async with asyncio.TaskGroup() as group:
         serving = group.create_task(serve(ServerOptions(port=0, scene=TEXT)))
         address = (await lines.said.get()).rpartition(" ")[2]
@@ -52,7 +52,7 @@ async def test_it_says_where_it_is_ticks_by_itself_and_ends_on_sigterm(lines: Li
         await serving
 
 
-async def test_a_server_that_others_can_reach_without_a_token_says_so_loudly(
+async def test_a_server_that_others_can_reach_without_a_token_prints_a_warning(
     lines: Lines, caplog: pytest.LogCaptureFixture
 ) -> None:
     async with asyncio.TaskGroup() as group:
@@ -63,7 +63,7 @@ async def test_a_server_that_others_can_reach_without_a_token_says_so_loudly(
         serving.cancel()
 
 
-async def test_a_port_that_is_taken_is_an_error_and_nothing_keeps_running(lines: Lines) -> None:
+async def test_a_port_that_is_in_use_is_an_error_and_nothing_keeps_running(lines: Lines) -> None:
     async with asyncio.TaskGroup() as group:
         serving = group.create_task(serve(ServerOptions(port=0, scene=TEXT)))
         port = int((await lines.said.get()).rpartition(":")[2])

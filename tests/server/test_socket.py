@@ -1,4 +1,4 @@
-"""The socket: hello, BML, feedback, frames, and the questions in between."""
+"""The WebSocket: hello, BML, feedback, frames, and requests."""
 
 import struct
 
@@ -11,7 +11,7 @@ from .conftest import ALICE, BML, Open, wait
 TWO = ALICE + '[character.bert]\navatar = "avatars/male.glb"\nposition = [1.0, 0.0, 0.0]\n'
 
 
-async def test_the_first_message_says_who_is_there_and_in_which_order_their_bones_come(on_air: Open) -> None:
+async def test_the_first_message_has_the_characters_and_the_order_of_their_bones(on_air: Open) -> None:
     async with on_air(TWO) as air:
         hello = (await air.connect()).hello
         assert hello["type"] == "hello"
@@ -26,7 +26,7 @@ async def test_the_first_message_says_who_is_there_and_in_which_order_their_bone
         assert hello["demo"] is False
 
 
-async def test_bml_is_accepted_by_its_ref_and_told_in_feedback(on_air: Open) -> None:
+async def test_bml_is_accepted_with_its_ref_and_reported_in_feedback(on_air: Open) -> None:
     async with on_air() as air:
         socket = await air.connect()
         await socket.say(type="bml", xml=wait("b1"), ref="mine")
@@ -39,7 +39,7 @@ async def test_bml_is_accepted_by_its_ref_and_told_in_feedback(on_air: Open) -> 
         assert ended["seq"] > started["seq"]
 
 
-async def test_feedback_over_the_wire_carries_posix_times_in_milliseconds(on_air: Open) -> None:
+async def test_feedback_messages_have_posix_times_in_milliseconds(on_air: Open) -> None:
     async with on_air() as air:
         socket = await air.connect()
         air.live.feedback._epoch = 1_000_000.0
@@ -53,7 +53,7 @@ async def test_feedback_over_the_wire_carries_posix_times_in_milliseconds(on_air
         assert 'bmla:posixTime="1000000250"' in (await socket.hear_feedback('id="b1:end"'))["xml"]
 
 
-async def test_frames_come_for_every_character_fifty_times_a_second_of_its_clock(on_air: Open) -> None:
+async def test_every_character_has_fifty_frames_per_second_of_its_clock(on_air: Open) -> None:
     async with on_air(TWO) as air:
         socket = await air.connect()
         await air.tick_until(0.06)
@@ -68,17 +68,17 @@ async def test_frames_come_for_every_character_fifty_times_a_second_of_its_clock
             assert len(frame) == 32 + 8 * header[5] + 2 * header[6]
 
 
-async def test_the_figures_stand_where_the_human_file_puts_them(on_air: Open) -> None:
+async def test_the_characters_are_at_the_positions_of_the_human_file(on_air: Open) -> None:
     async with on_air(TWO) as air:
         socket = await air.connect()
         await air.tick()
         alice, bert = [struct.unpack_from("<3f", await socket.see(), 20) for _ in range(2)]
-        assert alice[0] == pytest.approx(0, abs=0.05)  # it sways
+        assert alice[0] == pytest.approx(0, abs=0.05)  # idle animation sways the body
         assert bert[0] == pytest.approx(1, abs=0.05)
         assert 0.8 < alice[1] < 1.1
 
 
-async def test_no_pose_is_composed_where_nobody_looks(on_air: Open) -> None:
+async def test_no_pose_is_composed_without_a_client_for_frames(on_air: Open) -> None:
     async with on_air() as air:
         socket = await air.connect("?streams=feedback")
         assert not air.live.realizer._frame_listeners
@@ -91,7 +91,7 @@ async def test_no_pose_is_composed_where_nobody_looks(on_air: Open) -> None:
         assert not air.live.realizer._frame_listeners
 
 
-async def test_a_socket_gets_only_the_streams_that_it_asks_for(on_air: Open) -> None:
+async def test_a_socket_gets_only_the_streams_that_it_requests(on_air: Open) -> None:
     async with on_air() as air:
         silent = await air.connect("?streams=")
         assert (await silent.ask(type="bml", xml=wait()))["type"] == "accepted"
@@ -108,7 +108,7 @@ async def test_a_ping_comes_back_with_realizer_time(on_air: Open) -> None:
         assert await socket.hear("pong") == {"type": "pong", "t": 12.5, "time": 0.5}
 
 
-async def test_the_clock_is_told_to_whoever_asks(on_air: Open) -> None:
+async def test_the_clock_is_sent_on_request(on_air: Open) -> None:
     async with on_air() as air:
         socket = await air.connect()
         await air.tick_until(0.25)
@@ -116,7 +116,7 @@ async def test_the_clock_is_told_to_whoever_asks(on_air: Open) -> None:
         assert await socket.hear("clock") == {"type": "clock", "time": 0.25}
 
 
-async def test_feedback_goes_to_everybody_and_answers_to_the_one_who_asked(on_air: Open) -> None:
+async def test_feedback_goes_to_all_clients_and_answers_only_to_the_sender(on_air: Open) -> None:
     async with on_air() as air:
         one, other = await air.connect(), await air.connect()
         assert (await one.ask(type="bml", xml=wait("b1")))["type"] == "accepted"
@@ -126,7 +126,7 @@ async def test_feedback_goes_to_everybody_and_answers_to_the_one_who_asked(on_ai
         assert (await other.hear("accepted", "clock"))["type"] == "clock"
 
 
-async def test_the_camera_and_things_of_the_world_move_and_vanish(on_air: Open) -> None:
+async def test_camera_and_targets_can_be_moved_and_removed(on_air: Open) -> None:
     async with on_air(ALICE + "[target.bluebox]\nposition = [0.0, 1.0, 1.0]\n") as air:
         socket = await air.connect()
         await socket.say(type="camera", position=[1, 2, 3])
@@ -158,7 +158,7 @@ async def test_a_block_for_the_second_character_is_played_by_it(on_air: Open) ->
         assert 'characterId="bert"' in (await socket.hear_feedback('"b1:start"'))["xml"]
 
 
-async def test_the_board_is_shown_to_those_who_ask_with_what_moved_it(on_air: Open) -> None:
+async def test_the_peg_list_is_sent_on_request_with_the_cause_of_its_changes(on_air: Open) -> None:
     async with on_air() as air:
         socket = await air.connect("?streams=board")
         assert (await socket.hear("board"))["pegs"] == []
@@ -180,7 +180,7 @@ async def test_the_board_is_shown_to_those_who_ask_with_what_moved_it(on_air: Op
         assert change == ["b1:w:end", None, 3.0]
 
 
-async def test_the_board_is_shown_five_times_a_second_at_most(on_air: Open) -> None:
+async def test_the_peg_list_is_sent_at_most_five_times_a_second(on_air: Open) -> None:
     async with on_air() as air:
         page, planner = await air.connect("?streams=board"), await air.connect("?streams=")
         for n in range(100):
@@ -191,10 +191,10 @@ async def test_the_board_is_shown_five_times_a_second_at_most(on_air: Open) -> N
         times = []
         while (message := await page.hear())["type"] != "clock":
             times.append(message["time"])
-        assert times == [0.0, 0.0, 0.2, 0.4, 0.6, 0.8]  # the first when it came
+        assert times == [0.0, 0.0, 0.2, 0.4, 0.6, 0.8]  # the first one when the client subscribed
 
 
-async def test_nothing_is_shown_of_a_board_that_stays_as_it_is(on_air: Open) -> None:
+async def test_an_unchanged_peg_list_is_not_sent(on_air: Open) -> None:
     async with on_air() as air:
         socket = await air.connect("?streams=board")
         await air.tick_until(1.0)
