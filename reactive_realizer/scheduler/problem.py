@@ -4,6 +4,7 @@ from collections.abc import Callable, Container, Mapping
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, field, replace
 from enum import Enum
+from functools import cached_property
 from typing import NamedTuple
 
 from reactive_realizer.bml.behavior import Behavior
@@ -35,10 +36,18 @@ Node = Point | Origin | TimeCell
 
 @dataclass(frozen=True, slots=True)
 class Item:
-    """A behavior to be timed."""
+    """A behavior to be timed.
+
+    Attributes:
+        points: its sync points, in order.
+    """
 
     behavior: Behavior
     timing: Timing
+    points: tuple[Point, ...] = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "points", tuple(Point(self.behavior.id, sync) for sync in self.timing.points))
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,7 +124,7 @@ def _renamed(node: Node, names: Mapping[TimeCell, TimeCell]) -> Node:
     return node if isinstance(node, Point | Origin) else names.get(node, node)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class SchedulingProblem:
     """A block to be timed.
 
@@ -145,6 +154,28 @@ class SchedulingProblem:
     def constraints(self) -> tuple[Tie | Precedence, ...]:
         """All of them."""
         return *self.ties, *self.orders
+
+    @cached_property
+    def canonical(self) -> "SchedulingProblem":
+        """The same problem in an order that does not depend on the order of the document (thesis 7.1.6).
+
+        Behaviors by id; constraints by the points that they name, required ones first. What compares equal differs in
+        nothing but its place in the document.
+        """
+        items = sorted(self.items, key=lambda item: item.behavior.id)
+        places = {point: (0, point.behavior, k, point.sync) for item in items for k, point in enumerate(item.points)}
+
+        def place(node: Node) -> tuple[int, str, int, str]:
+            if isinstance(node, Point):
+                return places.get(node, (0, node.behavior, 0, node.sync))
+            return 1, "" if node is Origin.BLOCK_START else node.name, 0, ""
+
+        def by_place(each: Tie | Precedence) -> tuple[object, ...]:
+            name = each.name if isinstance(each, Precedence) else ""
+            return not each.required, name, *map(place, each.nodes), each.offset, each.text
+
+        ties, orders = sorted(self.ties, key=by_place), sorted(self.orders, key=by_place)
+        return replace(self, items=tuple(items), ties=tuple(ties), orders=tuple(orders))
 
     def only(
         self, items: Callable[[Item], bool], constraints: Callable[[Tie | Precedence], bool]
@@ -198,30 +229,9 @@ class Solution:
         """What is left of its problem without what is lost, and the constraints on that."""
         behaviors, lost = self.behaviors, {id(loss.constraint) for loss in self.losses}
         gone = {item.behavior.id for item in problem.items} - behaviors
+        if not gone and not lost:
+            return problem
         return problem.only(
             lambda item: item.behavior.id in behaviors,
             lambda constraint: id(constraint) not in lost and not constraint.names(gone),
         )
-
-
-def canonical(problem: SchedulingProblem) -> SchedulingProblem:
-    """The same problem in one order, in whatever order it was written (thesis 7.1.6).
-
-    Behaviors by id; constraints by what they name, required ones first. What compares equal differs in nothing but its
-    place in the document.
-    """
-    items = sorted(problem.items, key=lambda item: item.behavior.id)
-    points = {each.behavior.id: each.timing.points for each in items}
-
-    def place(node: Node) -> tuple[int, str, int, str]:
-        if isinstance(node, Point):
-            own = points.get(node.behavior, ())
-            return 0, node.behavior, own.index(node.sync) if node.sync in own else 0, node.sync
-        return 1, "" if node is Origin.BLOCK_START else node.name, 0, ""
-
-    def by_place(each: Tie | Precedence) -> tuple[object, ...]:
-        name = each.name if isinstance(each, Precedence) else ""
-        return not each.required, name, *map(place, each.nodes), each.offset, each.text
-
-    ties, orders = sorted(problem.ties, key=by_place), sorted(problem.orders, key=by_place)
-    return replace(problem, items=tuple(items), ties=tuple(ties), orders=tuple(orders))

@@ -8,9 +8,11 @@ from hypothesis import strategies as st
 
 from reactive_realizer.planunit.timing import PhaseKind
 from reactive_realizer.scheduler.convex.circles import solve_circles
-from reactive_realizer.scheduler.convex.conflict import GIVEN
+from reactive_realizer.scheduler.convex.conflicts import GIVEN
 from reactive_realizer.scheduler.convex.costs import SLACK, STIFFNESS
-from reactive_realizer.scheduler.convex.span import Bound, Row, Span
+from reactive_realizer.scheduler.convex.longest_path import Arc
+from reactive_realizer.scheduler.convex.model import BoundArc, Inequality
+from reactive_realizer.scheduler.convex.spans import Span
 
 preferred = st.floats(0.05, 5.0)
 
@@ -92,8 +94,8 @@ def test_a_hold_may_shrink_to_zero() -> None:
     assert lengths_of(spans, solve_circles(spans, [])) == pytest.approx([0.3, 0.0])
 
 
-def bound(later: int, earlier: int, distance: float = 0.0) -> Bound:
-    return Bound(later, earlier, distance, Row(later, earlier, distance, GIVEN))
+def bound(later: int, earlier: int, distance: float = 0.0) -> BoundArc:
+    return Arc(earlier, later, distance, Inequality(later, earlier, distance, GIVEN))
 
 
 def test_a_behavior_is_shortened_to_start_within_its_block() -> None:

@@ -1,5 +1,5 @@
 """The strategy `convex`: phase durations by a convex problem, starts by longest paths.
 
-A block becomes *roots* (points at fixed distances from each other, one unknown each), *spans* between them (phases with
-a cost) and *rows* (inequalities). It knows points, ties and preferences, and nothing of modalities.
+A block becomes *spans* (phases with a cost), *groups* of points at fixed offsets from each other (one variable each)
+and inequalities between these. The strategy knows points, constraints and preferences, and nothing of modalities.
 """

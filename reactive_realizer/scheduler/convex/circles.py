@@ -1,7 +1,7 @@
-"""Circles of phases: what is tied at both ends, and to nothing else between, is a problem of one unknown.
+"""Circles of phases: a chain of phases that is tied at both ends only is a problem with one unknown.
 
-Most of what is stretched at all is such a circle: a behavior between two given times, or one that has to be hurried to
-start within its block.
+Most phases that are stretched at all lie on such a circle: those of a behavior between two given times, or of one that
+has to hurry to start within its block.
 """
 
 from collections import defaultdict
@@ -10,19 +10,19 @@ from math import inf
 from typing import NamedTuple
 
 from reactive_realizer.scheduler.convex.costs import SLACK, STIFFNESS
-from reactive_realizer.scheduler.convex.model import START
-from reactive_realizer.scheduler.convex.span import Bound, Span
+from reactive_realizer.scheduler.convex.model import START, BoundArc
+from reactive_realizer.scheduler.convex.spans import Span
 
 _STEPS = 100
 _CLOSES = 1e-13
 """Relative error with which a circle is closed."""
 
 _STRONGEST = 1e9
-"""A force that leaves of every second no more than a nanosecond; what it does not close, nothing does."""
+"""A force that shortens a second to a nanosecond: a circle that it does not close cannot be closed."""
 
 
 class _Edge(NamedTuple):
-    """``x[head] - x[tail] = length - shift``; the length of a bound, which is no span, is any from 0 on."""
+    """``x[head] - x[tail] = length - shift``; the length of an edge without a span, a bound, is 0 or more."""
 
     tail: int
     head: int
@@ -37,16 +37,16 @@ class _Side(NamedTuple):
     sign: float
 
 
-def solve_circles(spans: Sequence[Span], bounds: Sequence[Bound]) -> dict[int, float] | None:
-    """The times of least cost, limits of spans included, if all there is are circles that touch in single variables.
+def solve_circles(spans: Sequence[Span], bounds: Sequence[BoundArc]) -> dict[int, float] | None:
+    """The times of least cost within the limits of spans, if the graph consists of circles that share single variables.
 
     Returns:
-        Times (s) of the variables, the first one of all that hang together at 0; None where there is more than circles.
+        Times (s) of the variables, the first one of each component at 0; None if the graph is not of that kind.
     """
     if not {span.guide for span in spans}.isdisjoint(spans):
         return None
     edges = [_Edge(s.tail, s.head, s.shift, s) for s in spans]
-    edges += [_Edge(b.earlier, b.later, -b.distance, None) for b in bounds]
+    edges += [_Edge(b.tail, b.head, -b.length, None) for b in bounds]
     lengths: dict[_Edge, float] = {}
     for circle in _circles(edges):
         solved = _solve(circle) if circle else None
@@ -57,7 +57,7 @@ def solve_circles(spans: Sequence[Span], bounds: Sequence[Bound]) -> dict[int, f
 
 
 def _circles(edges: Sequence[_Edge]) -> Iterator[list[_Side]]:
-    """All edges in circles; an empty one where some are in none."""
+    """All edges in circles; an empty circle if some edges are in none."""
     at: defaultdict[int, list[_Edge]] = defaultdict(list)
     for edge in edges:
         at[edge.tail].append(edge)
@@ -73,23 +73,23 @@ def _circles(edges: Sequence[_Edge]) -> Iterator[list[_Side]]:
 def _around(
     start: int, edge: _Edge, at: Mapping[int, Sequence[_Edge]], corners: set[int], left: dict[_Edge, None]
 ) -> list[_Side]:
-    """The way from a corner on until the next one, if that is the same; takes away what it passes."""
-    way: list[_Side] = []
+    """The path from a corner back to it, or nothing if it leads to another corner; removes its edges from ``left``."""
+    path: list[_Side] = []
     node = start
     while True:
         del left[edge]
-        way.append(_Side(edge, 1.0 if node == edge.tail else -1.0))
+        path.append(_Side(edge, 1.0 if node == edge.tail else -1.0))
         node = edge.head if node == edge.tail else edge.tail
         following = [other for other in at[node] if other in left]
         if node == start:
-            return way
+            return path
         if node in corners or not following:
             return []
         edge = following[0]
 
 
 def _solve(circle: Sequence[_Side]) -> dict[_Edge, float] | None:
-    """The lengths of least cost that lead back to where they began."""
+    """The lengths of least cost that close a circle; None if none do."""
     sides = [side for side in circle if side.edge.span is not None]
     bounds = [side for side in circle if side.edge.span is None]
     if len(bounds) > 1:
@@ -121,7 +121,7 @@ def _force(sides: Sequence[_Side], total: float) -> float | None:
 
 
 def _stiffness(side: _Side) -> float:
-    """The force that would stretch a span without end; one that has a longest length it only brings there."""
+    """The force at which the length of a span becomes infinite; a span with a maximum has none."""
     span = side.edge.span
     if span is None or span.maximum < inf:
         return _STRONGEST
@@ -133,7 +133,7 @@ def _sum(sides: Sequence[_Side], force: float) -> float:
 
 
 def _length(side: _Side, force: float) -> float:
-    """How long (s) a span is where its cost rises as fast as a force pulls (`Costs`), within its limits."""
+    """The length (s) at which the cost of a span rises as fast as a force pulls (`Costs`), within its limits."""
     span = side.edge.span
     if span is None:
         return 0.0
@@ -149,7 +149,7 @@ def _wish(span: Span, pull: float) -> float:
 
 
 def _slope(side: _Side, force: float) -> float:
-    """How fast that grows with the force; not at all at a limit."""
+    """The derivative of the length by the force; 0 at a limit."""
     span, pull = side.edge.span, side.sign * force
     if span is None or not span.minimum < _wish(span, pull) < span.maximum:
         return 0.0
@@ -159,7 +159,7 @@ def _slope(side: _Side, force: float) -> float:
 
 
 def _times(lengths: Mapping[_Edge, float]) -> dict[int, float]:
-    """Of the variables, from the first of all that hang together on."""
+    """The times of the variables, from the first one of each component on."""
     steps: defaultdict[int, list[tuple[int, float]]] = defaultdict(list)
     for edge, length in lengths.items():
         steps[edge.tail].append((edge.head, length - edge.shift))

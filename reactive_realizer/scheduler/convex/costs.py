@@ -1,19 +1,19 @@
-"""What it costs to stretch phases, as a smooth convex function of their durations."""
+"""The cost of stretching phases, a smooth convex function of their durations."""
 
 from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
-from reactive_realizer.scheduler.convex.span import Span
+from reactive_realizer.scheduler.convex.spans import Span
 
 Array = NDArray[np.float64]
 
 STIFFNESS = 0.05
-"""Of a hold against an elastic phase: holds take time first, transitions then stretch by 5 % at most."""
+"""Weight of a hold relative to an elastic phase: holds are stretched first, the other phases then by 5 % at most."""
 
 SLACK = 1.0
-"""What (s) lets a hold end with no duration at all."""
+"""Added to the duration of a hold (s), so that it may become 0."""
 
 
 class Costs:
@@ -58,7 +58,7 @@ class Costs:
         return gradient, hessian
 
     def rough(self) -> tuple[Array, Array]:
-        """Goals, and the curvature there as if no span followed another: where to begin."""
+        """Goals, and the curvature there without guides, for the first step."""
         return self._goals, self._weights / (self._goals + self.slack)
 
     def _goals_at(self, durations: Array) -> Array:

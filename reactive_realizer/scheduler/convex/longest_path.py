@@ -1,18 +1,16 @@
-"""Two questions about graphs of points in time: the earliest times, and what hangs together."""
+"""Graphs of points in time: their earliest times, and their connected components."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Generic, NamedTuple, TypeVar
 
-from reactive_realizer.scheduler.offset_union_find import OffsetUnionFind
-
 TOLERANCE = 1e-9
 """Inequalities that miss by less (s) are met."""
 
-L = TypeVar("L")
+L = TypeVar("L", covariant=True)
 
 
 class Arc(NamedTuple, Generic[L]):
-    """``time[head] >= time[tail] + length``, and who wants that."""
+    """``time[head] >= time[tail] + length``; the label says what requires it."""
 
     tail: int
     head: int
@@ -23,8 +21,8 @@ class Arc(NamedTuple, Generic[L]):
 def longest_path(size: int, arcs: Sequence[Arc[L]]) -> tuple[list[float], list[Arc[L]]]:
     """The least times >= 0 that meet all arcs; or else, second, arcs in a circle that cannot be met together.
 
-    Bellman and Ford's method; where no arc leads back, one pass finds them and one more sees it. The predecessors are
-    looked at after 4, 8, 16 ... passes, so that a circle is found soon.
+    By the algorithm of Bellman and Ford. If no arc leads back, one pass finds the times and a second one confirms them.
+    Circles are looked for after 4, 8, 16 ... passes, so that one is found soon.
     """
     times, into = [0.0] * size, dict[int, Arc[L]]()
     arcs, passes = _in_turn(size, arcs), 0
@@ -42,16 +40,21 @@ def longest_path(size: int, arcs: Sequence[Arc[L]]) -> tuple[list[float], list[A
 
 def components(size: int, pairs: Iterable[tuple[int, int]]) -> list[int]:
     """For each of ``size`` nodes the least node that it is connected with."""
-    groups = OffsetUnionFind[int](())
-    for node in range(size):
-        groups.add(node)
+    parents = list(range(size))
+
+    def least(node: int) -> int:
+        while parents[node] != node:
+            parents[node] = node = parents[parents[node]]
+        return node
+
     for one, other in pairs:
-        groups.union(one, other)
-    return [groups.find(node)[0] for node in range(size)]
+        low, high = sorted((least(one), least(other)))
+        parents[high] = low
+    return [least(node) for node in range(size)]
 
 
 def _in_turn(size: int, arcs: Sequence[Arc[L]]) -> list[Arc[L]]:
-    """Those into a node before those out of it, unless they only keep something from being late."""
+    """The arcs into a node before those out of it, except arcs of negative length."""
     heads: list[list[int]] = [[] for _ in range(size)]
     for arc in arcs:
         if arc.length >= 0:
@@ -64,7 +67,7 @@ def _in_turn(size: int, arcs: Sequence[Arc[L]]) -> list[Arc[L]]:
 
 
 def _reached(start: int, heads: Sequence[Sequence[int]], seen: list[bool]) -> Iterator[int]:
-    """What a node leads to and was not seen, itself included, each after all that it leads to."""
+    """The nodes that can be reached from a node and were not seen, each after all that it leads to, itself included."""
     if seen[start]:
         return
     seen[start], path = True, [(start, iter(heads[start]))]

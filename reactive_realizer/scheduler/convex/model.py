@@ -1,40 +1,93 @@
-"""A relaxed problem as nodes, roots, spans and rows; and all of these in variables."""
+"""A problem without what was given up, as spans, groups of points at fixed offsets, and inequalities of variables."""
 
 from collections import defaultdict
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from collections.abc import Set as AbstractSet
+from dataclasses import dataclass
 from math import inf
+from typing import NamedTuple, TypeVar
 
-from reactive_realizer.scheduler.convex.behavior_spans import BehaviorSpans
-from reactive_realizer.scheduler.convex.conflict import GIVEN, Conflict, Rank, Requirement
-from reactive_realizer.scheduler.convex.explained_groups import ExplainedGroups
-from reactive_realizer.scheduler.convex.lateness import late_behaviors
-from reactive_realizer.scheduler.convex.longest_path import TOLERANCE
-from reactive_realizer.scheduler.convex.relaxed_problem import RelaxedProblem
-from reactive_realizer.scheduler.convex.span import Bound, Row, Span
-from reactive_realizer.scheduler.problem import LEAST, Node, Point, Precedence, Tie
+from reactive_realizer.scheduler.convex.conflicts import GIVEN, Conflict, ExplainedGroups, Rank, Requirement
+from reactive_realizer.scheduler.convex.longest_path import TOLERANCE, Arc
+from reactive_realizer.scheduler.convex.spans import BehaviorSpans, Span
+from reactive_realizer.scheduler.problem import LEAST, Item, Node, Origin, Point, Precedence, SchedulingProblem, Tie
 
 START = 0
 """The node of the block's start, and its variable, which all known times share."""
 
+C = TypeVar("C", Tie, Precedence)
+
+
+@dataclass(frozen=True, slots=True)
+class RelaxedProblem:
+    """The behaviors and constraints that were not given up.
+
+    Attributes:
+        items: by index in the problem, in order.
+        ties: between them.
+        orders: between them.
+        fixed: the given nodes that these name, with their times (s after the block's start, None while unknown); the
+            start of the block is the first.
+    """
+
+    items: Mapping[int, Item]
+    ties: Mapping[Requirement, Tie]
+    orders: Mapping[Requirement, Precedence]
+    fixed: Mapping[Node, float | None]
+
+    @classmethod
+    def of(cls, problem: SchedulingProblem, relaxed: AbstractSet[Requirement]) -> "RelaxedProblem":
+        """A problem in canonical order without some requirements."""
+        items = {k: item for k, item in enumerate(problem.items) if Requirement(Rank.BEHAVIOR, k) not in relaxed}
+        lost = {item.behavior.id for k, item in enumerate(problem.items) if k not in items}
+        ties, orders = _left(problem.ties, Rank.TIE, lost, relaxed), _left(problem.orders, Rank.ORDER, lost, relaxed)
+        given, fixed = problem.given, dict[Node, float | None]({Origin.BLOCK_START: 0.0})
+        pairs = [*(tie.nodes for tie in ties.values()), *(order.nodes for order in orders.values())]
+        fixed.update({node: given[node] for pair in pairs for node in pair if node in given})
+        return cls(items, ties, orders, fixed)
+
+
+def _left(
+    constraints: Sequence[C], rank: Rank, lost: Collection[str], relaxed: AbstractSet[Requirement]
+) -> dict[Requirement, C]:
+    left = {Requirement(rank, index): each for index, each in enumerate(constraints)}
+    if relaxed:
+        left = {key: each for key, each in left.items() if key not in relaxed and not each.names(lost)}
+    return left
+
+
+class Inequality(NamedTuple):
+    """``later >= earlier + distance`` (s), of nodes."""
+
+    later: int
+    earlier: int
+    distance: float
+    requirement: Requirement
+
+
+BoundArc = Arc[Inequality]
+"""An inequality of variables: ``x[head] >= x[tail] + length``."""
+
 
 class Model:
-    """What is to be found for the behaviors of a relaxed problem.
+    """The unknowns of a relaxed problem.
 
-    A variable ``x`` is the time of a root, s after the block's start; every node is at a distance from a variable.
+    A *node* is a knot, or a point between two spans. A variable ``x`` is the time of a group of nodes at fixed offsets
+    from each other, s after the block's start.
 
     Args:
         lifted: lengths and limits that were given up.
 
     Attributes:
-        nodes: number of each point that a constraint names, or that begins a behavior; the fixed ones come first.
-        knots: those of each behavior, by index of the point, in order.
+        nodes: number of each knot; the given ones come first.
+        knots: nodes of each behavior, by index of the point, in order.
         parts: spans of each behavior.
         spans: all of them.
-        late: the behaviors that join late; thesis 7.13 does not bind them (docs/semantics.md).
-        bounds: all inequalities, in variables.
-        conflicts: what was found to be impossible while building.
+        late: the behaviors that join late; thesis 7.13 does not apply to them (docs/semantics.md).
+        bounds: all inequalities.
+        conflicts: those found while building.
         size: number of variables.
+        places: the variable of each node, and the offset (s) from it.
     """
 
     def __init__(self, relaxed: RelaxedProblem, lifted: AbstractSet[Requirement]) -> None:
@@ -46,71 +99,88 @@ class Model:
         self.conflicts: list[Conflict] = []
         self._add_behaviors(lifted)
         self._link()
-        self.late = late_behaviors(relaxed, self.nodes, self.groups)
+        self._found = [self.groups.find(node) for node in range(len(self.groups))]
+        self.late = self._late_behaviors()
         self.spans = [span for part in self.parts.values() for span in part.spans]
-        self._places = self._variables()
-        self.size = 1 + max(variable for variable, _ in self._places)
+        self.places = self._find_places()
+        self.size = 1 + max(variable for variable, _ in self.places)
         for span in self.spans:
             self._settle(span)
         for span in self.spans:
             _follow_if_settled(span)
-        self.bounds = list(self._bounds(self._rows()))
-
-    def place(self, node: int) -> tuple[int, float]:
-        """The variable that a node hangs on, and how much later (s) it is."""
-        return self._places[node]
+        self.bounds = list(self._bounds(self._inequalities()))
 
     # --- nodes
 
     def _add_behaviors(self, lifted: AbstractSet[Requirement]) -> None:
-        tied = self._named(self.relaxed.ties.values())
-        ordered = self._named(self.relaxed.orders.values())
+        tied, ordered = self._named(self.relaxed.ties.values()), self._named(self.relaxed.orders.values())
         for index, item in self.relaxed.items.items():
-            points = item.timing.points
-            id_ = item.behavior.id
-            at = {k for k, sync in enumerate(points) if sync in tied[id_]}
+            id_, points = item.behavior.id, item.timing.points
+            at = {k for k, sync in enumerate(points) if sync in tied[id_]} if id_ in tied else set[int]()
             named = at | {k for k, sync in enumerate(points) if sync in ordered[id_]} if id_ in ordered else at
             knots = {k: self.groups.add_node() for k in sorted({0, *named})}
-            self.nodes.update({Point(id_, points[k]): node for k, node in knots.items()})
+            self.nodes.update({item.points[k]: node for k, node in knots.items()})
             self.knots[index] = knots
             self.parts[index] = BehaviorSpans(index, item.timing, knots, named, at, lifted, self.groups.add_node)
 
-    def _named(self, constraints: Iterable[Tie | Precedence]) -> defaultdict[str, set[str]]:
+    def _named(self, constraints: Iterable[Tie | Precedence]) -> dict[str, set[str]]:
         named: defaultdict[str, set[str]] = defaultdict(set)
-        for node in (node for each in constraints for node in each.nodes):
-            if isinstance(node, Point) and node not in self.nodes:
-                named[node.behavior].add(node.sync)
+        for each in constraints:
+            for node in each.nodes:
+                if isinstance(node, Point) and node not in self.nodes:
+                    named[node.behavior].add(node.sync)
         return named
 
     def _link(self) -> None:
-        """Make one what is tied; a rigid behavior goes before what ties it, since rigid wins."""
+        """Group tied nodes; rigid phases go before a tie that contradicts them."""
         for index, part in self.parts.items():
             for earlier, later, distance in part.rigid:
                 self.groups.tie(later, earlier, distance, Requirement(Rank.BEHAVIOR, index))
         for requirement, tie in self.relaxed.ties.items():
-            left, right = (self.nodes[node] for node in tie.nodes)
-            conflict = self.groups.tie(left, right, tie.offset, requirement)
+            conflict = self.groups.tie(self.nodes[tie.left], self.nodes[tie.right], tie.offset, requirement)
             if conflict is not None:
                 self.conflicts.append(conflict)
 
+    def _late_behaviors(self) -> set[int]:
+        """The behaviors with a tied point that a time from outside brought before the block's start."""
+        times = list(self.relaxed.fixed.values())
+        passed = set[int]()
+        for node, (root, offset) in enumerate(self._found):
+            time = times[root] if root < len(times) else None
+            if time is not None and time + offset < 0:
+                passed.add(node)
+        ties = (
+            [[(node, self.nodes[node]) for node in tie.nodes] for tie in self.relaxed.ties.values()] if passed else []
+        )
+        late = passed.intersection(range(START + 1, len(times)))
+        for tie in ties:
+            if any(not isinstance(node, Point | Origin) for node, _ in tie):
+                late |= {self._found[number][0] for _, number in tie if number in passed}
+        names = {
+            node.behavior
+            for tie in ties
+            for node, number in tie
+            if isinstance(node, Point) and number in passed and self._found[number][0] in late
+        }
+        return {index for index, item in self.relaxed.items.items() if item.behavior.id in names}
+
     # --- variables
 
-    def _variables(self) -> list[tuple[int, float]]:
+    def _find_places(self) -> list[tuple[int, float]]:
         times = list(self.relaxed.fixed.values())
         variables: dict[int, tuple[int, float]] = {}
         number = START
-        for root in range(len(self.groups)):
-            if self.groups.find(root)[0] == root:
+        for node, (root, _) in enumerate(self._found):
+            if node == root:
                 known = times[root] if root < len(times) else None
                 if known is None:
                     number += 1
                 variables[root] = (number, 0.0) if known is None else (START, known)
-        found = map(self.groups.find, range(len(self.groups)))
-        return [(variables[root][0], variables[root][1] + distance) for root, distance in found]
+        return [(variables[root][0], variables[root][1] + offset) for root, offset in self._found]
 
     def _settle(self, span: Span) -> None:
-        """Write a span in variables; one whose duration follows from ties has it now."""
-        (span.tail, start), (span.head, end) = self.place(span.start), self.place(span.end)
+        """Write a span in variables; a duration that follows from ties is found now."""
+        (span.tail, start), (span.head, end) = self.places[span.start], self.places[span.end]
         span.shift = end - start - span.rigid
         if not span.closed:
             return
@@ -122,39 +192,41 @@ class Model:
 
     # --- inequalities
 
-    def _rows(self) -> Iterator[Row]:
+    def _inequalities(self) -> Iterator[Inequality]:
         for requirement, order in self.relaxed.orders.items():
-            yield Row(self.nodes[order.later], self.nodes[order.earlier], order.offset, requirement)
+            yield Inequality(self.nodes[order.later], self.nodes[order.earlier], order.offset, requirement)
         for index, knots in self.knots.items():
             if index not in self.late:
-                yield Row(knots[0], START, 0.0, GIVEN)  # thesis 7.13
+                yield Inequality(knots[0], START, 0.0, GIVEN)  # thesis 7.13
         for span in self.spans:
             yield from _limits(span)
 
-    def _bounds(self, rows: Iterable[Row]) -> Iterator[Bound]:
-        for row in rows:
-            (later, late), (earlier, early) = self.place(row.later), self.place(row.earlier)
-            distance = row.distance + early - late
+    def _bounds(self, inequalities: Iterable[Inequality]) -> Iterator[BoundArc]:
+        for each in inequalities:
+            (later, late), (earlier, early) = self.places[each.later], self.places[each.earlier]
+            distance = each.distance + early - late
             if later != earlier:
-                yield Bound(later, earlier, distance, row)
+                yield Arc(earlier, later, distance, each)
             elif distance > TOLERANCE:
-                self.conflicts.append(
-                    Conflict(self.groups.between(row.later, row.earlier) | {row.requirement}, distance)
-                )
+                requirements = self.groups.between(each.later, each.earlier) | {each.requirement}
+                self.conflicts.append(Conflict(requirements, distance))
 
 
 def _follow_if_settled(span: Span) -> None:
-    """A stretch that is known already only changes what the span would like."""
+    """A stretch that is known already only changes the goal of the span."""
     if span.guide is not None and span.guide.closed:
         span.goal = span.preferred * span.guide.ratio
         span.guide = None
 
 
-def _limits(span: Span) -> Iterator[Row]:
-    limit = Requirement(Rank.LIMIT, span.behavior, span.phases[0])
+def _limits(span: Span) -> Iterator[Inequality]:
     if span.minimum > 0:
-        yield Row(span.end, span.start, span.rigid + span.minimum, limit)
+        yield Inequality(span.end, span.start, span.rigid + span.minimum, _limit(span))
     elif not span.elastic:
-        yield Row(span.end, span.start, span.rigid, span.requirement)
+        yield Inequality(span.end, span.start, span.rigid, span.requirement)
     if span.maximum < inf:
-        yield Row(span.start, span.end, -span.rigid - span.maximum, limit)
+        yield Inequality(span.start, span.end, -span.rigid - span.maximum, _limit(span))
+
+
+def _limit(span: Span) -> Requirement:
+    return Requirement(Rank.LIMIT, span.behavior, span.phases[0])

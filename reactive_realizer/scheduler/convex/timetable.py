@@ -1,88 +1,124 @@
-"""When everything happens: durations first, then the earliest start of what hangs together (thesis 7.24)."""
+"""The times of all points: durations first, then the earliest start of each cluster (thesis 7.24)."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
 
 from reactive_realizer.planunit.timing import SHORTEST, PhaseKind
-from reactive_realizer.scheduler.convex.conflict import Conflict, Rank, Requirement
+from reactive_realizer.scheduler.convex.conflicts import Conflict, Rank, Requirement
 from reactive_realizer.scheduler.convex.durations import Durations
-from reactive_realizer.scheduler.convex.feasibility import conflicts
 from reactive_realizer.scheduler.convex.longest_path import TOLERANCE, Arc, components, longest_path
-from reactive_realizer.scheduler.convex.model import START, Model
-from reactive_realizer.scheduler.convex.span import Bound
+from reactive_realizer.scheduler.convex.model import START, BoundArc, Inequality, Model
+from reactive_realizer.scheduler.convex.spans import Span
 
 
 @dataclass(frozen=True, slots=True)
 class Timetable:
-    """A model and its solution.
+    """The solution of a model.
 
     Attributes:
-        times: of the variables, s after the block's start.
         points: times of all points of each behavior, s after the block's start.
     """
 
-    model: Model
-    times: Sequence[float]
     points: Mapping[int, Sequence[float]]
 
 
 def find_times(model: Model) -> Timetable | list[Conflict]:
-    """Times that meet everything, at least cost and as early as that allows; or what cannot be met together."""
-    if model.conflicts:
-        return model.conflicts
-    connecting = [span for span in model.spans if span.costs and not span.closed]
-    clusters = components(model.size, [(s.tail, s.head) for s in connecting if START not in (s.tail, s.head)])
-    grounded = {START, *(clusters[s.tail or s.head] for s in connecting if START in (s.tail, s.head))}
-    if found := conflicts(model):
+    """Times that meet all bounds, at least cost and as early as that allows; or the conflicts if there are none."""
+    if found := model.conflicts or _conflicts(model):
         return found
-    times = _earliest(model, clusters, grounded)
+    times = _earliest(model)
     for span in model.spans:
         span.duration = times[span.head] - times[span.tail] + span.shift
     points = {index: _points(model, times, index) for index in model.knots}
     unplayable = [conflict for index, each in points.items() for conflict in _unplayable(model, index, each)]
-    return unplayable or Timetable(model, times, points)
+    return unplayable or Timetable(points)
 
 
-def _earliest(model: Model, clusters: Sequence[int], grounded: AbstractSet[int]) -> list[float]:
+# --- feasibility
+
+
+def _conflicts(model: Model) -> list[Conflict]:
+    """Circles of bounds and shortest durations that cannot be met, no two with one of these in common.
+
+    There is a plan if and only if there is no such circle: the longest paths are one.
+    """
+    arcs: list[Arc[Inequality | Span]] = [*model.bounds]
+    elastic = (span for span in model.spans if span.elastic and not span.closed)
+    arcs += [Arc(span.tail, span.head, span.least - span.shift, span) for span in elastic]
+    found: list[Conflict] = []
+    while circle := longest_path(model.size, arcs)[1]:
+        found.append(_conflict(model, circle))
+        arcs = [arc for arc in arcs if arc not in circle]
+    return found
+
+
+def _conflict(model: Model, circle: Sequence[Arc[Inequality | Span]]) -> Conflict:
+    """Between the end of an arc in one node of a group and the start of the next in another, ties take part."""
+    rows = [_shortest(arc.label) if isinstance(arc.label, Span) else arc.label for arc in circle]
+    requirements = {row.requirement for row in rows}
+    for row, following in zip(rows, [*rows[1:], rows[0]], strict=True):
+        requirements |= model.groups.between(row.later, following.earlier)
+    gap = sum(arc.length for arc in circle)
+    spans = [arc.label for arc in circle if isinstance(arc.label, Span)]
+    if gap <= sum(span.least for span in spans) + TOLERANCE:
+        requirements |= {span.length_requirement for span in spans}
+    return Conflict(frozenset(requirements), gap)
+
+
+def _shortest(span: Span) -> Inequality:
+    return Inequality(span.end, span.start, span.least + span.rigid, span.requirement)
+
+
+# --- times of variables
+
+
+def _earliest(model: Model) -> list[float]:
     """Durations under the bounds that turn out to matter, and the least shift of each cluster that is free to move.
 
-    What is unknown is free to move too: a plan for the time that suits it best.
+    Unknown times from outside are free to move too: the plan is made for the time that suits it best.
     """
-    durations, active = Durations(model), list[Bound]()
-    free = sorted(set(clusters) - grounded)
-    places = {START: START} | {cluster: place for place, cluster in enumerate(free, 1)}
-    numbers = [places.get(cluster, START) for cluster in clusters]
+    clusters = _free_clusters(model)
+    durations, active = Durations(model), list[BoundArc]()
     while True:
         times = durations.times(active)
         arcs = [
-            Arc(numbers[b.earlier], numbers[b.later], times[b.earlier] + b.distance - times[b.later], b)
-            for b in model.bounds
+            Arc(clusters[b.tail], clusters[b.head], times[b.tail] + b.length - times[b.head], b) for b in model.bounds
         ]
-        shifts, broken = longest_path(1 + len(free), [arc for arc in arcs if arc.tail != arc.head])
+        shifts, broken = longest_path(1 + max(clusters), [arc for arc in arcs if arc.tail != arc.head])
         broken = broken + [arc for arc in arcs if arc.tail == arc.head and arc.length > TOLERANCE]
         found = [arc.label for arc in broken if arc.label not in active]
         if not found:  # all met; or missed, by the little that the numbers are not exact
-            return [time + shifts[number] - shifts[START] for time, number in zip(times, numbers, strict=True)]
+            return [time + shifts[number] - shifts[START] for time, number in zip(times, clusters, strict=True)]
         active += found
 
 
-def _time(model: Model, times: Sequence[float], node: int) -> float:
-    variable, distance = model.place(node)
-    return times[variable] + distance
+def _free_clusters(model: Model) -> list[int]:
+    """For each variable the number of its cluster; `START` for those that known times hold."""
+    pairs = [(span.tail, span.head) for span in model.spans if span.costs]
+    clusters = components(model.size, [pair for pair in pairs if START not in pair])
+    held = {START, *(clusters[tail or head] for tail, head in pairs if START in (tail, head))}
+    numbers = {cluster: number for number, cluster in enumerate(sorted(set(clusters) - held), 1)}
+    return [numbers.get(cluster, START) for cluster in clusters]
+
+
+# --- times of points
 
 
 def _points(model: Model, times: Sequence[float], behavior: int) -> list[float]:
-    """Of all points of a behavior, s after the block's start."""
+    """The times of all points of a behavior, s after the block's start."""
     knots = model.knots[behavior]
-    points = [_time(model, times, knots[0])]
-    for k, length in enumerate(_lengths(model, behavior), 1):
-        points.append(_time(model, times, knots[k]) if k in knots else points[-1] + length)
+    points: list[float] = []
+    for k, length in enumerate((0.0, *_lengths(model, behavior))):
+        if k in knots:
+            variable, offset = model.places[knots[k]]
+            points.append(times[variable] + offset)
+        else:
+            points.append(points[-1] + length)
     return points
 
 
 def _lengths(model: Model, behavior: int) -> list[float]:
-    """Durations of phases, s; those behind the last knot take over the stretch of what is before it."""
+    """The durations of phases, s; those behind the last knot take over the stretch of those before it."""
     part, last = model.parts[behavior], max(model.knots[behavior])
     tempo = 1.0 if part.tempo is None else part.tempo.ratio
     phases = model.relaxed.items[behavior].timing.phases
@@ -98,7 +134,7 @@ def _lengths(model: Model, behavior: int) -> list[float]:
 
 
 def _unplayable(model: Model, behavior: int, points: Sequence[float]) -> Iterator[Conflict]:
-    """A behavior that has no time at all (thesis 7.14), or none after the start of its block."""
+    """Whether a behavior has no duration (thesis 7.14), or has ended before its block starts."""
     requirements = frozenset({Requirement(Rank.BEHAVIOR, behavior)})
     if points[-1] - points[0] < SHORTEST and not model.relaxed.items[behavior].timing.instant:
         yield Conflict(requirements, 0.0)

@@ -1,5 +1,5 @@
-"""From the times of a plan to pegs: what hangs on what, so that it stays a plan when times from outside move.
+"""From the times of a plan to pegs: what each peg depends on, so that the plan holds when times from outside move.
 
 Points at fixed offsets from each other share a *root*; between roots lie *edges*, the phases of behaviors; for each
-root a *rule* says what its peg hangs on.
+root a *rule* says what its peg depends on.
 """

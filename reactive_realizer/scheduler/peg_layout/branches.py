@@ -1,4 +1,4 @@
-"""What is tied to times from outside, piece by piece."""
+"""What is tied to times from outside, divided into branches that move on their own."""
 
 from collections import defaultdict, deque
 from collections.abc import Iterable, Sequence
@@ -7,36 +7,32 @@ from reactive_realizer.scheduler.offset_union_find import OffsetUnionFind
 
 
 class Branches:
-    """The pieces of what is tied to times from outside, and the piece that each of them hangs on.
+    """The branches of what is tied to times from outside.
 
-    A piece is a point, or the points of a behavior with rigid phases between them, which stay together when the first
-    has passed; so do two speeches in a row. It hangs on the piece that it is tied to on the shortest path from outside.
-    So it follows the time from outside though others that are tied to it have passed, and stays with a word whose
-    speech cannot follow any more.
+    A branch is a point, or the points of a behavior with rigid phases between them, which stay together when the first
+    one has passed; two speeches in a row are one branch. A branch depends on the branch that it is tied to on the
+    shortest path from outside. So it follows the time from outside even if other points tied to that have passed, and
+    it stays with a word whose speech cannot follow any more.
 
     Args:
         size: number of nodes.
-        outside: those whose times come from outside.
+        outside: the nodes whose times come from outside.
         rigid: pairs of nodes with nothing but rigid phases between them.
         ties: pairs of nodes that are tied to each other; with ``rigid`` no more than are needed to connect them.
 
     Attributes:
-        pieces: of each node the first node of its piece.
-        rigid: those of pieces of several points.
-        hosts: the first node of each piece -> that of the piece that it hangs on, or the node from outside.
+        pieces: of each node the first node of its branch.
+        rigid: the first nodes of branches of several points.
+        hosts: the first node of each branch -> that of the branch that it depends on, or the node from outside.
     """
 
     def __init__(
-        self,
-        size: int,
-        outside: Sequence[int],
-        rigid: Sequence[tuple[int, int]],
-        ties: Iterable[tuple[int, int]],
+        self, size: int, outside: Sequence[int], rigid: Sequence[tuple[int, int]], ties: Iterable[tuple[int, int]]
     ) -> None:
         self.pieces: Sequence[int] = range(size)
         self.rigid: set[int] = set()
         self.hosts: dict[int, int] = {}
-        if outside:  # else nothing hangs on anything
+        if outside:
             self._find(outside, rigid, [*rigid, *ties])
 
     def _find(self, outside: Sequence[int], rigid: Sequence[tuple[int, int]], links: Sequence[tuple[int, int]]) -> None:

@@ -1,7 +1,7 @@
 """The points of a plan as a network: roots, and the phases between them."""
 
 from collections import defaultdict
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from functools import cached_property
 from itertools import pairwise
 from typing import NamedTuple
@@ -18,16 +18,13 @@ START = 0
 TOLERANCE = 1e-9
 """Times that differ by less (s) are equal."""
 
-Stops = Mapping[int, Sequence[Position]]
-"""By root, what its first point cannot pass in one direction."""
-
 
 class Edge(NamedTuple):
     """Phases from root to root; if the elastic ones lasted no time at all, ``end = start + distance``, s.
 
     Attributes:
-        leaves: how much later (s) than its first root the edge begins.
-        enters: how much later (s) than the other one it ends.
+        leaves: offset (s) from the first root at which the edge begins.
+        enters: offset (s) from the other one at which it ends.
     """
 
     start: int
@@ -46,7 +43,7 @@ class RootPrecedence(NamedTuple):
     """``later >= earlier + distance``, of roots.
 
     Attributes:
-        own: whether the later one can be pushed: a point that does not stand at a time of the block.
+        own: whether the later one can be pushed: a point of the block that is not tied to its start.
     """
 
     later: int
@@ -55,290 +52,234 @@ class RootPrecedence(NamedTuple):
     own: bool
 
 
-class _Span(NamedTuple):
-    """Phases between two knots of a behavior, nodes.
+class _Phases(NamedTuple):
+    """The phases between two knots of a behavior.
 
     Attributes:
-        rigid: s of it that cannot give.
-        least: s that the rest lasts at least.
-        connects: whether the behavior prefers a duration for all of it.
+        start: node of the earlier knot.
+        end: node of the later one.
+        rigid: duration of the rigid ones, s.
+        least: shortest duration of the others, s.
+        flexible: whether there are others; if not, the knots share a root.
+        connects: whether all of them have preferred durations.
     """
 
     start: int
     end: int
     rigid: float
     least: float
+    flexible: bool
     connects: bool
 
 
 class Network:
     """Behaviors of a plan, their roots, and the edges between these.
 
-    A *knot* is a point that a constraint names, or the first one of a behavior. Knots and what is given are numbered
-    nodes. What hangs on a time from outside falls apart into `Branches`, each with a root of its own.
+    A *knot* is a point that a constraint names, or the first point of a behavior. Knots and given points are numbered
+    nodes. Nodes at fixed offsets from each other share a *root*, which is one of them. What depends on a time from
+    outside is divided into `Branches`, each with a root of its own. A *cluster* is what edges connect.
 
     Args:
         problem: behaviors that are laid out together, and the kept constraints on them.
         times: of all points of the plan, s after the block's start.
 
     Attributes:
-        nodes: number of each knot; what is given comes first, and of that the start of the block.
+        nodes: number of each knot; given points come first, and the start of the block is the first of these.
         fixed: number of given nodes.
-        knots: nodes by index of the point, of each behavior.
-        roots: in order; the fixed ones come first.
-        branches: where the roots of branches hang.
-        leads: how much later (s) than the root its first point is; 0 for fixed ones.
+        knots: nodes of each behavior, by index of the point.
+        positions: of the nodes.
+        roots: in order; the given ones come first.
+        branches: positions of the roots of branches on other roots.
+        leads: offset (s) of the first point of each root; 0 for given ones.
+        times: of the roots, s after the block's start.
+        first_times: of the first points of the roots; likewise.
+        clusters: of the roots.
+        anchored: the clusters that contain a given root.
         edges: in order of time.
     """
 
     def __init__(self, problem: SchedulingProblem, times: Mapping[Point, float]) -> None:
         self._problem = problem
         self._times = times
-        self.knots: dict[str, dict[int, int]] = {}
         self.nodes = _given(problem)
         self.fixed = len(self.nodes)
-        self._groups = OffsetUnionFind[int](range(self.fixed))
-        self._spans = self._add_knots()
-        links = self._tie()
-        outside = range(START + 1, self.fixed)
-        self._branches = Branches(len(self.nodes), outside, self._rigid, links)
-        self._positions = [self._position(node, outside) for node in range(len(self.nodes))]
-        self._clusters = self._connected()
-        self._hanging = {self.cluster(root) for root in range(self.fixed)}
-        self.branches: dict[int, Position] = {}
-        self.leads: dict[int, float] = dict.fromkeys(range(self.fixed), 0.0)
-        self._note_leads()
+        self.knots: dict[str, dict[int, int]] = {}
+        self._knot_times: dict[int, float] = {}
+        phases = self._add_knots()
+        self._phases = [each for each in phases if each.flexible]
+        rigid = [(each.end, each.start, each.rigid) for each in phases if not each.flexible]
+        self._found, links = self._tie(rigid)
+        pairs = [(end, start) for end, start, _ in rigid]
+        self._branches = Branches(len(self.nodes), range(START + 1, self.fixed), pairs, links)
+        self.positions = [self._position(node) for node in range(len(self.nodes))]
+        self.leads = self._find_leads()
         self.roots = sorted(self.leads)
-        self._root_times = self._find_times()
+        self.branches = self._find_branches()
+        self.times = self._find_times()
+        self.first_times = {root: time + self.leads[root] for root, time in self.times.items()}
+        self.clusters = self._find_clusters()
+        self.anchored = {self.clusters[root] for root in range(self.fixed)}
         self.edges = self._edges(least=False)
 
     @property
     def given(self) -> Sequence[Node]:
-        """What has pegs already; the start of the block is the first."""
+        """The nodes that have pegs already; the start of the block is the first."""
         return list(self.nodes)[: self.fixed]
 
-    def time(self, root: int) -> float:
-        """Of a root, s after the block's start."""
-        return self._root_times[root]
-
-    def cluster(self, root: int) -> int:
-        """The cluster of a root: what edges connect."""
-        return self._clusters.find(self._groups.find(root)[0])[0]
-
-    def first_time(self, root: int) -> float:
-        """Of the first point of a root, s after the block's start."""
-        return self.time(root) + self.leads[root]
-
-    def position(self, node: int) -> Position:
-        """Where a node is."""
-        return self._positions[node]
-
     def at(self, position: Position) -> float:
-        """When, s after the block's start."""
-        return self.time(position.root) + position.offset
+        """The time of a position, s after the block's start."""
+        return self.times[position.root] + position.offset
 
     def is_rigid(self, branch: int) -> bool:
-        """Whether a branch is more than one point."""
+        """Whether a branch has more than one point."""
         return branch in self._branches.rigid
 
-    def hangs(self, cluster: int) -> bool:
-        """Whether something of it, or next to it, is given."""
-        return cluster in self._hanging
-
     def precedences(self) -> list[RootPrecedence]:
-        """The orders between different roots."""
+        """The before/after constraints between different roots."""
         found = []
         for order in self._problem.orders:
-            late, early = (self.position(self.nodes[node]) for node in order.nodes)
+            late, early = (self.positions[self.nodes[node]] for node in order.nodes)
             if late.root != early.root:
                 distance = order.offset + early.offset - late.offset
                 own = isinstance(order.later, Point) and late.root != START
                 found.append(RootPrecedence(late.root, early.root, distance, own))
         return found
 
-    def floors(self, given: Collection[int]) -> Stops:
-        """What the first points of roots cannot come before: all given roots from which phases lead to them."""
-        return self._stops(given, self._least_edges, 1.0)
+    @cached_property
+    def least_edges(self) -> Sequence[Edge]:
+        """The edges of all phases at their shortest durations (thesis 7.15)."""
+        return self._edges(least=True)
 
-    def ceilings(self, given: Collection[int]) -> Stops:
-        """What they cannot come after: all given roots to which phases lead."""
-        return self._stops(given, [edge.back for edge in reversed(self._least_edges)], -1.0)
+    # --- nodes
 
-    def between(self, given: Collection[int]) -> bool:
-        """Whether phases lead from or to more than one of them."""
-        return len({root for edge in self.edges for root in (edge.start, edge.end)}.intersection(given)) > 1
-
-    def latest_before(self, given: Iterable[int]) -> dict[int, Position]:
-        """For each root that phases lead to from a given one: where it would be if these took no time.
-
-        Of several the latest; a path goes no further than from one given root to the next.
-        """
-        return self._nearest(given, self.edges, 1.0)
-
-    def earliest_after(self, given: Iterable[int]) -> dict[int, Position]:
-        """The same, backwards."""
-        return self._nearest(given, [edge.back for edge in reversed(self.edges)], -1.0)
-
-    # --- from behaviors to nodes
-
-    def _add_knots(self) -> list[_Span]:
+    def _add_knots(self) -> list[_Phases]:
         named: defaultdict[str, set[str]] = defaultdict(set)
-        for point in (node for each in self._problem.constraints for node in each.nodes):
-            if isinstance(point, Point) and point not in self.nodes:
-                named[point.behavior].add(point.sync)
-        self._rigid: list[tuple[int, int]] = []
-        self._knot_times: dict[int, float] = {}
-        spans: list[_Span] = []
+        for each in self._problem.constraints:
+            for node in each.nodes:
+                if isinstance(node, Point) and node not in self.nodes:
+                    named[node.behavior].add(node.sync)
+        phases: list[_Phases] = []
         for item in self._problem.items:
-            id_, points = item.behavior.id, item.timing.points
-            indices = [k for k, sync in enumerate(points) if k == 0 or sync in named[id_]]
-            times = [self._times[Point(id_, sync)] for sync in points]
-            self.knots[id_] = {}
-            for k in indices:
-                node = self.knots[id_][k] = self.nodes[Point(id_, points[k])] = len(self.nodes)
-                self._knot_times[node] = times[k]
-            for before, after in pairwise(indices):
-                span = self._span(item, times, before, after, named=before > 0 or points[0] in named[id_])
-                spans += [] if span is None else [span]
-        for node in range(self.fixed, len(self.nodes)):
-            self._groups.add(node)
-        return spans
+            names = named.get(item.behavior.id, ())
+            knots = {k: len(self.nodes) + n for n, k in enumerate(_knots(item, names))}
+            self.nodes.update({item.points[k]: node for k, node in knots.items()})
+            self._knot_times.update({node: self._times[item.points[k]] for k, node in knots.items()})
+            self.knots[item.behavior.id] = knots
+            for before, after in pairwise(knots):
+                named_both = before > 0 or item.timing.points[0] in names
+                phases.append(self._between(item, before, after, named=named_both))
+        return phases
 
-    def _span(self, item: Item, times: Sequence[float], before: int, after: int, *, named: bool) -> _Span | None:
-        """The phases between two knots; None where they are rigid, and the knots are one root."""
-        knots = self.knots[item.behavior.id]
-        start, end = knots[before], knots[after]
-        rigid, least, kinds = 0.0, 0.0, set[PhaseKind]()
-        for k, phase in enumerate(item.timing.phases[before:after], before):
-            if phase.kind is PhaseKind.RIGID and abs(times[k + 1] - times[k] - phase.duration) <= TIE_TOLERANCE:
-                rigid += phase.duration
-            elif (
-                phase.kind is not PhaseKind.ELASTIC or phase.duration > 0 or phase.authored or named or _apart(times, k)
-            ):
-                kinds.add(phase.kind)
-                if phase.kind is PhaseKind.ELASTIC and phase.duration > 0:
+    def _between(self, item: Item, before: int, after: int, *, named: bool) -> _Phases:
+        """The phases between two knots; if constraints name both, an elastic one of no duration can be forced apart."""
+        knots, times, points = self.knots[item.behavior.id], self._times, item.points
+        rigid, least, flexible, connects = 0.0, 0.0, False, True
+        for k in range(before, after):
+            phase = item.timing.phases[k]
+            kind, duration, planned = phase.kind, phase.duration, times[points[k + 1]] - times[points[k]]
+            if kind is PhaseKind.RIGID and abs(planned - duration) <= TIE_TOLERANCE:
+                rigid += duration
+            elif kind is not PhaseKind.ELASTIC or duration > 0 or named or phase.authored or planned > TIE_TOLERANCE:
+                flexible, connects = True, connects and kind is not PhaseKind.FREE
+                if kind is PhaseKind.ELASTIC and duration > 0:
                     least = LEAST
-        least = min(least, max(times[after] - times[before] - rigid, 0.0))
-        if kinds:
-            return _Span(start, end, rigid, least, PhaseKind.FREE not in kinds)
-        if self._groups.union(end, start, rigid) is None:
-            self._rigid.append((end, start))
-        return None
+        if flexible:
+            least = min(least, max(times[points[after]] - times[points[before]] - rigid, 0.0))
+        return _Phases(knots[before], knots[after], rigid, least, flexible, connects)
 
-    def _tie(self) -> list[tuple[int, int]]:
-        """Make one what is tied, unless it is already; what is rigid goes before a tie that contradicts it."""
-        pairs = [(tuple(self.nodes[node] for node in tie.nodes), tie.offset) for tie in self._problem.ties]
-        return [(left, right) for (left, right), offset in pairs if self._groups.union(left, right, offset) is None]
+    def _tie(self, rigid: Sequence[tuple[int, int, float]]) -> tuple[list[tuple[int, float]], list[tuple[int, int]]]:
+        """Group the nodes at fixed offsets; rigid phases go before a tie that contradicts them.
+
+        Returns:
+            The root of the group of each node with the offset (s) from it; and the pairs that ties connect.
+        """
+        groups = OffsetUnionFind[int](range(self.fixed))
+        for end, start, duration in rigid:
+            groups.union(end, start, duration)
+        for node in range(self.fixed, len(self.nodes)):
+            groups.add(node)
+        links = []
+        for tie in self._problem.ties:
+            left, right = self.nodes[tie.left], self.nodes[tie.right]
+            if groups.union(left, right, tie.offset) is None:
+                links.append((left, right))
+        return [groups.find(node) for node in range(len(self.nodes))], links
 
     # --- roots
 
-    def _position(self, node: int, outside: Collection[int]) -> Position:
-        fixed, distance = self._groups.find(node)
-        if fixed not in outside or node == fixed:
-            return Position(fixed, distance)
-        root = self._branches.pieces[node]
-        return Position(root, distance - self._groups.find(root)[1])
+    def _position(self, node: int) -> Position:
+        root, offset = self._found[node]
+        if not START < root < self.fixed or node == root:
+            return Position(root, offset)
+        branch = self._branches.pieces[node]
+        return Position(branch, offset - self._found[branch][1])
 
-    def _connected(self) -> OffsetUnionFind[int]:
-        clusters = OffsetUnionFind[int]()
-        for node in range(len(self.nodes)):
-            clusters.add(node)
-        for span in self._spans:
-            if span.connects:
-                clusters.union(self._groups.find(span.start)[0], self._groups.find(span.end)[0])
-        return clusters
-
-    def _note_leads(self) -> None:
-        for node in range(self.fixed, len(self.nodes)):
-            root, distance = self.position(node)
+    def _find_leads(self) -> dict[int, float]:
+        leads = dict.fromkeys(range(self.fixed), 0.0)
+        for root, offset in self.positions[self.fixed :]:
             if root >= self.fixed:
-                self.leads[root] = min(distance, self.leads.get(root, distance))
-                self._note_branch(root)
+                leads[root] = min(offset, leads.get(root, offset))
+        return leads
 
-    def _note_branch(self, root: int) -> None:
-        fixed, distance = self._groups.find(root)
-        if fixed < self.fixed:
-            host = self._branches.hosts[root]
-            self.branches[root] = Position(host, distance - self._groups.find(host)[1])
+    def _find_branches(self) -> dict[int, Position]:
+        branches = {}
+        for root in self.roots[self.fixed :]:
+            group, offset = self._found[root]
+            if group < self.fixed:
+                host = self._branches.hosts[root]
+                branches[root] = Position(host, offset - self._found[host][1])
+        return branches
 
     def _find_times(self) -> dict[int, float]:
-        """Of the roots; a given one that is unknown is taken to be where it suits what is tied to it."""
+        """The times of the roots; an unknown given one gets the time that suits what is tied to it."""
         suiting: dict[int, float] = {}
-        given_times = self._problem.given
-        for node, time in self._knot_times.items():
-            root, offset = self._groups.find(node)
-            suiting.setdefault(root, time - offset)
-        times = dict[int, float]()
-        for root, name in enumerate(self.given):
-            given = self._times[name] if isinstance(name, Point) else given_times[name]
+        for knot, time in self._knot_times.items():
+            root, offset = self._found[knot]
+            if root < self.fixed:
+                suiting.setdefault(root, time - offset)
+        known = self._problem.given
+        found = dict[int, float]()
+        for root, node in enumerate(self.given):
+            given = self._times[node] if isinstance(node, Point) else known[node]
             suits = suiting.get(root)
             if given is None or (suits is not None and abs(given - suits) > TIE_TOLERANCE):
                 given = suits or 0.0
-            times[root] = given
-        return times | {root: self._knot_times[root] for root in self.roots[self.fixed :]}
+            found[root] = given
+        return found | {root: self._knot_times[root] for root in self.roots[self.fixed :]}
+
+    def _find_clusters(self) -> dict[int, int]:
+        clusters = OffsetUnionFind[int]()
+        for each in self._phases:
+            if each.connects:
+                clusters.union(self._found[each.start][0], self._found[each.end][0])
+        return {root: clusters.find(self._found[root][0])[0] for root in self.roots}
 
     # --- edges
 
-    @cached_property
-    def _least_edges(self) -> list[Edge]:
-        return self._edges(least=True)
-
     def _edges(self, *, least: bool) -> list[Edge]:
-        """Of all spans as short as they may be (thesis 7.15), or of those with a preference, and these at nothing."""
-        edges = (self._edge(span, span.least if least else 0.0) for span in self._spans if least or span.connects)
+        """The edges of all phases at their shortest, or of those with preferred durations, and these at nothing."""
+        edges = [self._edge(each, each.least if least else 0.0) for each in self._phases if least or each.connects]
         return sorted((edge for edge in edges if least or edge.start != edge.end), key=self._turn)
 
-    def _edge(self, span: _Span, least: float) -> Edge:
-        (start, one), (end, two) = self.position(span.start), self.position(span.end)
-        return Edge(start, end, one + span.rigid - two + least, one, two)
+    def _edge(self, phases: _Phases, least: float) -> Edge:
+        (start, leaves), (end, enters) = self.positions[phases.start], self.positions[phases.end]
+        return Edge(start, end, leaves + phases.rigid - enters + least, leaves, enters)
 
     def _turn(self, edge: Edge) -> tuple[float, float, Edge]:
-        """By start; of those that start together, but for rounding, one that takes no time goes first."""
-        return round(self.time(edge.start), 9), round(self.time(edge.end), 9), edge
-
-    def _stops(self, given: Collection[int], edges: Sequence[Edge], sign: float) -> Stops:
-        found: defaultdict[int, dict[int, float]] = defaultdict(dict)
-        for _ in self.roots:
-            moved = False
-            for edge in edges:
-                stops = {edge.start: 0.0} if edge.start in given else found[edge.start]
-                for root, distance in stops.items():
-                    old = found[edge.end].get(root)
-                    if root != edge.end and (old is None or sign * (distance + edge.distance - old) > TOLERANCE):
-                        found[edge.end][root], moved = distance + edge.distance, True
-            if not moved:
-                break
-        return {
-            root: [Position(stop, distance + self.leads[root]) for stop, distance in found[root].items()]
-            for root in self.roots
-        }
-
-    def _nearest(self, given: Iterable[int], edges: Sequence[Edge], sign: float) -> dict[int, Position]:
-        ends = set(given)
-        found = {root: Position(root, 0.0) for root in ends}
-        for _ in self.roots:
-            moved = False
-            for edge in edges:
-                if edge.start not in found or edge.end in ends:
-                    continue
-                root, distance = found[edge.start]
-                position = Position(root, distance + edge.distance)
-                old = found.get(edge.end)
-                if old is None or sign * (self.at(position) - self.at(old)) > TOLERANCE:
-                    found[edge.end], moved = position, True
-            if not moved:
-                break
-        return {root: position for root, position in found.items() if root not in ends}
-
-
-def _apart(times: Sequence[float], phase: int) -> bool:
-    """Whether a plan gives a phase some time."""
-    return times[phase + 1] - times[phase] > TIE_TOLERANCE
+        """By start; of edges that start together, but for rounding, one that takes no time goes first."""
+        return round(self.times[edge.start], 9), round(self.times[edge.end], 9), edge
 
 
 def _given(problem: SchedulingProblem) -> dict[Node, int]:
-    """What constraints name that is no point of the problem's behaviors, numbered."""
+    """The nodes that constraints name and that are no points of the problem's behaviors, numbered."""
     own = {item.behavior.id for item in problem.items}
-    named = (node for each in problem.constraints for node in each.nodes)
-    given = (node for node in named if not isinstance(node, Point) or node.behavior not in own)
-    return {node: number for number, node in enumerate(dict.fromkeys((Origin.BLOCK_START, *given)))}
+    nodes: dict[Node, int] = {Origin.BLOCK_START: START}
+    for each in problem.constraints:
+        for node in each.nodes:
+            if not isinstance(node, Point) or node.behavior not in own:
+                nodes.setdefault(node, len(nodes))
+    return nodes
+
+
+def _knots(item: Item, named: Collection[str]) -> list[int]:
+    return [k for k, sync in enumerate(item.timing.points) if k == 0 or sync in named]

@@ -4,8 +4,8 @@ from collections.abc import Mapping, Sequence
 
 from reactive_realizer.pegboard.time_peg import AfterPeg, BeforePeg, Bound, OffsetPeg, RatioPeg, TimeCell, TimePeg
 from reactive_realizer.reactive.graph import Graph
-from reactive_realizer.scheduler.peg_layout.peg_rules import AfterStart, AtPosition, Between, Given, Position, Step
-from reactive_realizer.scheduler.peg_layout.section import Behind, PointRule, Section
+from reactive_realizer.scheduler.peg_layout.peg_rules import AtPosition, Between, Position, Step
+from reactive_realizer.scheduler.peg_layout.section import PointRule, Section
 from reactive_realizer.scheduler.problem import Node, Origin, Point
 
 
@@ -36,90 +36,94 @@ class PegBuilder:
         self._graph = graph
         self._block = block
         self._section = section
+        self._network = section.network
         self._points = points
         self._start = start
         self._given = [self._link(node, pegs) for node in section.network.given]
-        self._own = set(pegs.values())
+        self._outer = set(self._given).difference(pegs.values())
         self._names: dict[tuple[int, float], str] = {}
         for point in points:
             rule = section.points[point]
-            if isinstance(rule, AtPosition):
-                self._names.setdefault(_key(rule.position), self._name_of(point))
+            if isinstance(rule, AtPosition) and (key := _key(rule.positions[0])) not in self._names:
+                self._names[key] = self._name_of(point)
         self.made: list[TimePeg] = []
         self._roots: dict[Step, TimeCell] = {}
         self._shared: dict[tuple[int, float], TimePeg] = {}
 
     def build(self) -> dict[Point, TimePeg]:
-        """The pegs of all points; those of roots are made first, each after those that it hangs on."""
+        """The pegs of all points; those of roots are made first, each after those that it depends on."""
         for step in self._section.rules.steps:
             self._roots[step] = self._bounded(step.root) if step.bounded else self._natural(step.root)
-        pegs: dict[Point, TimePeg] = {}
         made: dict[int, TimePeg] = {}
+        pegs: dict[Point, TimePeg] = {}
         for point in self._points:
             rule = self._section.points[point]
-            if id(rule) not in made:
-                made[id(rule)] = self._peg(rule, point)
-            pegs[point] = made[id(rule)]
+            peg = made.get(id(rule))
+            if peg is None:
+                peg = made[id(rule)] = self._peg(rule, point)
+            pegs[point] = peg
         return pegs
 
     def _peg(self, rule: PointRule, point: Point) -> TimePeg:
-        match rule:
-            case AtPosition(position):
-                return self._at(position)
-            case Between(before, after, ratio):
-                name = self._name_of(point)
-                return self._keep(RatioPeg(self._graph, name, self._at(before), self._at(after), ratio))
-            case Behind(position, distance):
-                return self._keep(OffsetPeg(self._graph, self._name_of(point), self._at(position), distance))
+        if isinstance(rule, AtPosition):
+            return self._at(rule.positions[0])
+        if isinstance(rule, Between):
+            return self._between(self._name_of(point), rule)
+        return self._keep(OffsetPeg(self._graph, self._name_of(point), self._at(rule.positions[0]), rule.distance))
+
+    def _between(self, name: str, rule: Between) -> TimePeg:
+        before, after = rule.positions
+        return self._keep(RatioPeg(self._graph, name, self._at(before), self._at(after), rule.ratio))
 
     def _at(self, position: Position) -> TimePeg:
         """The peg at a position."""
         key = _key(position)
-        if key not in self._shared:
-            link, offset = self._roots[Step(position.root, bounded=True)], self._from_lead(position)
-            if not (isinstance(link, TimePeg) and link in self._own and offset == 0):
-                link = self._offset(self._name(position), link, offset)
-            self._shared[key] = link
-        return self._shared[key]
+        peg = self._shared.get(key)
+        if peg is None:
+            link, offset = self._from_root(position)
+            if offset == 0 and isinstance(link, TimePeg) and link not in self._outer:
+                peg = link
+            else:
+                peg = self._offset(self._name(position), link, offset)
+            self._shared[key] = peg
+        return peg
 
     def _natural(self, root: int) -> TimeCell:
         rule = self._section.rules.rules[root]
-        name = self._name(Position(root, self._section.network.leads[root]))
+        name = self._root_name(root)
         if rule.before or rule.after:
             name = f"{name} as planned"
-        match rule.natural:
-            case Given():
-                return self._given[root]
-            case AfterStart(offset):
-                return self._offset(name, self._start, offset)
-            case AtPosition(position):
-                link = self._roots[Step(position.root, bounded=True)]
-                return self._offset(name, link, self._from_lead(position))
-            case Between(before, after, ratio):
-                return self._keep(RatioPeg(self._graph, name, self._at(before), self._at(after), ratio))
+        natural = rule.natural
+        if isinstance(natural, AtPosition):
+            return self._offset(name, *self._from_root(natural.positions[0]))
+        if isinstance(natural, Between):
+            return self._between(name, natural)
+        return self._given[root] if root < self._network.fixed else self._offset(name, self._start, natural.offset)
 
     def _bounded(self, root: int) -> TimeCell:
         rule, peg = self._section.rules.rules[root], self._roots.get(Step(root, bounded=False))
-        peg = self._natural(root) if peg is None else peg
-        name = self._name(Position(root, self._section.network.leads[root]))
+        if peg is None:
+            return self._natural(root)
+        name = self._root_name(root)
         if rule.before:
             planned = f"{name} as planned" if rule.after else name
-            bounds, floors = self._bounds(rule.before, bounded=False), self._bounds(rule.floors, bounded=True)
+            bounds, floors = self._bounds(rule.before, bounded=False), self._bounds(rule.floors)
             peg = self._keep(BeforePeg(self._graph, planned, peg, bounds, floors))
         if rule.after:
-            bounds, ceilings = self._bounds(rule.after, bounded=True), self._bounds(rule.ceilings, bounded=True)
+            bounds, ceilings = self._bounds(rule.after), self._bounds(rule.ceilings)
             peg = self._keep(AfterPeg(self._graph, name, peg, bounds, ceilings))
         return peg
 
-    def _bounds(self, positions: Sequence[Position], *, bounded: bool) -> list[Bound]:
-        return [(self._roots[Step(position.root, bounded)], self._from_lead(position)) for position in positions]
+    def _bounds(self, positions: Sequence[Position], *, bounded: bool = True) -> list[Bound]:
+        return [self._from_root(position, bounded=bounded) for position in positions]
 
-    def _from_lead(self, position: Position) -> float:
-        """How much later (s) a position is than the first point of its root."""
-        return position.offset - self._section.network.leads[position.root]
+    def _from_root(self, position: Position, *, bounded: bool = True) -> Bound:
+        """The peg of the root of a position, and the offset (s) from it: from the first point of the root."""
+        root, offset = position
+        return self._roots[Step(root, bounded)], offset - self._network.leads[root]
 
     def _offset(self, name: str, link: TimeCell, offset: float) -> TimePeg:
-        """A peg at an offset from another; from the start of the block, if that is all the other hangs on."""
+        """A peg at an offset from another; from the start of the block, if the other depends only on that."""
         if isinstance(link, OffsetPeg) and link.dependencies == (self._start,):
             offset += link.offset
             link = self._start
@@ -132,16 +136,20 @@ class PegBuilder:
         return self._start if isinstance(node, Origin) else node
 
     def _name_of(self, point: Point) -> str:
-        return f"{self._block}:{':'.join(point)}"
+        return f"{self._block}:{point.behavior}:{point.sync}"
+
+    def _root_name(self, root: int) -> str:
+        return self._name(Position(root, self._network.leads[root]))
 
     def _name(self, position: Position) -> str:
         return self._names.get(_key(position)) or f"{self._block}:a planned time"
 
     def _keep(self, peg: TimePeg) -> TimePeg:
         self.made.append(peg)
-        self._own.add(peg)
         return peg
 
 
 def _key(position: Position) -> tuple[int, float]:
-    return position.root, round(position.offset, 9)
+    """Equal for positions that differ by rounding alone."""
+    root, offset = position
+    return root, round(offset, 9)

@@ -1,4 +1,4 @@
-"""How the points of a plan hang on each other."""
+"""From the times of a plan to its pegs."""
 
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
@@ -7,7 +7,7 @@ from reactive_realizer.pegboard.time_peg import TimeCell, TimePeg
 from reactive_realizer.reactive.graph import Graph
 from reactive_realizer.scheduler.peg_layout.peg_builder import PegBuilder
 from reactive_realizer.scheduler.peg_layout.section import Section
-from reactive_realizer.scheduler.problem import Node, Point, SchedulingProblem, Solution, canonical
+from reactive_realizer.scheduler.problem import Node, Point, SchedulingProblem, Solution
 
 
 class BuiltPegs(NamedTuple):
@@ -15,7 +15,7 @@ class BuiltPegs(NamedTuple):
 
     Attributes:
         pegs: of all points, in the order of the problem.
-        unnamed: those that were made beside them, and that they hang on.
+        unnamed: the other ones, which these depend on.
     """
 
     pegs: Mapping[Point, TimePeg]
@@ -23,35 +23,39 @@ class BuiltPegs(NamedTuple):
 
 
 class PegLayout:
-    """From the times of a plan to pegs, the same for every strategy.
+    """What each peg of a plan depends on, derived from its times in the same way for every strategy.
 
-    What is tied stays tied, also when times from outside move; what lies between others stays between them; a cluster
-    that hangs on nothing begins as early as what it comes after lets it; and before/after constraints between points
-    that may come to move against each other stay alive (docs/semantics.md, pegs). Behaviors without preferences hang on
-    the others, and none of these on them. The pegs lie where the plan has its points.
+    Ties hold also when times from outside move; points between others stay between them; a cluster that depends on
+    nothing given begins as early as its `after` constraints allow; and before/after constraints between points that may
+    move against each other become bounds of pegs (docs/semantics.md, pegs). Behaviors without preferences depend on
+    the others, and none of these on them. The pegs have the times of the plan.
 
     Args:
         problem: what was to be timed.
-        solution: the times, and what is not kept.
+        solution: its times and losses.
 
     Attributes:
-        kept: what is left of the problem without what is lost.
+        kept: the problem without what is lost.
     """
 
     def __init__(self, problem: SchedulingProblem, solution: Solution) -> None:
         self.kept = solution.kept_of(problem)
-        self._points = [Point(item.behavior.id, sync) for item in self.kept.items for sync in item.timing.points]
-        kept = canonical(self.kept)
+        self._points = [point for item in self.kept.items for point in item.points]
+        kept = self.kept.canonical
         free = {item.behavior.id for item in kept.items if item.timing.free}
-        followed = kept.only(lambda item: not item.timing.free, lambda each: not each.names(free))
-        following = kept.only(lambda item: item.timing.free, lambda each: each.names(free))
-        self._sections = [Section(part, solution.times) for part in (followed, following) if part.items]
+        parts = [kept]
+        if free:
+            parts = [
+                kept.only(lambda item: not item.timing.free, lambda each: not each.names(free)),
+                kept.only(lambda item: item.timing.free, lambda each: each.names(free)),
+            ]
+        self._sections = [Section(part, solution.times) for part in parts if part.items]
         self._times = solution.times
         self._outer = problem.times
 
     @property
     def times(self) -> dict[Point, float | None]:
-        """The times of the points, s after the start of the block; None for those that wait for an unknown time."""
+        """The times of the points, s after the start of the block; None for those that depend on an unknown time."""
         waiting: set[Node] = {cell for cell, time in self._outer.items() if time is None}
         if waiting:
             for section in self._sections:

@@ -1,4 +1,4 @@
-"""The rules that pegs follow, root by root, before they are made."""
+"""The rules by which pegs follow other pegs, before the pegs are made."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -13,55 +13,31 @@ class Position(NamedTuple):
     offset: float
 
     def moved(self, distance: float) -> "Position":
-        """So much (s) later."""
+        """The position that is later by a distance (s)."""
         return Position(self.root, self.offset + distance)
 
 
-class Given(NamedTuple):
-    """The root has a peg already."""
-
-    @property
-    def positions(self) -> tuple[Position, ...]:
-        """What it hangs on."""
-        return ()
-
-
 class AfterStart(NamedTuple):
-    """A cluster begins with this root, so long (s) after the block: as early as may be (thesis 7.24)."""
+    """At an offset (s) from the start of the block; a given root is there by itself."""
 
     offset: float
-
-    @property
-    def positions(self) -> tuple[Position, ...]:
-        """What it hangs on, besides the start of the block."""
-        return ()
+    positions: tuple[()] = ()
 
 
 class AtPosition(NamedTuple):
-    """At an offset from another root."""
+    """At a position."""
 
-    position: Position
-
-    @property
-    def positions(self) -> tuple[Position, ...]:
-        """What it hangs on."""
-        return (self.position,)
+    positions: tuple[Position]
 
 
 class Between(NamedTuple):
-    """At a fraction of the way between two positions: retimed, everything there stretches alike."""
+    """At a fraction of the way between two positions, so that phases between them stretch alike."""
 
-    before: Position
-    after: Position
+    positions: tuple[Position, Position]
     ratio: float
 
-    @property
-    def positions(self) -> tuple[Position, ...]:
-        """What it hangs on."""
-        return self.before, self.after
 
-
-Natural = Given | AfterStart | AtPosition | Between
+Natural = AfterStart | AtPosition | Between
 
 
 class Step(NamedTuple):
@@ -73,14 +49,14 @@ class Step(NamedTuple):
 
 @dataclass(slots=True)
 class PegRule:
-    """What the peg of a root hangs on.
+    """What the peg of a root depends on.
 
     Attributes:
-        natural: where it is, but for the bounds.
+        natural: its place without bounds.
         before: positions that it may not come after; they count as they naturally are.
-        floors: positions that are not to come after it whatever ``before`` says.
+        floors: positions that do not come after it whatever ``before`` says.
         after: positions that it may not come before.
-        ceilings: positions that are to come after it whatever ``after`` says.
+        ceilings: positions that do not come before it whatever ``after`` says.
     """
 
     natural: Natural
@@ -91,7 +67,7 @@ class PegRule:
 
     @property
     def bounds(self) -> list[Step]:
-        """What its bounds hang on."""
+        """The pegs that its bounds depend on."""
         others = (*self.floors, *self.after, *self.ceilings)
         return [
             *(Step(position.root, bounded=False) for position in self.before),
@@ -100,20 +76,19 @@ class PegRule:
 
 
 def steps(rules: Mapping[int, PegRule]) -> list[Step]:
-    """All pegs, each after those that it hangs on.
+    """All pegs, each after those that it depends on.
 
     Raises:
-        graphlib.CycleError: one hangs on itself; its second argument is a circle of steps, each needed for the next.
+        graphlib.CycleError: one depends on itself; its second argument is a circle of steps, each needed for the next.
     """
-    needs: dict[Step, list[Step]] = {}
+    needs: dict[Step, Sequence[Step]] = {}
     named = {position.root for rule in rules.values() for position in rule.before}
     for root, rule in rules.items():
-        natural, bounded = Step(root, bounded=False), Step(root, bounded=True)
-        positions = [Step(position.root, bounded=True) for position in rule.natural.positions]
+        bounded = Step(root, bounded=True)
+        needs[bounded] = [Step(position.root, bounded=True) for position in rule.natural.positions]
         if rule.before or rule.after or root in named:
-            needs[natural], needs[bounded] = positions, [natural, *rule.bounds]
-        else:
-            needs[bounded] = positions
+            natural = Step(root, bounded=False)
+            needs[natural], needs[bounded] = needs.pop(bounded), [natural, *rule.bounds]
     return _in_turn(needs) or list(TopologicalSorter(needs).static_order())
 
 
@@ -121,7 +96,8 @@ def _in_turn(needs: Mapping[Step, Sequence[Step]]) -> list[Step]:
     """All steps as they come, if each comes after those that it needs, as in almost all plans; else none."""
     made: dict[Step, None] = {}
     for step, needed in needs.items():
-        if not made.keys() >= set(needed):
-            return []
+        for each in needed:
+            if each not in made:
+                return []
         made[step] = None
     return list(made)

@@ -1,4 +1,4 @@
-"""What hangs on what, so that a plan stays one when times from outside move: nothing is solved again."""
+"""The rules of the roots of a network, so that a plan remains valid when times from outside move: nothing is solved."""
 
 from collections import defaultdict, deque
 from collections.abc import Collection, Iterable, Sequence
@@ -6,12 +6,12 @@ from graphlib import CycleError
 from itertools import pairwise
 
 from reactive_realizer.scheduler.offset_union_find import TIE_TOLERANCE
-from reactive_realizer.scheduler.peg_layout.network import START, TOLERANCE, Edge, Network, RootPrecedence
+from reactive_realizer.scheduler.peg_layout import paths
+from reactive_realizer.scheduler.peg_layout.network import START, TOLERANCE, Network, RootPrecedence
 from reactive_realizer.scheduler.peg_layout.peg_rules import (
     AfterStart,
     AtPosition,
     Between,
-    Given,
     Natural,
     PegRule,
     Position,
@@ -23,14 +23,14 @@ from reactive_realizer.scheduler.peg_layout.peg_rules import (
 class RootRules:
     """The rule of every root.
 
-    Between two given ones a root keeps its fraction of the way, behind or before one its distance. A cluster that
-    hangs on nothing given begins with one of its roots, as early as what it comes after allows (thesis 7.24), also
-    after changes. An order between roots that move differently is kept by bounds on one or both of them
+    Between two given roots a root keeps its fraction of the way; behind or before one it keeps its distance. A cluster
+    without a given root begins with one of its roots, as early as its `after` constraints allow (thesis 7.24), also
+    after changes. The order of roots that move differently is kept by bounds on one or both of them
     (docs/semantics.md, pegs).
 
     Attributes:
         rules: by root.
-        steps: in which their pegs can be made.
+        steps: the order in which the pegs can be made.
     """
 
     def __init__(self, network: Network) -> None:
@@ -43,90 +43,97 @@ class RootRules:
         self._begin_clusters()
         bounded = self._keep_orders() | self._keep_between(given)
         if bounded - given:
-            # What these hang on themselves stays as it is, so that nothing comes to hang on itself by nature.
+            # The roots that these depend on keep their rules, so that nothing comes to depend on itself.
             given |= self._with_bases(bounded - given)
-            self._hang_on(given)
+            self._depend_on(given)
         self._stop_bounds(given, outside)
         self.steps = self._order_steps()
 
     # --- clusters
 
     def _first_roots(self) -> dict[int, int]:
-        """The first root of every cluster that hangs on nothing given."""
-        firsts: dict[int, int] = {}
-        for root in self._network.roots[self._network.fixed :]:
-            cluster = self._network.cluster(root)
-            if not self._network.hangs(cluster):
+        """The first root of every cluster without a given root."""
+        network, firsts = self._network, dict[int, int]()
+        for root in network.roots[network.fixed :]:
+            cluster = network.clusters[root]
+            if cluster not in network.anchored:
                 first = firsts.setdefault(cluster, root)
-                if self._network.first_time(root) < self._network.first_time(first):
+                if network.first_times[root] < network.first_times[first]:
                     firsts[cluster] = root
         return firsts
 
     def _begin_clusters(self) -> None:
-        """Such a cluster begins as early as what it comes after lets it, or, where it was planned later, as planned."""
+        """Such a cluster begins as early as its `after` constraints allow, or, if it was planned later, as planned."""
         starts = dict.fromkeys(self._firsts.values(), 0.0)
         for order in self._orders:
-            first = self._firsts.get(self._network.cluster(order.later))
+            first = self._firsts.get(self._network.clusters[order.later])
             if first is not None and not self._within_cluster(order):
-                ahead = self._network.first_time(first) - self._network.time(order.later)
+                ahead = self._network.first_times[first] - self._network.times[order.later]
                 if order.earlier == START:
                     starts[first] = max(starts[first], order.distance + ahead)
                 else:
                     self.rules[first].after.append(Position(order.earlier, order.distance + ahead))
         for first, start in starts.items():
-            planned = self._network.first_time(first)
+            planned = self._network.first_times[first]
             earliest = max([start, *map(self._network.at, self.rules[first].after)])
             self.rules[first].natural = AfterStart(planned if abs(planned - earliest) > TIE_TOLERANCE else start)
 
     def _within_cluster(self, order: RootPrecedence) -> bool:
-        return self._network.cluster(order.later) == self._network.cluster(order.earlier)
+        return self._network.clusters[order.later] == self._network.clusters[order.earlier]
 
-    # --- where roots are by nature
+    # --- natural places
 
     def _naturals(self, given: Collection[int]) -> dict[int, Natural]:
-        network, between = self._network, self._network.between(given)
-        before = network.latest_before(given) if between else {}
-        after = network.earliest_after(given) if between else {}
+        network, several = self._network, self._lead_to_several(given)
+        before = paths.latest_before(network, given) if several else {}
+        after = paths.earliest_after(network, given) if several else {}
         naturals: dict[int, Natural] = {}
         for root in network.roots:
             if root in network.branches:
-                naturals[root] = AtPosition(network.branches[root].moved(network.leads[root]))
+                naturals[root] = AtPosition((network.branches[root].moved(network.leads[root]),))
             elif root in given:
-                naturals[root] = Given() if root < network.fixed else AfterStart(0.0)
+                naturals[root] = AfterStart(0.0)
             elif root in before and root in after and before[root].root != after[root].root:
                 naturals[root] = self._between(root, before[root], after[root])
-        self._hang_rest(naturals)
+        self._place_rest(naturals)
         return naturals
 
-    def _between(self, root: int, before: Position, after: Position) -> Natural:
-        time, start, end = self._network.time(root), self._network.at(before), self._network.at(after)
-        lead = self._network.leads[root]
-        if end - start <= TOLERANCE:
-            return AtPosition(before.moved(lead + time - start))
-        return Between(before.moved(lead), after.moved(lead), (time - start) / (end - start))
+    def _lead_to_several(self, given: Collection[int]) -> bool:
+        """Whether edges lead from or to more than one of some roots."""
+        return len({root for edge in self._network.edges for root in edge[:2] if root in given}) > 1
 
-    def _hang_rest(self, naturals: dict[int, Natural]) -> None:
-        """At a distance from what they are connected with, step by step."""
-        edges: defaultdict[int, list[Edge]] = defaultdict(list)
-        for edge in self._network.edges:
-            edges[edge.start].append(edge)
-            edges[edge.end].append(edge.back)
+    def _between(self, root: int, before: Position, after: Position) -> Natural:
+        network, lead = self._network, self._network.leads[root]
+        time, start, end = network.times[root], network.at(before), network.at(after)
+        if end - start <= TOLERANCE:
+            return AtPosition((before.moved(lead + time - start),))
+        return Between((before.moved(lead), after.moved(lead)), (time - start) / (end - start))
+
+    def _place_rest(self, naturals: dict[int, Natural]) -> None:
+        """At a distance from what edges connect them with, step by step.
+
+        A root depends on the base of the root before it, or, if its edge leaves from a point that stays when the first
+        point of that root has passed, on that root.
+        """
+        network = self._network
+        edges: defaultdict[int, list[tuple[int, float]]] = defaultdict(list)
+        for edge in network.edges:
+            edges[edge.start].append((edge.end, edge.leaves))
+            edges[edge.end].append((edge.start, edge.enters))
         waiting = deque(sorted(naturals))
         while waiting:
             root = waiting.popleft()
-            for edge in edges[root]:
-                if edge.end not in naturals:
-                    naturals[edge.end] = self._hung(edge, naturals[root])
-                    waiting.append(edge.end)
-
-    def _hung(self, edge: Edge, natural: Natural) -> AtPosition:
-        """On what the root before it hangs on, or, where it follows a point that stays when that has begun, on that."""
-        follows = edge.leaves > self._network.leads[edge.start] + TOLERANCE
-        base = natural.position.root if isinstance(natural, AtPosition) and not follows else edge.start
-        return AtPosition(Position(base, self._network.first_time(edge.end) - self._network.time(base)))
+            for other, leaves in edges[root]:
+                if other not in naturals:
+                    natural, base = naturals[root], root
+                    if isinstance(natural, AtPosition) and leaves <= network.leads[root] + TOLERANCE:
+                        base = natural.positions[0].root
+                    distance = network.first_times[other] - network.times[base]
+                    naturals[other] = AtPosition((Position(base, distance),))
+                    waiting.append(other)
 
     def _with_bases(self, roots: Iterable[int]) -> set[int]:
-        """Some roots, and all that these hang on by nature."""
+        """Some roots, and all that their natural places depend on."""
         found, waiting = set[int](), list(roots)
         while waiting:
             root = waiting.pop()
@@ -135,24 +142,25 @@ class RootRules:
                 waiting += [position.root for position in self.rules[root].natural.positions]
         return found
 
-    def _hang_on(self, given: Collection[int]) -> None:
-        """What is held by a bound, others hang on in their turn."""
+    def _depend_on(self, given: Collection[int]) -> None:
+        """Let the natural places of other roots depend on roots that bounds hold."""
         for root, natural in self._naturals(given).items():
             if root not in given:
                 self.rules[root].natural = natural
 
-    # --- orders alive
+    # --- bounds
 
     def _keep_orders(self) -> set[int]:
-        """Bounds for the orders whose two sides may come to move against each other; the roots that got some."""
-        moved = self.following(range(START + 1, self._network.fixed))
+        """Bounds for before/after constraints whose sides may move against each other; the roots that get some."""
+        bounded = set[int]()
+        if not self._orders:
+            return bounded
+        moved, leads = self.following(range(START + 1, self._network.fixed)), self._network.leads
         movable = {root for root in self.rules if root >= self._network.fixed} - self._network.branches.keys()
-        bounded = set()
         for order in self._orders:
             if not moved & {order.later, order.earlier} or self._begins_after(order):
                 continue
-            leads = self._network.leads
-            # The earlier one goes with a later one that comes from outside, hangs there, or cannot go.
+            # The earlier root goes with a later one that comes from outside, depends on it, or cannot go.
             pushed = order.own and order.earlier in moved and order.later not in self._network.branches
             if order.earlier in movable and not pushed:
                 self.rules[order.earlier].before.append(Position(order.later, leads[order.earlier] - order.distance))
@@ -163,37 +171,34 @@ class RootRules:
         return bounded
 
     def _keep_between(self, given: Collection[int]) -> set[int]:
-        """Bounds for the order of what leads from and to several that move against each other; who got some."""
-        if not self._network.between(given):
-            return set()
-        floors, ceilings = self._network.floors(given), self._network.ceilings(given)
-        bounded = set()
+        """Bounds for roots on paths of several given ones that move against each other; the roots that get some."""
+        bounded = set[int]()
+        if not self._lead_to_several(given):
+            return bounded
+        floors, ceilings = paths.floors(self._network, given), paths.ceilings(self._network, given)
         for root, rule in self.rules.items():
-            hung = {position.root for position in rule.natural.positions}
+            bases = {position.root for position in rule.natural.positions}
             if root not in given and (len(floors[root]) > 1 or len(ceilings[root]) > 1):
-                rule.after += [position for position in floors[root] if position.root not in hung]
-                rule.before += [position for position in ceilings[root] if position.root not in hung]
+                rule.after += [position for position in floors[root] if position.root not in bases]
+                rule.before += [position for position in ceilings[root] if position.root not in bases]
                 bounded.add(root)
         return bounded
 
     def _stop_bounds(self, given: Collection[int], outside: Collection[int]) -> None:
-        """What no bound brings a root past: a `before` what leads up to it, an `after` what stays where it is."""
-        rules = self.rules.items()
-        floors = self._network.floors(given) if any(rule.before for _, rule in rules) else {}
-        ceilings = self._network.ceilings(outside) if any(rule.after for _, rule in rules) else {}
-        for root, rule in rules:
-            if rule.before:
-                rule.floors = [*self._block_floor(root), *floors[root]]
-            if rule.after:
-                rule.ceilings = [*ceilings[root]]
-
-    def _block_floor(self, root: int) -> list[Position]:
-        """The start of the block, for what is not before it already (thesis 7.13)."""
-        return [Position(START, 0.0)] if self._network.first_time(root) >= 0 else []
+        """The limits of bounds: a `before` does not pass what leads to the root, an `after` what stays where it is."""
+        held = [(root, rule) for root, rule in self.rules.items() if rule.before]
+        floors = paths.floors(self._network, given) if held else {}
+        for root, rule in held:
+            starts_in_block = self._network.first_times[root] >= 0  # thesis 7.13
+            rule.floors = [*([Position(START, 0.0)] if starts_in_block else []), *floors[root]]
+        held = [(root, rule) for root, rule in self.rules.items() if rule.after]
+        ceilings = paths.ceilings(self._network, outside) if held else {}
+        for root, rule in held:
+            rule.ceilings = [*ceilings[root]]
 
     def _begins_after(self, order: RootPrecedence) -> bool:
-        """Whether an order is kept by the beginning of the cluster."""
-        is_first = self._firsts.get(self._network.cluster(order.later)) == order.later
+        """Whether a before/after constraint is kept by the beginning of the cluster."""
+        is_first = self._firsts.get(self._network.clusters[order.later]) == order.later
         return is_first and not self._within_cluster(order)
 
     def following(self, given: Iterable[int]) -> set[int]:
@@ -203,15 +208,17 @@ class RootRules:
             for position in (*rule.natural.positions, *rule.after):
                 users[position.root].append(root)
         moved = set(given)
-        waiting = sorted(moved)
+        waiting = [*moved]
         while waiting:
             new = set(users[waiting.pop()]) - moved
             moved |= new
-            waiting += sorted(new)
+            waiting += new
         return moved
 
+    # --- circles of bounds
+
     def _order_steps(self) -> list[Step]:
-        """A bound that would make a peg hang on itself is left out; a cluster then begins when it was planned to."""
+        """A bound by which a peg would depend on itself is dropped; a cluster then begins when it was planned to."""
         while True:
             try:
                 return steps(self.rules)
@@ -223,16 +230,16 @@ class RootRules:
         bounds = [(step, needed) for step, needed in pairs if needed in self.rules[step.root].bounds]
         if self._drop_stops(bounds):
             return
-        step, needed = min(bounds, key=lambda pair: (self._network.first_time(pair[0].root), pair))
+        step, needed = min(bounds, key=lambda pair: (self._network.first_times[pair[0].root], pair))
         rule = self.rules[step.root]
         held = rule.after if needed.bounded else rule.before
         held[:] = [position for position in held if position.root != needed.root]
-        within = self._network.cluster(step.root) == self._network.cluster(needed.root)
+        within = self._network.clusters[step.root] == self._network.clusters[needed.root]
         if isinstance(rule.natural, AfterStart) and not within:
-            rule.natural = AfterStart(self._network.first_time(step.root))
+            rule.natural = AfterStart(self._network.first_times[step.root])
 
     def _drop_stops(self, bounds: Sequence[tuple[Step, Step]]) -> bool:
-        """What hangs on a point does not stop it."""
+        """Drop the limits of bounds that depend on the bounded root; whether there were any."""
         found = False
         for step, needed in bounds:
             rule = self.rules[step.root]

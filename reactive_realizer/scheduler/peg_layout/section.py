@@ -2,10 +2,9 @@
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from itertools import zip_longest
-from math import inf
 from typing import NamedTuple
 
-from reactive_realizer.planunit.timing import Phase, PhaseKind
+from reactive_realizer.planunit.timing import PhaseKind
 from reactive_realizer.scheduler.peg_layout.network import TOLERANCE, Network
 from reactive_realizer.scheduler.peg_layout.peg_rules import AtPosition, Between, Position
 from reactive_realizer.scheduler.peg_layout.root_rules import RootRules
@@ -13,22 +12,17 @@ from reactive_realizer.scheduler.problem import Item, Node, Point, SchedulingPro
 
 
 class Behind(NamedTuple):
-    """At a distance (s) from a knot of its own behavior."""
+    """At a distance (s) from a knot of its own behavior, by a peg of its own."""
 
-    knot: Position
+    positions: tuple[Position]
     distance: float
-
-    @property
-    def positions(self) -> tuple[Position, ...]:
-        """What it hangs on."""
-        return (self.knot,)
 
 
 PointRule = AtPosition | Between | Behind
 
 
 class Section:
-    """Behaviors that are laid out together; what their constraints name beside them has pegs already.
+    """Behaviors that are laid out together; the other points that their constraints name have pegs already.
 
     Attributes:
         network: of their points.
@@ -41,9 +35,8 @@ class Section:
         self.rules = RootRules(self.network)
         self.points: dict[Point, PointRule] = {}
         for item in problem.items:
-            points = [Point(item.behavior.id, sync) for sync in item.timing.points]
-            rules = self._rules_of(item, [times[point] for point in points])
-            self.points.update(zip(points, rules, strict=True))
+            rules = self._rules_of(item, [times[point] for point in item.points])
+            self.points.update(zip(item.points, rules, strict=True))
 
     def following(self, given: Collection[Node]) -> set[Node]:
         """The points that move when some given nodes do."""
@@ -54,35 +47,29 @@ class Section:
     def _rules_of(self, item: Item, times: Sequence[float]) -> Iterator[PointRule]:
         """Between knots at a fraction of the way, behind the last at a distance; rigid phases keep theirs."""
         knots = self.network.knots[item.behavior.id]
+        rigid = [phase.kind is PhaseKind.RIGID for phase in item.timing.phases]
         for before, after in zip_longest(knots, list(knots)[1:]):
-            rule: PointRule = AtPosition(self.network.position(knots[before]))
+            start = self.network.positions[knots[before]]
+            end = None if after is None else self.network.positions[knots[after]]
+            last = len(rigid) if after is None else after
+            rule: PointRule = AtPosition((start,))
             yield rule
-            whole = inf if after is None else times[after] - times[before]
-            for k in range(before + 1, len(times) if after is None else after):
-                if times[k] != times[k - 1] and abs(whole) > TOLERANCE:
-                    rule = self._rule(item, times, before, k, after)
+            for k in range(before + 1, last + (after is None)):
+                gone, left = times[k] - times[before], times[last] - times[k]
+                if times[k] != times[k - 1] and (end is None or abs(times[last] - times[before]) > TOLERANCE):
+                    if all(rigid[before:k]):
+                        rule = Behind((start,), gone)
+                    elif end is None:
+                        rule = self._behind(start, gone)
+                    elif all(rigid[k:last]):
+                        rule = Behind((end,), -left)
+                    else:
+                        rule = Between((start, end), gone / (times[last] - times[before]))
                 yield rule
 
-    def _rule(self, item: Item, times: Sequence[float], before: int, k: int, after: int | None) -> PointRule:
-        """Of a point behind a knot, and in front of another one if there is another."""
-        knots, phases = self.network.knots[item.behavior.id], item.timing.phases
-        gone = times[k] - times[before]
-        if _rigid(phases[before:k]):
-            return Behind(self.network.position(knots[before]), gone)
-        if after is None:
-            return self._behind(knots[before], gone)
-        if _rigid(phases[k:after]):
-            return Behind(self.network.position(knots[after]), times[k] - times[after])
-        start, end = (self.network.position(knots[knot]) for knot in (before, after))
-        return Between(start, end, gone / (times[after] - times[before]))
-
-    def _behind(self, knot: int, distance: float) -> PointRule:
-        """At a distance from a knot; it goes on to follow what the knot hangs on when that has passed."""
-        position = self.network.position(knot)
-        if position.root not in self.network.branches or self.network.is_rigid(position.root):
-            return Behind(position, distance)
-        return AtPosition(self.network.branches[position.root].moved(position.offset + distance))
-
-
-def _rigid(phases: Sequence[Phase]) -> bool:
-    return all(phase.kind is PhaseKind.RIGID for phase in phases)
+    def _behind(self, start: Position, distance: float) -> PointRule:
+        """At a distance from a knot; on a branch of one point, it continues to follow the host of that."""
+        host = self.network.branches.get(start.root)
+        if host is None or self.network.is_rigid(start.root):
+            return Behind((start,), distance)
+        return AtPosition((host.moved(start.offset + distance),))
