@@ -92,7 +92,7 @@ class Blocks:
         return BlockEnded(block=name) if self.has_ended(character, name) else NoSuchBlock(block=name)
 
     def affected_by(self, moved: Collection[TimeCell], board: PegBoard) -> list[BMLBlock]:
-        """The blocks alive that have a peg that moved, or whose constraints name one of others that did."""
+        """The blocks alive of which a peg moved, or whose constraints name a peg of others that moved."""
         if not moved:
             return []
         owners = {board.owner(cell) for cell in moved}

@@ -1,4 +1,4 @@
-"""A block of the stream: its pegs, its behaviors, and what it waits for (thesis 7.3.4)."""
+"""A block of the stream: its pegs, its behaviors and its predecessors (thesis 7.3.4)."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable, Sequence
 
-from reactive_realizer.bml.block import BehaviorBlock, DefineProc, Parsed
+from reactive_realizer.bml.block import BehaviorBlock, Parsed
 from reactive_realizer.clock.units import GlobalTime, Time, is_due
 from reactive_realizer.engine.effects import Play
 from reactive_realizer.errors import Fault, PlayingFault, RealizerError, SchedulingFault
@@ -46,10 +46,10 @@ class TooManyRounds(PlayingFault):
 
 
 class BMLScheduler:
-    """Conducts the blocks of all characters (thesis 7.25-7.27).
+    """Schedules the blocks of all characters (thesis 7.25-7.27).
 
     Attributes:
-        blocks: those alive, and what is remembered of those that ended.
+        blocks: those that are alive, and records of those that ended.
         refused: how many blocks were not accepted.
         failed: how many blocks ended FAILED.
     """
@@ -89,7 +89,7 @@ class BMLScheduler:
         self._planning.listen(listener)
 
     def explain(self, character: str, name: str) -> dict[str, object]:
-        """Why each point of a block alive is when it is, as objects that `json.dumps` takes.
+        """The explanation of each point of a block that is alive, as objects that `json.dumps` takes.
 
         Raises:
             RealizerError: "block-ended", "no-such-block".
@@ -102,46 +102,44 @@ class BMLScheduler:
     # --- blocks and procedures that enter
 
     def accept(self, parsed: Parsed, now: GlobalTime) -> None:
-        """Take in what was read: a block, a procedure, or nothing but problems."""
+        """Accept a block or a procedure, or refuse it, and report the problems of its document."""
         character = (parsed.block and parsed.block.character) or self._routing.characters[0]
         for problem in parsed.problems:
             self._feedback.warn(character, problem.id, problem.fault)
-        try:
-            if parsed.procedure is not None:
-                self._define(parsed.procedure)
-            elif parsed.block is not None:
-                self._admit(parsed.block, parsed.failed, character, now)
-            else:
-                self.refused += 1
-        except RealizerError as refusal:
+        fault = None
+        if parsed.procedure is not None:
+            fault = self.admission().admit_procedure(parsed.procedure)
+            if fault is None:
+                self._procedures.define(parsed.procedure)
+        elif parsed.block is not None:
+            fault = self._admit(parsed.block, parsed.failed, character, now)
+        written = parsed.block or parsed.procedure
+        if fault is not None or written is None:
             self.refused += 1
-            self._warn_refused(character, parsed.block or parsed.procedure, refusal.fault)
+        if fault is not None and written is not None:
+            self._feedback.warn(character, written.id, fault, written.location)
 
     def admission(self, defined: Iterable[str] = ()) -> Admission:
-        """Admission control for blocks and procedures that would enter now; nothing changes here.
-
-        Args:
-            defined: ids of procedures that enter before.
-        """
+        """Admission control for further blocks and procedures, after those with the ids ``defined``."""
         alive = (block.key for block in self.blocks.alive)
         return Admission(self._routing.characters, self._limits, alive, (*self._procedures.names, *defined))
 
     # --- a tick
 
     def advance(self, now: GlobalTime) -> bool:
-        """Plan what is prepared, then end and start what is due; whether anything started or ended."""
+        """Plan prepared blocks, then end and start those that are due; whether anything started or ended."""
         for block, plan in self._planner.plans(now):
             self._lifecycle.plan(block, plan, now)
         ended = self._lifecycle.end_due(now)
         return self._lifecycle.start_due(now) or ended
 
     def next_due(self, after: GlobalTime) -> Time:
-        """The earliest known time after ``after`` at which something is to happen; None where there is none."""
+        """The earliest known time after ``after`` at which a block has something to do; None if there is none."""
         times = (time for block in self.blocks.alive for time in block.times_ahead)
         return min((time for time in times if not is_due(time, after)), default=None)
 
     def apply(self, plays: Sequence[Play], now: GlobalTime) -> bool:
-        """Apply what the engines played, in their order; whether anything changed."""
+        """Apply the effects of engines, in their order; whether anything changed."""
         for play in plays:
             for dropped in play.dropped:
                 self._lifecycle.drop_behavior(dropped.unit, dropped.fault, now)
@@ -151,7 +149,7 @@ class BMLScheduler:
         return asked or any(play.dropped or play.reached for play in plays)
 
     def fail_restless(self, rounds: int, now: GlobalTime) -> None:
-        """Fail the blocks that keep a tick from coming to rest: those that started in it and still play."""
+        """Fail the blocks that keep a tick from settling: those that started in it and still play."""
         for block in [block for block in self.blocks.alive if block.state.plays and block.started_at == now]:
             self._feedback.warn(block.key.character, block.key.block, TooManyRounds(limit=rounds))
             self._lifecycle.fail(block, now)
@@ -167,11 +165,11 @@ class BMLScheduler:
     # --- the end of a session
 
     def stuck(self, now: GlobalTime) -> bool:
-        """Whether, after the tick at ``now``, no block alive can move unless something new comes in."""
+        """Whether, after the tick at ``now``, no block can progress without further input."""
         return not any(block.can_progress(now) for block in self.blocks.alive)
 
     def warn_stuck(self) -> None:
-        """Warn of every block alive, and name what it waits for."""
+        """Warn of every block that is alive, and of the points that it waits for."""
         for block in self.blocks.alive:
             fault = NeverMoves(waits=", ".join(block.awaited))
             self._feedback.warn(block.key.character, block.key.block, fault)
@@ -179,38 +177,18 @@ class BMLScheduler:
     def _count(self, ended: BMLBlock) -> None:
         self.failed += ended.state is BlockState.FAILED
 
-    # --- accepting
-
-    def _define(self, definition: DefineProc) -> None:
-        """Keep a procedure.
-
-        Raises:
-            RealizerError: why it is refused.
-        """
-        fault = self.admission().admit_procedure(definition)
-        if fault is not None:
-            raise RealizerError(fault)
-        self._procedures.define(definition)
-
-    def _admit(self, written: BehaviorBlock, failed: bool, character: str, now: GlobalTime) -> None:
-        """Begin the life of a block.
-
-        Raises:
-            RealizerError: why it is refused.
-        """
+    def _admit(self, written: BehaviorBlock, failed: bool, character: str, now: GlobalTime) -> Fault | None:
+        """Begin the life of a block; the fault if it is refused."""
         fault = self.admission().admit(written)
         if fault is not None:
-            raise RealizerError(fault)
+            return fault
         composition = BlockComposition(self.blocks, character, self._procedures.expand(written))
         fault = composition.fault()
         if fault is None:
             self._lifecycle.accept(composition, failed, now)
         elif self.blocks.get(BlockKey(character, written.id)) is not None:
-            raise RealizerError(fault)
+            return fault
         else:
-            self._warn_refused(character, written, fault)
-            self._lifecycle.accept_failed(composition, now)
-
-    def _warn_refused(self, character: str, written: BehaviorBlock | DefineProc | None, fault: Fault) -> None:
-        if written is not None:
             self._feedback.warn(character, written.id, fault, written.location)
+            self._lifecycle.accept_failed(composition, now)
+        return None

@@ -111,7 +111,7 @@ class EngineRouting:
             engine.remove(unit)
 
     def reset(self, character: str, time: GlobalTime) -> None:
-        """Have a character's engines forget what behaviors have left behind."""
+        """Have a character's engines remove the lasting effects of behaviors."""
         self._changed.update(self._engines[character])
         for engine in self._engines[character]:
             engine.reset(time)

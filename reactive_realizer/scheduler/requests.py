@@ -61,7 +61,7 @@ class NoSuchParameter(TargetFault):
 
 
 class EngineRequests:
-    """Carries out requests, or warns the behavior that made one."""
+    """Carries out requests, or warns of the behaviors that made them."""
 
     def __init__(self, blocks: Blocks, lifecycle: BlockLifecycle, feedback: BlockFeedback) -> None:
         self._blocks = blocks
@@ -79,7 +79,7 @@ class EngineRequests:
             elif isinstance(each, Warn):
                 self._feedback.warn_behavior(each.unit, each.fault)
         timed = [each for each in requests if not isinstance(each, SetParameter | Warn)]
-        for request in sorted(timed, key=lambda each: _time(each, now)):
+        for request in sorted(timed, key=lambda each: now if isinstance(each, BindParameter) else each.time):
             self._carry_out(request, now)
         return bool(timed)
 
@@ -105,7 +105,7 @@ class EngineRequests:
                 self._lifecycle.finish_behavior(unit, time)
 
     def _reject(self, unit: PlanUnit, fault: Fault, now: GlobalTime) -> None:
-        """Warn the behavior whose request cannot be carried out; it is dropped unless it plays."""
+        """Warn of a request that cannot be carried out; its behavior is dropped unless it plays."""
         if unit.begun:
             self._feedback.warn_behavior(unit, fault)
         else:
@@ -113,8 +113,11 @@ class EngineRequests:
 
     def _interrupt(self, request: InterruptBlock, character: str, now: GlobalTime) -> None:
         block = self._blocks.find(character, request.target)
-        if block is None:
-            self._interrupt_missing(request, character, now)
+        if block is None:  # nothing happens, and a block that never existed gives a warning
+            self._lifecycle.begin_behavior(request.unit, now)
+            missing = self._blocks.missing(character, request.target)
+            if isinstance(missing, NoSuchBlock):
+                self._feedback.warn_behavior(request.unit, missing)
             return
         names = {behavior.id for behavior in block.description.behaviors}
         spared = names.intersection(request.exclude) | (names.difference(request.include) if request.include else set())
@@ -128,13 +131,6 @@ class EngineRequests:
         if unknown:
             self._feedback.warn_behavior(request.unit, fault)
         self._lifecycle.interrupt(block, request.time, spared, gently=request.gently)
-
-    def _interrupt_missing(self, request: InterruptBlock, character: str, now: GlobalTime) -> None:
-        """Interrupt a block that is not alive: nothing happens, and a block that never existed gives a warning."""
-        self._lifecycle.begin_behavior(request.unit, now)
-        missing = self._blocks.missing(character, request.target)
-        if isinstance(missing, NoSuchBlock):
-            self._feedback.warn_behavior(request.unit, missing)
 
     def _bind(self, request: BindParameter, character: str) -> None:
         target = self._target(request, character)
@@ -157,7 +153,3 @@ class EngineRequests:
             raise RealizerError(NoSuchBehavior(block=request.block, behavior=request.behavior))
         kind = NotPlanned if block.state is BlockState.IN_PREP else BehaviorEnded
         raise RealizerError(kind(block=request.block, behavior=request.behavior))
-
-
-def _time(request: _Timed, now: GlobalTime) -> GlobalTime:
-    return now if isinstance(request, BindParameter) else request.time

@@ -45,7 +45,7 @@ class UnitLifecycle:
         return _fire(unit, now)
 
     def cut(self, unit: PlanUnit, now: GlobalTime) -> bool:
-        """End a planned behavior now, after what is due; whether anything of it was cut."""
+        """End a planned behavior now, after its due points have fired; whether anything of it was cut."""
         if unit.due(now):
             unit.begin()
         if unit.state is not UnitState.IN_EXEC:

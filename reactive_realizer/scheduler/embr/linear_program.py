@@ -29,7 +29,7 @@ _FAR = 1e30
 """daqp's infinity."""
 
 _EQUAL = 5
-"""daqp's sense of a row whose bounds are one."""
+"""daqp's sense of an equality."""
 
 
 Array = NDArray[np.float64]
