@@ -192,8 +192,6 @@ class BlockLifecycle:
                 self._units.schedule_cut(unit, last)
         self._cut(block, [unit for unit in chosen if ends.get(unit, time) <= time], time)
 
-    # --- transitions
-
     def _new_block(
         self, composition: BlockComposition, predecessors: Iterable[Predecessor], now: GlobalTime
     ) -> BMLBlock:

@@ -127,12 +127,11 @@ class EngineRouting:
 
     def _routed(self, character: str, behavior: Behavior) -> RoutedBehavior | None:
         """A behavior with the first engine of a character that supports its best form."""
-        forms = behavior.forms
-        engines = (engine for form in forms for engine in self._engines[character] if engine.supports(form))
-        engine = next(engines, None)
-        if engine is None:
-            return None
-        return RoutedBehavior(behavior, engine, [form for form in forms if engine.supports(form)])
+        for form in (forms := behavior.forms):
+            for engine in self._engines[character]:
+                if engine.supports(form):
+                    return RoutedBehavior(behavior, engine, [other for other in forms if engine.supports(other)])
+        return None
 
     def _take_changed(self, engine: Engine) -> bool:
         changed = engine in self._changed

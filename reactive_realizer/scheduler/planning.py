@@ -184,10 +184,10 @@ class Planning:
         for unit in plan.units:
             unit.points = []
         for point, peg in pegs.items():
-            if point in reasons:
-                peg.why = "; ".join(reasons[point])
-            unit = units[point.behavior]
-            unit.points.append(SyncPoint(point.sync, peg, point in reasons))
+            unit, texts = units[point.behavior], reasons.get(point)
+            if texts:
+                peg.why = "; ".join(texts)
+            unit.points.append(SyncPoint(point.sync, peg, tied=bool(texts)))
             known[unit.key(point.sync)] = peg
         for unit in plan.units:
             unit.points += [SyncPoint(sync, peg) for sync, peg in unit.open.items()]

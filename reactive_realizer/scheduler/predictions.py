@@ -7,7 +7,6 @@ from reactive_realizer.feedback.feedback_manager import FeedbackManager
 from reactive_realizer.feedback.messages import BehaviorPrediction, PredictionFeedback
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
 from reactive_realizer.reactive.graph import Commit
 from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.scheduler.problem import Point
@@ -54,7 +53,7 @@ class Predictions:
         if block in self._requested or _moved(self._published.get(block, {}), times):
             self._requested.discard(block)
             self._published[block] = times
-            self._feedback.add(_prediction(block, now))
+            self._feedback.add(_prediction(block, times, now))
 
     def _note(self, commit: Commit) -> None:
         self._moved.update(self._board.owner(change.cell) for change in commit.changes)
@@ -70,27 +69,25 @@ def _moved(old: _Times, new: _Times) -> bool:
     )
 
 
-def _prediction(block: BMLBlock, now: GlobalTime) -> PredictionFeedback:
+def _prediction(block: BMLBlock, times: _Times, now: GlobalTime) -> PredictionFeedback:
     """The known times of a block; if its start is unknown, the times that were planned, as if it started now."""
     start = now if block.start.value is None else block.start.value
-    known = {unit: _known_times(block, unit, start) for unit in block.units}
+    if block.start.value is None:
+        times = {key: _planned(block, key, start) if time is None else time for key, time in times.items()}
+    known = {
+        unit: {p.id: time for p in unit.points if (time := times[unit.behavior.id, p.id]) is not None}
+        for unit in block.units
+    }
     end = block.end.value
     if end is None:
-        end = max([start, *(time for times in known.values() for time in times.values())])
+        end = max([start, *(time for own in known.values() for time in own.values())])
     behaviors = tuple(
-        BehaviorPrediction(unit.behavior, {sync: BlockTime(time - start) for sync, time in times.items()})
-        for unit, times in known.items()
+        BehaviorPrediction(unit.behavior, {sync: BlockTime(time - start) for sync, time in own.items()})
+        for unit, own in known.items()
     )
     return PredictionFeedback(*block.key, start, end, block.state.value, behaviors)
 
 
-def _known_times(block: BMLBlock, unit: PlanUnit, start: GlobalTime) -> dict[str, GlobalTime]:
-    times = ((point.id, _time(block, unit, point, start)) for point in unit.points)
-    return {sync: time for sync, time in times if time is not None}
-
-
-def _time(block: BMLBlock, unit: PlanUnit, point: SyncPoint, start: GlobalTime) -> Time:
-    if point.peg.value is not None or block.start.value is not None:
-        return point.peg.value
-    planned = block.planned_times.get(Point(unit.behavior.id, point.id))
+def _planned(block: BMLBlock, key: tuple[str, str], start: GlobalTime) -> Time:
+    planned = block.planned_times.get(Point(*key))
     return None if planned is None else GlobalTime(start + planned)
