@@ -1,9 +1,9 @@
-"""Behaviors without preferences, and what others say of their points.
+"""Constraints on points of behaviors without preferences.
 
-Such a behavior is timed after all others and moves none of them (docs/semantics.md, scheduling), so what hangs on one
-of its points would be timed before that is. But a point is one time: what is tied to it is tied together. And where
-nothing but such a behavior says when one of its points is, who hangs on it has to wait for it: then it is timed with
-the others.
+Such a behavior is timed after all others and moves none of them (docs/semantics.md, scheduling), so behaviors that are
+tied to one of its points would be timed before that point. But all that is tied to a point is tied together, so the
+constraints can name the other points instead. If only such a behavior determines one of its points, and others depend
+on that point, it is timed with them.
 """
 
 from collections.abc import Iterable, Sequence
@@ -17,7 +17,7 @@ C = TypeVar("C", Tie, Precedence)
 
 
 class ProblemWithoutFreePoints(NamedTuple):
-    """A block in which nothing hangs on a behavior that is timed last."""
+    """A block in which nothing depends on a behavior that is timed last."""
 
     items: tuple[Item, ...]
     ties: list[Tie]
@@ -27,15 +27,16 @@ class ProblemWithoutFreePoints(NamedTuple):
 def through_free(items: Sequence[Item], ties: Iterable[Tie], orders: Iterable[Precedence]) -> ProblemWithoutFreePoints:
     """The same block, as behaviors with preferences see it.
 
-    Of the constraints on a point of a behavior without preferences, all but one `at` name what that ties it to instead.
-    If others hang on such a behavior even so, it takes part, with the duration that it has where nothing says another.
+    Of the constraints on a point of a behavior without preferences, all but one `at` are moved to the node to which
+    that one ties it. If others still depend on such a behavior, it gets preferences: the durations that it has without
+    constraints.
 
     Args:
         items: behaviors of a block.
         ties: its `at` constraints.
         orders: its before/after constraints.
     """
-    free = {Point(item.behavior.id, sync) for item in items if item.timing.free for sync in item.timing.points}
+    free = {point for item in items if item.timing.free for point in item.points}
     tied, ordered = list(ties), list(orders)
     for point in sorted(free):
         tied, ordered = _eliminated(point, tied, ordered, free)
@@ -60,14 +61,14 @@ def _eliminated(
 
 
 def _other(tie: Tie, point: Point) -> tuple[Node, float]:
-    """What a tie ties a point to, and how much later (s) the point is."""
+    """The other node of a tie, and how much later (s) the point is."""
     return (tie.right, tie.offset) if tie.left == point else (tie.left, -tie.offset)
 
 
 def _moved(constraint: C, point: Point, node: Node, later: float) -> C:
-    """A constraint on a point as one on another node, which the point comes ``later`` than.
+    """A constraint on a point, moved to another node, than which the point is later by ``later`` (s).
 
-    It stays as it is where it would be about no two nodes, or about no point.
+    It stays as it is if it would then name only one node, or no point of the block.
     """
     one, other = constraint.nodes
     left, right = (node if each == point else each for each in (one, other))
@@ -80,7 +81,7 @@ def _moved(constraint: C, point: Point, node: Node, later: float) -> C:
 
 
 def _awaits(constraint: Tie | Precedence, point: Point) -> bool:
-    """Whether another behavior hangs on a point by a constraint; a behavior that names others follows these."""
+    """Whether another behavior depends on a point by a constraint; a behavior depends on those that it names."""
     if isinstance(constraint, Precedence):
         waiting = [constraint.later] if constraint.earlier == point else []
     else:
@@ -90,7 +91,7 @@ def _awaits(constraint: Tie | Precedence, point: Point) -> bool:
 
 
 def _taking_part(item: Item) -> Item:
-    """The same behavior with preferences, if it has any: what only fills the time between its ends has none."""
+    """The same behavior with preferences, unless its preferred duration is 0."""
     timing = item.timing
     if timing.offsets[-1] == 0 and not timing.instant:
         return item
@@ -98,5 +99,5 @@ def _taking_part(item: Item) -> Item:
 
 
 def _preferred(phase: Phase) -> Phase:
-    """What likes to take no time takes none."""
+    """The same phase with a preference; one without duration takes no time."""
     return replace(phase, kind=PhaseKind.ELASTIC if phase.duration else PhaseKind.RIGID)

@@ -1,4 +1,4 @@
-"""What could not be kept, each with its place in the document."""
+"""The losses of a plan, each with its place in the document."""
 
 from dataclasses import replace
 
@@ -8,29 +8,22 @@ from reactive_realizer.scheduler.problem import Loss, Point, Precedence, Schedul
 
 
 def lost_behavior(behavior: Behavior, fault: Fault, *, needed: bool = False) -> Loss:
-    """A behavior that is dropped.
-
-    Args:
-        behavior: which.
-        fault: why.
-        needed: whether something required goes with it.
-    """
+    """The loss of a behavior; ``needed`` says whether a required constraint is lost with it."""
     located = fault.located(behavior.location.line, behavior.location.column)
     return Loss(behavior.id, located, dropped=True, required=behavior.required or needed)
 
 
 def lost_constraint(constraint: Tie | Precedence, fault: Fault) -> Loss:
-    """A constraint that is not kept; it is told of the behavior that names it, or of its block."""
+    """The loss of a constraint, reported for the behavior that states it, or for its block."""
     owner = constraint.owner if isinstance(constraint, Tie) else None
     located = fault.located(constraint.location.line, constraint.location.column)
     return Loss(owner, located, dropped=False, required=constraint.required, constraint=constraint)
 
 
 def with_required(loss: Loss, problem: SchedulingProblem) -> Loss:
-    """The same; the loss of a behavior fails the block if a required constraint names it, for that is lost with it."""
+    """The same loss; if a behavior is lost that a required constraint names, the block fails."""
     if not loss.dropped:
         return loss
-    constraints: list[Tie | Precedence] = [*problem.ties, *problem.orders]
-    required = (node for each in constraints if each.required for node in each.nodes)
+    required = (node for each in problem.constraints if each.required for node in each.nodes)
     named = {node.behavior for node in required if isinstance(node, Point)}
     return replace(loss, required=loss.required or loss.behavior in named)

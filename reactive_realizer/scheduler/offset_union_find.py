@@ -22,8 +22,7 @@ class OffsetUnionFind(Generic[N]):
         for node in fixed:
             self.add(node)
         self._fixed = len(self._ranks)
-        self._parents: dict[N, N] = {}
-        self._offsets: dict[N, float] = {}
+        self._parents: dict[N, tuple[N, float]] = {}  # with the offset from it
 
     def add(self, node: N) -> None:
         """Add a node in a group of its own, unless it is there."""
@@ -32,27 +31,27 @@ class OffsetUnionFind(Generic[N]):
     def find(self, node: N) -> tuple[N, float]:
         """The root of the group of a node, and the offset (s) of the node from the root."""
         parents = self._parents
-        parent = parents.get(node)
-        if parent is None:
+        found = parents.get(node)
+        if found is None:
             return node, 0.0
-        if parent not in parents:  # as almost always
-            return parent, self._offsets[node]
+        if found[0] not in parents:  # as almost always
+            return found
         path = []
         while node in parents:
             path.append(node)
-            node = parents[node]
+            node = parents[node][0]
         offset = 0.0
         for below in reversed(path):
-            offset += self._offsets[below]
-            parents[below], self._offsets[below] = node, offset
+            offset += parents[below][1]
+            parents[below] = node, offset
         return node, offset
 
     def union(self, left: N, right: N, offset: float = 0.0) -> float | None:
         """Make ``left = right + offset``.
 
         Returns:
-            None if that joined two groups. Otherwise nothing changes, and it is by how much (s) the offset between the
-            two differs from this one; infinite where they hang on different fixed nodes.
+            None if that joined two groups. Otherwise nothing changes, and it is the difference (s) between this offset
+            and the one that is known; infinite if the two belong to different fixed nodes.
         """
         (one, to_left), (two, to_right) = self.find(left), self.find(right)
         gap = to_right + offset - to_left
@@ -63,5 +62,5 @@ class OffsetUnionFind(Generic[N]):
         if max(left_rank, right_rank) < self._fixed:
             return inf
         child, root, step = (one, two, gap) if right_rank < left_rank else (two, one, -gap)
-        self._parents[child], self._offsets[child] = root, step
+        self._parents[child] = root, step
         return None

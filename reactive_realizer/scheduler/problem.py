@@ -14,7 +14,7 @@ from reactive_realizer.pegboard.time_peg import TimeCell
 from reactive_realizer.planunit.timing import Timing
 
 LEAST = 1.6e-5
-"""What a phase that is to last has at least, s: enough to be played (`SHORTEST`), whatever rounding takes."""
+"""The shortest duration of a phase that prefers to last, s: more than `SHORTEST` after rounding."""
 
 
 class Point(NamedTuple):
@@ -31,7 +31,7 @@ class Origin(Enum):
 
 
 Node = Point | Origin | TimeCell
-"""A point of the block, its start, or a peg of the outside: of another block or an anticipator."""
+"""A point of the block, its start, or a peg from outside: of another block or an anticipator."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,9 +55,9 @@ class Tie:
     """An `at` constraint: ``left = right + offset``.
 
     Attributes:
-        owner: id of the behavior that names it, None for a constraint of the block.
-        location: of what names it.
-        text: as a person would write it.
+        owner: id of the behavior that states it, None for a constraint of the block.
+        location: in the document.
+        text: for messages.
         required: whether the block fails without it.
     """
 
@@ -71,7 +71,7 @@ class Tie:
 
     @property
     def nodes(self) -> tuple[Node, Node]:
-        """What it ties."""
+        """The two nodes."""
         return self.left, self.right
 
     def names(self, behaviors: Container[str]) -> bool:
@@ -79,7 +79,7 @@ class Tie:
         return _any_of(behaviors, self.nodes)
 
     def renamed(self, names: Mapping[TimeCell, TimeCell]) -> "Tie":
-        """The same tie with other pegs of the outside."""
+        """The same tie with other pegs from outside."""
         return replace(self, left=_renamed(self.left, names), right=_renamed(self.right, names))
 
 
@@ -89,8 +89,8 @@ class Precedence:
 
     Attributes:
         name: the same in any order of the block's elements; among equal ones the last is given up first.
-        location: of what names it.
-        text: as a person would write it.
+        location: in the document.
+        text: for messages.
         required: whether the block fails without it.
     """
 
@@ -104,7 +104,7 @@ class Precedence:
 
     @property
     def nodes(self) -> tuple[Node, Node]:
-        """What it orders."""
+        """The two nodes, the later one first."""
         return self.later, self.earlier
 
     def names(self, behaviors: Container[str]) -> bool:
@@ -112,7 +112,7 @@ class Precedence:
         return _any_of(behaviors, self.nodes)
 
     def renamed(self, names: Mapping[TimeCell, TimeCell]) -> "Precedence":
-        """The same order with other pegs of the outside."""
+        """The same constraint with other pegs from outside."""
         return replace(self, later=_renamed(self.later, names), earlier=_renamed(self.earlier, names))
 
 
@@ -131,7 +131,7 @@ class SchedulingProblem:
     Attributes:
         items: its behaviors.
         ties: its `at` constraints.
-        times: of the outer pegs, s after the predicted block start, None while unknown.
+        times: of the pegs from outside, s after the predicted block start, None while unknown.
         orders: its before/after constraints.
         placed: times of points of behaviors that were timed before; likewise.
     """
@@ -144,7 +144,7 @@ class SchedulingProblem:
 
     @property
     def given(self) -> dict[Node, float | None]:
-        """The times of all that constraints may name and that is not to be timed; the start of the block is first."""
+        """The times of the nodes that are not to be timed; the start of the block is first."""
         given: dict[Node, float | None] = {Origin.BLOCK_START: 0.0}
         for times in (self.times, self.placed):
             given.update(times.items())
@@ -152,7 +152,7 @@ class SchedulingProblem:
 
     @property
     def constraints(self) -> tuple[Tie | Precedence, ...]:
-        """All of them."""
+        """The ties, then the before/after constraints."""
         return *self.ties, *self.orders
 
     @cached_property
@@ -180,7 +180,7 @@ class SchedulingProblem:
     def only(
         self, items: Callable[[Item], bool], constraints: Callable[[Tie | Precedence], bool]
     ) -> "SchedulingProblem":
-        """Some behaviors and constraints of it."""
+        """The problem with some of its behaviors and constraints."""
         return replace(
             self,
             items=tuple(filter(items, self.items)),
@@ -191,13 +191,13 @@ class SchedulingProblem:
 
 @dataclass(frozen=True, slots=True)
 class Loss:
-    """A behavior (or, with ``behavior`` None, a constraint of the block) that could not be kept, and why.
+    """A behavior or constraint that a plan had to drop, with the reason.
 
     Attributes:
-        behavior: its id.
-        dropped: whether the behavior itself is lost, or only a constraint of it.
-        required: whether the block fails by it.
-        constraint: the one that is not kept, if it is one.
+        behavior: id of the behavior, None for a constraint of the block.
+        dropped: whether the behavior itself is lost, not only a constraint of it.
+        required: whether the block fails because of it.
+        constraint: the one that is lost, if it is one.
     """
 
     behavior: str | None
@@ -212,9 +212,9 @@ class Solution:
     """A plan: a time for each point of the behaviors that are kept.
 
     Attributes:
-        times: s after the predicted start of the block. What hangs on an unknown time from outside has the times that
-            it would have if that were known to be where it suits the plan.
-        losses: what is not kept.
+        times: s after the predicted start of the block. Points that depend on an unknown time from outside have the
+            times that suit the plan best.
+        losses: the behaviors and constraints that are not kept.
     """
 
     times: Mapping[Point, float]
@@ -226,7 +226,7 @@ class Solution:
         return {point.behavior for point in self.times}
 
     def kept_of(self, problem: SchedulingProblem) -> SchedulingProblem:
-        """What is left of its problem without what is lost, and the constraints on that."""
+        """Its problem without the losses, and without the constraints on lost behaviors."""
         behaviors, lost = self.behaviors, {id(loss.constraint) for loss in self.losses}
         gone = {item.behavior.id for item in problem.items} - behaviors
         if not gone and not lost:

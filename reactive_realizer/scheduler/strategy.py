@@ -11,7 +11,7 @@ from reactive_realizer.scheduler.problem import Loss, Point, SchedulingProblem, 
 
 
 class SchedulingStrategy(Protocol):
-    """Times a block; it knows points, constraints and preferences, and nothing of modalities and pegs.
+    """Finds times for the points of a block; it knows nothing about modalities and pegs.
 
     Attributes:
         name: by which users choose it.
@@ -20,12 +20,12 @@ class SchedulingStrategy(Protocol):
     name: str
 
     def solve(self, problem: SchedulingProblem) -> Solution:
-        """A plan for as much of the problem as can be kept."""
+        """A plan, and the losses of what it cannot keep."""
         ...
 
 
 def solve(strategy: SchedulingStrategy, problem: SchedulingProblem) -> Solution:
-    """A plan by a strategy: first the behaviors with preferences, then those without, for which the others are given.
+    """A plan by a strategy: first the behaviors with preferences, then those without, given the times of the others.
 
     So behaviors without preferences move no others (docs/semantics.md, scheduling).
     """
@@ -42,7 +42,7 @@ def solve(strategy: SchedulingStrategy, problem: SchedulingProblem) -> Solution:
 
 
 def _orphans(problem: SchedulingProblem, free: Container[str], lost: Collection[str]) -> Iterator[Loss]:
-    """Required constraints between a behavior without preferences and one that is lost are lost with that."""
+    """The losses of required constraints between a behavior without preferences and one that is lost."""
     for each in problem.constraints:
         if each.required and each.names(free) and each.names(lost):
             named = {node.behavior for node in each.nodes if isinstance(node, Point)}.intersection(lost)

@@ -1,4 +1,4 @@
-"""The problem of EMBR's strategy: behaviors cut into spans at the points to which constraints refer."""
+"""The problem of EMBR's strategy: behaviors cut into segments at the points to which constraints refer."""
 
 import itertools
 from collections.abc import Iterable, Mapping, Sequence
@@ -8,7 +8,7 @@ from reactive_realizer.planunit.timing import PhaseKind
 from reactive_realizer.scheduler.problem import Item, Node, Point, Precedence, Tie
 
 
-class Span(NamedTuple):
+class Segment(NamedTuple):
     """The part of a behavior between two knots, which is stretched as a whole: its phases keep their proportions.
 
     Attributes:
@@ -33,7 +33,7 @@ class EmbrProblem:
         given: times (s after the start of the block, None while unknown) of the nodes outside of these behaviors.
         knots: the indices of the first and last point of each behavior, of points that constraints name, and of the
             limits of rigid parts.
-        spans: of all behaviors.
+        segments: of all behaviors.
     """
 
     def __init__(
@@ -44,7 +44,7 @@ class EmbrProblem:
         self.given = given
         named = {node for each in constraints for node in each.nodes}
         self.knots = {id_: _knots(item, named) for id_, item in self.items.items()}
-        self.spans = [span for id_, item in self.items.items() for span in _spans(item, self.knots[id_])]
+        self.segments = [segment for id_, item in self.items.items() for segment in _segments(item, self.knots[id_])]
 
     def known(self, node: Node) -> float | None:
         """The time (s) of a node that is given and known."""
@@ -69,10 +69,10 @@ def _knots(item: Item, named: Iterable[Node]) -> list[int]:
     return sorted(own | {0, len(rigid)})
 
 
-def _spans(item: Item, knots: Sequence[int]) -> list[Span]:
+def _segments(item: Item, knots: Sequence[int]) -> list[Segment]:
     points = [Point(item.behavior.id, sync) for sync in item.timing.points]
     offsets, phases = item.timing.offsets, item.timing.phases
     return [
-        Span(points[first], points[last], offsets[last] - offsets[first], phases[first].kind is PhaseKind.RIGID)
+        Segment(points[first], points[last], offsets[last] - offsets[first], phases[first].kind is PhaseKind.RIGID)
         for first, last in itertools.pairwise(knots)
     ]

@@ -46,7 +46,7 @@ class EmbrStrategy:
             kept = keep(program)
             knots = place(program, kept)
             times = {p: time for item in playable for p, time in _points(item, program.knots[item.behavior.id], knots)}
-            ends = {item.behavior.id: times[Point(item.behavior.id, item.timing.points[-1])] for item in playable}
+            ends = {item.behavior.id: times[item.points[-1]] for item in playable}
             past = {id_: ends[id_] for id_ in kept.late if ends[id_] < -SHORTEST}
             if not past:  # otherwise, the behaviors that are tied to them may be earlier without them
                 break
@@ -57,7 +57,7 @@ class EmbrStrategy:
 
 def _points(item: Item, knots: Sequence[int], times: Mapping[Node, float]) -> Iterator[tuple[Point, float]]:
     """The times of all points of a behavior: between knots, all phases are stretched evenly."""
-    points = [Point(item.behavior.id, sync) for sync in item.timing.points]
+    points = item.points
     for i, point in enumerate(points):
         before, after = max(knot for knot in knots if knot <= i), min(knot for knot in knots if knot >= i)
         low, high = times[points[before]], times[points[after]]

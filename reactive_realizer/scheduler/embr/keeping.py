@@ -59,12 +59,12 @@ class _Admission:
         self._differences = Differences[Node](self._floors(), known)
 
     def keep(self) -> Kept:
-        for span in self._problem.spans:
-            if span.rigid:
-                self._groups.union(span.end, span.start, span.preferred)
-                self._differences.add(*_equal(span.end, span.start, span.preferred))
+        for segment in self._problem.segments:
+            if segment.rigid:
+                self._groups.union(segment.end, segment.start, segment.preferred)
+                self._differences.add(*_equal(segment.end, segment.start, segment.preferred))
             else:
-                self._add(Row(span.end, span.start, 0.0))
+                self._add(Row(segment.end, segment.start, 0.0))
         for id_, item in self._problem.items.items():
             if not item.timing.instant:
                 self._add(Row(Point(id_, item.timing.points[-1]), Point(id_, item.timing.points[0]), _LEAST))
@@ -103,8 +103,8 @@ class _Admission:
         floors = {node: time or 0.0 for node, time in self._problem.given.items()}
         wanted = sum(item.timing.offsets[-1] for item in self._problem.items.values())
         ever = min(floors.values()) - wanted - sum(abs(each.offset) for each in self._problem.constraints)
-        for span in self._problem.spans:
-            floors[span.start] = floors[span.end] = ever if span.start.behavior in self._late else 0.0
+        for segment in self._problem.segments:
+            floors[segment.start] = floors[segment.end] = ever if segment.start.behavior in self._late else 0.0
         return floors
 
 

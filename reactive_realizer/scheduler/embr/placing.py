@@ -6,14 +6,14 @@ from collections.abc import Iterable, Sequence
 from math import inf
 
 from reactive_realizer.scheduler.embr.differences import TOLERANCE, Differences, Row
-from reactive_realizer.scheduler.embr.embr_problem import EmbrProblem, Span
+from reactive_realizer.scheduler.embr.embr_problem import EmbrProblem, Segment
 from reactive_realizer.scheduler.embr.keeping import Kept
 from reactive_realizer.scheduler.embr.linear_program import Wish, least_deviations
 from reactive_realizer.scheduler.offset_union_find import TIE_TOLERANCE, OffsetUnionFind
 from reactive_realizer.scheduler.problem import Node, Origin, Point, Tie
 
 _STIFFEST = 0.1
-"""s; spans with shorter preferred durations are not stiffer."""
+"""s; segments with shorter preferred durations are not stiffer."""
 
 
 def place(problem: EmbrProblem, kept: Kept) -> dict[Node, float]:
@@ -28,7 +28,7 @@ class _Group:
     """Behaviors that depend on each other by constraints, and on no others.
 
     Attributes:
-        spans: of its behaviors.
+        segments: of its behaviors.
         ties: its `at` constraints.
         rows: the other conditions on its times.
     """
@@ -36,18 +36,18 @@ class _Group:
     def __init__(self, problem: EmbrProblem, kept: Kept) -> None:
         self._problem = problem
         self._kept = kept
-        self.spans: list[Span] = []
+        self.segments: list[Segment] = []
         self.ties: list[Tie] = []
         self.rows: list[Row[Node]] = []
 
     def place(self) -> dict[Node, float]:
         """The time of every node: with preferred durations if possible, or else with those that deviate least."""
-        preferred = self._earliest([span.preferred for span in self.spans])
+        preferred = self._earliest([segment.preferred for segment in self.segments])
         if preferred is not None:
             return preferred
         times = self._least_deviating()
         # If the solver's rounding keeps bodies from being moved, its times are taken.
-        return self._earliest([times[span.end] - times[span.start] for span in self.spans]) or times
+        return self._earliest([times[segment.end] - times[segment.start] for segment in self.segments]) or times
 
     def _earliest(self, durations: Sequence[float]) -> dict[Node, float] | None:
         """The earliest times with these durations; None if these contradict ties or rows."""
@@ -70,7 +70,9 @@ class _Group:
             for node in self._nodes()
             if (time := self._problem.known(node)) is not None
         ]
-        distances += [(span.end, span.start, duration) for span, duration in zip(self.spans, durations, strict=True)]
+        distances += [
+            (segment.end, segment.start, duration) for segment, duration in zip(self.segments, durations, strict=True)
+        ]
         distances += [(tie.left, tie.right, tie.offset) for tie in self.ties]
         bodies = OffsetUnionFind[Node]()
         gaps = (bodies.union(*distance) for distance in distances)
@@ -89,9 +91,9 @@ class _Group:
             if later != earlier
         ]
         wishes = [
-            Wish(Row(numbers[later], numbers[earlier], distance), max(span.preferred, _STIFFEST))
-            for span in self.spans
-            for later, earlier, distance in [_between_roots(groups, Row(span.end, span.start, span.preferred))]
+            Wish(Row(numbers[later], numbers[earlier], distance), max(segment.preferred, _STIFFEST))
+            for segment in self.segments
+            for later, earlier, distance in [_between_roots(groups, Row(segment.end, segment.start, segment.preferred))]
             if later != earlier
         ]
         times = least_deviations(list(bounds.values()), rows, wishes)
@@ -101,7 +103,7 @@ class _Group:
 
     def _nodes(self) -> list[Node]:
         """Knots, and the given nodes that constraints on them name."""
-        pairs: list[tuple[Node, Node]] = [(span.start, span.end) for span in self.spans]
+        pairs: list[tuple[Node, Node]] = [(segment.start, segment.end) for segment in self.segments]
         pairs += [(row.later, row.earlier) for row in self.rows]
         return list(dict.fromkeys(itertools.chain(*pairs, *(tie.nodes for tie in self.ties))))
 
@@ -129,9 +131,9 @@ def _groups(problem: EmbrProblem, kept: Kept) -> Iterable[_Group]:
         moved = [each for node in nodes if (each := problem.movable(node)) is not None]
         return [found[linked.find(each)[0]] for each in moved[:1]]
 
-    for span in problem.spans:
-        for group in concerned(span.start):
-            group.spans.append(span)
+    for segment in problem.segments:
+        for group in concerned(segment.start):
+            group.segments.append(segment)
     for row in kept.rows:
         for group in concerned(row.later, row.earlier):
             group.rows.append(row)

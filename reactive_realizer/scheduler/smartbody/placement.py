@@ -49,7 +49,7 @@ class Placement(NamedTuple):
 
     def moved(self, distance: float) -> "Placement":
         """The placement at a distance (s)."""
-        return self._replace(time=self.time + distance) if distance else self
+        return Placement(self.time + distance, self.known, self.cluster, self.outer) if distance else self
 
 
 def fill(item: Item, given: Mapping[int, Placement]) -> list[Placement]:

@@ -68,7 +68,7 @@ class _Run:
             point: placed.time - earliest.get(self._cluster(placed), 0.0)
             for item in self._problem.items
             if item.behavior.id in self._placed
-            for point, placed in zip(_points(item), self._placed[item.behavior.id], strict=True)
+            for point, placed in zip(item.points, self._placed[item.behavior.id], strict=True)
         }
         return Solution(times, tuple(self._losses))
 
@@ -82,7 +82,7 @@ class _Run:
 
     def _place(self, item: Item) -> None:
         """Place every point of a behavior; the placements of earlier behaviors stay."""
-        points = _points(item)
+        points = item.points
         tied = self._known(item, points)
         if not tied:  # it begins a cluster with its first tied point, or its start
             first = next((i for i, point in enumerate(points) if point in self._tied), 0)
@@ -226,7 +226,7 @@ def _sorted(problem: SchedulingProblem, ties: OffsetUnionFind[Node]) -> list[Ite
     follows with the first behavior of that kind.)
     """
     rigid = [item for item in problem.items if item.timing.rigid]
-    grounded = [item for item in rigid if any(not isinstance(ties.find(node)[0], Point) for node in _points(item))]
+    grounded = [item for item in rigid if any(not isinstance(ties.find(node)[0], Point) for node in item.points)]
     order = [item for item in problem.items if item not in grounded]
     flexible = {item.behavior.id for item in problem.items if not item.timing.rigid}
     pairs = [tie.nodes for tie in problem.ties]
@@ -247,7 +247,3 @@ def _sorted(problem: SchedulingProblem, ties: OffsetUnionFind[Node]) -> list[Ite
             order.remove(item)
             order.insert(place, item)
     return grounded + order
-
-
-def _points(item: Item) -> list[Point]:
-    return [Point(item.behavior.id, sync) for sync in item.timing.points]
