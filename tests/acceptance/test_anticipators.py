@@ -1,4 +1,4 @@
-"""Behavior that hangs on what somebody else does: on a key, the end of a turn, an exercise, a music."""
+"""Behavior that is tied to external events: a key, the end of a turn, an exercise, and music."""
 
 from collections.abc import AsyncIterator
 from math import exp
@@ -45,7 +45,7 @@ async def until(pilot: RealizerPilot, time: float) -> None:
 # --- the space bar
 
 
-async def test_a_nod_comes_with_the_key_and_the_next_block_waits_for_the_next_time(pilot: RealizerPilot) -> None:
+async def test_a_nod_starts_with_the_key_and_a_later_block_waits_for_the_next_press(pilot: RealizerPilot) -> None:
     pilot.block("one", NOD.format("spacebar:press"))
     await until(pilot, 1.0)
     pilot.event("spacebar", "press")
@@ -60,7 +60,7 @@ async def test_a_nod_comes_with_the_key_and_the_next_block_waits_for_the_next_ti
     assert pilot.feedback.warnings == []
 
 
-async def test_what_waits_for_a_while_after_the_key_is_not_held_up_by_another_press(pilot: RealizerPilot) -> None:
+async def test_a_behavior_at_an_offset_from_the_key_is_not_delayed_by_another_press(pilot: RealizerPilot) -> None:
     pilot.block("b", NOD.format("spacebar:release+0.5"))
     await until(pilot, 1.0)
     for _ in range(30):
@@ -71,7 +71,7 @@ async def test_what_waits_for_a_while_after_the_key_is_not_held_up_by_another_pr
     assert pilot.feedback.status("b") == "DONE"
 
 
-async def test_the_key_counts_from_the_arrival_of_a_block_on_however_long_its_planning_takes(
+async def test_a_block_follows_the_first_key_press_after_its_arrival_even_if_it_is_planned_later(
     pilot: RealizerPilot,
 ) -> None:
     solved_aside = "".join(f'<wait id="w{n}" duration="0.1"/>' for n in range(60))
@@ -83,7 +83,7 @@ async def test_the_key_counts_from_the_arrival_of_a_block_on_however_long_its_pl
     assert pilot.feedback.time("b:h:start") == pytest.approx(0.51)
 
 
-async def test_a_name_that_others_have_done_with_is_still_that_of_whoever_is_being_planned(
+async def test_a_block_in_preparation_keeps_its_predicted_point_when_other_blocks_end(
     pilot: RealizerPilot,
 ) -> None:
     solved_aside = "".join(f'<wait id="w{n}" duration="0.1"/>' for n in range(60))
@@ -96,7 +96,7 @@ async def test_a_name_that_others_have_done_with_is_still_that_of_whoever_is_bei
     assert pilot.feedback.time("b:h:start") == 1.0
 
 
-async def test_a_chunk_that_is_planned_anew_at_its_start_keeps_the_time_of_a_key_that_was_pressed_before(
+async def test_a_chunk_that_is_planned_again_keeps_the_time_of_an_earlier_key_press(
     pilot: RealizerPilot,
 ) -> None:
     pilot.block("a", '<wait id="w" duration="1"/>')
@@ -107,7 +107,7 @@ async def test_a_chunk_that_is_planned_anew_at_its_start_keeps_the_time_of_a_key
     assert pilot.feedback.time("b:h:start") == 1.5
 
 
-async def test_what_was_to_come_before_the_key_comes_with_it(pilot: RealizerPilot) -> None:
+async def test_points_before_the_stroke_on_a_key_happen_at_the_press(pilot: RealizerPilot) -> None:
     pilot.block("b", '<gesture id="g" lexeme="BEAT" stroke="anticipators:spacebar:press"/>')
     await until(pilot, 1.0)
     pilot.event("spacebar", "press")
@@ -119,7 +119,7 @@ async def test_what_was_to_come_before_the_key_comes_with_it(pilot: RealizerPilo
 # --- the end of the user's turn
 
 
-async def test_the_turn_is_taken_when_the_user_has_finished_and_not_before(pilot: RealizerPilot) -> None:
+async def test_the_answer_starts_when_the_turn_of_the_user_is_over(pilot: RealizerPilot) -> None:
     pilot.block("b", REPLY)
     pilot.event("user", "voice", 1.0)
     await until(pilot, 1.0)
@@ -139,7 +139,7 @@ async def test_the_turn_is_taken_when_the_user_has_finished_and_not_before(pilot
     assert pilot.feedback.warnings == []
 
 
-async def test_who_goes_on_after_all_is_heard_out_unless_the_answer_has_begun(pilot: RealizerPilot) -> None:
+async def test_a_turn_that_is_resumed_delays_the_answer_unless_it_has_started(pilot: RealizerPilot) -> None:
     pilot.block("b", REPLY)
     pilot.block("c", NOD.format("user:stop"))
     pilot.event("user", "words", text="I see.")
@@ -156,7 +156,7 @@ async def test_who_goes_on_after_all_is_heard_out_unless_the_answer_has_begun(pi
     assert pilot.feedback.warnings == []
 
 
-async def test_an_answer_that_is_planned_long_after_the_turn_waits_for_the_next_one(pilot: RealizerPilot) -> None:
+async def test_an_answer_that_is_sent_long_after_the_turn_waits_for_the_next_turn(pilot: RealizerPilot) -> None:
     pilot.block("early", NOD.format("user:stop"))
     pilot.event("user", "voice", 1.0)
     await until(pilot, 1.0)
@@ -173,7 +173,7 @@ async def test_an_answer_that_is_planned_long_after_the_turn_waits_for_the_next_
     assert pilot.feedback.warnings == []
 
 
-async def test_an_answer_that_is_sent_after_the_turn_is_over_waits_for_the_next_one_however_soon(
+async def test_an_answer_that_is_sent_just_after_the_turn_waits_for_the_next_turn(
     pilot: RealizerPilot,
 ) -> None:
     pilot.block("b", REPLY)
@@ -196,7 +196,7 @@ async def test_an_answer_that_is_sent_after_the_turn_is_over_waits_for_the_next_
     assert pilot.feedback.warnings == []
 
 
-async def test_a_turn_that_is_resumed_ends_for_whoever_waited_before_and_since(pilot: RealizerPilot) -> None:
+async def test_earlier_and_later_answers_wait_for_the_end_of_a_resumed_turn(pilot: RealizerPilot) -> None:
     pilot.block("before", NOD.format("user:stop+0.5"))
     pilot.event("user", "words", text="I see.")
     await until(pilot, 0.4)
@@ -208,7 +208,7 @@ async def test_a_turn_that_is_resumed_ends_for_whoever_waited_before_and_since(p
     assert pilot.feedback.warnings == []
 
 
-async def test_who_says_the_same_again_and_again_is_answered_each_time(pilot: RealizerPilot) -> None:
+async def test_repeated_equal_turns_are_each_answered(pilot: RealizerPilot) -> None:
     for number in range(3):
         pilot.block(f"b{number}", NOD.format("user:stop"))
         pilot.event("user", "words", text="Yes.")
@@ -216,7 +216,7 @@ async def test_who_says_the_same_again_and_again_is_answered_each_time(pilot: Re
     assert [pilot.feedback.time(f"b{n}:h:start") for n in range(3)] == pytest.approx([0.19, 5.19, 10.19], abs=0.01)
 
 
-async def test_who_turns_out_to_have_said_nothing_is_not_answered(pilot: RealizerPilot) -> None:
+async def test_a_turn_whose_words_are_withdrawn_is_not_answered(pilot: RealizerPilot) -> None:
     pilot.block("b", NOD.format("user:stop"))
     pilot.event("user", "words", text="um")
     await until(pilot, 0.3)
@@ -296,7 +296,7 @@ SAID = [
 
 
 @pytest.mark.parametrize(("anticipator", "name", "value"), SAID)
-async def test_an_event_that_cannot_be_changes_nothing(
+async def test_an_invalid_event_has_no_effect(
     pilot: RealizerPilot, anticipator: str, name: str, value: float | None, caplog: pytest.LogCaptureFixture
 ) -> None:
     pilot.block("b", '<wait id="w" duration="1"/>')
@@ -309,7 +309,7 @@ async def test_an_event_that_cannot_be_changes_nothing(
 
 
 @pytest.mark.parametrize("anticipator", ["spacebar", "user", "trainer", "orchestra"])
-async def test_nobody_else_writes_the_points_of_an_anticipator(
+async def test_predictions_from_outside_cannot_move_the_points_of_an_anticipator(
     pilot: RealizerPilot, anticipator: str, caplog: pytest.LogCaptureFixture
 ) -> None:
     sync = {"spacebar": "press", "user": "stop", "trainer": "1", "orchestra": "beat1"}[anticipator]
@@ -322,7 +322,7 @@ async def test_nobody_else_writes_the_points_of_an_anticipator(
     assert f"'{anticipator}' is a" in caplog.text
 
 
-async def test_a_thousand_events_a_second_move_no_more_than_ten_do(pilot: RealizerPilot) -> None:
+async def test_a_thousand_events_a_second_cause_no_more_feedback_than_ten(pilot: RealizerPilot) -> None:
     pilot.block("b", NOD.format("user:stop+1"))
     pilot.block("c", NOD.format("orchestra:beat4"))
     pilot.event("user", "voice", 1.0)
@@ -354,7 +354,7 @@ async def test_of_a_thousand_contradictory_predictions_a_second_the_last_of_each
     assert pilot.feedback.status("b") == "DONE"
 
 
-async def test_an_anticipator_that_fails_is_left_out_and_the_session_goes_on(
+async def test_an_anticipator_that_fails_is_removed_and_the_session_continues(
     pilot: RealizerPilot, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
     def fail(now: float) -> None:

@@ -1,4 +1,4 @@
-"""Whatever comes in, nothing escapes; every block that is accepted ends exactly once or waits for something named."""
+"""Any sequence of inputs: every accepted block ends exactly once, or waits for a named point."""
 
 import asyncio
 from collections import Counter

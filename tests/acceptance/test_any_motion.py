@@ -1,4 +1,4 @@
-"""The figure keeps its limits and valid poses, whatever is planned, cut or moved."""
+"""Poses are valid and within the limits in any session."""
 
 import asyncio
 from typing import Any
@@ -96,7 +96,7 @@ def turns(rotations: NDArray[np.float64]) -> Any:
 
 @settings(max_examples=25)
 @given(bodies(), plays)
-def test_the_figure_keeps_its_limits_whatever_is_planned_cut_or_moved(first: Any, play: Any) -> None:
+def test_any_session_keeps_poses_valid_and_within_the_limits(first: Any, play: Any) -> None:
     joints, frames, wrists = asyncio.run(perform(first, play))
     rotations = np.array([frame.rotations for frame in frames])
     assert np.isfinite(rotations).all()

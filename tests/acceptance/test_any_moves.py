@@ -1,4 +1,4 @@
-"""Whatever moves whenever: what a plan does not keep is said, points come once and in order, and as predicted."""
+"""Any moves of outer times: violations are reported, and points happen once, in order, and as predicted."""
 
 import asyncio
 from collections.abc import Sequence
@@ -79,7 +79,7 @@ def check(told: FeedbackList) -> None:
 @settings(max_examples=40)
 @given(st.sampled_from(["convex", "smartbody", "embr"]), bodies(), bodies(outside=["b:start", "b:p:start", "b:p:end"]),
        st.sampled_from(["MERGE", "APPEND"]), st.lists(MOVES, min_size=1, max_size=8))  # fmt: skip
-def test_whatever_moves_what_is_not_kept_is_said_and_points_come_once_and_in_order(
+def test_after_any_moves_violations_are_reported_and_points_happen_once_and_in_order(
     by: str, first: Any, second: Any, how: str, moves: list[tuple[float, str, float | None]]
 ) -> None:
     check(asyncio.run(play(by, first, second, how, moves)))

@@ -1,4 +1,4 @@
-"""Whatever is wrong with a block is answered by name, line and reason; nothing else is lost."""
+"""Errors in blocks are reported with name, line and reason, and everything else plays."""
 
 import re
 
@@ -46,7 +46,7 @@ BAD = [
 
 
 @pytest.mark.parametrize(("bad", "id_", "kind", "mentions"), BAD, ids=[bad for bad, *_ in BAD])
-async def test_one_bad_thing_is_one_warning_and_the_rest_plays(
+async def test_each_error_in_a_block_causes_one_warning_and_the_rest_plays(
     pilot: RealizerPilot, bad: str, id_: str, kind: str, mentions: str
 ) -> None:
     pilot.block("b", f"{FINE}\n{bad}")
@@ -74,7 +74,7 @@ REFUSED = [
 
 
 @pytest.mark.parametrize(("text", "id_", "kind", "mentions"), REFUSED, ids=[repr(text) for text, *_ in REFUSED])
-async def test_what_is_no_block_is_refused_with_one_warning(
+async def test_text_without_a_valid_block_is_refused_with_one_warning(
     pilot: RealizerPilot, text: bytes | str, id_: str, kind: str, mentions: str
 ) -> None:
     pilot.block("fine", FINE)
@@ -86,7 +86,7 @@ async def test_what_is_no_block_is_refused_with_one_warning(
     assert pilot.realizer.scheduler.refused == 1
 
 
-async def test_an_input_that_cannot_be_is_left_out_and_the_others_enter(pilot: RealizerPilot) -> None:
+async def test_an_invalid_input_is_skipped_and_the_others_enter(pilot: RealizerPilot) -> None:
     pilot.event("metronome", "tempo", -5)
     pilot.predict("test", "hit", float("nan"))
     pilot.event("nobody", "press")
@@ -99,7 +99,7 @@ async def test_an_input_that_cannot_be_is_left_out_and_the_others_enter(pilot: R
     assert metronome.tempo == 60
 
 
-async def test_too_many_blocks_are_refused_and_may_come_again_later(pilot: RealizerPilot) -> None:
+async def test_blocks_above_the_limit_are_refused_and_may_be_sent_again_later(pilot: RealizerPilot) -> None:
     limit = pilot.realizer.limits.blocks_alive
     pilot.block("first", FINE)
     for number in range(limit):

@@ -1,4 +1,4 @@
-"""How blocks join each other: after, before, in chunks, prepared and activated (BMLA; docs/semantics.md)."""
+"""Composition of blocks: appended, prepended, chunks, preplanned and activated (BMLA; docs/semantics.md)."""
 
 import pytest
 
@@ -36,14 +36,14 @@ async def test_append_after_may_be_written_as_composition(pilot: RealizerPilot, 
     assert pilot.feedback.time("new:start") == 0.5
 
 
-async def test_a_target_that_was_never_seen_counts_as_finished_and_is_told(pilot: RealizerPilot) -> None:
+async def test_an_unknown_target_counts_as_finished_and_is_reported(pilot: RealizerPilot) -> None:
     send(pilot, "new", wait(0.1), 'bmla:appendAfter="nobody" bmla:interrupt="none" bmla:chunkAfter="new"')
     await pilot.advance(1)
     assert pilot.feedback.time("new:start") == 0
     assert pilot.feedback.warnings == [("new", "IMPOSSIBLE_TO_SCHEDULE")] * 3
 
 
-async def test_a_target_that_has_ended_counts_as_finished_without_a_word(pilot: RealizerPilot) -> None:
+async def test_a_target_that_has_ended_counts_as_finished_without_a_warning(pilot: RealizerPilot) -> None:
     send(pilot, "old", wait(0.1))
     await pilot.advance(1)
     send(pilot, "new", wait(0.1), 'bmla:appendAfter="old" bmla:interrupt="old" bmla:prependBefore="old"')
@@ -52,7 +52,7 @@ async def test_a_target_that_has_ended_counts_as_finished_without_a_word(pilot: 
     assert pilot.feedback.warnings == []
 
 
-async def test_a_revoked_target_counts_as_finished_though_it_waited_itself(pilot: RealizerPilot) -> None:
+async def test_a_target_that_is_revoked_while_it_waits_counts_as_finished(pilot: RealizerPilot) -> None:
     send(pilot, "first", wait(5))
     send(pilot, "second", wait(1), 'bmla:appendAfter="first"')
     send(pilot, "third", wait(1), 'bmla:appendAfter="second"')
@@ -63,7 +63,7 @@ async def test_a_revoked_target_counts_as_finished_though_it_waited_itself(pilot
     assert pilot.feedback.time("third:start") == pilot.feedback.time("second:end")
 
 
-async def test_a_block_starts_in_retraction_of_the_one_it_is_a_chunk_after(pilot: RealizerPilot) -> None:
+async def test_a_chunk_starts_when_the_previous_chunk_subsides(pilot: RealizerPilot) -> None:
     send(pilot, "one", '<gesture id="g" lexeme="BEAT" mode="RIGHT_HAND"/>')
     send(pilot, "two", '<head id="h" lexeme="NOD"/>', 'bmla:chunkAfter="one"')
     await pilot.advance(6)
@@ -71,7 +71,7 @@ async def test_a_block_starts_in_retraction_of_the_one_it_is_a_chunk_after(pilot
     assert pilot.feedback.time("two:start") < pilot.feedback.time("one:end")
 
 
-async def test_what_is_prepended_comes_before_a_block_that_still_waits(pilot: RealizerPilot) -> None:
+async def test_a_prepended_block_plays_before_a_waiting_block(pilot: RealizerPilot) -> None:
     send(pilot, "first", wait(1))
     send(pilot, "last", wait(1), 'composition="APPEND"')
     await pilot.tick()
@@ -80,7 +80,7 @@ async def test_what_is_prepended_comes_before_a_block_that_still_waits(pilot: Re
     assert pilot.feedback.time("last:start") == pilot.feedback.time("between:end") == pytest.approx(2.01)
 
 
-async def test_a_chunk_put_before_a_block_lets_it_start_when_it_subsides(pilot: RealizerPilot) -> None:
+async def test_a_block_starts_when_a_chunk_that_was_prepended_to_it_subsides(pilot: RealizerPilot) -> None:
     send(pilot, "first", wait(1))
     send(pilot, "last", '<head id="h" lexeme="NOD"/>', 'composition="APPEND"')
     await pilot.tick()
@@ -89,7 +89,7 @@ async def test_a_chunk_put_before_a_block_lets_it_start_when_it_subsides(pilot: 
     assert pilot.feedback.time("last:start") == pilot.feedback.time("chunk:g:relax")
 
 
-async def test_nothing_can_be_put_before_a_block_that_plays(pilot: RealizerPilot) -> None:
+async def test_no_block_can_be_prepended_to_a_playing_block(pilot: RealizerPilot) -> None:
     send(pilot, "plays", wait(1))
     await pilot.tick()
     send(pilot, "late", wait(1), 'bmla:prependBefore="plays"')
@@ -99,7 +99,7 @@ async def test_nothing_can_be_put_before_a_block_that_plays(pilot: RealizerPilot
     assert pilot.feedback.status("late") == "FAILED"
 
 
-async def test_a_block_cannot_come_both_before_and_after_another(pilot: RealizerPilot) -> None:
+async def test_a_block_cannot_be_both_before_and_after_another_block(pilot: RealizerPilot) -> None:
     send(pilot, "plays", wait(1))
     send(pilot, "waits", wait(1), 'composition="APPEND"')
     await pilot.tick()
@@ -109,7 +109,7 @@ async def test_a_block_cannot_come_both_before_and_after_another(pilot: Realizer
     assert (pilot.feedback.status("odd"), pilot.feedback.status("waits")) == ("FAILED", "DONE")
 
 
-async def test_a_behavior_cannot_hang_on_a_block_that_waits_for_its_own(pilot: RealizerPilot) -> None:
+async def test_a_behavior_cannot_refer_to_a_block_that_waits_for_its_own_block(pilot: RealizerPilot) -> None:
     send(pilot, "plays", wait(1))
     send(pilot, "waits", wait(1), 'composition="APPEND"')
     await pilot.tick()
@@ -134,7 +134,7 @@ async def test_a_preplanned_block_waits_until_a_block_activates_it_at_its_start(
     assert pilot.feedback.time("ready:start") == pilot.feedback.time("go:start")
 
 
-async def test_an_append_does_not_wait_for_what_was_never_activated(pilot: RealizerPilot) -> None:
+async def test_an_appended_block_does_not_wait_for_preplanned_blocks(pilot: RealizerPilot) -> None:
     send(pilot, "first", wait(1))
     send(pilot, "ready", wait(1), 'bmla:preplan="true" bmla:appendAfter="first"')
     send(pilot, "new", wait(0.1), 'composition="APPEND"')
@@ -142,7 +142,7 @@ async def test_an_append_does_not_wait_for_what_was_never_activated(pilot: Reali
     assert pilot.feedback.time("new:start") == 1.0
 
 
-async def test_an_activated_block_still_waits_for_what_it_is_appended_after(pilot: RealizerPilot) -> None:
+async def test_an_activated_block_waits_for_the_blocks_that_it_is_appended_after(pilot: RealizerPilot) -> None:
     send(pilot, "first", wait(1.005))
     send(pilot, "ready", wait(1), 'bmla:preplan="true" bmla:appendAfter="first"')
     send(pilot, "go", "", 'bmla:onStart="ready"')
@@ -150,7 +150,7 @@ async def test_an_activated_block_still_waits_for_what_it_is_appended_after(pilo
     assert pilot.feedback.time("ready:start") == pytest.approx(1.005)
 
 
-async def test_activating_what_is_not_preplanned_gone_or_active_is_told(pilot: RealizerPilot) -> None:
+async def test_activating_a_block_that_is_not_preplanned_ended_or_active_is_reported(pilot: RealizerPilot) -> None:
     send(pilot, "plain", wait(0.1))
     send(pilot, "ready", wait(1), 'bmla:preplan="true"')
     send(pilot, "go", "", 'bmla:onStart="ready,plain,nobody"')
@@ -166,7 +166,7 @@ async def test_activating_what_is_not_preplanned_gone_or_active_is_told(pilot: R
     ]
 
 
-async def test_the_attribute_interrupt_ends_blocks_before_the_new_one_starts(pilot: RealizerPilot) -> None:
+async def test_the_attribute_interrupt_ends_its_targets_before_the_new_block_starts(pilot: RealizerPilot) -> None:
     send(pilot, "plays", wait(5))
     send(pilot, "ready", wait(1), 'bmla:preplan="true"')
     await pilot.advance(0.5)
@@ -177,7 +177,7 @@ async def test_the_attribute_interrupt_ends_blocks_before_the_new_one_starts(pil
     assert (pilot.feedback.status("plays"), pilot.feedback.status("ready")) == ("INTERRUPTED", "REVOKED")
 
 
-async def test_replace_revokes_what_is_prepared(pilot: RealizerPilot) -> None:
+async def test_replace_revokes_preplanned_blocks(pilot: RealizerPilot) -> None:
     send(pilot, "ready", wait(1), 'bmla:preplan="true"')
     await pilot.advance(0.5)
     send(pilot, "new", wait(0.1), 'composition="REPLACE"')
@@ -185,7 +185,7 @@ async def test_replace_revokes_what_is_prepared(pilot: RealizerPilot) -> None:
     assert pilot.feedback.status("ready") == "REVOKED"
 
 
-async def test_the_incremental_speech_plan_takes_either_of_its_paths(pilot: RealizerPilot) -> None:
+async def test_either_path_of_the_incremental_speech_plan_can_be_taken(pilot: RealizerPilot) -> None:
     """Thesis 6.5.2.3 and example 11."""
 
     def plan() -> None:
@@ -210,7 +210,7 @@ async def test_the_incremental_speech_plan_takes_either_of_its_paths(pilot: Real
     assert pilot.feedback.time("crowns:start") == pilot.feedback.time("eh:start") + 1.0
 
 
-async def test_a_block_of_more_than_fifty_behaviors_is_solved_aside_and_plays(pilot: RealizerPilot) -> None:
+async def test_a_block_of_more_than_fifty_behaviors_is_solved_in_the_background(pilot: RealizerPilot) -> None:
     waits = "".join(
         f'<wait id="w{i}" start="{"0" if i == 0 else f"w{i - 1}:end"}" duration="0.01"/>' for i in range(60)
     )
@@ -221,7 +221,7 @@ async def test_a_block_of_more_than_fifty_behaviors_is_solved_aside_and_plays(pi
     assert pilot.feedback.time("small:start") < pilot.feedback.time("big:start")
 
 
-async def test_a_block_may_interrupt_the_one_of_its_own_name(pilot: RealizerPilot) -> None:
+async def test_a_block_may_interrupt_a_block_with_its_own_id(pilot: RealizerPilot) -> None:
     send(pilot, "again", wait(5))
     await pilot.advance(0.5)
     send(pilot, "again", wait(0.1), 'bmla:interrupt="again"')
@@ -232,7 +232,7 @@ async def test_a_block_may_interrupt_the_one_of_its_own_name(pilot: RealizerPilo
     ] * 2
 
 
-async def test_a_block_that_cannot_stand_where_it_wants_to_ends_nothing(pilot: RealizerPilot) -> None:
+async def test_a_block_with_an_invalid_composition_interrupts_nothing(pilot: RealizerPilot) -> None:
     send(pilot, "plays", wait(1))
     send(pilot, "other", wait(1))
     await pilot.tick()
@@ -241,7 +241,7 @@ async def test_a_block_that_cannot_stand_where_it_wants_to_ends_nothing(pilot: R
     assert pilot.feedback.status("other") == "DONE"
 
 
-async def test_of_a_block_that_is_prepared_everything_is_predicted_as_if_it_were_activated_now(
+async def test_the_predictions_of_a_preplanned_block_assume_that_it_is_activated_now(
     pilot: RealizerPilot,
 ) -> None:
     send(pilot, "ready", '<speech id="s"><text>one two three</text></speech>', 'bmla:preplan="true"')
@@ -255,7 +255,7 @@ async def test_of_a_block_that_is_prepared_everything_is_predicted_as_if_it_were
     assert ready[1].get("end") == plain[1].get("end")
 
 
-async def test_a_block_that_waits_and_whose_prediction_was_early_for_a_moment_follows_the_later_one(
+async def test_a_waiting_block_follows_the_latest_prediction_after_an_earlier_one(
     pilot: RealizerPilot,
 ) -> None:
     pilot.predict("t", "hit", 3.0)
@@ -271,7 +271,7 @@ async def test_a_block_that_waits_and_whose_prediction_was_early_for_a_moment_fo
 
 
 @pytest.mark.parametrize("start", [2.0, 2.0042])
-async def test_what_came_to_lie_before_its_block_is_squeezed_when_the_block_starts(
+async def test_a_behavior_whose_points_lie_before_its_block_is_shortened_at_the_start_of_the_block(
     pilot: RealizerPilot, start: float
 ) -> None:
     pilot.predict("t", "hit", 9.0)
@@ -285,7 +285,7 @@ async def test_what_came_to_lie_before_its_block_is_squeezed_when_the_block_star
     assert pilot.feedback.warnings == []
 
 
-async def test_what_would_have_had_to_begin_before_it_was_known_is_not_played_in_the_past(pilot: RealizerPilot) -> None:
+async def test_a_behavior_that_should_have_started_before_it_was_planned_starts_now(pilot: RealizerPilot) -> None:
     send(pilot, "ready", wait(1), 'bmla:preplan="true"')
     send(pilot, "early", '<head id="n" lexeme="NOD" stroke="ready:start"/>')
     await pilot.advance(0.3)

@@ -11,7 +11,7 @@ from .living_time import GO, HIT, after, before, moves, nod, synchronize, texts,
 
 
 @pytest.mark.parametrize("tie", [before("d:start", "a:end", "b:end"), after("b:end", "d:start")])
-async def test_example_34_a_block_waits_for_what_its_start_is_after(pilot: RealizerPilot, tie: Any) -> None:
+async def test_example_34_a_block_starts_after_the_points_of_its_constraints(pilot: RealizerPilot, tie: Any) -> None:
     pilot.block("a", wait("w", 1))
     pilot.block("b", nod("n", end=HIT))
     pilot.predict("t", "hit", 2.0)
@@ -23,7 +23,7 @@ async def test_example_34_a_block_waits_for_what_its_start_is_after(pilot: Reali
     assert pilot.feedback.warnings == []
 
 
-async def test_a_block_may_start_at_a_point_of_another_one_or_of_an_anticipator(pilot: RealizerPilot) -> None:
+async def test_a_block_may_start_at_a_point_of_another_block_or_of_an_anticipator(pilot: RealizerPilot) -> None:
     pilot.block("a", wait("w", 1))
     pilot.block("b", wait("w", 0.5) + synchronize("b:start", "a:w:end+0.5"))
     pilot.block("c", wait("w", 0.5) + after(HIT, "c:start"))
@@ -35,7 +35,7 @@ async def test_a_block_may_start_at_a_point_of_another_one_or_of_an_anticipator(
     assert pilot.feedback.warnings == []
 
 
-async def test_what_waits_for_itself_by_way_of_others_is_refused(pilot: RealizerPilot) -> None:
+async def test_a_block_whose_start_depends_on_itself_is_refused(pilot: RealizerPilot) -> None:
     pilot.predict("t", "go", 1.0)
     pilot.block("z", wait("w", 0.5, start=GO))
     pilot.block("a", wait("w", 1), composition="APPEND")
@@ -48,7 +48,7 @@ async def test_what_waits_for_itself_by_way_of_others_is_refused(pilot: Realizer
     assert pilot.feedback.status("d") == "DONE"
 
 
-async def test_a_block_that_has_ended_leaves_nothing_on_what_it_was_constrained_by(pilot: RealizerPilot) -> None:
+async def test_a_block_that_has_ended_leaves_no_dependents_on_its_constraints(pilot: RealizerPilot) -> None:
     pilot.predict("t", "hit", 100.0)
     pilot.block("keep", wait("w", 1, start=HIT))
     await pilot.tick()

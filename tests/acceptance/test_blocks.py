@@ -1,4 +1,4 @@
-"""Blocks: how they join, what they wait for, what they may name."""
+"""Blocks: composition, start times, ids and references."""
 
 import pytest
 
@@ -12,7 +12,7 @@ WAIT = '<wait id="w" duration="{}"/>'
 HIT = "anticipators:test:hit"
 
 
-async def test_merge_starts_a_block_beside_what_plays(pilot: RealizerPilot) -> None:
+async def test_a_merged_block_starts_at_once_beside_playing_blocks(pilot: RealizerPilot) -> None:
     pilot.block("one", WAIT.format(1))
     await pilot.advance(0.3)
     pilot.block("two", WAIT.format(0.1))
@@ -22,7 +22,7 @@ async def test_merge_starts_a_block_beside_what_plays(pilot: RealizerPilot) -> N
     assert told.time("one:end") == 1.0
 
 
-async def test_append_waits_for_every_block_that_is_there_and_for_none_that_comes_later(pilot: RealizerPilot) -> None:
+async def test_an_appended_block_waits_for_all_earlier_blocks_and_for_no_later_one(pilot: RealizerPilot) -> None:
     pilot.block("short", WAIT.format(0.2))
     pilot.block("long", WAIT.format(0.5))
     pilot.block("last", WAIT.format(0.1), composition="APPEND")
@@ -31,13 +31,13 @@ async def test_append_waits_for_every_block_that_is_there_and_for_none_that_come
     assert pilot.feedback.time("last:start") == 0.5
 
 
-async def test_append_to_nothing_starts_at_once(pilot: RealizerPilot) -> None:
+async def test_an_appended_block_without_predecessors_starts_at_once(pilot: RealizerPilot) -> None:
     pilot.block("b", composition="APPEND")
     await pilot.tick()
     assert pilot.feedback.progress == ["b:start", "b:end"]
 
 
-async def test_a_chain_of_appended_blocks_does_not_drift_and_comes_to_rest_in_its_ticks(pilot: RealizerPilot) -> None:
+async def test_a_chain_of_appended_blocks_has_exact_times(pilot: RealizerPilot) -> None:
     for number in range(50):
         pilot.block(f"b{number}", WAIT.format(0.0123), composition="APPEND")
     await pilot.advance(0.7)
@@ -46,7 +46,7 @@ async def test_a_chain_of_appended_blocks_does_not_drift_and_comes_to_rest_in_it
     assert starts == [pilot.feedback.time(f"b{n}:end") for n in range(49)]
 
 
-async def test_more_than_100_rounds_of_a_tick_fail_the_blocks_concerned_by_name(pilot: RealizerPilot) -> None:
+async def test_blocks_that_need_more_than_100_rounds_of_a_tick_fail(pilot: RealizerPilot) -> None:
     pilot.block("beside", f'<head id="h" lexeme="NOD" end="{HIT}"/>')
     await pilot.tick()
     for number in range(300):
@@ -61,7 +61,7 @@ async def test_more_than_100_rounds_of_a_tick_fail_the_blocks_concerned_by_name(
     assert told.status("b299") == told.status("beside") == "DONE"
 
 
-async def test_a_block_waits_while_it_hangs_on_an_unknown_point_and_what_is_appended_with_it(
+async def test_a_block_waits_for_an_unknown_point_and_appended_blocks_wait_with_it(
     pilot: RealizerPilot,
 ) -> None:
     pilot.block("b", f'<head id="h" lexeme="NOD" end="{HIT}"/>')
@@ -82,7 +82,7 @@ async def test_an_id_may_be_used_again_once_its_block_has_ended(pilot: RealizerP
     assert pilot.feedback.warnings == []
 
 
-async def test_an_id_that_is_taken_is_refused_and_nothing_else_happens(pilot: RealizerPilot) -> None:
+async def test_a_block_with_the_id_of_a_live_block_is_refused(pilot: RealizerPilot) -> None:
     pilot.block("b", WAIT.format(0.3))
     await pilot.advance(0.1)
     pilot.block("b", WAIT.format(5))
@@ -98,7 +98,7 @@ async def test_a_block_whose_behaviors_were_all_dropped_still_starts_and_ends(pi
     assert pilot.feedback.warnings == [("b:g", "CANNOT_CREATE_BEHAVIOR"), ("b:h", "IMPOSSIBLE_TO_SCHEDULE")]
 
 
-async def test_the_log_has_one_line_a_block_at_info(pilot: RealizerPilot, caplog: pytest.LogCaptureFixture) -> None:
+async def test_the_log_has_one_info_line_for_each_block(pilot: RealizerPilot, caplog: pytest.LogCaptureFixture) -> None:
     with caplog.at_level("INFO"):
         pilot.block("one", WAIT.format(0.1))
         pilot.block("two", composition="APPEND")
@@ -112,7 +112,7 @@ async def test_the_log_has_one_line_a_block_at_info(pilot: RealizerPilot, caplog
 # --- points of other blocks
 
 
-async def test_a_behavior_may_hang_on_a_point_of_another_block_and_moves_with_it(pilot: RealizerPilot) -> None:
+async def test_a_behavior_follows_a_point_of_another_block(pilot: RealizerPilot) -> None:
     pilot.predict("test", "hit", 1.0)
     pilot.block("one", f'<head id="h" lexeme="NOD" end="{HIT}"/>')
     pilot.block("two", '<head id="h" lexeme="NOD" start="one:h:end+0.5"/>')
@@ -123,7 +123,7 @@ async def test_a_behavior_may_hang_on_a_point_of_another_block_and_moves_with_it
     assert pilot.feedback.time("one:h:end") == 1.4
 
 
-async def test_a_time_may_be_counted_from_the_start_of_another_block(pilot: RealizerPilot) -> None:
+async def test_a_time_may_be_an_offset_from_the_start_of_another_block(pilot: RealizerPilot) -> None:
     pilot.block("one", WAIT.format(2))
     await pilot.advance(0.5)
     pilot.block("two", '<head id="h" lexeme="NOD" start="one:1.5"/>')
@@ -131,7 +131,7 @@ async def test_a_time_may_be_counted_from_the_start_of_another_block(pilot: Real
     assert pilot.feedback.time("two:h:start") == 1.5
 
 
-async def test_what_hangs_on_a_point_that_has_passed_joins_late_without_a_warning(pilot: RealizerPilot) -> None:
+async def test_a_behavior_tied_to_a_past_point_joins_late_without_a_warning(pilot: RealizerPilot) -> None:
     pilot.block("one", WAIT.format(5))
     await pilot.advance(0.5)
     pilot.block("two", '<head id="h" lexeme="NOD" start="one:w:start" end="one:w:start+2"/>')
@@ -144,7 +144,7 @@ async def test_what_hangs_on_a_point_that_has_passed_joins_late_without_a_warnin
     assert told.time("two:h:end") == 2.0
 
 
-async def test_unless_it_would_have_ended_by_now(pilot: RealizerPilot) -> None:
+async def test_a_behavior_tied_to_a_past_point_is_dropped_if_it_would_be_over(pilot: RealizerPilot) -> None:
     pilot.block("one", WAIT.format(5))
     await pilot.advance(3)
     pilot.block("two", '<head id="h" lexeme="NOD" start="one:w:start" end="one:w:start+2"/>')
@@ -153,7 +153,7 @@ async def test_unless_it_would_have_ended_by_now(pilot: RealizerPilot) -> None:
     assert pilot.feedback.status("two") == "DONE"
 
 
-async def test_a_block_that_has_ended_cannot_be_named(pilot: RealizerPilot) -> None:
+async def test_a_block_that_has_ended_cannot_be_referenced(pilot: RealizerPilot) -> None:
     pilot.block("one", WAIT.format(0.1))
     await pilot.advance(0.5)
     pilot.block("two", '<head id="h" lexeme="NOD" start="one:w:end"/><head id="i" lexeme="NOD"/>')
@@ -162,7 +162,7 @@ async def test_a_block_that_has_ended_cannot_be_named(pilot: RealizerPilot) -> N
     assert pilot.feedback.reached("two:i:end")
 
 
-async def test_absolute_times_count_from_the_start_of_the_block_wherever_that_is(pilot: RealizerPilot) -> None:
+async def test_absolute_times_are_relative_to_the_start_of_the_block(pilot: RealizerPilot) -> None:
     pilot.block("one", WAIT.format(0.7))
     pilot.block("two", '<head id="h" lexeme="NOD" start="0.5" end="1"/>', composition="APPEND")
     await pilot.advance(3)
@@ -192,7 +192,7 @@ LAST_FAILS = """
         ('<head id="last" lexeme="NOD" amount="7"/>', "PARSING_FAILURE"),
     ],
 )
-async def test_where_the_last_behavior_of_a_required_block_fails_nothing_of_it_is_anywhere(
+async def test_a_block_that_fails_at_its_last_required_behavior_leaves_nothing_behind(
     pilot: RealizerPilot, last: str, warning: str
 ) -> None:
     pilot.block("other", WAIT.format(1))
@@ -223,7 +223,7 @@ def plans_of(pilot: RealizerPilot) -> list[tuple[PlanUnit, ...]]:
     return [engine.player.units for engine in engines if isinstance(engine, DefaultEngine)]
 
 
-async def test_required_ties_that_contradict_each_other_fail_the_block(pilot: RealizerPilot) -> None:
+async def test_contradictory_required_ties_fail_the_block(pilot: RealizerPilot) -> None:
     pilot.block(
         "b",
         """
@@ -239,7 +239,7 @@ async def test_required_ties_that_contradict_each_other_fail_the_block(pilot: Re
     assert pilot.feedback.warnings == [("b", "IMPOSSIBLE_TO_SCHEDULE")]
 
 
-async def test_a_required_tie_is_kept_and_what_contradicts_it_is_dropped(pilot: RealizerPilot) -> None:
+async def test_a_required_tie_is_kept_and_a_contradictory_one_is_dropped(pilot: RealizerPilot) -> None:
     pilot.block(
         "b",
         """
@@ -255,7 +255,7 @@ async def test_a_required_tie_is_kept_and_what_contradicts_it_is_dropped(pilot: 
     assert pilot.feedback.status("b") == "DONE"
 
 
-async def test_a_block_appended_to_one_that_fails_still_waits_for_what_that_one_waited_for(
+async def test_a_block_appended_to_a_failed_block_still_waits_for_the_blocks_before_it(
     pilot: RealizerPilot,
 ) -> None:
     pilot.block("long", '<wait id="w" duration="1"/>')

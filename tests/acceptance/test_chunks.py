@@ -19,7 +19,7 @@ def chunk(pilot: RealizerPilot, id_: str, mode: str = "RIGHT_HAND", **attributes
     pilot.perform(f'<bml xmlns="http://www.bml-initiative.org/bml/bml-1.0" id="{id_}" {pairs}>{inside}</bml>')
 
 
-async def test_the_next_chunk_begins_its_preparation_where_the_hand_is(pilot: RealizerPilot) -> None:
+async def test_the_next_chunk_starts_its_preparation_from_the_current_hand(pilot: RealizerPilot) -> None:
     chunk(pilot, "one")
     chunk(pilot, "two", chunkAfter="one")
     await pilot.tick()
@@ -30,7 +30,7 @@ async def test_the_next_chunk_begins_its_preparation_where_the_hand_is(pilot: Re
     assert told.time("two:g:stroke") - told.time("two:g:start") < planned - 0.1
 
 
-async def test_stroke_and_word_move_together_when_a_chunk_is_planned_anew(pilot: RealizerPilot) -> None:
+async def test_stroke_and_word_stay_together_when_a_chunk_is_planned_again(pilot: RealizerPilot) -> None:
     chunk(pilot, "one")
     chunk(pilot, "two", chunkAfter="one")
     await pilot.advance(6)
@@ -38,7 +38,7 @@ async def test_stroke_and_word_move_together_when_a_chunk_is_planned_anew(pilot:
     assert pilot.feedback.warnings == []
 
 
-async def test_the_first_gesture_ends_where_the_next_one_takes_its_arm_and_both_points_are_told(
+async def test_a_gesture_ends_when_the_next_chunk_takes_its_arm_and_both_points_are_reported(
     pilot: RealizerPilot,
 ) -> None:
     chunk(pilot, "one")
@@ -49,7 +49,7 @@ async def test_the_first_gesture_ends_where_the_next_one_takes_its_arm_and_both_
     assert told.status("one") == "DONE"
 
 
-async def test_an_arm_that_is_not_needed_retracts_in_full(pilot: RealizerPilot) -> None:
+async def test_an_arm_that_the_next_chunk_does_not_use_retracts_completely(pilot: RealizerPilot) -> None:
     chunk(pilot, "one", mode="LEFT_HAND")
     chunk(pilot, "two", mode="RIGHT_HAND", chunkAfter="one")
     await pilot.advance(6)
@@ -66,7 +66,7 @@ async def test_the_hand_does_not_jump_from_chunk_to_chunk(pilot: RealizerPilot) 
     assert 0.01 < steps.max() < 0.05
 
 
-async def test_what_hangs_on_a_chunk_follows_when_it_is_planned_anew(pilot: RealizerPilot) -> None:
+async def test_dependents_of_a_chunk_follow_when_it_is_planned_again(pilot: RealizerPilot) -> None:
     chunk(pilot, "one")
     chunk(pilot, "two", chunkAfter="one")
     pilot.block("other", '<head id="n" lexeme="NOD" stroke="two:s:m"/>')
@@ -74,7 +74,7 @@ async def test_what_hangs_on_a_chunk_follows_when_it_is_planned_anew(pilot: Real
     assert pilot.feedback.time("other:n:stroke") == pilot.feedback.time("two:s:m")
 
 
-async def test_an_append_waits_for_a_chunk_and_for_what_that_is_a_chunk_after(pilot: RealizerPilot) -> None:
+async def test_an_appended_block_waits_for_a_chunk_and_its_predecessors(pilot: RealizerPilot) -> None:
     chunk(pilot, "one")
     pilot.block("two", '<wait id="w" duration="0.1"/>', **{"bmla:chunkAfter": "one"})
     pilot.block("next", composition="APPEND")

@@ -1,4 +1,4 @@
-"""How motions of one figure combine: who lies above whom, who adds to whom, and who comes back (thesis 8.7.5)."""
+"""Combination of the motions of one character: which motion is visible, added, or visible again (thesis 8.7.5)."""
 
 from collections.abc import AsyncIterator
 from pathlib import Path
@@ -48,7 +48,7 @@ def at(path: np.ndarray, time: float) -> float:
     return float(path[round(time * 50)])
 
 
-async def test_of_a_group_the_one_that_started_last_is_seen_and_then_the_other_again(pilot: RealizerPilot) -> None:
+async def test_the_latest_motion_of_a_group_is_visible_and_then_the_earlier_one_again(pilot: RealizerPilot) -> None:
     pilot.block("a", '<gesture id="long" lexeme="MUCH"/>')
     pilot.block("b", '<gesture id="short" lexeme="LITTLE" start="1"/>')
     await pilot.advance(6)
@@ -59,7 +59,7 @@ async def test_of_a_group_the_one_that_started_last_is_seen_and_then_the_other_a
     assert pilot.feedback.time("a:long:end") == begin + 4.0
 
 
-async def test_joints_that_the_later_one_leaves_alone_stay_with_the_earlier(pilot: RealizerPilot) -> None:
+async def test_joints_that_a_later_motion_does_not_use_follow_the_earlier_one(pilot: RealizerPilot) -> None:
     pilot.block("a", '<gesture id="right" lexeme="MUCH"/><gesture id="left" lexeme="OTHER" start="1"/>')
     await pilot.advance(6)
     begin = pilot.feedback.time("a:right:start")
@@ -67,7 +67,7 @@ async def test_joints_that_the_later_one_leaves_alone_stay_with_the_earlier(pilo
     assert at(turned(pilot, "l_elbow"), begin + 2.0) == pytest.approx(0.9, abs=0.02)
 
 
-async def test_of_two_that_start_together_the_one_that_ends_first_is_seen_until_then(pilot: RealizerPilot) -> None:
+async def test_of_two_simultaneous_motions_the_shorter_one_is_visible_first(pilot: RealizerPilot) -> None:
     pilot.block("a", '<gesture id="long" lexeme="MUCH"/><gesture id="short" lexeme="LITTLE"/>')
     await pilot.advance(6)
     elbow, begin = turned(pilot, "r_elbow"), pilot.feedback.time("a:long:start")
@@ -75,7 +75,7 @@ async def test_of_two_that_start_together_the_one_that_ends_first_is_seen_until_
     assert pilot.feedback.warnings == []
 
 
-async def test_two_that_overlap_wholly_cannot_both_be_and_one_is_dropped_with_one_warning(pilot: RealizerPilot) -> None:
+async def test_one_of_two_motions_with_equal_times_and_group_is_dropped_with_a_warning(pilot: RealizerPilot) -> None:
     both = '<gesture id="p" lexeme="MUCH" start="0" end="3"/><gesture id="q" lexeme="LITTLE" start="0" end="3"/>'
     pilot.block("a", both)
     await pilot.advance(6)
@@ -83,7 +83,7 @@ async def test_two_that_overlap_wholly_cannot_both_be_and_one_is_dropped_with_on
     assert at(turned(pilot, "r_elbow"), 1.5) == pytest.approx(1.2, abs=0.02)
 
 
-async def test_one_that_comes_back_does_so_gently(pilot: RealizerPilot) -> None:
+async def test_a_motion_that_becomes_visible_again_fades_in(pilot: RealizerPilot) -> None:
     pilot.block("a", '<gesture id="long" lexeme="MUCH"/><gesture id="short" lexeme="LITTLE" start="1"/>')
     await pilot.advance(3.9)
     elbow = turned(pilot, "r_elbow")[round(pilot.feedback.time("a:short:end") * 50) :]
@@ -93,7 +93,7 @@ async def test_one_that_comes_back_does_so_gently(pilot: RealizerPilot) -> None:
     assert np.diff(elbow).max() < 0.05
 
 
-async def test_one_that_is_cut_off_gives_way_gently_to_the_one_that_it_lay_above(pilot: RealizerPilot) -> None:
+async def test_an_interrupted_motion_fades_out_over_the_motion_below(pilot: RealizerPilot) -> None:
     pilot.block("a", '<gesture id="long" lexeme="MUCH"/>')
     pilot.block("b", '<gesture id="short" lexeme="LITTLE" start="0.7"/>')
     await pilot.advance(2)
@@ -105,7 +105,7 @@ async def test_one_that_is_cut_off_gives_way_gently_to_the_one_that_it_lay_above
     assert np.diff(elbow).max() < 0.05
 
 
-async def test_a_behavior_may_name_its_group_itself(pilot: RealizerPilot) -> None:
+async def test_a_behavior_may_set_its_replacement_group(pilot: RealizerPilot) -> None:
     spans = (2.1, 2.4), (2.6, 4.9), (5.7, 6.9)
     group = '<bmlt:parameter name="replacementgroup" value="hands"/>'
     pilot.block(
@@ -135,7 +135,7 @@ async def test_a_glance_of_the_eyes_leaves_the_head_where_it_was(pilot: Realizer
     assert np.ptp(eye[145:]) > 0.2
 
 
-async def test_a_nod_adds_to_where_the_head_is_turned_and_leaves_it_there(pilot: RealizerPilot) -> None:
+async def test_a_nod_adds_to_the_current_head_direction(pilot: RealizerPilot) -> None:
     pilot.block("a", '<gazeShift id="aside" target="bluebox" influence="HEAD"/>')
     await pilot.advance(3)
     before = len(pilot.frames["alice"])
@@ -151,7 +151,7 @@ async def test_a_nod_adds_to_where_the_head_is_turned_and_leaves_it_there(pilot:
     assert np.ptp(pitch[before:]) > 0.1
 
 
-async def test_a_shift_to_less_of_the_body_lets_the_trunk_go_gently(pilot: RealizerPilot) -> None:
+async def test_a_shift_that_uses_fewer_joints_releases_the_trunk_smoothly(pilot: RealizerPilot) -> None:
     pilot.block("a", '<gazeShift id="whole" target="bluebox" influence="WAIST"/>')
     await pilot.advance(3)
     trunk = turned(pilot, "vl5")[-1]

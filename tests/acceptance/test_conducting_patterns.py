@@ -1,4 +1,4 @@
-"""Conducting figures: where the hand is at each beat, as a conductor's textbook draws them."""
+"""Conducting patterns: the positions of the hand at the beats, as in textbooks."""
 
 import numpy as np
 import pytest
@@ -22,7 +22,7 @@ async def conduct(pilot: RealizerPilot, beats: int, mode: str, bars: int = 2) ->
 
 @pytest.mark.parametrize("mode", SIDES)
 @pytest.mark.parametrize("beats", [1, 2, 3, 4])
-async def test_each_beat_is_where_the_hand_comes_down_and_turns(still: RealizerPilot, beats: int, mode: str) -> None:
+async def test_the_hand_reverses_downward_motion_at_each_beat(still: RealizerPilot, beats: int, mode: str) -> None:
     times, path = await conduct(still, beats, mode)
     for beat in range(1, beats + 1):
         time = still.feedback.time(f"c:b1:beat{beat}")
@@ -33,7 +33,7 @@ async def test_each_beat_is_where_the_hand_comes_down_and_turns(still: RealizerP
 
 
 @pytest.mark.parametrize("mode", SIDES)
-async def test_four_beats_go_down_in_out_and_back_to_the_middle(still: RealizerPilot, mode: str) -> None:
+async def test_four_beats_are_down_in_out_and_center(still: RealizerPilot, mode: str) -> None:
     times, path = await conduct(still, 4, mode)
     out = [path[np.searchsorted(times, still.feedback.time(f"c:b1:beat{i}"))][0] for i in (1, 2, 3, 4)]
     assert out[1] < out[0] - 0.05

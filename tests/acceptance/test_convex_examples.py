@@ -1,4 +1,4 @@
-"""The thesis's examples of scheduling (7.1.3, 7.2.2), as BML, with the strategy that is the default: in any order."""
+"""The scheduling examples of the thesis (7.1.3, 7.2.2) as BML, in any order, with the default strategy."""
 
 from collections.abc import AsyncIterator
 
@@ -26,7 +26,7 @@ async def pilot() -> AsyncIterator[RealizerPilot]:
 
 @pytest.mark.parametrize("order", [1, -1], ids=["a", "b"])
 @pytest.mark.parametrize(("walk", "first"), [(1.0, "speech1"), (6.0, "point1")])
-async def test_26_speech_and_pointing_come_as_soon_as_both_of_their_afters_allow(
+async def test_26_speech_and_pointing_start_as_early_as_their_after_constraints_allow(
     pilot: RealizerPilot, order: int, walk: float, first: str
 ) -> None:
     pilot.block("bml1", "".join([PAINTING, POINT, WALK.format(walk), AFTER][::order]))
@@ -42,7 +42,7 @@ async def test_26_speech_and_pointing_come_as_soon_as_both_of_their_afters_allow
 
 
 @pytest.mark.parametrize("order", [1, -1], ids=["a", "b"])
-async def test_27_a_nod_on_words_is_timed_by_them(pilot: RealizerPilot, order: int) -> None:
+async def test_27_a_nod_is_timed_by_the_words_that_it_is_tied_to(pilot: RealizerPilot, order: int) -> None:
     pilot.block("bml1", "".join([SPEECH, NOD_ON_SPEECH][::order]))
     await pilot.advance(5)
     told = pilot.feedback
@@ -62,7 +62,7 @@ async def test_28_a_beat_on_the_stroke_of_a_nod_follows_it(pilot: RealizerPilot,
 
 
 @pytest.mark.parametrize("order", [1, -1], ids=["a", "b"])
-async def test_29_a_nod_around_two_gestures_is_met_and_nothing_collapses(pilot: RealizerPilot, order: int) -> None:
+async def test_29_a_nod_around_two_gestures_is_scheduled_without_losses(pilot: RealizerPilot, order: int) -> None:
     pilot.block("bml1", "".join([BEATS, NOD_AROUND][::order]))
     await pilot.advance(14)
     told = pilot.feedback

@@ -58,7 +58,7 @@ async def test_every_sync_point_is_reported_once_in_order_between_the_start_and_
     assert [point for point in pilot.feedback.progress if point != "b:relax"] == ["b:start", *points, "b:end"]
 
 
-async def test_a_block_subsides_when_all_that_is_left_of_it_is_on_its_way_back_to_rest(pilot: RealizerPilot) -> None:
+async def test_a_block_subsides_when_all_its_behaviors_retract(pilot: RealizerPilot) -> None:
     pilot.block("b", '<gesture id="g" lexeme="BEAT"/><wait id="w" duration="0.2"/>')
     await pilot.advance(5)
     assert pilot.feedback.time("b:relax") == pilot.feedback.time("b:g:relax")
@@ -66,7 +66,7 @@ async def test_a_block_subsides_when_all_that_is_left_of_it_is_on_its_way_back_t
     assert pilot.feedback.status("b", "relax") == "SUBSIDING"
 
 
-async def test_a_block_without_a_way_back_to_rest_ends_and_does_not_subside(pilot: RealizerPilot) -> None:
+async def test_a_block_without_a_retraction_ends_without_subsiding(pilot: RealizerPilot) -> None:
     pilot.block("b", '<wait id="w" duration="0.2"/>')
     await pilot.advance(1)
     assert pilot.feedback.progress == ["b:start", "b:w:start", "b:w:end", "b:end"]
@@ -79,7 +79,7 @@ async def test_an_empty_block_starts_and_ends_in_one_tick(pilot: RealizerPilot) 
     assert pilot.feedback.status("b") == "DONE"
 
 
-async def test_of_two_gazes_that_coincide_one_is_dropped_with_one_warning(pilot: RealizerPilot) -> None:
+async def test_one_of_two_simultaneous_gazes_is_dropped_with_one_warning(pilot: RealizerPilot) -> None:
     gaze = '<gaze id="{}" start="1" end="4" influence="HEAD" target="bluebox"/>'
     pilot.block("b", gaze.format("left") + gaze.format("also"))
     await pilot.advance(5)
@@ -88,7 +88,7 @@ async def test_of_two_gazes_that_coincide_one_is_dropped_with_one_warning(pilot:
     assert pilot.feedback.time("b:also:end") == pilot.feedback.time("b:end") == 4.0
 
 
-async def test_a_block_is_appended_at_the_very_time_at_which_the_last_one_ends(pilot: RealizerPilot) -> None:
+async def test_an_appended_block_starts_exactly_at_the_end_of_the_last_block(pilot: RealizerPilot) -> None:
     pilot.block("one", '<wait id="w" duration="0.1234"/>')
     pilot.block("two", '<wait id="w" duration="0.1"/>', composition="APPEND")
     pilot.block("three", '<wait id="w" duration="0.1"/>', composition="APPEND")
@@ -97,7 +97,9 @@ async def test_a_block_is_appended_at_the_very_time_at_which_the_last_one_ends(p
     assert pilot.feedback.time("three:end") == 0.3234
 
 
-async def test_replace_ends_what_plays_and_revokes_what_waits_before_the_new_block_starts(pilot: RealizerPilot) -> None:
+async def test_replace_interrupts_playing_and_revokes_waiting_blocks_before_the_new_block_starts(
+    pilot: RealizerPilot,
+) -> None:
     pilot.block("old", '<speech id="say"><text>One two three four five six.</text></speech>')
     pilot.block("next", '<wait id="w" duration="1"/>', composition="APPEND")
     await pilot.advance(0.5)
@@ -110,7 +112,7 @@ async def test_replace_ends_what_plays_and_revokes_what_waits_before_the_new_blo
     assert told.progress.index("old:end") < told.progress.index("new:start")
 
 
-async def test_an_interrupted_speech_tells_its_last_word(pilot: RealizerPilot) -> None:
+async def test_an_interrupted_speech_reports_its_last_word(pilot: RealizerPilot) -> None:
     pilot.block("old", '<speech id="say"><text>One two three four five six.</text></speech>')
     await pilot.advance(0.5)
     pilot.block("stop", composition="REPLACE")
@@ -124,7 +126,7 @@ async def test_an_interrupted_speech_tells_its_last_word(pilot: RealizerPilot) -
     assert told == {"word": "2", "text": "three", "heard": "13"}
 
 
-async def test_a_required_behavior_that_fails_takes_the_whole_block_with_it(pilot: RealizerPilot) -> None:
+async def test_a_required_behavior_that_fails_fails_its_block(pilot: RealizerPilot) -> None:
     before = pilot.realizer.board.snapshot()
     pilot.block(
         "b",
@@ -140,7 +142,7 @@ async def test_a_required_behavior_that_fails_takes_the_whole_block_with_it(pilo
     assert pilot.realizer.board.snapshot() == before
 
 
-async def test_what_is_not_realized_is_named_and_the_rest_plays(pilot: RealizerPilot) -> None:
+async def test_unrealized_behaviors_are_reported_and_the_rest_plays(pilot: RealizerPilot) -> None:
     pilot.block("b", '<locomotion id="go" target="bluebox"/><head id="h" lexeme="NOD"/>')
     await pilot.advance(3)
     assert pilot.feedback.warnings == [("b:go", "BEHAVIOR_TYPE_NOT_SUPPORTED")]

@@ -1,4 +1,4 @@
-"""Who hung on a point that was cut is told which one, as it is written, however many points are one there."""
+"""Warnings about ties to interrupted points name the point as it is written in BML."""
 
 from typing import Any
 
@@ -14,7 +14,7 @@ LATE = nod("late", start="1")
 
 @pytest.mark.parametrize("stop", ["", 'include="late"'])
 @pytest.mark.parametrize("sync", ["strokeEnd", "relax", "end"])
-async def test_of_another_block(pilot: RealizerPilot, sync: str, stop: str) -> None:
+async def test_a_cut_point_of_another_block_is_named(pilot: RealizerPilot, sync: str, stop: str) -> None:
     pilot.block("t", LATE + '<wait id="w" duration="9"/>')
     pilot.block("b", nod("n", start=f"t:late:{sync}+1"))
     await pilot.advance(1.1)
@@ -24,7 +24,7 @@ async def test_of_another_block(pilot: RealizerPilot, sync: str, stop: str) -> N
 
 
 @pytest.mark.parametrize("sync", ["strokeEnd", "relax", "end"])
-async def test_of_a_block_that_never_began(pilot: RealizerPilot, sync: str) -> None:
+async def test_a_point_of_a_block_that_was_revoked_is_named(pilot: RealizerPilot, sync: str) -> None:
     pilot.block("first", '<wait id="w" duration="9"/>')
     pilot.block("l", nod("n"), composition="APPEND")
     pilot.block("b", nod("m", start=f"l:n:{sync}") + nod("o", start="m:end"))
@@ -36,7 +36,7 @@ async def test_of_a_block_that_never_began(pilot: RealizerPilot, sync: str) -> N
 
 @pytest.mark.parametrize("tied", ["{}", "b:{}"])
 @pytest.mark.parametrize("sync", ["strokeEnd", "relax", "end"])
-async def test_of_its_own_block(pilot: RealizerPilot, sync: str, tied: str) -> None:
+async def test_a_cut_point_of_the_same_block_is_named(pilot: RealizerPilot, sync: str, tied: str) -> None:
     pilot.block("b", LATE + nod("n", start=tied.format(f"late:{sync}")))
     await pilot.advance(1.1)
     pilot.block("stop", '<bmla:interrupt id="i" target="b" include="late"/>')
@@ -44,7 +44,7 @@ async def test_of_its_own_block(pilot: RealizerPilot, sync: str, tied: str) -> N
     assert [f"b:late:{sync} was interrupted" in said for said in texts(pilot)] == [True]
 
 
-async def test_of_its_own_block_though_it_would_have_come_with_what_goes_on(pilot: RealizerPilot) -> None:
+async def test_a_cut_point_is_named_although_a_playing_behavior_shares_its_time(pilot: RealizerPilot) -> None:
     speech = '<speech id="s"><text>one two three <sync id="m"/>four</text></speech>'
     pilot.block("b", speech + nod("n", start="s:m") + nod("o", start="n:start"))
     await pilot.advance(0.1)
@@ -54,7 +54,7 @@ async def test_of_its_own_block_though_it_would_have_come_with_what_goes_on(pilo
 
 
 @pytest.mark.parametrize("constraint", [synchronize("n:start", "t:late:end"), after("t:late:end", "n:start")])
-async def test_in_a_constraint_of_the_block(pilot: RealizerPilot, constraint: Any) -> None:
+async def test_a_cut_point_in_a_constraint_is_named(pilot: RealizerPilot, constraint: Any) -> None:
     pilot.block("t", LATE)
     pilot.block("b", nod("n") + constraint)
     await pilot.advance(1.1)
@@ -63,7 +63,7 @@ async def test_in_a_constraint_of_the_block(pilot: RealizerPilot, constraint: An
     assert ["t:late:end was interrupted" in said for said in texts(pilot)] == [True]
 
 
-async def test_what_hangs_on_a_point_that_came_with_the_interruption_has_lost_nothing(pilot: RealizerPilot) -> None:
+async def test_a_behavior_tied_to_a_point_reached_at_the_interruption_gets_no_warning(pilot: RealizerPilot) -> None:
     speech = '<speech id="s"><text>one two <sync id="m"/>three four five six</text></speech>'
     pilot.block("b", speech + nod("n", start="s:m+0.5"))
     pilot.block("stop", '<bmla:interrupt id="i" target="b" include="s" start="b:s:m"/>')
@@ -72,7 +72,7 @@ async def test_what_hangs_on_a_point_that_came_with_the_interruption_has_lost_no
     assert pilot.feedback.time("b:n:start") == pytest.approx(pilot.feedback.time("b:s:m") + 0.5)
 
 
-async def test_who_plays_already_keeps_its_time_though_it_hangs_on_a_block_that_never_began(
+async def test_a_playing_behavior_keeps_its_predicted_end_when_it_was_tied_to_a_revoked_block(
     pilot: RealizerPilot,
 ) -> None:
     pilot.block("first", '<wait id="w" duration="1"/>')

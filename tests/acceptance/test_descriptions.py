@@ -1,4 +1,4 @@
-"""Other forms of a behavior (BML 1.0: description): which one is played, and what is said of the others."""
+"""Alternative forms of a behavior (BML 1.0: description): which one plays, and which are reported."""
 
 import pytest
 
@@ -20,7 +20,7 @@ NOD = '<bmlt:procanimation name="nod"/>'
         (KEYLESS, "g, line 1, <SkeletonInterpolator>: the attribute encoding is missing"),
     ],
 )
-async def test_of_a_description_that_cannot_be_made_is_said_why_once_and_the_core_behavior_plays(
+async def test_a_description_that_cannot_be_played_is_reported_once_and_the_core_behavior_plays(
     content: str, reason: str
 ) -> None:
     async with open_pilot() as pilot:
@@ -32,7 +32,7 @@ async def test_of_a_description_that_cannot_be_made_is_said_why_once_and_the_cor
         assert "b:g:end" in pilot.feedback.progress
 
 
-async def test_a_description_after_the_one_that_plays_is_not_asked_for() -> None:
+async def test_descriptions_after_the_one_that_plays_are_not_tried() -> None:
     async with open_pilot() as pilot:
         pilot.block("b", GESTURE.format(DESCRIPTION.format(1, NAMELESS) + DESCRIPTION.format(2, NOD)))
         await pilot.advance(3)
@@ -40,7 +40,7 @@ async def test_a_description_after_the_one_that_plays_is_not_asked_for() -> None
         assert "b:g:end" in pilot.feedback.progress
 
 
-async def test_what_an_unknown_language_says_is_passed_over() -> None:
+async def test_descriptions_in_unknown_languages_are_skipped() -> None:
     async with open_pilot() as pilot:
         pilot.block("b", GESTURE.format(DESCRIPTION.format(1, '<x:dance xmlns:x="urn:x"/>')))
         await pilot.advance(3)

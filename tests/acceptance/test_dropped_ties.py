@@ -1,4 +1,4 @@
-"""Who hangs on a behavior that is dropped is told by whose loss it is lost too, or that it keeps its last time."""
+"""Ties to dropped behaviors: dependents are dropped or keep their last time, and the warning names the cause."""
 
 from typing import Any
 
@@ -26,7 +26,7 @@ def told(pilot: RealizerPilot, id_: str) -> list[str]:
     [SAMBA, '<locomotion id="g" target="bluebox"/>', '<gesture id="g"/>', nod("g", start="nobody:end")],
     ids=["no such word", "not realized", "not to be read", "its own tie"],
 )
-async def test_a_chain_is_dropped_link_by_link_and_each_names_the_one_behavior_that_is_the_cause(
+async def test_all_behaviors_of_a_chain_are_dropped_and_each_warning_names_the_first_dropped_one(
     pilot: RealizerPilot, lost: Any
 ) -> None:
     chain = nod("n", start="g:end") + nod("m", start="n:end") + nod("o", start="m:end")
@@ -41,20 +41,20 @@ async def test_a_chain_is_dropped_link_by_link_and_each_names_the_one_behavior_t
     assert pilot.feedback.time("b:end") == 1.0
 
 
-async def test_a_constraint_of_the_block_says_so_too(pilot: RealizerPilot) -> None:
+async def test_the_warning_of_a_dropped_constraint_names_the_dropped_behavior(pilot: RealizerPilot) -> None:
     pilot.block("b", SAMBA + nod("n", start="g:end") + nod("o") + after("n:end", "o:start"))
     await pilot.advance(2)
     assert told(pilot, "b") == ["n:end has no time because 'g' is dropped; what depends on it is dropped too"]
     assert pilot.feedback.reached("b:o:end")
 
 
-async def test_a_behavior_that_was_never_written_is_unknown(pilot: RealizerPilot) -> None:
+async def test_a_reference_to_an_unknown_behavior_lists_the_known_ones(pilot: RealizerPilot) -> None:
     pilot.block("b", nod("n", start="nobody:stroke") + nod("m"))
     await pilot.advance(2)
     assert told(pilot, "b:n") == ["nobody:stroke: there is no behavior 'nobody'; available: n, m"]
 
 
-async def test_the_cause_may_be_in_another_block(pilot: RealizerPilot) -> None:
+async def test_the_dropped_behavior_may_be_in_another_block(pilot: RealizerPilot) -> None:
     pilot.block("a", wait("w", 5) + SAMBA)
     pilot.block("b", nod("n", start="a:g:end") + nod("m", start="n:end"))
     await pilot.advance(2)
@@ -62,7 +62,7 @@ async def test_the_cause_may_be_in_another_block(pilot: RealizerPilot) -> None:
         assert told(pilot, id_) == [f"{point} has no time because 'a:g' is dropped; what depends on it is dropped too"]
 
 
-async def test_in_a_procedure_it_is_the_same(pilot: RealizerPilot) -> None:
+async def test_ties_in_a_procedure_are_dropped_in_the_same_way(pilot: RealizerPilot) -> None:
     define = '<bmlt:defineproc xmlns:bmlt="http://hmi.ewi.utwente.nl/bmlt" xmlns="{}" id="{}">{}</bmlt:defineproc>'
     core = "http://www.bml-initiative.org/bml/bml-1.0"
     pilot.perform(define.format(core, "p", '<gesture id="g"/>' + nod("n", start="g:end")))
@@ -75,7 +75,7 @@ async def test_in_a_procedure_it_is_the_same(pilot: RealizerPilot) -> None:
 
 
 @pytest.mark.parametrize("tied", ["by itself", "by a constraint"])
-async def test_what_was_tied_to_a_behavior_that_found_the_arm_taken_keeps_its_time_and_is_told_once(
+async def test_a_behavior_tied_to_one_dropped_in_a_conflict_keeps_its_time_with_one_warning(
     pilot: RealizerPilot, tied: str
 ) -> None:
     tie = {"by itself": nod("n", start="g:stroke"), "by a constraint": nod("n") + synchronize("g:stroke", "n:start")}
@@ -92,7 +92,7 @@ async def test_what_was_tied_to_a_behavior_that_found_the_arm_taken_keeps_its_ti
     assert pilot.feedback.status("b") == "DONE"
 
 
-async def test_so_does_what_another_block_tied_to_it(pilot: RealizerPilot) -> None:
+async def test_a_behavior_of_another_block_keeps_its_time_too(pilot: RealizerPilot) -> None:
     pilot.block("b", HOLDS + LATER.format("1.5"))
     pilot.block("c", nod("n", start="b:g:end"))
     await pilot.advance(0.6)
@@ -102,7 +102,7 @@ async def test_so_does_what_another_block_tied_to_it(pilot: RealizerPilot) -> No
     assert pilot.feedback.time("c:n:start") == 3.0
 
 
-async def test_who_hangs_on_that_other_behavior_in_turn_is_tied_as_before_and_told_nothing(
+async def test_indirect_dependents_stay_tied_without_a_warning(
     pilot: RealizerPilot,
 ) -> None:
     pilot.predict("t", "hit", 1.5)
@@ -113,7 +113,9 @@ async def test_who_hangs_on_that_other_behavior_in_turn_is_tied_as_before_and_to
     assert pilot.feedback.time("c:m:start") == pilot.feedback.time("c:n:end")
 
 
-async def test_one_that_was_over_before_its_block_began_leaves_its_ties_as_they_are(pilot: RealizerPilot) -> None:
+async def test_dependents_of_a_behavior_that_was_over_before_its_block_started_keep_their_ties(
+    pilot: RealizerPilot,
+) -> None:
     pilot.predict("t", "hit", 9)
     pilot.block("a", wait("w", 3))
     pilot.block("b", nod("n", start=HIT, end=f"{HIT}+0.7") + wait("w", 9, start="n:end"), composition="APPEND")
@@ -124,7 +126,7 @@ async def test_one_that_was_over_before_its_block_began_leaves_its_ties_as_they_
     assert pilot.feedback.reached("b:w:start")
 
 
-async def test_who_is_named_by_it_is_told_nothing(pilot: RealizerPilot) -> None:
+async def test_a_behavior_that_the_dropped_one_referred_to_gets_no_warning(pilot: RealizerPilot) -> None:
     words = '<speech id="s" start="0.2"><text>Well then, <sync id="m"/>my friend.</text></speech>'
     pilot.block("b", HOLDS + words + '<gesture id="g" lexeme="BEAT" mode="RIGHT_HAND" stroke="s:m"/>')
     await pilot.advance(4)
@@ -132,7 +134,7 @@ async def test_who_is_named_by_it_is_told_nothing(pilot: RealizerPilot) -> None:
     assert pilot.feedback.reached("b:s:end")
 
 
-async def test_a_block_that_comes_later_does_not_hang_on_it(pilot: RealizerPilot) -> None:
+async def test_a_later_block_cannot_refer_to_a_dropped_behavior(pilot: RealizerPilot) -> None:
     pilot.block("b", HOLDS + LATER.format("1.5"))
     await pilot.advance(1)
     pilot.block("c", nod("n", start="b:g:end"))
@@ -140,7 +142,7 @@ async def test_a_block_that_comes_later_does_not_hang_on_it(pilot: RealizerPilot
     assert told(pilot, "c:n") == ["b:g:end has no time because 'b:g' is dropped; what depends on it is dropped too"]
 
 
-async def test_of_a_block_that_fails_by_it_nobody_is_told_beside_that(pilot: RealizerPilot) -> None:
+async def test_the_failure_of_a_block_is_its_only_warning(pilot: RealizerPilot) -> None:
     pilot.block("b", HOLDS + f"<required>{LATER.format('1.5')}</required>" + nod("n", start="g:end"))
     await pilot.advance(1)
     assert [id_ for id_, _ in pilot.feedback.warnings] == ["b:g"]

@@ -1,4 +1,4 @@
-"""Why a sync point is when it is (docs/time.md)."""
+"""Explanations of the times of sync points (docs/time.md)."""
 
 import json
 from typing import Any
@@ -23,7 +23,7 @@ def names(explanation: Any) -> list[Any]:
     return [explanation["name"], *(name for source in explanation["sources"] for name in names(source))]
 
 
-async def test_a_point_names_its_constraint_and_what_it_hangs_on(pilot: RealizerPilot) -> None:
+async def test_an_explanation_has_the_constraint_of_a_point_and_its_source(pilot: RealizerPilot) -> None:
     pilot.block("b", BLOCK)
     await pilot.tick()
     stroke = explained(pilot, "b:n:stroke")
@@ -33,7 +33,7 @@ async def test_a_point_names_its_constraint_and_what_it_hangs_on(pilot: Realizer
     json.dumps(stroke)
 
 
-async def test_a_point_on_a_prediction_names_the_commit_that_moved_it_last(pilot: RealizerPilot) -> None:
+async def test_an_explanation_has_the_last_commit_that_moved_the_point(pilot: RealizerPilot) -> None:
     pilot.predict("user", "hit", 2.0)
     pilot.block("b", BLOCK)
     await pilot.advance(0.5)
@@ -46,7 +46,7 @@ async def test_a_point_on_a_prediction_names_the_commit_that_moved_it_last(pilot
     assert stroke["commit"]["time"] == 0.5
 
 
-async def test_a_point_that_has_fired_still_tells_where_its_time_came_from(pilot: RealizerPilot) -> None:
+async def test_a_point_that_has_fired_keeps_its_explanation(pilot: RealizerPilot) -> None:
     pilot.predict("user", "hit", 1.5)
     pilot.block("b", BLOCK)
     await pilot.advance(2.0)
@@ -56,7 +56,7 @@ async def test_a_point_that_has_fired_still_tells_where_its_time_came_from(pilot
 
 
 @pytest.mark.parametrize(("block", "code"), [("old", "block-ended"), ("none", "no-such-block")])
-async def test_of_a_block_that_is_not_alive_nothing_can_be_told(pilot: RealizerPilot, block: str, code: str) -> None:
+async def test_a_block_that_is_not_alive_has_no_explanation(pilot: RealizerPilot, block: str, code: str) -> None:
     pilot.block("old")
     await pilot.advance(0.1)
     with pytest.raises(RealizerError) as refused:

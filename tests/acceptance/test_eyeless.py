@@ -1,4 +1,4 @@
-"""Figures without eyes."""
+"""Characters without eyes."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""The figure lives on when a part of it fails outside of all units."""
+"""Isolation of failures outside of plan units."""
 
 from typing import Any
 
@@ -21,7 +21,7 @@ from reactive_realizer.testing.pilot import open_pilot
         (EyeController, "eyes", "gaze"),
     ],
 )
-async def test_one_part_of_a_figure_that_fails_is_left_out_and_logged_once(
+async def test_a_failing_part_of_the_animation_engine_is_left_out_and_logged_once(
     monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture, part: Any, method: str, what: str
 ) -> None:
     def failing(*args: object) -> None:

@@ -1,4 +1,4 @@
-"""What is ahead follows the times that it was tied to, whatever of its block has passed (docs/semantics.md)."""
+"""Future points follow the times that they are tied to, also in a block that partly has passed (docs/semantics.md)."""
 
 from itertools import permutations
 from typing import Any
@@ -14,7 +14,7 @@ CLAP = BEAT.format(' stroke="{0}"')
 WORDS = '<speech id="s"{}><text>one two <sync id="k"/>three four</text></speech>'
 
 
-async def test_a_beat_is_met_though_what_comes_before_it_has_begun(pilot: RealizerPilot) -> None:
+async def test_a_stroke_follows_its_beat_after_the_gesture_has_started(pilot: RealizerPilot) -> None:
     pilot.block("b", CLAP.format("anticipators:metronome:tick2") + nod("n", start="g:stroke-0.5"))
     await pilot.advance(1.6)
     assert_time(pilot.feedback, "b:n:start", 1.5)
@@ -23,7 +23,7 @@ async def test_a_beat_is_met_though_what_comes_before_it_has_begun(pilot: Realiz
     assert_time(pilot.feedback, "b:g:stroke", 2.5)
 
 
-async def test_a_time_that_moves_moves_all_that_is_ahead_and_the_tie_to_what_has_passed_is_given_up(
+async def test_a_moved_time_moves_all_future_points_and_its_ties_to_past_points_are_dropped(
     pilot: RealizerPilot,
 ) -> None:
     await moves(pilot, ("hit", 4.0))
@@ -35,7 +35,7 @@ async def test_a_time_that_moves_moves_all_that_is_ahead_and_the_tie_to_what_has
     assert "n:end = g:stroke-1 no longer holds" in text
 
 
-async def test_so_does_a_point_of_another_block(pilot: RealizerPilot) -> None:
+async def test_a_moved_point_of_another_block_moves_all_future_points_too(pilot: RealizerPilot) -> None:
     await moves(pilot, ("hit", 4.0))
     pilot.block("a", WORDS.format(f' start="{HIT}"'))
     pilot.block("b", CLAP.format("a:s:k") + nod("n", end="g:stroke-1"))
@@ -44,7 +44,7 @@ async def test_so_does_a_point_of_another_block(pilot: RealizerPilot) -> None:
     assert_time(pilot.feedback, "a:s:start", 5.0)
 
 
-async def test_a_speech_is_not_lost_because_what_hangs_on_it_has_passed(pilot: RealizerPilot) -> None:
+async def test_a_speech_is_not_dropped_when_a_behavior_tied_to_it_has_passed(pilot: RealizerPilot) -> None:
     await moves(pilot, ("hit", 6.0))
     pilot.block("b", WORDS.format(f' end="{HIT}"') + nod("n", end="s:start-0.1"))
     await moves(pilot, 4.87, ("hit", 7.0), 8)
@@ -53,14 +53,14 @@ async def test_a_speech_is_not_lost_because_what_hangs_on_it_has_passed(pilot: R
 
 
 @pytest.mark.parametrize("refs", list(permutations([HIT, "g:stroke", "n:end+1"])))
-async def test_the_order_in_which_points_are_brought_together_does_not_matter(pilot: RealizerPilot, refs: Any) -> None:
+async def test_the_order_of_ties_does_not_matter(pilot: RealizerPilot, refs: Any) -> None:
     await moves(pilot, ("hit", 4.0))
     pilot.block("b", BEAT.format("") + nod("n") + synchronize(*refs))
     await moves(pilot, 3.1, ("hit", 5.0), 6)
     assert_time(pilot.feedback, "b:g:stroke", 5.0)
 
 
-async def test_what_is_tied_to_a_word_stays_with_the_word_when_its_speech_cannot_follow(pilot: RealizerPilot) -> None:
+async def test_a_behavior_tied_to_a_word_stays_with_it_when_the_speech_cannot_follow(pilot: RealizerPilot) -> None:
     await moves(pilot, ("hit", 4.0))
     pilot.block("b", WORDS.format(f' end="{HIT}"') + nod("n", start="s:k"))
     await moves(pilot, 3.1, ("hit", 5.0), 6)
@@ -70,7 +70,7 @@ async def test_what_is_tied_to_a_word_stays_with_the_word_when_its_speech_cannot
     assert "s:end" in text
 
 
-async def test_what_was_tied_to_a_point_that_is_cut_keeps_its_last_time(pilot: RealizerPilot) -> None:
+async def test_a_behavior_tied_to_an_interrupted_point_keeps_its_last_time(pilot: RealizerPilot) -> None:
     await moves(pilot, ("hit", 4.0))
     pilot.block("b", CLAP.format(HIT) + nod("n", start="g:stroke-1"))
     pilot.block("i", '<bmla:interrupt id="i" target="b" include="g" start="0"/>')
@@ -78,7 +78,7 @@ async def test_what_was_tied_to_a_point_that_is_cut_keeps_its_last_time(pilot: R
     assert_time(pilot.feedback, "b:n:start", 3.0)
 
 
-async def test_the_end_of_what_has_begun_follows_the_time_that_its_start_was_tied_to(pilot: RealizerPilot) -> None:
+async def test_the_end_of_a_playing_behavior_follows_the_outer_time_of_its_start(pilot: RealizerPilot) -> None:
     await moves(pilot, ("hit", 1.0))
     pilot.block("b", BEAT.format(f' start="{HIT}-0.5"'))
     await pilot.advance(0.1)

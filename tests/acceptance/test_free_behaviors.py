@@ -1,4 +1,4 @@
-"""Behaviors without preferences: they follow the others, and what meets at one of their points is tied all the same."""
+"""Free behaviors: they follow others, and behaviors that are tied to one of their points are tied to each other."""
 
 from collections.abc import AsyncIterator
 
@@ -25,7 +25,7 @@ async def pilot(request: pytest.FixtureRequest) -> AsyncIterator[RealizerPilot]:
 
 @pytest.mark.parametrize("free", FREE, ids=["wait", "transition"])
 @pytest.mark.parametrize("turned", [False, True], ids=["", "the other way round"])
-async def test_what_starts_at_its_end_starts_when_that_is_said_to_be(
+async def test_a_behavior_at_the_end_of_a_free_one_starts_at_the_time_of_that_end(
     pilot: RealizerPilot, free: str, turned: bool
 ) -> None:
     parts = [free.format(1, 3), NOD.format('start="f:end+0.5"')]
@@ -38,7 +38,9 @@ async def test_what_starts_at_its_end_starts_when_that_is_said_to_be(
 
 
 @pytest.mark.parametrize("free", FREE, ids=["wait", "transition"])
-async def test_what_comes_after_its_end_comes_after_what_that_is_tied_to(pilot: RealizerPilot, free: str) -> None:
+async def test_an_after_constraint_on_the_end_of_a_free_behavior_applies_to_the_tied_point(
+    pilot: RealizerPilot, free: str
+) -> None:
     after = '<constraint><after ref="f:end+0.5"><sync ref="n:start"/></after></constraint>'
     pilot.block("b", free.format(1, 3) + NOD.format("") + after)
     await pilot.advance(5)
@@ -48,7 +50,9 @@ async def test_what_comes_after_its_end_comes_after_what_that_is_tied_to(pilot: 
 
 
 @pytest.mark.parametrize("free", FREE, ids=["wait", "transition"])
-async def test_two_that_meet_at_one_of_its_points_are_tied_to_each_other(pilot: RealizerPilot, free: str) -> None:
+async def test_two_behaviors_tied_to_one_point_of_a_free_behavior_are_tied_to_each_other(
+    pilot: RealizerPilot, free: str
+) -> None:
     pilot.block("b", SAY + free.format("s:end", "s:end+2") + NOD.format('end="f:start"'))
     await pilot.advance(6)
     assert pilot.feedback.time("b:n:end") == pytest.approx(pilot.feedback.time("b:s:end"))
@@ -56,7 +60,9 @@ async def test_two_that_meet_at_one_of_its_points_are_tied_to_each_other(pilot: 
 
 
 @pytest.mark.parametrize("free", FREE, ids=["wait", "transition"])
-async def test_what_hangs_on_its_two_ends_is_not_tied_together_by_it(pilot: RealizerPilot, free: str) -> None:
+async def test_behaviors_at_both_ends_of_a_free_behavior_are_not_tied_to_each_other(
+    pilot: RealizerPilot, free: str
+) -> None:
     pilot.block("b", NOD.format('start="1"') + SAY.replace('"1"', '"4"') + free.format("n:end", "s:start"))
     await pilot.advance(7)
     assert pilot.feedback.time("b:n:start") == 1
@@ -65,7 +71,7 @@ async def test_what_hangs_on_its_two_ends_is_not_tied_together_by_it(pilot: Real
     assert pilot.feedback.warnings == []
 
 
-async def test_a_chain_of_them_is_followed_to_what_it_hangs_on(pilot: RealizerPilot) -> None:
+async def test_a_behavior_at_the_end_of_a_chain_of_free_behaviors_starts_at_that_end(pilot: RealizerPilot) -> None:
     waits = '<wait id="v" start="1" end="2"/><wait id="w" start="v:end" end="v:end+1"/>'
     pilot.block("b", NOD.format('start="w:end"') + waits)
     await pilot.advance(5)
@@ -73,7 +79,7 @@ async def test_a_chain_of_them_is_followed_to_what_it_hangs_on(pilot: RealizerPi
     assert pilot.feedback.warnings == []
 
 
-async def test_of_two_that_say_when_one_of_its_points_is_the_required_one_is_kept() -> None:
+async def test_of_two_ties_of_one_point_of_a_free_behavior_the_required_one_is_kept() -> None:
     waits = '<wait id="w" start="0" duration="0.3"/><wait id="f" start="1" end="3"/>'
     meet = '<synchronize><sync ref="w:end"/><sync ref="f:start"/></synchronize>'
     async with open_pilot(SceneOptions(voice="text", verify=True)) as pilot:
@@ -83,7 +89,7 @@ async def test_of_two_that_say_when_one_of_its_points_is_the_required_one_is_kep
         assert pilot.feedback.time("b:f:start") == 0.3
 
 
-async def test_one_that_is_to_come_before_a_time_that_nobody_knows_plays(pilot: RealizerPilot) -> None:
+async def test_a_free_behavior_before_an_unknown_time_plays(pilot: RealizerPilot) -> None:
     change = '<x:trajectory type="instant" targetValue="0.2"/>'
     pilot.block(
         "b",

@@ -54,9 +54,7 @@ def turn(rotation: Quat) -> np.ndarray:
         "TILT_BACKWARD": {PITCH: -1},
     }.items(),
 )
-async def test_the_head_moves_as_the_lexeme_says_stays_there_and_returns(
-    still: RealizerPilot, lexeme: str, way: Any
-) -> None:
+async def test_the_head_moves_according_to_the_lexeme_and_returns(still: RealizerPilot, lexeme: str, way: Any) -> None:
     times, turns = await nod(still, f'<head id="h" lexeme="{lexeme}" amount="1"/>')
     there = turns[np.searchsorted(times, still.feedback.time("b:h:stroke"))]
     for axis in (PITCH, YAW, ROLL):

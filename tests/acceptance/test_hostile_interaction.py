@@ -1,4 +1,4 @@
-"""Interaction by somebody who means harm, or cannot count: everything is answered, and every block ends once."""
+"""Hostile input: everything is answered, and every block ends once."""
 
 from collections import Counter
 from itertools import permutations
@@ -32,7 +32,7 @@ def reached(pilot: RealizerPilot, behavior: str) -> list[Any]:
 
 
 @pytest.mark.parametrize("order", ORDERS, ids=["-".join(order) for order in ORDERS])
-async def test_in_whatever_order_one_tick_breaks_off_replaces_and_activates_each_block_ends_once(
+async def test_every_block_ends_once_after_interrupt_replace_and_activate_in_one_tick_in_any_order(
     pilot: RealizerPilot, order: Any
 ) -> None:
     pilot.block("talk", SPEECH)
@@ -48,7 +48,7 @@ async def test_in_whatever_order_one_tick_breaks_off_replaces_and_activates_each
     assert pilot.realizer.scheduler.blocks.alive == ()
 
 
-async def test_blocks_that_activate_each_other_come_once(pilot: RealizerPilot) -> None:
+async def test_blocks_that_activate_each_other_play_once(pilot: RealizerPilot) -> None:
     pilot.block("a", NOD, **{"bmla:preplan": "true", "bmla:onStart": "b"})
     pilot.block("b", NOD, **{"bmla:preplan": "true", "bmla:onStart": "a,b"})
     pilot.block("go", **{"bmla:onStart": "a"})
@@ -57,7 +57,7 @@ async def test_blocks_that_activate_each_other_come_once(pilot: RealizerPilot) -
     assert pilot.feedback.warnings == [("b", "IMPOSSIBLE_TO_SCHEDULE")] * 2
 
 
-async def test_a_chunk_after_what_was_taken_away_starts_at_once(pilot: RealizerPilot) -> None:
+async def test_a_chunk_after_a_revoked_block_starts_at_once(pilot: RealizerPilot) -> None:
     pilot.block("gone", SPEECH, **{"bmla:preplan": "true"})
     pilot.block("i", '<bmla:interrupt id="i" target="gone"/>')
     await pilot.advance(0.5)
@@ -67,7 +67,7 @@ async def test_a_chunk_after_what_was_taken_away_starts_at_once(pilot: RealizerP
     assert pilot.feedback.warnings == []
 
 
-async def test_one_character_may_break_off_what_another_one_says(tests_data: Path) -> None:
+async def test_one_character_may_interrupt_the_speech_of_another(tests_data: Path) -> None:
     async with open_pilot(SceneOptions(human=tests_data / "humans" / "two.toml", voice="text")) as pilot:
         pilot.block("talk", SPEECH, characterId="alice")
         pilot.block("stop", f'<bmla:interrupt id="i" target="talk" start="0.3"/>{SPEECH}', characterId="bob")
@@ -77,7 +77,9 @@ async def test_one_character_may_break_off_what_another_one_says(tests_data: Pat
         assert pilot.feedback.warnings == []
 
 
-async def test_a_speech_that_was_to_end_its_word_may_be_broken_off_before_it_has(pilot: RealizerPilot) -> None:
+async def test_a_speech_that_finishes_its_word_may_be_interrupted_before_the_end_of_the_word(
+    pilot: RealizerPilot,
+) -> None:
     pilot.block("talk", '<speech id="s"><text>one uninterruptible word</text></speech>')
     for number, (start, how) in enumerate([("0.3", "word"), ("0.4", "word"), ("0.5", "now")]):
         pilot.block(f"i{number}", f'<bmla:interrupt id="i" target="talk" start="{start}" speech="{how}"/>')
@@ -88,7 +90,7 @@ async def test_a_speech_that_was_to_end_its_word_may_be_broken_off_before_it_has
 
 
 @pytest.mark.parametrize("speech", ["now", "word"])
-async def test_an_interrupt_at_the_very_end_finds_nothing_to_break_off(pilot: RealizerPilot, speech: str) -> None:
+async def test_an_interrupt_at_the_end_of_its_target_has_no_effect(pilot: RealizerPilot, speech: str) -> None:
     pilot.block("talk", SPEECH)
     pilot.block("i", f'<bmla:interrupt id="i" target="talk" start="talk:s:end" speech="{speech}"/>')
     await pilot.advance(2)
@@ -97,7 +99,7 @@ async def test_an_interrupt_at_the_very_end_finds_nothing_to_break_off(pilot: Re
     assert pilot.feedback.warnings == []
 
 
-async def test_a_point_that_is_moved_many_times_a_tick_comes_once_where_it_was_put_last(pilot: RealizerPilot) -> None:
+async def test_a_point_that_is_moved_many_times_in_a_tick_happens_once_at_its_last_time(pilot: RealizerPilot) -> None:
     pilot.block("b", '<gesture id="g" lexeme="BEAT" stroke="anticipators:t:hit"/>')
     for tick in range(60):
         for jitter in (0.2, -0.3, float("nan"), float("inf"), 0.01, 0.0):
@@ -110,7 +112,7 @@ async def test_a_point_that_is_moved_many_times_a_tick_comes_once_where_it_was_p
     assert set(predictions.values()) == {1}
 
 
-async def test_an_id_serves_one_block_after_another_however_each_of_them_ends(pilot: RealizerPilot) -> None:
+async def test_an_id_can_be_used_again_after_any_end_of_its_block(pilot: RealizerPilot) -> None:
     for turn in range(20):
         cut = '<bmla:interrupt id="i" target="same" start="0.05"/>' if turn % 2 else ""
         pilot.block("same", f'<wait id="w" duration="0.08"/>{cut}')
@@ -119,7 +121,7 @@ async def test_an_id_serves_one_block_after_another_however_each_of_them_ends(pi
     assert pilot.feedback.warnings == []
 
 
-async def test_what_rounding_puts_after_an_interruption_is_told_before_it(pilot: RealizerPilot) -> None:
+async def test_a_point_that_rounding_moves_after_an_interruption_is_reported_before_it(pilot: RealizerPilot) -> None:
     # The start of this gesture comes out as 2e-18 s.
     pilot.block("b", '<gesture id="g" lexeme="BEAT" stroke="g:relax" ready="0.4"/>')
     pilot.block("i", '<bmla:interrupt id="i" target="b"/>')
@@ -130,7 +132,7 @@ async def test_what_rounding_puts_after_an_interruption_is_told_before_it(pilot:
 
 
 @pytest.mark.parametrize("strategy", ["convex", "embr", "smartbody"])
-async def test_a_constraint_between_moments_that_nobody_can_move_troubles_nobody(strategy: str) -> None:
+async def test_a_constraint_between_two_fixed_times_has_no_effect(strategy: str) -> None:
     constraints = [
         '<synchronize><sync ref="0"/><sync ref="0"/></synchronize>',
         '<before ref="1"><sync ref="1"/></before>',

@@ -23,7 +23,7 @@ def line(pilot: RealizerPilot, point: str) -> Any:
 
 
 @pytest.mark.parametrize("prefix", ["bmla", "bmlt"])
-async def test_a_block_is_cut_at_the_start_of_the_interrupt(pilot: RealizerPilot, prefix: str) -> None:
+async def test_a_block_is_interrupted_at_the_start_of_the_interrupt(pilot: RealizerPilot, prefix: str) -> None:
     send(pilot, "talk", TALK + BEAT)
     send(pilot, "stop", f'<{prefix}:interrupt id="i" target="talk" start="0.505"/>')
     await pilot.advance(3)
@@ -34,7 +34,7 @@ async def test_a_block_is_cut_at_the_start_of_the_interrupt(pilot: RealizerPilot
     assert pilot.feedback.status("stop") == "DONE"
 
 
-async def test_what_is_excluded_goes_on_and_its_block_ends_as_done(pilot: RealizerPilot) -> None:
+async def test_excluded_behaviors_continue_and_their_block_ends_as_done(pilot: RealizerPilot) -> None:
     send(pilot, "talk", TALK + BEAT)
     send(pilot, "stop", '<bmla:interrupt id="i" target="talk" start="0.5" exclude="g"/>')
     await pilot.advance(4)
@@ -44,7 +44,7 @@ async def test_what_is_excluded_goes_on_and_its_block_ends_as_done(pilot: Realiz
     assert pilot.feedback.status("talk") == "DONE"
 
 
-async def test_only_what_is_included_is_cut(pilot: RealizerPilot) -> None:
+async def test_only_included_behaviors_are_interrupted(pilot: RealizerPilot) -> None:
     send(pilot, "talk", TALK + BEAT)
     send(pilot, "stop", '<bmla:interrupt id="i" target="talk" start="0.5" include="g"/>')
     await pilot.advance(4)
@@ -52,7 +52,7 @@ async def test_only_what_is_included_is_cut(pilot: RealizerPilot) -> None:
     assert pilot.feedback.reached("talk:s:m")
 
 
-async def test_a_speech_is_cut_at_its_own_mark_which_is_still_told(pilot: RealizerPilot) -> None:
+async def test_a_speech_can_be_interrupted_at_its_own_mark_which_is_reported(pilot: RealizerPilot) -> None:
     send(pilot, "talk", TALK)
     send(pilot, "stop", '<bmla:interrupt id="i" target="talk" start="talk:s:m"/>')
     await pilot.advance(3)
@@ -60,7 +60,7 @@ async def test_a_speech_is_cut_at_its_own_mark_which_is_still_told(pilot: Realiz
     assert line(pilot, "talk:s:end").element.get(f"{OWN}text") == "three"
 
 
-async def test_a_speech_may_end_its_word_first(pilot: RealizerPilot) -> None:
+async def test_an_interrupted_speech_may_finish_its_word(pilot: RealizerPilot) -> None:
     send(pilot, "talk", TALK)
     send(pilot, "stop", '<bmla:interrupt id="i" target="talk" start="0.5" speech="word"/>')
     await pilot.advance(3)
@@ -72,7 +72,7 @@ async def test_a_speech_may_end_its_word_first(pilot: RealizerPilot) -> None:
     assert pilot.feedback.predicted("talk:s:end") == pytest.approx(end)
 
 
-async def test_a_speech_that_may_end_its_word_lets_other_behaviors_go_at_once(pilot: RealizerPilot) -> None:
+async def test_other_behaviors_end_at_once_while_a_speech_finishes_its_word(pilot: RealizerPilot) -> None:
     send(pilot, "talk", TALK + BEAT)
     send(pilot, "stop", '<bmla:interrupt id="i" target="talk" start="0.5" speech="word"/>')
     await pilot.advance(3)
@@ -81,7 +81,7 @@ async def test_a_speech_that_may_end_its_word_lets_other_behaviors_go_at_once(pi
     )
 
 
-async def test_what_was_tied_to_a_cut_point_keeps_its_time_and_is_told(pilot: RealizerPilot) -> None:
+async def test_a_behavior_tied_to_an_interrupted_point_keeps_its_time_with_a_warning(pilot: RealizerPilot) -> None:
     send(pilot, "talk", TALK + '<head id="n" lexeme="NOD" start="s:m"/>')
     await pilot.tick()
     expected = pilot.feedback.predicted("talk:n:start")
@@ -91,7 +91,7 @@ async def test_what_was_tied_to_a_cut_point_keeps_its_time_and_is_told(pilot: Re
     assert pilot.feedback.warnings == [("talk:n", "IMPOSSIBLE_TO_SCHEDULE")]
 
 
-async def test_a_block_that_waits_is_revoked_as_a_whole_or_in_part(pilot: RealizerPilot) -> None:
+async def test_a_waiting_block_can_be_revoked_as_a_whole_or_in_part(pilot: RealizerPilot) -> None:
     send(pilot, "first", '<wait id="w" duration="1"/>')
     send(pilot, "part", TALK + BEAT, 'composition="APPEND"')
     send(pilot, "whole", TALK, 'bmla:preplan="true"')
@@ -107,7 +107,7 @@ async def test_a_block_that_waits_is_revoked_as_a_whole_or_in_part(pilot: Realiz
     assert not pilot.feedback.reached("part:s:start")
 
 
-async def test_an_interrupt_spares_itself_in_its_own_block(pilot: RealizerPilot) -> None:
+async def test_an_interrupt_of_its_own_block_does_not_interrupt_itself(pilot: RealizerPilot) -> None:
     send(pilot, "own", TALK + '<bmla:interrupt id="i" target="own" start="0.5"/>')
     await pilot.advance(3)
     assert pilot.feedback.time("own:s:end") == pilot.feedback.time("own:i:end") == 0.5
@@ -115,7 +115,7 @@ async def test_an_interrupt_spares_itself_in_its_own_block(pilot: RealizerPilot)
 
 
 @pytest.mark.parametrize("prefix", ["bmla", "bmlt"])
-async def test_an_activated_block_starts_at_the_very_time_of_the_activate(pilot: RealizerPilot, prefix: str) -> None:
+async def test_an_activated_block_starts_exactly_at_the_time_of_the_activate(pilot: RealizerPilot, prefix: str) -> None:
     send(pilot, "ready", TALK, 'bmla:preplan="true"')
     await pilot.tick()
     send(pilot, "go", f'<head id="n" lexeme="NOD"/><{prefix}:activate id="a" target="ready" start="n:stroke"/>')
@@ -140,7 +140,7 @@ async def test_a_speech_is_interrupted_with_a_prepared_continuation_in_the_same_
     assert pilot.feedback.warnings == []
 
 
-async def test_a_late_tick_cuts_at_the_time_that_was_meant(pilot: RealizerPilot) -> None:
+async def test_a_late_tick_interrupts_at_the_exact_time(pilot: RealizerPilot) -> None:
     send(pilot, "talk", TALK)
     send(pilot, "stop", '<bmla:interrupt id="i" target="talk" start="0.5"/>')
     await pilot.tick()
@@ -149,7 +149,7 @@ async def test_a_late_tick_cuts_at_the_time_that_was_meant(pilot: RealizerPilot)
     assert not pilot.feedback.reached("talk:s:m")
 
 
-async def test_a_speech_goes_on_whatever_becomes_of_what_is_tied_to_its_words(pilot: RealizerPilot) -> None:
+async def test_a_speech_continues_when_behaviors_tied_to_its_words_are_interrupted(pilot: RealizerPilot) -> None:
     nods = '<head id="n" lexeme="NOD" start="s:m" end="s:m+1"/><head id="o" lexeme="NOD" start="n:end" end="n:end+1"/>'
     send(pilot, "talk", TALK + nods)
     send(pilot, "stop", '<bmla:interrupt id="i" target="talk" exclude="s"/>')
@@ -159,7 +159,7 @@ async def test_a_speech_goes_on_whatever_becomes_of_what_is_tied_to_its_words(pi
     assert pilot.feedback.time("then:i:start") == pilot.feedback.time("talk:s:end") == pilot.feedback.time("talk:s:m")
 
 
-async def test_who_hangs_on_one_that_is_cut_is_told_however_long_the_way(pilot: RealizerPilot) -> None:
+async def test_indirect_dependents_of_an_interrupted_behavior_get_a_warning(pilot: RealizerPilot) -> None:
     nods = '<head id="n" lexeme="NOD" start="s:m" end="s:m+1"/><head id="o" lexeme="NOD" start="n:end" end="n:end+1"/>'
     send(pilot, "talk", TALK + nods)
     send(pilot, "stop", '<bmla:interrupt id="i" target="talk" include="n"/>')
@@ -168,7 +168,7 @@ async def test_who_hangs_on_one_that_is_cut_is_told_however_long_the_way(pilot: 
     assert pilot.feedback.reached("talk:s:m")
 
 
-async def test_what_never_began_and_is_cut_is_no_longer_waited_for(pilot: RealizerPilot) -> None:
+async def test_a_behavior_that_was_interrupted_before_its_start_does_not_delay_its_block(pilot: RealizerPilot) -> None:
     send(pilot, "talk", TALK + '<gesture id="g" lexeme="BEAT"/><head id="late" lexeme="NOD" start="3"/>')
     send(pilot, "stop", '<bmla:interrupt id="i" target="talk" start="0.5" include="s,late"/>')
     send(pilot, "next", '<wait id="w" duration="0.1"/>', 'bmla:appendAfter="talk"')
@@ -177,7 +177,7 @@ async def test_what_never_began_and_is_cut_is_no_longer_waited_for(pilot: Realiz
     assert pilot.feedback.status("talk") == "DONE"
 
 
-async def test_a_block_whose_last_behavior_ends_its_word_ends_with_it_though_others_were_to_come(
+async def test_a_block_ends_with_the_word_that_its_interrupted_speech_finishes(
     pilot: RealizerPilot,
 ) -> None:
     send(pilot, "talk", TALK + '<head id="late" lexeme="NOD" start="3"/>')
@@ -187,7 +187,7 @@ async def test_a_block_whose_last_behavior_ends_its_word_ends_with_it_though_oth
 
 
 @pytest.mark.parametrize("speech", ["now", "word"])
-async def test_all_that_hangs_on_the_end_of_a_cut_speech_is_told_in_its_block_and_in_others(
+async def test_dependents_of_the_end_of_an_interrupted_speech_get_warnings_in_all_blocks(
     pilot: RealizerPilot, speech: str
 ) -> None:
     heads = '<head id="h" lexeme="NOD" start="s:end"/><head id="k" lexeme="NOD" start="s:end+1"/>'
@@ -204,7 +204,7 @@ async def test_all_that_hangs_on_the_end_of_a_cut_speech_is_told_in_its_block_an
 @pytest.mark.parametrize(
     "hung", ['<bmla:interrupt id="x" target="none" start="w:start"/>', '<head id="x" lexeme="NOD" start="w:start"/>']
 )
-async def test_what_hangs_on_a_cut_point_that_was_never_predicted_is_dropped_and_told(
+async def test_a_behavior_tied_to_an_interrupted_point_without_a_time_is_dropped_with_a_warning(
     pilot: RealizerPilot, hung: str
 ) -> None:
     send(pilot, "talk", hung + '<wait id="w" start="anticipators:user:nods" duration="1"/>')

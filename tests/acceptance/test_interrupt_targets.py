@@ -1,4 +1,4 @@
-"""What `interrupt` and `activate` find, and what they report where there is nothing to do."""
+"""Targets of `interrupt` and `activate`, and the warnings if there is nothing to do."""
 
 import asyncio
 
@@ -17,7 +17,7 @@ def told_of(pilot: RealizerPilot, block: str) -> list[str]:
     return [point for point in pilot.feedback.progress if point.startswith(f"{block}:")]
 
 
-async def test_interrupting_what_ended_changes_nothing_and_what_never_was_is_told(pilot: RealizerPilot) -> None:
+async def test_interrupting_an_ended_block_has_no_effect_and_an_unknown_one_is_reported(pilot: RealizerPilot) -> None:
     pilot.block("old", '<wait id="w" duration="0.1"/>')
     await pilot.advance(0.5)
     pilot.block("stop", '<bmla:interrupt id="i" target="old"/><bmla:interrupt id="j" target="nobody"/>')
@@ -35,9 +35,7 @@ async def test_interrupting_what_ended_changes_nothing_and_what_never_was_is_tol
 
 
 @pytest.mark.parametrize("whom", ['include="x"', 'exclude="s,x"'])
-async def test_an_interrupt_that_finds_none_of_those_it_names_reports_nothing_but_that(
-    pilot: RealizerPilot, whom: str
-) -> None:
+async def test_an_interrupt_of_unknown_behaviors_only_causes_one_warning(pilot: RealizerPilot, whom: str) -> None:
     pilot.block("talk", TALK)
     pilot.block("stop", f'<bmla:interrupt id="i" target="talk" {whom}/>')
     await pilot.advance(3)
@@ -47,7 +45,7 @@ async def test_an_interrupt_that_finds_none_of_those_it_names_reports_nothing_bu
 
 
 @pytest.mark.parametrize("whom", ['include="s,x"', 'exclude="g,x"'])
-async def test_an_interrupt_that_finds_some_of_those_it_names_cuts_them(pilot: RealizerPilot, whom: str) -> None:
+async def test_an_interrupt_ends_those_of_its_behaviors_that_exist(pilot: RealizerPilot, whom: str) -> None:
     pilot.block("talk", TALK + BEAT)
     pilot.block("stop", f'<bmla:interrupt id="i" target="talk" start="0.5" {whom}/>')
     await pilot.advance(3)
@@ -56,7 +54,7 @@ async def test_an_interrupt_that_finds_some_of_those_it_names_cuts_them(pilot: R
     assert pilot.feedback.status("talk") == "DONE"
 
 
-async def test_what_is_still_made_for_a_block_that_is_interrupted_is_called_off(
+async def test_background_work_for_an_interrupted_block_is_cancelled(
     pilot: RealizerPilot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     async def never(self: TextVoice, *said: object) -> None:
@@ -71,7 +69,9 @@ async def test_what_is_still_made_for_a_block_that_is_interrupted_is_called_off(
         await pilot.realizer.settle()
 
 
-async def test_what_is_cut_in_the_tick_in_which_it_was_to_be_changed_is_changed_no_more(pilot: RealizerPilot) -> None:
+async def test_a_parameter_change_of_a_behavior_interrupted_in_the_same_tick_has_no_effect(
+    pilot: RealizerPilot,
+) -> None:
     pilot.block("talk", TALK)
     change = '<bmla:trajectory type="linear" targetValue="90"/>'
     pilot.block(
@@ -85,7 +85,7 @@ async def test_what_is_cut_in_the_tick_in_which_it_was_to_be_changed_is_changed_
     assert told_of(pilot, "b") == ["b:start", "b:i:start", "b:i:end", "b:end"]
 
 
-async def test_an_interrupt_that_is_dropped_by_another_one_of_its_time_cuts_nothing(pilot: RealizerPilot) -> None:
+async def test_an_interrupt_tied_to_a_block_that_is_revoked_is_dropped(pilot: RealizerPilot) -> None:
     pilot.block("first", '<wait id="w" duration="1"/>')
     pilot.block("next", '<head id="n" lexeme="NOD"/>', **{"bmla:appendAfter": "first"})
     pilot.block("talk", '<wait id="w" duration="2"/>')
@@ -96,7 +96,7 @@ async def test_an_interrupt_that_is_dropped_by_another_one_of_its_time_cuts_noth
     assert [pilot.feedback.status(block) for block in ("next", "talk")] == ["REVOKED", "DONE"]
 
 
-async def test_an_empty_block_that_waits_is_revoked_too(pilot: RealizerPilot) -> None:
+async def test_an_empty_waiting_block_can_be_revoked(pilot: RealizerPilot) -> None:
     pilot.block("empty", **PREPLAN)
     await pilot.tick()
     pilot.block("stop", '<bmla:interrupt id="i" target="empty"/>')
@@ -105,7 +105,7 @@ async def test_an_empty_block_that_waits_is_revoked_too(pilot: RealizerPilot) ->
 
 
 @pytest.mark.parametrize(("block", "start"), [("talk", "s:end-0.5"), ("stop", "talk:s:end-0.5")])
-async def test_an_interrupt_may_hang_on_what_it_cuts(pilot: RealizerPilot, block: str, start: str) -> None:
+async def test_an_interrupt_may_be_tied_to_its_target(pilot: RealizerPilot, block: str, start: str) -> None:
     inside = f'<bmla:interrupt id="i" target="talk" start="{start}"/>'
     pilot.block("talk", TALK + (inside if block == "talk" else ""))
     if block == "stop":
@@ -117,7 +117,7 @@ async def test_an_interrupt_may_hang_on_what_it_cuts(pilot: RealizerPilot, block
     assert pilot.feedback.warnings == []
 
 
-async def test_two_that_interrupt_each_other_at_one_time_both_do(pilot: RealizerPilot) -> None:
+async def test_two_blocks_that_interrupt_each_other_at_one_time_both_end(pilot: RealizerPilot) -> None:
     for own, other in ("ab", "ba"):
         pilot.block(own, f'{BEAT}<bmla:interrupt id="i" target="{other}" start="0.5"/>')
     await pilot.advance(3)
@@ -126,7 +126,7 @@ async def test_two_that_interrupt_each_other_at_one_time_both_do(pilot: Realizer
     assert pilot.feedback.warnings == []
 
 
-async def test_activating_in_the_wrong_way_is_told(pilot: RealizerPilot) -> None:
+async def test_an_invalid_activation_is_reported(pilot: RealizerPilot) -> None:
     pilot.block("plain", '<wait id="w" duration="0.1"/>')
     pilot.block("ready", TALK, **PREPLAN)
     inside = "".join(
@@ -143,7 +143,9 @@ async def test_activating_in_the_wrong_way_is_told(pilot: RealizerPilot) -> None
     assert told_of(pilot, "go") == ["go:start", "go:a1:start", "go:a1:end", "go:end"]
 
 
-async def test_who_hangs_on_an_activate_that_finds_nothing_is_told_and_keeps_its_time(pilot: RealizerPilot) -> None:
+async def test_a_behavior_tied_to_an_activate_without_a_target_keeps_its_time_with_a_warning(
+    pilot: RealizerPilot,
+) -> None:
     pilot.block("go", '<bmla:activate id="a" target="x" start="0.5"/><head id="h" lexeme="NOD" start="a:start+0.5"/>')
     await pilot.advance(3)
     assert pilot.feedback.warnings == [("go:a", "NO_SUCH_TARGET"), ("go:h", "IMPOSSIBLE_TO_SCHEDULE")]

@@ -1,4 +1,4 @@
-"""What plays is ended by what replaces it, at its very time, and says so."""
+"""Interruption by `REPLACE`: what plays ends at the exact time, with feedback."""
 
 from collections.abc import AsyncIterator
 from pathlib import Path
@@ -23,7 +23,7 @@ def points(pilot: RealizerPilot, behavior: str) -> list[tuple[str, float]]:
     return [(line.id.removeprefix(f"{behavior}:"), line.global_time) for line in lines]
 
 
-async def test_points_ahead_are_cut_except_relax_and_end_which_come_now(pilot: RealizerPilot) -> None:
+async def test_future_points_are_cut_except_relax_and_end_which_happen_now(pilot: RealizerPilot) -> None:
     pilot.block("b", GESTURE)
     await pilot.advance(0.5)
     before = points(pilot, "b:g")
@@ -34,7 +34,7 @@ async def test_points_ahead_are_cut_except_relax_and_end_which_come_now(pilot: R
     assert pilot.feedback.warnings == []
 
 
-async def test_past_its_relax_a_behavior_gets_its_end_alone(pilot: RealizerPilot) -> None:
+async def test_a_behavior_past_its_relax_only_gets_its_end(pilot: RealizerPilot) -> None:
     pilot.block("b", '<gesture id="g" lexeme="BEAT" start="0" relax="0.5" end="4"/>')
     await pilot.advance(1)
     assert points(pilot, "b:g")[-1] == ("relax", 0.5)
@@ -50,7 +50,7 @@ async def test_points_that_are_due_come_first_with_their_own_times(pilot: Realiz
     assert pilot.feedback.time("b:v:end") == pilot.feedback.time("b:end") == 1.0
 
 
-async def test_a_block_whose_last_point_is_just_due_is_done_and_not_interrupted(pilot: RealizerPilot) -> None:
+async def test_a_block_whose_last_point_is_due_is_done_and_not_interrupted(pilot: RealizerPilot) -> None:
     pilot.block("b", '<wait id="w" duration="0.995"/>')
     await pilot.advance(1)
     await replace(pilot)
@@ -65,7 +65,7 @@ async def test_a_behavior_whose_start_is_due_starts_and_ends_at_once(pilot: Real
     assert points(pilot, "b:w") == [("start", 0.995), ("end", 1.0)]
 
 
-async def test_behaviors_that_have_not_started_vanish_without_a_word(pilot: RealizerPilot) -> None:
+async def test_behaviors_that_have_not_started_are_removed_without_feedback(pilot: RealizerPilot) -> None:
     pilot.block("b", f'<head id="later" lexeme="NOD" start="3"/><head id="never" lexeme="NOD" start="{HIT}"/>')
     await pilot.advance(1)
     await replace(pilot)
@@ -75,7 +75,7 @@ async def test_behaviors_that_have_not_started_vanish_without_a_word(pilot: Real
     assert pilot.feedback.warnings == []
 
 
-async def test_everything_ends_before_what_replaces_it_starts_in_order_of_arrival(pilot: RealizerPilot) -> None:
+async def test_replaced_blocks_end_in_order_of_arrival_before_the_new_block_starts(pilot: RealizerPilot) -> None:
     pilot.block("one", GESTURE)
     pilot.block("two", composition="APPEND")
     pilot.block("three", f'<head id="h" lexeme="NOD" start="{HIT}"/>')
@@ -109,7 +109,9 @@ async def two(tests_data: Path) -> AsyncIterator[RealizerPilot]:
         yield pilot
 
 
-async def test_what_another_character_had_tied_to_a_cut_point_keeps_its_time_and_is_warned(two: RealizerPilot) -> None:
+async def test_a_behavior_of_another_character_tied_to_a_cut_point_keeps_its_time_with_a_warning(
+    two: RealizerPilot,
+) -> None:
     two.block("a", GESTURE, characterId="alice")
     two.block("b", '<head id="h" lexeme="NOD" start="a:g:end" end="a:g:end+1"/>', characterId="bob")
     await two.advance(1)
@@ -123,7 +125,7 @@ async def test_what_another_character_had_tied_to_a_cut_point_keeps_its_time_and
     assert told.status("b") == "DONE"
 
 
-async def test_what_hangs_on_a_point_that_never_comes_and_has_no_time_is_dropped(two: RealizerPilot) -> None:
+async def test_a_behavior_tied_to_a_cut_point_without_a_time_is_dropped(two: RealizerPilot) -> None:
     two.block("a", f'<head id="h" lexeme="NOD" start="{HIT}"/>', characterId="alice")
     two.block("b", '<head id="h" lexeme="NOD" start="a:h:end"/><wait id="w" duration="2"/>', characterId="bob")
     await two.advance(1)
@@ -134,7 +136,7 @@ async def test_what_hangs_on_a_point_that_never_comes_and_has_no_time_is_dropped
     assert two.feedback.time("b:end") == 2.0
 
 
-async def test_what_hangs_on_a_block_that_is_revoked_is_dropped(two: RealizerPilot) -> None:
+async def test_a_behavior_tied_to_a_revoked_block_is_dropped(two: RealizerPilot) -> None:
     two.block("first", GESTURE, characterId="alice")
     two.block("a", GESTURE, characterId="alice", composition="APPEND")
     two.block("b", '<head id="h" lexeme="NOD" start="a:g:stroke"/>', characterId="bob")
@@ -145,7 +147,7 @@ async def test_what_hangs_on_a_block_that_is_revoked_is_dropped(two: RealizerPil
     assert two.feedback.status("b") == "DONE"
 
 
-async def test_blocks_that_are_replaced_together_do_not_warn_of_each_other(pilot: RealizerPilot) -> None:
+async def test_blocks_that_are_replaced_together_cause_no_warnings(pilot: RealizerPilot) -> None:
     pilot.block("a", GESTURE)
     pilot.block("b", '<head id="h" lexeme="NOD" start="a:g:end" end="a:g:end+1"/>')
     await pilot.advance(1)
@@ -156,7 +158,7 @@ async def test_blocks_that_are_replaced_together_do_not_warn_of_each_other(pilot
 # --- two characters
 
 
-async def test_one_character_is_replaced_and_the_other_goes_on(two: RealizerPilot) -> None:
+async def test_replace_affects_only_its_own_character(two: RealizerPilot) -> None:
     for who in ("alice", "bob"):
         two.block("b", GESTURE, characterId=who)
     await two.advance(1)
@@ -168,7 +170,9 @@ async def test_one_character_is_replaced_and_the_other_goes_on(two: RealizerPilo
     assert ends == [("bob", 1.0), ("alice", 4.0)]
 
 
-async def test_the_same_id_may_be_alive_once_a_character_and_append_waits_for_ones_own(two: RealizerPilot) -> None:
+async def test_characters_may_use_equal_ids_and_an_appended_block_waits_for_its_own_character(
+    two: RealizerPilot,
+) -> None:
     two.block("b", '<wait id="w" duration="1"/>', characterId="alice")
     two.block("b", '<wait id="w" duration="2"/>', characterId="bob")
     two.block("next", characterId="alice", composition="APPEND")
@@ -177,13 +181,13 @@ async def test_the_same_id_may_be_alive_once_a_character_and_append_waits_for_on
     assert two.feedback.warnings == []
 
 
-async def test_a_block_without_a_character_goes_to_the_first(two: RealizerPilot) -> None:
+async def test_a_block_without_a_character_is_for_the_first_one(two: RealizerPilot) -> None:
     two.block("b")
     await two.tick()
     assert {line.element.get("characterId") for line in two.feedback.messages} == {"alice"}
 
 
-async def test_two_characters_may_use_their_right_arms_and_voices_at_once(two: RealizerPilot) -> None:
+async def test_characters_do_not_share_resources(two: RealizerPilot) -> None:
     both = '<gesture id="g" lexeme="BEAT" mode="RIGHT_HAND"/><speech id="s"><text>Together now.</text></speech>'
     for who in ("alice", "bob"):
         two.block("b", both, characterId=who)

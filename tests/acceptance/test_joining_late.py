@@ -1,4 +1,4 @@
-"""Behaviors on what has passed when they are planned, or when their block starts (docs/semantics.md)."""
+"""Behaviors tied to points that have passed when they are planned or when their block starts (docs/semantics.md)."""
 
 from reactive_realizer.testing.assertions import assert_not_played, assert_time
 from reactive_realizer.testing.pilot import RealizerPilot
@@ -6,7 +6,7 @@ from reactive_realizer.testing.pilot import RealizerPilot
 from .living_time import GO, HIT, moves, nod, wait
 
 
-async def test_a_behavior_on_a_point_that_has_passed_joins_late_without_a_warning(pilot: RealizerPilot) -> None:
+async def test_a_behavior_tied_to_a_past_point_joins_late_without_a_warning(pilot: RealizerPilot) -> None:
     pilot.block("a", wait("w", 3))
     await pilot.advance(0.5)
     pilot.block("b", nod("n", start="a:w:start"))
@@ -16,7 +16,7 @@ async def test_a_behavior_on_a_point_that_has_passed_joins_late_without_a_warnin
     assert pilot.feedback.warnings == []
 
 
-async def test_it_is_dropped_with_a_warning_if_its_end_has_passed_too(pilot: RealizerPilot) -> None:
+async def test_a_behavior_whose_end_has_passed_is_dropped_with_a_warning(pilot: RealizerPilot) -> None:
     pilot.block("a", wait("w", 3))
     await pilot.advance(2)
     pilot.block("b", nod("n", start="a:w:start"))
@@ -26,7 +26,7 @@ async def test_it_is_dropped_with_a_warning_if_its_end_has_passed_too(pilot: Rea
     assert pilot.feedback.status("b") == "DONE"
 
 
-async def test_it_is_dropped_also_if_its_end_passes_while_its_block_waits(pilot: RealizerPilot) -> None:
+async def test_a_behavior_whose_end_passes_while_its_block_waits_is_dropped(pilot: RealizerPilot) -> None:
     pilot.predict("t", "go", 1.5)
     pilot.predict("t", "hit", 2.0)
     pilot.block("a", wait("w", 0.5, start=GO))
@@ -36,7 +36,7 @@ async def test_it_is_dropped_also_if_its_end_passes_while_its_block_waits(pilot:
     assert [line.id for line in pilot.feedback.of("warningFeedback")] == ["b:n"]
 
 
-async def test_a_block_that_waits_is_not_pinned_by_a_prediction_that_is_early_for_a_moment(
+async def test_an_early_prediction_does_not_pin_a_waiting_block(
     pilot: RealizerPilot,
 ) -> None:
     pilot.predict("t", "go", 1.5)
@@ -51,7 +51,7 @@ async def test_a_block_that_waits_is_not_pinned_by_a_prediction_that_is_early_fo
     assert pilot.feedback.warnings == []
 
 
-async def test_what_would_begin_before_its_block_is_hurried_and_not_begun_before_it(pilot: RealizerPilot) -> None:
+async def test_a_behavior_that_would_start_before_its_block_is_shortened(pilot: RealizerPilot) -> None:
     pilot.predict("t", "hit", 5.0)
     pilot.block("a", wait("w", 1))
     pilot.block("b", nod("n", end=HIT), composition="APPEND")

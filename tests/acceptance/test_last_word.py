@@ -1,4 +1,4 @@
-"""An interrupted speech tells what was heard of it: the last word that began."""
+"""An interrupted speech reports the last word that was heard."""
 
 from typing import Any
 
@@ -41,27 +41,27 @@ async def last_word(pilot: RealizerPilot, text: str, at: float, **attributes: An
         (0.77, ("2", "three", "13")),
     ],
 )
-async def test_a_word_counts_once_something_of_it_was_heard(
+async def test_a_word_counts_as_heard_once_it_has_begun(
     pilot: RealizerPilot, at: float, heard: tuple[str, str, str]
 ) -> None:
     assert await last_word(pilot, "one two three", at) == heard
 
 
-async def test_marks_and_punctuation_are_no_words(pilot: RealizerPilot) -> None:
+async def test_marks_and_punctuation_do_not_count_as_words(pilot: RealizerPilot) -> None:
     assert await last_word(pilot, '"One," <sync id="m"/>(two) &#8212; three.', 0.5) == ("1", "two", "11")
 
 
-async def test_a_speech_that_is_to_end_its_word_does_not_begin_the_next_one(pilot: RealizerPilot) -> None:
+async def test_a_speech_that_finishes_its_word_does_not_start_the_next_one(pilot: RealizerPilot) -> None:
     assert await last_word(pilot, "one two three", 0.3, speech="word") == ("1", "two", "7")
     assert pilot.feedback.time("b:s:end") == 0.48
 
 
-async def test_a_speech_that_is_between_two_words_ends_at_once(pilot: RealizerPilot) -> None:
+async def test_a_speech_between_two_words_ends_at_once(pilot: RealizerPilot) -> None:
     assert await last_word(pilot, "one two three", 0.24, speech="word") == ("0", "one", "3")
     assert pilot.feedback.time("b:s:end") == 0.24
 
 
-async def test_a_speech_in_its_last_word_ends_by_itself(pilot: RealizerPilot) -> None:
+async def test_a_speech_in_its_last_word_ends_normally(pilot: RealizerPilot) -> None:
     assert await last_word(pilot, "one two three", 0.5, speech="word") == (None, None, None)
     assert pilot.feedback.time("b:s:end") == pytest.approx(0.78)
     assert pilot.feedback.status("b") == "DONE"
@@ -70,7 +70,7 @@ async def test_a_speech_in_its_last_word_ends_by_itself(pilot: RealizerPilot) ->
 @pytest.mark.parametrize("voice", VOICES)
 @pytest.mark.parametrize("script", SCRIPTS)
 @pytest.mark.parametrize("at", [0.15, 0.6])
-async def test_the_word_stands_in_the_text_up_to_what_was_heard_in_any_script(
+async def test_the_reported_word_ends_the_heard_part_of_the_text_in_any_script(
     voice: str, script: str, at: float
 ) -> None:
     text = SCRIPTS[script]

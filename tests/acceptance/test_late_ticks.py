@@ -1,4 +1,4 @@
-"""However late a tick is: frames may be lost, sync points and times are not."""
+"""Late ticks: frames may be skipped, sync points and their times are not."""
 
 import asyncio
 from collections.abc import Iterable
@@ -48,7 +48,7 @@ async def test_ticks_that_jump_report_the_same_points_with_the_same_times(
     assert pilot.feedback.warnings == []
 
 
-async def test_within_one_late_tick_every_block_still_starts_before_its_points_and_ends_after_them(
+async def test_in_a_late_tick_every_block_starts_before_its_points_and_ends_after_them(
     pilot: RealizerPilot,
 ) -> None:
     await play(pilot, [0, 1000])
@@ -61,9 +61,7 @@ async def test_within_one_late_tick_every_block_still_starts_before_its_points_a
 
 @pytest.mark.parametrize("turn", [1, -1], ids=["written so", "written the other way round"])
 @pytest.mark.parametrize("jump", [1, 30])
-async def test_what_engines_ask_for_is_done_in_order_of_time_whatever_was_written_first(
-    pilot: RealizerPilot, jump: int, turn: int
-) -> None:
+async def test_requests_of_engines_are_carried_out_in_order_of_time(pilot: RealizerPilot, jump: int, turn: int) -> None:
     interrupt = '<bmla:interrupt id="i" target="{0}" start="{1}"/>'
     activate = '<bmla:activate id="a" target="{0}" start="{1}"/>'
     for name, *events in (
@@ -92,7 +90,7 @@ RIGHT = '<gesture id="g" lexeme="BEAT" mode="RIGHT_HAND"{}/>'
     ],
 )
 @pytest.mark.parametrize("late", [(), range(91, 120)], ids=["on time", "late"])
-async def test_who_plays_when_the_later_one_is_to_start_keeps_what_it_has(
+async def test_a_playing_behavior_keeps_its_resource_in_a_late_tick(
     pilot: RealizerPilot, late: Iterable[int], first: str, second: str
 ) -> None:
     pilot.block("one", first)
@@ -103,7 +101,7 @@ async def test_who_plays_when_the_later_one_is_to_start_keeps_what_it_has(
 
 
 @pytest.mark.parametrize("late", [(), range(91, 120)], ids=["on time", "late"])
-async def test_so_it_is_when_the_later_one_is_in_a_block_that_starts_in_the_same_tick(
+async def test_a_playing_behavior_keeps_its_resource_from_a_block_that_starts_in_the_same_tick(
     pilot: RealizerPilot, late: Iterable[int]
 ) -> None:
     pilot.block("one", SPEECH.format(""))
@@ -115,7 +113,7 @@ async def test_so_it_is_when_the_later_one_is_in_a_block_that_starts_in_the_same
 
 
 @pytest.mark.parametrize("late", [(), range(91, 120)], ids=["on time", "late"])
-async def test_what_is_free_again_at_the_very_time_is_free_however_late_the_tick(
+async def test_a_resource_released_at_the_start_of_a_behavior_is_free_in_a_late_tick(
     pilot: RealizerPilot, late: Iterable[int]
 ) -> None:
     pilot.block("one", SPEECH.format("") + RIGHT.format(' start="0" relax="0.93"'))
@@ -128,7 +126,7 @@ async def test_what_is_free_again_at_the_very_time_is_free_however_late_the_tick
 
 
 @pytest.mark.parametrize("late", [(), range(91, 150)], ids=["on time", "late"])
-async def test_who_has_the_arm_is_asked_even_if_an_interrupt_comes_in_the_same_tick(
+async def test_conflicts_are_resolved_before_a_later_interrupt_in_the_same_tick(
     pilot: RealizerPilot, late: Iterable[int]
 ) -> None:
     pilot.block("one", RIGHT.format(' start="0" end="2.5"'))
@@ -140,7 +138,7 @@ async def test_who_has_the_arm_is_asked_even_if_an_interrupt_comes_in_the_same_t
 
 
 @pytest.mark.parametrize("late", [(), range(91, 150)], ids=["on time", "late"])
-async def test_a_gesture_ends_where_the_next_one_takes_its_arm_though_it_would_be_over_by_then(
+async def test_a_gesture_ends_when_the_next_one_takes_its_arm_in_a_late_tick(
     pilot: RealizerPilot, late: Iterable[int]
 ) -> None:
     pilot.block("one", RIGHT.format(' start="0" relax="0.93"'))
@@ -151,7 +149,7 @@ async def test_a_gesture_ends_where_the_next_one_takes_its_arm_though_it_would_b
 
 
 @pytest.mark.parametrize("late", [(), range(91, 150)], ids=["on time", "late"])
-async def test_a_block_whose_last_behavior_is_dropped_ends_when_that_was_to_start(
+async def test_a_block_whose_last_behavior_is_dropped_ends_at_the_planned_start_of_that_behavior(
     pilot: RealizerPilot, late: Iterable[int]
 ) -> None:
     pilot.block("one", RIGHT.format(' start="0" end="2"'))
@@ -163,7 +161,7 @@ async def test_a_block_whose_last_behavior_is_dropped_ends_when_that_was_to_star
 
 
 @pytest.mark.parametrize("late", [(), range(41, 150)], ids=["on time", "late"])
-async def test_a_speech_still_ends_its_word_and_what_is_lost_by_it_is_told(
+async def test_a_speech_finishes_its_word_in_a_late_tick_and_losses_are_reported(
     pilot: RealizerPilot, late: Iterable[int]
 ) -> None:
     pilot.block("one", SPEECH.format(' end="1.58"'))
@@ -175,9 +173,7 @@ async def test_a_speech_still_ends_its_word_and_what_is_lost_by_it_is_told(
 
 
 @pytest.mark.parametrize("late", [(), range(91, 150)], ids=["on time", "late"])
-async def test_what_comes_in_with_a_late_tick_finds_what_would_have_been(
-    pilot: RealizerPilot, late: Iterable[int]
-) -> None:
+async def test_inputs_of_a_late_tick_enter_after_the_skipped_ticks(pilot: RealizerPilot, late: Iterable[int]) -> None:
     pilot.block("one", RIGHT.format(' start="0" relax="0.93"'))
     pilot.block("two", '<wait id="w" duration="1"/>', **{"bmla:chunkAfter": "one"})
     pilot.realizer.put(BmlText(block("three", RIGHT.format(""), composition="REPLACE")), tick_time(150))
@@ -187,7 +183,7 @@ async def test_what_comes_in_with_a_late_tick_finds_what_would_have_been(
 
 
 @pytest.mark.parametrize("late", [(), range(91, 150)], ids=["on time", "late"])
-async def test_a_block_that_waits_for_a_time_from_outside_has_begun_before_what_replaces_it(
+async def test_a_block_that_was_due_in_a_skipped_tick_starts_before_it_is_replaced(
     pilot: RealizerPilot, late: Iterable[int]
 ) -> None:
     pilot.predict("partner", "hit", 1.0)
@@ -199,7 +195,7 @@ async def test_a_block_that_waits_for_a_time_from_outside_has_begun_before_what_
     assert (pilot.feedback.time("one:end"), pilot.feedback.status("one")) == (1.5, "INTERRUPTED")
 
 
-async def test_a_prediction_that_comes_in_with_a_late_tick_moves_what_did_not_come_in_time(
+async def test_a_prediction_that_enters_with_a_late_tick_moves_only_points_after_the_skipped_ticks(
     pilot: RealizerPilot,
 ) -> None:
     pilot.predict("partner", "hit", 1.0)
@@ -209,7 +205,7 @@ async def test_a_prediction_that_comes_in_with_a_late_tick_moves_what_did_not_co
     assert pilot.feedback.time("one:w:end") == 1.7
 
 
-async def test_a_chain_that_is_longer_than_the_rounds_of_a_tick_comes_to_its_end_in_one(pilot: RealizerPilot) -> None:
+async def test_a_chain_of_blocks_longer_than_the_rounds_of_a_tick_ends_in_one_late_tick(pilot: RealizerPilot) -> None:
     for number in range(150):
         pilot.block(f"b{number}", '<wait id="w" duration="0.01"/>', composition="APPEND")
     await skip(pilot, range(1, 399))
@@ -248,7 +244,7 @@ def told(late: Iterable[int]) -> tuple[list[tuple[object, ...]], list[tuple[str,
 
 @settings(max_examples=12)
 @given(st.lists(st.tuples(st.integers(1, 380), st.integers(1, 90)), min_size=1, max_size=8))
-def test_whichever_ticks_are_left_out_the_same_is_told(gaps: list[tuple[int, int]]) -> None:
+def test_feedback_does_not_depend_on_which_ticks_are_skipped(gaps: list[tuple[int, int]]) -> None:
     late = {first + n for first, length in gaps for n in range(length)} - {399}
     assert told(frozenset(late)) == told(frozenset())
 

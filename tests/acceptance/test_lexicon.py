@@ -62,7 +62,7 @@ async def played(pilot: RealizerPilot, id_: str, behavior: str) -> float:
     while not pilot.feedback.reached(f"{id_}:end"):
         await pilot.advance(0.1)
     assert pilot.feedback.status(id_) == "DONE", behavior
-    assert pilot.feedback.reached(f"{id_}:word:end"), behavior
+    assert pilot.feedback.reached(f"{id_}:example:end"), behavior
     assert pilot.feedback.warnings == [], behavior
     rotations = np.array([frame.rotations for frame in pilot.frames["alice"]])
     return float(2.0 * np.arccos(np.clip(np.abs((rotations * rotations[:1]).sum(-1)), 0.0, 1.0)).max())

@@ -1,4 +1,4 @@
-"""Behaviors that hang on each other stay together and in order while some of the times they hang on move."""
+"""Clusters of tied behaviors stay together and in order while their outer times move."""
 
 from collections.abc import AsyncIterator
 from typing import Any
@@ -21,7 +21,9 @@ async def pilot(request: pytest.FixtureRequest) -> AsyncIterator[RealizerPilot]:
         yield pilot
 
 
-async def test_what_leads_up_to_a_point_stays_with_it_when_that_hangs_on_what_has_passed(pilot: RealizerPilot) -> None:
+async def test_a_behavior_before_a_point_follows_it_after_the_source_of_the_point_has_passed(
+    pilot: RealizerPilot,
+) -> None:
     pilot.predict("t", "hit", 0.3)
     pilot.block("b", GAZE + nod("q", stroke="p:end+1"))
     await moves(pilot, 1.1, ("hit", 1.8), 4)
@@ -33,7 +35,7 @@ async def test_what_leads_up_to_a_point_stays_with_it_when_that_hangs_on_what_ha
 @pytest.mark.parametrize("planned", [1.0, 2.5])
 @pytest.mark.parametrize("moved", [0.35, 3.0])
 @pytest.mark.parametrize("start", ["1.5", GO])
-async def test_a_point_that_two_lead_up_to_stays_behind_both_whichever_moves(
+async def test_a_point_stays_after_two_earlier_behaviors_when_either_moves(
     pilot: RealizerPilot, planned: float, moved: float, start: str
 ) -> None:
     pilot.predict("t", "hit", planned)
@@ -48,7 +50,7 @@ async def test_a_point_that_two_lead_up_to_stays_behind_both_whichever_moves(
     assert texts(pilot) == []
 
 
-async def test_a_point_that_leads_up_to_two_stays_before_both_whichever_moves(pilot: RealizerPilot) -> None:
+async def test_a_point_stays_before_two_later_behaviors_when_either_moves(pilot: RealizerPilot) -> None:
     pilot.predict("t", "hit", 2.0)
     pilot.predict("t", "go", 2.5)
     pilot.block("b", nod("n", start="m:start", end=HIT) + nod("m", end=GO))
@@ -60,7 +62,7 @@ async def test_a_point_that_leads_up_to_two_stays_before_both_whichever_moves(pi
     assert texts(pilot) == []
 
 
-async def test_a_cluster_that_would_have_begun_before_now_begins_now_and_stays_in_one_piece(
+async def test_a_cluster_that_should_have_started_earlier_starts_now_as_a_whole(
     pilot: RealizerPilot,
 ) -> None:
     pilot.block("b", WELL + wait("q", 0.5) + nod("r", start="q:start+1", end=HIT))
@@ -71,7 +73,7 @@ async def test_a_cluster_that_would_have_begun_before_now_begins_now_and_stays_i
     assert "no time is left" in texts(pilot)[-1] or "lost their order" in texts(pilot)[-1]
 
 
-async def test_what_is_tied_to_what_has_begun_stays_with_it_by_all_strategies() -> None:
+async def test_a_behavior_tied_to_a_playing_one_stays_with_it_with_every_strategy() -> None:
     for strategy in ("convex", "embr", "smartbody"):
         async with open_pilot(SceneOptions(voice="text", strategy=strategy, verify=True)) as pilot:
             pilot.predict("t", "hit", 0.3)
@@ -91,9 +93,7 @@ async def test_what_is_tied_to_what_has_begun_stays_with_it_by_all_strategies() 
         ),
     ],
 )
-async def test_each_tie_that_a_rigid_point_cannot_meet_is_told_once_by_its_own_text(
-    behaviors: Any, lost: list[str]
-) -> None:
+async def test_each_tie_that_a_rigid_behavior_cannot_meet_is_reported_once(behaviors: Any, lost: list[str]) -> None:
     async with open_pilot(SceneOptions(voice="text", strategy="smartbody")) as pilot:
         pilot.block("b", behaviors)
         await pilot.advance(1)
@@ -102,7 +102,7 @@ async def test_each_tie_that_a_rigid_point_cannot_meet_is_told_once_by_its_own_t
         assert all(any(name in tie for tie in ties) for name in lost)
 
 
-async def test_a_circle_of_points_that_hang_on_each_other_by_ties_and_orders_is_planned(pilot: RealizerPilot) -> None:
+async def test_a_cycle_of_ties_and_orders_is_planned(pilot: RealizerPilot) -> None:
     beats = {"p": {"relax": f"{HIT}+1"}, "q": {"stroke": "p:stroke+1", "ready": "r:stroke-0.3"}, "r": {}}
     parts = [f'<gesture id="{id_}" lexeme="BEAT"{syncs(points)}/>' for id_, points in beats.items()]
     pilot.block("b", "".join(parts) + after("q:ready+1", "r:relax"))

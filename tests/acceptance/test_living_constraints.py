@@ -1,4 +1,4 @@
-"""Constraints live: what held goes on holding while times move, or it is said, once (docs/time.md)."""
+"""Constraints hold while times move, or a violation is reported once (docs/time.md)."""
 
 from pathlib import Path
 
@@ -13,7 +13,7 @@ from .living_time import BEAT, GO, HIT, LOST, WELL, after, before, moves, nod, t
 # --- chains, clusters, blocks
 
 
-async def test_a_chain_of_afters_moves_as_a_whole_in_both_directions(pilot: RealizerPilot) -> None:
+async def test_a_chain_of_after_constraints_moves_in_both_directions(pilot: RealizerPilot) -> None:
     chain = after(HIT, "w1:start") + after("w1:end", "w2:start") + after("w2:end+0.2", "n:start")
     pilot.predict("t", "hit", 1.0)
     pilot.block("b", wait("w1", 0.5) + wait("w2", 0.5) + nod("n") + chain)
@@ -24,7 +24,7 @@ async def test_a_chain_of_afters_moves_as_a_whole_in_both_directions(pilot: Real
 
 
 @pytest.mark.parametrize("moved", [0.5, 4.0])
-async def test_a_cluster_starts_as_early_as_it_may_also_after_the_change(pilot: RealizerPilot, moved: float) -> None:
+async def test_a_cluster_starts_as_early_as_possible_after_a_move(pilot: RealizerPilot, moved: float) -> None:
     pilot.predict("t", "hit", 2.0)
     pilot.block("b", WELL.format("") + nod("n", stroke="s:m") + wait("w", 0.2) + after(HIT, "s:m", "w:start"))
     await moves(pilot, 0.2, ("hit", moved), 8)
@@ -34,7 +34,7 @@ async def test_a_cluster_starts_as_early_as_it_may_also_after_the_change(pilot: 
     assert pilot.feedback.warnings == []  # verify would say that 7.24 does not hold
 
 
-async def test_constraints_across_blocks_and_characters_follow(tests_data: Path) -> None:
+async def test_constraints_across_blocks_and_characters_hold_while_times_move(tests_data: Path) -> None:
     two = SceneOptions(human=tests_data / "humans" / "two.toml", voice="text", verify=True)
     async with open_pilot(two) as pilot:
         pilot.predict("t", "hit", 1.0)
@@ -49,7 +49,7 @@ async def test_constraints_across_blocks_and_characters_follow(tests_data: Path)
         assert pilot.feedback.warnings == []
 
 
-async def test_whatever_tries_to_come_before_the_block_is_not_pulled_further_than_its_start(
+async def test_a_before_constraint_cannot_move_a_behavior_before_the_start_of_its_block(
     pilot: RealizerPilot,
 ) -> None:
     pilot.block("a", wait("w", 2))
@@ -59,7 +59,7 @@ async def test_whatever_tries_to_come_before_the_block_is_not_pulled_further_tha
     assert [f"w:end before {HIT} {LOST}: it is off by 1.5 s" in said for said in texts(pilot)] == [True]
 
 
-async def test_who_hangs_on_a_chunk_follows_it_when_that_is_planned_anew(pilot: RealizerPilot) -> None:
+async def test_dependents_of_a_chunk_follow_when_it_is_planned_again(pilot: RealizerPilot) -> None:
     pilot.block("a", BEAT.format(' mode="RIGHT_HAND"'))
     chunk = WELL.format("") + BEAT.format(' mode="RIGHT_HAND" stroke="s:m"')
     pilot.block("b", chunk, **{"bmla:chunkAfter": "a"})
@@ -73,7 +73,7 @@ async def test_who_hangs_on_a_chunk_follows_it_when_that_is_planned_anew(pilot: 
 # --- at
 
 
-async def test_a_point_that_has_come_keeps_its_time_and_the_rest_follows(pilot: RealizerPilot) -> None:
+async def test_a_reached_point_keeps_its_time_and_later_points_follow(pilot: RealizerPilot) -> None:
     pilot.predict("t", "hit", 1.0)
     pilot.block("b", nod("n", start=f"{HIT}-0.5", end=f"{HIT}+1"))
     await moves(pilot, 0.7, ("hit", 1.4), 3)
@@ -83,7 +83,9 @@ async def test_a_point_that_has_come_keeps_its_time_and_the_rest_follows(pilot: 
     assert f"n:start = {HIT}-0.5 {LOST}: it is off by 0.4 s" in said
 
 
-async def test_an_anticipator_that_starts_over_breaks_nothing_that_has_come(pilot: RealizerPilot) -> None:
+async def test_a_prediction_of_the_next_occurrence_violates_no_constraint_of_a_reached_point(
+    pilot: RealizerPilot,
+) -> None:
     pilot.predict("t", "hit", 0.5)
     pilot.block("b", nod("n", start=HIT) + wait("w", 5))
     await moves(pilot, 0.7, ("hit", 1.4), 0.2, ("hit", None), 0.2, ("hit", 3.0), 5)
@@ -91,7 +93,7 @@ async def test_an_anticipator_that_starts_over_breaks_nothing_that_has_come(pilo
     assert pilot.feedback.warnings == []
 
 
-async def test_between_two_ties_everything_stretches_alike_while_it_plays(pilot: RealizerPilot) -> None:
+async def test_phases_between_two_ties_stretch_by_the_same_factor_while_playing(pilot: RealizerPilot) -> None:
     pilot.predict("t", "hit", 1.4)
     pilot.block("b", nod("n", start="0", end=HIT) + nod("m", start="0", end="1.4"))
     await moves(pilot, 0.1, ("hit", 2.8), 4)
@@ -100,7 +102,7 @@ async def test_between_two_ties_everything_stretches_alike_while_it_plays(pilot:
 
 
 @pytest.mark.parametrize("turn", [1, -1])
-async def test_a_circle_of_at_that_agrees_is_kept_and_one_that_does_not_is_named(
+async def test_a_consistent_cycle_of_ties_is_kept_and_an_inconsistent_one_is_reported(
     pilot: RealizerPilot, turn: int
 ) -> None:
     def circle(last: str) -> str:
@@ -120,7 +122,7 @@ async def test_a_circle_of_at_that_agrees_is_kept_and_one_that_does_not_is_named
 @pytest.mark.parametrize(
     ("moved", "start"), [((0.5, ("go", 1.8)), 2.3), ((1.2, ("hit", 1.3)), 1.5), ((1.6, ("hit", 1.7)), 1.7)]
 )
-async def test_of_two_on_anticipators_that_come_too_close_the_later_one_is_held_back(
+async def test_of_two_behaviors_whose_outer_times_come_too_close_the_later_one_is_delayed(
     pilot: RealizerPilot, moved: tuple[float, tuple[str, float]], start: float
 ) -> None:
     pilot.predict("t", "go", 1.0)
@@ -132,7 +134,7 @@ async def test_of_two_on_anticipators_that_come_too_close_the_later_one_is_held_
 
 
 @pytest.mark.parametrize("moved", [(0.5, ("go", 1.6)), (1.2, ("hit", 1.7)), (0.5, ("hit", 1.3))])
-async def test_what_lies_between_them_and_can_be_shorter_is_whoever_was_predicted_last(
+async def test_an_elastic_behavior_between_two_outer_times_is_shortened(
     pilot: RealizerPilot, moved: tuple[float, tuple[str, float]]
 ) -> None:
     pilot.predict("t", "go", 1.0)
@@ -146,7 +148,7 @@ async def test_what_lies_between_them_and_can_be_shorter_is_whoever_was_predicte
     assert pilot.feedback.warnings == []
 
 
-async def test_a_point_that_its_successor_overtakes_comes_with_it_and_is_predicted_so(pilot: RealizerPilot) -> None:
+async def test_a_point_that_its_successor_overtakes_is_predicted_and_happens_with_it(pilot: RealizerPilot) -> None:
     pilot.predict("t", "go", 1.5)
     pilot.predict("t", "hit", 1.0)
     pilot.block("b", nod("n", start="0", stroke=HIT, end=GO))
@@ -158,7 +160,7 @@ async def test_a_point_that_its_successor_overtakes_comes_with_it_and_is_predict
 
 
 @pytest.mark.parametrize(("moved", "why"), [(0.8, ": start is at 1 s, end at 0.8 s"), (1.0, "no time is left")])
-async def test_a_behavior_without_time_that_has_not_begun_is_dropped_with_one_warning(
+async def test_a_behavior_that_has_no_duration_left_before_its_start_is_dropped_with_one_warning(
     pilot: RealizerPilot, moved: float, why: str
 ) -> None:
     pilot.predict("t", "go", 1.0)
@@ -173,7 +175,7 @@ async def test_a_behavior_without_time_that_has_not_begun_is_dropped_with_one_wa
 # --- what is predicted
 
 
-async def test_what_was_predicted_last_is_what_comes_for_every_point_of_a_plan_that_moves(pilot: RealizerPilot) -> None:
+async def test_every_point_of_a_moving_plan_happens_at_its_last_prediction(pilot: RealizerPilot) -> None:
     pilot.predict("t", "go", 1.0)
     pilot.block("b", WELL.format(f' start="{GO}"') + BEAT.format(' stroke="s:m"') + nod("n", start="g:end", end=HIT))
     pilot.block("c", nod("n"), composition="APPEND")

@@ -1,4 +1,4 @@
-"""After and before with one side on an anticipator push, or are given up, and that is said once (docs/time.md)."""
+"""Before/after constraints with one side on an outer time hold, or a violation is reported once (docs/time.md)."""
 
 from typing import Any
 
@@ -12,7 +12,7 @@ from .living_time import BEAT, GO, HIT, LOST, after, before, moves, nod, texts, 
 
 
 @pytest.mark.parametrize("moved", [0.6, 1.0, 2.5])
-async def test_after_pushes_and_lets_come_back_whatever_the_partner_does_before_either_has_come(
+async def test_an_after_constraint_follows_its_outer_time_in_both_directions(
     pilot: RealizerPilot, moved: float
 ) -> None:
     pilot.predict("t", "hit", 1.5)
@@ -22,7 +22,7 @@ async def test_after_pushes_and_lets_come_back_whatever_the_partner_does_before_
     assert pilot.feedback.warnings == []
 
 
-async def test_what_may_be_earlier_than_now_is_now(pilot: RealizerPilot) -> None:
+async def test_a_point_that_may_be_earlier_than_now_happens_now(pilot: RealizerPilot) -> None:
     pilot.predict("t", "hit", 3.0)
     pilot.block("b", wait("w", 1) + after(f"{HIT}-1", "w:start"))
     await moves(pilot, 1, ("hit", 1.2), 3)
@@ -30,7 +30,7 @@ async def test_what_may_be_earlier_than_now_is_now(pilot: RealizerPilot) -> None
     assert pilot.feedback.warnings == []
 
 
-async def test_an_after_that_moves_past_a_point_that_has_come_is_lost_and_that_is_said_once(
+async def test_an_after_constraint_that_moves_past_a_reached_point_is_reported_once(
     pilot: RealizerPilot,
 ) -> None:
     pilot.predict("t", "hit", 1.0)
@@ -41,7 +41,7 @@ async def test_an_after_that_moves_past_a_point_that_has_come_is_lost_and_that_i
     assert f"w:start after {HIT}-0.5 {LOST}: it is off by 1 s" in said
 
 
-async def test_an_after_pushes_a_point_of_a_gesture_that_is_on_its_way(pilot: RealizerPilot) -> None:
+async def test_an_after_constraint_delays_a_point_of_a_playing_gesture(pilot: RealizerPilot) -> None:
     pilot.predict("t", "hit", 1.0)
     pilot.block("b", BEAT.format("") + after(HIT, "g:stroke"))
     await moves(pilot, 0.5, ("hit", 3.0), 4)
@@ -50,7 +50,7 @@ async def test_an_after_pushes_a_point_of_a_gesture_that_is_on_its_way(pilot: Re
     assert pilot.feedback.warnings == []
 
 
-async def test_a_before_pulls_what_is_on_its_way_and_lets_it_go_again(pilot: RealizerPilot) -> None:
+async def test_a_before_constraint_moves_a_point_of_a_playing_behavior_in_both_directions(pilot: RealizerPilot) -> None:
     pilot.predict("t", "hit", 3.0)
     pilot.block("b", nod("n") + before(HIT, "n:end"))
     await moves(pilot, 0.2, ("hit", 0.5), 0.1)
@@ -61,7 +61,7 @@ async def test_a_before_pulls_what_is_on_its_way_and_lets_it_go_again(pilot: Rea
 
 
 @pytest.mark.parametrize("first", [wait("w", 2), wait("w", 2, start=GO), nod("w", start="0", end="2")])
-async def test_a_before_on_what_cannot_go_is_lost_and_nothing_else_is(pilot: RealizerPilot, first: Any) -> None:
+async def test_only_a_before_constraint_on_a_fixed_point_is_lost(pilot: RealizerPilot, first: Any) -> None:
     pilot.predict("t", "go", 0.2)
     pilot.predict("t", "hit", 3.0)
     pilot.block("b", first + before(HIT, "w:end"))
@@ -73,7 +73,7 @@ async def test_a_before_on_what_cannot_go_is_lost_and_nothing_else_is(pilot: Rea
 
 @pytest.mark.parametrize("start", ["1", "anticipators:t:go"])
 @pytest.mark.parametrize("moved", [0.6, -1.0])
-async def test_a_before_that_moves_in_front_of_what_must_come_first_is_given_up_and_nothing_else_is(
+async def test_only_a_before_constraint_that_moves_before_a_fixed_earlier_point_is_lost(
     pilot: RealizerPilot, start: str, moved: float
 ) -> None:
     pilot.predict("t", "go", 1.0)
@@ -86,7 +86,7 @@ async def test_a_before_that_moves_in_front_of_what_must_come_first_is_given_up_
     assert f"n:end before {HIT} {LOST}" in said
 
 
-async def test_it_binds_again_when_its_bound_comes_back(pilot: RealizerPilot) -> None:
+async def test_a_before_constraint_holds_again_when_its_bound_returns(pilot: RealizerPilot) -> None:
     pilot.predict("t", "hit", 3.0)
     pilot.block("b", nod("n", start="1") + before(HIT, "n:end"))
     await moves(pilot, 0.5, ("hit", 0.6), 0.1, ("hit", 1.2), 3)
@@ -97,7 +97,7 @@ async def test_it_binds_again_when_its_bound_comes_back(pilot: RealizerPilot) ->
 @pytest.mark.parametrize("strategy", ["convex", "embr"])
 @pytest.mark.parametrize("end", ["2", GO])
 @pytest.mark.parametrize("moved", [2.0, 2.5])
-async def test_an_after_that_moves_behind_what_must_come_later_is_given_up_and_nothing_else_is(
+async def test_only_an_after_constraint_that_moves_past_a_fixed_later_point_is_lost(
     strategy: str, end: str, moved: float
 ) -> None:
     async with open_pilot(SceneOptions(voice="text", verify=True, strategy=strategy)) as pilot:
@@ -111,7 +111,7 @@ async def test_an_after_that_moves_behind_what_must_come_later_is_given_up_and_n
         assert f"n:start after {HIT} {LOST}" in said
 
 
-async def test_it_binds_again_when_its_bound_comes_back_in_front_of_that(pilot: RealizerPilot) -> None:
+async def test_an_after_constraint_holds_again_when_its_bound_returns(pilot: RealizerPilot) -> None:
     pilot.predict("t", "hit", 1.0)
     pilot.block("b", nod("n", end="2") + after(HIT, "n:start"))
     await moves(pilot, 0.5, ("hit", 2.4), 0.1, ("hit", 1.6), 3)
@@ -120,7 +120,7 @@ async def test_it_binds_again_when_its_bound_comes_back_in_front_of_that(pilot: 
 
 
 @pytest.mark.parametrize("strategy", ["convex", "embr"])
-async def test_an_after_is_given_up_rather_than_the_tie_of_a_point_behind(strategy: str) -> None:
+async def test_an_after_constraint_is_dropped_before_the_tie_of_a_later_point(strategy: str) -> None:
     async with open_pilot(SceneOptions(voice="text", verify=True, strategy=strategy)) as pilot:
         pilot.predict("t", "go", 1.5)
         pilot.predict("t", "hit", 0.5)
@@ -130,7 +130,7 @@ async def test_an_after_is_given_up_rather_than_the_tie_of_a_point_behind(strate
         assert [f"g:start after {HIT} {LOST}" in said for said in texts(pilot)] == [True]
 
 
-async def test_a_before_is_given_up_rather_than_the_tie_of_a_point_in_front(pilot: RealizerPilot) -> None:
+async def test_a_before_constraint_is_dropped_before_the_tie_of_an_earlier_point(pilot: RealizerPilot) -> None:
     pilot.predict("t", "go", 1.0)
     pilot.predict("t", "hit", 3.0)
     pilot.block("b", BEAT.format(f' stroke="{GO}"') + before(HIT, "g:end"))
@@ -139,7 +139,7 @@ async def test_a_before_is_given_up_rather_than_the_tie_of_a_point_in_front(pilo
     assert [f"g:end before {HIT} {LOST}" in said for said in texts(pilot)] == [True]
 
 
-async def test_after_the_unknown_waits_before_it_nothing_is_bound_and_at_it_a_whole_cluster_waits(
+async def test_after_constraints_and_ties_on_an_unknown_time_wait_and_before_constraints_do_not(
     pilot: RealizerPilot,
 ) -> None:
     tied = nod("n", stroke=HIT) + nod("m", start="n:end")

@@ -1,4 +1,4 @@
-"""What has ended is let go of."""
+"""Ended blocks are freed."""
 
 import gc
 import weakref
@@ -40,7 +40,7 @@ async def test_300_blocks_leave_nothing_behind(pilot: RealizerPilot) -> None:
     assert not [thing for thing in gc.get_objects() if isinstance(thing, BMLBlock)]
 
 
-async def test_blocks_that_are_appended_to_each_other_for_ever_do_not_keep_the_first(pilot: RealizerPilot) -> None:
+async def test_an_endless_chain_of_appended_blocks_does_not_keep_the_first(pilot: RealizerPilot) -> None:
     pilot.block("b0", '<wait id="w" duration="0.05"/>')
     await pilot.tick()
     first = weakref.ref(pilot.realizer.scheduler.blocks.alive[0])
@@ -52,7 +52,7 @@ async def test_blocks_that_are_appended_to_each_other_for_ever_do_not_keep_the_f
     assert first() is None
 
 
-async def test_only_the_last_ended_blocks_are_remembered(pilot: RealizerPilot) -> None:
+async def test_only_the_latest_ended_blocks_are_remembered(pilot: RealizerPilot) -> None:
     blocks = pilot.realizer.scheduler.blocks
     blocks._remembered = 5
     for number in range(10):
@@ -61,7 +61,7 @@ async def test_only_the_last_ended_blocks_are_remembered(pilot: RealizerPilot) -
     assert [ended.key.block for ended in blocks.ended] == [f"b{n}" for n in range(5, 10)]
 
 
-async def test_where_nobody_looks_nothing_that_has_left_is_kept(pilot: RealizerPilot) -> None:
+async def test_fading_motions_are_not_kept_if_no_frames_are_made(pilot: RealizerPilot) -> None:
     for number in range(12):
         stance = "SITTING" if number % 2 else "STANDING"
         pilot.block(
@@ -77,7 +77,7 @@ async def test_where_nobody_looks_nothing_that_has_left_is_kept(pilot: RealizerP
     assert len([thing for thing in gc.get_objects() if isinstance(thing, FadeOut)]) < 4
 
 
-async def test_a_gesture_that_was_asked_for_in_all_sizes_is_not_kept_in_all_of_them(pilot: RealizerPilot) -> None:
+async def test_the_number_of_cached_gestures_is_limited(pilot: RealizerPilot) -> None:
     for number in range(200):
         size = f'<bmlt:parameter name="amount" value="{number / 200}"/>'
         pilot.block(
@@ -105,7 +105,7 @@ _PERFORMED = """
 """
 
 
-async def test_what_has_ended_frees_itself_without_a_search_for_garbage(pilot: RealizerPilot) -> None:
+async def test_ended_behaviors_are_freed_without_the_garbage_collector(pilot: RealizerPilot) -> None:
     async def perform(block: str) -> None:
         pilot.block(block, _PERFORMED.format(block))
         pilot.block("big", "".join(f'<wait id="w{number}" duration="0.1"/>' for number in range(60)))  # solved aside

@@ -1,4 +1,4 @@
-"""Constraints that a late prediction breaks: each is said once, with what is missing, unless nobody would see it."""
+"""Constraints that a late prediction violates: each is reported once, unless its amount is too small to notice."""
 
 import re
 from typing import Any
@@ -21,7 +21,7 @@ def missed(pilot: RealizerPilot) -> dict[tuple[Any, str | Any], float]:
 
 
 @pytest.mark.parametrize("moved", [2.2, 2.0, 1.2])
-async def test_who_was_to_be_ahead_of_what_comes_at_once_is_late_and_so_is_who_is_tied_to_it(
+async def test_a_behavior_before_a_point_that_moves_to_now_is_late_with_its_dependents(
     pilot: RealizerPilot, moved: float
 ) -> None:
     pilot.predict("t", "hit", 4.0)
@@ -35,7 +35,7 @@ async def test_who_was_to_be_ahead_of_what_comes_at_once_is_late_and_so_is_who_i
     assert len(pilot.feedback.warnings) == 2
 
 
-async def test_what_is_rigid_and_ends_with_what_comes_at_once_is_told_too(pilot: RealizerPilot) -> None:
+async def test_a_rigid_behavior_that_ends_late_is_reported(pilot: RealizerPilot) -> None:
     pilot.predict("t", "hit", 4.0)
     pilot.block("b", AHEAD + wait("w", 1, end="n:start-0.3"))
     await moves(pilot, 3.2, ("hit", 3.0), 4)
@@ -44,7 +44,9 @@ async def test_what_is_rigid_and_ends_with_what_comes_at_once_is_told_too(pilot:
     assert missed(pilot) == pytest.approx(ties)
 
 
-async def test_so_is_what_ends_its_block_by_it(pilot: RealizerPilot) -> None:
+async def test_the_last_behavior_of_a_block_that_ends_late_is_reported_before_the_end_of_the_block(
+    pilot: RealizerPilot,
+) -> None:
     pilot.predict("t", "hit", 4.0)
     pilot.block("b", nod("n", end=f"{HIT}-0.5"))
     await moves(pilot, 3, ("hit", 1.0), 1)
@@ -53,7 +55,7 @@ async def test_so_is_what_ends_its_block_by_it(pilot: RealizerPilot) -> None:
     assert pilot.feedback.messages[-1].id == "b:end"
 
 
-async def test_a_tie_between_two_blocks_is_told_as_one_of_the_block_that_has_it(pilot: RealizerPilot) -> None:
+async def test_a_missed_tie_between_blocks_is_reported_for_the_block_that_contains_it(pilot: RealizerPilot) -> None:
     pilot.predict("t", "hit", 4.0)
     pilot.block("a", wait("w", 1, start=HIT))
     pilot.block("b", nod("n", start="a:w:start-0.5"))
@@ -64,7 +66,7 @@ async def test_a_tie_between_two_blocks_is_told_as_one_of_the_block_that_has_it(
 @pytest.mark.parametrize(
     ("corrections", "said"), [([1.96], {}), ([1.96, 1.92, 2.05], {}), ([1.96, 1.92, 1.87, 1.8], 0.13)]
 )
-async def test_corrections_that_nobody_sees_are_told_when_somebody_would(
+async def test_small_corrections_are_reported_once_their_sum_is_noticeable(
     pilot: RealizerPilot, corrections: list[float], said: Any
 ) -> None:
     pilot.predict("t", "hit", 2.0)
@@ -76,14 +78,14 @@ async def test_corrections_that_nobody_sees_are_told_when_somebody_would(
     assert missed(pilot) == pytest.approx(said and {("b:n", f"n:start = {HIT}-0.5"): said})
 
 
-async def test_what_has_come_may_be_predicted_for_the_next_time_without_a_word(pilot: RealizerPilot) -> None:
+async def test_a_reached_point_may_be_predicted_again_without_a_warning(pilot: RealizerPilot) -> None:
     pilot.predict("t", "hit", 2.0)
     pilot.block("b", AHEAD + wait("w", 9))
     await moves(pilot, 2.5, ("hit", 5.0), 0.5, ("hit", 4.0), 4)
     assert pilot.feedback.warnings == []
 
 
-async def test_what_is_tied_within_a_block_or_has_to_come_later_is_told_however_little_is_missing(
+async def test_ties_within_a_block_and_after_constraints_are_reported_for_small_violations_too(
     pilot: RealizerPilot,
 ) -> None:
     pilot.predict("t", "hit", 4.0)
@@ -94,7 +96,7 @@ async def test_what_is_tied_within_a_block_or_has_to_come_later_is_told_however_
     assert missed(pilot) == pytest.approx(ties | {("b", f"v:start after {GO}-0.5"): 0.05})
 
 
-async def test_so_is_what_has_not_come_yet(pilot: RealizerPilot) -> None:
+async def test_ties_of_future_points_are_reported_for_small_violations_too(pilot: RealizerPilot) -> None:
     pilot.predict("t", "go", 1.5)
     pilot.predict("t", "hit", 1.0)
     pilot.block("b", nod("n", start="0", stroke=HIT, end=GO))
@@ -102,7 +104,7 @@ async def test_so_is_what_has_not_come_yet(pilot: RealizerPilot) -> None:
     assert missed(pilot) == pytest.approx({("b:n", f"n:stroke = {HIT}"): 0.05})
 
 
-async def test_what_was_to_come_after_a_time_that_is_given_anew_and_cannot_follow_is_told(pilot: RealizerPilot) -> None:
+async def test_a_rigid_behavior_that_cannot_follow_a_new_prediction_is_reported(pilot: RealizerPilot) -> None:
     pilot.predict("t", "hit", 2.0)
     pilot.block("b", wait("w", 1, end=f"{HIT}+0.8"))
     await moves(pilot, 2.2, ("hit", 5.0), 4)
@@ -110,7 +112,7 @@ async def test_what_was_to_come_after_a_time_that_is_given_anew_and_cannot_follo
     assert missed(pilot) == pytest.approx({("b:w", f"w:end = {HIT}+0.8"): 3.0})
 
 
-async def test_a_time_that_has_come_and_is_withdrawn_may_be_given_anew_for_the_next_time(pilot: RealizerPilot) -> None:
+async def test_a_withdrawn_past_prediction_may_be_made_again(pilot: RealizerPilot) -> None:
     pilot.predict("t", "hit", 1.0)
     pilot.block("b", wait("w", 4) + nod("n", start=HIT))
     await moves(pilot, 1.5, ("hit", None), 0.5)

@@ -1,4 +1,4 @@
-"""Times that a prediction moves into the past: what is brought to now brings all that hangs on it, in any order."""
+"""Predictions that move times into the past: points that move to now take their dependents with them."""
 
 from typing import Any
 
@@ -20,7 +20,7 @@ def turned(request: pytest.FixtureRequest) -> Any:
 
 
 @pytest.mark.parametrize("known", [4.0, None])
-async def test_a_speech_whose_start_is_brought_to_now_stays_whole(
+async def test_a_speech_whose_start_moves_into_the_past_starts_now_and_stays_whole(
     pilot: RealizerPilot, turned: Any, known: float | None
 ) -> None:
     pilot.predict("t", "hit", known)
@@ -30,7 +30,7 @@ async def test_a_speech_whose_start_is_brought_to_now_stays_whole(
     assert_linked(pilot.feedback, "b:s:end", "b:s:start", LONG)
 
 
-async def test_a_stroke_stays_with_the_word_that_it_is_tied_to(pilot: RealizerPilot, turned: Any) -> None:
+async def test_a_stroke_stays_with_its_word_when_the_speech_moves_to_now(pilot: RealizerPilot, turned: Any) -> None:
     pilot.predict("t", "hit", 4.0)
     speech = SPEECH.format("s", f' end="{HIT}"')
     pilot.block("b", turned(speech, '<gesture id="g" lexeme="BEAT" stroke="s:k-0.3"/>'))
@@ -39,7 +39,7 @@ async def test_a_stroke_stays_with_the_word_that_it_is_tied_to(pilot: RealizerPi
     assert_linked(pilot.feedback, "b:s:end", "b:s:start", LONG)
 
 
-async def test_of_two_speeches_in_a_row_both_are_said(pilot: RealizerPilot, turned: Any) -> None:
+async def test_two_consecutive_speeches_are_both_played(pilot: RealizerPilot, turned: Any) -> None:
     pilot.predict("t", "hit", 4.0)
     pilot.block("b", turned(SPEECH.format("a", ' end="c:start"'), SPEECH.format("c", f' end="{HIT}"')))
     await moves(pilot, 1, ("hit", 2.0), 4)

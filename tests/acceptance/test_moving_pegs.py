@@ -1,4 +1,4 @@
-"""A peg that moves while the body plays."""
+"""Pegs that move while the body moves."""
 
 from collections.abc import AsyncIterator
 
@@ -24,7 +24,7 @@ def steps(path: np.ndarray) -> np.ndarray:
     return distances
 
 
-async def test_the_stroke_follows_a_prediction_that_moves_while_the_arm_is_on_its_way(pilot: RealizerPilot) -> None:
+async def test_the_stroke_follows_a_prediction_that_moves_while_the_arm_moves(pilot: RealizerPilot) -> None:
     pilot.predict("test", "hit", 1.5)
     pilot.block("b", HIT)
     pilot.block("next", '<head id="h" lexeme="NOD"/>', composition="APPEND")
@@ -54,7 +54,7 @@ async def test_the_stroke_follows_a_prediction_that_moves_while_the_arm_is_on_it
     assert steps(path).max() < 0.05
 
 
-async def test_a_behavior_waits_for_a_point_that_nobody_has_predicted_yet(pilot: RealizerPilot) -> None:
+async def test_a_behavior_waits_for_a_point_without_a_prediction(pilot: RealizerPilot) -> None:
     pilot.block("b", HIT)
     await pilot.advance(2)
     assert pilot.feedback.progress == ["b:start"]
@@ -64,7 +64,7 @@ async def test_a_behavior_waits_for_a_point_that_nobody_has_predicted_yet(pilot:
     assert pilot.feedback.status("b") == "DONE"
 
 
-async def test_a_prediction_that_has_passed_already_means_now(pilot: RealizerPilot) -> None:
+async def test_a_prediction_in_the_past_means_now(pilot: RealizerPilot) -> None:
     pilot.block("b", '<head id="h" lexeme="NOD" start="anticipators:test:go"/>')
     await pilot.advance(1)
     pilot.predict("test", "go", 0.2)
@@ -72,7 +72,7 @@ async def test_a_prediction_that_has_passed_already_means_now(pilot: RealizerPil
     assert pilot.feedback.time("b:h:start") == 1.0
 
 
-async def test_the_same_prediction_again_changes_nothing(pilot: RealizerPilot) -> None:
+async def test_a_repeated_prediction_changes_nothing(pilot: RealizerPilot) -> None:
     pilot.predict("test", "hit", 2.0)
     pilot.block("b", HIT)
     await pilot.advance(0.2)
@@ -85,7 +85,7 @@ async def test_the_same_prediction_again_changes_nothing(pilot: RealizerPilot) -
     assert len(pilot.feedback.messages) == said
 
 
-async def test_a_point_that_was_reached_keeps_its_time_and_what_is_ahead_still_moves(pilot: RealizerPilot) -> None:
+async def test_a_reached_point_keeps_its_time_and_later_points_move(pilot: RealizerPilot) -> None:
     pilot.predict("test", "stop", 1.0)
     pilot.block(
         "b", '<gesture id="g" lexeme="BEAT" start="anticipators:test:stop-0.5" end="anticipators:test:stop+1"/>'
@@ -112,7 +112,7 @@ async def test_strokes_follow_the_tempo_of_the_metronome(pilot: RealizerPilot) -
     assert pilot.feedback.time("b:nod:stroke") == pytest.approx(3.0)
 
 
-async def test_times_that_lose_their_order_for_a_while_cost_nothing(pilot: RealizerPilot) -> None:
+async def test_points_that_are_temporarily_out_of_order_cause_no_loss(pilot: RealizerPilot) -> None:
     pilot.predict("test", "hit", 1.0)
     pilot.predict("test", "end", 2.0)
     pilot.block("b", '<head id="n" lexeme="NOD" start="anticipators:test:hit" end="anticipators:test:end"/>')
@@ -125,7 +125,7 @@ async def test_times_that_lose_their_order_for_a_while_cost_nothing(pilot: Reali
     assert pilot.feedback.warnings == []
 
 
-async def test_a_behavior_that_is_to_begin_after_its_end_is_dropped_and_said(pilot: RealizerPilot) -> None:
+async def test_a_behavior_whose_start_moves_after_its_end_is_dropped_with_a_warning(pilot: RealizerPilot) -> None:
     pilot.predict("test", "hit", 1.0)
     pilot.predict("test", "end", 2.0)
     pilot.block("b", '<head id="n" lexeme="NOD" start="anticipators:test:hit" end="anticipators:test:end"/>')

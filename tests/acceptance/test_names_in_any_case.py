@@ -1,4 +1,4 @@
-"""Parameters, and the words among their values, are said in any case (BML 1.0: words)."""
+"""Names and values of parameters may be written in any case."""
 
 from collections.abc import AsyncIterator
 
@@ -22,7 +22,7 @@ async def raised(pilot: RealizerPilot, name: str, value: str = "0.5") -> list[fl
     return [float(height) for height in pilot.path("r_wrist")[:, 1]]
 
 
-async def test_the_amount_of_a_gesture_is_said_in_any_case() -> None:
+async def test_the_amount_of_a_gesture_may_be_in_any_case() -> None:
     heights = []
     for name, value in (("amount", "0.5"), ("AMOUNT", "0.5"), ("amount", "1")):
         async with open_pilot() as pilot:
@@ -35,7 +35,7 @@ async def test_the_amount_of_a_gesture_is_said_in_any_case() -> None:
 
 
 @pytest.mark.parametrize(("hand", "wrist"), [("left_hand", "l_wrist"), ("Right-Hand", "r_wrist")])
-async def test_the_hand_that_points_is_said_in_any_case(pilot: RealizerPilot, hand: str, wrist: str) -> None:
+async def test_the_hand_that_points_may_be_in_any_case(pilot: RealizerPilot, hand: str, wrist: str) -> None:
     pilot.move("t", (0.0, 1.4, 2.0))
     parameter = f'<bmlt:parameter name="Hand" value="{hand}"/>'
     pilot.block("b", f'<pointing id="p" target="t">{parameter}</pointing>')
@@ -45,12 +45,12 @@ async def test_the_hand_that_points_is_said_in_any_case(pilot: RealizerPilot, ha
     assert max(up, key=up.__getitem__) == wrist
 
 
-async def test_a_transition_is_said_in_any_case(pilot: RealizerPilot) -> None:
+async def test_a_transition_may_be_in_any_case(pilot: RealizerPilot) -> None:
     pilot.block("b", '<bmlt:transition id="t" class="HERMITETRANSITION" start="0" end="1"/>')
     await pilot.advance(1.5)
     assert not pilot.feedback.warnings
 
 
-async def test_what_is_no_parameter_in_any_case_is_told_as_it_was_said(pilot: RealizerPilot) -> None:
+async def test_an_unknown_parameter_is_reported_as_it_was_written(pilot: RealizerPilot) -> None:
     await raised(pilot, "AMOUNTS")
     assert "AMOUNTS" in pilot.feedback.of("warningFeedback")[0].text

@@ -1,4 +1,4 @@
-"""Whose block an id names: one's own first, alive or ended; another character's only where one never had it."""
+"""Ids of blocks: they refer to blocks of the same character first, and else to those of other characters."""
 
 from collections.abc import AsyncIterator
 from pathlib import Path
@@ -57,7 +57,7 @@ def ends(pilot: Any) -> list[tuple[Any, Any, Any, Any]]:
         (nod("n", start="a:s:end"), {}, "a:s:end: the block 'a' is unknown or has ended"),
     ],
 )
-async def test_what_names_ones_own_block_that_has_ended_leaves_those_of_others_alone(
+async def test_a_reference_to_an_ended_block_of_the_character_does_not_affect_equal_ids_of_others(
     met: RealizerPilot, inside: Any, attributes: Any, warning: str | None
 ) -> None:
     met.block("new", inside, characterId="alice", **attributes)
@@ -68,14 +68,16 @@ async def test_what_names_ones_own_block_that_has_ended_leaves_those_of_others_a
 
 
 @pytest.mark.parametrize("attribute", ["appendAfter", "chunkAfter"])
-async def test_who_waits_for_ones_own_block_that_has_ended_waits_for_nobody(met: RealizerPilot, attribute: str) -> None:
+async def test_a_block_appended_to_an_ended_block_of_its_character_starts_at_once(
+    met: RealizerPilot, attribute: str
+) -> None:
     met.block("new", characterId="alice", **{f"bmla:{attribute}": "a"})
     await met.tick()
     assert met.feedback.time("new:start") == 0.5
     assert texts(met) == []
 
 
-async def test_an_id_that_one_never_had_is_looked_for_with_others(met: RealizerPilot) -> None:
+async def test_an_id_that_a_character_never_had_refers_to_other_characters(met: RealizerPilot) -> None:
     met.block("b", SPEECH, characterId="bob", composition="APPEND")
     await met.tick()
     met.block("new", nod("n", start="b:s:start"), characterId="alice", **{"bmla:appendAfter": "nobody"})
@@ -84,14 +86,14 @@ async def test_an_id_that_one_never_had_is_looked_for_with_others(met: RealizerP
     assert ["there has never been a block 'nobody'" in text for text in texts(met)] == [True]
 
 
-async def test_an_id_that_is_in_use_again_means_the_new_block(met: RealizerPilot) -> None:
+async def test_an_id_that_is_used_again_refers_to_the_new_block(met: RealizerPilot) -> None:
     met.block("a", '<wait id="w" duration="1"/>', characterId="alice")
     met.block("new", characterId="alice", **{"bmla:appendAfter": "a"})
     await met.advance(2)
     assert met.feedback.time("new:start") == 1.5
 
 
-async def test_times_are_explained_of_ones_own_blocks_too(met: RealizerPilot) -> None:
+async def test_explanations_resolve_ids_in_the_same_way(met: RealizerPilot) -> None:
     with pytest.raises(RealizerError, match="has ended"):
         met.realizer.scheduler.explain("alice", "a")
     assert met.realizer.scheduler.explain("bob", "a")["character"] == "bob"

@@ -1,4 +1,4 @@
-"""When a change of a parameter starts and ends, and what that means for others."""
+"""The times of parameter changes, and of behaviors that depend on them."""
 
 import pytest
 
@@ -11,28 +11,28 @@ def nod(ref: str) -> str:
     return f'<head id="n" lexeme="NOD" start="{ref}+0.2"/>'
 
 
-async def test_in_the_older_form_the_end_may_be_tied_in_place_of_the_stroke(pilot: RealizerPilot) -> None:
+async def test_in_bmlt_the_end_may_be_tied_instead_of_the_stroke(pilot: RealizerPilot) -> None:
     pilot.block("b", SPEECH + change("p", 'start="s:m" end="s:m+1"', space="bmlt"))
     await pilot.advance(4)
     mark = pilot.feedback.time("b:s:m")
     assert points(pilot, "b:p") == [("start", mark), ("stroke", mark + 1), ("end", mark + 1)]
 
 
-async def test_in_the_older_form_stroke_is_another_name_of_the_end(pilot: RealizerPilot) -> None:
+async def test_in_bmlt_the_stroke_is_the_end(pilot: RealizerPilot) -> None:
     pilot.block("b", SPEECH + change("p", 'start="s:m" stroke="s:m+1"', space="bmlt"))
     await pilot.advance(4)
     mark = pilot.feedback.time("b:s:m")
     assert points(pilot, "b:p") == [("start", mark), ("stroke", mark + 1), ("end", mark + 1)]
 
 
-async def test_in_the_newer_form_there_are_start_and_end(pilot: RealizerPilot) -> None:
+async def test_in_bmla_a_change_has_start_and_end(pilot: RealizerPilot) -> None:
     pilot.block("b", SPEECH + change("p", 'start="s:start" end="s:end"', initialValue=0))
     await pilot.advance(6)
     assert points(pilot, "b:p") == [("start", 0.0), ("end", pilot.feedback.time("b:s:end"))]
     assert pilot.feedback.warnings == []
 
 
-async def test_a_change_of_which_nobody_says_how_long_it_takes_takes_half_a_second(pilot: RealizerPilot) -> None:
+async def test_a_change_without_a_duration_takes_half_a_second(pilot: RealizerPilot) -> None:
     pilot.block("b", SPEECH + change("p", 'start="0.25"'))
     await pilot.advance(2)
     assert points(pilot, "b:p") == [("start", 0.25), ("end", 0.75)]
@@ -40,7 +40,7 @@ async def test_a_change_of_which_nobody_says_how_long_it_takes_takes_half_a_seco
 
 @pytest.mark.parametrize(("kind", "takes"), [("linear", 0.5), ("instant", 0.0)])
 @pytest.mark.parametrize("point", ["end", "stroke", "start"])
-async def test_who_hangs_on_it_comes_when_it_has_taken_its_half_second_or_at_once(
+async def test_dependents_of_a_change_follow_its_preferred_duration(
     pilot: RealizerPilot, kind: str, takes: float, point: str
 ) -> None:
     space = "bmlt" if point == "stroke" else "bmla"
@@ -52,7 +52,7 @@ async def test_who_hangs_on_it_comes_when_it_has_taken_its_half_second_or_at_onc
     assert pilot.feedback.warnings == []
 
 
-async def test_that_holds_also_where_nothing_says_when_it_starts(pilot: RealizerPilot) -> None:
+async def test_dependents_of_a_change_without_a_start_time_follow_its_preferred_duration(pilot: RealizerPilot) -> None:
     pilot.block("b", SPEECH + change("p", "", target="s") + nod("p:end"))
     await pilot.advance(5)
     assert points(pilot, "b:p") == [("start", 0.0), ("end", 0.5)]
@@ -60,7 +60,7 @@ async def test_that_holds_also_where_nothing_says_when_it_starts(pilot: Realizer
     assert pilot.feedback.warnings == []
 
 
-async def test_what_comes_after_its_end_waits_for_that(pilot: RealizerPilot) -> None:
+async def test_an_after_constraint_on_the_end_of_a_change_holds(pilot: RealizerPilot) -> None:
     after = '<constraint><after ref="p:end"><sync ref="n:start"/></after></constraint>'
     pilot.block("b", SPEECH + change("p", 'start="1"', target="s") + '<head id="n" lexeme="NOD"/>' + after)
     await pilot.advance(5)
@@ -68,7 +68,7 @@ async def test_what_comes_after_its_end_waits_for_that(pilot: RealizerPilot) -> 
     assert pilot.feedback.warnings == []
 
 
-async def test_who_hangs_on_it_follows_it_when_it_moves(pilot: RealizerPilot) -> None:
+async def test_dependents_of_a_change_follow_when_it_moves(pilot: RealizerPilot) -> None:
     pilot.predict("user", "starts", 3.0)
     pilot.block("b", SPEECH + change("p", 'start="anticipators:user:starts"', target="s") + nod("p:end"))
     await pilot.advance(0.5)
@@ -79,7 +79,7 @@ async def test_who_hangs_on_it_follows_it_when_it_moves(pilot: RealizerPilot) ->
     assert pilot.feedback.warnings == []
 
 
-async def test_it_shares_the_time_with_who_hangs_on_it_and_has_to_end_somewhere(pilot: RealizerPilot) -> None:
+async def test_a_change_shares_the_available_time_with_a_dependent_that_has_a_fixed_end(pilot: RealizerPilot) -> None:
     pilot.block(
         "b", SPEECH + change("p", 'start="1"', target="s") + '<head id="n" lexeme="NOD" start="p:end" end="3"/>'
     )
@@ -89,14 +89,14 @@ async def test_it_shares_the_time_with_who_hangs_on_it_and_has_to_end_somewhere(
     assert pilot.feedback.warnings == []
 
 
-async def test_it_moves_nothing(pilot: RealizerPilot) -> None:
+async def test_a_change_does_not_move_other_behaviors(pilot: RealizerPilot) -> None:
     pilot.block("b", HEAD.format(0.5) + SPEECH + change("p", 'start="h:stroke:2" end="s:m"', target="s"))
     await pilot.advance(6)
     assert pilot.feedback.time("b:h:end") == 4.0
     assert pilot.feedback.time("b:s:start") == 0.0
 
 
-async def test_a_target_that_ends_first_ends_it_without_a_warning(pilot: RealizerPilot) -> None:
+async def test_a_change_ends_with_its_target_without_a_warning(pilot: RealizerPilot) -> None:
     pilot.block("b", SPEECH + change("p", 'start="1" end="60"'))
     await pilot.advance(6)
     assert points(pilot, "b:p") == [("start", 1.0), ("end", pilot.feedback.time("b:s:end"))]
@@ -105,7 +105,7 @@ async def test_a_target_that_ends_first_ends_it_without_a_warning(pilot: Realize
     assert pilot.feedback.warnings == []
 
 
-async def test_a_target_that_is_interrupted_ends_it_then(pilot: RealizerPilot) -> None:
+async def test_a_change_ends_when_its_target_is_interrupted(pilot: RealizerPilot) -> None:
     pilot.block("b", SPEECH)
     pilot.block("c", change("p", 'start="0" end="60"'))
     await pilot.advance(1)

@@ -1,4 +1,4 @@
-"""Parameters of behaviors that play are changed along trajectories, and what is heard and seen follows at once."""
+"""Parameters of playing behaviors change along trajectories, with immediate effect on sound and frames."""
 
 from collections.abc import AsyncIterator
 from itertools import pairwise
@@ -41,7 +41,7 @@ def gains(pilot: RealizerPilot) -> list[tuple[float, float]]:
 
 
 @pytest.mark.speech
-async def test_a_volume_sounds_in_the_tick_in_which_it_is_reached(voiced: RealizerPilot) -> None:
+async def test_a_change_of_volume_is_audible_in_its_tick(voiced: RealizerPilot) -> None:
     voiced.block("b", SPEECH + change("p", 'start="s:start+0.5"', type="instant"))
     await voiced.advance(1)
     started = voiced.feedback.time("b:s:start")
@@ -50,7 +50,7 @@ async def test_a_volume_sounds_in_the_tick_in_which_it_is_reached(voiced: Realiz
 
 
 @pytest.mark.speech
-async def test_a_linear_change_is_told_once_a_tick_and_ends_exactly_at_its_target(voiced: RealizerPilot) -> None:
+async def test_a_linear_change_is_reported_once_a_tick_and_ends_exactly_at_its_target(voiced: RealizerPilot) -> None:
     voiced.block("b", SPEECH + change("p", 'start="0" end="1"'))
     await voiced.advance(2)
     told = gains(voiced)
@@ -61,14 +61,14 @@ async def test_a_linear_change_is_told_once_a_tick_and_ends_exactly_at_its_targe
 
 
 @pytest.mark.speech
-async def test_without_a_change_nothing_is_told(voiced: RealizerPilot) -> None:
+async def test_an_unchanged_volume_is_not_reported(voiced: RealizerPilot) -> None:
     voiced.block("b", SPEECH + change("p", 'start="0" end="1"', targetValue=50))
     await voiced.advance(2)
     assert len(gains(voiced)) == 1
 
 
 @pytest.mark.speech
-async def test_a_change_before_the_speech_begins_is_told_before_it(voiced: RealizerPilot) -> None:
+async def test_a_change_before_the_start_of_a_speech_is_reported_before_it(voiced: RealizerPilot) -> None:
     later = SPEECH.replace("<speech", '<speech start="2"')
     voiced.block("b", later + change("p", 'start="0"', type="instant", targetValue=0))
     await voiced.advance(1)
@@ -85,7 +85,7 @@ async def test_easing_is_slow_at_both_ends(voiced: RealizerPilot) -> None:
 
 
 @pytest.mark.speech
-async def test_of_two_changes_the_later_start_wins_and_sets_out_from_what_is_there(voiced: RealizerPilot) -> None:
+async def test_of_two_changes_the_later_one_wins_and_starts_from_the_current_value(voiced: RealizerPilot) -> None:
     both = change("p", 'start="0" end="2"') + change("q", 'start="1" end="1.5"', targetValue=0)
     voiced.block("b", SPEECH + both)
     await voiced.advance(3)
@@ -98,7 +98,7 @@ async def test_of_two_changes_the_later_start_wins_and_sets_out_from_what_is_the
 
 
 @pytest.mark.speech
-async def test_a_change_that_begins_where_another_one_ends_sets_out_from_the_target_of_that(
+async def test_a_change_at_the_end_of_another_one_starts_from_the_target_of_the_other(
     voiced: RealizerPilot,
 ) -> None:
     voiced.block("b", SPEECH + change("p", 'start="0" end="1"') + change("q", 'start="p:end" end="2"', targetValue=0))
@@ -109,7 +109,7 @@ async def test_a_change_that_begins_where_another_one_ends_sets_out_from_the_tar
 
 
 @pytest.mark.speech
-async def test_a_change_of_what_is_still_being_prepared_waits_for_that(voiced: RealizerPilot) -> None:
+async def test_a_change_waits_until_its_target_is_prepared(voiced: RealizerPilot) -> None:
     voiced.block("b", SPEECH)
     voiced.block("c", change("p", 'start="0"', type="instant"))
     await voiced.advance(1)
@@ -131,7 +131,7 @@ def _turns(pilot: RealizerPilot, joint: str) -> Any:
     return 2 * np.arccos(np.clip(np.abs(path @ path[0]), 0, 1))
 
 
-async def test_the_amount_of_a_nod_is_its_attribute_until_it_is_changed(pilot: RealizerPilot) -> None:
+async def test_the_amount_of_a_nod_is_its_attribute_until_a_change(pilot: RealizerPilot) -> None:
     pilot.watch()
     pilot.block(
         "b",
@@ -145,7 +145,7 @@ async def test_the_amount_of_a_nod_is_its_attribute_until_it_is_changed(pilot: R
     assert pilot.feedback.warnings == []
 
 
-async def test_a_gesture_of_a_smaller_amount_stays_nearer_to_the_rest_pose_and_never_jumps() -> None:
+async def test_a_gesture_with_a_smaller_amount_stays_nearer_to_the_rest_pose_without_jumps() -> None:
     less = change("p", 'start="2" end="3"', target="g", parameter="amount", targetValue=0.5)
     seen = []
     for more in ("", less):
@@ -161,7 +161,7 @@ async def test_a_gesture_of_a_smaller_amount_stays_nearer_to_the_rest_pose_and_n
     assert np.abs(np.diff(part)).max() < 0.1
 
 
-async def test_a_gesture_may_be_of_a_smaller_amount_from_the_beginning() -> None:
+async def test_a_gesture_may_have_a_smaller_amount_from_the_start() -> None:
     seen = []
     for amount in (1, 0.5):
         async with open_pilot() as pilot:
@@ -197,7 +197,7 @@ async def test_a_gesture_may_be_of_a_smaller_amount_from_the_beginning() -> None
         (change("p", 'start="30"'), "IMPOSSIBLE_TO_SCHEDULE", ["ended"]),
     ],
 )
-async def test_a_change_that_cannot_be_is_dropped_with_one_warning_that_says_why(
+async def test_an_invalid_change_is_dropped_with_one_warning_and_its_reason(
     pilot: RealizerPilot, behavior: Any, kind: str, words: list[str]
 ) -> None:
     pilot.block("b", f'{SPEECH}<wait id="w" duration="31"/>{behavior}')
@@ -209,7 +209,7 @@ async def test_a_change_that_cannot_be_is_dropped_with_one_warning_that_says_why
     assert pilot.feedback.status("b") == "DONE"
 
 
-async def test_a_word_for_a_trajectory_is_read_in_any_case(pilot: RealizerPilot) -> None:
+async def test_the_name_of_a_trajectory_may_be_in_any_case(pilot: RealizerPilot) -> None:
     pilot.block("b", SPEECH + change("p", 'start="0"', type="Ease_in_Ease_out"))
     await pilot.advance(1)
     assert pilot.feedback.warnings == []

@@ -1,4 +1,4 @@
-"""Behaviors that go on until they are ended (thesis 6.3; the drafts' gaze and posture)."""
+"""Behaviors that persist until they are ended (thesis 6.3; gaze and posture of drafts)."""
 
 from collections.abc import AsyncIterator
 
@@ -36,7 +36,7 @@ def yaw(pilot: RealizerPilot) -> np.ndarray:
     return total
 
 
-async def test_a_gaze_of_a_draft_without_an_end_goes_on_until_it_is_interrupted(pilot: RealizerPilot) -> None:
+async def test_a_gaze_of_a_draft_without_an_end_continues_until_it_is_interrupted(pilot: RealizerPilot) -> None:
     pilot.perform(LOOK.format(""))
     await pilot.advance(60)
     assert points(pilot, "a:look") == ["start", "ready"]
@@ -48,7 +48,7 @@ async def test_a_gaze_of_a_draft_without_an_end_goes_on_until_it_is_interrupted(
     assert not pilot.feedback.warnings
 
 
-async def test_its_end_is_not_predicted_and_its_block_is_predicted_to_end_with_its_last_known_point(
+async def test_the_end_of_a_persistent_behavior_is_not_predicted(
     pilot: RealizerPilot,
 ) -> None:
     pilot.perform(LOOK.format(""))
@@ -60,7 +60,7 @@ async def test_its_end_is_not_predicted_and_its_block_is_predicted_to_end_with_i
     assert pilot.feedback.predicted("a:end") == pilot.feedback.time("a:look:ready")
 
 
-async def test_what_hangs_on_its_end_waits_and_starts_when_it_is_ended(pilot: RealizerPilot) -> None:
+async def test_a_behavior_tied_to_the_end_of_a_persistent_one_waits_for_it(pilot: RealizerPilot) -> None:
     pilot.perform(LOOK.format(""))
     pilot.block("b", '<head id="nod" lexeme="NOD" start="a:look:end + 0.5"/>')
     await pilot.advance(5)
@@ -71,7 +71,9 @@ async def test_what_hangs_on_its_end_waits_and_starts_when_it_is_ended(pilot: Re
     assert not pilot.feedback.warnings
 
 
-async def test_an_appended_block_waits_for_all_else_of_its_block_and_is_told_so_once(pilot: RealizerPilot) -> None:
+async def test_an_appended_block_does_not_wait_for_persistent_behaviors_which_is_reported_once(
+    pilot: RealizerPilot,
+) -> None:
     pilot.perform(LOOK.format('<head id="nod" lexeme="NOD" start="2"/>'))
     await pilot.advance(0.5)
     pilot.block("b", '<head id="nod" lexeme="NOD"/>', composition="APPEND")
@@ -80,7 +82,7 @@ async def test_an_appended_block_waits_for_all_else_of_its_block_and_is_told_so_
     assert pilot.feedback.warnings == [("b", "IMPOSSIBLE_TO_SCHEDULE")]
 
 
-async def test_a_later_gaze_takes_its_place_and_gives_it_back(pilot: RealizerPilot) -> None:
+async def test_a_persistent_gaze_is_visible_again_after_a_later_one(pilot: RealizerPilot) -> None:
     pilot.perform(LOOK.format(""))
     await pilot.advance(3)
     pilot.block("b", TURN)
@@ -94,7 +96,7 @@ async def test_a_later_gaze_takes_its_place_and_gives_it_back(pilot: RealizerPil
     assert points(pilot, "a:look") == ["start", "ready"]
 
 
-async def test_a_block_that_replaces_all_ends_it_and_the_head_is_at_rest_again(pilot: RealizerPilot) -> None:
+async def test_replacing_everything_ends_a_persistent_gaze_and_the_head_returns_to_rest(pilot: RealizerPilot) -> None:
     await pilot.advance(0.1)
     pilot.perform(LOOK.format(""))
     await pilot.advance(3)
@@ -105,7 +107,7 @@ async def test_a_block_that_replaces_all_ends_it_and_the_head_is_at_rest_again(p
     assert head[-1] == pytest.approx(head[0], abs=0.05)
 
 
-async def test_of_two_that_start_together_and_never_end_one_is_dropped(pilot: RealizerPilot) -> None:
+async def test_one_of_two_simultaneous_persistent_gazes_is_dropped(pilot: RealizerPilot) -> None:
     pilot.perform(LOOK.format('<gaze id="other" type="AT" target="greensphere"/>'))
     await pilot.advance(3)
     assert len(pilot.feedback.warnings) == 1
@@ -113,7 +115,7 @@ async def test_of_two_that_start_together_and_never_end_one_is_dropped(pilot: Re
     assert points(pilot, "a:other") == []
 
 
-async def test_a_session_in_which_nothing_else_is_left_is_over_and_says_what_goes_on(pilot: RealizerPilot) -> None:
+async def test_a_session_ends_when_only_persistent_behaviors_are_left_and_lists_them(pilot: RealizerPilot) -> None:
     pilot.perform(LOOK.format(""))
     await run_until_done(pilot.realizer, ManualClock(), GlobalTime(600.0))
     (warning,) = pilot.feedback.of("warningFeedback")

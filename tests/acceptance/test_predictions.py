@@ -1,4 +1,4 @@
-"""Predictions: when they are sent, and what they say."""
+"""Predictions: when they are sent, and their content."""
 
 from typing import Any
 
@@ -19,7 +19,7 @@ def status(line: Any) -> Any:
     return next(value for name, value in line.element[0].attrib.items() if name.endswith("status"))
 
 
-async def test_a_block_that_starts_at_once_is_predicted_once_with_all_that_is_known(pilot: RealizerPilot) -> None:
+async def test_a_block_that_starts_at_once_is_predicted_once_with_all_known_times(pilot: RealizerPilot) -> None:
     pilot.block("b", '<head id="h" lexeme="NOD" amount="0.4" start="1" end="3"/>')
     await pilot.tick()
     (line,) = pilot.feedback.predictions("b")
@@ -30,14 +30,14 @@ async def test_a_block_that_starts_at_once_is_predicted_once_with_all_that_is_kn
     assert line.element.get("characterId") == "alice"
 
 
-async def test_the_clock_alone_moves_no_prediction(pilot: RealizerPilot) -> None:
+async def test_predictions_do_not_change_with_the_clock_alone(pilot: RealizerPilot) -> None:
     pilot.block("b", NOD)
     pilot.block("next", '<speech id="s"><text>Then this.</text></speech>', composition="APPEND")
     await pilot.advance(2)
     assert said_at(pilot, "b") == said_at(pilot, "next") == [0.0]
 
 
-async def test_a_tick_of_the_metronome_is_where_its_tempo_puts_it_whatever_others_say(
+async def test_predictions_from_outside_do_not_move_the_ticks_of_the_metronome(
     pilot: RealizerPilot, caplog: pytest.LogCaptureFixture
 ) -> None:
     pilot.block("b", '<head id="h" lexeme="NOD" stroke="anticipators:metronome:tick3"/>')
@@ -56,7 +56,7 @@ async def test_an_unknown_end_is_predicted_as_the_last_known_point(pilot: Realiz
     assert head.get("end") is None
 
 
-async def test_a_block_that_waits_for_the_unknown_is_predicted_as_if_it_came_now(pilot: RealizerPilot) -> None:
+async def test_the_prediction_of_a_block_that_waits_for_an_unknown_time_assumes_now(pilot: RealizerPilot) -> None:
     pilot.block("b", NOD)
     await pilot.advance(0.5)
     pilot.block("next", '<wait id="w" duration="1"/>', composition="APPEND")
@@ -65,7 +65,7 @@ async def test_a_block_that_waits_for_the_unknown_is_predicted_as_if_it_came_now
     assert status(pilot.feedback.predictions("next")[0]) == "LURKING"
 
 
-async def test_it_is_said_again_when_a_time_moves_by_more_than_a_millisecond_or_becomes_known(
+async def test_a_prediction_is_repeated_when_a_time_moves_by_more_than_a_millisecond_or_becomes_known(
     pilot: RealizerPilot,
 ) -> None:
     pilot.block("b", NOD)
@@ -81,7 +81,7 @@ async def test_it_is_said_again_when_a_time_moves_by_more_than_a_millisecond_or_
             assert pilot.feedback.predicted("next:start") == pytest.approx(time, abs=1e-3)
 
 
-async def test_many_moves_in_a_tick_are_one_prediction(pilot: RealizerPilot) -> None:
+async def test_several_moves_in_a_tick_cause_one_prediction(pilot: RealizerPilot) -> None:
     pilot.block("b", NOD)
     await pilot.tick()
     for time in (3.0, 4.0, 5.0):
@@ -91,7 +91,7 @@ async def test_many_moves_in_a_tick_are_one_prediction(pilot: RealizerPilot) -> 
     assert pilot.feedback.predicted("b:end") == 5.0
 
 
-async def test_what_changes_in_the_tick_in_which_a_block_starts_is_in_its_prediction(pilot: RealizerPilot) -> None:
+async def test_changes_in_the_tick_in_which_a_block_starts_are_in_its_prediction(pilot: RealizerPilot) -> None:
     right = '<gesture id="{}" lexeme="BEAT" mode="RIGHT_HAND" start="0" end="{}"/>'
     pilot.block("b", right.format("one", 2) + right.format("two", 5))
     await pilot.tick()
@@ -100,7 +100,7 @@ async def test_what_changes_in_the_tick_in_which_a_block_starts_is_in_its_predic
     assert [element.get("id") for element in list(line.element)[1:]] == ["b:one"]
 
 
-async def test_a_block_that_waited_is_predicted_again_when_it_starts_though_nothing_moved(pilot: RealizerPilot) -> None:
+async def test_a_waiting_block_is_predicted_again_when_it_starts(pilot: RealizerPilot) -> None:
     pilot.block("one", '<wait id="w" duration="0.5"/>')
     pilot.block("two", '<wait id="w" duration="0.5"/>', composition="APPEND")
     await pilot.advance(2)
@@ -119,7 +119,7 @@ async def test_an_empty_block_is_predicted_too(pilot: RealizerPilot) -> None:
     ]
 
 
-async def test_an_inline_sync_of_a_speech_carries_its_predicted_time(pilot: RealizerPilot) -> None:
+async def test_an_inline_sync_of_a_speech_has_its_predicted_time(pilot: RealizerPilot) -> None:
     pilot.block("b", '<speech id="s"><text>Well <sync id="now"/>then.</text></speech>')
     await pilot.advance(3)
     speech = pilot.feedback.predictions("b")[0].element[1]
@@ -128,7 +128,7 @@ async def test_an_inline_sync_of_a_speech_carries_its_predicted_time(pilot: Real
     assert predicted == pytest.approx(pilot.feedback.time("b:s:now"))
 
 
-async def test_a_block_that_has_ended_is_predicted_no_more(pilot: RealizerPilot) -> None:
+async def test_an_ended_block_is_not_predicted(pilot: RealizerPilot) -> None:
     pilot.predict("test", "hit", 1.0)
     pilot.block("b", NOD)
     await pilot.advance(2)

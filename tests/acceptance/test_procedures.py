@@ -1,4 +1,4 @@
-"""Behaviors that are written once and played many times (thesis 6.6.2)."""
+"""Procedures: behaviors that are written once and played several times (thesis 6.6.2)."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -23,7 +23,7 @@ def use(block: str, procedure: str = "welcome", more: str = "") -> str:
     return f'<bmlt:useproc {T} procid="{procedure}" bmlid="{block}" {more}/>'
 
 
-async def test_a_use_becomes_a_block_with_the_behaviors_and_constraints_of_the_procedure(pilot: RealizerPilot) -> None:
+async def test_a_use_plays_a_block_with_the_behaviors_and_constraints_of_the_procedure(pilot: RealizerPilot) -> None:
     pilot.perform(WELCOME)
     pilot.perform(use("one"))
     await pilot.advance(4)
@@ -37,7 +37,7 @@ async def test_defining_plays_nothing(pilot: RealizerPilot) -> None:
     assert pilot.feedback.messages == []
 
 
-async def test_a_second_use_asks_no_engine_anew(monkeypatch: pytest.MonkeyPatch) -> None:
+async def test_a_second_use_is_not_prepared_again(monkeypatch: pytest.MonkeyPatch) -> None:
     async with open_pilot() as pilot:
         asked: list[str] = []
         for engine in pilot.realizer.characters["alice"].engines:
@@ -58,7 +58,7 @@ async def test_a_second_use_asks_no_engine_anew(monkeypatch: pytest.MonkeyPatch)
         assert pilot.feedback.status("two") == "DONE"
 
 
-async def test_uses_are_composed_as_blocks_are(pilot: RealizerPilot) -> None:
+async def test_uses_have_the_compositions_of_blocks(pilot: RealizerPilot) -> None:
     pilot.perform(WELCOME)
     pilot.perform(use("one"))
     pilot.perform(use("two", more='composition="APPEND"'))
@@ -66,7 +66,7 @@ async def test_uses_are_composed_as_blocks_are(pilot: RealizerPilot) -> None:
     assert pilot.feedback.time("two:start") == pilot.feedback.time("one:end")
 
 
-async def test_procedures_outlive_a_replace_and_an_interrupted_use(pilot: RealizerPilot) -> None:
+async def test_procedures_remain_after_a_replace_and_an_interrupted_use(pilot: RealizerPilot) -> None:
     pilot.perform(WELCOME)
     pilot.perform(use("one"))
     await pilot.advance(0.5)
@@ -75,7 +75,7 @@ async def test_procedures_outlive_a_replace_and_an_interrupted_use(pilot: Realiz
     assert [pilot.feedback.status(block) for block in ("one", "two")] == ["INTERRUPTED", "DONE"]
 
 
-async def test_a_procedure_that_is_defined_again_is_the_new_one(pilot: RealizerPilot) -> None:
+async def test_a_second_definition_replaces_the_first(pilot: RealizerPilot) -> None:
     pilot.perform(WELCOME)
     pilot.perform(WELCOME.replace('lexeme="NOD"', 'lexeme="SHAKE"').replace('id="n"', 'id="m"').replace("n:", "m:"))
     pilot.perform(use("one"))
@@ -84,7 +84,7 @@ async def test_a_procedure_that_is_defined_again_is_the_new_one(pilot: RealizerP
     assert not pilot.feedback.reached("one:n:start")
 
 
-async def test_an_unknown_procedure_is_told_and_its_block_refused(pilot: RealizerPilot) -> None:
+async def test_a_use_of_an_unknown_procedure_is_refused_with_a_warning(pilot: RealizerPilot) -> None:
     pilot.perform(use("one", "nothing"))
     await pilot.advance(1)
     assert pilot.feedback.warnings == [("one", "NO_SUCH_TARGET")]
@@ -92,7 +92,7 @@ async def test_an_unknown_procedure_is_told_and_its_block_refused(pilot: Realize
 
 
 @pytest.mark.parametrize("character", ["alice", "bob"])
-async def test_every_character_may_use_it(character: str) -> None:
+async def test_every_character_may_use_a_procedure(character: str) -> None:
     async with open_pilot(SceneOptions(voice="text", human=TWO)) as pilot:
         pilot.perform(WELCOME)
         pilot.perform(use("one", more=f'characterId="{character}"'))

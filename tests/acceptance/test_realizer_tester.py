@@ -139,7 +139,7 @@ async def assert_comes_out(pilot: RealizerPilot, script: Script) -> None:
 
 
 @pytest.mark.parametrize("script", [theirs for theirs, _ in PAIRS], ids=name)
-async def test_a_script_of_the_suite_does_what_its_comments_ask_for(
+async def test_a_script_of_the_suite_plays_as_its_comments_require(
     pilot: RealizerPilot, shared_cases: Path, script: Script
 ) -> None:
     pilot.perform((shared_cases / "realizertester" / "bml-1" / script.file).read_bytes())
@@ -147,12 +147,12 @@ async def test_a_script_of_the_suite_does_what_its_comments_ask_for(
 
 
 @pytest.mark.parametrize("script", [own for _, own in PAIRS[:-1]], ids=name)
-async def test_a_script_of_our_own_does_what_it_says(pilot: RealizerPilot, script: Script) -> None:
+async def test_our_version_of_a_script_plays_as_it_requires(pilot: RealizerPilot, script: Script) -> None:
     pilot.perform((OWN_SCRIPTS / script.file).read_bytes())
     await assert_comes_out(pilot, script)
 
 
-async def test_a_block_without_id_is_refused_and_nothing_else_is_said(pilot: RealizerPilot) -> None:
+async def test_a_block_without_an_id_is_refused_with_one_warning(pilot: RealizerPilot) -> None:
     pilot.perform((OWN_SCRIPTS / "no_id.xml").read_bytes())
     await pilot.advance(1)
     assert pilot.feedback.warnings == [("bml", "PARSING_FAILURE")]

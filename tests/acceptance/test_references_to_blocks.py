@@ -1,4 +1,4 @@
-"""Behaviors that name points of other blocks: whoever of them comes first, in a document or in a tick."""
+"""References to points of other blocks, in any order of the blocks."""
 
 from itertools import pairwise
 from pathlib import Path
@@ -27,7 +27,7 @@ async def played(pilot: RealizerPilot, *documents: str) -> FeedbackList:
 
 
 @pytest.mark.parametrize("documents", [[TALK + LISTEN], [LISTEN + TALK], [TALK, LISTEN], [LISTEN, TALK]])
-async def test_a_block_is_named_by_one_that_stands_before_it_or_after(pilot: RealizerPilot, documents: Any) -> None:
+async def test_a_block_may_refer_to_an_earlier_or_a_later_block(pilot: RealizerPilot, documents: Any) -> None:
     told = await played(pilot, *documents)
     assert_linked(told, "listen:n:start", "talk:s:end")
     assert told.warnings == []
@@ -35,7 +35,7 @@ async def test_a_block_is_named_by_one_that_stands_before_it_or_after(pilot: Rea
 
 @pytest.mark.parametrize("characters", ["alice bob", "bob alice"])
 @pytest.mark.parametrize("first", ["talk", "listen"])
-async def test_who_of_two_characters_is_heard_first_does_not_matter(
+async def test_references_between_characters_do_not_depend_on_the_order_of_blocks(
     tests_data: Path, characters: str, first: str
 ) -> None:
     speaker, listener = characters.split()
@@ -50,13 +50,13 @@ async def test_who_of_two_characters_is_heard_first_does_not_matter(
     assert told.warnings == []
 
 
-async def test_a_constraint_may_name_what_stands_later(pilot: RealizerPilot) -> None:
+async def test_a_constraint_may_refer_to_a_later_block(pilot: RealizerPilot) -> None:
     told = await played(pilot, block("listen", nod("n") + synchronize("n:stroke", "talk:s:m")) + TALK)
     assert_linked(told, "listen:n:stroke", "talk:s:m")
     assert told.warnings == []
 
 
-async def test_what_stands_later_may_be_preplanned(pilot: RealizerPilot) -> None:
+async def test_a_block_may_refer_to_a_later_preplanned_block(pilot: RealizerPilot) -> None:
     pilot.perform(LISTEN + block("talk", WELL.format(""), **{"bmla:preplan": "true"}))
     await pilot.advance(0.5)
     assert not pilot.feedback.reached("listen:n:start")
@@ -65,19 +65,19 @@ async def test_what_stands_later_may_be_preplanned(pilot: RealizerPilot) -> None
     assert told.warnings == []
 
 
-async def test_what_a_later_block_does_not_have_is_told_with_what_it_has(pilot: RealizerPilot) -> None:
+async def test_the_warning_of_a_missing_behavior_of_a_later_block_lists_its_behaviors(pilot: RealizerPilot) -> None:
     told = await played(pilot, block("listen", nod("n", start="talk:x:end")) + TALK)
     assert ["talk:x:end: there is no behavior 'x'; available: s" in text for text in texts(pilot)] == [True]
     assert_not_played(told, "listen:n")
 
 
-async def test_who_waits_for_a_block_that_is_interrupted_before_it_was_planned_is_told(pilot: RealizerPilot) -> None:
+async def test_a_reference_to_a_block_that_is_interrupted_before_its_planning_is_reported(pilot: RealizerPilot) -> None:
     told = await played(pilot, LISTEN + TALK + block("stop", **{"bmla:interrupt": "talk"}))
     assert ["'talk'" in text and "talk:s:end" in text for text in texts(pilot)] == [True]
     assert told.status("listen") == "DONE"
 
 
-async def test_a_reference_to_what_has_no_times_before_its_own_block_is_dropped_and_told(pilot: RealizerPilot) -> None:
+async def test_one_of_two_mutual_references_is_dropped_with_a_warning(pilot: RealizerPilot) -> None:
     one = block("one", wait("v", 0.5) + nod("n", start="two:w:end"))
     two = block("two", wait("w", 0.5) + nod("m", start="one:v:end"))
     told = await played(pilot, one + two)
@@ -91,7 +91,7 @@ async def test_a_reference_to_what_has_no_times_before_its_own_block_is_dropped_
     assert_linked(told, "one:n:start", "two:w:end")
 
 
-async def test_of_two_behaviors_that_wait_for_each_other_each_is_told_why(pilot: RealizerPilot) -> None:
+async def test_two_behaviors_that_wait_for_each_other_both_get_a_warning(pilot: RealizerPilot) -> None:
     await played(pilot, block("one", nod("n", start="two:m:end")) + block("two", nod("m", start="one:n:end")))
     told = {line.id: line.text for line in pilot.feedback.of("warningFeedback")}
     assert "one:n:end: 'one' is not planned before 'two'" in told["two:m"]
@@ -100,7 +100,7 @@ async def test_of_two_behaviors_that_wait_for_each_other_each_is_told_why(pilot:
     assert pilot.feedback.status("one") == pilot.feedback.status("two") == "DONE"
 
 
-async def test_a_block_that_is_being_solved_aside_waits_for_none_that_enters_meanwhile(pilot: RealizerPilot) -> None:
+async def test_a_block_that_is_being_solved_cannot_refer_to_blocks_that_enter_later(pilot: RealizerPilot) -> None:
     pilot.block("big", "".join(wait(f"w{number}", 0.1) for number in range(60)) + nod("n", start="late:w:end"))
     await pilot.tick()
     told = await played(pilot, block("late", wait("w", 0.5, start="big:w0:end")))
@@ -108,7 +108,7 @@ async def test_a_block_that_is_being_solved_aside_waits_for_none_that_enters_mea
     assert_linked(told, "late:w:start", "big:w0:end")
 
 
-async def test_a_circle_of_many_loses_one_reference(pilot: RealizerPilot) -> None:
+async def test_a_cycle_of_several_blocks_loses_one_reference(pilot: RealizerPilot) -> None:
     ids = ["a", "b", "c", "d"]
     circle = [
         block(each, wait("w", 0.3) + nod("n", start=f"{following}:w:end"))
@@ -121,7 +121,7 @@ async def test_a_circle_of_many_loses_one_reference(pilot: RealizerPilot) -> Non
 
 
 @pytest.mark.parametrize("first", ["talk", "louder"])
-async def test_to_change_a_parameter_of_a_block_that_names_one_is_no_circle(pilot: RealizerPilot, first: str) -> None:
+async def test_a_parameter_change_of_a_block_that_refers_back_is_no_cycle(pilot: RealizerPilot, first: str) -> None:
     talk = block("talk", WELL.format(' start="louder:w:end"'))
     louder = block("louder", wait("w", 0.5) + change("p", 'start="1" end="1.5"', target="talk:s"))
     told = await played(pilot, talk + louder if first == "talk" else louder + talk)
@@ -131,7 +131,9 @@ async def test_to_change_a_parameter_of_a_block_that_names_one_is_no_circle(pilo
 
 
 @pytest.mark.parametrize("step", [1, -1])
-async def test_a_chain_of_blocks_through_a_whole_document_starts_at_once(pilot: RealizerPilot, step: int) -> None:
+async def test_a_long_chain_of_references_through_a_document_is_planned_in_one_tick(
+    pilot: RealizerPilot, step: int
+) -> None:
     def link(number: int) -> str:
         named = number + step
         return wait("w", 0.2, **({"start": f"b{named}:w:start"} if 0 <= named < MANY else {}))

@@ -1,4 +1,4 @@
-"""What stands in `<required>` and is lost after it was planned fails its block, too."""
+"""Required behaviors that are lost after planning fail their block."""
 
 from collections import Counter
 
@@ -15,7 +15,7 @@ REQUIRED = "<required>{}</required>"
 SAID = [("new:s", "IMPOSSIBLE_TO_SCHEDULE")]
 
 
-async def test_a_required_speech_that_finds_the_voice_taken_fails_its_block(pilot: RealizerPilot) -> None:
+async def test_a_required_speech_that_is_dropped_in_a_conflict_fails_its_block(pilot: RealizerPilot) -> None:
     pilot.block("talk", TALK.format(""))
     await pilot.advance(0.5)
     pilot.block("new", REQUIRED.format(TALK.format("")) + nod("n"))
@@ -30,7 +30,7 @@ async def test_a_required_speech_that_finds_the_voice_taken_fails_its_block(pilo
     assert pilot.realizer.scheduler.blocks.alive == ()
 
 
-async def test_what_plays_by_then_is_broken_off_and_what_was_to_come_is_gone(pilot: RealizerPilot) -> None:
+async def test_a_block_that_fails_ends_its_playing_behaviors_and_removes_the_others(pilot: RealizerPilot) -> None:
     pilot.block("talk", TALK.format(""))
     gesture = '<gesture id="g" lexeme="BEAT" start="0" end="3"/>'
     pilot.block("new", gesture + nod("late", start="2") + REQUIRED.format(TALK.format(' start="1"')))
@@ -44,7 +44,7 @@ async def test_what_plays_by_then_is_broken_off_and_what_was_to_come_is_gone(pil
     assert not pilot.feedback.reached("new:s:start")
 
 
-async def test_a_required_change_of_what_is_over_fails_its_block(pilot: RealizerPilot) -> None:
+async def test_a_required_parameter_change_of_an_ended_behavior_fails_its_block(pilot: RealizerPilot) -> None:
     pilot.block("talk", TALK.format(""))
     louder = (
         '<bmla:parametervaluechange id="s" target="talk:s" paramId="volume" start="3">'
@@ -58,7 +58,7 @@ async def test_a_required_change_of_what_is_over_fails_its_block(pilot: Realizer
 
 
 @pytest.mark.parametrize("composition", ["MERGE", "APPEND"])
-async def test_a_required_behavior_on_a_point_that_never_comes_fails_its_block_at_once(
+async def test_a_required_behavior_tied_to_a_point_that_will_not_happen_fails_its_block_at_once(
     pilot: RealizerPilot, composition: str
 ) -> None:
     pilot.block("first", '<wait id="w" duration="1"/>')
@@ -76,7 +76,7 @@ async def test_a_required_behavior_on_a_point_that_never_comes_fails_its_block_a
     assert pilot.feedback.reached("new:start") == pilot.feedback.reached("third:n:start") == (composition == "MERGE")
 
 
-async def test_a_required_behavior_that_is_past_when_its_block_starts_fails_it_and_nothing_of_it_is_played(
+async def test_a_required_behavior_that_would_be_over_fails_its_block_before_it_plays(
     pilot: RealizerPilot,
 ) -> None:
     pilot.predict("t", "hit", 5.0)
@@ -111,7 +111,7 @@ async def test_a_required_behavior_that_fails_while_it_plays_fails_its_block(
 
 
 @pytest.mark.parametrize("required", [True, False])
-async def test_a_required_activation_of_what_is_not_there_fails_its_block(pilot: RealizerPilot, required: bool) -> None:
+async def test_a_required_activation_of_an_unknown_block_fails_its_block(pilot: RealizerPilot, required: bool) -> None:
     activate = '<bmla:activate id="s" target="nobody" start="0.5"/>'
     pilot.block("new", '<wait id="w" duration="2"/>' + (REQUIRED.format(activate) if required else activate))
     await pilot.advance(3)
@@ -131,7 +131,7 @@ async def test_blocks_that_fail_each_other_end_once_each(pilot: RealizerPilot) -
     assert [pilot.feedback.status(name) for name in ("old", "a", "b", "c")] == ["INTERRUPTED", *["FAILED"] * 3]
 
 
-async def test_what_is_broken_off_on_purpose_or_gives_its_arm_away_is_not_lost(pilot: RealizerPilot) -> None:
+async def test_an_interrupted_or_replaced_required_behavior_does_not_fail_its_block(pilot: RealizerPilot) -> None:
     beat = '<gesture id="g" lexeme="BEAT" mode="RIGHT_HAND"/>'
     pilot.block("old", REQUIRED.format(TALK.format("") + beat) + nod("n", start="0", end="2"))
     pilot.block("new", beat, **{"bmla:chunkAfter": "old"})

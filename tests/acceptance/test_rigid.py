@@ -1,4 +1,4 @@
-"""What is rigid stays so whatever moves: a tie is given up, with the amount, by all strategies (thesis 7.1.4)."""
+"""Rigid behaviors stay rigid: ties that they cannot meet are dropped by every strategy (thesis 7.1.4)."""
 
 from collections.abc import AsyncIterator
 
@@ -17,7 +17,7 @@ async def pilot(request: pytest.FixtureRequest) -> AsyncIterator[RealizerPilot]:
         yield pilot
 
 
-async def test_it_is_late_when_its_start_cannot_be_as_early_as_its_end_would_have_it(pilot: RealizerPilot) -> None:
+async def test_a_speech_that_cannot_start_early_enough_ends_late(pilot: RealizerPilot) -> None:
     pilot.predict("t", "hit", 3.0)
     pilot.block("b", WELL.format(f' end="{HIT}"') + nod("n", start="s:m"))
     await moves(pilot, 1, ("hit", 1.3), 4)
@@ -27,7 +27,7 @@ async def test_it_is_late_when_its_start_cannot_be_as_early_as_its_end_would_hav
     assert [LOST in said and f"s:end = {HIT}" in said for said in texts(pilot)] == [True]
 
 
-async def test_the_end_of_a_speech_that_has_begun_does_not_wait(pilot: RealizerPilot) -> None:
+async def test_the_end_of_a_playing_speech_does_not_follow_a_later_prediction(pilot: RealizerPilot) -> None:
     pilot.predict("t", "hit", 1.5)
     pilot.block("b", WELL.format(f' end="{HIT}"') + nod("n", start="s:m") + wait("w", 0.1, start=HIT))
     await moves(pilot, 0.5, ("hit", 3.0), 4)
@@ -38,7 +38,9 @@ async def test_the_end_of_a_speech_that_has_begun_does_not_wait(pilot: RealizerP
 
 
 @pytest.mark.parametrize("moved", [2.0, None])
-async def test_what_is_tied_to_that_end_goes_with_it_and_not_with_the_prediction(moved: float | None) -> None:
+async def test_a_behavior_tied_to_the_end_of_a_speech_follows_the_speech_and_not_the_prediction(
+    moved: float | None,
+) -> None:
     for strategy in ("convex", "embr"):
         async with open_pilot(SceneOptions(voice="text", strategy=strategy, verify=True)) as pilot:
             pilot.predict("t", "hit", 1.5)
@@ -48,7 +50,7 @@ async def test_what_is_tied_to_that_end_goes_with_it_and_not_with_the_prediction
             assert_linked(pilot.feedback, "b:n:start", "b:s:end")
 
 
-async def test_it_moves_as_a_whole_as_long_as_it_has_not_begun(pilot: RealizerPilot) -> None:
+async def test_a_speech_moves_as_a_whole_before_its_start(pilot: RealizerPilot) -> None:
     pilot.predict("t", "hit", 2.0)
     pilot.block("b", WELL.format("") + synchronize("s:m", HIT))
     await moves(pilot, 0.5, ("hit", 3.0), 0.5, ("hit", 2.5), 4)

@@ -1,4 +1,4 @@
-"""The thesis's examples of what the order of behaviors does to SmartBody's scheduler, as BML (7.2.2, 7.3.5)."""
+"""The examples of the thesis on how SmartBody's scheduler depends on the order of behaviors, as BML (7.2.2, 7.3.5)."""
 
 from collections.abc import AsyncIterator
 from typing import Any
@@ -18,7 +18,9 @@ async def pilot() -> AsyncIterator[RealizerPilot]:
 
 
 @pytest.mark.parametrize("order", [(SPEECH, NOD_ON_SPEECH), (NOD_ON_SPEECH, SPEECH)], ids=["27a", "27b"])
-async def test_27_a_nod_on_words_is_timed_by_them_in_either_order(pilot: RealizerPilot, order: Any) -> None:
+async def test_27_a_nod_is_timed_by_the_words_that_it_is_tied_to_in_either_order(
+    pilot: RealizerPilot, order: Any
+) -> None:
     pilot.block("bml1", "".join(order))
     await pilot.advance(5)
     told = pilot.feedback
@@ -36,7 +38,7 @@ async def test_28a_a_beat_on_the_stroke_of_a_nod_follows_it(pilot: RealizerPilot
     assert told.time("bml1:beat1:stroke") == told.time("bml1:nod1:stroke")
 
 
-async def test_28b_the_other_way_round_the_nod_is_dropped_with_one_warning_and_the_beat_plays(
+async def test_28b_in_the_other_order_the_nod_is_dropped_with_one_warning_and_the_beat_plays(
     pilot: RealizerPilot,
 ) -> None:
     pilot.block("bml1", BEAT_ON_NOD + NOD_3_TO_5)
@@ -48,7 +50,7 @@ async def test_28b_the_other_way_round_the_nod_is_dropped_with_one_warning_and_t
     assert told.status("bml1") == "DONE"
 
 
-async def test_29a_a_nod_around_two_gestures_is_scheduled_where_it_comes_last(pilot: RealizerPilot) -> None:
+async def test_29a_a_nod_around_two_gestures_is_scheduled_if_it_comes_last(pilot: RealizerPilot) -> None:
     pilot.block("bml1", BEATS + NOD_AROUND)
     await pilot.advance(14)
     told = pilot.feedback
@@ -59,7 +61,7 @@ async def test_29a_a_nod_around_two_gestures_is_scheduled_where_it_comes_last(pi
     assert told.time("bml1:nod1:end") == pytest.approx(told.time("bml1:g2:end") + 3.0)
 
 
-async def test_29b_with_the_nod_first_a_gesture_is_dropped_with_one_warning(pilot: RealizerPilot) -> None:
+async def test_29b_a_gesture_is_dropped_with_one_warning_if_the_nod_comes_first(pilot: RealizerPilot) -> None:
     pilot.block("bml1", NOD_AROUND + BEATS)
     await pilot.advance(14)
     assert pilot.feedback.warnings == [("bml1:g2", "IMPOSSIBLE_TO_SCHEDULE")]

@@ -1,4 +1,4 @@
-"""Constraints that cannot be kept, the required ones among them, and blocks that are solved aside."""
+"""Constraints that cannot be kept, and blocks that are solved in the background."""
 
 import pytest
 
@@ -11,7 +11,7 @@ from .living_time import GO, HIT, LOST, after, before, moves, nod, synchronize, 
 
 
 @pytest.mark.parametrize("kind", ["tie", "order", "behavior"])
-async def test_a_required_constraint_that_cannot_be_fails_its_block_of_which_nothing_stays(
+async def test_a_required_constraint_that_cannot_be_met_fails_its_block_without_a_trace(
     pilot: RealizerPilot, kind: str
 ) -> None:
     parts = {
@@ -29,7 +29,9 @@ async def test_a_required_constraint_that_cannot_be_fails_its_block_of_which_not
     assert pilot.feedback.status("b") == "FAILED"
 
 
-async def test_a_required_constraint_that_is_lost_while_it_plays_is_said_like_any_other(pilot: RealizerPilot) -> None:
+async def test_a_required_constraint_that_is_violated_while_playing_is_reported_like_others(
+    pilot: RealizerPilot,
+) -> None:
     pilot.predict("t", "hit", 1.0)
     pilot.block("b", wait("w", 1, start="0.5") + f"<required>{after(HIT, 'w:end')}</required>")
     await moves(pilot, 0.7, ("hit", 2.0), 2)
@@ -37,7 +39,7 @@ async def test_a_required_constraint_that_is_lost_while_it_plays_is_said_like_an
     assert pilot.feedback.status("b") == "DONE"
 
 
-async def test_a_wait_is_not_stretched_beyond_its_most_where_others_can_be(pilot: RealizerPilot) -> None:
+async def test_other_behaviors_stretch_before_a_wait_exceeds_its_maximum(pilot: RealizerPilot) -> None:
     pilot.block(
         "b", nod("n", start="0") + '<wait id="w" max-wait="1" start="n:end"/>' + nod("m", start="w:end", end="3.4")
     )
@@ -49,7 +51,7 @@ async def test_a_wait_is_not_stretched_beyond_its_most_where_others_can_be(pilot
     assert pilot.feedback.warnings == []
 
 
-async def test_a_constraint_that_contradicts_itself_says_so(pilot: RealizerPilot) -> None:
+async def test_a_self_contradictory_constraint_is_reported(pilot: RealizerPilot) -> None:
     pilot.block("b", wait("w", 1) + before("w:end", "w:end+1"))
     await pilot.advance(2)
     assert [
@@ -60,7 +62,7 @@ async def test_a_constraint_that_contradicts_itself_says_so(pilot: RealizerPilot
 # --- off the loop
 
 
-async def test_a_big_block_is_solved_again_if_times_from_outside_moved_meanwhile(pilot: RealizerPilot) -> None:
+async def test_a_block_solved_in_the_background_is_solved_again_if_outer_times_moved(pilot: RealizerPilot) -> None:
     chain = "".join(wait(f"w{i}", 0.05, start=f"w{i - 1}:end") for i in range(1, 60))
     pilot.predict("t", "hit", 9.0)
     pilot.block("big", wait("w0", 0.05, start=GO) + chain + nod("n", start="w59:end", end=HIT))
@@ -76,7 +78,9 @@ async def test_a_big_block_is_solved_again_if_times_from_outside_moved_meanwhile
     assert pilot.feedback.warnings == []
 
 
-async def test_a_big_block_is_committed_even_if_what_it_hangs_on_never_rests(pilot: RealizerPilot) -> None:
+async def test_a_block_solved_in_the_background_is_committed_even_if_outer_times_keep_moving(
+    pilot: RealizerPilot,
+) -> None:
     chain = "".join(wait(f"w{i}", 0.05, start=f"w{i - 1}:end") for i in range(1, 60))
     pilot.block("big", wait("w0", 0.05) + chain + nod("n", end=HIT))
     for i in range(100):

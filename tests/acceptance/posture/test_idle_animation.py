@@ -1,4 +1,4 @@
-"""Idle life of characters, in exported frames."""
+"""Idle animation, in exported frames."""
 
 from itertools import pairwise
 from pathlib import Path
@@ -21,7 +21,7 @@ position = [1, 0, 0]
 """
 
 
-async def test_whether_a_character_has_idle_life_is_true_or_false(tmp_path: Path) -> None:
+async def test_the_key_idle_must_be_true_or_false(tmp_path: Path) -> None:
     file = tmp_path / "one.toml"
     file.write_text('[character.still]\nidle = "no"')
     with pytest.raises(RealizerError, match=r"character\.still\.idle"):
@@ -29,7 +29,7 @@ async def test_whether_a_character_has_idle_life_is_true_or_false(tmp_path: Path
             pass
 
 
-async def test_a_character_may_be_without_idle_life(tmp_path: Path) -> None:
+async def test_idle_animation_can_be_turned_off(tmp_path: Path) -> None:
     file = tmp_path / "two.toml"
     file.write_text(HUMAN)
     async with open_pilot(SceneOptions(file, voice="text")) as pilot:
