@@ -7,7 +7,8 @@ from itertools import pairwise
 
 from reactive_realizer.scheduler.offset_union_find import TIE_TOLERANCE
 from reactive_realizer.scheduler.peg_layout import paths
-from reactive_realizer.scheduler.peg_layout.network import START, TOLERANCE, Network, RootPrecedence
+from reactive_realizer.scheduler.peg_layout.knots import START
+from reactive_realizer.scheduler.peg_layout.network import TOLERANCE, Network, RootPrecedence
 from reactive_realizer.scheduler.peg_layout.peg_rules import (
     AfterStart,
     AtPosition,
@@ -226,25 +227,18 @@ class RootRules:
                 self._open(problem.args[1])
 
     def _open(self, circle: Sequence[Step]) -> None:
+        """Drop the limits of bounds that close a circle; if there are none, its earliest bound."""
         pairs = [(step, needed) for needed, step in pairwise(circle) if step.bounded]
         bounds = [(step, needed) for step, needed in pairs if needed in self.rules[step.root].bounds]
-        if self._drop_stops(bounds):
-            return
-        step, needed = min(bounds, key=lambda pair: (self._network.first_times[pair[0].root], pair))
-        rule = self.rules[step.root]
-        held = rule.after if needed.bounded else rule.before
-        held[:] = [position for position in held if position.root != needed.root]
-        within = self._network.clusters[step.root] == self._network.clusters[needed.root]
-        if isinstance(rule.natural, AfterStart) and not within:
-            rule.natural = AfterStart(self._network.first_times[step.root])
-
-    def _drop_stops(self, bounds: Sequence[tuple[Step, Step]]) -> bool:
-        """Drop the limits of bounds that depend on the bounded root; whether there were any."""
-        found = False
-        for step, needed in bounds:
+        rules = [(self.rules[step.root], needed.root) for step, needed in bounds]
+        stops = [(held, root) for rule, root in rules for held in (rule.floors, rule.ceilings)]
+        dropped = [(held, root) for held, root in stops if any(position.root == root for position in held)]
+        if not dropped:
+            step, needed = min(bounds, key=lambda pair: (self._network.first_times[pair[0].root], pair))
             rule = self.rules[step.root]
-            for stops in (rule.floors, rule.ceilings):
-                left = [position for position in stops if position.root != needed.root]
-                found = found or left != stops
-                stops[:] = left
-        return found
+            dropped = [(rule.after if needed.bounded else rule.before, needed.root)]
+            within = self._network.clusters[step.root] == self._network.clusters[needed.root]
+            if isinstance(rule.natural, AfterStart) and not within:
+                rule.natural = AfterStart(self._network.first_times[step.root])
+        for held, root in dropped:
+            held[:] = [position for position in held if position.root != root]

@@ -40,13 +40,13 @@ class Section:
 
     def following(self, given: Collection[Node]) -> set[Node]:
         """The points that move when some given nodes do."""
-        numbers = self.network.nodes
+        numbers = self.network.knots.nodes
         roots = self.rules.following({numbers[node] for node in given if node in numbers})
         return {point for point, rule in self.points.items() if any(p.root in roots for p in rule.positions)}
 
     def _rules_of(self, item: Item, times: Sequence[float]) -> Iterator[PointRule]:
         """Between knots at a fraction of the way, behind the last at a distance; rigid phases keep theirs."""
-        knots = self.network.knots[item.behavior.id]
+        knots = self.network.knots.indices[item.behavior.id]
         rigid = [phase.kind is PhaseKind.RIGID for phase in item.timing.phases]
         for before, after in zip_longest(knots, list(knots)[1:]):
             start = self.network.positions[knots[before]]
