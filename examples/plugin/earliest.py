@@ -2,9 +2,9 @@
 
 from reactive_realizer.planunit.timing import SHORTEST, TooShort
 from reactive_realizer.scheduler.faults import BeforeBlock, ContradictoryTie, NoOrder
-from reactive_realizer.scheduler.losses import lost_behavior, lost_constraint, with_required
 from reactive_realizer.scheduler.offset_union_find import TIE_TOLERANCE, OffsetUnionFind
-from reactive_realizer.scheduler.problem import Loss, Node, Point, SchedulingProblem, Solution
+from reactive_realizer.scheduler.problem import Node, Point, SchedulingProblem
+from reactive_realizer.scheduler.solution import Loss, Solution, lost_behavior, lost_constraint, with_required
 
 
 class Earliest:

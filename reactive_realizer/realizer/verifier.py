@@ -16,7 +16,8 @@ from reactive_realizer.scheduler.block_state import BlockState
 from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.scheduler.bml_scheduler import BMLScheduler
 from reactive_realizer.scheduler.plan_view import PlanView
-from reactive_realizer.scheduler.problem import SchedulingProblem, Solution
+from reactive_realizer.scheduler.problem import SchedulingProblem
+from reactive_realizer.scheduler.solution import Solution
 from reactive_realizer.scheduler.verify import Violation, verify
 
 logger = logging.getLogger(__name__)

@@ -16,7 +16,7 @@ from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock
-from reactive_realizer.scheduler.problem import Loss
+from reactive_realizer.scheduler.solution import Loss
 
 _BEFORE_BEHAVIORS, _AFTER_BEHAVIORS = -1.0, float("inf")
 _BLOCK_ORDER = {"start": (_BEFORE_BEHAVIORS, 0), "relax": (_AFTER_BEHAVIORS, 0), "end": (_AFTER_BEHAVIORS, 1)}

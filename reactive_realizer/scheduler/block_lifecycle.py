@@ -19,7 +19,8 @@ from reactive_realizer.scheduler.engine_routing import EngineRouting
 from reactive_realizer.scheduler.faults import ActivatedAlready, AllPast, NotAwaited, NotPreplanned
 from reactive_realizer.scheduler.planning import Plan, Planning
 from reactive_realizer.scheduler.predictions import Predictions
-from reactive_realizer.scheduler.problem import Loss, Precedence, Tie
+from reactive_realizer.scheduler.problem import Precedence, Tie
+from reactive_realizer.scheduler.solution import Loss
 from reactive_realizer.scheduler.tie_release import CutTie, DroppedTie, TieRelease
 from reactive_realizer.scheduler.unit_lifecycle import UnitLifecycle
 

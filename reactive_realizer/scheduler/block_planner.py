@@ -16,12 +16,11 @@ from reactive_realizer.scheduler.block_state import BlockState
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.scheduler.engine_routing import EngineRouting, Result, RoutedBehavior
-from reactive_realizer.scheduler.losses import lost_behavior
 from reactive_realizer.scheduler.planning import BlockProblem, Plan, Planning
 from reactive_realizer.scheduler.planning_order import dependency_order
 from reactive_realizer.scheduler.preparation import BackgroundWork, Preparation
-from reactive_realizer.scheduler.problem import Loss
 from reactive_realizer.scheduler.procedures import Procedures
+from reactive_realizer.scheduler.solution import Loss, lost_behavior
 
 _MOST_AT_ONCE = 50
 """Behaviors of a block that is solved on the event loop; a bigger block is solved in a thread."""

@@ -16,8 +16,8 @@ from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.scheduler.block_state import BlockState
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock
-from reactive_realizer.scheduler.losses import lost_behavior
-from reactive_realizer.scheduler.problem import Loss, Node, Origin, Point, Precedence, Tie
+from reactive_realizer.scheduler.problem import Node, Origin, Point, Precedence, Tie
+from reactive_realizer.scheduler.solution import Loss, lost_behavior
 
 
 class CyclicReference(SchedulingFault):

@@ -9,7 +9,8 @@ from reactive_realizer.pegboard.time_peg import TimeCell
 from reactive_realizer.planunit.timing import Timing
 from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.scheduler.peg_layout.peg_layout import PegLayout
-from reactive_realizer.scheduler.problem import Node, Origin, Point, Precedence, SchedulingProblem, Solution, Tie
+from reactive_realizer.scheduler.problem import Node, Origin, Point, Precedence, SchedulingProblem, Tie
+from reactive_realizer.scheduler.solution import Solution
 
 
 @dataclass(frozen=True, slots=True)

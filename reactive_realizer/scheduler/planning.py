@@ -16,7 +16,8 @@ from reactive_realizer.scheduler.constraints import ReferenceResolver, bound_on_
 from reactive_realizer.scheduler.faults import WorkFailed
 from reactive_realizer.scheduler.free_points import through_free
 from reactive_realizer.scheduler.peg_layout.peg_layout import PegLayout
-from reactive_realizer.scheduler.problem import Item, Loss, Origin, Point, Precedence, SchedulingProblem, Solution, Tie
+from reactive_realizer.scheduler.problem import Item, Origin, Point, Precedence, SchedulingProblem, Tie
+from reactive_realizer.scheduler.solution import Loss, Solution
 from reactive_realizer.scheduler.strategy import SchedulingStrategy, solve
 
 logger = logging.getLogger(__name__)

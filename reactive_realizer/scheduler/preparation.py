@@ -9,8 +9,7 @@ from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.scheduler.engine_routing import Result, RoutedBehavior
-from reactive_realizer.scheduler.losses import lost_behavior
-from reactive_realizer.scheduler.problem import Loss
+from reactive_realizer.scheduler.solution import Loss, lost_behavior
 
 
 class BackgroundWork(Protocol):

@@ -1,7 +1,6 @@
-"""Input and output of a strategy: a block as points, ties and preferences; a plan as the times of its points."""
+"""The input of a strategy: a block as points, constraints and preferences."""
 
 from collections.abc import Callable, Container, Mapping
-from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, field, replace
 from enum import Enum
 from functools import cached_property
@@ -9,7 +8,6 @@ from typing import NamedTuple
 
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.names import Location
-from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.time_peg import TimeCell
 from reactive_realizer.planunit.timing import Timing
 
@@ -186,52 +184,4 @@ class SchedulingProblem:
             items=tuple(filter(items, self.items)),
             ties=tuple(filter(constraints, self.ties)),
             orders=tuple(filter(constraints, self.orders)),
-        )
-
-
-@dataclass(frozen=True, slots=True)
-class Loss:
-    """A behavior or constraint that a plan had to drop, with the reason.
-
-    Attributes:
-        behavior: id of the behavior, None for a constraint of the block.
-        dropped: whether the behavior itself is lost, not only a constraint of it.
-        required: whether the block fails because of it.
-        constraint: the one that is lost, if it is one.
-    """
-
-    behavior: str | None
-    fault: Fault
-    dropped: bool
-    required: bool
-    constraint: Tie | Precedence | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class Solution:
-    """A plan: a time for each point of the behaviors that are kept.
-
-    Attributes:
-        times: s after the predicted start of the block. Points that depend on an unknown time from outside have the
-            times that suit the plan best.
-        losses: the behaviors and constraints that are not kept.
-    """
-
-    times: Mapping[Point, float]
-    losses: tuple[Loss, ...]
-
-    @property
-    def behaviors(self) -> AbstractSet[str]:
-        """Ids of the behaviors that are kept."""
-        return {point.behavior for point in self.times}
-
-    def kept_of(self, problem: SchedulingProblem) -> SchedulingProblem:
-        """Its problem without the losses, and without the constraints on lost behaviors."""
-        behaviors, lost = self.behaviors, {id(loss.constraint) for loss in self.losses}
-        gone = {item.behavior.id for item in problem.items} - behaviors
-        if not gone and not lost:
-            return problem
-        return problem.only(
-            lambda item: item.behavior.id in behaviors,
-            lambda constraint: id(constraint) not in lost and not constraint.names(gone),
         )

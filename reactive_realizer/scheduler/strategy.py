@@ -5,9 +5,9 @@ from dataclasses import replace
 from typing import Protocol
 
 from reactive_realizer.scheduler.faults import NamesDropped
-from reactive_realizer.scheduler.losses import lost_constraint
 from reactive_realizer.scheduler.peg_layout.peg_layout import PegLayout
-from reactive_realizer.scheduler.problem import Loss, Point, SchedulingProblem, Solution
+from reactive_realizer.scheduler.problem import Point, SchedulingProblem
+from reactive_realizer.scheduler.solution import Loss, Solution, lost_constraint
 
 
 class SchedulingStrategy(Protocol):

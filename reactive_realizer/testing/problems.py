@@ -15,7 +15,8 @@ from reactive_realizer.reactive.cell import Source
 from reactive_realizer.reactive.graph import Graph
 from reactive_realizer.scheduler.offset_union_find import TIE_TOLERANCE, OffsetUnionFind
 from reactive_realizer.scheduler.peg_layout.peg_layout import PegLayout
-from reactive_realizer.scheduler.problem import Item, Node, Origin, Point, Precedence, SchedulingProblem, Solution, Tie
+from reactive_realizer.scheduler.problem import Item, Node, Origin, Point, Precedence, SchedulingProblem, Tie
+from reactive_realizer.scheduler.solution import Solution
 
 _PLACE = Location(1, 1)
 _GRAPH = Graph()

@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given
 
 from reactive_realizer.scheduler.plan_view import PlanView
-from reactive_realizer.scheduler.problem import Origin, Point, SchedulingProblem, Solution
+from reactive_realizer.scheduler.problem import Origin, Point, SchedulingProblem
+from reactive_realizer.scheduler.solution import Solution
 from reactive_realizer.scheduler.strategy import SchedulingStrategy, solve
 from reactive_realizer.scheduler.verify import Violation, verify
 from reactive_realizer.testing.contract_settings import inherited

@@ -7,7 +7,8 @@ import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.planunit.timing import SHORTEST
-from reactive_realizer.scheduler.problem import Item, Point, SchedulingProblem, Solution
+from reactive_realizer.scheduler.problem import Item, Point, SchedulingProblem
+from reactive_realizer.scheduler.solution import Solution
 from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 BLOCK = (

@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 
 from reactive_realizer.planunit.timing import timing_at
 from reactive_realizer.scheduler.convex.convex_strategy import ConvexStrategy
-from reactive_realizer.scheduler.problem import Point, SchedulingProblem, Solution
+from reactive_realizer.scheduler.problem import Point, SchedulingProblem
+from reactive_realizer.scheduler.solution import Solution
 from reactive_realizer.scheduler.strategy import solve
 from reactive_realizer.testing.problems import after, at, feasible_problems, item, outer, peg_times, problem, problems
 from reactive_realizer.testing.strategy_contract import violations

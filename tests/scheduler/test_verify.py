@@ -8,7 +8,8 @@ from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.planunit.timing import PhaseKind, Timing, timing_at
 from reactive_realizer.scheduler.faults import ContradictoryTie
 from reactive_realizer.scheduler.plan_view import PlanView
-from reactive_realizer.scheduler.problem import Loss, Origin, Point, Precedence, Solution, Tie
+from reactive_realizer.scheduler.problem import Origin, Point, Precedence, Tie
+from reactive_realizer.scheduler.solution import Loss, Solution
 from reactive_realizer.scheduler.verify import verify
 from reactive_realizer.testing.pilot import open_pilot
 from reactive_realizer.testing.problems import TIMINGS, after, at, item, outer, problem

@@ -3,7 +3,8 @@
 from reactive_realizer.scheduler.convex.model import Model, RelaxedProblem
 from reactive_realizer.scheduler.convex.relaxation import Relaxation
 from reactive_realizer.scheduler.convex.timetable import Timetable, find_times
-from reactive_realizer.scheduler.problem import SchedulingProblem, Solution
+from reactive_realizer.scheduler.problem import SchedulingProblem
+from reactive_realizer.scheduler.solution import Solution
 
 
 class ConvexStrategy:

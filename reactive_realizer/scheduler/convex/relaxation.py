@@ -16,8 +16,8 @@ from reactive_realizer.scheduler.faults import (
     OuterTie,
     Rigid,
 )
-from reactive_realizer.scheduler.losses import lost_behavior, lost_constraint
-from reactive_realizer.scheduler.problem import Loss, Point, Precedence, SchedulingProblem, Tie
+from reactive_realizer.scheduler.problem import Point, Precedence, SchedulingProblem, Tie
+from reactive_realizer.scheduler.solution import Loss, lost_behavior, lost_constraint
 
 
 class Relaxation:

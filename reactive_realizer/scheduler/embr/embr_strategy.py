@@ -8,9 +8,9 @@ from reactive_realizer.scheduler.embr.embr_problem import EmbrProblem
 from reactive_realizer.scheduler.embr.keeping import keep
 from reactive_realizer.scheduler.embr.placing import place
 from reactive_realizer.scheduler.faults import AllPast, ContradictoryTie
-from reactive_realizer.scheduler.losses import lost_behavior
-from reactive_realizer.scheduler.problem import Item, Loss, Node, Point, Precedence, SchedulingProblem, Solution, Tie
+from reactive_realizer.scheduler.problem import Item, Node, Point, Precedence, SchedulingProblem, Tie
 from reactive_realizer.scheduler.smartbody.placement import ratio_between
+from reactive_realizer.scheduler.solution import Loss, Solution, lost_behavior
 
 
 class SelfContradictory(SchedulingFault):

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from reactive_realizer.scheduler.embr.differences import Differences, Row
 from reactive_realizer.scheduler.embr.embr_problem import EmbrProblem
 from reactive_realizer.scheduler.faults import ContradictoryTie, OuterTie
-from reactive_realizer.scheduler.losses import lost_constraint
 from reactive_realizer.scheduler.offset_union_find import OffsetUnionFind
-from reactive_realizer.scheduler.problem import Loss, Node, Origin, Point, Precedence, Tie
+from reactive_realizer.scheduler.problem import Node, Origin, Point, Precedence, Tie
+from reactive_realizer.scheduler.solution import Loss, lost_constraint
 
 _LEAST = 2e-5
 """The shortest duration of a behavior, s: it can be played (`SHORTEST`) even after the solver has rounded."""

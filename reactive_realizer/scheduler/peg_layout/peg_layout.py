@@ -7,7 +7,8 @@ from reactive_realizer.pegboard.time_peg import TimeCell, TimePeg
 from reactive_realizer.reactive.graph import Graph
 from reactive_realizer.scheduler.peg_layout.peg_builder import PegBuilder
 from reactive_realizer.scheduler.peg_layout.section import Section
-from reactive_realizer.scheduler.problem import Node, Point, SchedulingProblem, Solution
+from reactive_realizer.scheduler.problem import Node, Point, SchedulingProblem
+from reactive_realizer.scheduler.solution import Solution
 
 
 class BuiltPegs(NamedTuple):

@@ -7,10 +7,10 @@ from math import isfinite
 from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.planunit.timing import SHORTEST
 from reactive_realizer.scheduler.faults import AllPast, BeforeBlock, ContradictoryTie, NoOrder, OuterTie, Rigid
-from reactive_realizer.scheduler.losses import lost_behavior, lost_constraint, with_required
 from reactive_realizer.scheduler.offset_union_find import TIE_TOLERANCE, OffsetUnionFind
-from reactive_realizer.scheduler.problem import Item, Loss, Node, Origin, Point, SchedulingProblem, Solution, Tie
+from reactive_realizer.scheduler.problem import Item, Node, Origin, Point, SchedulingProblem, Tie
 from reactive_realizer.scheduler.smartbody.placement import Cluster, Fixed, Placement, check_given, check_playable, fill
+from reactive_realizer.scheduler.solution import Loss, Solution, lost_behavior, lost_constraint, with_required
 
 _SAME = 1e-3
 """A rigid behavior may miss a time by less (s)."""
