@@ -14,14 +14,14 @@ OpenStill = Callable[..., AbstractAsyncContextManager[RealizerPilot]]
 
 @pytest.fixture
 async def pilot() -> AsyncIterator[RealizerPilot]:
-    """Every plan is verified while it is played: what it breaks is a warning that the test did not expect."""
+    """Every plan is verified while it plays: a violation is a warning that the test does not expect."""
     async with open_pilot(SceneOptions(voice="text", verify=True)) as pilot:
         yield pilot
 
 
 @pytest.fixture
 def open_still(tmp_path: Path) -> OpenStill:
-    """Opens a pilot of alice, who moves only because she was asked to, and whose frames are kept."""
+    """Opens a pilot of Alice without idle animation, and keeps her frames."""
 
     @asynccontextmanager
     async def opened(*assets: Path, avatar: str = "female", scene: str = "") -> AsyncIterator[RealizerPilot]:
@@ -36,6 +36,6 @@ def open_still(tmp_path: Path) -> OpenStill:
 
 @pytest.fixture
 async def still(open_still: OpenStill) -> AsyncIterator[RealizerPilot]:
-    """A pilot of a figure that does nothing of itself, in front of a target on the floor."""
+    """A pilot of a character without idle animation, in front of a target on the floor."""
     async with open_still(scene="[target.floor]\nposition = [0, 0.2, 0.8]") as pilot:
         yield pilot

@@ -108,7 +108,7 @@ async def play(script: Any) -> None:
 
 
 def check_alive(pilot: RealizerPilot) -> None:
-    """What has not ended waits for the prediction that nobody made, or for a block that does."""
+    """Blocks that have not ended wait for the missing prediction, or for a block that does."""
     scheduler = pilot.realizer.scheduler
     if scheduler.blocks.alive:
         assert scheduler.stuck(pilot.now), [b.key for b in scheduler.blocks.alive]

@@ -31,7 +31,7 @@ async def test_a_nod_tied_to_a_word_starts_at_the_word(pilot: RealizerPilot) -> 
     told = pilot.feedback
     assert told.time("b:yes:start") == told.time("b:say:now") > told.time("b:say:start") > 0.0
     assert told.time("b:yes:end") == 9.0
-    assert told.time("b:yes:end") - told.time("b:yes:start") < 1.0  # nothing makes it last longer than it likes to
+    assert told.time("b:yes:end") - told.time("b:yes:start") < 1.0  # nothing makes it last longer than it prefers
 
 
 async def test_a_synchronize_with_a_number_places_the_whole_cluster(pilot: RealizerPilot) -> None:

@@ -14,7 +14,7 @@ LATER = '<gesture id="g" lexeme="BEAT" mode="RIGHT_HAND" start="0.5" stroke="{}"
 
 
 def told(pilot: RealizerPilot, id_: str) -> list[str]:
-    """What was warned of a behavior or block."""
+    """The texts of the warnings of a behavior or block."""
     return [line.text.partition(": ")[2] for line in pilot.feedback.of("warningFeedback") if line.id == id_]
 
 

@@ -228,7 +228,7 @@ SESSION = [
 
 @cache
 def told(late: Iterable[int]) -> tuple[list[tuple[object, ...]], list[tuple[str, str]]]:
-    """What is told of the session, whichever tick tells it."""
+    """The feedback of the session, without the ticks that report it."""
 
     async def play() -> tuple[list[tuple[object, ...]], list[tuple[str, str]]]:
         async with open_pilot(SceneOptions(voice="text")) as pilot:

@@ -20,9 +20,9 @@ from .conftest import OpenStill
 DATA = Path(__file__).parent.parent / "data"
 BOX = "[target.bluebox]\nposition = [1.2, 1.1, 1.5]"
 
-NOISE = f"""<b:noise xmlns:b="{BMLT}" id="word" type="perlin" joint="vl5" start="0" end="2">
+NOISE = f"""<b:noise xmlns:b="{BMLT}" id="example" type="perlin" joint="vl5" start="0" end="2">
   <b:parameter name="basefreqx" value="2"/><b:parameter name="baseamplitudex" value="0.1"/></b:noise>"""
-"""What is asked for by more than a word."""
+"""Elements that need more than a lexeme."""
 
 
 def asked_of(binding: Path, but: Sequence[str] = ()) -> list[str]:
@@ -106,7 +106,7 @@ async def test_the_package_plays_entries_with_an_unknown_unit(
     play: Callable[..., Awaitable[None]], tmp_path: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
     copy(DATA / "bindings" / "published.xml", tmp_path / "gesturebinding.xml")
-    await play(['<posture id="word" end="1"><stance type="STANDING"/></posture>'], tmp_path)
+    await play(['<posture id="example" end="1"><stance type="STANDING"/></posture>'], tmp_path)
     assert "this entry is skipped: there is no motion unit 'PhysicalController'" in caplog.text
 
 

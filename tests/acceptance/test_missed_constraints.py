@@ -14,7 +14,7 @@ AHEAD = nod("n", start=f"{HIT}-0.5")
 
 
 def missed(pilot: RealizerPilot) -> dict[tuple[Any, str | Any], float]:
-    """What was said not to be kept, of whom, and by how many seconds."""
+    """The reported violations: (id, constraint) -> s."""
     lines = [(line.id, line.text) for line in pilot.feedback.of("warningFeedback")]
     said = [(id_, re.fullmatch(rf"(?:line .*?: )?(.*?) {LOST}: it is off by (.*) s", text)) for id_, text in lines]
     return {(id_, match[1]): float(match[2]) for id_, match in said if match is not None}

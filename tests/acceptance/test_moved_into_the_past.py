@@ -11,7 +11,7 @@ from .living_time import HIT, moves
 
 SPEECH = '<speech id="{}"{}><text>one two <sync id="k"/>three four</text></speech>'
 LONG = 1.08
-"""What the text voice takes for it, s."""
+"""Its duration with the text voice, s."""
 
 
 @pytest.fixture(params=[1, -1], ids=["in order", "in the other order"])

@@ -15,7 +15,7 @@ from .living_time import nod, texts
 
 STATUS = f"{{{BMLA}}}status"
 SPOKEN = 1.62
-"""What the text voice takes for the speech, s."""
+"""The duration of the speech with the text voice, s."""
 SPEECH = '<speech id="s"><text>one two three four five six</text></speech>'
 LOUDER = (
     '<bmla:parametervaluechange id="p" target="a:s" paramId="volume" start="0">'
@@ -40,7 +40,7 @@ async def met(two: RealizerPilot) -> RealizerPilot:
 
 
 def ends(pilot: Any) -> list[tuple[Any, Any, Any, Any]]:
-    """Whose blocks ended, when and how."""
+    """The ends of blocks: character, id, time and status."""
     lines = [line for line in pilot.feedback.of("blockProgress") if line.id.endswith(":end")]
     return [(line.element.get("characterId"), line.id, line.global_time, line.element.get(STATUS)) for line in lines]
 

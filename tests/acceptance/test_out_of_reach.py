@@ -44,7 +44,7 @@ async def pilot(tmp_path: Path) -> AsyncIterator[RealizerPilot]:
 
 
 def told(pilot: RealizerPilot) -> list[str]:
-    """What is said of behaviors that go on nevertheless."""
+    """The warnings about behaviors that continue."""
     warnings = pilot.feedback.of("warningFeedback")
     assert {warning.element.get("type") for warning in warnings} <= {"EXECUTION_FAILURE"}
     return [warning.text.partition(": ")[2] for warning in warnings]

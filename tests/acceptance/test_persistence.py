@@ -23,7 +23,7 @@ async def pilot() -> AsyncIterator[RealizerPilot]:
 
 
 def points(pilot: RealizerPilot, behavior: str) -> list[str]:
-    """Those that a behavior has reached."""
+    """The sync points that a behavior has reached."""
     return [id_.rpartition(":")[2] for id_ in pilot.feedback.progress if id_.startswith(f"{behavior}:")]
 
 

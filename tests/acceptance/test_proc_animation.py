@@ -39,7 +39,7 @@ Open = Callable[..., AbstractAsyncContextManager[RealizerPilot]]
 
 @pytest.fixture
 def opened(tmp_path: Path, open_still: Open) -> Open:
-    """Opens a pilot with alice, who does nothing of herself, entries of a binding and files of one's own."""
+    """Opens a pilot of Alice without idle animation, with entries of a binding and files."""
 
     @asynccontextmanager
     async def opened_with(*entries: str, avatar: str = "female", **files: str) -> AsyncIterator[RealizerPilot]:
@@ -285,12 +285,12 @@ async def test_formulas_may_call_functions_of_plug_ins(
 
 
 def texts(folder: Path) -> dict[str, str]:
-    """What is in the files of a folder, by names without a meaning."""
+    """The contents of the files of a folder, under neutral names."""
     return {f"own{i}": file.read_text(encoding="utf-8") for i, file in enumerate(sorted(folder.rglob("*.xml")))}
 
 
 async def all_play(opened: Open, names: dict[str, str], avatar: str) -> None:
-    """Plays animations, one after the other, and looks whether any frame is broken."""
+    """Plays animations one after the other and checks all frames."""
     gestures = "".join(
         f'<gesture id="g{i}" lexeme="{name}" start="{i}" end="{i + 0.8}"/>' for i, name in enumerate(names)
     )

@@ -72,7 +72,7 @@ async def test_a_required_behavior_tied_to_a_point_that_will_not_happen_fails_it
     assert_ended(pilot.feedback, "new", "FAILED")
     assert_time(pilot.feedback, "new:end", 0.5)
     assert pilot.feedback.warnings == [*SAID, ("third:n", "IMPOSSIBLE_TO_SCHEDULE")]
-    # Where it never began, nothing that hung on it has a time.
+    # If it never started, its dependents have no times.
     assert pilot.feedback.reached("new:start") == pilot.feedback.reached("third:n:start") == (composition == "MERGE")
 
 

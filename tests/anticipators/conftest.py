@@ -1,4 +1,4 @@
-"""What tests of anticipators share: somebody who tells them what happens, and rhythms as people produce them."""
+"""Shared by the tests of anticipators: a harness, and rhythms like those of people."""
 
 from collections.abc import Callable
 from math import exp
@@ -15,7 +15,7 @@ def stage() -> AnticipatorHarness:
 
 
 def rhythm_of(interval: Callable[[int], float], beats: int, seed: int, noise: float = 0.015) -> list[float]:
-    """Onsets as a person taps them: each ``interval(n)`` s after the one before, and beside that by some noise (s)."""
+    """Onsets like those of a tapping person: each ``interval(n)`` s after the previous one, with noise (s)."""
     random = Random(seed)
     times = [1.0]
     for beat in range(1, beats):

@@ -1,4 +1,4 @@
-"""All anticipators under the contract that plug-ins are tested by."""
+"""Runs the contract for anticipators on all built-in anticipators."""
 
 from math import inf, nan
 
@@ -99,7 +99,7 @@ class TestConducting(AnticipatorContract):
 
 
 class ToldByEvents(Anticipator):
-    """Takes what others predict as events, which are what the contract tells."""
+    """Takes predictions as events, because the contract sends events."""
 
     events = ("hit",)
 

@@ -1,4 +1,4 @@
-"""A conductor who listens knows the next beats."""
+"""The anticipator `conducting` predicts the next beats from those that it hears."""
 
 import pytest
 

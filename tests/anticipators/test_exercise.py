@@ -1,4 +1,4 @@
-"""A trainer who feels somebody move knows the next key moments of the exercise."""
+"""The anticipator `exercise` predicts the next key moments from accelerations."""
 
 import itertools
 from typing import Any
@@ -18,7 +18,7 @@ from .conftest import acceleration, rhythm_of
 
 
 def squats(repetitions: int, seed: int, drift: float = 0.0) -> list[float]:
-    """Key moments, down and up in turn: 1.2 s to get up and 0.8 s to go down, the more the later."""
+    """Key moments, alternately down and up: 1.2 s to get up and 0.8 s to go down, plus a drift."""
     return rhythm_of(lambda n: (1.2 if n % 2 else 0.8) + drift * n, 2 * repetitions, seed, 0.02)
 
 
@@ -28,7 +28,7 @@ def move(stage: AnticipatorHarness, exercise: Exercise, samples: list[tuple[floa
 
 
 def after(moments: list[float], seed: int) -> list[tuple[float, float]]:
-    """The samples until the last of some moments is known for one."""
+    """The samples until the last of some moments can be recognized."""
     return acceleration(moments, moments[-1] + 0.3, seed)
 
 

@@ -1,4 +1,4 @@
-"""A key happens when it happens, and then there is a next time."""
+"""Key presses cannot be predicted, and each press makes the next one a new point."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""The end of a turn is predicted when the voice is gone, and the better the more was understood."""
+"""The end of a turn is predicted from voice activity and recognized words."""
 
 from math import exp
 from typing import Any
@@ -19,7 +19,7 @@ PLAIN, FINISHED, OPEN = "I live in a house", "I live in a house.", "I live in a 
 
 
 class User:
-    """Somebody whose voice is detected and whose words are understood."""
+    """A user with voice activity detection and speech recognition."""
 
     def __init__(self, stage: AnticipatorHarness, model: TurnModel | None = None) -> None:
         self.stage = stage
@@ -34,7 +34,7 @@ class User:
         return self.time
 
     def hang(self) -> Cell[Time]:
-        """What somebody hangs on who names the stop now."""
+        """The peg for a reference to the stop that is made now."""
         return self.stage.board.predicted("user", "stop")
 
     @property

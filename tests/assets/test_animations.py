@@ -30,7 +30,7 @@ def skeleton(request: pytest.FixtureRequest) -> Skeleton:
 
 
 def bodies(animation: ProceduralAnimation, skeleton: Skeleton) -> list[Body]:
-    """The figure at 41 phases, with the parameters as they stand in the file."""
+    """The bodies at 41 phases, with the parameters of the file."""
     stand, values = Body(skeleton), animation.values({})
     return [stand.posed(animation.sample(i / 40, values, stand).rotations) for i in range(41)]
 

@@ -15,7 +15,7 @@ MODULES = sorted(path.stem for path in (ROOT / "benchmarks").glob("*.py") if not
 
 @pytest.fixture
 def frame(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> ModuleType:
-    """The command, with a history of its own and a benchmark that takes no time."""
+    """The command, with its own history and an instant benchmark."""
     monkeypatch.syspath_prepend(ROOT)
     frame = importlib.import_module("benchmarks.__main__")
     values = iter(range(1, 9))

@@ -1,4 +1,4 @@
-"""Ticks are n / 100 s; what comes late covers what it missed."""
+"""Ticks are at n / 100 s, and a late tick covers the skipped ones."""
 
 import pytest
 
@@ -8,7 +8,7 @@ from reactive_realizer.clock.units import GlobalTime, is_due
 
 
 class LateClock(ManualClock):
-    """Arrives later than asked, by one delay after the other."""
+    """A clock whose waits end late by given delays."""
 
     def __init__(self, *delays: float) -> None:
         super().__init__()

@@ -1,4 +1,4 @@
-"""A figure over time: from layers to frames."""
+"""A character over time: from layers to frames."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -45,7 +45,7 @@ def frames(layers: list[Layer], eyes: Callable[[Body], EyePose] | None = None, c
 
 
 def looking_ahead(body: Body) -> EyePose:
-    """Eyes that look to +z whatever the head does."""
+    """Eyes that look to +z in any pose of the head."""
     return EyePose(dict.fromkeys(EYES, conjugate(body.transform("skullbase").rotation)), {})
 
 

@@ -37,7 +37,7 @@ def body(pose: JointRotations | None = None, root: Vec3 = (0.0, 0.0, 0.0)) -> Bo
 
 
 def followed(begin: Body, *calls: tuple[Body, int]) -> list[Body]:
-    """The bodies shown, frame by frame, where a limit that begins with a body is given others for so many frames."""
+    """The bodies that a limit shows, frame by frame, when it gets each body for a number of frames."""
     limit, shown = SpeedLimit(begin), [begin]
     for wanted, frames in calls:
         shown += [limit(wanted, FRAME) for _ in range(frames)]
@@ -45,7 +45,7 @@ def followed(begin: Body, *calls: tuple[Body, int]) -> list[Body]:
 
 
 def steps(shown: list[Body], joint: str) -> list[float]:
-    """By how much a joint moved from each frame to the next, m."""
+    """The movement of a joint from each frame to the next, m."""
     return [distance(a.transform(joint).position, b.transform(joint).position) for a, b in pairwise(shown)]
 
 
@@ -123,7 +123,7 @@ def test_the_root_stays_below_2_m_per_second_and_carries_the_arms() -> None:
 
 
 def sunk(shown: Body) -> float:
-    """How far its lowest foot is under the ground, m."""
+    """The depth of the lowest foot below the ground, m."""
     return depth(shown, soles(SKELETON))
 
 
@@ -151,7 +151,7 @@ def squat(knees: float) -> Body:
 
 
 def slid(shown: list[Body]) -> float:
-    """The furthest that an ankle was from where it stood at first, m."""
+    """The largest distance of an ankle from its first position, m."""
     ankles = ("l_ankle", "r_ankle")
     return max(distance(b.transform(j).position, shown[0].transform(j).position) for b in shown for j in ankles)
 

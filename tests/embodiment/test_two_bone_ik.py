@@ -22,7 +22,7 @@ arms = st.sampled_from([STRAIGHT, CROOKED])
 
 
 def reached(arm: Limb, goal: Vec3, swivel: float = 0.0) -> tuple[Vec3, Vec3]:
-    """Where elbow and wrist come to be."""
+    """The positions of elbow and wrist."""
     shoulder, elbow = arm.solve(goal, swivel)
     at = rotate(shoulder, arm.upper)
     return at, add(at, rotate(multiply(shoulder, elbow), arm.lower))

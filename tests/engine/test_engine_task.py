@@ -1,4 +1,4 @@
-"""Engines play at once, their effects come in the order of their ranks, and one that fails fails alone."""
+"""Engines play concurrently, their effects have a fixed order, and failures are isolated."""
 
 import asyncio
 from collections.abc import AsyncIterator, Awaitable, Callable

@@ -1,4 +1,4 @@
-"""Who may begin: what another one has is taken over only on its way back to rest."""
+"""Start of units: a resource is taken over only from a unit that retracts."""
 
 import weakref
 

@@ -1,4 +1,4 @@
-"""The examples of continuous interaction do what they are there to show."""
+"""The examples of continuous interaction show what they promise."""
 
 import itertools
 import runpy
@@ -21,7 +21,7 @@ Play = Callable[[str], dict[str, Any]]
 
 @pytest.fixture
 def example(monkeypatch: pytest.MonkeyPatch) -> Iterator[Play]:
-    """What a program of the examples defines, by its name."""
+    """The names that an example program defines."""
     monkeypatch.syspath_prepend(str(EXAMPLES))
     yield lambda name: runpy.run_path(str(EXAMPLES / f"{name}.py"))
     sys.modules.pop("example_scene", None)

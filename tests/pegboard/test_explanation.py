@@ -1,4 +1,4 @@
-"""Every point tells what set its time: pegs, constraints, commits."""
+"""Explanations of the times of points: pegs, constraints, commits."""
 
 import json
 
@@ -28,7 +28,7 @@ START, STROKE, END = (PegKey(*BLOCK, "clap", sync) for sync in ("start", "stroke
 
 @pytest.fixture
 def board() -> PegBoard:
-    """A clap whose stroke hangs on a predicted point."""
+    """A clap whose stroke is tied to a predicted point."""
     board = PegBoard(Graph())
     board.begin(Tick.on_time(10))
     with board.graph.transaction("plan b"):

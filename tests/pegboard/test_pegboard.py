@@ -1,4 +1,4 @@
-"""The board names pegs; anticipators say what nobody else knows."""
+"""The peg board names pegs, and anticipators predict points outside of blocks."""
 
 import gc
 import json

@@ -1,4 +1,4 @@
-"""A point that happens again and again: its name means the next time, what hangs on it keeps the one it got."""
+"""Recurring points: the name refers to the next occurrence, and dependents keep the one they had."""
 
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.pegboard.anticipator import Anticipator

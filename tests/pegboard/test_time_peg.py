@@ -1,4 +1,4 @@
-"""Pegs follow what they hang on (thesis 7.3.2, 7.3.3)."""
+"""Pegs follow their dependencies (thesis 7.3.2, 7.3.3)."""
 
 import pytest
 

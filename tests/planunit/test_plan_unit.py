@@ -1,4 +1,4 @@
-"""Sync points fire once, in order, with the time of their peg, however late a tick is."""
+"""Sync points fire once, in order, with the time of their peg, also in late ticks."""
 
 import pytest
 
@@ -14,7 +14,7 @@ from reactive_realizer.reactive.graph import Graph
 
 
 class Told(PlanUnit):
-    """Notes what it is told."""
+    """A unit that records its callbacks."""
 
     def __init__(self, **times: float | None) -> None:
         behavior = Wait(id="w", namespace=BML, name="wait", location=Location(1, 1), order=0)

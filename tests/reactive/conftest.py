@@ -1,4 +1,4 @@
-"""A graph that notes what it computes and commits."""
+"""A graph that records computations and commits."""
 
 from collections.abc import Callable
 from typing import Any
@@ -10,7 +10,7 @@ from reactive_realizer.reactive.graph import Cell, Commit, Graph
 
 
 class Trace:
-    """Makes cells that note when they are computed."""
+    """Makes cells that record when they are computed."""
 
     def __init__(self) -> None:
         self.graph = Graph()

@@ -1,4 +1,4 @@
-"""`changes()` gives the last value to whoever comes for it, and ends when there will be no more."""
+"""`changes()` yields the latest value and ends when the cell is disposed of."""
 
 import asyncio
 from collections.abc import AsyncIterator

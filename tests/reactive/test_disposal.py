@@ -1,4 +1,4 @@
-"""A cell that is disposed of keeps its value, and nothing holds it or is held by it."""
+"""A cell that is disposed of keeps its value and has no references to or from the graph."""
 
 import gc
 from functools import partial

@@ -1,4 +1,4 @@
-"""An error is a value: it stays where it belongs, spreads to what depends on it, is recorded, and heals."""
+"""Errors are values: they propagate to dependents, are recorded, and disappear with the next value."""
 
 from typing import Any
 
@@ -14,7 +14,7 @@ Half = tuple[Source[Any], Derived[Any], Derived[Any], Derived[Any]]
 
 @pytest.fixture
 def half(trace: Trace) -> Half:
-    """10 // top, what hangs on it, and a sibling."""
+    """10 // top, a cell that depends on it, and a sibling."""
     top = trace.source("top", 2)
     quotient = trace.derived("quotient", top, formula=lambda value: 10 // value)
     return top, quotient, trace.derived("below", quotient), trace.derived("sibling", top)

@@ -1,4 +1,4 @@
-"""Cells change together: once each, in order, and nobody ever sees half of it."""
+"""Cells of a transaction change together: once each, in order, and atomically."""
 
 from collections.abc import Collection
 from typing import Any

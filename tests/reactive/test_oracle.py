@@ -1,4 +1,4 @@
-"""Whatever the graph and whatever is done to it, it is as if everything were computed anew."""
+"""Any operations on any graph give the same values as computing everything from scratch."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -32,7 +32,7 @@ class Node:
 
 
 class Oracle:
-    """Computes everything anew for every question; a failure is the name of the cell whose formula raised."""
+    """Computes all values from scratch for each query; a failure is the name of the cell whose formula raised."""
 
     def __init__(self) -> None:
         self.nodes: list[Node] = []
@@ -69,7 +69,7 @@ class Oracle:
 
 
 class Subject:
-    """The same with cells."""
+    """The graph under test."""
 
     def __init__(self, oracle: Oracle) -> None:
         self.oracle = oracle
@@ -98,7 +98,7 @@ class Subject:
         return noted
 
     def do(self, action: str, index: int, name: str, value: int, others: list[int]) -> None:
-        """One action on both sides; what is refused changes nothing."""
+        """Apply one action to both; a refused action changes nothing."""
         cell, node = self.cells[index], self.oracle.nodes[index]
         try:
             getattr(self, action)(cell, node, index, name, value, others)
@@ -155,7 +155,7 @@ def plain(value: Failure | Value) -> Value:
 
 @st.composite
 def sessions(draw: st.DrawFn) -> tuple[list[Node], list[list[Action]]]:
-    """Sources; cells that each depend on some before them; transactions of things done to any of them."""
+    """Sources, cells that depend on earlier ones, and transactions with actions on any of them."""
     sources = draw(st.integers(1, 4))
     names = st.sampled_from(sorted(FORMULAS))
     cells = [(Node(draw(st.integers(-2, 2)))) for _ in range(sources)]

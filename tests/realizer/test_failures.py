@@ -33,7 +33,7 @@ def said(behavior: Behavior, name: str) -> str | None:
 
 
 class FailingUnit(PlanUnit):
-    """Fails at what its behavior says."""
+    """Fails where its behavior says."""
 
     def _fail_at(self, moment: str) -> None:
         if moment in (said(self.behavior, "fail") or "").split():

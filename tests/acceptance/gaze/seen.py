@@ -15,7 +15,7 @@ PLATEAU = 8.7
 FRAME = 0.02
 FAR = 1000.0
 GLANCE = 5.1
-"""Degrees, by which eyes that look at nothing in particular may be aside."""
+"""Degrees by which idle eyes may deviate from straight ahead."""
 
 
 def between(a: Vec3, b: Vec3) -> float:
@@ -29,7 +29,7 @@ def sight(body: Body, joint: str = EYES[0]) -> Vec3:
 
 
 def miss(body: Body, target: Vec3) -> float:
-    """By how much the worse of the two eyes misses a target, degrees."""
+    """The larger of the angles between the eyes and a target, degrees."""
     return max(between(sight(body, eye), unit(subtract(target, body.transform(eye).position))) for eye in EYES)
 
 
@@ -53,7 +53,7 @@ def at(pilot: RealizerPilot, time: float) -> int:
 
 
 def speeds(shown: list[Body], joint: str = EYES[0]) -> list[float]:
-    """How fast a direction turns in space from frame to frame, rad/s."""
+    """The angular speed of a direction in space from frame to frame, rad/s."""
     return [math.radians(between(sight(a, joint), sight(b, joint))) / FRAME for a, b in pairwise(shown)]
 
 

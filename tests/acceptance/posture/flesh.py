@@ -22,7 +22,7 @@ _SAMPLES = np.linspace(0.0, 1.0, 9)[:, np.newaxis]
 
 
 def deepest_in_legs(bodies: Iterable[Body]) -> float:
-    """How far a hand or a forearm was in a thigh or a shank at the most, m."""
+    """The largest penetration of a hand or forearm into a thigh or shank, m."""
     return max(
         _depth(body, _limb(arm, side), _limb(leg, other))
         for body in bodies
@@ -34,12 +34,12 @@ def deepest_in_legs(bodies: Iterable[Body]) -> float:
 
 
 def deepest_in_trunk(bodies: Iterable[Body]) -> float:
-    """How far a forearm was in the trunk at the most, m."""
+    """The largest penetration of a forearm into the trunk, m."""
     return max(_depth(body, _limb("forearm", side), _TRUNK) for body in bodies for side in "lr")
 
 
 def deepest_in_each_other(bodies: Iterable[Body]) -> float:
-    """How far a thigh or a shank was in the other leg's at the most, m."""
+    """The largest penetration of a thigh or shank into the other leg, m."""
     pairs = [("thigh", "thigh"), ("thigh", "shank"), ("shank", "thigh"), ("shank", "shank")]
     return max(_depth(body, _limb(left, "l"), _limb(right, "r")) for body in bodies for left, right in pairs)
 

@@ -26,7 +26,7 @@ def heights(bodies: list[Body]) -> Values:
 
 
 def speeds(bodies: list[Body]) -> Values:
-    """How fast the faster end of each foot goes over the ground from each frame to the next, (frames - 1, 2), m/s."""
+    """The speed over the ground of the faster end of each foot, (frames - 1, 2), m/s."""
     ways = np.diff(_places(bodies)[..., [0, 2]], axis=0)
     fastest: Values = np.linalg.norm(ways, axis=3).max(axis=2) / FRAME
     return fastest
@@ -39,7 +39,7 @@ def slides(bodies: list[Body]) -> Values:
 
 
 def planted(bodies: list[Body]) -> float:
-    """The furthest that a foot was from where it stood at first, m."""
+    """The largest distance of a foot from its first position, m."""
     first = bodies[0]
     return max(
         distance(body.transform(foot).position, first.transform(foot).position) for body in bodies for foot in FEET

@@ -18,11 +18,11 @@ OPEN = f'{STAND}<pose part="LEGS" lexeme="LEGS_OPEN"/>'
 CROSSED_LEGS = f'{STAND}<pose part="LEGS" lexeme="LEGS_CROSSED"/>'
 LEANING = f'{STAND}<pose part="WHOLEBODY" lexeme="LEANING_FORWARD"/>'
 UNHURRIED = 1.2
-"""m/s of a pelvis that nobody hurries."""
+"""Speed limit of a pelvis in an unhurried change of stance, m/s."""
 
 
 def root_speeds(pilot: RealizerPilot) -> NDArray[np.float64]:
-    """How fast the root goes from each frame to the next, m/s."""
+    """The speed of the root from each frame to the next, m/s."""
     return np.array([distance(a.root, b.root) for a, b in pairwise(pilot.bodies())]) / FRAME
 
 
@@ -84,7 +84,7 @@ async def test_a_shift_that_starts_with_the_posture_below_uncovers_it_in_the_sam
 
 
 async def test_a_figure_that_got_up_quickly_does_not_sink_again(either: RealizerPilot) -> None:
-    """To stand is to take the place of sitting, which is left in its own time."""
+    """Standing replaces sitting, which takes its own time to end."""
     either.block("a", f'<postureShift id="s">{SIT}</postureShift>')
     await either.advance(3)
     either.block("b", f'<postureShift id="s" start="0" end="0.6">{OPEN}</postureShift>', composition="REPLACE")

@@ -15,7 +15,7 @@ _PARTS = {"ARMS": "ARMS", "LEGS": "LEGS", "LEANING": "WHOLEBODY"}
 
 
 def part_of(lexeme: str) -> str:
-    """The part of the body that a word is about."""
+    """The part of the body that a lexeme is for."""
     return _PARTS[lexeme.partition("_")[0]]
 
 
@@ -41,12 +41,12 @@ ASSET = Assets()
 
 
 def pose(part: str, lexeme: str) -> Pose:
-    """What a part of the body does."""
+    """The pose of a part of the body."""
     return Pose(part=PosePart(part), lexeme=lexeme)
 
 
 def posture(stance: str = "STANDING", **poses: str) -> BodyPosture:
-    """A posture of a stance and of words by part."""
+    """A posture of a stance and of lexemes by part."""
     return BodyPosture(StanceType(stance), tuple(pose(part, word) for part, word in poses.items()))
 
 
@@ -60,7 +60,7 @@ REST_POSE = body_in(Avatar.read(ASSET("avatars/female.glb")).skeleton).pose
 
 
 def shown(unit: MotionUnit, phase: float, body: Body, below: Body | None = None) -> dict[str, Quat]:
-    """The rotations of its joints at a phase, over what lies below: the body itself, if nothing else is said."""
+    """The rotations of a motion at a phase over the layers below, by default those of the body itself."""
     below = below or body
     posed = unit.pose(Moment(phase, GlobalTime(phase * unit.preferred_duration), body))
     return {joint: slerp(below.rotation(joint), goal, posed.weight) for joint, goal in posed.rotations.items()}

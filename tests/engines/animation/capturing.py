@@ -48,7 +48,7 @@ BONES = {
 }
 
 Turns = dict[str, tuple[float, float, float]]
-"""Degrees, about z, x and y if no other order is said."""
+"""Degrees, about z, x and y by default."""
 
 _AXES = {"X": (1.0, 0.0, 0.0), "Y": (0.0, 1.0, 0.0), "Z": (0.0, 0.0, 1.0)}
 
@@ -140,7 +140,7 @@ def _degrees(q: Quat) -> tuple[float, float, float]:
 
 
 def captured_directions(frame: Turns, order: str = "ZXY") -> dict[tuple[str, str], Vec3]:
-    """Where the bones of the captured figure point, worked out by hand."""
+    """The directions of the bones of the captured figure, computed independently."""
     turned: dict[str, Quat] = {}
     for name, parent, _ in T_POSE:
         own = turn(frame.get(name, (0.0, 0.0, 0.0)), order)

@@ -31,7 +31,7 @@ def animations() -> Path:
 
 @pytest.fixture
 def read(tmp_path: Path) -> Callable[..., ProceduralAnimation]:
-    """Reads what a ProcAnimation says inside, and of its durations."""
+    """Reads a ProcAnimation with this content and these attributes of duration."""
 
     def read_text(content: str, durations: str = 'prefDuration="1"') -> ProceduralAnimation:
         path = tmp_path / "some.xml"

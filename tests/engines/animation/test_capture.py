@@ -89,7 +89,7 @@ def test_white_space_in_a_file_has_no_effect(
 
 
 def test_the_figure_starts_where_it_stands_and_faces(capture: Callable[[str], Capture], skeleton: Skeleton) -> None:
-    """The captured one begins 3 m away, turned to its right, and walks a meter straight on."""
+    """The captured figure starts 3 m away, turned to its right, and walks one meter straight ahead."""
     frame: Turns = {"Hips": (0.0, 0.0, -90.0)}
     walk = bvh(frame, frame, places=[(300.0, 98.0, 0.0), (200.0, 98.0, 0.0)])
     clip = retargeted(capture(walk), skeleton)

@@ -24,7 +24,7 @@ from .conftest import ASSETS
 
 SKELETON = Avatar.read(ASSETS / "avatars" / "female.glb").skeleton
 LENGTH = -SKELETON.offset("l_knee")[1] / 44.0
-"""Of ours for a centimeter of theirs, m."""
+"""Meters of our figure for each centimeter of the captured one."""
 
 POSE: Turns = {"LeftArm": (30.0, 20.0, 10.0), "RightLeg": (0.0, 40.0, 0.0), "Spine": (0.0, 10.0, 0.0)}
 Z_UP = from_axis_angle((1.0, 0.0, 0.0), 1.5707963267948966)
@@ -86,7 +86,7 @@ def test_joint_names_of_several_vendors_are_known(clip: Callable[[str], Clip], k
 def test_a_spine_with_any_number_of_joints_is_mapped(
     clip: Callable[[str], Clip], spine: list[str], ours: list[str]
 ) -> None:
-    """The lowest, one of the middle and the highest are ours, whatever they are called."""
+    """The lowest, a middle and the highest joint are mapped, with any names."""
     bones = [bone for bone in T_POSE if bone[0] not in ("Spine", "Spine1")]
     trunk = [(name, above, (0.0, 8.0, 0.0)) for name, above in zip(spine, ["Hips", *spine], strict=False)]
     body = [(name, spine[-1] if above == "Spine1" else above, offset) for name, above, offset in bones[1:]]
@@ -97,7 +97,7 @@ def test_a_spine_with_any_number_of_joints_is_mapped(
 def test_extra_joints_between_pelvis_and_thigh_and_in_the_neck_are_ignored(
     clip: Callable[[str], Clip],
 ) -> None:
-    """As in the captures of Carnegie Mellon University, of B. Hahne's form."""
+    """As in B. Hahne's conversion of the captures of Carnegie Mellon University."""
     between = (("LHipJoint", "Hips", (0.0, 0.0, 0.0)), ("Neck1", "Neck", (0.0, 5.0, 0.0)))
     moved = {"LeftUpLeg": "LHipJoint", "Head": "Neck1"}
     bones = (T_POSE[0], *between[:1], *T_POSE[1:4], *between[1:], *T_POSE[4:])

@@ -24,7 +24,7 @@ def coasting(before: Layer, last: Layer) -> Coasting:
 
 
 def drift(before: Layer, last: Layer, frame: float = FRAME, ended: float = 0.0) -> Coasting | None:
-    """Of a layer in frames up to time 0, that ended some time later."""
+    """The coasting of a layer with frames up to time 0 that ended some time later."""
     return Coasting.from_samples(
         [LayerSample(GlobalTime(-frame), before), LayerSample(GlobalTime(0.0), last)], GlobalTime(ended)
     )

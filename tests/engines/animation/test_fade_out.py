@@ -28,7 +28,7 @@ def shown(
     now: float,
     playing: Sequence[tuple[tuple[float, float], Layer]] = (),
 ) -> float:
-    """How far the joint is turned over a base that has become the new one."""
+    """The angle of the joint, rad, over a base that is the new posture."""
     base = Layer(LayerKind.BASE, NEW.rotations)
     return angle(
         compose(skeleton, [base, *in_stacking_order(releases, playing, GlobalTime(now))]).shown.rotation(JOINT)

@@ -14,7 +14,7 @@ from .bodies import height
 
 
 def walking(skeleton: Skeleton, way: float, share: float) -> Body:
-    """A figure that has gone a share of a way straight ahead, m."""
+    """A figure after a fraction of a straight walk, m."""
     below, goal = Layer(LayerKind.BASE, {}), Layer(LayerKind.POSTURE, {}, share, root=(0.0, 0.0, way))
     return compose(skeleton, (below, goal, *FootPlanting(skeleton).layers((below, goal), GlobalTime(0.0)))).shown
 

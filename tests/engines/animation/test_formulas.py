@@ -105,7 +105,7 @@ BINARY = {"+": operator.add, "-": operator.sub, "*": operator.mul, "<": operator
 
 @st.composite
 def formula(draw: st.DrawFn, depth: int = 4) -> tuple[str, float]:
-    """A text and what Python says it is worth for t = 0.25."""
+    """A formula and its value in Python for t = 0.25."""
     if depth == 0 or draw(st.booleans()):
         if draw(st.booleans()):
             return "t", 0.25

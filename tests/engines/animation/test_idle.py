@@ -19,7 +19,7 @@ from .bodies import body_in
 
 
 def blinks(idle: Idle, seconds: float) -> list[float]:
-    """When lids begin to close."""
+    """The times at which the lids begin to close, s."""
     frames = [idle.weights(i / 100)["eyeBlinkLeft"] for i in range(round(seconds * 100))]
     return [i / 100 for i, (a, b) in enumerate(pairwise(frames)) if a == 0.0 < b]
 
@@ -102,12 +102,12 @@ def test_the_figure_is_never_quite_still_or_restless(skeleton: Skeleton) -> None
 
 
 def lungs(idle: Idle, seconds: int) -> list[float]:
-    """How far the left shoulder is raised, fifty times a second, rad."""
+    """The elevation of the left shoulder, rad, fifty times a second."""
     return [angle(idle.rotations(i / 50)["l_sternoclavicular"]) for i in range(50 * seconds)]
 
 
 def peaks(values: list[float]) -> list[int]:
-    """Where something is at its highest."""
+    """The indices of the maxima."""
     triples = zip(values, values[1:], values[2:], strict=False)
     return [i for i, (before, at, after) in enumerate(triples, 1) if before < at >= after]
 

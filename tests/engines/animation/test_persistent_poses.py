@@ -16,7 +16,7 @@ from reactive_realizer.engines.animation.persistent_poses import PersistentPoses
 
 
 class Turned(MotionUnit):
-    """A motion that turns joints to the left by so much."""
+    """A motion that turns joints to the left by an angle, rad."""
 
     kind = LayerKind.GAZE
 
@@ -26,7 +26,7 @@ class Turned(MotionUnit):
         self._rotations = {joint: from_axis_angle(UP, radians) for joint in joints}
 
     def start(self, body: Body) -> None:
-        """Starts from anywhere."""
+        """Starts from any body."""
 
     def pose(self, moment: Moment) -> MotionPose:
         return MotionPose(self._rotations)
@@ -39,7 +39,7 @@ def lasting() -> PersistentPoses:
 
 @pytest.fixture
 def turn(lasting: PersistentPoses, skeleton: Skeleton) -> Callable[[str, float], float]:
-    """How far a joint is turned at a time by what stays."""
+    """The angle of a joint under the persistent poses at a time, rad."""
     return lambda joint, now: angle(
         compose(skeleton, lasting.layers(GlobalTime(now), Body(skeleton))).shown.pose[joint]
     )

@@ -16,7 +16,7 @@ from .bodies import ASSET, apart, body_in, posture
 
 @pytest.fixture
 def own(tmp_path: Path) -> Path:
-    """A folder of assets in which a user keeps postures."""
+    """A folder of assets with postures of a user."""
     (tmp_path / "postures").mkdir()
     return tmp_path
 

@@ -339,7 +339,7 @@ def test_tracks_of_joints_that_an_end_effector_controls_are_left_out_and_logged(
 
 
 def look_through(path: Path, skeleton: Skeleton) -> None:
-    """Whether an animation has a pose at every phase, hands and feet where its formulas say, and no complaint."""
+    """Check that an animation has a pose at every phase, reaches its goals, and reports no fault."""
     animation = read_procedural_animation(path).fitted_to(skeleton)
     unit = ProceduralMotionUnit(animation, {}, LayerKind.ADDITIVE)
     assert unit.preferred_duration > 0.0
@@ -358,7 +358,7 @@ def look_through(path: Path, skeleton: Skeleton) -> None:
 
 
 def missed(track: EffectorTrack, goal: Vec3, body: Body) -> float:
-    """How far the end of a limb is from where its formulas want it, m; what is out of reach is not counted."""
+    """The distance of the end of a limb from its goal, m; 0 for goals out of reach."""
     first, _, end = (body.transform(joint).position for joint in track.chain)
     if track.local:
         goal = add(first, rotate(body.transform(str(body.skeleton.parent(track.chain[0]))).rotation, goal))

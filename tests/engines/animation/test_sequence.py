@@ -22,7 +22,7 @@ from .capturing import bvh
 
 
 class Turning(MotionUnit):
-    """Turns joints to the left, evenly from 0 to so much; begins where it is told to."""
+    """Turns joints to the left at a constant speed from 0 to an angle, rad."""
 
     preferred_duration = 1.0
     key_positions = {"start": 0.0, "stroke": 0.5, "end": 1.0}  # noqa: RUF012

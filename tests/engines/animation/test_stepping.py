@@ -18,7 +18,7 @@ FRAMES = 1000
 
 
 def moved(left: Vec3, right: Vec3 = (0.0, 0.0, 0.0), yaw: float = 0.0) -> tuple[Transform, Transform]:
-    """Both feet, elsewhere by so much, m, the left one turned outward, rad."""
+    """Both feet displaced, m, with the left one turned outward, rad."""
     return Transform(add(LEFT, left), from_euler(0.0, yaw, 0.0)), Transform(add(RIGHT, right), IDENTITY)
 
 
@@ -98,7 +98,7 @@ def test_feet_stay_within_a_stride_on_long_walks() -> None:
 
 
 def test_a_foot_knows_the_lift_of_its_step() -> None:
-    """Also of one that was in the air already: of that it has less the farther it goes."""
+    """Also of a foot that was in the air: its earlier lift decreases on the way."""
     start = (Foot(Transform(add(LEFT, (0.0, 0.05, 0.0)), IDENTITY), lift=0.05), Foot(STANDING[1]))
     after = moved((0.2, 0.0, 0.0))
     frames = [stepped(start, after, minimum_jerk(i / FRAMES), 0) for i in range(FRAMES + 1)]
@@ -109,7 +109,7 @@ def test_a_foot_knows_the_lift_of_its_step() -> None:
 
 
 HIGH = 0.08
-"""m, of an ankle whose foot stands."""
+"""Height of the ankle of a standing foot, m."""
 
 FRAME = 0.02
 
@@ -124,7 +124,7 @@ def stepping(begin: float, end: float, start: float, goal: float, now: float) ->
 
 
 def shown(left: tuple[float, float], right: tuple[float, float], until: float = 2.5) -> list[tuple[Transform, ...]]:
-    """Frames of two feet that are wanted to step aside from one time to another, s, each."""
+    """Frames of two feet with requested side steps, each from one time to another, s."""
     carrying = FootAlternation()
     times = [GlobalTime(FRAME * i) for i in range(round(until / FRAME))]
     return [carrying((stepping(*left, 0.1, 0.3, t), stepping(*right, -0.1, -0.3, t)), t) for t in times]
