@@ -1,6 +1,7 @@
 """Places the points of one behavior from those that are given (thesis 8.7.3, figure 8.12)."""
 
 import itertools
+from bisect import bisect
 from collections.abc import Iterable, Mapping, Sequence
 from enum import Enum
 from typing import NamedTuple
@@ -56,7 +57,8 @@ def fill(item: Item, given: Mapping[int, Placement]) -> list[Placement]:
     """All points from the given ones: in proportion between two of them, or at a distance from the nearest."""
     offsets = item.timing.offsets
     stretch = _average_stretch(offsets, {i: placed.time for i, placed in given.items() if placed.known})
-    return [_place(i, offsets, given, stretch) for i in range(len(offsets))]
+    indices = sorted(given)
+    return [given.get(i) or _place(i, offsets, given, indices, stretch) for i in range(len(offsets))]
 
 
 def ratio_between(offsets: Sequence[float], before: int, index: int, after: int) -> float:
@@ -88,16 +90,18 @@ def check_playable(item: Item, placed: Sequence[Placement]) -> None:
         raise RealizerError(TooShort())
 
 
-def _place(i: int, offsets: Sequence[float], given: Mapping[int, Placement], stretch: float) -> Placement:
-    if i in given:
-        return given[i]
-    low, high = max((k for k in given if k < i), default=None), min((k for k in given if k > i), default=None)
-    if low is None or high is None:
-        nearest = min(given) if low is None else low
+def _place(
+    i: int, offsets: Sequence[float], given: Mapping[int, Placement], indices: Sequence[int], stretch: float
+) -> Placement:
+    """A point that is not given itself; ``indices`` are the given ones, in order."""
+    after = bisect(indices, i)
+    if not 0 < after < len(indices):
+        nearest = indices[max(after - 1, 0)]
         return given[nearest].moved((offsets[i] - offsets[nearest]) * stretch)
-    before, after = given[low], given[high]
-    time = before.time + ratio_between(offsets, low, i, high) * (after.time - before.time)
-    return Placement(time, before.known and after.known, before.cluster, before.outer | after.outer)
+    low, high = indices[after - 1], indices[after]
+    one, other = given[low], given[high]
+    time = one.time + ratio_between(offsets, low, i, high) * (other.time - one.time)
+    return Placement(time, one.known and other.known, one.cluster, one.outer | other.outer)
 
 
 def _average_stretch(offsets: Sequence[float], known: Mapping[int, float]) -> float:
