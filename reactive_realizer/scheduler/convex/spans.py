@@ -71,7 +71,7 @@ class Span:
 
     @property
     def length_requirement(self) -> Requirement:
-        """That it lasts at all."""
+        """The requirement that its duration is not 0."""
         return Requirement(Rank.LENGTH, self.behavior, self.phases[0])
 
     @property

@@ -1,4 +1,4 @@
-"""What is tied to times from outside, divided into branches that move on their own."""
+"""Points that are tied to times from outside, divided into branches that move on their own."""
 
 from collections import defaultdict, deque
 from collections.abc import Iterable, Sequence
@@ -7,7 +7,7 @@ from reactive_realizer.scheduler.offset_union_find import OffsetUnionFind
 
 
 class Branches:
-    """The branches of what is tied to times from outside.
+    """The branches of the points that are tied to times from outside.
 
     A branch is a point, or the points of a behavior with rigid phases between them, which stay together when the first
     one has passed; two speeches in a row are one branch. A branch depends on the branch that it is tied to on the

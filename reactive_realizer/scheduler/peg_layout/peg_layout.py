@@ -24,7 +24,7 @@ class BuiltPegs(NamedTuple):
 
 
 class PegLayout:
-    """What each peg of a plan depends on, derived from its times in the same way for every strategy.
+    """Derives what each peg of a plan depends on from its times, in the same way for every strategy.
 
     Ties hold also when times from outside move; points between others stay between them; a cluster that depends on
     nothing given begins as early as its `after` constraints allow; and before/after constraints between points that may

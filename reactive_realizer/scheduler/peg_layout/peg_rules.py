@@ -49,7 +49,7 @@ class Step(NamedTuple):
 
 @dataclass(slots=True)
 class PegRule:
-    """What the peg of a root depends on.
+    """The dependencies of the peg of a root.
 
     Attributes:
         natural: its place without bounds.
