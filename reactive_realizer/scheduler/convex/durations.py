@@ -9,6 +9,9 @@ from reactive_realizer.scheduler.convex.longest_path import Arc, components, lon
 from reactive_realizer.scheduler.convex.model import START, BoundArc, Model
 from reactive_realizer.scheduler.convex.spans import Span
 
+_SHARES = (0.3, 0.03, 0.003, 0.0)
+"""Shares of the preferred durations, as shortest durations for the first step."""
+
 
 class Durations:
     """Durations of least cost, under some of the bounds.
@@ -112,8 +115,15 @@ def _solve_core(spans: Sequence[Span], bounds: Sequence[BoundArc]) -> dict[int, 
 def _inside(
     spans: Sequence[Span], bounds: Sequence[BoundArc], numbers: Mapping[int, int]
 ) -> tuple[list[float], list[float]]:
-    """The shortest durations, and times that have at least these."""
-    floors = [span.least for span in spans]
-    arcs = [Arc(numbers[b.tail], numbers[b.head], b.length, None) for b in bounds]
-    arcs += [Arc(numbers[s.tail], numbers[s.head], s.least - s.shift, None) for s in spans]
-    return floors, longest_path(len(numbers), arcs)[0]
+    """Shortest durations, as far from 0 as is possible together, and times that have them."""
+    rows = [Arc(numbers[b.tail], numbers[b.head], b.length, None) for b in bounds]
+    floors: list[float] = []
+    times: list[float] = []
+    for share in _SHARES:
+        floors = [max(span.least, share * span.goal) if span.elastic else 0.0 for span in spans]
+        lengths = [floor - span.shift for span, floor in zip(spans, floors, strict=True)]
+        arcs = [Arc(numbers[s.tail], numbers[s.head], n, None) for s, n in zip(spans, lengths, strict=True)]
+        times, circle = longest_path(len(numbers), rows + arcs)
+        if not circle:
+            break
+    return floors, times
