@@ -75,7 +75,7 @@ def test_an_unknown_strip_is_refused(
     monkeypatch.setattr("sys.argv", ["make_gallery.py", "--browser", "sh", "head-nod", "head-nood"])
     with pytest.raises(SystemExit, match="2"):
         gallery.main()
-    assert "nothing is called head-nood: names are those of the files in gallery" in capsys.readouterr().err
+    assert "unknown names: head-nood; names are those of the files in gallery" in capsys.readouterr().err
 
 
 @pytest.mark.browser
