@@ -310,8 +310,8 @@ async def test_all_animations_of_asaprealizer_play(opened: Open, avatar: str, sh
     await all_play(opened, peers, avatar)
 
 
-@pytest.mark.parametrize("avatar", ["female", "male"])
-async def test_all_animations_of_the_package_play(opened: Open, avatar: str) -> None:
+@pytest.mark.parametrize(("avatar", "half"), [("female", 0), ("male", 1)])
+async def test_all_animations_of_the_package_play(opened: Open, avatar: str, half: int) -> None:
     ours = texts(PACKAGE)
     assert len(ours) == 54
-    await all_play(opened, ours, avatar)
+    await all_play(opened, dict(list(ours.items())[half::2]), avatar)

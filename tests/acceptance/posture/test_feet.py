@@ -47,7 +47,7 @@ async def test_the_feet_stay_in_place_when_sitting_down_is_interrupted(either: R
 
 
 async def test_the_feet_stay_in_place_during_weight_shifts(either: RealizerPilot) -> None:
-    await either.advance(90)
+    await either.advance(60)
     pelvis = [body.root[0] for body in either.bodies()]
     assert max(pelvis) - min(pelvis) > 0.025
     assert planted(either.bodies()) < 0.003
