@@ -37,6 +37,7 @@ class RealizerPilot:
         self.feedback = FeedbackList()
         self.frames: dict[str, list[Frame]] = {}
         self.sounds: list[AudioChange] = []
+        self._bodies: dict[str, tuple[list[Frame], list[Body]]] = {}
         self._number = 0
         scene.realizer.feedback.listen(self.feedback)
         scene.realizer.hear(self.sounds.append)
@@ -83,7 +84,14 @@ class RealizerPilot:
         """The body in each frame since `watch`, in world coordinates; by default of the first character."""
         name = character or next(iter(self.realizer.characters))
         skeleton = self.realizer.characters[name].humanoid.avatar.skeleton
-        return [_body(frame, skeleton) for frame in self.frames[name]]
+        frames = self.frames[name]
+        # A body caches its transforms, and tests ask for the same ones again.
+        known, bodies = self._bodies.get(name, (frames, []))
+        if known is not frames:
+            bodies = []
+        bodies += [_body(frame, skeleton) for frame in frames[len(bodies) :]]
+        self._bodies[name] = frames, bodies
+        return bodies[:]
 
     async def advance(self, seconds: float) -> None:
         """Plays the ticks of some seconds."""

@@ -11,6 +11,8 @@ from reactive_realizer.scheduler.strategy import SchedulingStrategy, solve
 from reactive_realizer.testing.problems import TIMINGS, after, at, item, problem
 from reactive_realizer.testing.strategy_contract import CompleteStrategyContract, StrategyContract, violations
 
+pytestmark = pytest.mark.no_cover  # Other tests cover the same lines, and tracing so many plans takes long.
+
 
 class TestSmartBody(StrategyContract):
     strategy = SmartBodyStrategy()

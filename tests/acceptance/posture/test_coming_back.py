@@ -55,13 +55,13 @@ async def test_a_figure_that_got_up_by_a_shift_sits_down_again_smoothly(
 
 
 @pytest.mark.parametrize("legs", [OPEN, CROSSED_LEGS])
-async def test_the_feet_step_back_to_the_place_of_a_posture(either: RealizerPilot, legs: str) -> None:
-    await shifted(either, legs, STAND)
-    wide, narrow, again = (body(either, time).transform("l_ankle").position for time in (3.9, 6.0, 8.9))
+async def test_the_feet_step_back_to_the_place_of_a_posture(alternating: RealizerPilot, legs: str) -> None:
+    await shifted(alternating, legs, STAND)
+    wide, narrow, again = (body(alternating, time).transform("l_ankle").position for time in (3.9, 6.0, 8.9))
     assert distance(wide, narrow) > 0.05
     assert distance(wide, again) < 0.005
-    assert slides(either.bodies()).max() < 0.1
-    assert heights(either.bodies()).min() > -0.001
+    assert slides(alternating.bodies()).max() < 0.1
+    assert heights(alternating.bodies()).min() > -0.001
 
 
 async def test_arms_that_a_shift_has_lowered_cross_again_smoothly(either: RealizerPilot) -> None:
@@ -73,14 +73,14 @@ async def test_arms_that_a_shift_has_lowered_cross_again_smoothly(either: Realiz
 
 @pytest.mark.parametrize("shift", [LEANING, STAND])
 async def test_a_shift_that_starts_with_the_posture_below_uncovers_it_in_the_same_way(
-    either: RealizerPilot, shift: Any
+    alternating: RealizerPilot, shift: Any
 ) -> None:
-    either.block(
+    alternating.block(
         "b", f'<posture id="p" start="0" end="5">{CROSSED_LEGS}</posture><postureShift id="s">{shift}</postureShift>'
     )
-    await either.advance(6)
-    assert slides(either.bodies()).max() < 0.1
-    assert speeds(either.bodies()).max() < 2.5
+    await alternating.advance(6)
+    assert slides(alternating.bodies()).max() < 0.1
+    assert speeds(alternating.bodies()).max() < 2.5
 
 
 async def test_a_figure_that_got_up_quickly_does_not_sink_again(either: RealizerPilot) -> None:
