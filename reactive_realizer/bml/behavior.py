@@ -56,7 +56,7 @@ class Behavior:
     CHILDREN: ClassVar[tuple[str, ...]] = ()
     SYNC_POINTS: ClassVar[SyncPoints] = ()
     OPEN_POINTS: ClassVar[bool] = False
-    """Whether its engine may define further sync points; references to them are checked at planning."""
+    """Whether an engine may define further sync points; planning then checks references to them."""
 
     id: str = field(metadata=attribute(Id()))
     namespace: str

@@ -20,7 +20,7 @@ PROCEDURES: Final = frozenset({DEFINE_PROC, USE_PROC})
 
 
 class OrderKind(StrEnum):
-    """Whether the listed points of an `Order` come before or after its reference point."""
+    """The side of its reference point on which an `Order` puts the listed points."""
 
     BEFORE = "before"
     AFTER = "after"

@@ -59,7 +59,7 @@ class Element:
 
     @property
     def continuous(self) -> bool:
-        """Whether it is in BMLA or BMLT rather than BML 1.0."""
+        """Whether the element belongs to BMLA or BMLT, the extensions for continuous interaction."""
         return self.namespace in CONTINUOUS
 
     @property

@@ -14,7 +14,7 @@ from reactive_realizer.scheduler.engine_routing import EngineRouting
 
 
 class IdleEngine(DefaultEngine):
-    """Plays units that others have made."""
+    """Plays units that were made elsewhere."""
 
     def plan(self, block: BlockKey, behavior: Behavior, prepared: object) -> PlanUnit:
         raise NotImplementedError
