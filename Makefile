@@ -12,8 +12,9 @@ AVATAR_VENV := web/avatars/.venv
 MEASURED := $(addprefix tests/,bml pegboard planunit reactive realizer scheduler)
 COVERAGE := 95
 
-# One process more than there are processors, because tests of the server, the page and voices often wait.
-PYTEST := $(BIN)/pytest --numprocesses $(shell expr $$(getconf _NPROCESSORS_ONLN) + 1) --dist worksteal
+# One process more than there are processors, because tests of the server, the page and voices often wait. Without
+# bytecode, every process would rewrite the assertions of all tests again.
+PYTEST := env -u PYTHONDONTWRITEBYTECODE $(BIN)/pytest --numprocesses $(shell expr $$(getconf _NPROCESSORS_ONLN) + 1) --dist worksteal
 
 # If Node is missing or old, a recent one is installed into .venv/bin; otherwise, the one on the PATH is used.
 NPM := PATH="$(CURDIR)/$(BIN):$$PATH" npm --prefix web
