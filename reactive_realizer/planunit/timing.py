@@ -1,7 +1,7 @@
 """The preferred timing of a behavior: its sync points in order and the phases between them."""
 
 import itertools
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
 from math import inf
@@ -36,12 +36,14 @@ class Phase:
         kind: how it may be stretched.
         minimum: authored limit, s; it is relaxed before any constraint is.
         maximum: authored limit, s; likewise.
+        shortest: duration that the body needs for it, s, at most ``duration``; it is never relaxed.
     """
 
     duration: float
     kind: PhaseKind = PhaseKind.ELASTIC
     minimum: float = 0.0
     maximum: float = inf
+    shortest: float = 0.0
 
     @property
     def authored(self) -> bool:
@@ -74,6 +76,8 @@ class Timing:
     def __post_init__(self) -> None:
         if len(self.phases) != len(self.points) - 1:
             raise ValueError(f"{len(self.points)} points need {len(self.points) - 1} phases, not {len(self.phases)}")
+        if any(phase.shortest > phase.duration for phase in self.phases):
+            raise ValueError("a phase cannot prefer less time than it needs")
         object.__setattr__(self, "rigid", all(phase.kind is PhaseKind.RIGID for phase in self.phases))
         object.__setattr__(self, "free", all(phase.kind is PhaseKind.FREE for phase in self.phases))
         limited = (k for k, phase in enumerate(self.phases) if phase.authored and phase.kind is not PhaseKind.RIGID)
@@ -94,6 +98,23 @@ class Timing:
         for phase in self.phases:
             times.append(times[-1] + phase.duration)
         return tuple(times)
+
+
+def stretched(phases: Sequence[Phase], total: float) -> list[float]:
+    """The durations of consecutive phases that take a total time (s) together.
+
+    All are stretched alike, except for those that would become shorter than their shortest duration.
+    """
+    durations = [phase.duration for phase in phases]
+    held: set[int] = set()
+    while True:
+        left = total - sum(phases[k].shortest for k in held)
+        preferred = sum(duration for k, duration in enumerate(durations) if k not in held)
+        ratio = max(left, 0.0) / preferred if preferred > 0 else 0.0
+        short = {k for k, phase in enumerate(phases) if k not in held and ratio * phase.duration < phase.shortest}
+        if not short:
+            return [phase.shortest if k in held else ratio * durations[k] for k, phase in enumerate(phases)]
+        held |= short
 
 
 def timing_at(offsets: Mapping[str, float], kind: PhaseKind = PhaseKind.ELASTIC) -> Timing:

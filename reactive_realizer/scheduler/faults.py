@@ -75,6 +75,17 @@ class Conflicting(SchedulingFault):
     gap: float
 
 
+class TooHurried(SchedulingFault):
+    """A constraint or behavior that leaves phases of behaviors less time than the body needs; times in s."""
+
+    code = "too-hurried"
+    template = "{what} is dropped: there is too little time for {phases}: needs {need:.2f} s, has {room:.2f} s"
+    what: str
+    phases: tuple[str, ...]
+    need: float
+    room: float
+
+
 class NeverHolds(SchedulingFault):
     """A constraint or behavior that is impossible by itself; ``gap`` in s."""
 

@@ -148,11 +148,12 @@ class AnimationUnit(PlanUnit):
         A gesture that starts now is prepared from where the hands are (thesis 12.1.4).
         """
         hands = None if self.begun else self._context.hands(now)
-        duration = None if hands is None else self.motion.preparation(hands)
-        if duration is None:
+        needed = None if hands is None else self.motion.preparation(hands)
+        if needed is None:
             return self.timing
-        preparation, *others = self.timing.phases
-        return replace(self.timing, phases=(replace(preparation, duration=duration), *others))
+        first, *others = self.timing.phases
+        preparation = replace(first, duration=needed.preferred, shortest=needed.shortest)
+        return replace(self.timing, phases=(preparation, *others))
 
     def gentle_end(self, time: GlobalTime) -> GlobalTime:
         """Return the time of the next exit point, or the given time if there is none."""
@@ -243,26 +244,31 @@ def motion_timing(behavior: Behavior, motion: MotionUnit, keys: Mapping[str, flo
     waits = motion.kind is not LayerKind.ADDITIVE
     holds = _holds(isinstance(behavior, Pointing), behavior.sync_points) if waits else _NO_HOLDS
     limits = motion.limits or (0.0, inf)
-    return _timing(tuple(keys.items()), motion.preferred_duration, limits, holds, behavior.persistent)
+    shortest = tuple(motion.shortest.items())
+    return _timing(tuple(keys.items()), motion.preferred_duration, shortest, limits, holds, behavior.persistent)
 
 
 @lru_cache(_MOST_TIMINGS)
 def _timing(
     keys: tuple[tuple[str, float], ...],
     duration: float,
+    shortest: tuple[tuple[str, float], ...],
     limits: tuple[float, float],
     holds: frozenset[PhaseEnds],
     persistent: bool,
 ) -> Timing:
-    shortest, longest = limits
+    minimum, maximum = limits
+    needs = dict(shortest)
     phases = []
     for (point, begin), (other, end) in pairwise(keys):
         part = end - begin
+        # The parts add up to the duration, except for their rounding.
+        need = min(needs.get(other, 0.0), part * duration)
         if (point, other) in holds:
-            phases.append(Phase(part * duration, PhaseKind.HOLD))
+            phases.append(Phase(part * duration, PhaseKind.HOLD, shortest=need))
         else:
-            most = part * longest if part > 0.0 else inf
-            phases.append(Phase(part * duration, PhaseKind.ELASTIC, part * shortest, most))
+            most = part * maximum if part > 0.0 else inf
+            phases.append(Phase(part * duration, PhaseKind.ELASTIC, part * minimum, most, need))
     return Timing(tuple(point for point, _ in keys), tuple(phases), persistent=persistent)
 
 

@@ -54,6 +54,18 @@ class Moment(NamedTuple):
     shown: Body | None = None
 
 
+class PhaseDuration(NamedTuple):
+    """The duration of a phase of a motion, s.
+
+    Attributes:
+        preferred: not less than the shortest.
+        shortest: that the limits of the body allow.
+    """
+
+    preferred: float
+    shortest: float = 0.0
+
+
 class MotionPose(NamedTuple):
     """The pose that a motion requests.
 
@@ -114,6 +126,7 @@ class MotionUnit(ABC):
         key_positions: sync id -> phase, 0 to 1; "start" is 0 and "end" is 1, and phases never decrease.
         exits: sync ids of points at which it may be left gracefully, in order.
         preferred_duration: s.
+        shortest: sync id -> shortest duration of the phase that ends there, s, where the limits of the body matter.
         limits: shortest and longest duration, s, if the author set any; these are relaxed before any constraint.
         predictability: when its poses can be predicted.
         entrance: duration of its fade-in if it joins late, s; None if it appears at once or handles this itself.
@@ -133,6 +146,7 @@ class MotionUnit(ABC):
     key_positions: Mapping[str, float] = START_TO_END
     exits: tuple[str, ...] = ()
     preferred_duration: float
+    shortest: Mapping[str, float] = MappingProxyType({})
     limits: tuple[float, float] | None = None
     predictability: Predictability = Predictability.NEVER
     fade_in: float | None = None
@@ -156,8 +170,8 @@ class MotionUnit(ABC):
             RealizerError: "no-motion": there is no pose at this phase; the unit should be stopped.
         """
 
-    def preparation(self, body: Body) -> float | None:
-        """Return the duration of the first phase from a body, s; None if it does not depend on the body."""
+    def preparation(self, body: Body) -> PhaseDuration | None:
+        """Return the duration of the first phase from a body; None if it does not depend on the body."""
         return None
 
     def copy(self) -> Self:

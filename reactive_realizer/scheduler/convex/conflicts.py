@@ -1,12 +1,13 @@
 """The requirements of a plan, and how a conflict between them is found and explained."""
 
 from collections import deque
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import IntEnum
 from math import inf
 from typing import NamedTuple
 
 from reactive_realizer.scheduler.offset_union_find import TIE_TOLERANCE, OffsetUnionFind
+from reactive_realizer.scheduler.problem import LEAST
 
 
 class Rank(IntEnum):
@@ -38,6 +39,15 @@ class Requirement(NamedTuple):
 GIVEN = Requirement(Rank.GIVEN)
 
 
+class Need(NamedTuple):
+    """The shortest duration (s) of phases of a behavior, from the first one to the last one of these."""
+
+    behavior: int
+    first: int
+    last: int
+    duration: float
+
+
 @dataclass(frozen=True, slots=True)
 class Conflict:
     """Requirements that cannot be satisfied together.
@@ -45,16 +55,29 @@ class Conflict:
     Attributes:
         gap: the contradiction, s; infinite where two times from outside are tied.
         late: whether a behavior is in conflict because it would have ended before its block starts.
+        needs: the phases whose shortest durations take part.
     """
 
     requirements: frozenset[Requirement]
     gap: float
     late: bool = False
+    needs: tuple[Need, ...] = ()
 
     @property
     def outer(self) -> bool:
         """Whether two times from outside are tied."""
         return self.gap == inf
+
+    @property
+    def need(self) -> float:
+        """The sum of the shortest durations that take part, s."""
+        return sum(each.duration for each in self.needs)
+
+    @property
+    def out_of_order(self) -> "Conflict":
+        """The conflict that remains if phases may be as short as they like; itself if none does."""
+        gap = self.gap - self.need
+        return replace(self, gap=gap + LEAST * len(self.needs), needs=()) if gap > TIE_TOLERANCE else self
 
 
 class ExplainedGroups(OffsetUnionFind[int]):

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from math import inf
 from typing import NamedTuple, TypeVar
 
-from reactive_realizer.scheduler.convex.conflicts import GIVEN, Conflict, ExplainedGroups, Rank, Requirement
+from reactive_realizer.scheduler.convex.conflicts import GIVEN, Conflict, ExplainedGroups, Need, Rank, Requirement
 from reactive_realizer.scheduler.convex.longest_path import TOLERANCE, Arc
 from reactive_realizer.scheduler.convex.spans import BehaviorSpans, Span
 from reactive_realizer.scheduler.problem import LEAST, Item, Node, Origin, Point, Precedence, SchedulingProblem, Tie
@@ -57,12 +57,17 @@ def _left(
 
 
 class Inequality(NamedTuple):
-    """``later >= earlier + distance`` (s), of nodes."""
+    """``later >= earlier + distance`` (s), of nodes.
+
+    Attributes:
+        need: the shortest duration that it states, if it does.
+    """
 
     later: int
     earlier: int
     distance: float
     requirement: Requirement
+    need: Need | None = None
 
 
 BoundArc = Arc[Inequality]
@@ -185,7 +190,7 @@ class Model:
         if not span.closed:
             return
         span.duration = span.shift
-        if span.elastic and span.duration < LEAST:
+        if span.elastic and not span.shortest and span.duration < LEAST:
             requirements = self.groups.between(span.start, span.end) | {span.requirement}
             requirements |= {span.length_requirement} if span.duration > -TOLERANCE else set()
             self.conflicts.append(Conflict(requirements, LEAST - span.duration))
@@ -209,7 +214,8 @@ class Model:
                 yield Arc(earlier, later, distance, each)
             elif distance > TOLERANCE:
                 requirements = self.groups.between(each.later, each.earlier) | {each.requirement}
-                self.conflicts.append(Conflict(requirements, distance))
+                needs = () if each.need is None else (each.need,)
+                self.conflicts.append(Conflict(requirements, distance, needs=needs))
 
 
 def _follow_if_settled(span: Span) -> None:
@@ -220,8 +226,10 @@ def _follow_if_settled(span: Span) -> None:
 
 
 def _limits(span: Span) -> Iterator[Inequality]:
-    if span.minimum > 0:
+    if span.minimum > span.shortest:
         yield Inequality(span.end, span.start, span.rigid + span.minimum, _limit(span))
+    elif span.shortest > 0:
+        yield Inequality(span.end, span.start, span.rigid + span.shortest, span.requirement, span.need)
     elif not span.elastic:
         yield Inequality(span.end, span.start, span.rigid, span.requirement)
     if span.maximum < inf:

@@ -15,6 +15,7 @@ from reactive_realizer.scheduler.faults import (
     NeverHolds,
     OuterTie,
     Rigid,
+    TooHurried,
 )
 from reactive_realizer.scheduler.problem import Point, Precedence, SchedulingProblem, Tie
 from reactive_realizer.scheduler.solution import Loss, lost_behavior, lost_constraint
@@ -51,17 +52,25 @@ class Relaxation:
                 self.losses.append(lost_constraint(constraint, fault))
 
     def _resolve(self, relaxed: RelaxedProblem, conflict: Conflict) -> None:
+        conflict = conflict.out_of_order
         droppable = [each for each in conflict.requirements if each.rank is not Rank.GIVEN]
         kept = self._kept(relaxed, droppable)
         choice = [each for each in droppable if each not in kept] or droppable
         lowest = min(each.rank for each in choice)
-        dropped = max(each for each in choice if each.rank is lowest)
+        least = [each for each in choice if each.rank is lowest]
+        dropped = max(self._of_hurried(least, conflict) or least)
         self.dropped.add(dropped)
         if dropped.rank is Rank.LIMIT:  # the limits of a behavior go together, so that it is stretched evenly
             phases = range(len(self._problem.items[dropped.number].timing.phases))
             self.dropped |= {dropped._replace(phase=phase) for phase in phases}
         if dropped.rank > Rank.LIMIT:
             self.losses.append(self._loss(dropped, conflict))
+
+    def _of_hurried(self, requirements: Iterable[Requirement], conflict: Conflict) -> list[Requirement]:
+        """The constraints that name a behavior with too little time."""
+        hurried = {self._problem.items[need.behavior].behavior.id for need in conflict.needs}
+        named = ((each, self._constraint(each)) for each in requirements)
+        return [each for each, constraint in named if constraint is not None and constraint.names(hurried)]
 
     def _kept(self, relaxed: RelaxedProblem, requirements: Iterable[Requirement]) -> set[Requirement]:
         """The required ones, and the behaviors that required constraints name."""
@@ -89,6 +98,8 @@ class Relaxation:
         return lost_behavior(self._problem.items[dropped.number].behavior, self._behavior_fault(dropped, conflict))
 
     def _behavior_fault(self, dropped: Requirement, conflict: Conflict) -> Fault:
+        if (hurried := self._hurried(dropped, conflict)) is not None:
+            return hurried
         if conflict.late:
             return AllPast(late=conflict.gap)
         if conflict.requirements == {dropped}:
@@ -100,6 +111,8 @@ class Relaxation:
     def _constraint_fault(self, dropped: Requirement, constraint: Tie | Precedence, conflict: Conflict) -> Fault:
         if conflict.outer:
             return OuterTie(tie=constraint.text)
+        if (hurried := self._hurried(dropped, conflict)) is not None:
+            return hurried
         if all(each.rank is Rank.TIE for each in conflict.requirements):
             return ContradictoryTie(tie=constraint.text, gap=conflict.gap)
         items = [self._problem.items[each.number] for each in conflict.requirements if each.rank is Rank.BEHAVIOR]
@@ -108,6 +121,19 @@ class Relaxation:
         if points and len(rigid) == len(items) and isinstance(constraint, Tie):
             return Rigid(point=":".join(points[0]), tie=constraint.text, gap=conflict.gap)
         return self._conflict_fault(dropped, conflict)
+
+    def _hurried(self, dropped: Requirement, conflict: Conflict) -> TooHurried | None:
+        """The fault if too little time is left for some phases."""
+        if not conflict.needs:
+            return None
+        items = {index: self._problem.items[index] for index in sorted({each.behavior for each in conflict.needs})}
+        phases = []
+        for index, item in items.items():
+            own = [each for each in conflict.needs if each.behavior == index]
+            start, end = min(each.first for each in own), max(each.last for each in own) + 1
+            phases.append(f"{item.behavior.id} from {item.timing.points[start]} to {item.timing.points[end]}")
+        what, room = self._name(dropped), max(conflict.need - conflict.gap, 0.0)
+        return TooHurried(what=what, phases=tuple(phases), need=conflict.need, room=room)
 
     def _conflict_fault(self, dropped: Requirement, conflict: Conflict) -> Fault:
         others = [each for each in sorted(conflict.requirements - {dropped}) if each.rank > Rank.LENGTH]

@@ -7,7 +7,7 @@ from itertools import pairwise
 from math import inf
 
 from reactive_realizer.planunit.timing import PhaseKind, Timing
-from reactive_realizer.scheduler.convex.conflicts import Rank, Requirement
+from reactive_realizer.scheduler.convex.conflicts import Need, Rank, Requirement
 from reactive_realizer.scheduler.problem import LEAST
 
 
@@ -23,8 +23,9 @@ class Span:
         start: node at which it begins.
         end: node at which it ends.
         rigid: duration (s) of the rigid phases that also lie between start and end.
-        minimum: authored limit, s.
+        minimum: the shortest duration or, if that is longer, the authored limit, s.
         maximum: authored limit, s.
+        shortest: the sum of the shortest durations of its phases, s.
         guide: the span whose stretch it takes over; None if it has its own.
         tail: variable of the start.
         head: variable of the end.
@@ -42,6 +43,7 @@ class Span:
     rigid: float = 0.0
     minimum: float = 0.0
     maximum: float = inf
+    shortest: float = 0.0
     guide: "Span | None" = None
     tail: int = 0
     head: int = 0
@@ -61,8 +63,8 @@ class Span:
 
     @property
     def least(self) -> float:
-        """Its shortest duration without authored limits, s."""
-        return LEAST if self.elastic else 0.0
+        """Its least duration without authored limits, s."""
+        return max(self.shortest, LEAST if self.elastic else 0.0)
 
     @property
     def requirement(self) -> Requirement:
@@ -73,6 +75,11 @@ class Span:
     def length_requirement(self) -> Requirement:
         """The requirement that its duration is not 0."""
         return Requirement(Rank.LENGTH, self.behavior, self.phases[0])
+
+    @property
+    def need(self) -> Need:
+        """Its shortest duration."""
+        return Need(self.behavior, self.phases[0], self.phases[-1], self.shortest)
 
     @property
     def closed(self) -> bool:
@@ -175,7 +182,9 @@ class BehaviorSpans:
         ):
             kind = PhaseKind.HOLD  # its duration may become 0
         low, high = (phase.minimum, phase.maximum) if first in self._limited else (0.0, inf)
-        return Span(self._index, tuple(group), kind, preferred, start, end, rigid, low, high, goal=preferred)
+        shortest = sum(self._phases[k].shortest for k in group)
+        low = max(low, shortest)
+        return Span(self._index, tuple(group), kind, preferred, start, end, rigid, low, high, shortest, goal=preferred)
 
     def _follow(self, first: int, last: int) -> None:
         elastic = [span for span in self.spans if span.elastic]

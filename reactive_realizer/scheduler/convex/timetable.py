@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from reactive_realizer.planunit.timing import SHORTEST, PhaseKind
+from reactive_realizer.planunit.timing import SHORTEST, PhaseKind, stretched
 from reactive_realizer.scheduler.convex.conflicts import Conflict, Rank, Requirement
 from reactive_realizer.scheduler.convex.durations import Durations
 from reactive_realizer.scheduler.convex.longest_path import TOLERANCE, Arc, components, longest_path
@@ -43,7 +43,7 @@ def _conflicts(model: Model) -> list[Conflict]:
     There is a plan if and only if there is no such circle: the longest paths are one.
     """
     arcs: list[Arc[Inequality | Span]] = [*model.bounds]
-    elastic = (span for span in model.spans if span.elastic and not span.closed)
+    elastic = (span for span in model.spans if span.elastic and not span.shortest and not span.closed)
     arcs += [Arc(span.tail, span.head, span.least - span.shift, span) for span in elastic]
     found: list[Conflict] = []
     while circle := longest_path(model.size, arcs)[1]:
@@ -62,7 +62,8 @@ def _conflict(model: Model, circle: Sequence[Arc[Inequality | Span]]) -> Conflic
     spans = [arc.label for arc in circle if isinstance(arc.label, Span)]
     if gap <= sum(span.least for span in spans) + TOLERANCE:
         requirements |= {span.length_requirement for span in spans}
-    return Conflict(frozenset(requirements), gap)
+    needs = tuple(row.need for row in rows if row.need is not None)
+    return Conflict(frozenset(requirements), gap, needs=needs)
 
 
 def _shortest(span: Span) -> Inequality:
@@ -127,9 +128,11 @@ def _lengths(model: Model, behavior: int) -> list[float]:
         lengths[k] *= tempo if phases[k].kind is PhaseKind.ELASTIC else 1.0
         if part.limited(k):
             lengths[k] = min(max(lengths[k], phases[k].minimum), phases[k].maximum)
+        lengths[k] = max(lengths[k], phases[k].shortest)
     for span in part.spans:
-        for k in span.phases:
-            lengths[k] = lengths[k] * span.ratio if span.preferred else span.duration
+        durations = stretched([phases[k] for k in span.phases], span.duration) if span.preferred else [span.duration]
+        for k, duration in zip(span.phases, durations, strict=True):
+            lengths[k] = duration
     return lengths
 
 

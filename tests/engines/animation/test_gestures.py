@@ -202,9 +202,10 @@ def test_an_amount_scales_the_distance_from_the_rest_pose(gesture: PlanGesture, 
 def test_preparation_takes_longer_from_further_away(gesture: PlanGesture, name: str) -> None:
     unit, body = gesture(name)
     planned = unit.key_positions["ready"] * unit.preferred_duration
-    assert unit.preparation(body) == pytest.approx(planned)
+    assert unit.preparation(body).preferred == pytest.approx(planned)
     there = body.posed(shown(unit, unit.key_positions["ready"], body))
-    assert unit.preparation(there) < 0.3 < planned
+    assert unit.preparation(there).preferred < 0.3 < planned
+    assert unit.preparation(there).shortest < 0.05 < unit.preparation(body).shortest < planned
 
 
 def test_a_copy_has_the_same_durations_and_moves_independently(

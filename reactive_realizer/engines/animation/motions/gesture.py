@@ -20,12 +20,14 @@ from reactive_realizer.engines.animation.motion_unit import (
     Moment,
     MotionPose,
     MotionUnit,
+    PhaseDuration,
     Predictability,
     arms_used,
     with_gesture_points,
 )
 from reactive_realizer.engines.animation.motions.procedural import AnimationFinder
-from reactive_realizer.engines.animation.motions.reaching import gesture_key_positions, reach_duration
+from reactive_realizer.engines.animation.motions.reaching import gesture_key_positions, reach, shortest_phases
+from reactive_realizer.engines.animation.shortest import shortest_duration
 from reactive_realizer.engines.animation.procedural.procedural_animation import ProceduralAnimation
 from reactive_realizer.planunit.parameter import Range
 
@@ -35,6 +37,9 @@ HOLD = "postStrokeHoldDuration"
 HOLD_RANGE = Range(0.0, 600.0)
 
 _INNER = GESTURE_POINTS[1:-1]
+
+_SAMPLES = 4
+"""Number of steps in which the speed of a phase of a stroke is measured."""
 
 
 class GestureMotionUnit(MotionUnit):
@@ -78,16 +83,28 @@ class GestureMotionUnit(MotionUnit):
         keys = with_gesture_points(timing.key_positions)
         self._inner = [keys[point] for point in _INNER]
         durations = self._durations(timing.duration, parameters.get(HOLD, 0.0))
-        self.preferred_duration = sum(durations)
-        self.key_positions = gesture_key_positions(durations)
+        self.preferred_duration = sum(each.preferred for each in durations)
+        self.key_positions = gesture_key_positions([each.preferred for each in durations])
+        self.shortest = shortest_phases(durations)
 
-    def _durations(self, whole: float, hold: float) -> list[float]:
-        """Return the durations of the six phases between the seven points, s."""
+    def _durations(self, whole: float, hold: float) -> list[PhaseDuration]:
+        """Return the durations of the six phases between the seven points."""
         rest = self._rest
-        relax = rest.posed(self._animation.sample(self._inner[-1], self.parameters, rest).rotations)
-        stroke = [whole * (after - before) for before, after in pairwise(self._inner)]
-        stroke[-1] += hold
-        return [self.preparation(rest), *stroke, reach_duration(relax, rest, self.joints)]
+        stroke = [self._part(whole, before, after) for before, after in pairwise(self._inner)]
+        stroke[-1] = PhaseDuration(stroke[-1].preferred + hold, stroke[-1].shortest)
+        return [self.preparation(rest), *stroke, reach(self._body(self._inner[-1]), rest, self.joints)]
+
+    def _part(self, whole: float, begin: float, end: float) -> PhaseDuration:
+        """Return the duration of a part of the animation, between two of its phases."""
+        if begin == end:
+            return PhaseDuration(0.0)
+        preferred = whole * (end - begin)
+        bodies = [self._body(begin + (end - begin) * number / _SAMPLES) for number in range(_SAMPLES + 1)]
+        return PhaseDuration(preferred, min(preferred, shortest_duration(bodies, self.joints)))
+
+    def _body(self, phase: float) -> Body:
+        """Return the body at rest in the pose of a phase of the animation."""
+        return self._rest.posed(self._animation.sample(phase, self.parameters, self._rest).rotations)
 
     def start(self, body: Body) -> None:
         """Start from the current pose of the arms."""
@@ -104,10 +121,10 @@ class GestureMotionUnit(MotionUnit):
             stroke, 1.0 - minimum_jerk(share(phase, keys["relax"], 1.0)) if phase > keys["relax"] else 1.0
         )
 
-    def preparation(self, body: Body) -> float:
-        """Return the preferred duration of the preparation from a body, s."""
+    def preparation(self, body: Body) -> PhaseDuration:
+        """Return the duration of the preparation from a body."""
         ready = body.posed(self._animation.sample(self._inner[0], self.parameters, body).rotations)
-        return reach_duration(body, ready, self.joints)
+        return reach(body, ready, self.joints)
 
     def _stroke(self, moment: Moment) -> Mapping[str, Quat]:
         """Return the scaled pose of the animation at a phase. It is constant during preparation and retraction."""

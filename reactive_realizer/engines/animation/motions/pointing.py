@@ -15,10 +15,15 @@ from reactive_realizer.engines.animation.easing import share
 from reactive_realizer.engines.animation.faults import NoJoints, NotPointable, TargetLost, WrongElement
 from reactive_realizer.engines.animation.motion_maker import MakerContext, MotionRequest, TargetLocator, target_locator
 from reactive_realizer.engines.animation.motion_parameters import parameter_values
-from reactive_realizer.engines.animation.motion_unit import Moment, MotionPose, MotionUnit, arms_used
+from reactive_realizer.engines.animation.motion_unit import Moment, MotionPose, MotionUnit, PhaseDuration, arms_used
 from reactive_realizer.engines.animation.motions.gesture import HOLD, HOLD_RANGE
 from reactive_realizer.engines.animation.motions.pointing_arm import ArmPose, PointingArm
-from reactive_realizer.engines.animation.motions.reaching import gesture_key_positions, reach_duration, sigmoid
+from reactive_realizer.engines.animation.motions.reaching import (
+    gesture_key_positions,
+    reach,
+    shortest_phases,
+    sigmoid_profile,
+)
 from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.planunit.parameter import Range, spelled
 
@@ -72,13 +77,16 @@ class PointingMotionUnit(MotionUnit):
         self._arms, self._target, self._figure = arms, target, figure
         self._begin = {joint: rest.rotation(joint) for joint in self.joints}
         self._name, self._aimed = name, dict[str, Quat]()
-        way = self.preparation(rest)
-        self.preferred_duration = 2.0 * way + self.parameters[HOLD]
-        self.key_positions = gesture_key_positions([way, 0.0, 0.0, self.parameters[HOLD], 0.0, way])
+        self._profile = sigmoid_profile(self.parameters[STEEPNESS], self.parameters[ASYMMETRY])
+        way, still, hold = self.preparation(rest), PhaseDuration(0.0), PhaseDuration(self.parameters[HOLD])
+        durations = [way, still, still, hold, still, way]
+        self.preferred_duration = sum(each.preferred for each in durations)
+        self.key_positions = gesture_key_positions([each.preferred for each in durations])
+        self.shortest = shortest_phases(durations)
 
-    def preparation(self, body: Body) -> float:
-        """Return the preferred duration of the preparation from a body, s."""
-        return reach_duration(body, body.posed(_turns(self._aim(body))), self.joints)
+    def preparation(self, body: Body) -> PhaseDuration:
+        """Return the duration of the preparation from a body."""
+        return reach(body, body.posed(_turns(self._aim(body))), self.joints, self._profile)
 
     def start(self, body: Body) -> None:
         """Start from the current pose of the arms."""
@@ -93,12 +101,9 @@ class PointingMotionUnit(MotionUnit):
             if phase >= keys["ready"]:
                 self.fault = self.fault or self._missed(aims)
         if phase < keys["ready"]:
-            done = self._gone(share(phase, 0.0, keys["ready"]))
+            done = self._profile(share(phase, 0.0, keys["ready"]))
             return MotionPose({joint: slerp(self._begin[joint], goal, done) for joint, goal in self._aimed.items()})
-        return MotionPose(self._aimed, 1.0 - self._gone(share(phase, keys["relax"], 1.0)))
-
-    def _gone(self, progress: float) -> float:
-        return sigmoid(progress, self.parameters[STEEPNESS], self.parameters[ASYMMETRY])
+        return MotionPose(self._aimed, 1.0 - self._profile(share(phase, keys["relax"], 1.0)))
 
     def _aim(self, body: Body, time: GlobalTime | None = None) -> list[ArmPose]:
         target = self._target(time)

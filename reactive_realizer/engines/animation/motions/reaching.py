@@ -1,37 +1,66 @@
 """Reaching: durations and speed profiles of hand movements, and the key positions that follow."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import lru_cache, partial
 from itertools import accumulate
 
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.joints import SIDES
 from reactive_realizer.embodiment.quaternion import slerp
+from reactive_realizer.engines.animation.easing import minimum_jerk
 from reactive_realizer.engines.animation.kinematics import path_length
-from reactive_realizer.engines.animation.motion_unit import GESTURE_POINTS
+from reactive_realizer.engines.animation.motion_unit import GESTURE_POINTS, PhaseDuration
+from reactive_realizer.engines.animation.shortest import from_rest, moving_time
+
+Profile = Callable[[float], float]
+"""The completed share of a reach, 0 to 1, after a share of its time."""
+
+_SAMPLES = 100
 
 
-def reach_duration(start: Body, goal: Body, joints: frozenset[str]) -> float:
-    """Return the preferred duration of a movement of the hands between two poses, s.
+def reach(start: Body, goal: Body, joints: frozenset[str], profile: Profile = minimum_jerk) -> PhaseDuration:
+    """Return the duration of a movement of the hands between two poses.
 
     The peak speed of a reach is about twice its mean speed (1.9 times for minimum jerk). With these numbers a wrist
-    stays below 2 m/s, and a fingertip, which also swings about the wrist, below 2.5 m/s.
+    prefers to stay below 2 m/s, and a fingertip, which also swings about the wrist, below 2.5 m/s.
 
     Args:
         start: the body with its hands at the start.
         goal: the body with its hands at the goal.
         joints: that turn, each along its shortest arc; only hands of arms that turn at the shoulder count.
+        profile: of their speed.
     """
     between = {joint: slerp(start.rotation(joint), goal.rotation(joint), 0.5) for joint in joints}
     bodies = (start, start.posed(between), goal)
     sides = [side for side in SIDES if f"{side}_shoulder" in joints]
-    return max(0.25 + 0.75 * path_length("wrist", sides, bodies), 0.84 * path_length("middle3", sides, bodies))
+    preferred = max(0.25 + 0.75 * path_length("wrist", sides, bodies), 0.84 * path_length("middle3", sides, bodies))
+    shortest = from_rest(_lag(profile) * moving_time(bodies, joints))
+    return PhaseDuration(max(preferred, shortest), shortest)
+
+
+@lru_cache
+def _lag(profile: Profile) -> float:
+    """Return the factor by which a reach is slower than at its highest speed, so that it is not late.
+
+    A limb that falls behind a reach with a high peak speed has caught up with it at the end.
+    """
+    shares = (number / _SAMPLES for number in range(_SAMPLES))
+    return max((1.0 - profile(share)) / (1.0 - share) for share in shares)
 
 
 def gesture_key_positions(durations: Sequence[float]) -> dict[str, float]:
     """Return the phases of the seven points of a gesture, from the durations of the six phases between them, s."""
     total, times = sum(durations), accumulate(durations[:-1], initial=0.0)
     return {**{point: time / total for point, time in zip(GESTURE_POINTS, times, strict=False)}, "end": 1.0}
+
+
+def shortest_phases(durations: Sequence[PhaseDuration]) -> dict[str, float]:
+    """Return the shortest durations of the phases of a gesture by the point at which each ends (`MotionUnit`).
+
+    A retraction may be cut short: the next gesture starts from there, or the motion fades out.
+    """
+    return {point: each.shortest for point, each in zip(GESTURE_POINTS[1:-1], durations[:-1], strict=True)}
 
 
 def sigmoid(progress: float, steepness: float, asymmetry: float) -> float:
@@ -54,6 +83,12 @@ def sigmoid(progress: float, steepness: float, asymmetry: float) -> float:
         return 2.0 * rising * _symmetric(0.5 * t / rising, steepness)
     falling = 1.0 - rising
     return 1.0 - 2.0 * falling * _symmetric(0.5 * (1.0 - t) / falling, steepness)
+
+
+@lru_cache
+def sigmoid_profile(steepness: float, asymmetry: float) -> Profile:
+    """Return the `sigmoid` with these values; equal profiles are the same object."""
+    return partial(sigmoid, steepness=steepness, asymmetry=asymmetry)
 
 
 def _symmetric(t: float, steepness: float) -> float:
