@@ -27,8 +27,8 @@ from reactive_realizer.engines.animation.motion_unit import (
 )
 from reactive_realizer.engines.animation.motions.procedural import AnimationFinder
 from reactive_realizer.engines.animation.motions.reaching import gesture_key_positions, reach, shortest_phases
-from reactive_realizer.engines.animation.shortest import shortest_duration
 from reactive_realizer.engines.animation.procedural.procedural_animation import ProceduralAnimation
+from reactive_realizer.engines.animation.shortest import shortest_duration
 from reactive_realizer.planunit.parameter import Range
 
 HOLD = "postStrokeHoldDuration"
