@@ -69,11 +69,11 @@ async def _frame(pilot: RealizerPilot, crowd: Sequence[Character]) -> float:
     tick = Tick(number, tick_time(number - 1), frame=True)
     bodies = [(character, _animation(character)) for character in crowd]
     begin = perf_counter()
-    plays = [(character, [engine.play(tick)]) for character, engine in bodies]
-    for character, play in plays:
-        character.move(tick.time, play)
-    for character, play in plays:
-        frame = character.look(play)
+    shown = [(character, [engine.show(tick)]) for character, engine in bodies]
+    for character, outputs in shown:
+        character.move(tick.time, outputs)
+    for character, outputs in shown:
+        frame = character.look(outputs)
         character.humanoid.avatar.bone_rotations(frame.rotations)
     return 1e6 * (perf_counter() - begin) / len(crowd)
 

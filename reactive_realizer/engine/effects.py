@@ -149,17 +149,28 @@ class Play:
     Attributes:
         reached: sync points, in order.
         dropped: units that left the plan.
-        layers: joint rotations for the frame that is due.
-        face: weights of morphs, 0..1, for the frame that is due; those of several engines are added.
-        eyes: movement of the eyes for the frame that is due, applied after the head.
         audio: sounds that start, move or stop.
         requests: to the scheduler.
     """
 
     reached: tuple[Reached, ...] = ()
     dropped: tuple[Dropped, ...] = ()
+    audio: tuple[AudioChange, ...] = ()
+    requests: tuple[Request, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Output:
+    """The part of an engine in a frame.
+
+    Attributes:
+        layers: joint rotations.
+        face: weights of morphs, 0..1; those of several engines are added.
+        eyes: movement of the eyes, applied after the head.
+        effects: of showing: units that failed, and warnings.
+    """
+
     layers: tuple[Layer, ...] = ()
     face: Mapping[str, float] = field(default_factory=dict)
     eyes: Eyes | None = None
-    audio: tuple[AudioChange, ...] = ()
-    requests: tuple[Request, ...] = ()
+    effects: Play = Play()

@@ -1,16 +1,16 @@
 """The interface of a modality (thesis 8.6), and a default implementation."""
 
-from collections.abc import Awaitable, Mapping
+from collections.abc import Awaitable, Callable, Mapping
 from types import MappingProxyType
 from typing import Protocol
 
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.clock.ticker import Tick
-from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.clock.units import GlobalTime, Time
 from reactive_realizer.embodiment.audio import AudioChange
 from reactive_realizer.embodiment.humanoid import Eyes
 from reactive_realizer.embodiment.pose import Layer
-from reactive_realizer.engine.effects import Dropped, Play, Reached, Request
+from reactive_realizer.engine.effects import Dropped, Output, Play, Reached, Request, Warn
 from reactive_realizer.engine.player import Player
 from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.peg_key import BlockKey
@@ -21,6 +21,9 @@ from reactive_realizer.planunit.plan_unit import PlanUnit
 class Engine(Protocol):
     """One modality of one character.
 
+    In the rounds of a tick, an engine plays if its next due time has come, or if it has called ``wake`` since it last
+    played. Frames show its output after the last round.
+
     Attributes:
         name: for logs: ``character/modality``.
         behaviors: the kinds of behaviors it plays.
@@ -29,7 +32,7 @@ class Engine(Protocol):
             Otherwise, the scheduler warns of all of them.
         parameters: the parameters of its behaviors that may be changed while they play, by name.
         leads: whether it plays before the others in each round of a tick, and its requests are carried out before the
-            others play.
+            others play. A leading engine has no output.
     """
 
     name: str
@@ -63,10 +66,23 @@ class Engine(Protocol):
         """Take a unit out of the plan, without effects."""
         ...
 
-    def play(self, tick: Tick) -> Play:
-        """Play what is due; never blocks.
+    @property
+    def next_due(self) -> Time:
+        """The time at which it next has something to play, as far as it is known; None while it only waits."""
+        ...
 
-        Called at least once in each tick in which it has units, lost one, or a frame is due.
+    def listen(self, wake: Callable[[], None]) -> None:
+        """Call ``wake()`` whenever something has changed on which its playing depends, such as its plan or a peg."""
+        ...
+
+    def play(self, tick: Tick) -> Play:
+        """Play what is due; never blocks. It may be called several times in a tick."""
+        ...
+
+    def show(self, tick: Tick) -> Output:
+        """The output for the frame of a tick; never blocks. Called after the last round of the tick.
+
+        It is called once more if its effects have changed something.
         """
         ...
 
@@ -109,18 +125,29 @@ class DefaultEngine:
         """Take a unit out of the plan."""
         self.player.remove(unit)
 
+    @property
+    def next_due(self) -> Time:
+        """The time at which a unit next begins or reaches a point; None while no such time is known."""
+        return self.player.next_due
+
+    def listen(self, wake: Callable[[], None]) -> None:
+        """Call ``wake()`` when units enter, leave or change."""
+        self.player.listen(wake)
+
     def play(self, tick: Tick) -> Play:
-        """The sync points that are due and, if a frame is due, its layers, face and eyes."""
+        """The sync points that are due, with audio and requests."""
         self._reached += self.player.play(tick)
         return Play(
-            layers=self.layers(tick) if tick.frame else (),
-            face=self.face(tick) if tick.frame else {},
-            eyes=self.eyes(tick) if tick.frame else None,
             audio=self.audio(tick),
-            requests=(*self.player.take_ending(), *self.requests(tick)),
+            requests=(*self.player.take_ending(), *self.requests(tick), *self.warnings()),
             dropped=self.player.take_dropped(),  # by all of the above
             reached=self._take_reached(),  # last: if anything raises, `fail` returns them
         )
+
+    def show(self, tick: Tick) -> Output:
+        """Layers, face and eyes; a unit that fails is dropped."""
+        layers, face, eyes = self.layers(tick), self.face(tick), self.eyes(tick)
+        return Output(layers, face, eyes, Play(dropped=self.player.take_dropped(), requests=self.warnings()))
 
     def fail(self, time: GlobalTime, fault: Fault) -> Play:
         """Drop every unit; the points reached before the failure are returned too."""
@@ -137,6 +164,10 @@ class DefaultEngine:
         """The requests of this tick."""
         return ()
 
+    def warnings(self) -> tuple[Warn, ...]:
+        """The warnings about units since the last call, asked for after playing and after showing."""
+        return ()
+
     def layers(self, tick: Tick) -> tuple[Layer, ...]:
         """The layers of joint rotations of this tick."""
         return ()
@@ -150,7 +181,7 @@ class DefaultEngine:
         return None
 
     def audio(self, tick: Tick) -> tuple[AudioChange, ...]:
-        """The changes of audio since the last tick."""
+        """The changes of audio since the last call."""
         return ()
 
     def _take_reached(self) -> tuple[Reached, ...]:

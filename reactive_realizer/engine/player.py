@@ -2,15 +2,17 @@
 
 import logging
 from collections.abc import Callable
+from functools import partial
 from math import inf
 from typing import TypeVar
 
 from reactive_realizer.clock.ticker import Tick
-from reactive_realizer.clock.units import GlobalTime, is_due
+from reactive_realizer.clock.units import GlobalTime, Time, is_due
 from reactive_realizer.engine.effects import Dropped, EndUnit, Reached
 from reactive_realizer.engine.faults import ResourceTaken, UnitFailed
 from reactive_realizer.errors import Fault, RealizerError
-from reactive_realizer.planunit.plan_unit import PlanUnit, UnitState
+from reactive_realizer.pegboard.agenda import Agenda
+from reactive_realizer.planunit.plan_unit import PlanUnit, UnitState, sleep
 
 logger = logging.getLogger(__name__)
 
@@ -30,6 +32,7 @@ class Player:
 
     def __init__(self) -> None:
         self._units: list[PlanUnit] = []
+        self._agenda: Agenda[PlanUnit] = Agenda(lambda unit: unit.next_due(), lambda unit: unit.awaited())
         self._ended: list[PlanUnit] = []
         self._dropped: list[Dropped] = []
         self._ending: list[EndUnit] = []
@@ -44,26 +47,41 @@ class Player:
         """The units that play now."""
         return tuple(unit for unit in self._units if unit.state is UnitState.IN_EXEC)
 
+    def listen(self, wake: Callable[[], None]) -> None:
+        """Call ``wake()`` when units enter, leave or change."""
+        self._agenda.wake = wake
+
+    @property
+    def next_due(self) -> Time:
+        """The time at which a unit next begins or reaches a point; None while no such time is known."""
+        return self._agenda.next_due
+
     def add(self, unit: PlanUnit) -> None:
         """Plan a unit."""
         self._units.append(unit)
+        unit.wake = partial(self.note, unit)
+        self._agenda.add(unit)
+
+    def note(self, unit: PlanUnit) -> None:
+        """Note that a unit has changed."""
+        self._agenda.note(unit)
 
     def remove(self, unit: PlanUnit) -> None:
         """Remove a unit from the plan, if it is in the plan."""
         if unit in self._units:
             self._units.remove(unit)
+            self._forget(unit)
             self._note_end(unit)
+            self._agenda.wake()
 
     def play(self, tick: Tick) -> tuple[Reached, ...]:
         """Begin the units and fire the sync points that are due; forget units that have ended."""
         self._ended = [unit for unit in self._ended if not is_due(unit.points[-1].peg.value, tick.previous)]
-        if not self._units:
-            return ()
         reached: list[Reached] = []
         for unit in self._in_turn(tick.time):
             if not self._held(unit, tick):
                 self._fire(unit, tick.time, reached)
-        self._units = [unit for unit in self._units if unit.live]
+        self._forget_ended()
         return tuple(reached)
 
     def show(self, kind: type[U], show: Callable[[U], T], now: GlobalTime) -> list[T]:
@@ -96,15 +114,16 @@ class Player:
         if not self._dropped:
             return ()
         dropped, self._dropped = tuple(self._dropped), []
-        self._units = [unit for unit in self._units if unit.live]
+        self._forget_ended()
         return dropped
 
     def _in_turn(self, now: GlobalTime) -> list[PlanUnit]:
-        """The playing units, then those that are due: by start, then by id, so that the order is unique."""
-        starting = sorted(
-            (unit for unit in self._units if unit.due(now)), key=lambda u: (u.points[0].peg.value, u.behavior.id)
-        )
-        return [*self.playing, *starting]
+        """The playing units with due points, then those that begin: by start, then by id, so the order is unique."""
+        due = dict.fromkeys(self._agenda.take_due(now))
+        if not due:
+            return []
+        starting = sorted((unit for unit in due if unit.due(now)), key=lambda u: (u.points[0].peg.value, u.behavior.id))
+        return [*(unit for unit in self.playing if unit in due), *starting]
 
     def _held(self, unit: PlanUnit, tick: Tick) -> bool:
         """Whether a due unit cannot begin now: it is dropped, or others have to end first in this round."""
@@ -144,6 +163,15 @@ class Player:
             self._fail(unit, failure, now)
         reached.extend(Reached(unit, point, time) for point, time in due if point.fired)
         self._note_end(unit)
+
+    def _forget_ended(self) -> None:
+        for unit in [unit for unit in self._units if not unit.live]:
+            self._units.remove(unit)
+            self._forget(unit)
+
+    def _forget(self, unit: PlanUnit) -> None:
+        self._agenda.remove(unit)
+        unit.wake = sleep
 
     def _note_end(self, unit: PlanUnit) -> None:
         if unit.state is UnitState.DONE:

@@ -6,7 +6,7 @@ from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.extensions import ParameterValueChange
 from reactive_realizer.bml.names import BMLT
 from reactive_realizer.clock.ticker import Tick
-from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.clock.units import GlobalTime, Time
 from reactive_realizer.engine.context import EngineContext, TrajectoryFunction
 from reactive_realizer.engine.effects import BindParameter, EndUnit, ParameterUser, Request, SetParameter
 from reactive_realizer.engine.engine import DefaultEngine
@@ -110,6 +110,10 @@ class ParameterValueChangeUnit(ParameterUser):
     def due(self, now: GlobalTime) -> bool:
         """Whether it starts: its time has come and its parameter is bound."""
         return self._parameter is not None and super().due(now)
+
+    def next_due(self) -> Time:
+        """While it plays, each tick."""
+        return self.time("start") if self.begun and self.live else super().next_due()
 
     def on_start(self, time: GlobalTime) -> None:
         """Starts the trajectory at its initial value or, without one, at the value of the parameter."""

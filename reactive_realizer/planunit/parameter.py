@@ -51,6 +51,11 @@ class Parameter:
         return self.cell.value
 
     def set(self, value: float) -> None:
-        """Set the value, in its own transaction or within one; only the scheduler calls this."""
+        """Set the value, in its own transaction or within one; only the scheduler calls this.
+
+        The parameter of a behavior that has ended keeps its value.
+        """
+        if self.cell.disposed:
+            return
         with self.cell.graph.transaction(f"set {self.cell.name}"):
             self.cell.set(value)

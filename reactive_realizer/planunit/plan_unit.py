@@ -2,7 +2,7 @@
 
 import itertools
 import logging
-from collections.abc import Container, Mapping, Sequence
+from collections.abc import Callable, Container, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from typing import NamedTuple
@@ -56,6 +56,10 @@ class DuePoint(NamedTuple):
     time: GlobalTime
 
 
+def sleep() -> None:
+    """The `PlanUnit.wake` of a unit that no player has."""
+
+
 class PlanUnit:
     """A behavior as an engine plays it; engines make subclasses of it.
 
@@ -72,6 +76,7 @@ class PlanUnit:
         points: its sync points in order; empty until the plan is committed.
         open: pegs of the points that are unknown until it is ended, if it is persistent.
         parameters: those that may be changed while it plays, by name.
+        wake: called when its pegs or its state have changed outside of its engine; its player sets it.
     """
 
     def __init__(
@@ -86,6 +91,7 @@ class PlanUnit:
         self.points: list[SyncPoint] = []
         self.open: dict[str, TimePeg] = {}
         self.parameters: dict[str, Parameter] = {}
+        self.wake: Callable[[], None] = sleep
         self.state = UnitState.PENDING
 
     # --- for subclasses
@@ -197,6 +203,18 @@ class PlanUnit:
         """Whether it can begin: its block plays, and its start has come."""
         return self.state is UnitState.LURKING and is_due(self.points[0].peg.value, now)
 
+    def next_due(self) -> Time:
+        """The earliest known time at which it begins or reaches a point; None if there is none."""
+        if self.state is UnitState.LURKING:
+            return self.points[0].peg.value
+        if self.state is not UnitState.IN_EXEC:
+            return None
+        return min((time for point in self.ahead() if (time := point.peg.value) is not None), default=None)
+
+    def awaited(self) -> list[TimePeg]:
+        """The pegs that it waits for: that of its start or, while it plays, those of the points ahead."""
+        return [point.peg for point in (self.ahead() if self.begun else self.points[:1])]
+
     def overtaken(self) -> tuple[tuple[str, GlobalTime], tuple[str, GlobalTime]] | None:
         """Two points, with their times, that are out of order (thesis 7.15), if there are any; tied ones first."""
         known = [(point, time) for point in self.points if (time := point.peg.value) is not None]
@@ -228,6 +246,7 @@ class PlanUnit:
         """Called when its block has started."""
         if self.state is UnitState.PENDING:
             self.state = UnitState.LURKING
+            self.wake()
 
     def begin(self) -> None:
         """Begin to play; the start itself fires with the next `fire`."""
@@ -296,11 +315,13 @@ class PlanUnit:
             point.peg.pin(time)
         else:
             point.peg = point.peg.detached(str(self.key(point.id)), time)
+            self.wake()
 
     def drop(self, time: GlobalTime) -> None:
         """Leave the plan without feedback; if `on_finish` raises, that is logged."""
         playing = self.state is UnitState.IN_EXEC
         self.state = UnitState.DROPPED
+        self._end_parameters()
         if playing:
             try:
                 self.on_finish(time)
@@ -327,4 +348,9 @@ class PlanUnit:
 
     def _finish(self, time: GlobalTime) -> None:
         self.state = UnitState.DONE
+        self._end_parameters()
         self.on_finish(time)
+
+    def _end_parameters(self) -> None:
+        for parameter in self.parameters.values():
+            parameter.cell.dispose()

@@ -48,9 +48,11 @@ class BackgroundTasks:
         """See `BackgroundWork`."""
         self._requests += 1
         number = self._requests
-        job = self._jobs[number] = _Job(self._group.create_task(_guarded(work), name=name), done)
+        working = asyncio.ensure_future(work)
+        job = self._jobs[number] = _Job(self._group.create_task(_guarded(working), name=name), done)
 
         def cancel() -> None:
+            working.cancel()  # the task may not have begun to wait for it
             job.task.cancel()
             self._jobs.pop(number, None)
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.frame import Frame
 from reactive_realizer.embodiment.humanoid import Humanoid
-from reactive_realizer.engine.effects import Play
+from reactive_realizer.engine.effects import Output
 from reactive_realizer.engine.engine import Engine
 
 
@@ -18,11 +18,11 @@ class Character:
     humanoid: Humanoid
     engines: tuple[Engine, ...]
 
-    def move(self, time: GlobalTime, plays: Sequence[Play]) -> None:
+    def move(self, time: GlobalTime, outputs: Sequence[Output]) -> None:
         """Move the figure to the pose that its engines give for a time; call `look` after that."""
-        self.humanoid.move(time, [layer for play in plays for layer in play.layers])
+        self.humanoid.move(time, [layer for output in outputs for layer in output.layers])
 
-    def look(self, plays: Sequence[Play]) -> Frame:
+    def look(self, outputs: Sequence[Output]) -> Frame:
         """The frame after `move`, with the eyes and the face that its engines give."""
-        eyes = next((play.eyes for play in plays if play.eyes is not None), None)
-        return self.humanoid.look(eyes, [play.face for play in plays])
+        eyes = next((output.eyes for output in outputs if output.eyes is not None), None)
+        return self.humanoid.look(eyes, [output.face for output in outputs])

@@ -12,8 +12,8 @@ from reactive_realizer.clock.units import GlobalTime, is_due
 from reactive_realizer.embodiment.audio import AudioChange
 from reactive_realizer.embodiment.frame import Frame
 from reactive_realizer.embodiment.world import World
-from reactive_realizer.engine.effects import Play
-from reactive_realizer.engine.engine_task import EngineTask, play_all
+from reactive_realizer.engine.effects import Output
+from reactive_realizer.engine.engine_task import EngineTasks
 from reactive_realizer.feedback.feedback_manager import FeedbackManager
 from reactive_realizer.limits import Limits
 from reactive_realizer.pegboard.anticipator import Anticipator
@@ -71,8 +71,8 @@ class Realizer:
         self._strategy = strategy
         self._verify = verify
         self._routing = EngineRouting({character.id: character.engines for character in characters})
-        self._leading = [EngineTask(engine) for engine in self._routing.engines if engine.leads]
-        self._following = [EngineTask(engine) for engine in self._routing.engines if not engine.leads]
+        self._leading = EngineTasks(engine for engine in self._routing.engines if engine.leads)
+        self._following = EngineTasks(engine for engine in self._routing.engines if not engine.leads)
         self._inbox = Inbox(self.board, self.anticipators, world, limits)
         self._commits: list[Commit] = []
         self._frame_listeners: list[FrameListener] = []
@@ -85,7 +85,8 @@ class Realizer:
 
     async def __aenter__(self) -> Self:
         group = await self._stack.enter_async_context(asyncio.TaskGroup())
-        running = [group.create_task(task.run(), name=task.engine.name) for task in (*self._leading, *self._following)]
+        tasks = (*self._leading.tasks, *self._following.tasks)
+        running = [group.create_task(task.run(), name=task.engine.name) for task in tasks]
         self._stack.callback(lambda: [task.cancel() for task in running])
         self._background = BackgroundTasks(group)
         self._stack.callback(self._background.close)
@@ -166,9 +167,9 @@ class Realizer:
         watched = Tick.on_time(tick.number, tick.frame and bool(self._frame_listeners))
         self.board.begin(watched)
         self._take_blocks(entered, tick.time)
-        plays = await self._play(watched)
+        shown = await self._play(watched)
         if watched.frame:
-            self._publish_frames(tick.time, plays)
+            self._publish_frames(tick.time, shown)
         self.scheduler.publish(tick.time)
         self._check(tick.time)
         self.feedback.flush(tick.time)
@@ -201,39 +202,29 @@ class Realizer:
         for parsed in parse(entry.text, self.limits) if entry.parsed is None else entry.parsed:
             self.scheduler.accept(parsed, now)
 
-    async def _play(self, tick: Tick) -> list[Play]:
-        """Play rounds of the tick until nothing changes; the effects of the last round."""
-        plays: list[Play] = []
-        played: set[EngineTask] = set()
+    async def _play(self, tick: Tick) -> list[Output]:
+        """Play rounds of the tick until nothing changes, then show its frame, if one is due; the outputs."""
+        shown: list[Output] = []
         for _ in range(_MOST_ROUNDS):
-            self.scheduler.advance(tick.time)
-            leading = [task for task in self._leading if self._routing.take_active(task.engine)]
-            if self.scheduler.apply(await play_all(leading, tick), tick.time):
+            if await self._play_round(tick):
                 continue
-            plays = await play_all(self._following if tick.frame else self._awake(played, tick.time), tick)
-            changed = self.scheduler.apply(plays, tick.time)
-            for play in plays:
-                self._publish_audio(play)
-            if not changed and not self.scheduler.advance(tick.time):
-                return plays
+            shown = self._following.show(tick) if tick.frame else []
+            if not self.scheduler.apply([output.effects for output in shown], tick.time):
+                return shown
         self.scheduler.fail_restless(_MOST_ROUNDS, tick.time)
-        return plays
+        return self._following.show(tick) if tick.frame else []
 
-    def _awake(self, played: set[EngineTask], now: GlobalTime) -> list[EngineTask]:
-        """The following engines that have something to play: most characters are at rest, and waking a task is costly.
-
-        Args:
-            played: the tasks that have played in this tick; the result is added to them.
-            now: the time of the tick.
-        """
-        routing = self._routing
-        awake = [
-            t
-            for t in self._following
-            if (routing.take_due(t.engine, now) if t in played else routing.take_active(t.engine))
-        ]
-        played.update(awake)
-        return awake
+    async def _play_round(self, tick: Tick) -> bool:
+        """Play one round; whether anything changed."""
+        self.scheduler.advance(tick.time)
+        if self.scheduler.apply(await self._leading.play(tick), tick.time):
+            return True
+        plays = await self._following.play(tick)
+        changed = self.scheduler.apply(plays, tick.time)
+        for play in plays:
+            for change in play.audio:
+                self._publish_audio(change)
+        return changed or self.scheduler.advance(tick.time)
 
     def _check(self, now: GlobalTime) -> None:
         """Report the constraints that the commits since the last call have broken."""
@@ -242,13 +233,12 @@ class Realizer:
         self.scheduler.check(self._commits, now)
         self._commits.clear()
 
-    def _publish_audio(self, play: Play) -> None:
-        for change in play.audio:
-            for listener in self._audio_listeners:
-                listener(change)
+    def _publish_audio(self, change: AudioChange) -> None:
+        for listener in self._audio_listeners:
+            listener(change)
 
-    def _publish_frames(self, time: GlobalTime, plays: Sequence[Play]) -> None:
-        by_engine = dict(zip((task.engine for task in self._following), plays, strict=True))
+    def _publish_frames(self, time: GlobalTime, outputs: Sequence[Output]) -> None:
+        by_engine = dict(zip((task.engine for task in self._following.tasks), outputs, strict=True))
         shown = [
             (character, [by_engine[engine] for engine in character.engines if engine in by_engine])
             for character in self.characters.values()

@@ -5,7 +5,7 @@ from collections.abc import Awaitable, Callable, Iterable, Mapping, Sequence
 from typing import NamedTuple
 
 from reactive_realizer.bml.behavior import Behavior
-from reactive_realizer.clock.units import GlobalTime, is_due
+from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.engine.engine import Engine
 from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.pegboard.peg_key import BlockKey
@@ -68,7 +68,7 @@ class RoutedBehavior(NamedTuple):
 
 
 class EngineRouting:
-    """Chooses an engine for each behavior, and knows which engines have something to play.
+    """Chooses an engine for each behavior, and gives it its units.
 
     Args:
         engines: by character id, in rank order; the first character takes blocks that name none.
@@ -77,8 +77,6 @@ class EngineRouting:
     def __init__(self, engines: Mapping[str, Sequence[Engine]]) -> None:
         self._engines = {character: tuple(own) for character, own in engines.items()}
         self._engine_of: dict[PlanUnit, Engine] = {}
-        self._units: dict[Engine, dict[PlanUnit, None]] = {engine: {} for engine in self.engines}
-        self._changed = set(self.engines)
 
     @property
     def characters(self) -> tuple[str, ...]:
@@ -99,31 +97,18 @@ class EngineRouting:
         """Have the engine of its behavior play a unit that has its pegs."""
         engine = self.route(unit.block.character, [unit.behavior])[unit.behavior.id].engine
         self._engine_of[unit] = engine
-        self._units[engine][unit] = None
         engine.add(unit)
 
     def unassign(self, unit: PlanUnit) -> None:
         """Take a unit from its engine, if it has one."""
         engine = self._engine_of.pop(unit, None)
         if engine is not None:
-            del self._units[engine][unit]
-            self._changed.add(engine)
             engine.remove(unit)
 
     def reset(self, character: str, time: GlobalTime) -> None:
         """Have a character's engines remove the lasting effects of behaviors."""
-        self._changed.update(self._engines[character])
         for engine in self._engines[character]:
             engine.reset(time)
-
-    def take_active(self, engine: Engine) -> bool:
-        """Whether an engine has units, or lost one or was reset since the last call; the caller has it play then."""
-        return self._take_changed(engine) or bool(self._units[engine])
-
-    def take_due(self, engine: Engine, now: GlobalTime) -> bool:
-        """Whether an engine that has played in this tick has to play again: `take_active`, but only for due points."""
-        points = (point for unit in self._units[engine] for point in unit.points)
-        return self._take_changed(engine) or any(not p.fired and is_due(p.peg.value, now) for p in points)
 
     def _routed(self, character: str, behavior: Behavior) -> RoutedBehavior | None:
         """A behavior with the first engine of a character that supports its best form."""
@@ -132,8 +117,3 @@ class EngineRouting:
                 if engine.supports(form):
                     return RoutedBehavior(behavior, engine, [other for other in forms if engine.supports(other)])
         return None
-
-    def _take_changed(self, engine: Engine) -> bool:
-        changed = engine in self._changed
-        self._changed.discard(engine)
-        return changed

@@ -192,6 +192,7 @@ class Planning:
             known[unit.key(point.sync)] = peg
         for unit in plan.units:
             unit.points += [SyncPoint(sync, peg) for sync, peg in unit.open.items()]
+            unit.wake()
         return known | {unit.key(sync): peg for unit in plan.units for sync, peg in unit.open.items()}
 
 

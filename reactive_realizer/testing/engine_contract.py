@@ -13,7 +13,7 @@ from reactive_realizer.bml.names import Location
 from reactive_realizer.clock.units import RESOLUTION, GlobalTime
 from reactive_realizer.embodiment.quaternion import Quat
 from reactive_realizer.engine.context import EngineContext
-from reactive_realizer.engine.effects import Play
+from reactive_realizer.engine.effects import Output
 from reactive_realizer.engine.engine import Engine
 from reactive_realizer.engine.faults import EngineFailed
 from reactive_realizer.errors import RealizerError
@@ -161,6 +161,15 @@ class EngineContract(ABC):
         assert (harness.reached, harness.dropped, harness.requests) == ([], [], [])
         assert unit.live
 
+    def test_it_is_not_asked_to_play_while_its_behaviors_wait(self, element: str) -> None:
+        harness = self._harness()
+        harness.schedule(behavior_of(element), None)
+        harness.schedule(_renamed(element), 100.0)
+        harness.tick()
+        plays = harness.plays
+        harness.advance(10.0)
+        assert harness.plays == plays
+
     def test_moved_points_are_reached_at_their_new_times(self, element: str) -> None:
         harness = self._harness()
         unit = harness.schedule(behavior_of(element), _START)
@@ -177,9 +186,9 @@ class EngineContract(ABC):
         unit = harness.schedule(behavior_of(element), _START)
         for _ in range(5):
             harness.advance(0.2 + _duration(unit) / 4)
-            before, again = harness.repeat_tick(), harness.repeat_tick()
+            (before, shown), (again, shown_again) = harness.repeat_tick(), harness.repeat_tick()
             assert (again.reached, again.dropped, again.audio) == ((), (), ())
-            assert _shown(again) == _shown(before)
+            assert _shown(shown_again) == _shown(shown)
             assert again.requests == before.requests
         self._plays_whole(harness, unit)
 
@@ -194,12 +203,12 @@ class EngineContract(ABC):
         unit = harness.schedule(behavior_of(element), _START)
         while harness.now < harness.end(unit):
             harness.tick(2)
-            assert all(_is_rotation(each) for layer in harness.play_result.layers for each in layer.rotations.values())
-            assert all(0.0 <= layer.weight <= 1.0 for layer in harness.play_result.layers)
-            assert all(isfinite(weight) for weight in harness.play_result.face.values())
+            assert all(_is_rotation(each) for layer in harness.output.layers for each in layer.rotations.values())
+            assert all(0.0 <= layer.weight <= 1.0 for layer in harness.output.layers)
+            assert all(isfinite(weight) for weight in harness.output.face.values())
             assert np.linalg.norm(harness.frames[-1].rotations, axis=1) == pytest.approx(1.0)
-            if harness.engine.leads:  # the visible result of leading engines is not used
-                assert _shown(harness.play_result) == ((), {}, False)
+            if harness.engine.leads:  # the output of leading engines is not used
+                assert _shown(harness.output) == ((), {}, False)
 
     def test_the_same_behaviors_give_the_same_results(self, element: str) -> None:
         harnesses = self._harness(), self._harness()
@@ -330,8 +339,8 @@ def _fail_at(unit: PlanUnit, wrong: str) -> None:
     unit.on_sync = on_sync  # type: ignore[method-assign]
 
 
-def _shown(play: Play) -> tuple[object, ...]:
-    return play.layers, play.face, play.eyes is not None
+def _shown(output: Output) -> tuple[object, ...]:
+    return output.layers, output.face, output.eyes is not None
 
 
 def _is_rotation(quaternion: Quat) -> bool:

@@ -15,7 +15,7 @@ from reactive_realizer.bml.behaviors import Wait
 from reactive_realizer.bml.document import parse
 from reactive_realizer.bml.names import BML, Location
 from reactive_realizer.clock.ticker import FRAME_EVERY, RATE, Tick, tick_time
-from reactive_realizer.clock.units import GlobalTime, Time
+from reactive_realizer.clock.units import GlobalTime, Time, is_due
 from reactive_realizer.embodiment.audio import AudioChange, AudioGain, AudioMove, AudioStart, AudioStop
 from reactive_realizer.embodiment.avatar import Avatar
 from reactive_realizer.embodiment.frame import Frame
@@ -28,6 +28,7 @@ from reactive_realizer.engine.effects import (
     Dropped,
     EndUnit,
     InterruptBlock,
+    Output,
     Play,
     Request,
     SetParameter,
@@ -99,6 +100,7 @@ def offsets_of(timing: Timing) -> tuple[float, ...]:
 class EngineHarness:
     """Plans behaviors, moves their pegs, plays tick by tick, and carries out the requests of the engine.
 
+    As in a realizer, the engine plays only if something is due, or after it called ``wake``.
     A request for a parameter always gets the same one, which is unbounded and belongs to a behavior without an end.
 
     Attributes:
@@ -110,6 +112,8 @@ class EngineHarness:
         audio: the changes of sounds.
         frames: one for each frame tick.
         play_result: the last result of `Engine.play`.
+        output: the last result of `Engine.show`.
+        plays: how often the engine was asked to play.
         commits: those made while the engine played.
     """
 
@@ -122,6 +126,8 @@ class EngineHarness:
         self.audio: list[AudioChange] = []
         self.frames: list[Frame] = []
         self.play_result = Play()
+        self.output = Output()
+        self.plays = 0
         self.commits: list[Commit] = []
         self._graph = context.graph
         self._character = Character(context.character, context.humanoid, (engine,))
@@ -129,6 +135,8 @@ class EngineHarness:
         self._parameter = Parameter(Source(context.graph, "parameter", 0.0), Range(-inf, inf))
         self._number = -1
         self._playing = False
+        self._woken = False
+        engine.listen(self._wake)
         context.graph.listen(self._note)
 
     # --- as the scheduler does
@@ -193,34 +201,45 @@ class EngineHarness:
         tick = Tick(number, last, frames and number // FRAME_EVERY > (number - after) // FRAME_EVERY)
         self.now = tick.time
         for _ in range(_MOST_ROUNDS):
-            self.play(tick)
-            if not self._carry_out(self.play_result):
-                break
-        else:
-            raise AssertionError(f"{self.engine.name} sends requests in each of {_MOST_ROUNDS} rounds")
-        if tick.frame:
-            self._character.move(self.now, [self.play_result])
-            self.frames.append(self._character.look([self.play_result]))
+            if self._plays_or_shows(tick):
+                continue
+            if tick.frame:
+                self._character.move(self.now, [self.output])
+                self.frames.append(self._character.look([self.output]))
+            return
+        raise AssertionError(f"{self.engine.name} sends requests in each of {_MOST_ROUNDS} rounds")
 
     def play(self, tick: Tick) -> None:
         """Plays one round of a tick, and records the result."""
+        self._woken = False
+        self.plays += 1
         self._playing = True
         self.play_result = self.engine.play(tick)
         self._playing = False
-        with self._graph.transaction("reached"):
-            for each in self.play_result.reached:
-                each.point.peg.pin(each.time)
-        self.reached += [(each.unit, each.point.id, each.time, tick.time) for each in self.play_result.reached]
-        self.dropped += self.play_result.dropped
-        self.audio += self.play_result.audio
-        self.requests += [
-            each for each in self.play_result.requests if not isinstance(each, BindParameter | SetParameter)
-        ]
+        self._record(self.play_result, tick)
 
-    def repeat_tick(self) -> Play:
-        """Plays the last tick once more."""
-        self.play(Tick(self._number, tick_time(self._number - 1), frame=True))
-        return self.play_result
+    def show(self, tick: Tick) -> None:
+        """Shows the frame of a tick, and records the result."""
+        self._playing = True
+        self.output = self.engine.show(tick)
+        self._playing = False
+        self._record(self.output.effects, tick)
+
+    def _record(self, play: Play, tick: Tick) -> None:
+        with self._graph.transaction("reached"):
+            for each in play.reached:
+                each.point.peg.pin(each.time)
+        self.reached += [(each.unit, each.point.id, each.time, tick.time) for each in play.reached]
+        self.dropped += play.dropped
+        self.audio += play.audio
+        self.requests += [each for each in play.requests if not isinstance(each, BindParameter | SetParameter)]
+
+    def repeat_tick(self) -> tuple[Play, Output]:
+        """Plays and shows the last tick once more."""
+        tick = Tick(self._number, tick_time(self._number - 1), frame=True)
+        self.play(tick)
+        self.show(tick)
+        return self.play_result, self.output
 
     def advance(self, seconds: float, *, every: int = 1, frames: bool = True) -> None:
         """Plays for some seconds, one tick of ``every``."""
@@ -265,6 +284,20 @@ class EngineHarness:
                 case AudioGain():
                     pass
         return {id_ for id_, end in ends.items() if end > self.now}
+
+    def _plays_or_shows(self, tick: Tick) -> bool:
+        """Plays a round if something is due; otherwise shows a frame, if one is due; whether anything changed."""
+        if self._woken or is_due(self.engine.next_due, tick.time):
+            self.play(tick)
+            if self._carry_out(self.play_result):
+                return True
+        if not tick.frame:
+            return False
+        self.show(tick)
+        return self._carry_out(self.output.effects)
+
+    def _wake(self) -> None:
+        self._woken = True
 
     def _carry_out(self, play: Play) -> bool:
         """Carries out requests; returns whether the tick needs another round."""

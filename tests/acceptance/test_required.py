@@ -103,6 +103,7 @@ async def test_a_required_behavior_that_fails_while_it_plays_fails_its_block(
         if isinstance(each, DefaultEngine) and each.player.playing
     )
     monkeypatch.setattr(engine, "audio", lambda tick: 1 / 0)
+    engine.player.note(engine.player.playing[0])
     await pilot.tick()
     assert pilot.feedback.warnings == [("new:s", "EXECUTION_FAILURE")]
     assert_ended(pilot.feedback, "new", "FAILED")

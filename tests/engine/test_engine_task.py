@@ -1,4 +1,4 @@
-"""Engines play concurrently, their effects have a fixed order, and failures are isolated."""
+"""Engines sleep until something is due, their effects have a fixed order, and failures are isolated."""
 
 import asyncio
 from collections.abc import AsyncIterator, Awaitable, Callable
@@ -13,7 +13,7 @@ from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.audio import AudioChange
 from reactive_realizer.engine.effects import Play
 from reactive_realizer.engine.engine import DefaultEngine, Engine
-from reactive_realizer.engine.engine_task import EngineTask, play_all
+from reactive_realizer.engine.engine_task import EngineTasks
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.time_peg import AnticipatorPeg, OffsetPeg
 from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
@@ -56,9 +56,9 @@ async def play() -> AsyncIterator[PlayEngines]:
     running: list[asyncio.Future[None]] = []
 
     async def play_engines(number: int, *engines: Engine) -> list[Play]:
-        tasks = [EngineTask(each) for each in engines]
-        running.extend(asyncio.ensure_future(task.run()) for task in tasks)
-        return await play_all(tasks, Tick(number, GlobalTime(0.0)))
+        tasks = EngineTasks(engines)
+        running.extend(asyncio.ensure_future(task.run()) for task in tasks.tasks)
+        return await tasks.play(Tick(number, GlobalTime(0.0)))
 
     yield play_engines
     for task in running:
@@ -124,12 +124,56 @@ async def test_an_engine_that_fails_after_firing_reports_the_points_reached(play
 
 
 async def test_engines_go_on_after_a_cancelled_round() -> None:
-    tasks = [EngineTask(engine("one")), EngineTask(engine("two"))]
-    running = [asyncio.ensure_future(task.run()) for task in tasks]
-    given_up = asyncio.ensure_future(play_all(tasks, Tick(0, GlobalTime(0.0))))
+    one, two = engine("one", unit("a", 0.0, 0.01)), engine("two", unit("b", 0.0, 0.01))
+    tasks = EngineTasks([one, two])
+    running = [asyncio.ensure_future(task.run()) for task in tasks.tasks]
+    given_up = asyncio.ensure_future(tasks.play(Tick(0, GlobalTime(0.0))))
     await asyncio.sleep(0)
     given_up.cancel()
     await asyncio.gather(given_up, return_exceptions=True)
-    assert len(await play_all(tasks, Tick(1, GlobalTime(0.0)))) == 2
+    assert [reached(each) for each in await tasks.play(Tick(1, GlobalTime(0.0)))] == [
+        [("a", "end", 0.01)],
+        [("b", "end", 0.01)],
+    ]
+    for task in running:
+        task.cancel()
+
+
+class Played(FinishedUnits):
+    """Notes the ticks that it plays."""
+
+    def __init__(self, name: str) -> None:
+        super().__init__(name)
+        self.ticks: list[int] = []
+
+    def play(self, tick: Tick) -> Play:
+        self.ticks.append(tick.number)
+        return super().play(tick)
+
+
+async def test_an_engine_plays_only_when_something_is_due_or_has_changed() -> None:
+    waiting = Played("waiting")
+    tasks = EngineTasks([waiting])
+    running = [asyncio.ensure_future(task.run()) for task in tasks.tasks]
+
+    async def play(*numbers: int) -> list[int]:
+        for number in numbers:
+            await tasks.play(Tick(number, GlobalTime(0.01 * (number - 1))))
+        ticks, waiting.ticks = waiting.ticks, []
+        return ticks
+
+    assert await play(0, 1) == []
+    made = unit("a", 1.0, 2.0)
+    waiting.add(made)
+    assert await play(*range(300)) == [0, 100, 200]
+    one, two = unit("b", 4.0, 5.0), unit("c", 4.0, 5.0)
+    waiting.add(one)
+    waiting.add(two)
+    assert await play(300, 301) == [300]
+    with one.points[0].peg.graph.transaction("move"):
+        one.points[0].peg.pin(GlobalTime(3.02))
+    assert await play(301, 302, 303) == [301, 302]
+    waiting.remove(two)
+    assert await play(303, 304, 400) == [303]
     for task in running:
         task.cancel()

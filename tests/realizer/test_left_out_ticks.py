@@ -48,7 +48,7 @@ async def test_no_tick_of_a_long_pause_is_played_if_nothing_was_due(pilot: Reali
     await pilot.tick()
     played.clear()
     await pilot.realizer.step(Tick(360_000, GlobalTime(0.01), frame=False))
-    assert {tick.number for tick in played} == {360_000}
+    assert played == []
 
 
 async def test_only_the_late_tick_itself_makes_a_frame(pilot: RealizerPilot) -> None:

@@ -11,6 +11,7 @@ from reactive_realizer.bml.document import parse
 from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.engine.effects import Play
+from reactive_realizer.engine.engine import DefaultEngine
 from reactive_realizer.limits import Limits
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.pegboard import PegBoard
@@ -151,6 +152,9 @@ async def live(sent: Sent, taken: list[BlockTransition]) -> FeedbackList:
             if block.state in sent:
                 for engine in pilot.realizer.characters["alice"].engines:
                     engine.play = fail  # type: ignore[method-assign]
+                    if isinstance(engine, DefaultEngine):
+                        for unit in engine.player.units:
+                            engine.player.note(unit)
         return pilot.feedback
 
 

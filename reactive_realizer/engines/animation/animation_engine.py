@@ -28,7 +28,7 @@ from reactive_realizer.embodiment.pose import Layer, LayerKind, checked, over
 from reactive_realizer.embodiment.quaternion import Quat
 from reactive_realizer.embodiment.vector import Vec3
 from reactive_realizer.engine.context import EngineContext
-from reactive_realizer.engine.effects import Request, Warn
+from reactive_realizer.engine.effects import Warn
 from reactive_realizer.engine.engine import DefaultEngine
 from reactive_realizer.engine.lexicon import LexiconEntry
 from reactive_realizer.engines.animation.animation_predictor import AnimationPredictor
@@ -224,7 +224,7 @@ class AnimationEngine(DefaultEngine):
         blinks: Mapping[str, float] = self._idle_part(lambda idle: idle.weights(now), {})
         return EyePose(turns, lid_weights(turns, blinks))
 
-    def requests(self, tick: Tick) -> tuple[Request, ...]:
+    def warnings(self) -> tuple[Warn, ...]:
         """Return warnings about new units, and about playing units."""
         notes, self._notes = self._notes, []
         units = [unit for unit in self.player.playing if isinstance(unit, AnimationUnit)]

@@ -17,6 +17,7 @@ from reactive_realizer.engines.speech.visemes import VisemeTrack
 from reactive_realizer.errors import CreationFault, RealizerError
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.parameter import Range
+from reactive_realizer.planunit.plan_unit import PlanUnit
 
 
 class NothingToSay(CreationFault):
@@ -57,6 +58,12 @@ class SpeechEngine(DefaultEngine):
         if not utterance.words:
             raise RealizerError(NothingToSay())
         return SpeechUnit(block, behavior, utterance, self._graph)
+
+    def add(self, unit: PlanUnit) -> None:
+        """Take a speech into the plan; a change of its volume wakes the engine."""
+        super().add(unit)
+        for parameter in unit.parameters.values():
+            parameter.cell.observe(lambda _: self.player.note(unit))
 
     def audio(self, tick: Tick) -> tuple[AudioChange, ...]:
         """The changes of sounds since the last call: starts, moves, stops, and changes of their gain."""
