@@ -119,6 +119,7 @@ _AROUND = """\
 | feature | realized | notes |
 |---|---|---|
 | `dynamic="true"` of `http://hmi.ewi.utwente.nl/bmlt` on `gaze` and its shifts | yes | follows a moving target |
+| `words="true"` of `urn:reactive-realizer:1` on `speech` | yes | each word is a sync point `wordN`, counted from 0 |
 | other attributes | no | warning `CUSTOM_ATTRIBUTE_NOT_SUPPORTED`; their behavior plays |
 | elements, including those of BMLA and BMLT without a table above | no | warning `CUSTOM_BEHAVIOUR_NOT_SUPPORTED` |
 

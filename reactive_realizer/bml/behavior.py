@@ -77,6 +77,11 @@ class Behavior:
         """All its sync points, in the order of time."""
         return self.SYNC_POINTS
 
+    @property
+    def open_points(self) -> bool:
+        """Whether its engine may define further sync points."""
+        return self.OPEN_POINTS
+
     @classmethod
     def sync_attributes(cls, values: Mapping[str, object]) -> SyncPoints:
         """The sync points that may be attributes of a behavior with these values, by field."""

@@ -11,13 +11,16 @@ from typing import Final
 from reactive_realizer.bml.attribute_types import Duration, Enumeration, Float, Id, Integer, Target, Text
 from reactive_realizer.bml.attributes import attribute
 from reactive_realizer.bml.behavior import Behavior, SyncPoints
-from reactive_realizer.bml.names import BML_EXT
+from reactive_realizer.bml.names import BML_EXT, OWN
 from reactive_realizer.bml.vocabulary import Influence, Mode, OffsetDirection, PosePart, Side, StanceType
 
 _STROKE_POINTS: SyncPoints = ("start", "ready", "strokeStart", "stroke", "strokeEnd", "relax", "end")
 _HOLD_POINTS: SyncPoints = ("start", "ready", "relax", "end")
 _FACE_POINTS: SyncPoints = ("start", "attackPeak", "relax", "end")
 _START_AND_END: SyncPoints = ("start", "end")
+
+WORDS: Final = (OWN, "words")
+"""The attribute of a speech that makes every word a sync point."""
 
 MOST_REPETITIONS: Final = 100
 """Limit on the strokes of a head behavior; each stroke is a sync point."""
@@ -63,6 +66,11 @@ class Speech(Behavior):
     def sync_points(self) -> tuple[str, ...]:
         """Start, the marks, end."""
         return ("start", *(mark.id for mark in self.marks), "end")
+
+    @property
+    def open_points(self) -> bool:
+        """Whether its words may be sync points; only the voice knows how many there are."""
+        return WORDS in self.extensions
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -16,7 +16,7 @@ Points = Callable[[Behavior], Collection[str] | None]
 
 def standard_points(behavior: Behavior) -> Collection[str] | None:
     """The sync points that BML defines; None if the engine of the behavior may define more."""
-    return None if behavior.OPEN_POINTS else behavior.sync_points
+    return None if behavior.open_points else behavior.sync_points
 
 
 def check_references(block: BehaviorBlock | DefineProc, points: Points = standard_points) -> tuple[Problem, ...]:

@@ -132,7 +132,7 @@ class Checker:
     def _inside(self, block: BehaviorBlock | DefineProc, rehearsal: Rehearsal) -> Iterator[Fault]:
         def points(behavior: Behavior) -> Collection[str] | None:
             """The sync points of a behavior, including those of its motion; None if it cannot be planned."""
-            unit = rehearsal.units.get(behavior.id) if behavior.OPEN_POINTS else None
+            unit = rehearsal.units.get(behavior.id) if behavior.open_points else None
             return standard_points(behavior) if unit is None else unit.timing.points
 
         yield from (problem.fault for problem in check_references(block, points))
@@ -162,7 +162,7 @@ def _unknown_points(block: BehaviorBlock | DefineProc, rehearsal: Rehearsal) -> 
     for behavior in block.behaviors:
         unit = rehearsal.units.get(behavior.id)
         for sync, ref in behavior.syncs.items():
-            if behavior.OPEN_POINTS and unit is not None and sync not in unit.timing.points:
+            if behavior.open_points and unit is not None and sync not in unit.timing.points:
                 known = ", ".join(unit.timing.points)
                 fault = UnknownSync(reference=str(ref), behavior=behavior.id, sync=sync, known=known)
                 yield fault.located(behavior.location.line, behavior.location.column)

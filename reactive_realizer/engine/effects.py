@@ -21,13 +21,11 @@ class Reached:
         unit: of the point.
         point: the sync point.
         time: of its peg, s, global.
-        details: attributes of its feedback, beside the time.
     """
 
     unit: PlanUnit
     point: SyncPoint
     time: GlobalTime
-    details: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,7 +3,7 @@
 import itertools
 import logging
 from collections.abc import Callable, Container, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import Enum
 from typing import NamedTuple
 
@@ -40,6 +40,7 @@ class SyncPoint:
         tied: whether a BML constraint names it; otherwise its time follows from the preferences of its behavior.
         fired: whether it has been reported; its peg is pinned then.
         cut: whether it was reported because its behavior was cut short.
+        details: attributes of its feedback, beside the time; noted when it fires.
     """
 
     id: str
@@ -47,6 +48,7 @@ class SyncPoint:
     tied: bool = False
     fired: bool = False
     cut: bool = False
+    details: Mapping[str, str] = field(default_factory=dict)
 
 
 class DuePoint(NamedTuple):
@@ -120,9 +122,13 @@ class PlanUnit:
         """The first time, not before ``time``, at which it can end without being cut, for example within a word."""
         return time
 
-    def end_details(self, time: GlobalTime) -> Mapping[str, str]:
-        """Attributes of the feedback of an interrupted ``end``, beside the time."""
+    def details(self, sync: str, time: GlobalTime) -> Mapping[str, str]:
+        """Attributes of the feedback of a sync point that is reached at a time, beside the time."""
         return {}
+
+    def due_at_cut(self, now: GlobalTime, *, end: bool = True) -> "list[DuePoint]":
+        """The `due_points` that are reported although it is cut ``now``."""
+        return self.due_points(now, end=end)
 
     # --- for the player and the scheduler
 
@@ -324,6 +330,7 @@ class PlanUnit:
         self._end_parameters()
         if playing:
             try:
+                self.points[-1].details = self.details(self.points[-1].id, time)
                 self.on_finish(time)
             except Exception:
                 logger.exception("%s/%s:%s failed to go back to rest", *self.block, self.behavior.id)
@@ -334,12 +341,14 @@ class PlanUnit:
     def _cut(self, time: GlobalTime) -> list[SyncPoint]:
         kept = self.ahead()
         for point in kept:
+            point.details = self.details(point.id, time)
             point.fired = point.cut = True
         self._finish(time)
         return kept
 
     def _fire(self, point: SyncPoint, time: GlobalTime) -> None:
         point.fired = True
+        point.details = self.details(point.id, time)
         if point is self.points[0]:
             self.on_start(time)
         self.on_sync(point.id, time)

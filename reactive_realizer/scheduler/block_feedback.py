@@ -43,7 +43,7 @@ class BlockFeedback:
         if block is None or block.start.value is None:
             return
         local = BlockTime(time - block.start.value)
-        message = SyncPointProgress(*unit.block, unit.behavior.id, reached.point.id, local, time, reached.details)
+        message = SyncPointProgress(*unit.block, unit.behavior.id, reached.point.id, local, time, reached.point.details)
         sync = unit.timing.points.index(reached.point.id)
         # A point that passed before its block started is reported after that start.
         order = _order(block, max(time, block.start.value), unit.behavior.order, sync)

@@ -9,7 +9,7 @@ from reactive_realizer.engine.effects import Reached
 from reactive_realizer.engine.faults import UnitFailed
 from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.planunit.plan_unit import PlanUnit, UnitState
+from reactive_realizer.planunit.plan_unit import DuePoint, PlanUnit, UnitState
 from reactive_realizer.reactive.graph import Cell
 from reactive_realizer.scheduler.block_feedback import BlockFeedback
 from reactive_realizer.scheduler.blocks import Blocks
@@ -42,7 +42,7 @@ class UnitLifecycle:
         if not unit.due(now):
             return []
         unit.begin()
-        return _fire(unit, now)
+        return _fire(unit, unit.due_points(now), now)
 
     def cut(self, unit: PlanUnit, now: GlobalTime) -> bool:
         """End a planned behavior now, after its due points have fired; whether anything of it was cut."""
@@ -150,20 +150,18 @@ class UnitLifecycle:
         return pinned
 
     def _cut_short(self, unit: PlanUnit, now: GlobalTime) -> bool:
-        details = unit.end_details(now)
         # A scheduled cut has moved the end to now only to cut it here.
-        reached = _fire(unit, now, end=not self.cut_scheduled(unit))
+        reached = _fire(unit, unit.due_at_cut(now, end=not self.cut_scheduled(unit)), now)
         cut = unit.live
         if cut:
             with self._board.graph.transaction(f"cut {unit.behavior.id}"):
                 kept = unit.interrupt(now)
-            reached += [Reached(unit, p, now, details if p.id == "end" else {}) for p in kept]
+            reached += [Reached(unit, point, now) for point in kept]
         self._routing.unassign(unit)
         self.sync_points_reached(reached)
         return cut
 
 
-def _fire(unit: PlanUnit, now: GlobalTime, *, end: bool = True) -> list[Reached]:
-    due = unit.due_points(now, end=end)
+def _fire(unit: PlanUnit, due: Sequence[DuePoint], now: GlobalTime) -> list[Reached]:
     unit.fire(due, now)
     return [Reached(unit, point, time) for point, time in due]

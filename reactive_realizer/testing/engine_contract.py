@@ -245,7 +245,7 @@ class EngineContract(ABC):
                 each.advance(0.13 + share * _duration(unit))
             if unit.live:
                 assert unit.gentle_end(harness.now) >= harness.now
-                assert all(isinstance(text, str) for pair in unit.end_details(harness.now).items() for text in pair)
+                assert all(isinstance(text, str) for pair in unit.details("end", harness.now).items() for text in pair)
             harness.interrupt(unit)
             reached = list(harness.reached)
             for each in (harness, other):

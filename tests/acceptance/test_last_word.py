@@ -1,4 +1,4 @@
-"""An interrupted speech reports the last word that was heard."""
+"""A speech reports at its end which part of it was heard."""
 
 from typing import Any
 
@@ -62,8 +62,14 @@ async def test_a_speech_between_two_words_ends_at_once(pilot: RealizerPilot) -> 
 
 
 async def test_a_speech_in_its_last_word_ends_normally(pilot: RealizerPilot) -> None:
-    assert await last_word(pilot, "one two three", 0.5, speech="word") == (None, None, None)
+    assert await last_word(pilot, "one two three", 0.5, speech="word") == ("2", "three", "13")
     assert pilot.feedback.time("b:s:end") == pytest.approx(0.78)
+    assert pilot.feedback.status("b") == "DONE"
+
+
+async def test_a_speech_that_ends_by_itself_was_heard_as_a_whole(pilot: RealizerPilot) -> None:
+    text = "“One, two\n   (three) ...”"
+    assert await last_word(pilot, text, 9.0) == ("2", "three", str(len("“One, two (three) ...”")))
     assert pilot.feedback.status("b") == "DONE"
 
 

@@ -1,7 +1,7 @@
 """docs/continuous.md: its examples play as described, and its table of faults matches the warnings."""
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 import pytest
 
@@ -17,6 +17,10 @@ from .conftest import Fence, fences, page
 PAGE = "docs/continuous.md"
 EXAMPLES = fences(PAGE, "xml")
 ROWS = re.findall(r"^\| .* \| `([a-z-]+)` \| ([A-Z_]+) \|$", page(PAGE), re.MULTILINE)
+
+REPORTED = [
+    dict(re.findall(r'(\w+)="(.*?)"', line)) for line in re.findall(r"^ {4}<syncPoint.*$", page(PAGE), re.MULTILINE)
+]
 
 WORDS = '<speech id="words"><text>one two three</text></speech>'
 CHANGE = (
@@ -84,10 +88,9 @@ async def test_every_block_of_an_example_ends_as_the_page_says_and_without_a_war
         assert pilot.feedback.warnings == []
 
 
-async def test_the_end_of_an_interrupted_speech_is_reported_as_on_the_page() -> None:
-    example = next(each for each in EXAMPLES if 'speech="word"' in each.text)
-    (line,) = re.findall(r"^ {4}<syncPointProgress.*$", page(PAGE), re.MULTILINE)
-    shown = dict(re.findall(r'(\w+)="(.*?)"', line))
+@pytest.mark.parametrize(("contains", "shown"), [*zip(['speech="word"', "rr:words"], REPORTED, strict=True)])
+async def test_speech_is_reported_as_on_the_page(contains: str, shown: Mapping[str, str]) -> None:
+    example = next(each for each in EXAMPLES if contains in each.text)
     async with open_pilot() as pilot:
         pilot.perform(example.text)
         await pilot.advance(5)

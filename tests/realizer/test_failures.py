@@ -48,8 +48,8 @@ class FailingUnit(PlanUnit):
     def on_finish(self, time: GlobalTime) -> None:
         self._fail_at("on_finish")
 
-    def end_details(self, time: GlobalTime) -> dict[str, str]:
-        self._fail_at("end_details")
+    def details(self, sync: str, time: GlobalTime) -> dict[str, str]:
+        self._fail_at(f"details-of-{sync}")
         return {}
 
 
@@ -136,7 +136,7 @@ async def test_a_unit_that_fails_ends_with_a_warning_and_leaves_the_rest_alone(
     assert told.status("b") == "DONE"
 
 
-@pytest.mark.parametrize("fail", ["end_details", "on_finish"])
+@pytest.mark.parametrize("fail", ["details-of-end", "on_finish"])
 async def test_a_unit_that_fails_at_its_interruption_ends_nevertheless(pilot: RealizerPilot, fail: str) -> None:
     pilot.block("b", own(fail) + WAIT)
     await pilot.advance(0.2)

@@ -4,7 +4,7 @@ from collections.abc import Awaitable, Mapping
 from types import MappingProxyType
 
 from reactive_realizer.bml.behavior import Behavior
-from reactive_realizer.bml.behaviors import Speech
+from reactive_realizer.bml.behaviors import WORDS, Speech
 from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.audio import AudioChange
@@ -31,6 +31,7 @@ class SpeechEngine(DefaultEngine):
     """Speaks with the voice of its character, and provides its lip sync (`LipSyncProvider`)."""
 
     behaviors = frozenset({Speech})
+    extensions = frozenset({WORDS})
     parameters: Mapping[type[Behavior], Mapping[str, Range]] = MappingProxyType({Speech: {"volume": VOLUME_RANGE}})
 
     def __init__(self, context: EngineContext) -> None:
@@ -50,7 +51,7 @@ class SpeechEngine(DefaultEngine):
         """A unit with the duration of the utterance.
 
         Raises:
-            RealizerError: ``nothing-to-say``.
+            RealizerError: ``nothing-to-say`` or ``not-a-flag``.
         """
         utterance = self._speak(behavior) if prepared is None else prepared
         if not isinstance(behavior, Speech) or not isinstance(utterance, Utterance):

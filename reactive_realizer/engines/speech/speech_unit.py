@@ -2,12 +2,13 @@
 
 from collections.abc import Mapping
 
-from reactive_realizer.bml.behaviors import Speech
+from reactive_realizer.binding.asset_file import parse_boolean
+from reactive_realizer.bml.behaviors import WORDS, Speech
 from reactive_realizer.clock.units import RESOLUTION, GlobalTime
-from reactive_realizer.engine.tts import Utterance
+from reactive_realizer.engine.tts import Utterance, Word
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.parameter import Parameter, Range
-from reactive_realizer.planunit.plan_unit import PlanUnit
+from reactive_realizer.planunit.plan_unit import DuePoint, PlanUnit
 from reactive_realizer.planunit.timing import PhaseKind, timing_at
 from reactive_realizer.reactive.cell import Source
 from reactive_realizer.reactive.graph import Graph
@@ -26,12 +27,17 @@ class SpeechUnit(PlanUnit):
         utterance: words and audio, with their times.
         started: time of its start, None before.
         cut: time at which it was interrupted, None if it was not.
+
+    Raises:
+        RealizerError: "not-a-flag", of the attribute for words.
     """
 
     def __init__(self, block: BlockKey, behavior: Speech, utterance: Utterance, graph: Graph) -> None:
-        offsets = {"start": 0.0, **{mark.id: utterance.marks[mark.id] for mark in behavior.marks}}
-        timing = timing_at({**offsets, "end": utterance.duration}, PhaseKind.RIGID)
-        super().__init__(block, behavior, timing, frozenset({VOICE}))
+        marks = {mark.id: utterance.marks[mark.id] for mark in behavior.marks}
+        self._words = _word_points(behavior, utterance)
+        inside = marks | {sync: word.start for sync, (_, word) in self._words.items()}
+        offsets = {"start": 0.0, **dict(sorted(inside.items(), key=lambda each: each[1])), "end": utterance.duration}
+        super().__init__(block, behavior, timing_at(offsets, PhaseKind.RIGID), frozenset({VOICE}))
         self.utterance = utterance
         self.started: GlobalTime | None = None
         self.cut: GlobalTime | None = None
@@ -58,9 +64,32 @@ class SpeechUnit(PlanUnit):
             return time
         return GlobalTime(self.started + self.utterance.next_word(time - self.started))
 
-    def end_details(self, time: GlobalTime) -> Mapping[str, str]:
-        """The last word that began, and the number of characters heard up to its end."""
-        begun = self.utterance.words_begun(time - self.started) if self.started is not None else ()
+    def due_at_cut(self, now: GlobalTime, *, end: bool = True) -> list[DuePoint]:
+        """The due points without a word that would begin with the cut."""
+        due = super().due_at_cut(now, end=end)
+        return [each for each in due if each.point.id not in self._words or each.time < now - RESOLUTION]
+
+    def details(self, sync: str, time: GlobalTime) -> Mapping[str, str]:
+        """Of a word, its index and text; of the end, what was heard: the last word, and the number of characters."""
+        if sync in self._words:
+            index, word = self._words[sync]
+            return {"word": str(index), "text": word.text}
+        return self._heard(time) if sync == "end" else {}
+
+    def _heard(self, time: GlobalTime) -> Mapping[str, str]:
+        position = 0.0 if self.started is None else time - self.started
+        begun = self.utterance.words_begun(position)
         if not begun:
             return {"word": "-1", "text": "", "heard": "0"}
-        return {"word": str(len(begun) - 1), "text": begun[-1].text, "heard": str(begun[-1].last)}
+        whole = position >= self.utterance.duration - RESOLUTION
+        heard = len(self.utterance.text) if whole else begun[-1].last
+        return {"word": str(len(begun) - 1), "text": begun[-1].text, "heard": str(heard)}
+
+
+def _word_points(behavior: Speech, utterance: Utterance) -> dict[str, tuple[int, Word]]:
+    """The sync points of words, with their indices, if the behavior wants them; a mark keeps its name."""
+    if not parse_boolean(WORDS[1], behavior.extensions.get(WORDS, "false")):
+        return {}
+    marks = {mark.id for mark in behavior.marks}
+    points = {f"word{index}": (index, word) for index, word in enumerate(utterance.words)}
+    return {sync: each for sync, each in points.items() if sync not in marks}
