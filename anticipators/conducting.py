@@ -1,13 +1,9 @@
 """Predicts the beats of music (thesis 8.1.2, 8.5.1 and example 31), from taps or from onsets of its sound."""
 
-import re
-
 from anticipators.rhythm import Rhythm
-from reactive_realizer.clock.units import GlobalTime, Time
-from reactive_realizer.pegboard.anticipator import Anticipator
-from reactive_realizer.pegboard.pegboard import PegBoard
+from reactive_realizer.clock.units import Time
+from reactive_realizer.pegboard.anticipator import Anticipator, AnticipatorContext, Counted, Predictions
 
-_BEAT = re.compile(r"beat([0-9]{1,9})")
 _SHORTEST, _LONGEST = 0.2, 3.0
 
 
@@ -30,28 +26,22 @@ class Conducting(Anticipator):
 
     kind = "conducting"
     events = ("beat", "start")
-    points = ("beatN",)
+    points = (Counted("beat"),)
 
-    def __init__(
-        self,
-        id: str,  # noqa: A002
-        board: PegBoard,
-        phase: float = 0.5,
-        period: float = 0.2,
-        ahead: float = 16,
-    ) -> None:
-        super().__init__(id, board)
+    def __init__(self, context: AnticipatorContext, phase: float = 0.5, period: float = 0.2, ahead: float = 16) -> None:
+        super().__init__(context)
         self._rhythm = Rhythm(phase, period, ahead, _SHORTEST, _LONGEST)
 
-    def forecast(self, sync: str) -> Time:
-        """The time of a beat; None for other names."""
-        found = _BEAT.fullmatch(sync)
-        return self._rhythm.time(int(found[1])) if found else None
+    async def predictions(self) -> Predictions:
+        """The beats that behaviors refer to, after each ``beat``; after ``start``, the next one heard is the first."""
+        async for event in self.inputs:
+            if event.name == "start":
+                self._rhythm.restart()
+            elif not self._rhythm.hear(event.time, event.time):
+                continue
+            for beat in self.named:
+                yield beat, self.forecast(beat)
 
-    def event(self, name: str, value: float | None, now: GlobalTime) -> None:
-        """Handle ``beat``, a beat heard now, and ``start``, which makes the next one heard the first."""
-        if name == "beat" and self._rhythm.hear(now, now):
-            self.revise(now)
-        elif name == "start":
-            self._rhythm.restart()
-            self.withdraw(now)
+    def forecast(self, point: str) -> Time:
+        """The time of a beat."""
+        return self._rhythm.time(int(point.removeprefix("beat")))

@@ -5,12 +5,16 @@ import re
 from anticipators.parameters import within
 from anticipators.peaks import Peaks
 from anticipators.rhythm import Rhythm
-from reactive_realizer.clock.units import GlobalTime, Time, is_due
+from reactive_realizer.clock.units import GlobalTime, Time
 from reactive_realizer.errors import Fault, RealizerError
-from reactive_realizer.pegboard.anticipator import Anticipator
-from reactive_realizer.pegboard.pegboard import PegBoard
+from reactive_realizer.pegboard.anticipator import (
+    Anticipator,
+    AnticipatorContext,
+    AnticipatorEvent,
+    Counted,
+    Predictions,
+)
 
-_NUMBER = re.compile(r"[0-9]{1,9}")
 _NAME = re.compile(r"[^\W\d]\w{0,199}")
 _SHORTEST, _LONGEST = 0.3, 10.0
 _STRONGEST = 1e6
@@ -49,29 +53,35 @@ class Exercise(Anticipator):
 
     def __init__(
         self,
-        id: str,  # noqa: A002
-        board: PegBoard,
+        context: AnticipatorContext,
         names: tuple[str, ...] = (),
         rise: float = 3.0,
         phase: float = 0.5,
         period: float = 0.4,
         ahead: float = 4,
     ) -> None:
-        super().__init__(id, board)
+        super().__init__(context)
         for rank, name in enumerate(names):
             if not _NAME.fullmatch(name) or name in names[:rank]:
                 raise RealizerError(BadPeakName(name=name))
         self._names = names
-        self.points = ("N", *names)
+        self.points = (Counted(""), *names)
         self._peaks = Peaks(within("rise", rise, 1e-6, _STRONGEST))
         self._rhythm = Rhythm(phase, period, ahead, _SHORTEST, _LONGEST, max(1, len(names)))
 
-    def forecast(self, sync: str) -> Time:
-        """The time of a peak by its number, or of the next one by its name; None for other names."""
-        if sync in self._names:
-            passed, names = self._rhythm.passed, len(self._names)
-            return self._rhythm.time(passed + 1 + (self._names.index(sync) - passed) % names)
-        return self._rhythm.time(int(sync)) if _NUMBER.fullmatch(sync) else None
+    async def predictions(self) -> Predictions:
+        """The next peak of each name, and the numbered peaks, after each peak: those that come and those that pass."""
+        while True:
+            event = await self.next_input(until=self._rhythm.coming)
+            if self._take(event, self.clock.now()):
+                for name in self._names:
+                    yield name, self._next(name)
+                for number in self.named:
+                    yield number, self.forecast(number)
+
+    def forecast(self, point: str) -> Time:
+        """The time of a peak by its number."""
+        return self._rhythm.time(int(point))
 
     def check(self, name: str, value: float | None) -> None:
         """Check that a sample is a magnitude.
@@ -83,19 +93,18 @@ class Exercise(Anticipator):
         if name == "sample":
             within(name, value, 0.0, _STRONGEST)
 
-    def advance(self, now: GlobalTime) -> None:
-        """Renew the named points that have passed."""
-        points = self._board.predictions(self.id) if self._rhythm.advance(now) else {}
-        for name in self._names:
-            if name in points and is_due(points[name].value, now):
-                self.renew(name)
-
-    def event(self, name: str, value: float | None, now: GlobalTime) -> None:
-        """Handle ``sample``, a magnitude of acceleration, and ``start``, which makes the next peak the first."""
-        if name == "sample" and value is not None:
-            peak = self._peaks.take(value, now)
-            if peak is not None and self._rhythm.hear(peak, now):
-                self.revise(now)
-        elif name == "start":
+    def _take(self, event: AnticipatorEvent | None, now: GlobalTime) -> bool:
+        """Take an event, if there was one, or else note the peaks that have passed; whether times have changed."""
+        if event is None:
+            return self._rhythm.advance(now)
+        if event.name == "start":
             self._rhythm.restart()
-            self.withdraw(now)
+            return True
+        peak = self._peaks.take(event.value or 0.0, now)
+        passed = self._rhythm.advance(now)
+        return (peak is not None and self._rhythm.hear(peak, now)) or passed
+
+    def _next(self, name: str) -> Time:
+        """The time of the next peak with a name."""
+        passed, names = self._rhythm.passed, len(self._names)
+        return self._rhythm.time(passed + 1 + (self._names.index(name) - passed) % names)

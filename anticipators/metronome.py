@@ -1,14 +1,11 @@
 """A metronome (thesis 8.5.1): equal beats in a tempo that may change."""
 
-import re
 from typing import NamedTuple
 
 from anticipators.parameters import within
-from reactive_realizer.clock.units import RESOLUTION, GlobalTime, Time
-from reactive_realizer.pegboard.anticipator import Anticipator
-from reactive_realizer.pegboard.pegboard import PegBoard
+from reactive_realizer.clock.units import RESOLUTION, GlobalTime
+from reactive_realizer.pegboard.anticipator import Anticipator, AnticipatorContext, Counted, Predictions
 
-_TICK = re.compile(r"tick([0-9]{1,9})")
 _SLOWEST, _FASTEST = 10.0, 400.0
 
 
@@ -35,10 +32,10 @@ class Metronome(Anticipator):
 
     kind = "metronome"
     events = ("tempo", "start")
-    points = ("tickN",)
+    points = (Counted("tick"),)
 
-    def __init__(self, id: str, board: PegBoard, tempo: float = 60.0) -> None:  # noqa: A002
-        super().__init__(id, board)
+    def __init__(self, context: AnticipatorContext, tempo: float = 60.0) -> None:
+        super().__init__(context)
         self._changes = [_Change(0, GlobalTime(0.0), 60.0 / _checked(tempo))]
 
     @property
@@ -46,10 +43,19 @@ class Metronome(Anticipator):
         """Beats per minute."""
         return 60.0 / self._changes[-1].period
 
-    def forecast(self, sync: str) -> Time:
-        """The time of a beat; None for other names."""
-        found = _TICK.fullmatch(sync)
-        return self._time(int(found[1])) if found else None
+    async def predictions(self) -> Predictions:
+        """The beats that behaviors refer to, after each ``tempo``, and after each ``start``, which makes now beat 0."""
+        async for event in self.inputs:
+            if event.name == "start":
+                self._changes = [_Change(0, event.time, self._changes[-1].period)]
+            else:
+                self._change_tempo(60.0 / _checked(event.value), event.time)
+            for beat in self.named:
+                yield beat, self.forecast(beat)
+
+    def forecast(self, point: str) -> GlobalTime:
+        """The time of a beat."""
+        return self._time(int(point.removeprefix("tick")))
 
     def check(self, name: str, value: float | None) -> None:
         """Check that a tempo is 10 to 400 beats per minute.
@@ -60,15 +66,6 @@ class Metronome(Anticipator):
         super().check(name, value)
         if name == "tempo":
             _checked(value)
-
-    def event(self, name: str, value: float | None, now: GlobalTime) -> None:
-        """Handle ``tempo``, which changes the times of all beats ahead, and ``start``, which makes now beat 0."""
-        if name == "start":
-            self._changes = [_Change(0, now, self._changes[-1].period)]
-            for sync, peg in self._board.predictions(self.id).items():
-                peg.set(self.forecast(sync))
-        elif name == "tempo":
-            self._change_tempo(60.0 / _checked(value), now)
 
     def _change_tempo(self, period: float, now: GlobalTime) -> None:
         change = self._changes[-1]
@@ -81,7 +78,6 @@ class Metronome(Anticipator):
         # A beat that would have been due already in the new tempo comes now.
         time = max(GlobalTime(self._time(following - 1) + period), now)
         self._changes.append(_Change(following, time, period))
-        self.revise(now)
 
     def _time(self, beat: int) -> GlobalTime:
         change = next(change for change in reversed(self._changes) if change.beat <= beat)

@@ -56,6 +56,11 @@ class Rhythm:
         """The number of beats so far, heard or not."""
         return len(self._passed)
 
+    @property
+    def coming(self) -> Time:
+        """The predicted time of the next beat; None while it is unknown."""
+        return self.time(self.passed + 1)
+
     def time(self, beat: int) -> Time:
         """The time of a past or predicted beat; None while it is unknown."""
         if beat <= self.passed:
@@ -71,7 +76,7 @@ class Rhythm:
     def advance(self, now: GlobalTime) -> bool:
         """Count the beats that have passed by ``now``; whether there were any."""
         before = self.passed
-        while (due := self.time(self.passed + 1)) is not None and is_due(due, now):
+        while (due := self.coming) is not None and is_due(due, now):
             self._add(due)
         return self.passed > before
 

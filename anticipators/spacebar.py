@@ -3,25 +3,21 @@
 In a Wizard of Oz experiment, it replaces the detection of an event (thesis 10.4).
 """
 
-from reactive_realizer.clock.units import GlobalTime
-from reactive_realizer.pegboard.anticipator import Anticipator
-
-_POINTS = ("press", "release")
+from reactive_realizer.pegboard.anticipator import Anticipator, Predictions
 
 
 class Spacebar(Anticipator):
     """Its points are ``press`` and ``release``, each of which is the next such event.
 
-    When the event occurs, behaviors that depend on the point get the time of the coming tick, plus their offset;
-    behaviors that come later wait for the next event. It assumes that auto-repeated key events are not reported.
+    When the event occurs, behaviors that depend on the point get the time of its tick, plus their offset; behaviors
+    that come later wait for the next event. It assumes that auto-repeated key events are not reported.
     """
 
     kind = "spacebar"
-    events = _POINTS
-    points = _POINTS
+    events = ("press", "release")
+    points = events
 
-    def event(self, name: str, value: float | None, now: GlobalTime) -> None:
-        """Handle ``press`` and ``release``."""
-        if name in _POINTS:
-            self.predict(name, now, now)
-            self.renew(name)
+    async def predictions(self) -> Predictions:
+        """Each event, as it occurs."""
+        async for event in self.inputs:
+            yield event.name, event.time

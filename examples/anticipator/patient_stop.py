@@ -3,7 +3,7 @@
 from anticipators.speech_stop import SpeechStop
 from anticipators.turn_model import Turn
 from reactive_realizer.clock.units import GlobalTime, Time
-from reactive_realizer.pegboard.pegboard import PegBoard
+from reactive_realizer.pegboard.anticipator import AnticipatorContext
 
 
 class Patience:
@@ -21,5 +21,5 @@ class PatientStop(SpeechStop):
 
     kind = "patient_stop"
 
-    def __init__(self, id: str, board: PegBoard) -> None:
-        super().__init__(id, board, model=Patience())
+    def __init__(self, context: AnticipatorContext) -> None:
+        super().__init__(context, model=Patience())

@@ -3,17 +3,16 @@
 from patient_stop import PatientStop
 from turn_end import TurnEnd
 
-from reactive_realizer.pegboard.pegboard import PegBoard
+from reactive_realizer.pegboard.anticipator import AnticipatorContext, AnticipatorEvent
 from reactive_realizer.testing.anticipator_contract import AnticipatorContract
-from reactive_realizer.testing.anticipator_harness import AnticipatorEvent
 
 
 class TestTurnEnd(AnticipatorContract):
     points = ("end",)
     events = (AnticipatorEvent("pause"), AnticipatorEvent("voice"))
 
-    def anticipator(self, id: str, board: PegBoard) -> TurnEnd:
-        return TurnEnd(id, board)
+    def anticipator(self, context: AnticipatorContext) -> TurnEnd:
+        return TurnEnd(context)
 
 
 class TestPatientStop(AnticipatorContract):
@@ -25,5 +24,5 @@ class TestPatientStop(AnticipatorContract):
     )
     refused = (AnticipatorEvent("voice", 2.0),)
 
-    def anticipator(self, id: str, board: PegBoard) -> PatientStop:
-        return PatientStop(id, board)
+    def anticipator(self, context: AnticipatorContext) -> PatientStop:
+        return PatientStop(context)

@@ -1,8 +1,6 @@
 """An anticipator that predicts the end of the user's turn."""
 
-from reactive_realizer.clock.units import GlobalTime
-from reactive_realizer.pegboard.anticipator import Anticipator
-from reactive_realizer.pegboard.pegboard import PegBoard
+from reactive_realizer.pegboard.anticipator import Anticipator, AnticipatorContext, Predictions
 
 
 class TurnEnd(Anticipator):
@@ -16,13 +14,11 @@ class TurnEnd(Anticipator):
     events = ("pause", "voice")
     points = ("end",)
 
-    def __init__(self, id: str, board: PegBoard, patience: float = 0.7) -> None:
-        super().__init__(id, board)
+    def __init__(self, context: AnticipatorContext, patience: float = 0.7) -> None:
+        super().__init__(context)
         self._patience = patience
 
-    def event(self, name: str, value: float | None, now: GlobalTime) -> None:
+    async def predictions(self) -> Predictions:
         """``pause`` predicts the end of the turn; ``voice`` withdraws the prediction."""
-        if name == "pause":
-            self.predict("end", GlobalTime(now + self._patience), now)
-        elif name == "voice":
-            self.predict("end", None, now)
+        async for event in self.inputs:
+            yield "end", event.time + self._patience if event.name == "pause" else None

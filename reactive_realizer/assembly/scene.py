@@ -20,8 +20,7 @@ from reactive_realizer.engine.context import EngineContext, LipSyncProvider
 from reactive_realizer.engine.engine import Engine
 from reactive_realizer.engine.tts import TTSBinding
 from reactive_realizer.errors import RealizerError
-from reactive_realizer.pegboard.anticipator import Anticipator
-from reactive_realizer.pegboard.pegboard import PegBoard
+from reactive_realizer.pegboard.anticipator import Anticipator, AnticipatorContext
 from reactive_realizer.realizer.character import Character
 from reactive_realizer.realizer.realizer import Realizer
 from reactive_realizer.scheduler.strategy import SchedulingStrategy
@@ -127,14 +126,13 @@ class _Mouth:
         return next((weights for voice in self.voices if (weights := voice.mouth(time)) is not None), None)
 
 
-def _anticipators(file: str, specs: Mapping[str, AnticipatorSpec]) -> Callable[[PegBoard], Mapping[str, Anticipator]]:
-    def make(board: PegBoard) -> Mapping[str, Anticipator]:
-        return {id_: _anticipator(file, id_, spec, board) for id_, spec in specs.items()}
+def _anticipators(
+    file: str, specs: Mapping[str, AnticipatorSpec]
+) -> Callable[[Callable[[str], AnticipatorContext]], list[Anticipator]]:
+    return lambda context: [_anticipator(file, id_, spec, context(id_)) for id_, spec in specs.items()]
 
-    return make
 
-
-def _anticipator(file: str, id_: str, spec: AnticipatorSpec, board: PegBoard) -> Anticipator:
+def _anticipator(file: str, id_: str, spec: AnticipatorSpec, context: AnticipatorContext) -> Anticipator:
     cls: type[Anticipator] = load("anticipators", spec.kind)
     defaults = _parameters(cls)
     for name, value in spec.parameters.items():
@@ -146,7 +144,7 @@ def _anticipator(file: str, id_: str, spec: AnticipatorSpec, board: PegBoard) ->
             continue
         raise RealizerError(BadHumanFile(file=file, key=f"anticipator.{id_}.{name}", reason=reason))
     try:
-        return cls(id_, board, **spec.parameters)
+        return cls(context, **spec.parameters)
     except RealizerError as refused:
         reason = refused.fault.sentence
         raise RealizerError(BadHumanFile(file=file, key=f"anticipator.{id_}", reason=reason)) from refused
@@ -156,4 +154,4 @@ def _parameters(cls: type[Anticipator]) -> Mapping[str, object]:
     """The parameters of an anticipator that a human file can set, with defaults; not its keyword-only ones."""
     parameters = signature(cls).parameters.values()
     given = [own for own in parameters if own.kind is Parameter.POSITIONAL_OR_KEYWORD]
-    return {own.name: own.default for own in given if own.name not in ("id", "board")}
+    return {own.name: own.default for own in given if own.name != "context"}

@@ -1,11 +1,19 @@
 """Anticipators: they predict the times of events outside the realizer (thesis 8.5.1)."""
 
-from math import isfinite
-from typing import ClassVar
+import asyncio
+import re
+from abc import ABC, abstractmethod
+from collections import deque
+from collections.abc import AsyncGenerator, AsyncIterator, Callable, Collection
+from dataclasses import dataclass
+from difflib import get_close_matches
+from typing import ClassVar, NamedTuple
 
-from reactive_realizer.clock.units import GlobalTime, Time, is_due
-from reactive_realizer.errors import Fault, NotANumber, RealizerError
-from reactive_realizer.pegboard.pegboard import PegBoard
+from reactive_realizer.clock.tick_clock import TickClock
+from reactive_realizer.clock.units import GlobalTime, Time
+from reactive_realizer.errors import Fault, RealizerError, SchedulingFault
+
+_NUMBER = re.compile(r"[0-9]{1,9}")
 
 
 class PredictsItself(Fault):
@@ -27,36 +35,155 @@ class UnknownEvent(Fault):
     known: str
 
 
-class Anticipator:
+class UnknownPoint(SchedulingFault):
+    """A reference to a point that an anticipator does not have."""
+
+    code = "unknown-point"
+    template = "{reference}: the anticipator '{anticipator}' has no point '{point}'; {hint}"
+    reference: str
+    anticipator: str
+    point: str
+    hint: str
+
+
+@dataclass(frozen=True, slots=True)
+class Counted:
+    """Points that are a prefix with a number, such as ``tick3``: each is a single moment."""
+
+    prefix: str
+
+    def matches(self, point: str) -> bool:
+        """Whether this is one of them."""
+        number = point[len(self.prefix) :]
+        return point.startswith(self.prefix) and _NUMBER.fullmatch(number) is not None
+
+    def __str__(self) -> str:
+        return f"{self.prefix}N"
+
+
+@dataclass(frozen=True, slots=True)
+class Revoked:
+    """The last occurrence of a recurring point does not count: behaviors that have not begun wait for the next one."""
+
+    point: str
+
+
+Predictions = AsyncGenerator[tuple[str, float | None] | Revoked, None]
+"""The stream of an anticipator: points with their times (s, global), None to withdraw a prediction; and revocations."""
+
+
+class AnticipatorEvent(NamedTuple):
+    """An event of a client.
+
+    Attributes:
+        name: one of the anticipator's ``events`` or ``heard``.
+        value: None if it has none.
+        text: None if it has none.
+        time: of the tick in which it entered, s.
+    """
+
+    name: str
+    value: float | None = None
+    text: str | None = None
+    time: GlobalTime = GlobalTime(0.0)
+
+
+@dataclass(frozen=True, slots=True)
+class AnticipatorContext:
+    """What a realizer provides to an anticipator.
+
+    Attributes:
+        id: its name in BML, ``anticipators:ID:POINT``.
+        clock: of the realizer.
+        named: gives the counted points that behaviors have referred to.
+    """
+
+    id: str
+    clock: TickClock
+    named: Callable[[], Collection[str]] = tuple
+
+
+class Anticipator(ABC):
     """Predicts the times of its points, which it alone writes.
 
-    This class takes predictions of clients; subclasses make predictions from events. All methods are called within a
-    transaction in the input phase of a tick.
-
-    A point is either one moment, such as the third beat, or the next occurrence of an event, such as a key press; such
-    a point is renewed on the board after each occurrence.
+    A plain point recurs: its name means the next occurrence, and behaviors that refer to it keep the one that they got.
+    A `Counted` point is a single moment.
 
     Attributes:
         kind: name of its class in the human file.
-        events: names of the events that `event` accepts.
-        heard: names of the events with a text, which `hear` accepts.
-        points: names of its points, with an N for a number; empty if they are not known in advance.
-        id: its name in BML, ``anticipators:ID:SYNC``.
+        events: names of the events that it takes.
+        heard: names of the events with a text that it takes.
+        points: its points; empty if they are not known in advance, and then none recurs.
+        id: its name in BML, ``anticipators:ID:POINT``.
+        clock: of the realizer; it stands still between two ticks.
     """
 
-    kind: ClassVar[str] = "remote"
+    kind: ClassVar[str]
     events: ClassVar[tuple[str, ...]] = ()
     heard: ClassVar[tuple[str, ...]] = ()
-    points: tuple[str, ...] = ()
+    points: tuple[str | Counted, ...] = ()
 
-    def __init__(self, id: str, board: PegBoard) -> None:  # noqa: A002 - the standard's word
-        self.id = id
-        self._board = board
-        board.ask(id, self.forecast)
+    def __init__(self, context: AnticipatorContext) -> None:
+        self.id = context.id
+        self.clock = context.clock
+        self._named = context.named
+        self._entered: deque[AnticipatorEvent] = deque()
+        self._waiting: asyncio.Future[None] | None = None
+        self._until: float | None = None
 
-    def forecast(self, sync: str) -> Time:
-        """The predicted time of a point that is named for the first time; None while it is unknown."""
+    @abstractmethod
+    def predictions(self) -> Predictions:
+        """The stream of its predictions: an async generator, which runs from the first tick to the end of the session.
+
+        What it yields in reaction to an event or to the clock takes effect in the same tick, together with all other
+        predictions of the tick; what it yields after it has waited for something else, in the next tick.
+        """
+
+    def forecast(self, point: str) -> Time:
+        """The time of a counted point that is named for the first time, s; None while it is unknown."""
         return None
+
+    # --- for the stream
+
+    @property
+    async def inputs(self) -> AsyncIterator[AnticipatorEvent]:
+        """The events as they enter, forever."""
+        while True:
+            event = await self.next_input()
+            assert event is not None  # without a time limit
+            yield event
+
+    async def next_input(self, until: float | None = None) -> AnticipatorEvent | None:
+        """The next event; None in the first tick at or after ``until`` (s) if there was none before."""
+        if not self._entered:
+            self._until = until
+            self._waiting = asyncio.get_running_loop().create_future()
+            try:
+                if until is None:
+                    await self._waiting
+                else:
+                    await self.clock.wait(self._waiting, until)
+            finally:
+                self._waiting = None
+        return self._entered.popleft() if self._entered else None
+
+    @property
+    def named(self) -> Collection[str]:
+        """The counted points that behaviors have referred to: those whose predictions matter."""
+        return self._named()
+
+    # --- for the realizer
+
+    def enter(self, event: AnticipatorEvent) -> None:
+        """Pass an event to the stream."""
+        self._entered.append(event)
+        if self._waiting is not None and not self._waiting.done():
+            self._waiting.set_result(None)
+
+    @property
+    def waits_for_event(self) -> bool:
+        """Whether its stream waits for an event and for nothing else."""
+        return self._waiting is not None and not self._waiting.done() and self._until is None
 
     def check(self, name: str, value: float | None) -> None:
         """Check an event of a client, before it enters.
@@ -82,53 +209,60 @@ class Anticipator:
         Raises:
             RealizerError: it makes its own predictions.
         """
-        if self.kind != Anticipator.kind:
-            raise RealizerError(PredictsItself(anticipator=self.id, kind=self.kind))
+        raise RealizerError(PredictsItself(anticipator=self.id, kind=self.kind))
 
-    def advance(self, now: GlobalTime) -> None:
-        """Called at every tick, before the inputs of the tick."""
+    def has(self, point: str) -> bool:
+        """Whether it may predict a point."""
+        return not self.points or self.recurs(point) or self.counts(point)
 
-    def event(self, name: str, value: float | None, now: GlobalTime) -> None:
-        """Handle an event."""
+    def recurs(self, point: str) -> bool:
+        """Whether the name of a point means its next occurrence."""
+        return point in self.points
 
-    def hear(self, name: str, text: str, now: GlobalTime) -> None:
-        """Handle an event with a text."""
+    def counts(self, point: str) -> bool:
+        """Whether a point is one of its counted points."""
+        return any(isinstance(each, Counted) and each.matches(point) for each in self.points)
 
-    def revise(self, now: GlobalTime) -> None:
-        """Predict all named points that have not passed again."""
-        for sync, peg in self._board.predictions(self.id).items():
-            if not is_due(peg.value, now):
-                self.predict(sync, self.forecast(sync), now)
+    def answers(self, point: str) -> bool:
+        """Whether `forecast` gives the time of a point, so that its prediction need not be kept."""
+        return self.counts(point) and type(self).forecast is not Anticipator.forecast
 
-    def renew(self, sync: str) -> None:
-        """Make a passed point mean its next occurrence; pegs that depend on it already keep this one."""
-        self._board.renew(self.id, sync)
-
-    def withdraw(self, now: GlobalTime) -> None:
-        """Withdraw the predictions of all points."""
-        for sync in self._board.predictions(self.id):
-            self.predict(sync, None, now)
-
-    def predict(self, sync: str, time: Time, now: GlobalTime) -> None:
-        """Predict the time of a point; None withdraws the prediction.
-
-        Since network messages are late, a point that has not passed is never set before ``now``. A point that has
-        passed keeps its time, unless it is to happen again.
+    def check_point(self, point: str, reference: str) -> None:
+        """Check a reference to a point.
 
         Raises:
-            RealizerError: the time is not finite.
+            RealizerError: "unknown-point".
         """
-        if time is not None and not isfinite(time):
-            raise RealizerError(NotANumber())
-        peg = self._board.predicted(self.id, sync)
-        passed = is_due(peg.value, now)
-        if time is None or time > now:
-            peg.set(time)
-        elif not passed:
-            peg.set(now)
+        if not self.has(point):
+            raise RealizerError(
+                UnknownPoint(reference=reference, anticipator=self.id, point=point, hint=self._hint(point))
+            )
+
+    def _hint(self, point: str) -> str:
+        number = re.sub(r"^.*?([0-9]*)$", r"\1", point) or "N"
+        names = [each.prefix + number if isinstance(each, Counted) else each for each in self.points]
+        if nearest := get_close_matches(point, names, 1):
+            return f"did you mean '{nearest[0]}'?"
+        return f"it has {', '.join(map(str, self.points))}"
 
     def _unknown(self, event: str) -> RealizerError:
         known = ", ".join([*self.events, *(f"{name} with a text" for name in self.heard)])
-        if not known:
-            known = "none (it takes predictions)" if self.kind == Anticipator.kind else "none"
+        return RealizerError(UnknownEvent(anticipator=self.id, event=event, known=known or "none"))
+
+
+class Remote(Anticipator):
+    """Predicts what clients predict; its points are those that they name, and none recurs."""
+
+    kind = "remote"
+
+    async def predictions(self) -> Predictions:
+        """What clients predict."""
+        async for event in self.inputs:
+            yield event.name, event.value
+
+    def check_prediction(self) -> None:
+        """Accept every prediction."""
+
+    def _unknown(self, event: str) -> RealizerError:
+        known = "none (it takes predictions)"
         return RealizerError(UnknownEvent(anticipator=self.id, event=event, known=known))

@@ -6,6 +6,7 @@ from itertools import islice
 from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.clock.units import GlobalTime, Time, is_due
 from reactive_realizer.errors import Fault, RealizerError
+from reactive_realizer.pegboard.anticipator import Anticipator
 from reactive_realizer.pegboard.peg_key import ANTICIPATORS, BlockKey, PegKey, anticipator_key
 from reactive_realizer.pegboard.peg_view import Explanation, PegView, explain, view_of
 from reactive_realizer.pegboard.time_peg import AnticipatorPeg, TimeCell, TimePeg, time_of
@@ -29,6 +30,8 @@ class PegBoard:
     Attributes:
         graph: of the pegs; every write is a transaction on it.
         previous: time of the tick before the present one, s.
+        anticipators: those whose points blocks can refer to, by id; others may be predicted all the same.
+        forecast: asks an anticipator for the time of a counted point that is named for the first time.
     """
 
     def __init__(self, graph: Graph) -> None:
@@ -38,7 +41,8 @@ class PegBoard:
         self._blocks: dict[BlockKey, list[PegKey]] = {}
         self._owners: dict[TimeCell, BlockKey] = {}
         self._unnamed: dict[BlockKey, list[TimePeg]] = {}
-        self._forecasts: dict[str, Callable[[str], Time]] = {}
+        self.anticipators: dict[str, Anticipator] = {}
+        self.forecast: Callable[[Anticipator, str], Time] = lambda anticipator, sync: anticipator.forecast(sync)
 
     @property
     def time(self) -> GlobalTime:
@@ -121,11 +125,13 @@ class PegBoard:
             self._owners.pop(self._pegs.pop(key), None)
 
     def predicted(self, anticipator: str, sync: str) -> AnticipatorPeg:
-        """The peg of a predicted point, made when the point is first named; the anticipator is asked for its time."""
+        """The peg of a predicted point, made when the point is first named."""
         key = anticipator_key(anticipator, sync)
         peg = self._pegs.get(key)
         if not isinstance(peg, AnticipatorPeg):
-            peg = AnticipatorPeg(self.graph, str(key), self._forecast(key))
+            owner = self.anticipators.get(anticipator)
+            time = self.forecast(owner, sync) if owner is not None and owner.counts(sync) else None
+            peg = AnticipatorPeg(self.graph, str(key), time)
             self.add(key, peg)
         return peg
 
@@ -134,12 +140,17 @@ class PegBoard:
         key = anticipator_key(anticipator, sync)
         if key in self._pegs:
             self._owners.pop(self._pegs[key], None)
-            self._pegs[key] = AnticipatorPeg(self.graph, str(key), self._forecast(key))
+            self._pegs[key] = AnticipatorPeg(self.graph, str(key), None)
             self._owners[self._pegs[key]] = key.block_key
 
-    def ask(self, anticipator: str, forecast: Callable[[str], Time]) -> None:
-        """Register a function that gives the time of a point of an anticipator when the point is first named."""
-        self._forecasts[anticipator] = forecast
+    def check_point(self, anticipator: str, sync: str, reference: str) -> None:
+        """Check a reference to a point; an anticipator that does not exist yet may predict any.
+
+        Raises:
+            RealizerError: "unknown-point".
+        """
+        if anticipator in self.anticipators:
+            self.anticipators[anticipator].check_point(sync, reference)
 
     def predictions(self, anticipator: str) -> dict[str, AnticipatorPeg]:
         """The points of an anticipator that were named, by sync id."""
@@ -173,10 +184,6 @@ class PegBoard:
             raise RealizerError(NoPoint(point=str(key)))
         return self._pegs[key]
 
-    def _forecast(self, key: PegKey) -> Time:
-        forecast = self._forecasts.get(key.behavior or "")
-        return forecast(key.sync) if forecast else None
-
     def _forgettable(self, key: PegKey) -> bool:
-        peg = self._pegs[key]
-        return not peg.dependents and peg.value == self._forecast(key)
+        peg, anticipator = self._pegs[key], self.anticipators.get(key.behavior or "")
+        return not peg.dependents and (peg.value is None or (anticipator is not None and anticipator.answers(key.sync)))

@@ -1,16 +1,22 @@
-"""The inbox: inputs wait for their tick; predictions, events and targets are applied from here."""
+"""The inbox: inputs wait for their tick, where events go to anticipators, and targets are moved."""
 
 import logging
 from collections.abc import Callable, Sequence
+from math import isfinite
+from typing import ParamSpec, TypeVar
 
 from reactive_realizer.clock.units import GlobalTime, is_due
 from reactive_realizer.embodiment.world import World
-from reactive_realizer.errors import Fault, RealizerError
+from reactive_realizer.errors import Fault, NotANumber, RealizerError
 from reactive_realizer.limits import Limits
-from reactive_realizer.pegboard.anticipator import Anticipator
+from reactive_realizer.pegboard.anticipator import Anticipator, AnticipatorEvent, Remote
 from reactive_realizer.pegboard.peg_key import anticipator_key
 from reactive_realizer.pegboard.pegboard import PegBoard
+from reactive_realizer.realizer.anticipator_streams import AnticipatorStreams
 from reactive_realizer.realizer.inputs import BmlText, Event, Input, Prediction, TargetMoved
+
+P = ParamSpec("P")
+T = TypeVar("T")
 
 logger = logging.getLogger(__name__)
 
@@ -29,14 +35,14 @@ class Inbox:
 
     Args:
         board: of the anticipators.
-        anticipators: by id; the first prediction for an unknown id adds one.
+        streams: of the anticipators; the first prediction for an unknown id adds one.
         world: of the targets.
         limits: for the numbers of predicted points and anticipators.
     """
 
-    def __init__(self, board: PegBoard, anticipators: dict[str, Anticipator], world: World, limits: Limits) -> None:
+    def __init__(self, board: PegBoard, streams: AnticipatorStreams, world: World, limits: Limits) -> None:
         self._board = board
-        self._anticipators = anticipators
+        self._streams = streams
         self._world = world
         self._limits = limits
         self._waiting: list[tuple[GlobalTime, int, Input]] = []
@@ -61,8 +67,8 @@ class Inbox:
         Raises:
             RealizerError: "predicts-itself", or "too-many-names" if there would be too many points or anticipators.
         """
-        if anticipator in self._anticipators:
-            self._anticipators[anticipator].check_prediction()
+        if anticipator in self._board.anticipators:
+            self._board.anticipators[anticipator].check_prediction()
         key, limit = anticipator_key(anticipator, sync), self._limits.predicted_points
         if self._board.get(key) is not None:
             return
@@ -73,7 +79,9 @@ class Inbox:
         points = len(self._board.predicted_points) + len(new)
         if points > limit and points - len(set(self._board.spent_points(now)) - waiting) > limit:
             raise RealizerError(TooManyNames(limit=limit, things="predicted points"))
-        if len(self._anticipators.keys() | {each.behavior for each in new}) > max(limit, len(self._anticipators)):
+        if len(self._board.anticipators.keys() | {each.behavior for each in new}) > max(
+            limit, len(self._board.anticipators)
+        ):
             raise RealizerError(TooManyNames(limit=limit, things="anticipators"))
 
     def take(self, now: GlobalTime) -> tuple[Input, ...]:
@@ -82,56 +90,45 @@ class Inbox:
         self._waiting = [waiting for waiting in self._waiting if not is_due(waiting[0], now)]
         return tuple(due)
 
-    def apply(self, entries: Sequence[Input], now: GlobalTime) -> None:
-        """Advance the anticipators, give them predictions and events, and move targets; BML is ignored here."""
-        with self._board.graph.transaction("inputs"):
-            for anticipator in self._anticipators.values():
-                _try(anticipator.id, anticipator.advance, now)
-            for entry in entries:
-                _try(entry, self._apply, entry, now)
+    def deliver(self, entries: Sequence[Input], now: GlobalTime) -> list[tuple[str, AnticipatorEvent]]:
+        """The events and predictions of clients as events for anticipators, by id; invalid ones are skipped."""
+        events = (_try(entry, self._event, entry, now) for entry in entries)
+        return [event for event in events if event is not None]
 
-    def _apply(self, entry: Input, now: GlobalTime) -> None:
+    def apply(self, entries: Sequence[Input]) -> None:
+        """Move targets."""
+        for entry in entries:
+            if isinstance(entry, TargetMoved):
+                _try(entry, self._world.move, entry.target, entry.position)
+
+    def _event(self, entry: Input, now: GlobalTime) -> tuple[str, AnticipatorEvent] | None:
         match entry:
-            case Prediction(anticipator, sync, time):
-                self._anticipator(anticipator).check_prediction()
-                self._make_room(anticipator, sync, now)
-                self._anticipator(anticipator).predict(sync, time, now)
-            case Event(anticipator):
-                _deliver_event(self._anticipator(anticipator), entry, now)
-            case TargetMoved(target, position):
-                self._world.move(target, position)
-            case BmlText():
-                pass
+            case Prediction(id_, sync, time):
+                if time is not None and not isfinite(time):
+                    raise RealizerError(NotANumber())
+                self._anticipator(id_).check_prediction()
+                return id_, AnticipatorEvent(sync, time, None, now)
+            case Event(id_, name, value, None):
+                self._anticipator(id_).check(name, value)
+                return id_, AnticipatorEvent(name, value, None, now)
+            case Event(id_, name, value, text):
+                self._anticipator(id_).check_heard(name)
+                return id_, AnticipatorEvent(name, value, text, now)
+            case BmlText() | TargetMoved():
+                return None
 
-    def _make_room(self, anticipator: str, sync: str, now: GlobalTime) -> None:
-        """Make the board forget spent points, if a new one would exceed the limit."""
-        if self._board.get(anticipator_key(anticipator, sync)) is not None:
-            return
-        excess = len(self._board.predicted_points) + 1 - self._limits.predicted_points
-        if excess > 0:
-            for key in self._board.spent_points(now)[:excess]:
-                self._board.forget_point(key)
-
-    def _anticipator(self, name: str) -> Anticipator:
-        if name not in self._anticipators:
-            self._anticipators[name] = Anticipator(name, self._board)
-        return self._anticipators[name]
+    def _anticipator(self, id_: str) -> Anticipator:
+        if id_ not in self._board.anticipators:
+            self._streams.add(Remote(self._streams.context(id_)))
+        return self._board.anticipators[id_]
 
 
-def _try(what: object, act: Callable[..., None], *arguments: object) -> None:
-    """Apply an input, or skip it with a log message if it fails."""
+def _try(what: object, act: Callable[P, T], *arguments: P.args, **named: P.kwargs) -> T | None:
+    """The result for an input; None, with a log message, if it fails."""
     try:
-        act(*arguments)
+        return act(*arguments, **named)
     except RealizerError as problem:
         logger.warning("%s is skipped: %s", what, problem)
     except Exception:
         logger.exception("%s is skipped", what)
-
-
-def _deliver_event(anticipator: Anticipator, event: Event, now: GlobalTime) -> None:
-    if event.text is None:
-        anticipator.check(event.name, event.value)
-        anticipator.event(event.name, event.value, now)
-    else:
-        anticipator.check_heard(event.name)
-        anticipator.hear(event.name, event.text, now)
+    return None

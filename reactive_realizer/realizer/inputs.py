@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from reactive_realizer.bml.block import Parsed
-from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.clock.units import Time
 from reactive_realizer.errors import Fault
 
 WorldPosition = tuple[float, float, float]
@@ -25,11 +25,11 @@ class BmlText:
 
 @dataclass(frozen=True, slots=True)
 class Prediction:
-    """A prediction of a point of an anticipator; None withdraws it."""
+    """A prediction of a point of an anticipator, by a client or by its own stream; None withdraws it."""
 
     anticipator: str
     sync: str
-    time: GlobalTime | None
+    time: Time
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,15 +67,48 @@ class Delivery:
 
 
 @dataclass(frozen=True, slots=True)
+class Revocation:
+    """The last occurrence of a recurring point does not count."""
+
+    anticipator: str
+    sync: str
+
+
+@dataclass(frozen=True, slots=True)
+class StreamFailure:
+    """The failure of the stream of an anticipator, which ends it; the reason is for people."""
+
+    anticipator: str
+    reason: str
+
+
+Predicted = Prediction | Revocation | StreamFailure
+"""What the streams of anticipators give."""
+
+
+@dataclass(frozen=True, slots=True)
+class Forecast:
+    """The answer of an anticipator that was asked for the time of a counted point."""
+
+    anticipator: str
+    sync: str
+    time: Time
+
+
+@dataclass(frozen=True, slots=True)
 class TickInputs:
-    """All inputs of one tick.
+    """Everything that determines a tick.
 
     Attributes:
         tick: its number; numbers are skipped when a tick is late.
-        inputs: in the order in which they were applied.
+        inputs: in the order in which they entered.
         work: in the order in which it was delivered.
+        predicted: in the order in which it was applied.
+        forecasts: the answers during the tick, in order; empty until it has been played.
     """
 
     tick: int
     inputs: tuple[Input, ...] = ()
     work: tuple[Delivery, ...] = ()
+    predicted: tuple[Predicted, ...] = ()
+    forecasts: tuple[Forecast, ...] = ()

@@ -1,7 +1,7 @@
 """The realizer: takes inputs, plays ticks, and gives feedback, frames and sounds."""
 
 import asyncio
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import AsyncExitStack
 from types import TracebackType
 from typing import Self
@@ -14,15 +14,20 @@ from reactive_realizer.embodiment.frame import Frame
 from reactive_realizer.embodiment.world import World
 from reactive_realizer.engine.effects import Output
 from reactive_realizer.engine.engine_task import EngineTasks
+from reactive_realizer.errors import WarningType
 from reactive_realizer.feedback.feedback_manager import FeedbackManager
+from reactive_realizer.feedback.messages import WarningFeedback
 from reactive_realizer.limits import Limits
-from reactive_realizer.pegboard.anticipator import Anticipator
+from reactive_realizer.pegboard.anticipator import Anticipator, AnticipatorContext
+from reactive_realizer.pegboard.peg_key import ANTICIPATORS
 from reactive_realizer.pegboard.pegboard import PegBoard
+from reactive_realizer.pegboard.predicted_points import PredictedPoints
 from reactive_realizer.reactive.graph import Commit, Graph
+from reactive_realizer.realizer.anticipator_streams import AnticipatorFailed, AnticipatorStreams
 from reactive_realizer.realizer.background_tasks import BackgroundTasks
 from reactive_realizer.realizer.character import Character
 from reactive_realizer.realizer.inbox import Inbox
-from reactive_realizer.realizer.inputs import BmlText, Delivery, Input, TickInputs
+from reactive_realizer.realizer.inputs import BmlText, Forecast, Input, StreamFailure, TickInputs
 from reactive_realizer.realizer.verifier import Verifier
 from reactive_realizer.scheduler.admission import Admission
 from reactive_realizer.scheduler.bml_scheduler import BMLScheduler
@@ -48,14 +53,13 @@ class Realizer:
         world: the targets of gaze and pointing.
         scheduler: of the blocks.
         characters: by id; the first gets the blocks that name none.
-        anticipators: by id.
     """
 
     def __init__(
         self,
         characters: Sequence[Character],
         world: World,
-        anticipators: Callable[[PegBoard], Mapping[str, Anticipator]],
+        anticipators: Callable[[Callable[[str], AnticipatorContext]], Iterable[Anticipator]],
         strategy: SchedulingStrategy,
         limits: Limits,
         *,
@@ -66,20 +70,27 @@ class Realizer:
         self.world = world
         self.feedback = FeedbackManager()
         self.board = PegBoard(Graph())
-        self.anticipators = dict(anticipators(self.board))
+        self._streams = AnticipatorStreams(self.board, PredictedPoints(self.board, limits.predicted_points))
+        for anticipator in anticipators(self._streams.context):
+            self._streams.add(anticipator)
         self.time = GlobalTime(0.0)
         self._strategy = strategy
         self._verify = verify
         self._routing = EngineRouting({character.id: character.engines for character in characters})
         self._leading = EngineTasks(engine for engine in self._routing.engines if engine.leads)
         self._following = EngineTasks(engine for engine in self._routing.engines if not engine.leads)
-        self._inbox = Inbox(self.board, self.anticipators, world, limits)
+        self._inbox = Inbox(self.board, self._streams, world, limits)
         self._commits: list[Commit] = []
         self._frame_listeners: list[FrameListener] = []
         self._audio_listeners: list[AudioListener] = []
         self._entry_listeners: list[EntryListener] = []
         self._stack = AsyncExitStack()
         self.board.graph.listen(self._commits.append)
+
+    @property
+    def anticipators(self) -> Mapping[str, Anticipator]:
+        """The anticipators of the scene, and those that clients have predicted, by id."""
+        return self.board.anticipators
 
     # --- life
 
@@ -88,6 +99,8 @@ class Realizer:
         tasks = (*self._leading.tasks, *self._following.tasks)
         running = [group.create_task(task.run(), name=task.engine.name) for task in tasks]
         self._stack.callback(lambda: [task.cancel() for task in running])
+        self._stack.callback(self._streams.close)
+        self._streams.open(group)
         self._background = BackgroundTasks(group)
         self._stack.callback(self._background.close)
         self.scheduler = BMLScheduler(
@@ -137,14 +150,20 @@ class Realizer:
         """Call a listener with the changes of audio."""
         self._audio_listeners.append(listener)
 
-    def record(self, listener: EntryListener) -> None:
-        """Call a listener with the inputs of each tick, before they are applied."""
+    def record(self, listener: EntryListener, forecasts: Callable[[Forecast], None] = lambda _: None) -> None:
+        """Call a listener with the inputs of each tick, and another with each forecast, before they have any effect."""
         self._entry_listeners.append(listener)
+        self._streams.listen(forecasts)
 
     @property
     def busy(self) -> bool:
         """Whether inputs or results of slow work are outstanding."""
         return bool(self._inbox) or self._background.busy
+
+    @property
+    def expectant(self) -> bool:
+        """Whether an anticipator may predict something without further input."""
+        return self._streams.expectant
 
     async def settle(self) -> None:
         """Wait for the slow work that has been requested."""
@@ -152,17 +171,22 @@ class Realizer:
 
     # --- a tick
 
-    async def step(self, tick: Tick, work: Sequence[Delivery] | None = None) -> None:
+    async def step(self, tick: Tick, recorded: TickInputs | None = None) -> None:
         """Play one tick in phases (docs/semantics.md, a tick).
 
         Args:
             tick: later than all earlier ones.
-            work: the results of slow work that enter; None for all that are ready.
+            recorded: what is to enter, in a replay; None for the inputs that are due, the results of slow work that are
+                ready, and what the streams of anticipators predict.
         """
         self.time = tick.time
         self.board.begin(tick)
-        entered = self._enter(tick, self._background.ready() if work is None else tuple(work))
-        self._inbox.apply(entered.inputs, tick.time)
+        entered = await self._enter(tick) if recorded is None else recorded
+        for listener in self._entry_listeners:
+            listener(entered)
+        if recorded is not None:
+            self._streams.replay(recorded.forecasts)
+        self._apply(entered, tick.time)
         await self._catch_up(tick)
         watched = Tick.on_time(tick.number, tick.frame and bool(self._frame_listeners))
         self.board.begin(watched)
@@ -174,11 +198,21 @@ class Realizer:
         self._check(tick.time)
         self.feedback.flush(tick.time)
 
-    def _enter(self, tick: Tick, work: tuple[Delivery, ...]) -> TickInputs:
-        entered = TickInputs(tick.number, self._inbox.take(tick.time), work)
-        for listener in self._entry_listeners:
-            listener(entered)
-        return entered
+    async def _enter(self, tick: Tick) -> TickInputs:
+        inputs, work = self._inbox.take(tick.time), self._background.ready()
+        predicted = await self._streams.run(self._inbox.deliver(inputs, tick.time), tick.time)
+        return TickInputs(tick.number, inputs, work, predicted)
+
+    def _apply(self, entered: TickInputs, now: GlobalTime) -> None:
+        """Move targets, and write predictions."""
+        with self.board.graph.transaction("inputs"):
+            self._inbox.apply(entered.inputs)
+            self._streams.apply(entered.predicted, now)
+        for each in entered.predicted:
+            if isinstance(each, StreamFailure):
+                fault = AnticipatorFailed(anticipator=each.anticipator, reason=each.reason)
+                id_ = f"{ANTICIPATORS}:{each.anticipator}"
+                self.feedback.add(WarningFeedback(None, id_, WarningType.EXECUTION_FAILURE, str(fault)))
 
     async def _catch_up(self, tick: Tick) -> None:
         """Play the skipped ticks in which something was due, in order and without output."""

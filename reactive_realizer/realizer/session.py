@@ -21,7 +21,7 @@ async def run_until_done(realizer: Realizer, clock: Clock, until: GlobalTime) ->
             await realizer.settle()
         if tick.time >= until or not (realizer.busy or realizer.scheduler.blocks.alive):
             return
-        if not realizer.busy and realizer.scheduler.stuck(tick.time):
+        if not (realizer.busy or realizer.expectant) and realizer.scheduler.stuck(tick.time):
             realizer.scheduler.warn_stuck()
             realizer.feedback.flush(tick.time)
             return
@@ -30,19 +30,18 @@ async def run_until_done(realizer: Realizer, clock: Clock, until: GlobalTime) ->
 async def replay(realizer: Realizer, session: Iterable[TickInputs]) -> None:
     """Play the ticks of a recorded session, and no others, each with its inputs.
 
-    Slow work is done again; its results enter at the ticks at which they did when the session was recorded.
+    Slow work is done again; its results enter at the ticks at which they did when the session was recorded. The streams
+    of anticipators do not run: what they predicted was recorded.
 
     Args:
         realizer: of the same scene, at its beginning.
         session: its ticks in order.
 
     Raises:
-        RealizerError: "replay-differs": the realizer requests other work than recorded.
+        RealizerError: "replay-differs" or "forecast-differs": the realizer requests something else than recorded.
     """
     tick: Tick | None = None
     for entered in session:
         tick = Tick.following(tick, entered.tick)
-        for entry in entered.inputs:
-            realizer.put(entry, tick.time)
         await realizer.settle()
-        await realizer.step(tick, entered.work)
+        await realizer.step(tick, entered)

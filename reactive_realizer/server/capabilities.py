@@ -54,7 +54,7 @@ def _anticipator(scene: Scene, anticipator: Anticipator) -> dict[str, Any]:
         "kind": anticipator.kind,
         "events": anticipator.events,
         "textEvents": anticipator.heard,
-        "points": anticipator.points or list(scene.realizer.board.predictions(anticipator.id)),
+        "points": list(map(str, anticipator.points)) or list(scene.realizer.board.predictions(anticipator.id)),
     }
 
 

@@ -197,6 +197,16 @@ class BadRecording(Fault):
     reason: str
 
 
+class OldRecording(Fault):
+    """A recording in a format that is not read any more."""
+
+    code = "old-recording"
+    template = "it is in format {format}, and this version reads format {known}; replay it with version {version}"
+    format: int
+    known: int
+    version: str
+
+
 class NotRecorded(Fault):
     """A message that is not an input of a session."""
 

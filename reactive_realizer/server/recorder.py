@@ -4,16 +4,24 @@ import json
 import logging
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
-from dataclasses import fields
+from dataclasses import asdict, fields
 from pathlib import Path
-from typing import IO
+from typing import IO, assert_never
 
 from reactive_realizer import __version__
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.clock.ticker import RATE, tick_time
-from reactive_realizer.realizer.inputs import Delivery, TickInputs
+from reactive_realizer.realizer.inputs import (
+    Delivery,
+    Forecast,
+    Predicted,
+    Prediction,
+    Revocation,
+    StreamFailure,
+    TickInputs,
+)
 from reactive_realizer.server.protocol import Message
-from reactive_realizer.server.recording import message_of
+from reactive_realizer.server.recording import FORMAT, message_of
 
 logger = logging.getLogger(__name__)
 
@@ -48,8 +56,9 @@ class Recorder:
     def __init__(self, stream: IO[str], options: SceneOptions, started: float) -> None:
         self._stream: IO[str] | None = stream
         self._inputs = 0
+        self._tick = 0
         scene = _scene(options)
-        self._write([{"recording": 1, "version": __version__, "rate": RATE, "started": started, "scene": scene}])
+        self._write([{"recording": FORMAT, "version": __version__, "rate": RATE, "started": started, "scene": scene}])
 
     def __call__(self, entered: TickInputs) -> None:
         """Write the inputs of a tick, then the line of the tick, which marks them as complete."""
@@ -58,8 +67,14 @@ class Recorder:
             self._inputs += 1
             place = {"seq": self._inputs, "tick": entered.tick, "time": tick_time(entered.tick)}
             lines.append({**place, "input": message_of(entry)})
+        self._tick = entered.tick
         work = {"work": [_delivery(delivery) for delivery in entered.work]} if entered.work else {}
-        self._write([*lines, {"tick": entered.tick, **work}])
+        predicted = {"predicted": [_predicted(each) for each in entered.predicted]} if entered.predicted else {}
+        self._write([*lines, {"tick": entered.tick, **work, **predicted}])
+
+    def forecast(self, answer: Forecast) -> None:
+        """Write an answer of an anticipator after the line of its tick."""
+        self._write([{"tick": self._tick, "forecast": asdict(answer)}])
 
     def _write(self, lines: list[Mapping[str, object]]) -> None:
         if self._stream is None:
@@ -84,3 +99,15 @@ def _delivery(delivery: Delivery) -> Message:
         return {"request": delivery.request}
     place = {"line": failure.line, "column": failure.column}
     return {"request": delivery.request, "failure": {"code": failure.code, "details": failure.details, **place}}
+
+
+def _predicted(each: Predicted) -> Message:
+    match each:
+        case Prediction(anticipator, sync, time):
+            return {"anticipator": anticipator, "sync": sync, "time": time}
+        case Revocation(anticipator, sync):
+            return {"anticipator": anticipator, "revoked": sync}
+        case StreamFailure(anticipator, reason):
+            return {"anticipator": anticipator, "failed": reason}
+        case _:
+            assert_never(each)

@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Final, assert_never
 
@@ -11,10 +11,32 @@ from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.bml.faults import BadEncoding
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.errors import FAULTS, Fault, RealizerError
-from reactive_realizer.realizer.inputs import BmlText, Delivery, Event, Input, Prediction, TargetMoved, TickInputs
-from reactive_realizer.server.faults import BadMessage, BadRecording, LostInput, NotRecorded, TicksOutOfOrder
+from reactive_realizer.realizer.inputs import (
+    BmlText,
+    Delivery,
+    Event,
+    Forecast,
+    Input,
+    Predicted,
+    Prediction,
+    Revocation,
+    StreamFailure,
+    TargetMoved,
+    TickInputs,
+)
+from reactive_realizer.server.faults import (
+    BadMessage,
+    BadRecording,
+    LostInput,
+    NotRecorded,
+    OldRecording,
+    TicksOutOfOrder,
+)
 from reactive_realizer.server.protocol import Message, check, decode
 from reactive_realizer.server.schema import Schema, shown
+
+FORMAT: Final = 2
+"""Version of the format of recordings; since 2, they have what anticipators predicted."""
 
 
 def message_of(entry: Input) -> Message:
@@ -148,9 +170,11 @@ class _Reader:
             RealizerError: the line is invalid.
         """
         if not self.header:
-            self.header = _checked(line, "Header")
+            self.header = _header(line)
         elif isinstance(line, dict) and "input" in line:
             self._take_input(_checked(line, "Input"))
+        elif isinstance(line, dict) and "forecast" in line:
+            self._take_forecast(_checked(line, "Answer"))
         else:
             self._take_tick(_checked(line, "Tick"))
 
@@ -163,8 +187,16 @@ class _Reader:
 
     def _take_tick(self, line: Message) -> None:
         work = tuple(map(_delivery, line.get("work", ())))
-        self.ticks.append(TickInputs(self._later(line["tick"]), tuple(self._inputs), work))
+        predicted = tuple(map(_predicted, line.get("predicted", ())))
+        self.ticks.append(TickInputs(self._later(line["tick"]), tuple(self._inputs), work, predicted))
         self._inputs, self._tick = [], None
+
+    def _take_forecast(self, line: Message) -> None:
+        last = self.ticks[-1].tick if self.ticks else -1
+        if line["tick"] != last:
+            raise RealizerError(TicksOutOfOrder(tick=line["tick"], last=last))
+        answer = Forecast(**line["forecast"])
+        self.ticks[-1] = replace(self.ticks[-1], forecasts=(*self.ticks[-1].forecasts, answer))
 
     def _later(self, tick: int) -> int:
         """Check that a tick is after all complete ones, and equals that of the inputs read since; return it."""
@@ -172,6 +204,23 @@ class _Reader:
         if tick <= last or self._tick not in (None, tick):
             raise RealizerError(TicksOutOfOrder(tick=tick, last=last if self._tick is None else self._tick))
         return tick
+
+
+def _header(line: Any) -> Message:
+    recorded = line.get("recording") if isinstance(line, dict) else None
+    if isinstance(recorded, int) and 0 < recorded < FORMAT:
+        raise RealizerError(OldRecording(format=recorded, known=FORMAT, version=line.get("version", "unknown")))
+    return _checked(line, "Header")
+
+
+def _predicted(entry: Message) -> Predicted:
+    match entry:
+        case {"anticipator": anticipator, "sync": sync, "time": time}:
+            return Prediction(anticipator, sync, time)
+        case {"anticipator": anticipator, "revoked": sync}:
+            return Revocation(anticipator, sync)
+        case _:
+            return StreamFailure(entry["anticipator"], entry["failed"])
 
 
 def _checked(line: Any, kind: str) -> Message:

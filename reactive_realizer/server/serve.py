@@ -63,7 +63,8 @@ async def serve(options: ServerOptions) -> None:
         group = await stack.enter_async_context(asyncio.TaskGroup())
         live = LiveScene(scene, SystemClock(), options.performance)
         if record is not None:
-            live.realizer.record(Recorder(record, options.scene, live.clock.epoch))
+            recorder = Recorder(record, options.scene, live.clock.epoch)
+            live.realizer.record(recorder, recorder.forecast)
         ticking = group.create_task(live.run())
         try:
             await _serve_requests(live, security, listening)

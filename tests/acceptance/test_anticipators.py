@@ -7,6 +7,7 @@ from random import Random
 
 import pytest
 
+from anticipators.speech_stop import SpeechStop
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.bml.names import BMLA
 from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
@@ -354,14 +355,20 @@ async def test_of_a_thousand_contradictory_predictions_a_second_the_last_of_each
     assert pilot.feedback.status("b") == "DONE"
 
 
-async def test_an_anticipator_that_fails_is_removed_and_the_session_continues(
+async def test_an_anticipator_that_fails_is_reported_once_and_keeps_its_predictions(
     pilot: RealizerPilot, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
-    def fail(now: float) -> None:
-        raise ZeroDivisionError
-
-    monkeypatch.setattr(pilot.realizer.anticipators["user"], "advance", fail)
     pilot.block("b", NOD.format("metronome:tick1"))
+    pilot.block("c", NOD.format("user:stop"))
+    pilot.event("user", "words", text="I see.")
+    await until(pilot, 0.1)
+    monkeypatch.setattr(SpeechStop, "_words", lambda *_: 1 / 0)
+    for _ in range(3):
+        pilot.event("user", "words", text="I see you.")
+        await pilot.tick()
     await pilot.advance(3)
-    assert pilot.feedback.status("b") == "DONE"
-    assert "user is skipped" in caplog.text
+    assert [pilot.feedback.time(f"{block}:h:start") for block in "bc"] == pytest.approx([1.0, 0.19], abs=0.01)
+    (warning,) = pilot.feedback.of("warningFeedback")
+    assert (warning.id, warning.time) == ("anticipators:user", 0.1)
+    assert "'user' has failed and predicts nothing more: ZeroDivisionError" in warning.text
+    assert caplog.text.count("the anticipator 'user' has failed") == 2  # the failure, and the feedback

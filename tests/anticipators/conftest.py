@@ -1,17 +1,23 @@
 """Shared by the tests of anticipators: a harness, and rhythms like those of people."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from math import exp
 from random import Random
 
 import pytest
 
+from reactive_realizer.clock.tick_clock import TickClock
+from reactive_realizer.pegboard.anticipator import AnticipatorContext
 from reactive_realizer.testing.anticipator_harness import AnticipatorHarness
+
+CONTEXT = AnticipatorContext("it", TickClock())
+"""For anticipators whose streams do not run."""
 
 
 @pytest.fixture
-def stage() -> AnticipatorHarness:
-    return AnticipatorHarness()
+def stage() -> Iterator[AnticipatorHarness]:
+    with AnticipatorHarness() as stage:
+        yield stage
 
 
 def rhythm_of(interval: Callable[[int], float], beats: int, seed: int, noise: float = 0.015) -> list[float]:

@@ -7,11 +7,8 @@ from anticipators.exercise import Exercise
 from anticipators.metronome import Metronome
 from anticipators.spacebar import Spacebar
 from anticipators.speech_stop import SpeechStop
-from reactive_realizer.clock.units import GlobalTime
-from reactive_realizer.pegboard.anticipator import Anticipator
-from reactive_realizer.pegboard.pegboard import PegBoard
+from reactive_realizer.pegboard.anticipator import Anticipator, AnticipatorContext, AnticipatorEvent, Remote
 from reactive_realizer.testing.anticipator_contract import AnticipatorContract
-from reactive_realizer.testing.anticipator_harness import AnticipatorEvent
 
 
 class TestMetronome(AnticipatorContract):
@@ -31,8 +28,8 @@ class TestMetronome(AnticipatorContract):
         AnticipatorEvent("tempo"),
     )
 
-    def anticipator(self, id: str, board: PegBoard) -> Anticipator:  # noqa: A002
-        return Metronome(id, board)
+    def anticipator(self, context: AnticipatorContext) -> Anticipator:
+        return Metronome(context)
 
 
 class TestSpacebar(AnticipatorContract):
@@ -40,8 +37,8 @@ class TestSpacebar(AnticipatorContract):
     events = (AnticipatorEvent("press"), AnticipatorEvent("release"))
     refused = (AnticipatorEvent("press", text="Enter"),)
 
-    def anticipator(self, id: str, board: PegBoard) -> Anticipator:  # noqa: A002
-        return Spacebar(id, board)
+    def anticipator(self, context: AnticipatorContext) -> Anticipator:
+        return Spacebar(context)
 
 
 class TestSpeechStop(AnticipatorContract):
@@ -65,8 +62,8 @@ class TestSpeechStop(AnticipatorContract):
         AnticipatorEvent("words", 1.0),
     )
 
-    def anticipator(self, id: str, board: PegBoard) -> Anticipator:  # noqa: A002
-        return SpeechStop(id, board)
+    def anticipator(self, context: AnticipatorContext) -> Anticipator:
+        return SpeechStop(context)
 
 
 class TestExercise(AnticipatorContract):
@@ -86,26 +83,16 @@ class TestExercise(AnticipatorContract):
         AnticipatorEvent("sample", 1e7),
     )
 
-    def anticipator(self, id: str, board: PegBoard) -> Anticipator:  # noqa: A002
-        return Exercise(id, board, ("down", "up"))
+    def anticipator(self, context: AnticipatorContext) -> Anticipator:
+        return Exercise(context, ("down", "up"))
 
 
 class TestConducting(AnticipatorContract):
     points = ("beat1", "beat2", "beat3", "beat4", "beat9")
     events = (*[AnticipatorEvent("beat")] * 5, AnticipatorEvent("start"))
 
-    def anticipator(self, id: str, board: PegBoard) -> Anticipator:  # noqa: A002
-        return Conducting(id, board)
-
-
-class ToldByEvents(Anticipator):
-    """Takes predictions as events, because the contract sends events."""
-
-    events = ("hit",)
-
-    def event(self, name: str, value: float | None, now: GlobalTime) -> None:
-        if name == "hit":
-            self.predict(name, None if value is None else GlobalTime(value), now)
+    def anticipator(self, context: AnticipatorContext) -> Anticipator:
+        return Conducting(context)
 
 
 class TestRemote(AnticipatorContract):
@@ -118,5 +105,5 @@ class TestRemote(AnticipatorContract):
         AnticipatorEvent("hit"),
     )
 
-    def anticipator(self, id: str, board: PegBoard) -> Anticipator:  # noqa: A002
-        return ToldByEvents(id, board)
+    def anticipator(self, context: AnticipatorContext) -> Anticipator:
+        return Remote(context)

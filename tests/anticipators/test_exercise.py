@@ -9,12 +9,10 @@ from anticipators.exercise import Exercise
 from anticipators.peaks import Peaks
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.errors import RealizerError
-from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.pegboard.time_peg import AnticipatorPeg
-from reactive_realizer.reactive.graph import Graph
 from reactive_realizer.testing.anticipator_harness import AnticipatorHarness
 
-from .conftest import acceleration, rhythm_of
+from .conftest import CONTEXT, acceleration, rhythm_of
 
 
 def squats(repetitions: int, seed: int, drift: float = 0.0) -> list[float]:
@@ -76,7 +74,7 @@ def test_a_resting_user_makes_no_peak() -> None:
 @pytest.mark.parametrize("seed", range(3))
 def test_peaks_are_counted_and_the_next_ones_predicted(stage: AnticipatorHarness, seed: int) -> None:
     moments = rhythm_of(lambda n: 1.0, 10, seed, 0.02)
-    exercise = Exercise("trainer", stage.board)
+    exercise = stage.make("trainer", Exercise)
     move(stage, exercise, after(moments[:6], seed))
     assert [stage.time(exercise, str(n)) for n in range(7, 11)] == pytest.approx(moments[6:], abs=0.15)
     assert stage.time(exercise, "11") is None
@@ -89,17 +87,17 @@ def test_peaks_are_counted_and_the_next_ones_predicted(stage: AnticipatorHarness
 def test_named_peaks_have_intervals_of_their_own_and_follow_a_drifting_tempo(seed: int, drift: float) -> None:
     moments = squats(10, seed, drift)
     for known in range(6, 18):
-        stage = AnticipatorHarness()
-        exercise = Exercise("trainer", stage.board, ("down", "up"))
-        move(stage, exercise, after(moments[:known], seed))
-        first, second = ("down", "up") if known % 2 == 0 else ("up", "down")
-        assert stage.time(exercise, first) == pytest.approx(moments[known], abs=0.15)
-        assert stage.time(exercise, second) == pytest.approx(moments[known + 1], abs=0.2)
+        with AnticipatorHarness() as stage:
+            exercise = stage.make("trainer", Exercise, ("down", "up"))
+            move(stage, exercise, after(moments[:known], seed))
+            first, second = ("down", "up") if known % 2 == 0 else ("up", "down")
+            assert stage.time(exercise, first) == pytest.approx(moments[known], abs=0.15)
+            assert stage.time(exercise, second) == pytest.approx(moments[known + 1], abs=0.2)
 
 
 def test_a_name_means_the_next_peak_and_dependents_keep_theirs(stage: AnticipatorHarness) -> None:
     moments = squats(8, 1)
-    exercise = Exercise("trainer", stage.board, ("down", "up"))
+    exercise = stage.make("trainer", Exercise, ("down", "up"))
     held: list[AnticipatorPeg] = []
     for time, magnitude in acceleration(moments, moments[-1], 1):
         stage.event(time, exercise, "sample", magnitude)
@@ -114,7 +112,7 @@ def test_a_name_means_the_next_peak_and_dependents_keep_theirs(stage: Anticipato
 
 def test_predictions_stop_when_the_user_rests_and_resume_later(stage: AnticipatorHarness) -> None:
     moments = rhythm_of(lambda n: 1.0 if n != 6 else 20.0, 9, 2, 0.02)
-    exercise = Exercise("trainer", stage.board, ("jump",), ahead=3)
+    exercise = stage.make("trainer", Exercise, ("jump",), ahead=3)
     samples = after(moments, 2)
     resting = [(time, value) for time, value in samples if time < moments[5] + 4]
     move(stage, exercise, resting)
@@ -125,7 +123,7 @@ def test_predictions_stop_when_the_user_rests_and_resume_later(stage: Anticipato
 
 def test_a_start_begins_a_new_exercise(stage: AnticipatorHarness) -> None:
     moments = squats(4, 3)
-    exercise = Exercise("trainer", stage.board, ("down", "up"))
+    exercise = stage.make("trainer", Exercise, ("down", "up"))
     move(stage, exercise, after(moments[:5], 3))
     assert stage.time(exercise, "down") is not None
     stage.event(stage.now, exercise, "start")
@@ -138,18 +136,18 @@ def test_a_start_begins_a_new_exercise(stage: AnticipatorHarness) -> None:
 )
 def test_a_parameter_out_of_range_is_refused(wrong: dict[str, Any]) -> None:
     with pytest.raises(RealizerError, match=next(iter(wrong))):
-        Exercise("trainer", PegBoard(Graph()), **wrong)
+        Exercise(CONTEXT, **wrong)
 
 
 @pytest.mark.parametrize("names", [("3",), ("down", "down"), ("",), ("a b",), ("a:b",), ("a-1",), ("a" * 201,)])
 def test_invalid_and_repeated_names_are_refused(names: tuple[str, ...]) -> None:
     with pytest.raises(RealizerError, match="peak"):
-        Exercise("trainer", PegBoard(Graph()), names)
+        Exercise(CONTEXT, names)
 
 
 def test_a_high_sampling_rate_gives_the_same_peaks(stage: AnticipatorHarness) -> None:
     moments = rhythm_of(lambda n: 1.0, 6, 1, 0.0)
-    exercise = Exercise("trainer", stage.board)
+    exercise = stage.make("trainer", Exercise)
     for time, magnitude in after(moments, 1):
         move(stage, exercise, list(itertools.repeat((time, magnitude), 20)))
     assert stage.time(exercise, "7") == pytest.approx(7.0, abs=0.1)

@@ -11,9 +11,11 @@ from anticipators.speech_stop import SpeechStop
 from anticipators.turn_model import PauseModel, Turn, TurnModel
 from reactive_realizer.clock.units import GlobalTime, Time
 from reactive_realizer.errors import RealizerError
-from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.reactive.graph import Cell, Graph
+from reactive_realizer.pegboard.time_peg import OffsetPeg
+from reactive_realizer.reactive.graph import Cell
 from reactive_realizer.testing.anticipator_harness import AnticipatorHarness
+
+from .conftest import CONTEXT
 
 PLAIN, FINISHED, OPEN = "I live in a house", "I live in a house.", "I live in a house and"
 
@@ -23,7 +25,7 @@ class User:
 
     def __init__(self, stage: AnticipatorHarness, model: TurnModel | None = None) -> None:
         self.stage = stage
-        self.stop = SpeechStop("user", stage.board, model=model)
+        self.stop = stage.make("user", SpeechStop, model=model)
 
     def voice(self, now: float, value: float) -> float | None:
         self.stage.event(now, self.stop, "voice", value)
@@ -34,8 +36,8 @@ class User:
         return self.time
 
     def hang(self) -> Cell[Time]:
-        """The peg for a reference to the stop that is made now."""
-        return self.stage.board.predicted("user", "stop")
+        """The peg of a behavior that refers to the stop now."""
+        return OffsetPeg(self.stage.board.graph, "behavior", self.stage.board.predicted("user", "stop"), 0.0)
 
     @property
     def time(self) -> float | None:
@@ -93,16 +95,18 @@ def test_words_recognized_after_the_voice_refine_the_prediction(user: User) -> N
 def test_a_predicted_end_in_the_past_is_set_to_now(user: User) -> None:
     user.voice(1.0, 1.0)
     user.voice(3.0, 0.0)
-    assert user.words(3.5, FINISHED) == 3.5
+    stop = user.hang()
+    user.words(3.5, FINISHED)
+    assert stop.value == 3.5
 
 
-def test_an_end_predicted_in_the_past_can_be_withdrawn_like_any_other() -> None:
-    user = User(AnticipatorHarness())
+def test_an_end_predicted_in_the_past_can_be_withdrawn_like_any_other(user: User) -> None:
     user.words(1.0, OPEN)
     user.voice(1.0, 1.0)
     user.voice(3.0, 0.0)
     stop = user.hang()
-    assert user.words(4.5, FINISHED) == 4.5
+    user.words(4.5, FINISHED)
+    assert stop.value == 4.5
     user.voice(5.4, 0.0)
     assert stop.value == 4.5
     user.voice(5.45, 1.0)
@@ -218,4 +222,4 @@ def test_the_end_is_where_the_probability_reaches_the_certainty(words: str, cert
 )
 def test_a_parameter_out_of_range_is_refused(wrong: dict[str, Any]) -> None:
     with pytest.raises(RealizerError, match=next(iter(wrong))):
-        SpeechStop("user", PegBoard(Graph()), **wrong)
+        SpeechStop(CONTEXT, **wrong)

@@ -71,9 +71,13 @@ async def talk(http: aiohttp.ClientSession) -> list[tuple[float, str]]:
                     if part in said["xml"]:
                         return
 
+        keyed = '<head id="h" lexeme="NOD" start="anticipators:spacebar:press+0.1"/>'
+        beats = '<head id="i" lexeme="SHAKE" start="anticipators:metronome:tick4"/>'
+        await socket.send_json({"type": "bml", "xml": block("keyed", keyed) + block("beats", beats)})
         await socket.send_json({"type": "bml", "xml": block("one", SPEECH + BEAT)})
         await hear('"one:start"')
         await socket.send_json({"type": "event", "anticipator": "metronome", "event": "tempo", "value": 150})
+        await socket.send_json({"type": "event", "anticipator": "spacebar", "event": "press"})
         await socket.send_json({"type": "predict", "anticipator": "partner", "sync": "hit", "in": 2.0})
         await socket.send_json({"type": "world", "set": {"bluebox": [-1, 1.2, 1.5], "greensphere": None}})
         hit = block("hit", '<gesture id="g" lexeme="BEAT" stroke="anticipators:partner:hit"/>', composition="APPEND")

@@ -1,12 +1,16 @@
 """docs/anticipators.md: its examples behave as described, and its plug-ins are found and predict."""
 
+import asyncio
 import json
 from collections.abc import AsyncIterator
 from pathlib import Path
 
 import pytest
+from lxml import etree
 
 from reactive_realizer.assembly.scene import DEFAULT_HUMAN, SceneOptions
+from reactive_realizer.realizer.inputs import TickInputs
+from reactive_realizer.realizer.session import replay
 from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 from .conftest import EXAMPLES, Fence, fences
@@ -53,11 +57,47 @@ async def test_a_custom_turn_model_replaces_the_built_in_one(tmp_path: Path) -> 
         assert pilot.feedback.time("b:nod:start") == pytest.approx(4.3)
 
 
+@pytest.mark.usefixtures("installed")
+async def test_an_anticipator_that_is_fed_by_a_socket_predicts_and_is_recorded_with_its_end(tmp_path: Path) -> None:
+    connected: asyncio.Queue[asyncio.StreamWriter] = asyncio.Queue()
+    server = await asyncio.start_server(lambda _, writer: connected.put(writer), "127.0.0.1", 0)
+    human = tmp_path / "human.toml"
+    port = server.sockets[0].getsockname()[1]
+    human.write_text(f'[character.alice]\n[anticipator.sound]\nkind = "detector"\nport = {port}\n', encoding="utf-8")
+    session: list[TickInputs] = []
+
+    async def hear(line: str) -> None:
+        """Send a line, and wait until it has arrived."""
+        detector.write(line.encode())
+        await asyncio.sleep(0.05)
+
+    async with open_pilot(SceneOptions(human, "text")) as pilot:
+        pilot.realizer.record(session.append)
+        pilot.block("b", '<head id="nod" lexeme="NOD" stroke="anticipators:sound:clap"/>')
+        await pilot.tick()
+        detector = await connected.get()
+        await hear("1.5\n")
+        await pilot.advance(0.5)
+        await hear("1.2\n")
+        await pilot.advance(0.1)
+        await hear("soon\n")
+        await pilot.advance(3)
+        told = [(line.time, etree.tostring(line.element)) for line in pilot.feedback.messages]
+        assert pilot.feedback.time("b:nod:stroke") == pytest.approx(1.7)
+        assert "ValueError: could not convert string to float" in pilot.feedback.of("warningFeedback")[0].text
+    detector.close()
+    server.close()
+    async with open_pilot(SceneOptions(human, "text")) as again:
+        await replay(again.realizer, session)
+        assert [(line.time, etree.tostring(line.element)) for line in again.feedback.messages] == told
+
+
 def test_the_page_shows_the_files_of_the_example() -> None:
-    simple, replaced = fences("docs/anticipators.md", "python")
+    simple, fed, replaced = [fence for fence in fences("docs/anticipators.md", "python") if not fence.note]
     block = plug_in("xml")
     entry_points, human = plug_in("toml")
     assert simple.text == (PLUGIN / "turn_end.py").read_text(encoding="utf-8")
+    assert fed.text == (PLUGIN / "detector.py").read_text(encoding="utf-8")
     assert replaced.text == (PLUGIN / "patient_stop.py").read_text(encoding="utf-8")
     assert block[0].text == (PLUGIN / "reply.xml").read_text(encoding="utf-8")
     assert entry_points.text in (PLUGIN / "pyproject.toml").read_text(encoding="utf-8")

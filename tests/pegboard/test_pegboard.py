@@ -2,14 +2,14 @@
 
 import gc
 import json
-import math
 
 import pytest
 
+from reactive_realizer.clock.tick_clock import TickClock
 from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.errors import RealizerError
-from reactive_realizer.pegboard.anticipator import Anticipator
+from reactive_realizer.pegboard.anticipator import Anticipator, AnticipatorContext, Counted, Predictions, Remote
 from reactive_realizer.pegboard.peg_key import BlockKey, PegKey
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.pegboard.time_peg import (
@@ -34,15 +34,26 @@ def board() -> PegBoard:
 
 class Clockwork(Anticipator):
     kind = "clockwork"
+    points = (Counted("tick"),)
 
-    def forecast(self, sync: str) -> GlobalTime | None:
-        return GlobalTime(7.0) if sync == "seven" else None
+    async def predictions(self) -> Predictions:
+        for tick in self.named:
+            yield tick, self.forecast(tick)
+
+    def forecast(self, point: str) -> GlobalTime | None:
+        return GlobalTime(7.0) if point == "tick7" else None
 
 
-def predict(anticipator: Anticipator, sync: str, time: float | None, now: float = 0.0) -> float | None:
-    with anticipator._board.graph.transaction("predict"):
-        anticipator.predict(sync, None if time is None else GlobalTime(time), GlobalTime(now))
-    return anticipator._board.predicted(anticipator.id, sync).value
+@pytest.fixture
+def clock(board: PegBoard) -> Clockwork:
+    clock = Clockwork(AnticipatorContext("clock", TickClock()))
+    board.anticipators["clock"] = clock
+    return clock
+
+
+def predict(board: PegBoard, anticipator: str, sync: str, time: float | None) -> None:
+    with board.graph.transaction("predict"):
+        board.predicted(anticipator, sync).set(None if time is None else GlobalTime(time))
 
 
 def hang(board: PegBoard, sync: str, peg: AnticipatorPeg) -> OffsetPeg:
@@ -56,18 +67,18 @@ def test_a_key_is_written_as_block_behavior_and_sync_point() -> None:
     assert str(PegKey("alice", "b", None, "start")) == "b:start"
 
 
-def test_an_anticipator_is_asked_for_a_point_that_is_named_for_the_first_time(board: PegBoard) -> None:
-    Clockwork("clock", board)
-    assert board.predicted("clock", "seven").value == 7.0
-    assert board.predicted("clock", "eight").value is None
-    assert board.predicted("nobody", "seven").value is None
-    assert set(board.predictions("clock")) == {"seven", "eight"}
+@pytest.mark.usefixtures("clock")
+def test_an_anticipator_is_asked_for_a_counted_point_that_is_named_for_the_first_time(board: PegBoard) -> None:
+    assert board.predicted("clock", "tick7").value == 7.0
+    assert board.predicted("clock", "tick8").value is None
+    assert board.predicted("nobody", "tick7").value is None
+    assert set(board.predictions("clock")) == {"tick7", "tick8"}
 
 
-def test_an_anticipator_with_its_own_predictions_accepts_none_from_outside(board: PegBoard) -> None:
-    Anticipator("partner", board).check_prediction()
+def test_an_anticipator_with_its_own_predictions_accepts_none_from_outside(clock: Clockwork) -> None:
+    Remote(AnticipatorContext("partner", TickClock())).check_prediction()
     with pytest.raises(RealizerError, match="'clock' is a clockwork: it makes its own predictions"):
-        Clockwork("clock", board).check_prediction()
+        clock.check_prediction()
 
 
 def test_one_point_has_one_peg(board: PegBoard) -> None:
@@ -149,17 +160,16 @@ def test_a_pinned_block_has_no_dependencies_and_reports_the_pegs_that_had(board:
     assert hit.dependents == {}
 
 
+@pytest.mark.usefixtures("clock")
 def test_a_removed_block_leaves_nothing_that_can_be_predicted_again(board: PegBoard) -> None:
-    Clockwork("clock", board)
-    told = Anticipator("told", board)
-    predict(told, "hit", 3.0)
-    for peg in (board.predicted("clock", "seven"), board.predicted("told", "other"), board.predicted("told", "hit")):
+    predict(board, "told", "hit", 3.0)
+    for peg in (board.predicted("clock", "tick7"), board.predicted("told", "other"), board.predicted("told", "hit")):
         hang(board, "start", peg)
         with board.graph.transaction("test"):
             board.pin_block(BLOCK)
     board.remove_block(BLOCK)
     assert [str(view.key) for view in board.snapshot()] == ["anticipators:told:hit"]
-    assert board.predicted("clock", "seven").value == 7.0
+    assert board.predicted("clock", "tick7").value == 7.0
 
 
 def test_a_predicted_point_with_dependents_stays(board: PegBoard) -> None:
@@ -179,8 +189,7 @@ def test_a_peg_that_is_named_in_two_blocks_belongs_to_the_first(board: PegBoard)
 
 
 def test_a_thousand_blocks_leave_nothing_behind(board: PegBoard) -> None:
-    told = Anticipator("told", board)
-    predict(told, "hit", 1.0)
+    predict(board, "told", "hit", 1.0)
     hit = board.predicted("told", "hit")
     previous: TimeCell = hit
 
@@ -192,7 +201,7 @@ def test_a_thousand_blocks_leave_nothing_behind(board: PegBoard) -> None:
             end = LatestPeg(board.graph, "end", GlobalTime(0.0), pegs)
             for i, peg in enumerate((start, *pegs, end)):
                 board.add(PegKey(*key, "h", str(i)), peg)
-        predict(told, "hit", 1.0 + number)
+        predict(board, "told", "hit", 1.0 + number)
         if number % 2:
             with board.graph.transaction("end"):
                 board.pin_block(key)
@@ -207,33 +216,3 @@ def test_a_thousand_blocks_leave_nothing_behind(board: PegBoard) -> None:
     assert hit.dependents == {}
     assert [str(view.key) for view in board.snapshot()] == ["anticipators:told:hit"]
     assert (len(board._blocks), list(board._owners)) == (1, [hit])
-
-
-def test_a_prediction_moves_a_point_until_it_has_passed(board: PegBoard) -> None:
-    told = Anticipator("told", board)
-    assert predict(told, "hit", 3.0) == 3.0
-    assert predict(told, "hit", 2.0, now=1.0) == 2.0
-    assert predict(told, "hit", 1.0, now=2.5) == 2.0, "it has passed and keeps its time"
-    assert predict(told, "hit", 4.0, now=2.5) == 4.0, "it is to happen again"
-
-
-def test_a_late_prediction_is_set_to_now(board: PegBoard) -> None:
-    told = Anticipator("told", board)
-    assert predict(told, "hit", 1.0, now=2.0) == 2.0
-    assert predict(told, "other", 5.0, now=2.0) == 5.0
-    assert predict(told, "other", 1.0, now=3.0) == 3.0
-
-
-def test_a_prediction_can_be_withdrawn(board: PegBoard) -> None:
-    told = Anticipator("told", board)
-    predict(told, "hit", 3.0)
-    assert predict(told, "hit", None) is None
-
-
-@pytest.mark.parametrize("time", [math.nan, math.inf, -math.inf])
-def test_a_time_that_is_not_finite_is_refused(board: PegBoard, time: float) -> None:
-    told = Anticipator("told", board)
-    predict(told, "hit", 3.0)
-    with pytest.raises(RealizerError, match="not a finite number"):
-        predict(told, "hit", time)
-    assert board.predicted("told", "hit").value == 3.0

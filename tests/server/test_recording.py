@@ -15,7 +15,19 @@ from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.engines.speech.espeak_voice import VoiceFailed
 from reactive_realizer.errors import RealizerError
-from reactive_realizer.realizer.inputs import BmlText, Delivery, Event, Input, Prediction, TargetMoved, TickInputs
+from reactive_realizer.realizer.inputs import (
+    BmlText,
+    Delivery,
+    Event,
+    Forecast,
+    Input,
+    Predicted,
+    Prediction,
+    Revocation,
+    StreamFailure,
+    TargetMoved,
+    TickInputs,
+)
 from reactive_realizer.server import recording as room
 from reactive_realizer.server.recorder import Recorder
 from reactive_realizer.server.recording import Recording, read_recording
@@ -32,9 +44,16 @@ INPUTS: list[Input] = [
     TargetMoved("bluebox", (0.1, 1.0, -2.5)),
     TargetMoved("bluebox", None),
 ]
+PREDICTED = (
+    Prediction("user", "stop", GlobalTime(1.3)),
+    Prediction("user", "stop", None),
+    Revocation("user", "stop"),
+    StreamFailure("user", "ZeroDivisionError: ü"),
+)
+FORECASTS = (Forecast("metronome", "tick1", GlobalTime(1.0)), Forecast("orchestra", "beat1", None))
 SESSION = [
     TickInputs(0, tuple(INPUTS)),
-    TickInputs(1),
+    TickInputs(1, (), (), PREDICTED, FORECASTS),
     TickInputs(7, (), (Delivery(2), Delivery(1, VoiceFailed(reason="killed", line=3, column=4)))),
     TickInputs(9, (Event("metronome", "start"),)),
 ]
@@ -45,6 +64,8 @@ def recorded(session: list[TickInputs], options: SceneOptions | None = None) -> 
     recorder = Recorder(stream, options or SceneOptions(), 1234.5)
     for entered in session:
         recorder(entered)
+        for forecast in entered.forecasts:
+            recorder.forecast(forecast)
     return stream.getvalue()
 
 
@@ -72,6 +93,10 @@ def test_the_examples_cover_every_field_of_every_kind_of_input() -> None:
         assert any(all(getattr(entry, name) is not None for name in said) for entry in own)
 
 
+def test_the_examples_cover_every_kind_of_prediction() -> None:
+    assert {type(each) for each in PREDICTED} == set(get_args(Predicted))
+
+
 def test_every_option_of_a_scene_is_read_as_it_was(read: Callable[[str | bytes], Recording], tmp_path: Path) -> None:
     options = SceneOptions(DEFAULT_HUMAN, "text", (tmp_path,), 7)
     again = read(recorded([], options)).options(tmp_path)
@@ -90,7 +115,7 @@ def test_an_input_precedes_its_tick_with_its_number_and_time() -> None:
 def test_every_line_satisfies_the_schema() -> None:
     schema = json.loads(Path(room.__file__).with_name("recording.json").read_text("utf-8"))
     for number, line in enumerate(map(json.loads, recorded(SESSION).splitlines())):
-        kind = "Header" if number == 0 else "Input" if "input" in line else "Tick"
+        kind = "Header" if number == 0 else "Input" if "input" in line else "Answer" if "forecast" in line else "Tick"
         Draft202012Validator({"$ref": f"#/$defs/{kind}", "$defs": schema["$defs"]}).validate(line)
 
 
@@ -109,6 +134,7 @@ def test_all_complete_ticks_of_a_truncated_file_are_read(read: Callable[[str | b
 
 GOOD = recorded(SESSION).splitlines()
 EVENT = '{"seq": 12, "tick": 10, "time": 0.1, "input": {"type": "event", "anticipator": "a", "event": "e"}}'
+FORECAST = '{"tick": 9, "forecast": {"anticipator": "m", "sync": "tick1", "time": null}}'
 
 
 @pytest.mark.parametrize(
@@ -117,7 +143,8 @@ EVENT = '{"seq": 12, "tick": 10, "time": 0.1, "input": {"type": "event", "antici
         ([], 1, "not valid JSON"),
         (["<bml/>"], 1, "not valid JSON"),
         (["{}"], 1, "required"),
-        ([GOOD[0].replace('"recording": 1', '"recording": 2')], 1, "recording: 2"),
+        ([GOOD[0].replace('"recording": 2', '"recording": 3')], 1, "recording: 3"),
+        ([GOOD[0].replace('"recording": 2', '"recording": 1')], 1, "this version reads format 2; replay it with"),
         ([GOOD[0].replace('"seed"', '"sead"')], 1, "scene"),
         ([GOOD[0], "[]"], 2, "Tick: []"),
         ([GOOD[0], '{"tick": -1}'], 2, "minimum 0"),
@@ -125,6 +152,10 @@ EVENT = '{"seq": 12, "tick": 10, "time": 0.1, "input": {"type": "event", "antici
         ([GOOD[0], EVENT.replace("12", "2")], 2, "input 2 follows where input 1"),
         ([*GOOD, EVENT.replace("10", "9")], len(GOOD) + 1, "tick 9 follows tick 9"),
         ([*GOOD, EVENT, '{"tick": 11}'], len(GOOD) + 2, "tick 11 follows tick 10"),
+        ([GOOD[0], FORECAST], 2, "tick 9 follows tick -1"),
+        ([*GOOD, FORECAST.replace("9", "8")], len(GOOD) + 1, "tick 8 follows tick 9"),
+        ([*GOOD, FORECAST.replace("null", "true")], len(GOOD) + 1, "forecast.time: true"),
+        ([*GOOD, '{"tick": 11, "predicted": [{"anticipator": "a"}]}'], len(GOOD) + 1, "predicted.0"),
         ([*GOOD, EVENT.replace("event", "ping")], len(GOOD) + 1, "ping"),
         ([*GOOD, EVENT.replace('"event": "e"', '"event": 4')], len(GOOD) + 1, "event: 4"),
         ([*GOOD, '{"tick": 11, "work": [{"request": 0}]}'], len(GOOD) + 1, "work.0.request"),

@@ -5,12 +5,9 @@ from itertools import count
 
 import pytest
 
-from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.errors import NotANumber, RealizerError
-from reactive_realizer.pegboard.anticipator import Anticipator
-from reactive_realizer.pegboard.pegboard import PegBoard
+from reactive_realizer.pegboard.anticipator import Anticipator, AnticipatorContext, AnticipatorEvent, Predictions
 from reactive_realizer.testing.anticipator_contract import AnticipatorContract
-from reactive_realizer.testing.anticipator_harness import AnticipatorEvent
 
 from .conftest import broken
 
@@ -20,50 +17,54 @@ class Clock(Anticipator):
 
     kind = "clock"
     events = ("throw",)
+    points: tuple[str, ...] = ("hit",)
 
-    def event(self, name: str, value: float | None, now: GlobalTime) -> None:
-        if name == "throw":
-            self.predict("hit", GlobalTime(now + 1.0), now)
+    async def predictions(self) -> Predictions:
+        async for event in self.inputs:
+            yield "hit", event.time + 1.0
 
 
-class Late(Clock):
-    """Sets a time in the past, without the base class."""
+class Undeclared(Clock):
+    """Predicts a point that it does not declare."""
 
-    def event(self, name: str, value: float | None, now: GlobalTime) -> None:
-        if name == "throw":
-            self._board.predicted(self.id, "hit").set(GlobalTime(now - 0.1))
+    points = ("miss",)
+
+
+class Crashing(Clock):
+    """Fails at the second throw."""
+
+    async def predictions(self) -> Predictions:
+        for left in (1, 0):
+            event = await self.next_input()
+            assert event is not None
+            yield "hit", event.time + 1.0 / left
 
 
 class Magic(Clock):
-    """Uses a number for an unknown time."""
+    """Uses infinity for an unknown time."""
 
-    def forecast(self, sync: str) -> GlobalTime | None:
-        return GlobalTime(-1.0)
-
-    def event(self, name: str, value: float | None, now: GlobalTime) -> None:
-        self.predict("hit", None, now)
-
-
-class Intruder(Clock):
-    """Writes points of another anticipator."""
-
-    def event(self, name: str, value: float | None, now: GlobalTime) -> None:
-        self._board.predicted("other", "hit").set(GlobalTime(now + 1.0))
+    async def predictions(self) -> Predictions:
+        async for _ in self.inputs:
+            yield "hit", float("inf")
 
 
 class Trembling(Clock):
     """Changes its prediction without a new event."""
 
-    def event(self, name: str, value: float | None, now: GlobalTime) -> None:
-        self.calls = getattr(self, "calls", 0) + 1
-        self.predict("hit", GlobalTime(now + 1.0 + self.calls / 1e6), now)
+    async def predictions(self) -> Predictions:
+        calls = 0
+        async for event in self.inputs:
+            calls += 1
+            yield "hit", event.time + 1.0 + calls / 1e6
 
 
 class Restless(Clock):
     """Predicts without an event."""
 
-    def advance(self, now: GlobalTime) -> None:
-        self.predict("hit", GlobalTime(now + 1.0), now)
+    async def predictions(self) -> Predictions:
+        while True:
+            await self.clock.sleep(0.5)
+            yield "hit", self.clock.now() + 1.0
 
 
 class Excitable(Clock):
@@ -82,21 +83,25 @@ class Resentful(Clock):
 
     patience = 1.0
 
+    async def predictions(self) -> Predictions:
+        async for event in self.inputs:
+            yield "hit", event.time + self.patience
+
     def check(self, name: str, value: float | None) -> None:
         super().check(name, value)
         if value is not None and value < 0:
             self.patience = 2.0
             raise RealizerError(NotANumber())
 
-    def event(self, name: str, value: float | None, now: GlobalTime) -> None:
-        self.predict("hit", GlobalTime(now + self.patience), now)
-
 
 class Littering(Clock):
     """Makes a point for each event."""
 
-    def event(self, name: str, value: float | None, now: GlobalTime) -> None:
-        self.predict(f"hit{now}", GlobalTime(now + 1.0), now)
+    points = ()
+
+    async def predictions(self) -> Predictions:
+        async for event in self.inputs:
+            yield f"hit{event.time}", event.time + 1.0
 
 
 class Gullible(Clock):
@@ -106,11 +111,18 @@ class Gullible(Clock):
         pass
 
 
+class Permissive(Clock):
+    """Has every point."""
+
+    def check_point(self, point: str, reference: str) -> None:
+        pass
+
+
 class Demanding(Clock):
     """Has an option without a default."""
 
-    def __init__(self, id: str, board: PegBoard, word: str) -> None:  # noqa: A002
-        super().__init__(id, board)
+    def __init__(self, context: AnticipatorContext, word: str) -> None:
+        super().__init__(context)
 
 
 class Chancy(Clock):
@@ -118,8 +130,9 @@ class Chancy(Clock):
 
     chances = count()
 
-    def event(self, name: str, value: float | None, now: GlobalTime) -> None:
-        self.predict("hit", GlobalTime(now + 1.0 + next(self.chances) / 1e6), now)
+    async def predictions(self) -> Predictions:
+        async for event in self.inputs:
+            yield "hit", event.time + 1.0 + next(self.chances) / 1e6
 
 
 def anticipator_contract(kind: Callable[..., Clock]) -> type[AnticipatorContract]:
@@ -128,8 +141,8 @@ def anticipator_contract(kind: Callable[..., Clock]) -> type[AnticipatorContract
         events = (AnticipatorEvent("throw"), AnticipatorEvent("throw", 1.0))
         refused = (AnticipatorEvent("throw", -1.0),)
 
-        def anticipator(self, id: str, board: PegBoard) -> Clock:  # noqa: A002
-            return kind(id, board, "word") if kind is Demanding else kind(id, board)
+        def anticipator(self, context: AnticipatorContext) -> Clock:
+            return kind(context, "word") if kind is Demanding else kind(context)
 
     return Contract
 
@@ -137,9 +150,9 @@ def anticipator_contract(kind: Callable[..., Clock]) -> type[AnticipatorContract
 @pytest.mark.parametrize(
     ("kind", "test"),
     [
-        (Late, "test_no_point_is_set_before_now_and_an_unknown_time_is_none"),
-        (Magic, "test_a_point_with_an_unknown_name_has_no_time"),
-        (Intruder, "test_it_writes_only_its_own_points"),
+        (Undeclared, "test_its_stream_goes_on_and_predicts_only_its_own_points"),
+        (Crashing, "test_its_stream_goes_on_and_predicts_only_its_own_points"),
+        (Magic, "test_its_stream_goes_on_and_predicts_only_its_own_points"),
         (Trembling, "test_the_same_event_twice_at_one_time_moves_nothing_the_second_time"),
         (Restless, "test_without_events_nothing_changes"),
         (Resentful, "test_a_refused_event_has_a_reason_and_no_effect"),
@@ -158,6 +171,7 @@ def test_an_anticipator_that_breaks_its_contract_is_found(kind: type[Clock], tes
         (Lenient, "test_a_refused_event_has_a_reason_and_no_effect"),
         (Excitable, "test_unknown_events_are_refused"),
         (Gullible, "test_only_a_remote_anticipator_takes_predictions_of_others"),
+        (Permissive, "test_a_point_with_an_unknown_name_is_refused_unless_none_is_declared"),
     ],
 )
 def test_an_anticipator_that_refuses_nothing_is_found(kind: type[Clock], test: str) -> None:
