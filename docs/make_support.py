@@ -67,6 +67,7 @@ _NOTES = {
     "transition class": "SlerpTransition, HermiteTransition",
     "parameter of any behavior name": "of [the motion that plays it](binding.md#kinds-of-motion)",
     "pose of a posture lexeme": "a lexeme of `pose` (see below), or of [your own file](human.md#postures)",
+    "emit event": "its content, of any kind, is for planners",
     "wait duration": "never stretched",
     "wait max-wait": "the duration without other constraints, and the maximum duration",
 }
@@ -127,7 +128,7 @@ _AROUND = """\
 `http://hmi.ewi.utwente.nl/bmlt`. The motion of such an element, or of a `gesture` or `head`, can have additional sync
 points, such as the beats of a conducting pattern. Constraints and the attributes of BMLT elements can name these.
 
-`activate`, `interrupt` and `parametervaluechange` are in the namespace `http://www.asap-project.org/bmla` or
+`activate`, `interrupt`, `parametervaluechange` and `emit` are in the namespace `http://www.asap-project.org/bmla` or
 `http://hmi.ewi.utwente.nl/bmlt`; so are the block attributes above, `defineproc` and `useproc`. Their `id` is optional;
 the default is the first free one, such as `activate1`.
 """

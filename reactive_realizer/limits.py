@@ -21,6 +21,8 @@ class Limits:
     """Defined procedures; a redefinition does not count again."""
     utterance_characters: int = 5_000
     """Length of the text of a speech."""
+    event_characters: int = 5_000
+    """Length of the content of an emitted event, as XML."""
     clients: int = 100
     """Open sockets and feedback streams."""
     messages_per_second: int = 500

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import ClassVar, Final
 
-from reactive_realizer.bml.faults import NotAnId, NotWhole, OutOfRange, UnknownWord
+from reactive_realizer.bml.faults import NotAnEvent, NotAnId, NotWhole, OutOfRange, UnknownWord
 from reactive_realizer.bml.names import BLOCK
 from reactive_realizer.bml.sync_ref import NUMBER
 from reactive_realizer.bml.vocabulary import Composition
@@ -16,6 +16,7 @@ from reactive_realizer.limits import Limits
 
 _SIGNED_NUMBER: Final = re.compile(rf"[+-]?{NUMBER}")
 _ID: Final = re.compile(r"[^\s:+]{1,200}")
+_OFFSET: Final = re.compile(rf"-{NUMBER}$")
 _AFTER: Final = re.compile(r"\s*(APPEND|CHUNK)[-_]?AFTER\s*\((.*)\)\s*", re.IGNORECASE | re.DOTALL)
 
 
@@ -48,6 +49,20 @@ class Id:
         name = text.strip()
         if name == BLOCK or not _ID.fullmatch(name):
             raise RealizerError(NotAnId())
+        return name
+
+
+@dataclass(frozen=True, slots=True)
+class EventName:
+    """The name of an event, which a sync reference can name: an id that does not end like an offset."""
+
+    description: ClassVar[str] = "name of an event"
+
+    def read(self, text: str, limits: Limits) -> str:
+        """The name, without the white space around it."""
+        name = text.strip()
+        if not _ID.fullmatch(name) or _OFFSET.search(name):
+            raise RealizerError(NotAnEvent())
         return name
 
 

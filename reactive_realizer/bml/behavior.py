@@ -57,6 +57,8 @@ class Behavior:
     SYNC_POINTS: ClassVar[SyncPoints] = ()
     OPEN_POINTS: ClassVar[bool] = False
     """Whether an engine may define further sync points; planning then checks references to them."""
+    ANY_CONTENT: ClassVar[bool] = False
+    """Whether its element may contain anything; then it has no descriptions and no parameters."""
 
     id: str = field(metadata=attribute(Id()))
     namespace: str

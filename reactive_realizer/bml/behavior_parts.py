@@ -11,7 +11,7 @@ from reactive_realizer.bml.behaviors import Face, Mark, Pose, Posture, Speech, S
 from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.elements import ELEMENTS
 from reactive_realizer.bml.extensions import BehaviorParameter, Keyframe, ParameterValueChange, Trajectory
-from reactive_realizer.bml.faults import DuplicateId, MissingElement, RepeatedElement, UtteranceTooLong
+from reactive_realizer.bml.faults import DuplicateId, EventTooLong, MissingElement, RepeatedElement, UtteranceTooLong
 from reactive_realizer.bml.trees import PARAMETER, Tree, children_of, is_core, name_of
 from reactive_realizer.bml.vocabulary import PosePart
 from reactive_realizer.errors import Fault, RealizerError
@@ -92,6 +92,18 @@ def read_interpolator(tree: Tree, source: BlockSource, notes: list[Fault]) -> di
     if len(written) > 1:
         raise _repeated(written[1], name_of(written[1]), tree, source)
     return {"interpolator": source.xml(written[0]) if written else None}
+
+
+def read_event(tree: Tree, source: BlockSource, notes: list[Fault]) -> dict[str, Any]:
+    """The content of an emitted event.
+
+    Raises:
+        RealizerError: it is too long.
+    """
+    content, limit = source.content(tree), source.limits.event_characters
+    if len(content) > limit:
+        raise RealizerError(source.located(tree, EventTooLong(limit=limit)))
+    return {"content": content}
 
 
 def read_parameters(tree: Tree, source: BlockSource, notes: list[Fault]) -> Mapping[str, str]:

@@ -7,6 +7,7 @@ from typing import Any, Final
 from reactive_realizer.bml.attributes import attributes_of
 from reactive_realizer.bml.behavior import Behavior, Description, ForeignBehavior
 from reactive_realizer.bml.behavior_parts import (
+    read_event,
     read_face,
     read_interpolator,
     read_parameters,
@@ -18,7 +19,7 @@ from reactive_realizer.bml.behaviors import Face, FaceShift, Posture, PostureShi
 from reactive_realizer.bml.block import PROCEDURES
 from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.elements import ELEMENTS, Element
-from reactive_realizer.bml.extensions import Keyframe, ParameterValueChange
+from reactive_realizer.bml.extensions import Emit, Keyframe, ParameterValueChange
 from reactive_realizer.bml.faults import ProcedureInBlock, UnknownBehavior
 from reactive_realizer.bml.trees import (
     PARAMETER,
@@ -44,6 +45,7 @@ _READ_PARTS: Final[Mapping[type[Behavior], Callable[[Tree, BlockSource, list[Fau
     PostureShift: read_posture,
     ParameterValueChange: read_trajectory,
     Keyframe: read_interpolator,
+    Emit: read_event,
 }
 
 
@@ -80,13 +82,13 @@ def _known(tree: Tree, element: Element, source: BlockSource, place: dict[str, A
     values["namespace"] = namespace = namespace_of(tree) if element.continuous else element.namespace
     points = [*element.behavior.sync_attributes(values), *_own_points(tree, element, source)]
     names = [*element.names, *points]
-    notes += source.unknown_core_content(tree, names, [*element.children, _DESCRIPTION, PARAMETER])
-    return element.behavior(
-        **values,
-        syncs=element.behavior.complete_syncs(source.syncs(tree, points), namespace),
-        parameters=read_parameters(tree, source, notes),
-        descriptions=_descriptions(tree, source, notes),
-    )
+    if element.behavior.ANY_CONTENT:
+        notes += source.unknown_attributes(tree, names)
+    else:
+        notes += source.unknown_core_content(tree, names, [*element.children, _DESCRIPTION, PARAMETER])
+        values["parameters"] = read_parameters(tree, source, notes)
+        values["descriptions"] = _descriptions(tree, source, notes)
+    return element.behavior(**values, syncs=element.behavior.complete_syncs(source.syncs(tree, points), namespace))
 
 
 def _own_points(tree: Tree, element: Element, source: BlockSource) -> list[str]:

@@ -25,6 +25,7 @@ from reactive_realizer.bml.behaviors import (
 )
 from reactive_realizer.bml.extensions import (
     Activate,
+    Emit,
     Interrupt,
     Keyframe,
     Noise,
@@ -109,6 +110,7 @@ _BEHAVIORS = (
     Activate,
     Interrupt,
     ParameterValueChange,
+    Emit,
     ProcAnimation,
     ProcAnimationGesture,
     Keyframe,

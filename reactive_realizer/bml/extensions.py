@@ -1,8 +1,9 @@
 """The behaviors that BMLA and BMLT add to BML 1.0.
 
 Those of continuous interaction act on other blocks and behaviors (thesis 6.6 and app. C); BMLA and BMLT write them
-alike. Those of BMLT alone play motion as it was made: animations, captures, noise, transitions (app. C). Beside their
-start and end, these may have sync points that only their file defines, such as the beats of a conducting pattern.
+alike. `Emit` is an addition of this realizer. Those of BMLT alone play motion as it was made: animations, captures,
+noise, transitions (app. C). Beside their start and end, these may have sync points that only their file defines, such
+as the beats of a conducting pattern.
 """
 
 from collections.abc import Mapping
@@ -10,7 +11,7 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import ClassVar, Final
 
-from reactive_realizer.bml.attribute_types import BehaviorId, Enumeration, Float, Id, IdList, Text
+from reactive_realizer.bml.attribute_types import BehaviorId, Enumeration, EventName, Float, Id, IdList, Text
 from reactive_realizer.bml.attributes import attribute
 from reactive_realizer.bml.behavior import Behavior, SyncPoints
 from reactive_realizer.bml.names import BMLA, BMLT
@@ -55,6 +56,23 @@ class Interrupt(Behavior):
     include: tuple[str, ...] = field(default=(), metadata=attribute(IdList()))
     exclude: tuple[str, ...] = field(default=(), metadata=attribute(IdList()))
     speech: InterruptSpeech = field(default=InterruptSpeech.NOW, metadata=attribute(Enumeration(InterruptSpeech)))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Emit(Behavior):
+    """Emits an event to planners and to other behaviors (thesis 6.2.2, where its syntax is left open).
+
+    Attributes:
+        event: name of the event.
+        content: for planners: the content of the element, as XML.
+    """
+
+    NAMESPACE = BMLA
+    SYNC_POINTS = _START_AND_END
+    ANY_CONTENT = True
+
+    event: str = field(metadata=attribute(EventName()))
+    content: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

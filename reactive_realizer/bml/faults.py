@@ -168,6 +168,16 @@ class UnknownWord(Fault):
     known: str
 
 
+class NotAnEvent(Fault):
+    """A value that is not the name of an event."""
+
+    code = "not-an-event"
+    template = (
+        "not the name of an event: it has at most 200 characters, no white space, ':' or '+', and does not end in '-' "
+        "and a number"
+    )
+
+
 class NotAReference(Fault):
     """A value that is not a sync reference."""
 
@@ -247,6 +257,14 @@ class UtteranceTooLong(ParsingFault):
 
     code = "utterance-too-long"
     template = "the text has more than {limit} characters"
+    limit: int
+
+
+class EventTooLong(ParsingFault):
+    """An event with a content over the limit."""
+
+    code = "event-too-long"
+    template = "the content of the event has more than {limit} characters"
     limit: int
 
 

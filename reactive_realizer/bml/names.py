@@ -23,6 +23,8 @@ BLOCK: Final = "bml"
 """Reserved id: in a reference the block itself, in a warning a block whose id could not be read."""
 ANTICIPATORS: Final = "anticipators"
 """Reserved block id of references to anticipators: ``anticipators:metronome:tick3``."""
+EVENTS: Final = "events"
+"""Reserved id of the anticipator whose points are emitted events: ``anticipators:events:go``."""
 
 _NO_SYNC_IDS: Final = frozenset({"id", "xmlns"})
 

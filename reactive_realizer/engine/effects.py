@@ -4,6 +4,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from reactive_realizer.bml.extensions import Emit
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.audio import AudioChange
 from reactive_realizer.embodiment.humanoid import Eyes
@@ -26,6 +27,12 @@ class Reached:
     unit: PlanUnit
     point: SyncPoint
     time: GlobalTime
+
+    @property
+    def emits(self) -> Emit | None:
+        """The behavior that emits its event at this point, if it is the start of one."""
+        behavior = self.unit.behavior
+        return behavior if isinstance(behavior, Emit) and self.point.id == "start" else None
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,7 +1,8 @@
-"""The engine of ``wait`` (thesis 8.12)."""
+"""The engine of ``wait`` and ``emit``: waiting for time and events, and making events (thesis 6.2.2, 8.12)."""
 
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.behaviors import Wait
+from reactive_realizer.bml.extensions import Emit
 from reactive_realizer.engine.context import EngineContext
 from reactive_realizer.engine.engine import DefaultEngine
 from reactive_realizer.pegboard.peg_key import BlockKey
@@ -10,21 +11,27 @@ from reactive_realizer.planunit.timing import Phase, PhaseKind, Timing
 
 
 class WaitEngine(DefaultEngine):
-    """Waits.
+    """Waits, and emits events; it has no output.
 
-    A duration is rigid. Without one, the sync points determine when a wait ends, after ``max-wait`` at the latest.
+    A duration is rigid. Without one, the sync points determine when a wait ends, after ``max-wait`` at the latest. The
+    scheduler makes the event of an emit when it starts.
     """
 
-    behaviors = frozenset({Wait})
+    behaviors = frozenset({Wait, Emit})
 
     def __init__(self, context: EngineContext) -> None:
         super().__init__(f"{context.character}/wait")
 
     def plan(self, block: BlockKey, behavior: Behavior, prepared: object) -> PlanUnit:
         """A unit with sync points and no output."""
-        if not isinstance(behavior, Wait):
-            raise TypeError(behavior)
-        return PlanUnit(block, behavior, Timing(("start", "end"), (_phase(behavior),)))
+        match behavior:
+            case Emit():
+                timing = Timing(("start", "end"), (Phase(0.0, PhaseKind.RIGID),), instant=True)
+            case Wait():
+                timing = Timing(("start", "end"), (_phase(behavior),))
+            case _:
+                raise TypeError(behavior)
+        return PlanUnit(block, behavior, timing)
 
 
 def _phase(wait: Wait) -> Phase:

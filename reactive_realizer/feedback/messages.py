@@ -20,8 +20,21 @@ class BlockProgress:
 
 
 @dataclass(frozen=True, slots=True)
+class EmittedEvent:
+    """An event for planners; its content is XML."""
+
+    name: str
+    content: str
+
+
+@dataclass(frozen=True, slots=True)
 class SyncPointProgress:
-    """A behavior reached a sync point; ``details`` are attributes in the realizer's own namespace."""
+    """A behavior reached a sync point.
+
+    Attributes:
+        details: attributes in the realizer's own namespace.
+        event: that it emits.
+    """
 
     character: str
     block: str
@@ -30,6 +43,7 @@ class SyncPointProgress:
     block_time: BlockTime
     time: GlobalTime
     details: Mapping[str, str] = field(default_factory=dict)
+    event: EmittedEvent | None = None
 
 
 @dataclass(frozen=True, slots=True)

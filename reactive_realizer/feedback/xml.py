@@ -11,6 +11,7 @@ from reactive_realizer.bml.names import BML, BMLA, OWN, is_sync_id
 from reactive_realizer.feedback.messages import (
     BehaviorPrediction,
     BlockProgress,
+    EmittedEvent,
     Feedback,
     PredictionFeedback,
     SyncPointProgress,
@@ -56,12 +57,15 @@ def _(message: BlockProgress) -> etree._Element:
 
 @_element.register
 def _(message: SyncPointProgress) -> etree._Element:
-    element = _root("syncPointProgress", message.character, {None: BML, **({"rr": OWN} if message.details else {})})
+    own = bool(message.details or message.event)
+    element = _root("syncPointProgress", message.character, {None: BML, **({"rr": OWN} if own else {})})
     element.set("id", _legal(f"{message.block}:{message.behavior}:{message.sync}"))
     element.set("time", seconds(message.block_time))
     element.set("globalTime", seconds(message.time))
     for name, value in message.details.items():
         element.set(f"{{{OWN}}}{name}", _legal(value))
+    if message.event is not None:
+        element.append(_event(message.event))
     return element
 
 
@@ -82,6 +86,12 @@ def _(message: WarningFeedback) -> etree._Element:
     element.set("id", _legal(message.id))
     element.set("type", message.type)
     element.text = _legal(message.text)
+    return element
+
+
+def _event(event: EmittedEvent) -> etree._Element:
+    element = etree.fromstring(f'<rr:event xmlns:rr="{OWN}">{event.content}</rr:event>')
+    element.set("name", event.name)
     return element
 
 

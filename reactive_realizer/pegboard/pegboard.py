@@ -152,6 +152,12 @@ class PegBoard:
         if anticipator in self.anticipators:
             self.anticipators[anticipator].check_point(sync, reference)
 
+    def occur(self, anticipator: str, sync: str, time: GlobalTime) -> None:
+        """Within a transaction, have a point occur; from now on, its name means the next occurrence."""
+        if anticipator_key(anticipator, sync) in self._pegs:
+            self.predicted(anticipator, sync).set(time)
+            self.renew(anticipator, sync)
+
     def predictions(self, anticipator: str) -> dict[str, AnticipatorPeg]:
         """The points of an anticipator that were named, by sync id."""
         keys = self._blocks.get(_PREDICTED, ())

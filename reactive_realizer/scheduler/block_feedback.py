@@ -10,7 +10,7 @@ from reactive_realizer.clock.units import BlockTime, GlobalTime
 from reactive_realizer.engine.effects import Reached
 from reactive_realizer.errors import Fault
 from reactive_realizer.feedback.feedback_manager import FeedbackManager, ProgressOrder
-from reactive_realizer.feedback.messages import BlockProgress, SyncPointProgress, WarningFeedback
+from reactive_realizer.feedback.messages import BlockProgress, EmittedEvent, SyncPointProgress, WarningFeedback
 from reactive_realizer.feedback.xml import as_reported
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.plan_unit import PlanUnit
@@ -43,7 +43,10 @@ class BlockFeedback:
         if block is None or block.start.value is None:
             return
         local = BlockTime(time - block.start.value)
-        message = SyncPointProgress(*unit.block, unit.behavior.id, reached.point.id, local, time, reached.point.details)
+        emitted = reached.emits
+        event = None if emitted is None else EmittedEvent(emitted.event, emitted.content)
+        point = reached.point
+        message = SyncPointProgress(*unit.block, unit.behavior.id, point.id, local, time, point.details, event)
         sync = unit.timing.points.index(reached.point.id)
         # A point that passed before its block started is reported after that start.
         order = _order(block, max(time, block.start.value), unit.behavior.order, sync)

@@ -4,6 +4,7 @@ import logging
 from collections.abc import Collection, Iterable, Sequence
 from typing import Any
 
+from reactive_realizer.bml.names import EVENTS
 from reactive_realizer.clock.units import GlobalTime, is_due
 from reactive_realizer.engine.effects import Reached
 from reactive_realizer.engine.faults import UnitFailed
@@ -34,6 +35,8 @@ class UnitLifecycle:
         with self._board.graph.transaction("sync points reached"):
             for each in reached:
                 each.point.peg.pin(each.time)
+                if each.emits is not None:
+                    self._board.occur(EVENTS, each.emits.event, each.time)
         for each in reached:
             self._feedback.sync_point_reached(each)
 

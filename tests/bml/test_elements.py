@@ -28,6 +28,7 @@ from reactive_realizer.bml.block import BehaviorBlock
 from reactive_realizer.bml.elements import ELEMENTS
 from reactive_realizer.bml.extensions import (
     Activate,
+    Emit,
     Interrupt,
     Keyframe,
     Noise,
@@ -157,6 +158,8 @@ WRITTEN: dict[str, tuple[type[Behavior], dict[str, object], tuple[str, ...]]] = 
         },
         ("start", "stroke", "end"),
     ),
+    '<bmla:emit id="x" event=" go-on "/>': (Emit, {"event": "go-on", "content": ""}, SHIFT),
+    '<bmla:emit id="x" event="go">a &lt; b<!-- no --> c</bmla:emit>': (Emit, {"content": "a &lt; b c"}, SHIFT),
     '<bmlt:procanimation id="x"/>': (ProcAnimation, {"animation": None, "file_name": None, "mode": None}, SHIFT),
     '<bmlt:procanimation id="x" name="row" fileName="sports/row.xml" mode="BOTH_HANDS"/>': (
         ProcAnimation,
@@ -215,7 +218,7 @@ def test_every_default_sync_point_is_an_attribute_with_a_reference(block: Block,
             needed = {"text": "<text>Hi</text>", "faceLexeme": PARTS, "stance": STANCE, "trajectory": CHANGE}
             inside = "".join(needed.get(child, "") for child in element.children)
             prefix = PREFIXES[element.namespace]
-            values = {"lexeme": "NOD", "target": "box", "au": "1", "paramId": "volume"}
+            values = {"event": "go", "lexeme": "NOD", "target": "box", "au": "1", "paramId": "volume"}
             values |= {"type": "perlin", "joint": "vl5", "class": "SlerpTransition"}
             attributes = "".join(
                 f' {each.name}="{values[each.name]}"' for each in element.attributes[1:] if each.required
