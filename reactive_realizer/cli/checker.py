@@ -26,6 +26,19 @@ from reactive_realizer.scheduler.engine_routing import EngineRouting, Result, Ro
 from reactive_realizer.scheduler.requests import NoSuchBehavior
 
 
+class NotInHumanFile(Fault):
+    """A reference to an anticipator that the human file does not have."""
+
+    code = "not-in-human-file"
+    template = (
+        "{reference}: the human file has no anticipator '{anticipator}', so clients must predict it; available: {known}"
+    )
+    unknown = "anticipator"
+    reference: str
+    anticipator: str
+    known: tuple[str, ...]
+
+
 @dataclass(frozen=True, slots=True)
 class Rehearsal:
     """The result of planning the behaviors of a block without playing them.
@@ -112,6 +125,7 @@ class Checker:
                 mistakes += self._inside(written, rehearsal)
                 notes += (fault for fault in rehearsal.faults if fault.warning is _UNPLAYABLE)
                 notes += _foreign_attributes(written, rehearsal)
+                notes += self._remote(written)
             self._remember(parsed)
         return Findings(sorted(mistakes, key=_place), sorted(notes, key=_place))
 
@@ -137,6 +151,7 @@ class Checker:
 
         yield from (problem.fault for problem in check_references(block, points))
         yield from self._unknown_blocks(block)
+        yield from self._unknown_predictions(block)
         yield from _unknown_targets(block, self._realizer.world)
         yield from _unknown_behaviors(block)
         yield from _unknown_points(block, rehearsal)
@@ -155,6 +170,23 @@ class Checker:
         for _, location, ref in references_of(block):
             if ref.block not in known:
                 yield unknown_block(ref, block).located(location.line, location.column)
+
+    def _unknown_predictions(self, block: BehaviorBlock | DefineProc) -> Iterator[Fault]:
+        """References to points that anticipators of the human file do not have."""
+        for _, location, ref in references_of(block):
+            if ref.block == ANTICIPATORS and ref.behavior is not None and ref.sync is not None:
+                try:
+                    self._realizer.board.check_point(ref.behavior, ref.sync, str(ref))
+                except RealizerError as unknown:
+                    yield unknown.fault.located(location.line, location.column)
+
+    def _remote(self, block: BehaviorBlock | DefineProc) -> Iterator[Fault]:
+        """References to points of anticipators that are not in the human file: clients may predict these."""
+        known = self._realizer.anticipators
+        for _, location, ref in references_of(block):
+            if ref.block == ANTICIPATORS and ref.behavior is not None and ref.behavior not in known:
+                fault = NotInHumanFile(reference=str(ref), anticipator=ref.behavior, known=tuple(known))
+                yield fault.located(location.line, location.column)
 
 
 def _unknown_points(block: BehaviorBlock | DefineProc, rehearsal: Rehearsal) -> Iterator[Fault]:

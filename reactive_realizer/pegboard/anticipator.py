@@ -6,7 +6,6 @@ from abc import ABC, abstractmethod
 from collections import deque
 from collections.abc import AsyncGenerator, AsyncIterator, Callable, Collection
 from dataclasses import dataclass
-from difflib import get_close_matches
 from typing import ClassVar, NamedTuple
 
 from reactive_realizer.clock.tick_clock import TickClock
@@ -39,11 +38,12 @@ class UnknownPoint(SchedulingFault):
     """A reference to a point that an anticipator does not have."""
 
     code = "unknown-point"
-    template = "{reference}: the anticipator '{anticipator}' has no point '{point}'; {hint}"
+    template = "{reference}: the anticipator '{anticipator}' has no point '{point}'; it has {known}"
+    unknown = "point"
     reference: str
     anticipator: str
     point: str
-    hint: str
+    known: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -234,16 +234,8 @@ class Anticipator(ABC):
             RealizerError: "unknown-point".
         """
         if not self.has(point):
-            raise RealizerError(
-                UnknownPoint(reference=reference, anticipator=self.id, point=point, hint=self._hint(point))
-            )
-
-    def _hint(self, point: str) -> str:
-        number = re.sub(r"^.*?([0-9]*)$", r"\1", point) or "N"
-        names = [each.prefix + number if isinstance(each, Counted) else each for each in self.points]
-        if nearest := get_close_matches(point, names, 1):
-            return f"did you mean '{nearest[0]}'?"
-        return f"it has {', '.join(map(str, self.points))}"
+            known = tuple(map(str, self.points))
+            raise RealizerError(UnknownPoint(reference=reference, anticipator=self.id, point=point, known=known))
 
     def _unknown(self, event: str) -> RealizerError:
         known = ", ".join([*self.events, *(f"{name} with a text" for name in self.heard)])

@@ -74,6 +74,7 @@ class ReferenceResolver:
             RealizerError: there is no such point.
         """
         if ref.block == ANTICIPATORS and ref.behavior is not None and ref.sync is not None:
+            self._board.check_point(ref.behavior, ref.sync, str(ref))
             return self._block.predicted[ref.behavior, ref.sync]
         if ref.block not in (None, self._block.key.block):
             return self._outside(ref)

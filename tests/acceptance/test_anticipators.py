@@ -281,6 +281,50 @@ async def test_a_conductor_follows_an_orchestra_that_speeds_up_loses_a_beat_and_
     assert pilot.feedback.warnings == []
 
 
+# --- names of points
+
+
+@pytest.mark.parametrize(
+    ("point", "known"),
+    [
+        ("spacebar:pres", "press, release"),
+        ("metronome:beat3", "tickN"),
+        ("metronome:tick", "tickN"),
+        ("orchestra:1", "beatN"),
+        ("trainer:sideways", "N, down, up"),
+        ("user:start", "stop"),
+    ],
+)
+async def test_a_behavior_at_an_unknown_point_is_dropped_at_once_with_its_place(
+    pilot: RealizerPilot, point: str, known: str
+) -> None:
+    pilot.block("b", f'<wait id="w" duration="0.1"/>\n{NOD.format(point)}')
+    await pilot.tick()
+    (warning,) = pilot.feedback.of("warningFeedback")
+    anticipator, _, sync = point.partition(":")
+    assert warning.id == "b:h"
+    assert warning.text.startswith("line 2, column 1: ")
+    assert f"the anticipator '{anticipator}' has no point '{sync}'; it has {known}" in warning.text
+    await pilot.advance(0.2)
+    assert pilot.feedback.status("b") == "DONE"
+
+
+async def test_a_constraint_at_an_unknown_point_is_dropped_at_once(pilot: RealizerPilot) -> None:
+    tie = '<constraint id="c"><after ref="anticipators:spacebar:pres"><sync ref="w:start"/></after></constraint>'
+    pilot.block("b", f'<wait id="w" duration="0.1"/>{tie}')
+    await pilot.advance(0.2)
+    assert pilot.feedback.warnings == [("b", "IMPOSSIBLE_TO_SCHEDULE")]
+    assert pilot.feedback.status("b") == "DONE"
+
+
+@pytest.mark.parametrize("point", ["trainer:down", "trainer:12", "metronome:tick400", "orchestra:beat1", "anyone:hit"])
+async def test_a_behavior_at_a_known_point_and_one_at_a_point_of_clients_wait(pilot: RealizerPilot, point: str) -> None:
+    pilot.block("b", NOD.format(point))
+    await pilot.advance(0.2)
+    assert pilot.feedback.warnings == []
+    assert not pilot.feedback.reached("b:end")
+
+
 # --- what nobody should say
 
 

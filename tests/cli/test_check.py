@@ -68,6 +68,37 @@ def test_a_reference_to_an_unknown_block_is_a_problem(
     assert "the block 'never' is unknown" in line
 
 
+@pytest.mark.parametrize("point", ["spacebar:pres", "metronome:beat3"])
+def test_an_unknown_point_of_an_anticipator_is_a_problem(
+    bml: Callable[..., str], capsys: pytest.CaptureFixture[str], point: str
+) -> None:
+    nod = f'<wait id="w" duration="1"/>\n<head id="h" lexeme="NOD" start="anticipators:{point}"/>'
+    file = bml(block("b", nod))
+    status, (line,) = check(capsys, file)
+    anticipator, _, sync = point.partition(":")
+    assert status == 1
+    assert line.startswith(f"{file}:2:1: anticipators:{point}: the anticipator '{anticipator}' has no point '{sync}'")
+
+
+def test_points_with_names_of_the_human_file_are_known(
+    bml: Callable[..., str], capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    human = tmp_path / "human.toml"
+    human.write_text('[character.alice]\n[anticipator.trainee]\nkind = "exercise"\nnames = ["down"]\n')
+    nods = [f'<head id="h{n}" lexeme="NOD" start="anticipators:trainee:{sync}"/>' for n, sync in enumerate(("down", 3))]
+    assert check(capsys, bml(block("b", "".join(nods))), "--human", str(human)) == (0, [])
+
+
+def test_an_anticipator_that_is_not_in_the_human_file_is_reported_on_stderr_only(
+    bml: Callable[..., str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = bml(block("b", '<head id="h" lexeme="NOD" start="anticipators:spacbar:press"/>'))
+    assert main(["check", file]) == 0
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    assert "the human file has no anticipator 'spacbar', so clients must predict it" in captured.err
+
+
 BMLT = 'xmlns:x="http://hmi.ewi.utwente.nl/bmlt"'
 
 
