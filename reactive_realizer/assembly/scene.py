@@ -21,6 +21,8 @@ from reactive_realizer.engine.engine import Engine
 from reactive_realizer.engine.tts import TTSBinding
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.pegboard.anticipator import Anticipator, AnticipatorContext
+from reactive_realizer.reactive.cell import Source
+from reactive_realizer.reactive.graph import Graph
 from reactive_realizer.realizer.character import Character
 from reactive_realizer.realizer.realizer import Realizer
 from reactive_realizer.scheduler.strategy import SchedulingStrategy
@@ -77,13 +79,14 @@ async def open_scene(options: SceneOptions) -> AsyncIterator[Scene]:
     assets = Assets(options.assets)
     world = World({target: spec.position for target, spec in specification.targets.items()})
     tts: TTSBinding = load("tts", options.voice)()
+    time = Source(Graph(), "time", GlobalTime(0.0))
     characters = [
-        _character(id_, spec, world, assets, tts, options.seed + rank)
+        _character(id_, spec, world, assets, tts, options.seed + rank, time)
         for rank, (id_, spec) in enumerate(specification.characters.items())
     ]
     anticipators = _anticipators(options.human.name, specification.anticipators)
     strategy: SchedulingStrategy = load("strategies", options.strategy)()
-    realizer = Realizer(characters, world, anticipators, strategy, specification.limits, verify=options.verify)
+    realizer = Realizer(characters, world, anticipators, strategy, specification.limits, time, verify=options.verify)
     await tts.start()
     try:
         async with realizer:
@@ -93,7 +96,15 @@ async def open_scene(options: SceneOptions) -> AsyncIterator[Scene]:
         await tts.close()
 
 
-def _character(id_: str, spec: CharacterSpec, world: World, assets: Assets, tts: TTSBinding, seed: int) -> Character:
+def _character(
+    id_: str,
+    spec: CharacterSpec,
+    world: World,
+    assets: Assets,
+    tts: TTSBinding,
+    seed: int,
+    time: Source[GlobalTime],
+) -> Character:
     humanoid = Humanoid(Avatar.read(assets(spec.avatar)), spec.position, math.radians(spec.heading))
     world.add_character(id_, humanoid.locate)
     mouth = _Mouth()
@@ -109,6 +120,7 @@ def _character(id_: str, spec: CharacterSpec, world: World, assets: Assets, tts:
         mouth,
         trajectories={name: load("trajectories", name) for name in names("trajectories")},
         functions={name: load("functions", name) for name in names("functions")},
+        time=time,
         idle=spec.idle,
     )
     engines: list[Engine] = [load("engines", name)(context) for name in spec.engines]

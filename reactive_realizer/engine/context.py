@@ -9,6 +9,7 @@ from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.humanoid import Humanoid
 from reactive_realizer.embodiment.world import World
 from reactive_realizer.engine.tts import TTSBinding
+from reactive_realizer.reactive.cell import Source
 from reactive_realizer.reactive.graph import Graph
 
 TrajectoryFunction = Callable[[float], float]
@@ -38,7 +39,7 @@ class EngineContext:
         voice: name of this character's voice, None for the binding's default.
         bindings: the character's binding files, by kind; entries of earlier files take precedence.
         lip_sync: visemes of this character's speech.
-        graph: of the cells of behavior parameters.
+        time: the time of the present tick, s, for cells that change with time.
         trajectories: for changes of parameters, by name.
         functions: pure functions that formulas of animations may call besides the built-in ones, by name.
         idle: whether the character has idle animation.
@@ -53,7 +54,12 @@ class EngineContext:
     voice: str | None
     bindings: Mapping[str, tuple[Path, ...]]
     lip_sync: LipSyncProvider | None = None
-    graph: Graph = field(default_factory=Graph)
+    time: Source[GlobalTime] = field(default_factory=lambda: Source(Graph(), "time", GlobalTime(0.0)))
     trajectories: Mapping[str, TrajectoryFunction] = field(default_factory=dict)
     functions: Mapping[str, Callable[..., float]] = field(default_factory=dict)
     idle: bool = True
+
+    @property
+    def graph(self) -> Graph:
+        """The graph of the cells of behavior parameters."""
+        return self.time.graph

@@ -12,6 +12,7 @@ from reactive_realizer.embodiment.pose import Layer
 from reactive_realizer.errors import Fault
 from reactive_realizer.planunit.parameter import Parameter
 from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
+from reactive_realizer.reactive.graph import Cell
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,11 +99,20 @@ class BindParameter:
 
 @dataclass(frozen=True, slots=True)
 class SetParameter:
-    """Requests a value for a parameter; ignored if another unit has bound the parameter since."""
+    """Requests a constant value for a parameter; ignored if another unit has bound the parameter since."""
 
     unit: PlanUnit
     parameter: Parameter
     value: float
+
+
+@dataclass(frozen=True, slots=True)
+class FollowCell:
+    """Requests that a parameter follow a cell; ignored if another unit has bound the parameter since."""
+
+    unit: PlanUnit
+    parameter: Parameter
+    cell: Cell[float]
 
 
 @dataclass(frozen=True, slots=True)
@@ -143,7 +153,7 @@ class ParameterUser(PlanUnit, ABC):
         """
 
 
-Request = ActivateBlock | InterruptBlock | BindParameter | SetParameter | EndUnit | Warn
+Request = ActivateBlock | InterruptBlock | BindParameter | SetParameter | FollowCell | EndUnit | Warn
 """Requests of an engine to the scheduler, carried out in the same tick."""
 
 

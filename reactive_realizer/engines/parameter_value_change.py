@@ -1,21 +1,25 @@
 """The engine of ``parametervaluechange`` (thesis 6.6.6, 8.15): changes a parameter of a behavior along a trajectory."""
 
 from collections.abc import Callable
+from typing import Any
 
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.extensions import ParameterValueChange
 from reactive_realizer.bml.names import BMLT
 from reactive_realizer.clock.ticker import Tick
-from reactive_realizer.clock.units import GlobalTime, Time
+from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.engine.context import EngineContext, TrajectoryFunction
-from reactive_realizer.engine.effects import BindParameter, EndUnit, ParameterUser, Request, SetParameter
+from reactive_realizer.engine.effects import BindParameter, EndUnit, FollowCell, ParameterUser, Request, SetParameter
 from reactive_realizer.engine.engine import DefaultEngine
 from reactive_realizer.errors import CreationFault, PlayingFault, RealizerError
 from reactive_realizer.pegboard.peg_key import BlockKey
-from reactive_realizer.planunit.parameter import Parameter
-from reactive_realizer.planunit.phase_clock import PhaseClock
-from reactive_realizer.planunit.plan_unit import PlanUnit
+from reactive_realizer.planunit.parameter import Parameter, Range
+from reactive_realizer.planunit.phase_clock import Progress, progress_cell
+from reactive_realizer.planunit.plan_unit import PlanUnit, UnitState
 from reactive_realizer.planunit.timing import Phase, PhaseKind, Timing
+from reactive_realizer.reactive.cell import Derived, Source
+from reactive_realizer.reactive.errors import Failure
+from reactive_realizer.reactive.graph import Change, Subscription
 
 _DURATION = 0.5
 """Duration of a change without a constraint on its end, s."""
@@ -60,10 +64,10 @@ class ParameterRange(PlayingFault):
 
 
 class ParameterValueChangeUnit(ParameterUser):
-    """Sets a parameter along a trajectory between its start and its end, whose times may move meanwhile.
+    """Has a parameter follow a trajectory between its start and its end, whose times may move meanwhile.
 
-    It starts once its parameter is bound. It ends at its end or, if that is earlier, with its target; the parameter
-    keeps its value.
+    While it plays, the parameter is computed from the trajectory, the pegs of the unit and the time. It starts once its
+    parameter is bound. It ends at its end or, if that is earlier, with its target; the parameter keeps its value.
 
     Attributes:
         change: the behavior.
@@ -74,16 +78,19 @@ class ParameterValueChangeUnit(ParameterUser):
         block: BlockKey,
         change: ParameterValueChange,
         trajectory: TrajectoryFunction,
+        time: Source[GlobalTime],
         request: Callable[[Request], None],
     ) -> None:
         super().__init__(block, change, _timing(change, trajectory))
         self.change = change
         self._trajectory = trajectory
+        self._time = time
         self._request = request
-        self._clock = PhaseClock({sync: float(sync != "start") for sync in self.timing.points})
         self._target: PlanUnit | None = None
         self._parameter: Parameter | None = None
-        self._initial = 0.0
+        self._bound: Subscription | None = None
+        self._cells: tuple[Derived[Any], ...] = ()
+        self._value = 0.0
 
     def bind(self, target: PlanUnit, parameter: Parameter) -> None:
         """Binds the parameter to change.
@@ -102,6 +109,7 @@ class ParameterValueChangeUnit(ParameterUser):
                 )
                 raise RealizerError(fault)
         self._target, self._parameter = target, parameter
+        self._bound = parameter.cell.observe(lambda change: None, ended=lambda: self.wake())
 
     def wants_parameter(self, now: GlobalTime) -> bool:
         """Whether it would start if its parameter were bound."""
@@ -111,39 +119,54 @@ class ParameterValueChangeUnit(ParameterUser):
         """Whether it starts: its time has come and its parameter is bound."""
         return self._parameter is not None and super().due(now)
 
-    def next_due(self) -> Time:
-        """While it plays, each tick."""
-        return self.time("start") if self.begun and self.live else super().next_due()
-
     def on_start(self, time: GlobalTime) -> None:
         """Starts the trajectory at its initial value or, without one, at the value of the parameter."""
-        if self._parameter is not None:
-            initial = self.change.trajectory.initial_value
-            self._initial = self._parameter.value if initial is None else initial
-
-    def on_sync(self, sync: str, time: GlobalTime) -> None:
-        """Sets the target value exactly."""
-        if sync != "start":
-            self._set(self.change.trajectory.target_value)
+        if self._parameter is None:
+            return
+        initial = self.change.trajectory.initial_value
+        self._value = self._parameter.value if initial is None else initial
+        progress = progress_cell(self, [float(point.id != "start") for point in self.points], self._time)
+        formula = _value(self._trajectory, self._value, self.change.trajectory.target_value, self._parameter.range)
+        value = Derived(self._time.graph, str(self.key("value")), (progress,), formula)
+        value.observe(self._note)
+        self._cells = (value, progress)
+        self._request(FollowCell(self, self._parameter, value))
 
     def on_finish(self, time: GlobalTime) -> None:
-        """Unbinds the parameter."""
-        self._target = self._parameter = None
-
-    def follow(self, now: GlobalTime) -> None:
-        """Sets the parameter to its value of now, or ends with the target."""
-        if self._target is None:
+        """Has the parameter keep the target value, or its present one if the change was cut short; unbinds it."""
+        parameter, bound = self._parameter, self._bound
+        if parameter is None or bound is None:
             return
-        if not self._target.live:
+        complete = self.state is UnitState.DONE and not self.was_cut("end")
+        value = self.change.trajectory.target_value if complete else self._present(parameter)
+        self._request(SetParameter(self, parameter, value))
+        bound.dispose()
+        for cell in self._cells:
+            cell.dispose()
+        self._target = self._parameter = self._bound = None
+        self._cells = ()
+
+    def check(self, now: GlobalTime) -> None:
+        """Requests its end if its target has ended.
+
+        Raises:
+            Exception: of the trajectory, if that has failed.
+        """
+        for cell in self._cells:
+            if isinstance(failure := cell.result, Failure):
+                raise failure.error
+        if self._target is not None and not self._target.live:
             self._request(EndUnit(self, self._end_of(self._target, now)))
-            return
-        share = self._trajectory(self._clock.advance(self, now))
-        self._set((1.0 - share) * self._initial + share * self.change.trajectory.target_value)
 
-    def _set(self, value: float) -> None:
-        if self._parameter is not None:
-            low, high = self._parameter.range
-            self._request(SetParameter(self, self._parameter, min(high, max(low, value))))
+    def _note(self, change: Change) -> None:
+        """Note a failure of the trajectory, and the last value before it."""
+        if isinstance(change.new, Failure) and not isinstance(change.old, Failure):
+            self._value = change.old
+            self.wake()
+
+    def _present(self, parameter: Parameter) -> float:
+        value = parameter.cell.result
+        return self._value if isinstance(value, Failure) else value
 
     def _end_of(self, target: PlanUnit, now: GlobalTime) -> GlobalTime:
         """The time at which the target ended, but not before the start of this unit."""
@@ -153,7 +176,7 @@ class ParameterValueChangeUnit(ParameterUser):
 
 
 class ParameterValueChangeEngine(DefaultEngine):
-    """Requests the parameter when a change is due, and then its values.
+    """Requests the parameter when a change is due, and then that it follow the trajectory.
 
     The requests are carried out before the other engines play.
     """
@@ -164,6 +187,7 @@ class ParameterValueChangeEngine(DefaultEngine):
     def __init__(self, context: EngineContext) -> None:
         super().__init__(f"{context.character}/parameter_value_change")
         self._trajectories = context.trajectories
+        self._time = context.time
         self._requested: list[Request] = []
 
     def plan(self, block: BlockKey, behavior: Behavior, prepared: object) -> PlanUnit:
@@ -175,15 +199,15 @@ class ParameterValueChangeEngine(DefaultEngine):
         if not isinstance(behavior, ParameterValueChange):
             raise TypeError(behavior)
         trajectory = self._trajectory(behavior.trajectory.type)
-        return ParameterValueChangeUnit(block, behavior, trajectory, self._requested.append)
+        return ParameterValueChangeUnit(block, behavior, trajectory, self._time, self._requested.append)
 
     def requests(self, tick: Tick) -> tuple[Request, ...]:
-        """Parameters to bind, and values to set."""
+        """Parameters to bind, and cells and values that they are to have."""
         for unit in sorted(self._due(tick), key=lambda each: (each.points[0].peg.value or 0.0, each.behavior.id)):
             change = unit.change
             block = change.target_block or unit.block.block
             self._requested.append(BindParameter(unit, block, change.target_behavior, change.parameter))
-        self.player.show(ParameterValueChangeUnit, lambda unit: unit.follow(tick.time), tick.time)
+        self.player.show(ParameterValueChangeUnit, lambda unit: unit.check(tick.time), tick.time)
         requested = tuple(self._requested)
         self._requested.clear()  # units hold the list itself
         return requested
@@ -197,6 +221,17 @@ class ParameterValueChangeEngine(DefaultEngine):
         if found is None:
             raise RealizerError(NoTrajectory(trajectory=name, known=tuple(sorted(self._trajectories))))
         return found
+
+
+def _value(trajectory: TrajectoryFunction, initial: float, target: float, bounds: Range) -> Callable[[Progress], float]:
+    """The value of a parameter from the progress of its change."""
+    low, high = bounds
+
+    def formula(progress: Progress) -> float:
+        share = trajectory(progress.phase)
+        return min(high, max(low, (1.0 - share) * initial + share * target))
+
+    return formula
 
 
 def _timing(change: ParameterValueChange, trajectory: TrajectoryFunction) -> Timing:

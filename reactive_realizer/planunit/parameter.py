@@ -1,10 +1,10 @@
 """Parameters of a behavior that may be changed while it plays (thesis 6.6.6)."""
 
-from collections.abc import Collection
-from dataclasses import dataclass
+from collections.abc import Collection, Iterator, Mapping
 from typing import NamedTuple
 
-from reactive_realizer.reactive.cell import Source
+from reactive_realizer.reactive.cell import Derived
+from reactive_realizer.reactive.graph import Cell, Graph
 
 
 class Range(NamedTuple):
@@ -31,19 +31,21 @@ def _folded(word: str) -> str:
     return word.strip().casefold().replace("_", "-")
 
 
-@dataclass(slots=True, eq=False)
 class Parameter:
-    """A parameter of a playing unit. Readers of its cell follow its changes.
+    """A parameter of a playing unit: a cell that is constant or follows another one.
 
     Attributes:
-        cell: the value.
+        cell: the value; disposed of when the unit ends.
         range: of valid values.
         owner: the unit that changes it; if two do, the one that started later.
     """
 
-    cell: Source[float]
-    range: Range
-    owner: object = None
+    __slots__ = ("cell", "owner", "range")
+
+    def __init__(self, graph: Graph, name: str, value: float, range: Range) -> None:  # noqa: A002 - the word for it
+        self.cell: Derived[float] = Derived(graph, name, (), lambda: value)
+        self.range = range
+        self.owner: object = None
 
     @property
     def value(self) -> float:
@@ -51,11 +53,48 @@ class Parameter:
         return self.cell.value
 
     def set(self, value: float) -> None:
-        """Set the value, in its own transaction or within one; only the scheduler calls this.
+        """Give it a constant value, in its own transaction or within one; only the scheduler calls this.
 
-        The parameter of a behavior that has ended keeps its value.
+        The parameter of a unit that has ended keeps its value.
         """
-        if self.cell.disposed:
-            return
-        with self.cell.graph.transaction(f"set {self.cell.name}"):
-            self.cell.set(value)
+        if not self.cell.disposed:
+            with self.cell.graph.transaction(f"set {self.cell.name}"):
+                self.cell.pin(value)
+
+    def follow(self, value: Cell[float]) -> None:
+        """Have it follow a cell, in its own transaction or within one; only the scheduler calls this.
+
+        The parameter of a unit that has ended keeps its value.
+        """
+        if not self.cell.disposed:
+            with self.cell.graph.transaction(f"change {self.cell.name}"):
+                self.cell.rebind((value,), _same)
+
+
+class ParameterValues(Mapping[str, float]):
+    """The present values of parameters by name: those of cells, or constants.
+
+    Args:
+        constants: the values of all parameters.
+        cells: of the parameters that may change; they take precedence.
+    """
+
+    __slots__ = ("_cells", "_constants")
+
+    def __init__(self, constants: Mapping[str, float], cells: Mapping[str, Cell[float]]) -> None:
+        self._constants = constants
+        self._cells = cells
+
+    def __getitem__(self, name: str) -> float:
+        cell = self._cells.get(name)
+        return self._constants[name] if cell is None else cell.value
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._constants)
+
+    def __len__(self) -> int:
+        return len(self._constants)
+
+
+def _same(value: float) -> float:
+    return value

@@ -1,39 +1,87 @@
 """Maps time to the phase of a motion whose pegs may move while it plays."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
+from typing import NamedTuple
 
-from reactive_realizer.clock.units import RESOLUTION, GlobalTime
+from reactive_realizer.clock.units import RESOLUTION, GlobalTime, Time
 from reactive_realizer.planunit.plan_unit import PlanUnit
+from reactive_realizer.reactive.cell import Scan, Source
+
+
+class Progress(NamedTuple):
+    """The progress through the key positions of a motion.
+
+    Attributes:
+        reached: number of key positions that were reached.
+        time: for which it was computed, s.
+        phase: 0 to 1.
+    """
+
+    reached: int = 0
+    time: GlobalTime = GlobalTime(0.0)
+    phase: float = 0.0
+
+
+def advanced(last: Progress, phases: Sequence[float], time_of: Callable[[int], Time], now: GlobalTime) -> Progress:
+    """The progress at a time, not before that of the last one.
+
+    The phase advances linearly from each key position to the next, to arrive when its sync point is due. If a point
+    moves, the rate changes from now on, but not the phase itself: a motion is slowed down or sped up, and never jumps.
+    It stands still while the next point is unknown.
+
+    Args:
+        last: the last progress.
+        phases: of the key positions, 0 to 1, in the order in which they are reached.
+        time_of: returns the time of the sync point of a key position.
+        now: s.
+    """
+    reached, since, phase = last
+    while reached < len(phases):
+        time = time_of(reached)
+        if time is None:
+            break
+        if time > now + RESOLUTION:
+            left = time - since
+            phase += (phases[reached] - phase) * (now - since) / left
+            break
+        phase, since = phases[reached], max(since, time)
+        reached += 1
+    return Progress(reached, now, phase)
+
+
+def progress_cell(unit: PlanUnit, phases: Sequence[float], time: Source[GlobalTime]) -> Scan[Progress]:
+    """A cell with the progress of a unit: it follows the time and the pegs of the unit.
+
+    Args:
+        unit: with one key position for each of its points.
+        phases: of the key positions, 0 to 1.
+        time: of the present tick.
+    """
+    pegs = [point.peg for point in unit.points]
+
+    def formula(last: Progress, now: GlobalTime, *times: Time) -> Progress:
+        return advanced(last, phases, times.__getitem__, now)
+
+    return Scan(time.graph, str(unit.key("progress")), Progress(), (time, *pegs), formula)
 
 
 class PhaseClock:
-    """Advances the phase linearly from each key position to the next, to arrive when its sync point is due.
-
-    If a point moves, the rate changes from now on, but not the phase itself: a motion is slowed down or sped up, and
-    never jumps.
+    """The phase of a unit, `advanced` whenever it is asked for.
 
     Args:
         keys: sync id -> phase, 0 to 1, in the order in which they are reached.
     """
 
     def __init__(self, keys: Mapping[str, float]) -> None:
-        self._keys = list(keys.items())
-        self._next = 0
-        self._time = GlobalTime(0.0)
-        self.phase = 0.0
+        self._syncs, self._phases = tuple(keys), tuple(keys.values())
+        self._progress = Progress()
+
+    @property
+    def phase(self) -> float:
+        """The phase at the last time."""
+        return self._progress.phase
 
     def advance(self, unit: PlanUnit, now: GlobalTime) -> float:
-        """The phase at a time, not before that of the last call; it stands still while the next point is unknown."""
-        while self._next < len(self._keys):
-            sync, phase = self._keys[self._next]
-            time = unit.time(sync)
-            if time is None:
-                break
-            if time > now + RESOLUTION:
-                left = time - self._time
-                self.phase += (phase - self.phase) * (now - self._time) / left
-                break
-            self.phase, self._time = phase, max(self._time, time)
-            self._next += 1
-        self._time = now
-        return self.phase
+        """The phase at a time, not before that of the last call."""
+        self._progress = advanced(self._progress, self._phases, lambda k: unit.time(self._syncs[k]), now)
+        return self._progress.phase

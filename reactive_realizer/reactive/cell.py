@@ -1,4 +1,4 @@
-"""The kinds of cells: sources, which are written, and derived cells, which are computed from others."""
+"""The kinds of cells: sources, which are written, and cells that are computed from others or accumulate them."""
 
 import logging
 from collections.abc import Callable, Collection, Iterable
@@ -87,8 +87,11 @@ class Derived(Cell[T]):
         try:
             return self.formula(*values)
         except Exception as error:
-            logger.exception("the formula of '%s' raised", self.name)
-            return Failure(self.name, f"{type(error).__name__}: {error}", error.with_traceback(None))
+            return self._failure(error)
+
+    def _failure(self, error: Exception) -> Failure:
+        logger.error("the formula of '%s' raised", self.name, exc_info=error)
+        return Failure(self.name, f"{type(error).__name__}: {error}", error.with_traceback(None))
 
     def _relink(self, dependencies: tuple[Cell[Any], ...]) -> None:
         self.graph.touch(self)
@@ -109,6 +112,34 @@ class Derived(Cell[T]):
         for cell in self.dependencies:
             cell.dependents.pop(self, None)
         self.dependencies = ()
+
+
+class Scan(Derived[T]):
+    """A cell computed from its own last value and from others, such as one that integrates over time.
+
+    Its formula is ``formula(last, *values)``. Without a change of the values, it must return ``last``: a cell may be
+    computed several times in a transaction.
+    """
+
+    __slots__ = ("_last",)
+
+    def __init__(
+        self, graph: Graph, name: str, initial: T, dependencies: tuple[Cell[Any], ...], formula: Callable[..., T]
+    ) -> None:
+        self._last = initial
+        super().__init__(graph, name, dependencies, formula)
+
+    def compute(self) -> T | Failure:
+        """The formula applied to the last value that could be computed and to the current values of the others."""
+        values = [cell._value for cell in self.dependencies]
+        for value in values:
+            if type(value) is Failure:
+                return value
+        try:
+            self._last = self.formula(self._last, *values)
+        except Exception as error:
+            return self._failure(error)
+        return self._last
 
 
 def replace_cell(old: Cell[T], new: Cell[T]) -> None:

@@ -97,9 +97,9 @@ class Cell(Generic[T]):
         return False
 
     def observe(
-        self, notify: Callable[[T | Failure], None], ended: Callable[[], object] = lambda: None
+        self, notify: Callable[["Change"], object], ended: Callable[[], object] = lambda: None
     ) -> "Subscription":
-        """Call ``notify(value)`` after each commit that changed this cell, and ``ended()`` when it is disposed of.
+        """Call ``notify(change)`` after each commit that changed this cell, and ``ended()`` when it is disposed of.
 
         Neither may write. An error that ``notify`` raises is logged.
         """
@@ -154,7 +154,7 @@ class Subscription:
     def __init__(
         self,
         observers: "dict[Subscription, None]",
-        notify: Callable[[Any], None],
+        notify: Callable[["Change"], object],
         ended: Callable[[], object],
     ) -> None:
         self.notify = notify
@@ -368,18 +368,19 @@ class Graph:
     def _notify(self, commit: Commit) -> None:
         self._notifying = True
         try:
-            for cell, _, new in commit.changes:
+            for change in commit.changes:
+                cell = change[0]
                 for subscription in list(cell.observers) if cell.observers else ():
                     # An observer may have disposed of one that comes after it.
                     if subscription in cell.observers:
-                        _try(subscription.notify, new, cell.name)
+                        _try(subscription.notify, change, cell.name)
             for listener in self._listeners:
                 _try(listener, commit, commit.stamp.cause)
         finally:
             self._notifying = False
 
 
-def _try(notify: Callable[[Any], None], value: object, about: str) -> None:
+def _try(notify: Callable[[Any], object], value: object, about: str) -> None:
     try:
         notify(value)
     except Exception:

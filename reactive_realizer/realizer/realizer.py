@@ -22,7 +22,8 @@ from reactive_realizer.pegboard.anticipator import Anticipator, AnticipatorConte
 from reactive_realizer.pegboard.peg_key import ANTICIPATORS
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.pegboard.predicted_points import PredictedPoints
-from reactive_realizer.reactive.graph import Commit, Graph
+from reactive_realizer.reactive.cell import Source
+from reactive_realizer.reactive.graph import Commit
 from reactive_realizer.realizer.anticipator_streams import AnticipatorFailed, AnticipatorStreams
 from reactive_realizer.realizer.background_tasks import BackgroundTasks
 from reactive_realizer.realizer.character import Character
@@ -47,6 +48,9 @@ class Realizer:
     The owner of the clock calls `step` for every tick. Inputs are given to `put` at any time, and enter at the first
     tick at or after their time.
 
+    Args:
+        time: the cell of the present tick's time, in the graph of the pegs; parameters of engines depend on it.
+
     Attributes:
         feedback: of all blocks, for its listeners.
         board: the pegs of all characters.
@@ -62,6 +66,7 @@ class Realizer:
         anticipators: Callable[[Callable[[str], AnticipatorContext]], Iterable[Anticipator]],
         strategy: SchedulingStrategy,
         limits: Limits,
+        time: Source[GlobalTime],
         *,
         verify: bool = False,
     ) -> None:
@@ -69,11 +74,12 @@ class Realizer:
         self.characters = {character.id: character for character in characters}
         self.world = world
         self.feedback = FeedbackManager()
-        self.board = PegBoard(Graph())
+        self.board = PegBoard(time.graph)
         self._streams = AnticipatorStreams(self.board, PredictedPoints(self.board, limits.predicted_points))
         for anticipator in anticipators(self._streams.context):
             self._streams.add(anticipator)
         self.time = GlobalTime(0.0)
+        self._time = time
         self._strategy = strategy
         self._verify = verify
         self._routing = EngineRouting({character.id: character.engines for character in characters})
@@ -251,6 +257,7 @@ class Realizer:
     async def _play_round(self, tick: Tick) -> bool:
         """Play one round; whether anything changed."""
         self.scheduler.advance(tick.time)
+        self._write_time(tick.time)
         if self.scheduler.apply(await self._leading.play(tick), tick.time):
             return True
         plays = await self._following.play(tick)
@@ -259,6 +266,12 @@ class Realizer:
             for change in play.audio:
                 self._publish_audio(change)
         return changed or self.scheduler.advance(tick.time)
+
+    def _write_time(self, now: GlobalTime) -> None:
+        """Move the cells that depend on the time, if there are any."""
+        if self._time.dependents:
+            with self.board.graph.transaction("time"):
+                self._time.set(now)
 
     def _check(self, now: GlobalTime) -> None:
         """Report the constraints that the commits since the last call have broken."""

@@ -7,6 +7,7 @@ from reactive_realizer.engine.effects import (
     ActivateBlock,
     BindParameter,
     EndUnit,
+    FollowCell,
     InterruptBlock,
     Request,
     SetParameter,
@@ -74,11 +75,16 @@ class EngineRequests:
         Values are set first, so that a change that ends as another one begins has reached its target.
         """
         for each in requests:
-            if isinstance(each, SetParameter) and each.parameter.owner is each.unit:
-                each.parameter.set(each.value)
-            elif isinstance(each, Warn):
-                self._feedback.warn_behavior(each.unit, each.fault)
-        timed = [each for each in requests if not isinstance(each, SetParameter | Warn)]
+            match each:
+                case SetParameter(unit, parameter, value) if parameter.owner is unit:
+                    parameter.set(value)
+                case FollowCell(unit, parameter, cell) if parameter.owner is unit:
+                    parameter.follow(cell)
+                case Warn(unit, fault):
+                    self._feedback.warn_behavior(unit, fault)
+                case _:
+                    pass
+        timed = [each for each in requests if not isinstance(each, SetParameter | FollowCell | Warn)]
         for request in sorted(timed, key=lambda each: now if isinstance(each, BindParameter) else each.time):
             self._carry_out(request, now)
         return bool(timed)

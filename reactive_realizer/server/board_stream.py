@@ -35,7 +35,7 @@ class BoardStream:
         self._commits: deque[tuple[GlobalTime, Commit]] = deque(maxlen=_MOST_COMMITS)
         self._sent: list[Message] = []
         self._next = now()
-        board.graph.listen(lambda commit: self._commits.append((now(), commit)))
+        board.graph.listen(self._note)
 
     def picture(self) -> Message:
         """The current board without commits, for a new client."""
@@ -54,6 +54,11 @@ class BoardStream:
         self._sent = pegs
         self._next = GlobalTime(self._now() + _INTERVAL)
 
+    def _note(self, commit: Commit) -> None:
+        """Keep a commit that moved pegs, or made some."""
+        if not commit.changes or any(map(_is_peg, commit.changes)):
+            self._commits.append((self._now(), commit))
+
     def _pegs(self) -> list[Message]:
         """The newest pegs, in order of naming."""
         views = self._board.snapshot(newest=_MOST_PEGS)
@@ -67,9 +72,12 @@ class BoardStream:
 
 
 def _commit(time: GlobalTime, commit: Commit) -> Message:
-    moved = (change for change in commit.changes if isinstance(change.cell, TimePeg | AnticipatorPeg))
-    changes = [_change(change) for change in islice(moved, _MOST_CHANGES)]
+    changes = [_change(change) for change in islice(filter(_is_peg, commit.changes), _MOST_CHANGES)]
     return {"sequence": commit.stamp.sequence, "time": round(time, 6), "cause": commit.stamp.cause, "changes": changes}
+
+
+def _is_peg(change: Change) -> bool:
+    return isinstance(change.cell, TimePeg | AnticipatorPeg)
 
 
 def _change(change: Change) -> list[object]:

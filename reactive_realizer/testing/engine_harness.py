@@ -27,6 +27,7 @@ from reactive_realizer.engine.effects import (
     BindParameter,
     Dropped,
     EndUnit,
+    FollowCell,
     InterruptBlock,
     Output,
     Play,
@@ -43,7 +44,6 @@ from reactive_realizer.pegboard.time_peg import AnticipatorPeg, OffsetPeg
 from reactive_realizer.planunit.parameter import Parameter, Range
 from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint, UnitState
 from reactive_realizer.planunit.timing import Timing, timing_at
-from reactive_realizer.reactive.cell import Source
 from reactive_realizer.reactive.graph import Commit
 from reactive_realizer.realizer.character import Character
 from reactive_realizer.testing.pilot import block
@@ -130,9 +130,10 @@ class EngineHarness:
         self.plays = 0
         self.commits: list[Commit] = []
         self._graph = context.graph
+        self._time = context.time
         self._character = Character(context.character, context.humanoid, (engine,))
         self._pegs: dict[PlanUnit, dict[str, AnticipatorPeg]] = {}
-        self._parameter = Parameter(Source(context.graph, "parameter", 0.0), Range(-inf, inf))
+        self._parameter = Parameter(context.graph, "parameter", 0.0, Range(-inf, inf))
         self._number = -1
         self._playing = False
         self._woken = False
@@ -200,6 +201,8 @@ class EngineHarness:
         number, last = self._number, self.now
         tick = Tick(number, last, frames and number // FRAME_EVERY > (number - after) // FRAME_EVERY)
         self.now = tick.time
+        with self._graph.transaction("time"):
+            self._time.set(tick.time)
         for _ in range(_MOST_ROUNDS):
             if self._plays_or_shows(tick):
                 continue
@@ -232,7 +235,9 @@ class EngineHarness:
         self.reached += [(each.unit, each.point.id, each.time, tick.time) for each in play.reached]
         self.dropped += play.dropped
         self.audio += play.audio
-        self.requests += [each for each in play.requests if not isinstance(each, BindParameter | SetParameter)]
+        self.requests += [
+            each for each in play.requests if not isinstance(each, BindParameter | SetParameter | FollowCell)
+        ]
 
     def repeat_tick(self) -> tuple[Play, Output]:
         """Plays and shows the last tick once more."""
@@ -305,7 +310,7 @@ class EngineHarness:
             self._carry_out_one(request)
         for dropped in play.dropped:
             self.engine.remove(dropped.unit)
-        requested = any(not isinstance(each, SetParameter | Warn) for each in play.requests)
+        requested = any(not isinstance(each, SetParameter | FollowCell | Warn) for each in play.requests)
         return bool(play.reached or play.dropped or requested)
 
     def _carry_out_one(self, request: Request) -> None:
@@ -314,6 +319,8 @@ class EngineHarness:
                 unit.bind(_forever(), self._parameter)
             case SetParameter(parameter=parameter, value=value):
                 parameter.set(value)
+            case FollowCell(parameter=parameter, cell=cell):
+                parameter.follow(cell)
             case EndUnit(unit=unit, time=time):
                 with self._graph.transaction("end"):
                     unit.interrupt(time)

@@ -9,6 +9,8 @@ import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.embodiment.audio import AudioGain, AudioStart
+from reactive_realizer.reactive.cell import Derived
+from reactive_realizer.reactive.graph import Commit
 from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 from .parameter_changes import HEAD, SPEECH, change, points
@@ -214,3 +216,65 @@ async def test_the_name_of_a_trajectory_may_be_in_any_case(pilot: RealizerPilot)
     await pilot.advance(1)
     assert pilot.feedback.warnings == []
     assert pilot.feedback.reached("b:p:end")
+
+
+# --- what is computed
+
+
+def steps(pilot: RealizerPilot) -> Derived[float]:
+    """The cell of the volume of the speech."""
+    (block,) = pilot.realizer.scheduler.blocks.alive
+    return next(unit for unit in block.units if unit.behavior.id == "s").parameters["volume"].cell
+
+
+async def test_a_parameter_depends_on_its_trajectory_only_while_that_plays(voiceless: RealizerPilot) -> None:
+    pilot = voiceless
+    commits: list[Commit] = []
+    pilot.predict("partner", "hit", 1.5)
+    pilot.block("b", SPEECH + change("p", 'start="0.5" end="anticipators:partner:hit"'))
+    await pilot.advance(0.4)
+    volume = steps(pilot)
+    assert list(volume.dependencies) == []
+    await pilot.advance(0.6)
+    (followed,) = volume.dependencies
+    pilot.realizer.board.graph.listen(commits.append)
+    await pilot.advance(0.2)
+    assert {commit.stamp.cause for commit in commits} == {"time"}
+    assert volume.value == pytest.approx(50 + 50 * 0.69)
+    pilot.predict("partner", "hit", 3.0)
+    await pilot.advance(0.9)
+    assert followed.depends_on(pilot.realizer.board.predicted("partner", "hit"))
+    assert volume.value == pytest.approx(50 + 50 * 0.69 + 50 * 0.31 * 0.9 / 1.81)
+    pilot.predict("partner", "hit", 2.2)
+    await pilot.advance(0.3)
+    assert (volume.dependencies, volume.value) == ((), 100.0)
+    commits.clear()
+    await pilot.advance(0.5)
+    assert commits == []
+
+
+@pytest.fixture
+async def voiceless() -> AsyncIterator[RealizerPilot]:
+    async with open_pilot() as pilot:
+        yield pilot
+
+
+async def test_a_trajectory_that_fails_ends_its_change_alone_and_the_parameter_keeps_its_value(
+    voiceless: RealizerPilot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pilot = voiceless
+
+    def half(share: float) -> float:
+        if share > 0.5:
+            raise ArithmeticError("no second half")
+        return share
+
+    engine = next(each for each in pilot.realizer.characters["alice"].engines if each.name.endswith("value_change"))
+    monkeypatch.setattr(engine, "_trajectories", {"linear": half})
+    pilot.block("b", SPEECH + change("p", 'start="0" end="2"'))
+    await pilot.advance(1.5)
+    assert warned(pilot)[:2] == ("b:p", "EXECUTION_FAILURE")
+    assert steps(pilot).value == pytest.approx(75.0)
+    await pilot.advance(3)
+    assert pilot.feedback.status("b") == "DONE"
+    assert "b:s:end" in pilot.feedback.progress

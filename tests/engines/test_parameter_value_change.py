@@ -11,7 +11,7 @@ from reactive_realizer.bml.behaviors import Wait
 from reactive_realizer.bml.extensions import ParameterValueChange, Trajectory
 from reactive_realizer.bml.names import BMLA, BMLT, Location
 from reactive_realizer.clock.units import GlobalTime
-from reactive_realizer.engine.effects import EndUnit, SetParameter
+from reactive_realizer.engine.effects import EndUnit, FollowCell, SetParameter
 from reactive_realizer.engines.parameter_value_change import ParameterValueChangeUnit, ease_in_ease_out, instant, linear
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.pegboard.peg_key import BlockKey
@@ -49,7 +49,9 @@ class Bench:
             trajectory=said,
         )
         self.requested: list[object] = []
-        self.unit = ParameterValueChangeUnit(BLOCK, change, trajectory, self.requested.append)
+        self.carried_out = 0
+        self.time = Source(self.graph, "time", GlobalTime(0.0))
+        self.unit = ParameterValueChangeUnit(BLOCK, change, trajectory, self.time, self.requested.append)
         self.times = {
             sync: AnticipatorPeg(self.graph, sync, GlobalTime(float(sync != "start")))
             for sync in self.unit.timing.points
@@ -61,7 +63,7 @@ class Bench:
         self.target.points = [
             SyncPoint("end", OffsetPeg(self.graph, "e", AnticipatorPeg(self.graph, "e", GlobalTime(9.0)), 0.0))
         ]
-        self.parameter = Parameter(Source(self.graph, "volume", 40.0), Range(0.0, 100.0))
+        self.parameter = Parameter(self.graph, "volume", 40.0, Range(0.0, 100.0))
 
     def bind(self) -> None:
         self.unit.bind(self.target, self.parameter)
@@ -71,14 +73,19 @@ class Bench:
         return [self._play(time) for time in times]
 
     def _play(self, time: float) -> float:
+        with self.graph.transaction("time"):
+            self.time.set(GlobalTime(time))
         if self.unit.due(GlobalTime(time)):
             self.unit.begin()
         if self.unit.state is UnitState.IN_EXEC:
             self.unit.fire(self.unit.due_points(GlobalTime(time)), GlobalTime(time))
-            self.unit.follow(GlobalTime(time))
-        for each in self.requested:
+            self.unit.check(GlobalTime(time))
+        for each in self.requested[self.carried_out :]:
             if isinstance(each, SetParameter):
                 self.parameter.set(each.value)
+            elif isinstance(each, FollowCell):
+                self.parameter.follow(each.cell)
+        self.carried_out = len(self.requested)
         return self.parameter.value
 
     def move(self, sync: str, time: float | None) -> None:

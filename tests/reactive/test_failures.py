@@ -61,7 +61,7 @@ def test_a_pin_heals_a_failed_cell(trace: Trace, half: Half) -> None:
 def test_the_commit_and_the_observers_see_the_failure(trace: Trace, half: Half) -> None:
     top, quotient, below, _ = half
     told: list[object] = []
-    below.observe(told.append)
+    below.observe(lambda change: told.append(change.new))
     trace.write(top, 0)
     changes = {change.cell: (change.old, change.new) for change in trace.commits[-1].changes}
     assert changes[quotient] == (5, quotient.result)
@@ -74,7 +74,7 @@ def test_a_repeated_failure_is_no_change(trace: Trace) -> None:
     top = trace.source("top", "1")
     number = trace.derived("number", top, formula=lambda text: len(text) // 0)
     told: list[object] = []
-    number.observe(told.append)
+    number.observe(lambda change: told.append(change.new))
     trace.write(top, "2")
     assert told == []
     assert trace.changed() == ["top"]

@@ -11,7 +11,7 @@ from reactive_realizer.reactive.errors import (
     WriteDuringCommitError,
     WriteOutsideTransactionError,
 )
-from reactive_realizer.reactive.graph import Cell, Commit
+from reactive_realizer.reactive.graph import Cell, Change, Commit
 
 from .conftest import Trace
 
@@ -68,8 +68,8 @@ def test_nothing_is_computed_beyond_a_cell_that_keeps_its_value(trace: Trace) ->
 def test_a_value_that_changes_and_returns_notifies_no_observer(trace: Trace) -> None:
     top = trace.source("top", 1)
     told: list[object] = []
-    top.observe(told.append)
-    trace.derived("below", top).observe(told.append)
+    top.observe(lambda change: told.append(change.new))
+    trace.derived("below", top).observe(lambda change: told.append(change.new))
     trace.write(top, 2, 1)
     assert told == []
     assert trace.commits == []
@@ -156,7 +156,7 @@ def test_observers_are_notified_after_the_commit_and_see_all_of_it(trace: Trace)
     one, two = trace.source("one"), trace.source("two")
     total = trace.derived("total", one, two)
     told: list[object] = []
-    one.observe(lambda value: told.append((value, two.value, total.value)))
+    one.observe(lambda change: told.append((change.new, two.value, total.value)))
     with trace.graph.transaction("test"):
         one.set(1)
         assert told == []
@@ -211,7 +211,7 @@ def test_other_observers_are_notified_when_one_raises(trace: Trace, caplog: pyte
         raise KeyError(commit.stamp.cause)
 
     top.observe(fail)
-    top.observe(told.append)
+    top.observe(lambda change: told.append(change.new))
     trace.graph._listeners.insert(0, fail_to_listen)
     trace.write(top, 1)
     assert told == [1]
@@ -237,7 +237,7 @@ def test_an_observer_disposed_of_by_another_one_is_not_notified(trace: Trace) ->
     top = trace.source("top")
     told: list[object] = []
     top.observe(lambda value: second.dispose())
-    second = top.observe(told.append)
+    second = top.observe(lambda change: told.append(change.new))
     trace.write(top, 1)
     assert told == []
     second.dispose()
@@ -247,8 +247,8 @@ def test_an_observer_that_disposes_of_itself_is_notified_once(trace: Trace) -> N
     top = trace.source("top")
     told: list[object] = []
 
-    def observe(value: object) -> None:
-        told.append(value)
+    def observe(change: Change) -> None:
+        told.append(change.new)
         subscription.dispose()
 
     subscription = top.observe(observe)

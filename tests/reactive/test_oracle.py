@@ -88,7 +88,7 @@ class Subject:
         else:
             dependencies = tuple(self.cells[each] for each in node.dependencies)
             self.cells.append(Derived(self.graph, f"c{index}", dependencies, self.formula(index, node.formula)))
-        self.cells[index].observe(lambda value: self.told.append((index, plain(value))))
+        self.cells[index].observe(lambda change: self.told.append((index, plain(change.new))))
 
     def formula(self, index: int, name: str) -> Callable[..., int]:
         def noted(*values: int) -> int:

@@ -17,6 +17,8 @@ from reactive_realizer.limits import Limits
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.planunit.timing import timing_at
+from reactive_realizer.reactive.cell import Source
+from reactive_realizer.reactive.graph import Graph
 from reactive_realizer.realizer.character import Character
 from reactive_realizer.realizer.inputs import BmlText
 from reactive_realizer.realizer.realizer import Realizer
@@ -101,7 +103,8 @@ async def pilot() -> AsyncIterator[RealizerPilot]:
         alice = scene.realizer.characters["alice"]
         engines = (FailingEngine("alice/failing"), *alice.engines)
         character = Character("alice", alice.humanoid, engines)
-        async with Realizer([character], World({}), lambda board: {}, SmartBodyStrategy(), Limits()) as realizer:
+        time = Source(Graph(), "time", GlobalTime(0.0))
+        async with Realizer([character], World({}), lambda board: {}, SmartBodyStrategy(), Limits(), time) as realizer:
             yield RealizerPilot(Scene(realizer, scene.specification, scene.assets, scene.tts))
 
 

@@ -20,7 +20,6 @@ from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.parameter import Parameter, Range
 from reactive_realizer.planunit.plan_unit import PlanUnit
-from reactive_realizer.reactive.cell import Source
 from reactive_realizer.testing.engine_contract import EngineContract
 
 from .conftest import broken
@@ -85,7 +84,7 @@ class Resizable(WaitEngine):
 
     def plan(self, block: BlockKey, behavior: Behavior, prepared: object) -> PlanUnit:
         unit = super().plan(block, behavior, prepared)
-        unit.parameters["size"] = Parameter(Source(self.graph, "size", 1.0), Range(0.0, 1.0))
+        unit.parameters["size"] = Parameter(self.graph, "size", 1.0, Range(0.0, 1.0))
         return unit
 
 

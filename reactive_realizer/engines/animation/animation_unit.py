@@ -25,11 +25,10 @@ from reactive_realizer.engines.animation.motion_unit import (
 )
 from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.peg_key import BlockKey
-from reactive_realizer.planunit.parameter import Parameter
+from reactive_realizer.planunit.parameter import Parameter, ParameterValues
 from reactive_realizer.planunit.phase_clock import PhaseClock
 from reactive_realizer.planunit.plan_unit import DuePoint, PlanUnit, SyncPoint
 from reactive_realizer.planunit.timing import Phase, PhaseKind, Timing
-from reactive_realizer.reactive.cell import Source
 from reactive_realizer.reactive.graph import Graph
 
 PhaseEnds = tuple[str, str]
@@ -99,10 +98,11 @@ class AnimationUnit(PlanUnit):
         keys = keys_of(behavior, motion)
         super().__init__(block, behavior, motion_timing(behavior, motion, keys))
         self._context = context
+        self.parameters = {
+            name: Parameter(context.graph, str(self.key(name)), motion.parameters[own], planned.range(name))
+            for name, own in planned.names.items()
+        }
         self._play(planned, keys)
-        for name, own in planned.names.items():
-            cell = Source(context.graph, str(self.key(name)), motion.parameters[own])
-            self.parameters[name] = Parameter(cell, planned.range(name))
         self.notes = planned.notes
         self.height = LOWEST
         self._fault_reported = False
@@ -124,6 +124,8 @@ class AnimationUnit(PlanUnit):
         self.keys = keys
         self._clock = PhaseClock(keys)
         self._names = candidate.names
+        cells = {own: self.parameters[name].cell for name, own in candidate.names.items() if name in self.parameters}
+        motion.parameters = ParameterValues(motion.parameters, cells)
 
     def _stands_in(self, candidate: Candidate) -> bool:
         """Return whether a candidate has the points and the parameters of the planned one."""
@@ -195,8 +197,6 @@ class AnimationUnit(PlanUnit):
         Raises:
             RealizerError: the motion has no layer, or an invalid one; the unit should be stopped.
         """
-        for name, own in self._names.items():
-            self.motion.parameters[own] = self.parameters[name].value
         context = self._context
         layer = layer_of(self.motion, Moment(self._clock.advance(self, now), now, context.body(), context.shown()))
         self.height = height(self)

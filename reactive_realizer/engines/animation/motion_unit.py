@@ -140,7 +140,7 @@ class MotionUnit(ABC):
     resources: frozenset[str] = frozenset()
     group: str | None = None
     persists_as: str | None = None
-    parameters: dict[str, float]
+    parameters: Mapping[str, float]
     ranges: Mapping[str, Range] = MappingProxyType({})
     fixed: frozenset[str] = frozenset()
     key_positions: Mapping[str, float] = START_TO_END

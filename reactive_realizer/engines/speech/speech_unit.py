@@ -10,7 +10,6 @@ from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.parameter import Parameter, Range
 from reactive_realizer.planunit.plan_unit import DuePoint, PlanUnit
 from reactive_realizer.planunit.timing import PhaseKind, timing_at
-from reactive_realizer.reactive.cell import Source
 from reactive_realizer.reactive.graph import Graph
 
 VOICE = "voice"
@@ -41,8 +40,8 @@ class SpeechUnit(PlanUnit):
         self.utterance = utterance
         self.started: GlobalTime | None = None
         self.cut: GlobalTime | None = None
-        self._volume = Source(graph, str(self.key("volume")), _VOLUME_OF_GAIN_1)
-        self.parameters["volume"] = Parameter(self._volume, VOLUME_RANGE)
+        self._volume = Parameter(graph, str(self.key("volume")), _VOLUME_OF_GAIN_1, VOLUME_RANGE)
+        self.parameters["volume"] = self._volume
 
     @property
     def gain(self) -> float:

@@ -91,7 +91,7 @@ def test_weights_may_change_while_it_plays(skeleton: Skeleton) -> None:
     body = Body(skeleton)
     unit_ = gaze(body, target_at(body, 30, 0), Influence.WAIST)
     before = unit_.pose(Moment(0.5, GlobalTime(0.0), body)).rotations
-    unit_.parameters["back"] = 0.0
+    unit_.parameters = {**unit_.parameters, "back": 0.0}
     later = unit_.pose(Moment(0.5, GlobalTime(0.0), body)).rotations
     assert "vl5" in before
     assert "vl5" not in later

@@ -167,7 +167,7 @@ def test_a_bigger_beat_has_a_longer_path_and_may_grow_while_it_plays(
     unit, body = gesture("beat_right")
     stroke = unit.key_positions["stroke"]
     before = wrist(body.posed(shown(unit, stroke, body)))
-    unit.parameters["a"] = 1.0
+    unit.parameters = {**unit.parameters, "a": 1.0}
     assert wrist(body.posed(shown(unit, stroke, body)))[1] < before[1] - 0.05
 
 
@@ -188,12 +188,12 @@ def test_an_amount_scales_the_distance_from_the_rest_pose(gesture: PlanGesture, 
     unit.start(body)
     keys = unit.key_positions
     whole = shown(unit, keys["stroke"], body)
-    unit.parameters[AMOUNT] = 0.4
+    unit.parameters = {**unit.parameters, AMOUNT: 0.4}
     for joint, part in shown(unit, keys["stroke"], body).items():
         begin = rest.rotation(joint)
         assert angle(difference(begin, part)) == pytest.approx(0.4 * angle(difference(begin, whole[joint])), abs=1e-6)
     assert distance(wrist(body.posed(shown(unit, 0.0, body))), wrist(body)) < 1e-9
-    unit.parameters[AMOUNT] = 0.0
+    unit.parameters = {**unit.parameters, AMOUNT: 0.0}
     for joint, rotation in shown(unit, keys["stroke"], body).items():
         assert angle(difference(REST_POSE.get(joint, IDENTITY), rotation)) < 1e-6
 
@@ -215,7 +215,7 @@ def test_a_copy_has_the_same_durations_and_moves_independently(
     other = unit.copy()
     assert (other.preferred_duration, other.key_positions) == (unit.preferred_duration, unit.key_positions)
     as_planned = shown(unit, 0.1, body)
-    other.parameters[AMOUNT] = 0.5
+    other.parameters = {**other.parameters, AMOUNT: 0.5}
     other.start(body.posed(RAISED))
     assert shown(unit, 0.1, body) == as_planned
     assert shown(other, 0.1, body) != as_planned
@@ -276,7 +276,7 @@ def test_a_parameter_change_during_a_hold_takes_effect_at_once(
 ) -> None:
     gesture, body = reaching(True), Body(skeleton)
     (before,) = poses(gesture, body)
-    gesture.parameters["a"] = 2.0
+    gesture.parameters = {**gesture.parameters, "a": 2.0}
     (after,) = poses(gesture, body)
     assert after["r_shoulder"] != before["r_shoulder"]
     assert after["r_index1"] == before["r_index1"]

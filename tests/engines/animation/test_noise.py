@@ -79,7 +79,7 @@ def test_noise_does_not_depend_on_its_start_time(skeleton: Skeleton) -> None:
 def test_a_parameter_change_causes_no_jump(skeleton: Skeleton, name: str, value: float) -> None:
     unit = NoiseMotionUnit("vl5", {"baseamplitudex": 0.2}, SEED)
     before = about_x(unit, np.arange(0.0, 40.0, 0.02), skeleton)
-    unit.parameters[name] = value
+    unit.parameters = {**unit.parameters, name: value}
     (after,) = about_x(unit, [40.0], skeleton)
     assert abs(after - before[-1]) < 0.06
 

@@ -127,7 +127,7 @@ def test_a_parameter_change_while_playing_affects_the_motion_but_not_its_timing(
         '<Rotation target="vc4" rotation="a*t;0;0"/><KeyPosition id="stroke" time="a/4"/><Parameter sid="a" value="1"/>'
     )
     unit = ProceduralMotionUnit(read(content, 'prefDuration="2*a"'), {}, LayerKind.ADDITIVE)
-    unit.parameters["a"] = 3.0
+    unit.parameters = {**unit.parameters, "a": 3.0}
     assert rotation(unit, 0.5, Body(skeleton), "vc4") == pytest.approx(from_euler(1.5, 0.0, 0.0))
     assert (unit.preferred_duration, unit.key_positions["stroke"]) == (2.0, 0.25)
 
@@ -197,7 +197,7 @@ def test_the_amount_is_the_amplitude_and_may_change_while_it_plays(head: HeadMot
     unit, turn = head(name, a=0.5)
     stroke = unit.key_positions["stroke"]
     small = 1.0 - turn(stroke)[0]
-    unit.parameters["a"] = 1.0
+    unit.parameters = {**unit.parameters, "a": 1.0}
     assert 1.0 - turn(stroke)[0] == pytest.approx(4.0 * small, rel=0.05)
 
 

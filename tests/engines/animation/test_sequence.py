@@ -150,7 +150,7 @@ def test_a_parameter_with_equal_values_in_all_parts_is_a_parameter_of_the_sequen
     whole = SequenceMotionUnit([SequencePart(first, 0.0, 1.0), SequencePart(second, 0.0, 1.0)], {})
     assert whole.parameters == {"amount": 1.0}
     assert list(whole.ranges) == ["amount"]
-    whole.parameters["amount"] = 0.5
+    whole.parameters = {**whole.parameters, "amount": 0.5}
     whole.pose(Moment(0.5, GlobalTime(0.5), Body(skeleton)))
     assert first.parameters == {"amount": 0.5, "a": 0.2}
     assert second.parameters == {"amount": 0.5, "a": 0.3}

@@ -1,6 +1,6 @@
 """Sequences: several motions as one, each shifted, stretched, faded in and out, and layered over those before it."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from reactive_realizer.embodiment.body import Body
@@ -154,9 +154,26 @@ class SequenceMotionUnit(MotionUnit):
     def _begin(self, part: SequencePart, body: Body) -> None:
         if part not in self._begun:
             self._begun.add(part)
+            part.motion.parameters = _SharedParameters(part.motion.parameters, self.parameters)
             part.motion.start(body)
-        own = part.motion.parameters
-        own.update({name: value for name, value in self.parameters.items() if name in own})
+
+
+class _SharedParameters(Mapping[str, float]):
+    """The parameters of a part, with the values of the sequence for those that it shares."""
+
+    def __init__(self, own: Mapping[str, float], shared: Mapping[str, float]) -> None:
+        self._own = own
+        self._shared = shared
+
+    def __getitem__(self, name: str) -> float:
+        own = self._own[name]
+        return self._shared.get(name, own)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._own)
+
+    def __len__(self) -> int:
+        return len(self._own)
 
 
 def _agreed(parts: Sequence[SequencePart]) -> dict[str, float]:
