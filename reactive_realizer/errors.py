@@ -10,6 +10,8 @@ from enum import StrEnum
 from string import Formatter
 from typing import ClassVar, Self, cast, dataclass_transform
 
+from reactive_realizer.nearest_name import nearest_name
+
 
 class WarningType(StrEnum):
     """Types of BML 1.0 warningFeedback, and EXECUTION_FAILURE as AsapRealizer sends it."""
@@ -39,6 +41,8 @@ class _Kind:
             names = {name for _, name, _, _ in Formatter().parse(kind.template) if name}
             if unknown := names - {own.name for own in fields(kind)}:
                 raise TypeError(f"the template of {cls.__name__} mentions {', '.join(unknown)}, which is not a field")
+            if kind.unknown and not {kind.unknown, "known"} <= {own.name for own in fields(kind)}:
+                raise TypeError(f"{cls.__name__} suggests names, so it needs the fields {kind.unknown} and known")
             if kind.code in FAULTS:
                 raise TypeError(f"{kind.code} is already the code of {FAULTS[kind.code].__name__}")
             FAULTS[kind.code] = kind
@@ -53,6 +57,8 @@ class Fault(_Kind):
     Attributes:
         code: the name of the kind. Programs rely on it, so it never changes.
         template: the sentence for people. Fields are in braces; tuples are listed.
+        unknown: the field with the name, or the tuple of names, that is unknown; the sentence then suggests the names
+            of the field ``known``, a tuple, that are most like it. Empty for a fault without such names.
         warning: the type of the warningFeedback that reports it; None if feedback does not.
         line: 1-based line of the element in its document; None without a document.
         column: 1-based column of the start tag of the element.
@@ -60,6 +66,7 @@ class Fault(_Kind):
 
     code: ClassVar[str]
     template: ClassVar[str]
+    unknown: ClassVar[str] = ""
     warning: ClassVar[WarningType | None] = None
     line: int | None = None
     column: int | None = None
@@ -72,19 +79,44 @@ class Fault(_Kind):
     @property
     def sentence(self) -> str:
         """The sentence for people, without the place."""
-        return self.template.format(**{name: _listed(value) for name, value in self.details.items()})
+        sentence = self.template.format(**{name: _listed(value) for name, value in self.details.items()})
+        meant = " and ".join(f"'{name}'" for name in self._nearest())
+        return f"{sentence}; did you mean {meant}?" if meant else sentence
 
     def located(self, line: int, column: int) -> Self:
         """This fault with a place, unless it already has one."""
         return self if self.line is not None else replace(self, line=line, column=column)
+
+    def _nearest(self) -> list[str]:
+        """The known names that are most like the unknown ones."""
+        if not self.unknown:
+            return []
+        written, known = self.details[self.unknown], cast("tuple[str, ...]", self.details["known"])
+        found = (nearest_name(name, known) for name in (written if isinstance(written, tuple) else (str(written),)))
+        return [name for name in found if name is not None]
 
     def __str__(self) -> str:
         place = "" if self.line is None else f"line {self.line}, column {self.column}: "
         return place + self.sentence
 
 
+_MOST_LISTED = 40
+_MOST_QUOTED = 60
+
+
+def quoted(text: str) -> str:
+    """A text of the document for a message: on one line, truncated if it is long."""
+    line = " ".join(text.split())
+    return line if len(line) <= _MOST_QUOTED else f"{line[:_MOST_QUOTED]}..."
+
+
 def _listed(value: object) -> object:
-    return (", ".join(map(str, value)) or "none") if isinstance(value, tuple) else value
+    """A tuple of names for a message, separated by commas, truncated if there are many; other values as they are."""
+    if not isinstance(value, tuple):
+        return value
+    distinct = list(dict.fromkeys(map(str, value)))
+    more = ["..."] if len(distinct) > _MOST_LISTED else []
+    return ", ".join([*map(quoted, distinct[:_MOST_LISTED]), *more]) or "none"
 
 
 class ParsingFault(Fault):

@@ -27,6 +27,8 @@ class Limits:
     """Open sockets and feedback streams."""
     messages_per_second: int = 500
     """Socket messages per second and client."""
+    answered_warnings: int = 50
+    """Warnings in the answer to a BML document; the others are counted."""
     message_bytes: int = 1_200_000
     """Size of a socket message, bytes: a BML document in JSON."""
     queued_bytes: int = 8 * 1024 * 1024

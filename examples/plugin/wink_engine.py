@@ -19,6 +19,7 @@ class NoSuchEye(CreationFault):
 
     code = "wink-no-such-eye"
     template = "there is no eye '{eye}'; available: {known}"
+    unknown = "eye"
     eye: str
     known: tuple[str, ...]
 
@@ -43,14 +44,23 @@ class WinkEngine(DefaultEngine):
         """Whether this is a `wink` of our namespace."""
         return (behavior.namespace, behavior.name) == ("urn:example:wink", "wink")
 
+    def check(self, behavior: Behavior) -> tuple[str, ...]:
+        """The sync points of a wink."""
+        _lid(behavior)
+        return ("start", "end")
+
     def plan(self, block: BlockKey, behavior: Behavior, prepared: object) -> PlanUnit:
         """Make a wink."""
-        assert isinstance(behavior, ForeignBehavior)
-        eye = behavior.attributes.get("eye", "left")
-        if eye not in _LIDS:
-            raise RealizerError(NoSuchEye(eye=eye, known=tuple(_LIDS)))
-        return Wink(block, behavior, _LIDS[eye])
+        return Wink(block, behavior, _lid(behavior))
 
     def face(self, tick: Tick) -> Mapping[str, float]:
         """The weights of the lids that are closed now."""
         return dict.fromkeys(self.player.show(Wink, lambda unit: unit.lid, tick.time), 1.0)
+
+
+def _lid(behavior: Behavior) -> str:
+    assert isinstance(behavior, ForeignBehavior)
+    eye = behavior.attributes.get("eye", "left")
+    if eye not in _LIDS:
+        raise RealizerError(NoSuchEye(eye=eye, known=tuple(_LIDS)))
+    return _LIDS[eye]

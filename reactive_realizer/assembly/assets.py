@@ -23,6 +23,13 @@ class AssetIndex:
         self._changed: dict[str, int] = {}
         self._files: dict[str, list[Path]] = {}
 
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The names of all files when the folder was last walked."""
+        if not self._changed:
+            self._walk()
+        return tuple(self._files)
+
     def files(self, name: str) -> Sequence[Path]:
         """The files with a name, in any order. Links to folders are not followed."""
         if not self._changed or any(_changed(folder) != at for folder, at in self._changed.items()):
@@ -81,7 +88,7 @@ class Assets:
         for folder, file in self._places(name):
             if (found := _within(folder, file)) is not None:
                 return found
-        raise RealizerError(NoAsset(name=name))
+        raise RealizerError(self._missing(name))
 
     def _all_places(self, name: str) -> list[tuple[Path, Path]]:
         """The possible paths of a name, as written and without its leading folders, each with its root."""
@@ -98,7 +105,13 @@ class Assets:
                 raise RealizerError(TwoAssets(name=name.name, known=known))
             if found:
                 return found[0]
-        raise RealizerError(NoAsset(name=name.name))
+        raise RealizerError(self._missing(name.name))
+
+    def _missing(self, name: str) -> NoAsset:
+        """The fault of a name that no file has."""
+        file = PurePosixPath(name)
+        names = (each for index in self._indices.values() for each in index.names)
+        return NoAsset(name=name, files=(file.name,), known=tuple(each for each in names if each.endswith(file.suffix)))
 
 
 def _relative(name: str) -> PurePosixPath:

@@ -18,6 +18,7 @@ class NoPlugin(Fault):
 
     code = "no-plugin"
     template = "the plug-in group {group} has no '{name}'; available: {known}"
+    unknown = "name"
     group: str
     name: str
     known: tuple[str, ...]

@@ -41,15 +41,20 @@ def first_asset(asset: Callable[[str], Path], *names: str) -> Path:
     Raises:
         RealizerError: "no-asset": none of the files exists (the error names them all), or a name is invalid.
     """
-    missing = []
+    missing: list[NoAsset] = []
     for name in names:
         try:
             return asset(name)
         except RealizerError as problem:
             if not isinstance(problem.fault, NoAsset):
                 raise
-            missing.append(problem.fault.name)
-    raise RealizerError(NoAsset(name="' or '".join(missing)))
+            missing.append(problem.fault)
+    fault = NoAsset(
+        name="' or '".join(each.name for each in missing),
+        files=tuple(file for each in missing for file in each.files),
+        known=tuple(dict.fromkeys(name for each in missing for name in each.known)),
+    )
+    raise RealizerError(fault)
 
 
 def parse_boolean(name: str, text: str) -> bool:

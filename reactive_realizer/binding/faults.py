@@ -4,11 +4,14 @@ from reactive_realizer.errors import CreationFault
 
 
 class NoAsset(CreationFault):
-    """No asset has the name."""
+    """No asset has the name, or any of several names."""
 
     code = "no-asset"
     template = "there is no asset named '{name}'"
+    unknown = "files"
     name: str
+    files: tuple[str, ...] = ()
+    known: tuple[str, ...] = ()
 
 
 class AssetTooBig(CreationFault):

@@ -93,10 +93,14 @@ class GestureBinding:
             return (*exact[:1], *(spec for spec in exact[1:] if _MODE in spec.constraints))
         return (*exact, *(spec for spec in specs if _MODE in spec.constraints and spec.fits(values, _MODE)))
 
-    def constrained_attributes(self, behavior: str, namespace: str) -> frozenset[str]:
-        """Return the attributes that the entries for an element constrain."""
-        entries = (spec for spec in self.specs if (spec.behavior, spec.namespace) == (behavior, namespace))
-        return frozenset().union(*(spec.constraints for spec in entries))
+    def constrained_values(self, behavior: str, namespace: str) -> Mapping[str, tuple[str, ...]]:
+        """Return the attributes that the entries for an element constrain, each with its values in these entries."""
+        values: dict[str, dict[str, None]] = {}
+        for spec in self.specs:
+            if (spec.behavior, spec.namespace) == (behavior, namespace):
+                for name, value in spec.constraints.items():
+                    values.setdefault(name, {})[value] = None
+        return {name: tuple(own) for name, own in values.items()}
 
 
 def _by_lexeme(specs: Iterable[UnitSpec]) -> dict[_LexemeKey, list[UnitSpec]]:

@@ -102,7 +102,7 @@ class Boolean:
         """The truth value."""
         word = text.strip().lower()
         if word not in {"true", "false", "1", "0"}:
-            raise RealizerError(UnknownWord(known=self.description))
+            raise RealizerError(UnknownWord(word=text, known=("true", "false")))
         return word in {"true", "1"}
 
 
@@ -178,7 +178,7 @@ class Enumeration:
         known: dict[str, StrEnum] = {**{_plain(word): word for word in self.words}, **self.synonyms}
         word = known.get(_plain(text.strip()))
         if word is None:
-            raise RealizerError(UnknownWord(known=self.description))
+            raise RealizerError(UnknownWord(word=text, known=tuple(self.words)))
         return word
 
 
@@ -197,11 +197,14 @@ class CompositionValue:
     chunk_after: tuple[str, ...] = ()
 
 
+_LISTS_OF_BLOCKS: Final = ("APPEND-AFTER(ids)", "CHUNK-AFTER(ids)")
+
+
 @dataclass(frozen=True, slots=True)
 class CompositionType:
     """A word of `Composition`, or a list of blocks: ``APPEND-AFTER(b1,b2)`` (thesis 6.6.8.1), ``CHUNK-AFTER(b1)``."""
 
-    description: ClassVar[str] = f"{Enumeration(Composition).description}, APPEND-AFTER(ids), CHUNK-AFTER(ids)"
+    description: ClassVar[str] = ", ".join((*Composition, *_LISTS_OF_BLOCKS))
 
     def read(self, text: str, limits: Limits) -> CompositionValue:
         """The word or the blocks; a word may be in any case, its parts joined by ``_``, ``-`` or nothing."""
@@ -214,7 +217,7 @@ class CompositionType:
         try:
             return CompositionValue(Composition(str(Enumeration(Composition).read(text, limits))))
         except RealizerError:
-            raise RealizerError(UnknownWord(known=self.description)) from None
+            raise RealizerError(UnknownWord(word=text, known=(*Composition, *_LISTS_OF_BLOCKS))) from None
 
 
 def _plain(word: str) -> str:

@@ -28,7 +28,6 @@ from reactive_realizer.bml.trees import (
     children_of,
     is_continuous,
     is_core,
-    listed,
     name_of,
     names_in,
     namespace_of,
@@ -64,8 +63,8 @@ def read_behavior(tree: Tree, source: BlockSource, order: int, required: bool, n
     """
     element = _element_of(tree)
     if element is None and is_core(tree):
-        known = [name for name, each in ELEMENTS.items() if not each.continuous]
-        raise RealizerError(source.located(tree, UnknownBehavior(element=name_of(tree), known=listed(known))))
+        known = tuple(name for name, each in ELEMENTS.items() if not each.continuous)
+        raise RealizerError(source.located(tree, UnknownBehavior(element=name_of(tree), known=known)))
     place = {"order": order, "required": required}
     return _known(tree, element, source, place, notes) if element else _foreign(tree, source, place)
 

@@ -184,4 +184,9 @@ class Parsed:
     @property
     def refusal(self) -> Fault | None:
         """The reason for which the whole element is refused, if it is."""
-        return None if self.block or self.procedure else self.problems[0].fault
+        return None if self.written else self.problems[0].fault
+
+    @property
+    def written(self) -> BehaviorBlock | DefineProc | None:
+        """The block or the procedure."""
+        return self.block or self.procedure

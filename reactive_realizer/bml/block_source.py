@@ -29,15 +29,13 @@ from reactive_realizer.bml.trees import (
     extensions_of,
     is_continuous,
     is_part,
-    listed,
     name_of,
     names_in,
     namespace_of,
-    quoted,
     stray_text_of,
 )
 from reactive_realizer.bml.xml_roots import Root
-from reactive_realizer.errors import Fault, RealizerError
+from reactive_realizer.errors import Fault, RealizerError, quoted
 from reactive_realizer.limits import Limits
 
 _MOST_COPIES: Final = 10
@@ -187,7 +185,7 @@ class BlockSource:
         if not unknown:
             return []
         return [
-            self.located(tree, UnknownAttribute(element=name_of(tree), attributes=listed(unknown), known=listed(known)))
+            self.located(tree, UnknownAttribute(element=name_of(tree), attributes=tuple(unknown), known=tuple(known)))
         ]
 
     def unknown_children(self, tree: Tree, names: Iterable[str]) -> list[Fault]:
@@ -196,8 +194,8 @@ class BlockSource:
         unknown = [child for child in tree if not is_part(child, tree) or name_of(child) not in known]
         if not unknown:
             return []
-        elements = listed(map(name_of, unknown))
-        return [self.located(unknown[0], UnknownElement(element=elements, parent=name_of(tree), known=listed(known)))]
+        fault = UnknownElement(elements=tuple(map(name_of, unknown)), parent=name_of(tree), known=tuple(known))
+        return [self.located(unknown[0], fault)]
 
     def stray_text(self, tree: Tree) -> list[Fault]:
         """One fault for all text directly inside an element that should have none."""

@@ -10,8 +10,8 @@ from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.drafts import modernize, persisting
 from reactive_realizer.bml.faults import DuplicateId, MissingElement, MoreProblems, TooManyBehaviors
 from reactive_realizer.bml.sync_ref import SyncRef
-from reactive_realizer.bml.trees import Tree, children_of, is_continuous, is_core, name_of, namespace_of, quoted
-from reactive_realizer.errors import Fault, RealizerError
+from reactive_realizer.bml.trees import Tree, children_of, is_continuous, is_core, name_of, namespace_of
+from reactive_realizer.errors import Fault, RealizerError, quoted
 
 _REQUIRED: Final = "required"
 _CONSTRAINT: Final = "constraint"

@@ -170,7 +170,7 @@ def _check(tree: Tree, name: str, words: Collection[str], source: BlockSource) -
     """
     value = _take(tree, name)
     if value and value.upper() not in words:
-        raise source.bad_attribute(tree, name, value, RealizerError(UnknownWord(known=", ".join(words))))
+        raise source.bad_attribute(tree, name, value, RealizerError(UnknownWord(word=value, known=tuple(words))))
     return value.upper()
 
 

@@ -119,9 +119,10 @@ class UnknownAttribute(ParsingFault):
 
     code = "unknown-attribute"
     template = "unknown attribute {attributes} of <{element}>; known: {known}"
+    unknown = "attributes"
     element: str
-    attributes: str
-    known: str
+    attributes: tuple[str, ...]
+    known: tuple[str, ...]
 
 
 class BadAttribute(ParsingFault):
@@ -165,7 +166,9 @@ class UnknownWord(Fault):
 
     code = "unknown-word"
     template = "not one of {known}"
-    known: str
+    unknown = "word"
+    word: str
+    known: tuple[str, ...]
 
 
 class NotAnEvent(Fault):
@@ -211,10 +214,11 @@ class UnknownElement(ParsingFault):
     """Child elements that an element does not have."""
 
     code = "unknown-element"
-    template = "unknown {element} in <{parent}>; known: {known}"
-    element: str
+    template = "unknown {elements} in <{parent}>; known: {known}"
+    unknown = "elements"
+    elements: tuple[str, ...]
     parent: str
-    known: str
+    known: tuple[str, ...]
 
 
 class MissingElement(ParsingFault):
@@ -281,9 +285,10 @@ class UnknownBehavior(Fault):
 
     code = "unknown-behavior"
     template = "<{element}> is not a behavior of BML 1.0; known: {known}"
+    unknown = "element"
     warning = WarningType.BEHAVIOR_TYPE_NOT_SUPPORTED
     element: str
-    known: str
+    known: tuple[str, ...]
 
 
 class ForeignAttribute(Fault):
@@ -301,9 +306,10 @@ class UnknownReference(SchedulingFault):
 
     code = "unknown-reference"
     template = "{reference}: there is no behavior '{behavior}'; available: {known}"
+    unknown = "behavior"
     reference: str
     behavior: str
-    known: str
+    known: tuple[str, ...]
 
 
 class UnknownSync(SchedulingFault):
@@ -311,10 +317,11 @@ class UnknownSync(SchedulingFault):
 
     code = "unknown-sync"
     template = "{reference}: '{behavior}' has no sync point '{sync}'; it has {known}"
+    unknown = "sync"
     reference: str
     behavior: str
     sync: str
-    known: str
+    known: tuple[str, ...]
 
 
 class UnknownBlock(SchedulingFault):
@@ -322,8 +329,10 @@ class UnknownBlock(SchedulingFault):
 
     code = "unknown-block"
     template = "{reference}: the block '{block}' is unknown or has ended"
+    unknown = "block"
     reference: str
     block: str
+    known: tuple[str, ...] = ()
 
 
 class UnknownOwner(SchedulingFault):
@@ -333,9 +342,10 @@ class UnknownOwner(SchedulingFault):
     template = (
         "{reference}: '{block}' is neither a behavior of this block nor a block that is still alive; behaviors: {known}"
     )
+    unknown = "block"
     reference: str
     block: str
-    known: str
+    known: tuple[str, ...]
 
 
 class LostWith(SchedulingFault):

@@ -1,13 +1,12 @@
 """Checks that the sync points to which a block refers exist."""
 
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.block import BehaviorBlock, Constraint, DefineProc, Order, Problem
 from reactive_realizer.bml.faults import LostWith, UnknownBlock, UnknownOwner, UnknownReference, UnknownSync
 from reactive_realizer.bml.names import Location
 from reactive_realizer.bml.sync_ref import SyncRef
-from reactive_realizer.bml.trees import listed
 from reactive_realizer.errors import Fault
 
 Points = Callable[[Behavior], Collection[str] | None]
@@ -43,13 +42,13 @@ def references_of(block: BehaviorBlock | DefineProc) -> Iterator[tuple[str, Loca
             yield place, constraint.location, ref
 
 
-def unknown_block(ref: SyncRef, block: BehaviorBlock | DefineProc) -> Fault:
-    """The fault of a reference to a block that does not exist."""
+def unknown_block(ref: SyncRef, block: BehaviorBlock | DefineProc, blocks: Iterable[str]) -> Fault:
+    """The fault of a reference in a block to another one that is not among ``blocks``."""
     name = ref.block or ""
     if ref.behavior is not None:
-        return UnknownBlock(reference=str(ref), block=name)
+        return UnknownBlock(reference=str(ref), block=name, known=tuple(blocks))
     # b1:end may have been meant for a behavior as well.
-    known = listed(behavior.id for behavior in block.behaviors)
+    known = tuple(behavior.id for behavior in block.behaviors)
     return UnknownOwner(reference=str(ref), block=name, known=known)
 
 
@@ -71,9 +70,9 @@ def _fault(
     if ref.behavior in block.unread:
         fault = LostWith(reference=str(ref), behavior=ref.behavior)
     elif behavior is None:
-        fault = UnknownReference(reference=str(ref), behavior=ref.behavior, known=listed(behaviors))
+        fault = UnknownReference(reference=str(ref), behavior=ref.behavior, known=tuple(behaviors))
     elif (those := points(behavior)) is None or ref.sync in those:
         return None
     else:
-        fault = UnknownSync(reference=str(ref), behavior=ref.behavior, sync=ref.sync or "", known=listed(those))
+        fault = UnknownSync(reference=str(ref), behavior=ref.behavior, sync=ref.sync or "", known=tuple(those))
     return fault.located(location.line, location.column)

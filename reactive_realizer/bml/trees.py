@@ -1,6 +1,6 @@
-"""Names, children and attributes of lxml elements, and their quotation in messages."""
+"""Names, children and attributes of lxml elements."""
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Mapping
 from types import MappingProxyType
 from typing import Final
 
@@ -13,22 +13,6 @@ Tree = etree._Element
 
 PARAMETER: Final = "parameter"
 """Name of the element that gives a value to the engine of a behavior (thesis C.1.1)."""
-
-_MOST_QUOTED: Final = 60
-_MOST_LISTED: Final = 20
-
-
-def quoted(text: str) -> str:
-    """A text of the document for a message: on one line, truncated if it is long."""
-    line = " ".join(text.split())
-    return line if len(line) <= _MOST_QUOTED else f"{line[:_MOST_QUOTED]}..."
-
-
-def listed(names: Iterable[str]) -> str:
-    """Names for a message, separated by commas, truncated if there are many."""
-    distinct = list(dict.fromkeys(names))
-    more = ["..."] if len(distinct) > _MOST_LISTED else []
-    return ", ".join([*map(quoted, distinct[:_MOST_LISTED]), *more]) or "none"
 
 
 def name_of(tree: Tree) -> str:

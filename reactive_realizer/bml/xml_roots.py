@@ -25,8 +25,8 @@ from reactive_realizer.bml.faults import (
     UnclosedElement,
 )
 from reactive_realizer.bml.names import BLOCK, Location
-from reactive_realizer.bml.trees import Tree, quoted
-from reactive_realizer.errors import Fault, RealizerError
+from reactive_realizer.bml.trees import Tree
+from reactive_realizer.errors import Fault, RealizerError, quoted
 from reactive_realizer.limits import Limits
 
 _BYTE_ORDER_MARKS: Final = (

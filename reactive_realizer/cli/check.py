@@ -8,9 +8,11 @@ from pathlib import Path
 from typing import TextIO
 
 from reactive_realizer.assembly.scene import SceneOptions, open_scene
-from reactive_realizer.cli.checker import Checker
+from reactive_realizer.bml.block import Problem
+from reactive_realizer.bml.document import parse
 from reactive_realizer.cli.scene_options import add_file_options
-from reactive_realizer.errors import Fault
+from reactive_realizer.realizer.document_checker import Findings
+from reactive_realizer.realizer.realizer import Realizer
 
 
 def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
@@ -40,15 +42,43 @@ async def _check(options: argparse.Namespace) -> bool:
     """Prints the findings; returns whether there are mistakes."""
     wrong = False
     async with open_scene(SceneOptions(options.human, "text", tuple(options.assets))) as scene:
-        checker = Checker(scene.realizer)
+        check = _Check(scene.realizer)
         for path in options.files:
-            found = await checker.check(path.read_bytes())
+            found = await check.findings(path.read_bytes())
             _print(path, found.mistakes, sys.stdout)
             _print(path, found.notes, sys.stderr)
             wrong = wrong or bool(found.mistakes)
     return wrong
 
 
-def _print(path: Path, faults: Iterable[Fault], stream: TextIO) -> None:
-    for fault in faults:
-        print(f"{path}:{fault.line or 1}:{fault.column or 1}: {fault.sentence}", file=stream)
+class _Check:
+    """Checks documents as if their blocks were to enter one after another."""
+
+    def __init__(self, realizer: Realizer) -> None:
+        self._realizer = realizer
+        self._checker = realizer.checker()
+        self._procedures: dict[str, None] = {}
+
+    async def findings(self, text: bytes) -> Findings:
+        """The findings in a document."""
+        admission = self._realizer.scheduler.admission(self._procedures)
+        found = Findings([], [])
+        document = parse(text, self._realizer.limits)
+        self._checker.begin(document)
+        for parsed in document:
+            mistakes, notes = await self._checker.check(parsed, admission.refusal(parsed), slowly=True)
+            found.mistakes.extend(mistakes)
+            found.notes.extend(notes)
+            if parsed.procedure is not None:
+                self._procedures[parsed.procedure.id] = None
+        return found
+
+
+def _print(path: Path, problems: Iterable[Problem], stream: TextIO) -> None:
+    """Prints problems in the order of the document."""
+    for line, column, sentence in sorted(map(_placed, problems), key=lambda placed: placed[:2]):
+        print(f"{path}:{line}:{column}: {sentence}", file=stream)
+
+
+def _placed(problem: Problem) -> tuple[int, int, str]:
+    return problem.fault.line or 1, problem.fault.column or 1, problem.fault.sentence

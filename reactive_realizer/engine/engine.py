@@ -1,6 +1,6 @@
 """The interface of a modality (thesis 8.6), and a default implementation."""
 
-from collections.abc import Awaitable, Callable, Mapping
+from collections.abc import Awaitable, Callable, Collection, Mapping
 from types import MappingProxyType
 from typing import Protocol
 
@@ -44,6 +44,16 @@ class Engine(Protocol):
 
     def supports(self, behavior: Behavior) -> bool:
         """Whether it plays a behavior."""
+        ...
+
+    def check(self, behavior: Behavior) -> Collection[str] | None:
+        """The sync points that the unit of a behavior would have; None if only slow work can tell.
+
+        It is called before the block of the behavior enters, has no effects and is fast, because a client waits for it.
+
+        Raises:
+            RealizerError: `plan` would raise it too, as things are now.
+        """
         ...
 
     def prepare(self, behavior: Behavior) -> Awaitable[object] | None:
@@ -112,6 +122,10 @@ class DefaultEngine:
     def supports(self, behavior: Behavior) -> bool:
         """Whether a behavior is of one of its kinds, not of a subclass."""
         return type(behavior) in self.behaviors
+
+    def check(self, behavior: Behavior) -> Collection[str] | None:
+        """Nothing is known about a behavior before it is planned."""
+        return None
 
     def prepare(self, behavior: Behavior) -> Awaitable[object] | None:
         """No slow work."""

@@ -45,7 +45,8 @@ class UnknownParameter(Fault):
 
     code = "unknown-parameter"
     template = "unknown parameter {names} of <{element}>; it has {known}"
+    unknown = "names"
     warning = WarningType.CUSTOM_ATTRIBUTE_NOT_SUPPORTED
-    names: str
+    names: tuple[str, ...]
     element: str
-    known: str
+    known: tuple[str, ...]

@@ -1,7 +1,7 @@
 """The engine of the face (thesis 8.9): expressions and the mouth of speech, as weights of morph targets."""
 
 import json
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
@@ -44,6 +44,7 @@ class NoFace(CreationFault):
 
     code = "no-face"
     template = "there is no face lexeme '{lexeme}'; available: {known}"
+    unknown = "lexeme"
     lexeme: str
     known: tuple[str, ...]
 
@@ -112,6 +113,16 @@ class FaceEngine(DefaultEngine):
             for lexeme in self._lexemes
         )
 
+    def check(self, behavior: Behavior) -> Collection[str]:
+        """The points of every face.
+
+        Raises:
+            RealizerError: the lexeme is unknown.
+        """
+        if isinstance(behavior, FaceLexeme):
+            self._weights(behavior.lexeme)
+        return _TIMING.points
+
     def plan(self, block: BlockKey, behavior: Behavior, prepared: object) -> FaceUnit:
         """The face of a lexeme.
 
@@ -120,10 +131,13 @@ class FaceEngine(DefaultEngine):
         """
         if not isinstance(behavior, FaceLexeme):
             raise TypeError(behavior)
-        weights = self._lexemes.get(_word(behavior.lexeme))
+        return FaceUnit(block, behavior, self._weights(behavior.lexeme), self._release)
+
+    def _weights(self, lexeme: str) -> Mapping[str, float]:
+        weights = self._lexemes.get(_word(lexeme))
         if weights is None:
-            raise RealizerError(NoFace(lexeme=behavior.lexeme, known=tuple(self._lexemes)))
-        return FaceUnit(block, behavior, weights, self._release)
+            raise RealizerError(NoFace(lexeme=lexeme, known=tuple(self._lexemes)))
+        return weights
 
     def face(self, tick: Tick) -> Mapping[str, float]:
         """Weights of morph targets now."""

@@ -1,6 +1,6 @@
 """The engine of ``parametervaluechange`` (thesis 6.6.6, 8.15): changes a parameter of a behavior along a trajectory."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from typing import Any
 
 from reactive_realizer.bml.behavior import Behavior
@@ -47,6 +47,7 @@ class NoTrajectory(CreationFault):
 
     code = "no-trajectory"
     template = "there is no trajectory '{trajectory}'; available: {known}"
+    unknown = "trajectory"
     trajectory: str
     known: tuple[str, ...]
 
@@ -189,6 +190,16 @@ class ParameterValueChangeEngine(DefaultEngine):
         self._trajectories = context.trajectories
         self._time = context.time
         self._requested: list[Request] = []
+
+    def check(self, behavior: Behavior) -> Collection[str]:
+        """The points of a change.
+
+        Raises:
+            RealizerError: there is no trajectory of that type.
+        """
+        if not isinstance(behavior, ParameterValueChange):
+            raise TypeError(behavior)
+        return _timing(behavior, self._trajectory(behavior.trajectory.type)).points
 
     def plan(self, block: BlockKey, behavior: Behavior, prepared: object) -> PlanUnit:
         """A unit that changes its target.

@@ -27,6 +27,7 @@ from reactive_realizer.reactive.graph import Commit
 from reactive_realizer.realizer.anticipator_streams import AnticipatorFailed, AnticipatorStreams
 from reactive_realizer.realizer.background_tasks import BackgroundTasks
 from reactive_realizer.realizer.character import Character
+from reactive_realizer.realizer.document_checker import DocumentChecker
 from reactive_realizer.realizer.inbox import Inbox
 from reactive_realizer.realizer.inputs import BmlText, Forecast, Input, StreamFailure, TickInputs
 from reactive_realizer.realizer.verifier import Verifier
@@ -143,6 +144,19 @@ class Realizer:
                 if parsed.procedure is not None:
                     admission.admit_procedure(parsed.procedure)
         return admission
+
+    def checker(self) -> DocumentChecker:
+        """Finds the mistakes in a document that would enter after all earlier inputs."""
+        blocks = self.scheduler.blocks
+        entries = (entry.parsed or () for entry in self._inbox.waiting if isinstance(entry, BmlText))
+        waiting = (parsed.block.id for entry in entries for parsed in entry if parsed.block is not None)
+        alive = (*(block.key.block for block in blocks.alive), *waiting)
+        return DocumentChecker(
+            self._routing,
+            self.board,
+            alive,
+            lambda name: any(blocks.has_ended(character, name) for character in self.characters),
+        )
 
     def watch(self, listener: FrameListener) -> Callable[[], None]:
         """Call a listener with the frames of all characters, until the returned function is called.

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Sequence
 
-from reactive_realizer.bml.block import BehaviorBlock, DefineProc
+from reactive_realizer.bml.block import BehaviorBlock, DefineProc, Parsed
 from reactive_realizer.bml.vocabulary import Composition
 from reactive_realizer.errors import Fault, ParsingFault, TargetFault
 from reactive_realizer.limits import Limits
@@ -38,6 +38,7 @@ class UnknownCharacter(TargetFault):
 
     code = "unknown-character"
     template = "there is no character '{character}'; available: {known}"
+    unknown = "character"
     character: str
     known: tuple[str, ...]
 
@@ -47,6 +48,7 @@ class UnknownProcedure(TargetFault):
 
     code = "unknown-procedure"
     template = "there is no procedure '{procedure}'; available: {known}"
+    unknown = "procedure"
     procedure: str
     known: tuple[str, ...]
 
@@ -71,6 +73,14 @@ class Admission:
         self._limits = limits
         self._alive = set(alive)
         self._procedures = dict.fromkeys(procedures)
+
+    def refusal(self, parsed: Parsed) -> Fault | None:
+        """Admit what was read, or return why not."""
+        if parsed.procedure is not None:
+            return self.admit_procedure(parsed.procedure)
+        if parsed.block is not None:
+            return self.admit(parsed.block, parsed.failed)
+        return parsed.refusal
 
     def admit_procedure(self, procedure: DefineProc) -> Fault | None:
         """Admit a procedure, or return why not."""

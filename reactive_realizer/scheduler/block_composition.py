@@ -14,8 +14,10 @@ class UnknownTargetBlock(SchedulingFault):
 
     code = "unknown-target-block"
     template = "{attribute}: there has never been a block '{block}'"
+    unknown = "block"
     attribute: str
     block: str
+    known: tuple[str, ...] = ()
 
 
 class StartedAlready(SchedulingFault):
@@ -96,6 +98,6 @@ class BlockComposition:
         for name, block in found.items():
             if block is None and not self._blocks.has_ended(self.character, name):
                 place = self.description.location
-                fault = UnknownTargetBlock(attribute=attribute, block=name)
+                fault = UnknownTargetBlock(attribute=attribute, block=name, known=self._blocks.names(self.character))
                 self.unknown.append(fault.located(place.line, place.column))
         return [block for block in found.values() if block is not None]

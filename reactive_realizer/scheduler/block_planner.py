@@ -102,13 +102,12 @@ class BlockPlanner:
         description = block.description
         prepared = self._procedures.preparation(block.key.character, description)
         routed = self._routing.route(block.key.character, description.behaviors)
-        losses = [_unsupported(behavior) for behavior in description.behaviors if behavior.id not in routed]
+        losses = [lost_behavior(each, unsupported(each)) for each in description.behaviors if each.id not in routed]
         for behavior in description.behaviors:
             engine = routed[behavior.id].engine if behavior.id in routed else None
             self._feedback.foreign_attributes(block.key, behavior, engine.extensions if engine else frozenset())
             if behavior.parameters and engine is not None and not engine.reads_parameters:
-                names = ", ".join(sorted(behavior.parameters))
-                fault = UnknownParameter(names=names, element=behavior.name, known="none")
+                fault = UnknownParameter(names=tuple(sorted(behavior.parameters)), element=behavior.name, known=())
                 self._feedback.warn_element(block.key, behavior, fault)
         if not any(loss.required for loss in losses):
             self._preparations[block] = prepared or Preparation(routed, self._background)
@@ -189,7 +188,8 @@ class BlockPlanner:
         return self._preparations[block].complete and not any(other in late for other in self._awaited(block))
 
 
-def _unsupported(behavior: Behavior) -> Loss:
+def unsupported(behavior: Behavior) -> Fault:
+    """The fault of a behavior that no engine plays."""
     if behavior.namespace in (BML, BML_EXT):
-        return lost_behavior(behavior, NotSupported(element=behavior.name))
-    return lost_behavior(behavior, ForeignNotSupported(element=behavior.name, namespace=behavior.namespace))
+        return NotSupported(element=behavior.name)
+    return ForeignNotSupported(element=behavior.name, namespace=behavior.namespace)

@@ -17,7 +17,9 @@ class NoSuchBlock(TargetFault):
 
     code = "no-such-block"
     template = "there has never been a block '{block}'"
+    unknown = "block"
     block: str
+    known: tuple[str, ...] = ()
 
 
 class BlockEnded(SchedulingFault):
@@ -89,7 +91,13 @@ class Blocks:
 
     def missing(self, character: str, name: str) -> Fault:
         """The fault of naming a block that is not alive: "block-ended" or "no-such-block"."""
-        return BlockEnded(block=name) if self.has_ended(character, name) else NoSuchBlock(block=name)
+        if self.has_ended(character, name):
+            return BlockEnded(block=name)
+        return NoSuchBlock(block=name, known=self.names(character))
+
+    def names(self, character: str) -> tuple[str, ...]:
+        """The ids of the blocks of a character that are alive."""
+        return tuple(block.key.block for block in self.of(character))
 
     def affected_by(self, moved: Collection[TimeCell], board: PegBoard) -> list[BMLBlock]:
         """The blocks alive of which a peg moved, or whose constraints name a peg of others that moved."""

@@ -4,10 +4,10 @@ from collections.abc import Iterator, Mapping
 
 from reactive_realizer.bml.block import BehaviorBlock, OrderKind, Synchronize
 from reactive_realizer.bml.block import Order as OrderConstraint
-from reactive_realizer.bml.faults import LostWith, UnknownBlock, UnknownReference, UnknownSync
+from reactive_realizer.bml.faults import LostWith, UnknownReference, UnknownSync
 from reactive_realizer.bml.names import ANTICIPATORS
+from reactive_realizer.bml.references import unknown_block
 from reactive_realizer.bml.sync_ref import SyncRef
-from reactive_realizer.bml.trees import listed
 from reactive_realizer.errors import Fault, RealizerError, SchedulingFault
 from reactive_realizer.pegboard.peg_key import PegKey
 from reactive_realizer.pegboard.pegboard import PegBoard
@@ -84,7 +84,8 @@ class ReferenceResolver:
         if unit is None and ref.behavior in _written(self._block):
             raise RealizerError(LostWith(behavior=self._causes.get(ref.behavior, ref.behavior), reference=str(ref)))
         if unit is None:
-            raise RealizerError(UnknownReference(behavior=ref.behavior, reference=str(ref), known=listed(self.units)))
+            known = tuple(behavior.id for behavior in self._block.description.behaviors)
+            raise RealizerError(UnknownReference(behavior=ref.behavior, reference=str(ref), known=known))
         _check_sync(unit, ref.sync, ref)
         return unit.open.get(ref.sync) or Point(ref.behavior, ref.sync)
 
@@ -102,7 +103,8 @@ class ReferenceResolver:
         name = ref.block or ""
         other = self._blocks.find(self._block.key.character, name)
         if other is None:
-            raise RealizerError(UnknownBlock(block=name, reference=str(ref)))
+            known = self._blocks.names(self._block.key.character)
+            raise RealizerError(unknown_block(ref, self._block.description, known))
         peg = self._board.get(PegKey(*other.key, ref.behavior, ref.sync or "start"))
         if peg is not None and peg.depends_on(self._block.start):
             raise RealizerError(CyclicReference(block=self._block.key.block, reference=str(ref)))
@@ -112,7 +114,7 @@ class ReferenceResolver:
         if unit is not None:
             _check_sync(unit, ref.sync or "", ref)
         if ref.behavior not in _written(other):
-            known = listed(behavior.id for behavior in other.description.behaviors)
+            known = tuple(behavior.id for behavior in other.description.behaviors)
             raise RealizerError(UnknownReference(behavior=ref.behavior or "", reference=str(ref), known=known))
         if other.state is BlockState.IN_PREP:
             raise RealizerError(MutualReference(block=self._block.key.block, other=name, reference=str(ref)))
@@ -187,5 +189,5 @@ def _written(block: BMLBlock) -> set[str]:
 
 def _check_sync(unit: PlanUnit, sync: str, ref: SyncRef) -> None:
     if sync not in (known := unit.timing.points):
-        fault = UnknownSync(reference=str(ref), behavior=unit.behavior.id, sync=sync, known=", ".join(known))
+        fault = UnknownSync(reference=str(ref), behavior=unit.behavior.id, sync=sync, known=known)
         raise RealizerError(fault)

@@ -1,8 +1,8 @@
 """The engines of each character, and which engine plays which behavior."""
 
 import logging
-from collections.abc import Awaitable, Callable, Iterable, Mapping, Sequence
-from typing import NamedTuple
+from collections.abc import Awaitable, Callable, Collection, Iterable, Mapping, Sequence
+from typing import NamedTuple, TypeVar
 
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.clock.units import GlobalTime
@@ -13,6 +13,8 @@ from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.scheduler.faults import WorkFailed
 
 logger = logging.getLogger(__name__)
+
+T = TypeVar("T")
 
 Result = object | Exception
 """The result of background work: a value, or the exception that it raised."""
@@ -33,6 +35,17 @@ class RoutedBehavior(NamedTuple):
         """The slow work to be done before planning; None if there is none."""
         return self.engine.prepare(self.forms[0])
 
+    def check(self, left_out: Callable[[Fault], None]) -> Collection[str] | None:
+        """The sync points of the best form that can be made; None if only slow work can tell.
+
+        Args:
+            left_out: called with the fault of each better form.
+
+        Raises:
+            RealizerError: no form can be made.
+        """
+        return self._best(self.engine.check, left_out)
+
     def plan(self, block: BlockKey, result: Result, left_out: Callable[[Fault], None]) -> PlanUnit:
         """A unit for the best form that can be made.
 
@@ -48,23 +61,24 @@ class RoutedBehavior(NamedTuple):
             raise result
         if isinstance(result, Exception):
             raise RealizerError(WorkFailed(reason=str(result))) from result
-        try:
-            unit = self._best(block, result, left_out)
-        except RealizerError:
-            raise
-        except Exception as failure:
-            logger.exception("%s/%s:%s could not be made", *block, self.behavior.id)
-            raise RealizerError(WorkFailed(reason=str(failure))) from failure
+        unit = self._best(lambda form: self.engine.plan(block, form, result), left_out)
         unit.behavior = self.behavior  # feedback names the behavior, whatever form of it is played
         return unit
 
-    def _best(self, block: BlockKey, result: object, left_out: Callable[[Fault], None]) -> PlanUnit:
-        for form in self.forms[:-1]:
-            try:
-                return self.engine.plan(block, form, result)
-            except RealizerError as problem:
-                left_out(problem.fault)
-        return self.engine.plan(block, self.forms[-1], result)
+    def _best(self, make: Callable[[Behavior], T], left_out: Callable[[Fault], None]) -> T:
+        """What an engine makes of the best form that it does not refuse."""
+        try:
+            for form in self.forms[:-1]:
+                try:
+                    return make(form)
+                except RealizerError as problem:
+                    left_out(problem.fault)
+            return make(self.forms[-1])
+        except RealizerError:
+            raise
+        except Exception as failure:
+            logger.exception("'%s' could not be made by %s", self.behavior.id, self.engine.name)
+            raise RealizerError(WorkFailed(reason=str(failure))) from failure
 
 
 class EngineRouting:

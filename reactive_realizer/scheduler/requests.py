@@ -28,9 +28,11 @@ class NoSuchBehavior(TargetFault):
     """No behavior of a block has the id."""
 
     code = "no-such-behavior"
-    template = "the block '{block}' has no behavior '{behavior}'"
+    template = "the block '{block}' has no behavior {behaviors}; it has {known}"
+    unknown = "behaviors"
     block: str
-    behavior: str
+    behaviors: tuple[str, ...]
+    known: tuple[str, ...]
 
 
 class BehaviorEnded(SchedulingFault):
@@ -56,6 +58,7 @@ class NoSuchParameter(TargetFault):
 
     code = "no-such-parameter"
     template = "'{behavior}' has no parameter '{parameter}'; it has {known}"
+    unknown = "parameter"
     behavior: str
     parameter: str
     known: tuple[str, ...]
@@ -125,10 +128,11 @@ class EngineRequests:
             if isinstance(missing, NoSuchBlock):
                 self._feedback.warn_behavior(request.unit, missing)
             return
-        names = {behavior.id for behavior in block.description.behaviors}
+        known = tuple(behavior.id for behavior in block.description.behaviors)
+        names = set(known)
         spared = names.intersection(request.exclude) | (names.difference(request.include) if request.include else set())
         unknown = [name for name in (*request.include, *request.exclude) if name not in names]
-        fault = NoSuchBehavior(block=block.key.block, behavior=", ".join(unknown))
+        fault = NoSuchBehavior(block=block.key.block, behaviors=tuple(unknown), known=known)
         if unknown and spared == names:
             self._reject(request.unit, fault, now)
             return
@@ -155,7 +159,8 @@ class EngineRequests:
         unit = next((unit for unit in block.units if unit.behavior.id == request.behavior), None)
         if unit is not None and unit.live:
             return unit
-        if request.behavior not in [each.id for each in block.description.behaviors]:
-            raise RealizerError(NoSuchBehavior(block=request.block, behavior=request.behavior))
+        known = tuple(each.id for each in block.description.behaviors)
+        if request.behavior not in known:
+            raise RealizerError(NoSuchBehavior(block=request.block, behaviors=(request.behavior,), known=known))
         kind = NotPlanned if block.state is BlockState.IN_PREP else BehaviorEnded
         raise RealizerError(kind(block=request.block, behavior=request.behavior))

@@ -23,6 +23,7 @@ class UnknownMessage(Fault):
 
     code = "unknown-message"
     template = "there is no message type {type}; known: {known}"
+    unknown = "type"
     type: str
     known: tuple[str, ...]
 
@@ -59,6 +60,7 @@ class UnknownAnticipator(Fault):
 
     code = "unknown-anticipator"
     template = "there is no anticipator '{anticipator}'; available: {known}"
+    unknown = "anticipator"
     anticipator: str
     known: tuple[str, ...]
 

@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 from xml.sax.saxutils import quoteattr
 
-from reactive_realizer.bml.block import Parsed
+from reactive_realizer.bml.block import Problem
 from reactive_realizer.bml.document import parse
 from reactive_realizer.bml.faults import AbsurdTime
 from reactive_realizer.bml.names import BML
@@ -14,7 +14,6 @@ from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.realizer.inbox import TooManyNames
 from reactive_realizer.realizer.inputs import BmlText, Event, Prediction, TargetMoved, WorldPosition
-from reactive_realizer.scheduler.admission import Admission
 from reactive_realizer.server.faults import NoDemo, NotMovable, UnknownAnticipator
 from reactive_realizer.server.live_scene import LiveScene
 from reactive_realizer.server.protocol import Message
@@ -65,24 +64,40 @@ _SMALL = 2000
 """Size below which a document is parsed at once: starting a thread takes longer. Larger ones can take many ticks."""
 
 
+class Answer(NamedTuple):
+    """The answer to a document.
+
+    Attributes:
+        blocks: ids of the blocks that have entered.
+        warnings: what is known of it to be wrong, in document order.
+    """
+
+    blocks: list[str]
+    warnings: list[Problem]
+
+
 class BlocksRefused(RealizerError):
     """Some blocks of a document were refused; the fault is that of the first.
 
     Attributes:
-        entered: ids of the other blocks, which have entered.
+        answer: about the other blocks, which have entered, and with the warnings of all.
     """
 
-    def __init__(self, first: Fault, entered: list[str]) -> None:
+    def __init__(self, first: Fault, answer: Answer) -> None:
         super().__init__(first)
-        self.entered = entered
+        self.answer = answer
 
 
 class _Judged(NamedTuple):
-    """A document, the ids of its acceptable blocks, and the faults of the others."""
+    """A document, the ids of its acceptable blocks, and for each of its parts why it is refused, or None."""
 
     entry: BmlText
     blocks: list[str]
-    faults: list[Fault]
+    refusals: list[Fault | None]
+
+    @property
+    def first_refusal(self) -> Fault | None:
+        return next(filter(None, self.refusals), None)
 
 
 class Intake:
@@ -98,31 +113,28 @@ class Intake:
         self._stops = 0
         self.demo = Demo(live, self.stop)
 
-    async def document(self, text: str | bytes) -> list[str]:
-        """Accepts a document if every block can be accepted, and returns the ids of the blocks.
+    async def document(self, text: str | bytes) -> Answer:
+        """Accepts a document if every block can be accepted.
 
         Raises:
             RealizerError: the fault of the first block that cannot be accepted; none has entered.
         """
         judged = await self._judge(text)
-        if judged.faults:
-            raise RealizerError(judged.faults[0])
-        self._realizer.put(judged.entry)
-        return judged.blocks
+        if judged.first_refusal is not None:
+            raise RealizerError(judged.first_refusal)
+        return await self._enter(judged)
 
-    async def blocks(self, text: str) -> list[str]:
-        """Accepts those blocks of a document that can be accepted, and returns their ids.
-
-        Feedback reports each of the others.
+    async def blocks(self, text: str) -> Answer:
+        """Accepts those blocks of a document that can be accepted; feedback reports each of the others.
 
         Raises:
             BlocksRefused: with the fault of the first of the others.
         """
         judged = await self._judge(text)
-        self._realizer.put(judged.entry)
-        if judged.faults:
-            raise BlocksRefused(judged.faults[0], judged.blocks)
-        return judged.blocks
+        answer = await self._enter(judged)
+        if judged.first_refusal is not None:
+            raise BlocksRefused(judged.first_refusal, answer)
+        return answer
 
     def predict(self, message: Message) -> GlobalTime | None:
         """Accepts a prediction, and returns its time.
@@ -178,11 +190,21 @@ class Intake:
         admission = self._realizer.admission()
         judged = _Judged(BmlText(text, read), [], [])
         for parsed in read:
-            if (fault := _refusal(admission, parsed)) is not None:
-                judged.faults.append(fault)
-            elif parsed.block is not None:
+            judged.refusals.append(admission.refusal(parsed))
+            if judged.refusals[-1] is None and parsed.block is not None:
                 judged.blocks.append(parsed.block.id)
         return judged
+
+    async def _enter(self, judged: _Judged) -> Answer:
+        """Has a document enter, and only then looks for its mistakes."""
+        checker, document = self._realizer.checker(), judged.entry.parsed or ()
+        self._realizer.put(judged.entry)
+        warnings: list[Problem] = []
+        checker.begin(document)
+        for parsed, refusal in zip(document, judged.refusals, strict=True):
+            mistakes, notes = await checker.check(parsed, refusal)
+            warnings += (each for each in (*mistakes, *notes) if each.fault.warning is not None)
+        return Answer(judged.blocks, sorted(dict.fromkeys(warnings), key=_place))
 
     def _event(self, event: Event) -> None:
         known = self._realizer.anticipators
@@ -206,10 +228,8 @@ class Intake:
             self._realizer.put(TargetMoved(target, None if position is None else _position(position)))
 
 
-def _refusal(admission: Admission, parsed: Parsed) -> Fault | None:
-    if parsed.block is not None:
-        return admission.admit(parsed.block, parsed.failed)
-    return parsed.refusal if parsed.procedure is None else admission.admit_procedure(parsed.procedure)
+def _place(problem: Problem) -> tuple[int, int]:
+    return problem.fault.line or 1, problem.fault.column or 1
 
 
 def _position(coordinates: Sequence[float]) -> WorldPosition:

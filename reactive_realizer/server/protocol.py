@@ -3,8 +3,10 @@
 import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, Final
 
+from reactive_realizer.bml.block import Problem
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.server.faults import BadJson, UnknownMessage
 from reactive_realizer.server.schema import Schema, shown
@@ -16,6 +18,8 @@ DOCUMENT: Final = Path(__file__).with_name("protocol.json").read_text(encoding="
 """The JSON Schema of every message."""
 
 Message = Mapping[str, Any]
+
+_NOTHING: Final[Message] = MappingProxyType({})
 
 _SCHEMA = Schema(json.loads(DOCUMENT))
 
@@ -81,14 +85,42 @@ def ref_of(message: Any) -> str | int | None:
     return ref if ref is not None and _SCHEMA.accepts(ref, "Ref") else None
 
 
-def accepted(ref: str | int, blocks: Sequence[str] | None = None) -> Message:
-    """The answer to an accepted message; for BML, with the ids of its blocks."""
-    answer = {"type": "accepted", "ref": ref}
-    return answer if blocks is None else answer | {"blocks": blocks}
+def bml_answer(blocks: Sequence[str], warnings: Sequence[Problem], most: int) -> Message:
+    """The part of an answer that BML gets.
+
+    Args:
+        blocks: ids of the accepted blocks.
+        warnings: what is known of the document to be wrong.
+        most: how many warnings are listed; the others are counted.
+    """
+    listed = [_warning(each) for each in warnings[:most]]
+    more = {"more_warnings": len(warnings) - most} if len(warnings) > most else {}
+    return {"blocks": blocks, "warnings": listed, **more}
 
 
-def refused(refusal: RealizerError, ref: str | int | None = None, blocks: Sequence[str] | None = None) -> Message:
-    """The answer to a refused message; for BML, with the ids of the blocks that were accepted."""
+def _warning(problem: Problem) -> Message:
+    fault = problem.fault
+    place = {name: value for name, value in (("line", fault.line), ("column", fault.column)) if value is not None}
+    return {"id": problem.id, "type": fault.warning, "code": fault.code, **place, "message": fault.sentence}
+
+
+def accepted(ref: str | int, more: Message) -> Message:
+    """The answer to an accepted message.
+
+    Args:
+        ref: of the message.
+        more: for BML, its `bml_answer`; otherwise empty.
+    """
+    return {"type": "accepted", "ref": ref, **more}
+
+
+def refused(refusal: RealizerError, ref: str | int | None = None, more: Message = _NOTHING) -> Message:
+    """The answer to a refused message.
+
+    Args:
+        refusal: of the message, or of the first block that was refused.
+        ref: of the message, if it has one.
+        more: for BML, its `bml_answer`; otherwise empty.
+    """
     answer = {"type": "error", "code": refusal.fault.code, "message": str(refusal.fault)}
-    more = {"ref": ref, "blocks": blocks}
-    return answer | {name: value for name, value in more.items() if value is not None}
+    return answer | ({} if ref is None else {"ref": ref}) | dict(more)

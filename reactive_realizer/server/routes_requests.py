@@ -8,8 +8,8 @@ from aiohttp import web
 from reactive_realizer.bml.faults import BadEncoding
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.server.faults import WrongCharset, WrongMediaType
-from reactive_realizer.server.keys import INTAKE
-from reactive_realizer.server.protocol import check, decode
+from reactive_realizer.server.keys import INTAKE, LIVE
+from reactive_realizer.server.protocol import bml_answer, check, decode
 
 _MARKS: Final = (codecs.BOM_UTF8, codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 _CHARSETS: Final = {
@@ -59,8 +59,9 @@ async def bml(request: web.Request) -> web.Response:
     if request.content_type not in _XML:
         raise RealizerError(WrongMediaType(type=request.content_type))
     text = text_of(await request.read(), request.charset)
-    blocks = await request.app[INTAKE].document(text)
-    return web.json_response({"blocks": blocks}, status=202)
+    blocks, warnings = await request.app[INTAKE].document(text)
+    limit = request.app[LIVE].limits.answered_warnings
+    return web.json_response(bml_answer(blocks, warnings, limit), status=202)
 
 
 @routes.post("/predict")

@@ -11,9 +11,19 @@ from aiohttp import WSMessage, WSMsgType, web
 from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.server.client_limits import ClientQueue, RateLimit
 from reactive_realizer.server.faults import BadQuery, BinaryMessage, GoingAway, TooManyMessages, TooSlow
-from reactive_realizer.server.intake import BlocksRefused, Intake
+from reactive_realizer.server.intake import Answer, BlocksRefused, Intake
 from reactive_realizer.server.live_scene import LiveScene
-from reactive_realizer.server.protocol import Message, NoNumber, accepted, check, decode, encode, ref_of, refused
+from reactive_realizer.server.protocol import (
+    Message,
+    NoNumber,
+    accepted,
+    bml_answer,
+    check,
+    decode,
+    encode,
+    ref_of,
+    refused,
+)
 from reactive_realizer.server.statuses import CLOSE_CODES
 
 
@@ -175,26 +185,29 @@ class SocketClient:
             message = decode(received.data)
             ref = ref_of(message)
             check(message)
-            blocks = await self._answer(message)
+            more = await self._answer(message)
         except NoNumber as refusal:
             self._enqueue(refused(refusal, ref_of(refusal.message)))
         except BlocksRefused as refusal:
-            self._enqueue(refused(refusal, ref, refusal.entered))
+            self._enqueue(refused(refusal, ref, self._about(refusal.answer)))
         except RealizerError as refusal:
             self._enqueue(refused(refusal, ref))
         else:
             if ref is not None:
-                self._enqueue(accepted(ref, blocks))
+                self._enqueue(accepted(ref, more))
 
-    async def _answer(self, message: Message) -> list[str] | None:
-        """Handles a message; for BML, returns the ids of its blocks."""
+    async def _answer(self, message: Message) -> Message:
+        """Handles a message; returns what its answer says about BML."""
         match message["type"]:
             case "ping":
                 self._enqueue({"type": "pong", "t": message["t"], "time": round(self._live.now, 6)})
             case "clock":
                 self._enqueue({"type": "clock", "time": round(self._live.now, 6)})
             case "bml":
-                return await self._intake.blocks(message["xml"])
+                return self._about(await self._intake.blocks(message["xml"]))
             case _:
                 self._intake.message(message)
-        return None
+        return {}
+
+    def _about(self, answer: Answer) -> Message:
+        return bml_answer(answer.blocks, answer.warnings, self._live.limits.answered_warnings)

@@ -61,7 +61,7 @@ DROPPED = {
     '<posture id="x"/>': ("b:x", "<posture> must contain <stance> or <pose>"),
     '<posture id="x"><stance type="FLYING"/></posture>': (
         "b:x",
-        "type='FLYING' of <stance>: not one of SITTING, CROUCHING, STANDING, LYING",
+        "type='FLYING' of <stance>: not one of SITTING, CROUCHING, STANDING, LYING; did you mean 'LYING'?",
     ),
     '<posture id="x"><stance type="LYING"/><stance type="LYING"/></posture>': (
         "b:x",
@@ -151,7 +151,8 @@ KEPT = {
     '<wait id="x" color="red" mood="blue"/>': "unknown attribute color, mood of <wait>; "
     "known: id, duration, max-wait, start, end",
     '<head id="x" lexeme="NOD" repetition="2" stroke="1"/>': "unknown attribute stroke of <head>; "
-    "known: id, lexeme, repetition, amount, start, ready, strokeStart, strokeEnd, relax, end",
+    "known: id, lexeme, repetition, amount, start, ready, strokeStart, strokeEnd, relax, end; "
+    "did you mean 'strokeEnd'?",
     '<wait id="x"><nap/></wait>': "unknown nap in <wait>; known: description, parameter",
     '<wait id="x"><parameter name="a" value="1"/></wait>': (
         "unknown parameter in <wait>; known: description, parameter"

@@ -201,7 +201,8 @@ def test_bml_1_0_may_always_refer_to_behaviors_of_other_blocks() -> None:
 
 DROPPED = {
     '<gaze id="x" type="AVERT" target="box"/>': "type='AVERT' of <gaze>: not one of AT",
-    '<head id="x" action="ORIENTATION" rotation="NOD"/>': "action='ORIENTATION' of <head>: not one of ROTATION",
+    '<head id="x" action="ORIENTATION" rotation="NOD"/>': "action='ORIENTATION' of <head>: not one of ROTATION; "
+    "did you mean 'ROTATION'?",
     '<head id="x" action="ROTATION"/>': "<head> requires the attribute 'lexeme'",
     '<gesture id="x" type="LEXICALIZED"/>': "<gesture> requires the attribute 'lexeme'",
     '<gesture id="x" type="POINT"/>': "<pointing> requires the attribute 'target'",
@@ -210,7 +211,8 @@ DROPPED = {
     '<face id="x" type="EYEBROWS"/>': "type='EYEBROWS' of <face>: not one of FACS, LEXICALIZED",
     '<face id="x" type="FACS"/>': "<faceFacs> requires the attribute 'au'",
     '<posture id="x" part="lower"/>': "<posture> must contain <stance> or <pose>",
-    '<posture id="x" stance="flying"/>': "type='flying' of <stance>: not one of SITTING, CROUCHING, STANDING, LYING",
+    '<posture id="x" stance="flying"/>': "type='flying' of <stance>: not one of SITTING, CROUCHING, STANDING, LYING; "
+    "did you mean 'LYING'?",
     '<speech id="x"/>': "<speech> must contain <text>",
     '<constraint id="x"><synchronize ref="1"/></constraint>': "<synchronize> must contain <sync> and <sync>",
 }

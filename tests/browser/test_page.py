@@ -53,8 +53,26 @@ async def test_bml_that_is_wrong_is_answered_in_the_page_as_text(serve: Serve) -
         page = await scene.open()
         await page.fill("#bml-text", f'<bml {BML} id="b"><img src="x" onerror="alert(1)"')
         await page.click("#bml-form button[type=submit]")
-        await expect(page.locator("#bml-answer")).to_contain_text("line 1")
-        assert await page.locator("#bml-answer img, #feedback img").count() == 0
+        await expect(page.locator("#bml-answer")).to_have_text("Refused")
+        await expect(page.locator("#bml-mistakes .refused")).to_contain_text("line 1")
+        assert await page.locator("#bml-form img, #feedback img").count() == 0
+
+
+async def test_warnings_appear_below_the_editor_and_a_click_selects_the_line(serve: Serve) -> None:
+    lines = [f'<bml {BML} id="b">', *["  <!-- a long document -->"] * 40, '  <gesture id="g" lexeme="BAET"/>', "</bml>"]
+    async with serve(ALICE) as scene:
+        page = await scene.open()
+        await page.fill("#bml-text", "\n".join(lines))
+        await page.evaluate("document.querySelector('#bml-text').scrollTop = 0")
+        await page.click("#bml-form button[type=submit]")
+        await expect(page.locator("#bml-answer")).to_have_text("Accepted, 1 warning")
+        await expect(page.locator("#bml-mistakes li")).to_contain_text("did you mean 'BEAT'?")
+        await page.click("#bml-mistakes button")
+        selection, scrolled = await page.evaluate("[String(getSelection()), document.activeElement.scrollTop]")
+        assert selection == lines[41]
+        assert scrolled > 0, "the line is in view"
+        await send(page, f'<bml {BML} id="c"><head id="h" lexeme="NOD"/></bml>')
+        await expect(page.locator("#bml-mistakes")).to_be_hidden()
 
 
 @pytest.mark.speech

@@ -112,7 +112,7 @@ async def test_the_javascript_planner_yields_too(server: str) -> None:
 async def test_a_planner_can_use_http_alone(server: str) -> None:
     predicted, accepted, *told = await run("over_http.py", server, "wave:end")
     assert predicted.startswith("{'time': ")
-    assert accepted == "{'blocks': ['wave']}\n"
+    assert accepted == "{'blocks': ['wave'], 'warnings': []}\n"
     assert "wave:hello:stroke" in "".join(told)
     assert 'bmla:status="DONE"' in told[-1]
 

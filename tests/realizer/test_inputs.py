@@ -29,6 +29,6 @@ async def test_the_server_parses_a_document_for_the_realizer_too() -> None:
 
         live.realizer.record(note)
         for name, enter in (("b", Intake(live).document), ("c", Intake(live).blocks)):
-            assert await enter(block(name, WAIT)) == [name]
+            assert (await enter(block(name, WAIT))).blocks == [name]
         await live.step(Tick.following(None, 0))
     assert [[each.block and each.block.id for each in entry.parsed or ()] for entry in entered] == [["b"], ["c"]]

@@ -10,7 +10,7 @@ from .conftest import ALICE, BML, XML, Open, post, wait
 async def test_a_document_is_accepted_with_the_ids_of_its_blocks_and_plays(on_air: Open) -> None:
     async with on_air() as air:
         socket = await air.connect()
-        assert await post(air, "/bml", wait("b1") + wait("b2")) == (202, {"blocks": ["b1", "b2"]})
+        assert await post(air, "/bml", wait("b1") + wait("b2")) == (202, {"blocks": ["b1", "b2"], "warnings": []})
         await air.tick_until(0.3)
         assert await socket.hear_feedback('"b2:end"')
 
@@ -63,7 +63,7 @@ async def test_blocks_before_a_replace_in_a_document_do_not_count_against_the_li
         await post(air, "/bml", wait("q1", 9) + wait("q2", 9))
         await air.tick()
         replace = f'<bml {BML} id="x" composition="REPLACE"/>'
-        assert await post(air, "/bml", replace + wait("q1")) == (202, {"blocks": ["x", "q1"]})
+        assert await post(air, "/bml", replace + wait("q1")) == (202, {"blocks": ["x", "q1"], "warnings": []})
         await air.tick_until(0.3)
         assert "INTERRUPTED" in (await socket.hear_feedback('"q1:end"'))["xml"]
         assert "DONE" in (await socket.hear_feedback('"q1:end"'))["xml"]

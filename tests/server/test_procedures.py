@@ -49,7 +49,7 @@ async def test_a_procedure_can_be_used_as_soon_as_its_definition_is_accepted(
             answer = await post(air, "/bml", document)
             for _ in range(ticks):
                 await air.tick()
-        assert answer == (202, {"blocks": ["b1"]})
+        assert answer == (202, {"blocks": ["b1"], "warnings": []})
         await air.tick_until(0.3)
         assert "DONE" in (await socket.hear_feedback('"b1:end"'))["xml"]
 
@@ -74,7 +74,7 @@ async def test_procedures_above_the_limit_are_refused_unless_they_replace_others
     on_air: Open,
 ) -> None:
     async with on_air(ALICE + "[limits]\nprocedures = 2\n") as air:
-        assert await post(air, "/bml", define("p") + define("q")) == (202, {"blocks": []})
+        assert await post(air, "/bml", define("p") + define("q")) == (202, {"blocks": [], "warnings": []})
         status, body = await post(air, "/bml", define("r"))
         assert (status, body["error"]["code"]) == (429, "too-many-procedures")
         assert (await post(air, "/bml", define("q")))[0] == 202

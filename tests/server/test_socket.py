@@ -30,7 +30,7 @@ async def test_bml_is_accepted_with_its_ref_and_reported_in_feedback(on_air: Ope
     async with on_air() as air:
         socket = await air.connect()
         await socket.say(type="bml", xml=wait("b1"), ref="mine")
-        assert await socket.hear("accepted") == {"type": "accepted", "ref": "mine", "blocks": ["b1"]}
+        assert await socket.hear("accepted") == {"type": "accepted", "ref": "mine", "blocks": ["b1"], "warnings": []}
         await air.tick_until(0.3)
         started = await socket.hear_feedback('id="b1:start"')
         ended = await socket.hear_feedback('id="b1:end"')

@@ -1,6 +1,7 @@
 import { Pings, type ServerClock } from "./clock";
 import { decodeFrame, type Frame } from "./frame";
 import type {
+  Accepted,
   AudioGain,
   AudioMove,
   AudioStart,
@@ -44,18 +45,19 @@ export interface ConnectionListener {
   onBoard(board: Board): void;
 }
 
-/** A request that the realizer refused, or that lost its answer with the connection. */
+/** A request that the realizer refused, with its answer, or that lost its answer with the connection. */
 export class RequestError extends Error {
   constructor(
     readonly code: string,
     message: string,
+    readonly answer?: Refused,
   ) {
     super(message);
   }
 }
 
 interface Pending {
-  resolve: () => void;
+  resolve: (answer: Accepted) => void;
   reject: (error: RequestError) => void;
 }
 
@@ -99,8 +101,8 @@ export class Connection {
     this.socket = socket;
   }
 
-  /** Sends a request; rejects with a RequestError if it is refused or the connection breaks before the answer. */
-  request(request: Request): Promise<void> {
+  /** Sends a request and returns its answer; rejects with a RequestError if it is refused or the connection breaks before the answer. */
+  request(request: Request): Promise<Accepted> {
     if (!this.connected) return Promise.reject(new RequestError("not_connected", "Not connected to the realizer."));
     const ref = String(++this.requests);
     return new Promise((resolve, reject) => {
@@ -141,7 +143,7 @@ export class Connection {
         this.pings.answered(message);
         break;
       case "accepted":
-        this.settle(message.ref)?.resolve();
+        this.settle(message.ref)?.resolve(message);
         break;
       case "error":
         this.refuse(message);
@@ -184,7 +186,7 @@ export class Connection {
   private refuse(error: Refused): void {
     const pending = error.ref === undefined ? undefined : this.settle(error.ref);
     if (pending === undefined) console.warn(`The realizer refused a message: ${error.message}`);
-    else pending.reject(new RequestError(error.code, error.message));
+    else pending.reject(new RequestError(error.code, error.message, error));
   }
 
   private settle(ref: Ref): Pending | undefined {

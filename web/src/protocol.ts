@@ -50,6 +50,14 @@ export type Change = [string, number | null, number | null];
  * In answers to bml: the ids of the accepted blocks, in order; empty if no block could be read or accepted.
  */
 export type Entered = string[];
+/**
+ * In answers to bml: the warnings, in the order of the document.
+ */
+export type Warnings = Warning[];
+/**
+ * In answers to bml: the number of warnings above the limit, which are not listed.
+ */
+export type MoreWarnings = number;
 
 /**
  * A BML document with one or more blocks. Each acceptable block is accepted, regardless of the others. Feedback reports every rejected block, and error reports the first. The answer lists the accepted blocks.
@@ -247,6 +255,34 @@ export interface Accepted {
   type: "accepted";
   ref: Ref;
   blocks?: Entered;
+  warnings?: Warnings;
+  more_warnings?: MoreWarnings;
+}
+/**
+ * A mistake in a document, or a part of it that this scene cannot play, as far as it is known at once. Feedback warns of it too.
+ */
+export interface Warning {
+  /**
+   * Of a block, block:behavior, or bml if no block could be read.
+   */
+  id: string;
+  /**
+   * Of the warningFeedback.
+   */
+  type: string;
+  /**
+   * One of the error codes.
+   */
+  code: string;
+  /**
+   * Of the start tag in the document, from 1.
+   */
+  line?: number;
+  /**
+   * Of the start tag, from 1.
+   */
+  column?: number;
+  message: string;
 }
 /**
  * A message, or a part of a bml message, was rejected; code is one of the error codes.
@@ -257,4 +293,6 @@ export interface Refused {
   code: string;
   message: string;
   blocks?: Entered;
+  warnings?: Warnings;
+  more_warnings?: MoreWarnings;
 }

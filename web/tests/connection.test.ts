@@ -2,6 +2,7 @@ import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 
 import { ServerClock } from "../src/clock";
 import { Connection, RequestError } from "../src/connection";
+import type { Refused, ServerMessage } from "../src/protocol";
 import { FakeSocket } from "./fake_socket";
 import { encodeFrame } from "./frames";
 
@@ -77,21 +78,23 @@ describe("a connection", () => {
 });
 
 describe("a request", () => {
-  it("is fulfilled when the realizer accepts it", async () => {
+  it("is fulfilled with the answer when the realizer accepts it", async () => {
     const connection = opened();
     FakeSocket.last.greet("a");
     const request = connection.request({ type: "bml", xml: "<bml/>" });
     expect(FakeSocket.last.sent).toEqual([{ type: "bml", xml: "<bml/>", ref: "1" }]);
-    FakeSocket.last.deliver({ type: "accepted", ref: "1" });
-    await expect(request).resolves.toBeUndefined();
+    const answer: ServerMessage = { type: "accepted", ref: "1", blocks: ["b"], warnings: [] };
+    FakeSocket.last.deliver(answer);
+    await expect(request).resolves.toEqual(answer);
   });
 
   it("is rejected with the realizer's words when that refuses it", async () => {
     const connection = opened();
     FakeSocket.last.greet("a");
     const request = connection.request({ type: "demo" });
-    FakeSocket.last.deliver({ type: "error", ref: "1", code: "busy", message: "The demo is playing." });
-    await expect(request).rejects.toThrow(new RequestError("busy", "The demo is playing."));
+    const answer: Refused = { type: "error", ref: "1", code: "busy", message: "The demo is playing." };
+    FakeSocket.last.deliver(answer);
+    await expect(request).rejects.toEqual(new RequestError("busy", "The demo is playing.", answer));
   });
 
   it("is rejected when the connection breaks before the answer", async () => {

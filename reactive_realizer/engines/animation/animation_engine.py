@@ -2,7 +2,7 @@
 
 import asyncio
 import logging
-from collections.abc import Awaitable, Callable, Iterator, Mapping, Sequence
+from collections.abc import Awaitable, Callable, Collection, Iterator, Mapping, Sequence
 from random import Random
 from types import MappingProxyType
 from typing import TypeVar
@@ -32,7 +32,7 @@ from reactive_realizer.engine.effects import Warn
 from reactive_realizer.engine.engine import DefaultEngine
 from reactive_realizer.engine.lexicon import LexiconEntry
 from reactive_realizer.engines.animation.animation_predictor import AnimationPredictor
-from reactive_realizer.engines.animation.animation_unit import AnimationUnit, MotionContext
+from reactive_realizer.engines.animation.animation_unit import AnimationUnit, MotionContext, keys_of
 from reactive_realizer.engines.animation.expression.functions import plugin_functions
 from reactive_realizer.engines.animation.fade_out import (
     FadeOut,
@@ -124,6 +124,17 @@ class AnimationEngine(DefaultEngine):
     def lexicon(self) -> Iterator[LexiconEntry]:
         """Yield the entries of the binding, and the poses of postures."""
         return binding_lexicon(self._library, next(iter(self._world.targets)))
+
+    def check(self, behavior: Behavior) -> Collection[str] | None:
+        """Return the points of the motion that the binding has for a behavior; None if its file is yet to be read.
+
+        Raises:
+            RealizerError: there is no motion for it, or no such target.
+        """
+        self._library.refresh()
+        if self._library.preloads(behavior):
+            return None
+        return tuple(keys_of(behavior, self._library.candidates(behavior).planned.motion))
 
     def prepare(self, behavior: Behavior) -> Awaitable[object] | None:
         """Read long files in another thread."""

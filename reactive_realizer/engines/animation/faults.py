@@ -8,8 +8,11 @@ class NoMotionFor(CreationFault):
 
     code = "no-motion-for"
     template = "no entry of the binding plays <{element}>{condition}"
+    unknown = "words"
     element: str
     condition: str
+    words: tuple[str, ...] = ()
+    known: tuple[str, ...] = ()
 
 
 class NoUnit(CreationFault):
@@ -42,10 +45,11 @@ class NoPosture(CreationFault):
 
     code = "no-posture"
     template = "there is no {part} pose '{lexeme}' for {stance}; available: {known}"
+    unknown = "lexeme"
     part: str
     lexeme: str
     stance: str
-    known: str
+    known: tuple[str, ...]
 
 
 class NoTransition(CreationFault):
@@ -53,6 +57,7 @@ class NoTransition(CreationFault):
 
     code = "no-transition"
     template = "there is no transition '{kind}'; available: {known}"
+    unknown = "kind"
     kind: str
     known: tuple[str, ...]
 
@@ -62,6 +67,7 @@ class NoTarget(TargetFault):
 
     code = "no-target"
     template = "there is no target '{target}' in the world; available: {known}"
+    unknown = "target"
     target: str
     known: tuple[str, ...]
 

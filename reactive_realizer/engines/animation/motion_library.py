@@ -105,10 +105,22 @@ class MotionLibrary:
         attributes = behavior_attributes(behavior)
         specs = self.binding.match(behavior.name, behavior.namespace, attributes)
         if not specs:
-            named = self.binding.constrained_attributes(behavior.name, behavior.namespace) & attributes.keys()
-            words = " and ".join(f"{name}='{attributes[name]}'" for name in sorted(named))
-            raise RealizerError(NoMotionFor(element=behavior.name, condition=f" with {words}" if words else ""))
+            raise RealizerError(self._no_motion(behavior, attributes))
         return Candidates(self._made(specs, behavior, attributes))
+
+    def _no_motion(self, behavior: Behavior, attributes: Mapping[str, str]) -> Fault:
+        """Return the fault of a behavior that no entry fits."""
+        values = self.binding.constrained_values(behavior.name, behavior.namespace)
+        named = sorted(values.keys() & attributes.keys())
+        conditions = " and ".join(f"{name}='{attributes[name]}'" for name in named)
+        return NoMotionFor(
+            element=behavior.name,
+            condition=f" with {conditions}" if conditions else "",
+            words=tuple(
+                attributes[name] for name in named if spelled(attributes[name], values[name]) not in values[name]
+            ),
+            known=tuple(value for name in named for value in values[name]),
+        )
 
     def refresh(self) -> None:
         """Look for changed files. This happens once for all behaviors of a block."""

@@ -70,7 +70,8 @@ def unused_behavior_parameters(spec: UnitSpec, behavior: Behavior, motion: Motio
     names = behavior.parameters.keys() - heard
     if not names:
         return None
-    return UnknownParameter(names=listed(names), element=behavior.name, known=listed(_bml_names(known, spec)))
+    known_names = tuple(sorted(_bml_names(known, spec)))
+    return UnknownParameter(names=tuple(sorted(names)), element=behavior.name, known=known_names)
 
 
 def unused_entry_parameters(spec: UnitSpec, motion: MotionUnit) -> set[str]:

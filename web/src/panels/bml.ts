@@ -1,5 +1,6 @@
 import type { Connection } from "../connection";
-import { create, element, sentenceOf } from "../dom";
+import { create, element } from "../dom";
+import { acceptedAnswer, type EditorAnswer, lineSpan, type Mistake, refusedAnswer } from "./answer";
 import { SAMPLES } from "./samples";
 
 /** The editor that sends BML, with examples to start from. */
@@ -8,6 +9,7 @@ export class BmlPanel {
   private readonly samples = element("bml-samples", HTMLSelectElement);
   private readonly text = element("bml-text", HTMLTextAreaElement);
   private readonly answer = element("bml-answer", HTMLOutputElement);
+  private readonly mistakes = element("bml-mistakes", HTMLOListElement);
   /** The example as it was loaded into the editor. */
   private loaded = "";
 
@@ -34,18 +36,43 @@ export class BmlPanel {
   private async send(): Promise<void> {
     const xml = this.text.value;
     try {
-      await this.connection.request({ type: "bml", xml });
-      this.say("accepted", "Accepted");
+      this.show(acceptedAnswer(await this.connection.request({ type: "bml", xml })));
       // An id may not be reused while its block lives: an unedited example gets a new one.
       if (this.text.value === this.loaded) this.load();
     } catch (error) {
-      this.say("refused", sentenceOf(error));
+      this.show(refusedAnswer(error));
     }
   }
 
-  private say(state: "accepted" | "refused", sentence: string): void {
+  private show({ state, summary, mistakes }: EditorAnswer): void {
     this.answer.dataset.state = state;
-    this.answer.textContent = sentence;
+    this.answer.textContent = summary;
+    this.mistakes.replaceChildren(...mistakes.map((mistake) => this.item(mistake)));
+    this.mistakes.hidden = mistakes.length === 0;
+  }
+
+  /** A mistake as an item of the list; a click selects its line. */
+  private item({ line, message, refused }: Mistake): HTMLElement {
+    const item = create("li", refused ? "refused" : "");
+    if (line === null) {
+      item.textContent = message;
+      return item;
+    }
+    const button = create("button");
+    button.type = "button";
+    button.append(create("span", "line", `line ${line}`), create("span", "", message));
+    button.addEventListener("click", () => {
+      this.select(line);
+    });
+    item.append(button);
+    return item;
+  }
+
+  private select(line: number): void {
+    const [start, end] = lineSpan(this.text.value, line);
+    this.text.setSelectionRange(start, start);
+    this.text.focus(); // which scrolls to the cursor, but would not to a selection
+    this.text.setSelectionRange(start, end);
   }
 }
 

@@ -176,7 +176,7 @@ class PostureLibrary:
         except RealizerError as problem:
             if not isinstance(problem.fault, NoAsset):
                 raise
-            known = ", ".join(word for word in LEXEMES if self._is_there(stance, Pose(part=pose.part, lexeme=word)))
+            known = tuple(word for word in LEXEMES if self._is_there(stance, Pose(part=pose.part, lexeme=word)))
             raise RealizerError(NoPosture(part=pose.part, lexeme=pose.lexeme, stance=stance, known=known)) from problem
         return None if file is None else load_animation(file, self._skeleton, joints=PART_JOINTS[pose.part])
 

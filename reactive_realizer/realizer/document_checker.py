@@ -1,0 +1,203 @@
+"""Finds mistakes in BML documents, and behaviors that the scene cannot play."""
+
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from typing import NamedTuple
+
+from reactive_realizer.bml.attribute_types import IdList
+from reactive_realizer.bml.attributes import attributes_of
+from reactive_realizer.bml.behavior import Behavior, ForeignBehavior
+from reactive_realizer.bml.block import BehaviorBlock, DefineProc, Parsed, Problem
+from reactive_realizer.bml.extensions import ParameterValueChange
+from reactive_realizer.bml.faults import ForeignAttribute, UnknownSync
+from reactive_realizer.bml.names import ANTICIPATORS, Location
+from reactive_realizer.bml.references import check_references, references_of, standard_points, unknown_block
+from reactive_realizer.bml.sync_ref import SyncRef
+from reactive_realizer.errors import Fault, RealizerError, WarningType
+from reactive_realizer.pegboard.pegboard import PegBoard
+from reactive_realizer.scheduler.block_composition import UnknownTargetBlock
+from reactive_realizer.scheduler.engine_routing import EngineRouting
+from reactive_realizer.scheduler.rehearsal import Rehearsal, rehearse, rehearse_slowly
+from reactive_realizer.scheduler.requests import NoSuchBehavior
+
+_UNPLAYABLE = frozenset(
+    {
+        WarningType.CANNOT_CREATE_BEHAVIOR,
+        WarningType.BEHAVIOR_TYPE_NOT_SUPPORTED,
+        WarningType.CUSTOM_BEHAVIOUR_NOT_SUPPORTED,
+    }
+)
+"""The warning types of valid behaviors that cannot be played; other faults of engines are mistakes in the BML."""
+
+
+class NotInHumanFile(Fault):
+    """A reference to an anticipator that the human file does not have."""
+
+    code = "not-in-human-file"
+    template = (
+        "{reference}: the human file has no anticipator '{anticipator}', so clients must predict it; available: {known}"
+    )
+    unknown = "anticipator"
+    reference: str
+    anticipator: str
+    known: tuple[str, ...]
+
+
+class Findings(NamedTuple):
+    """The findings in a block or procedure.
+
+    Attributes:
+        mistakes: invalid BML.
+        notes: valid BML that this scene cannot play or ignores.
+    """
+
+    mistakes: list[Problem]
+    notes: list[Problem]
+
+
+class DocumentChecker:
+    """Checks the blocks and procedures of documents, one after another.
+
+    A block may refer to all blocks of its document and to those alive; it joins, interrupts or starts those before it.
+
+    Args:
+        routing: to the engines that would play the behaviors.
+        board: of the anticipators.
+        alive: ids of the blocks that are alive, or will be before the first document enters.
+        has_ended: whether there has been another block with an id.
+    """
+
+    def __init__(
+        self, routing: EngineRouting, board: PegBoard, alive: Iterable[str], has_ended: Callable[[str], bool]
+    ) -> None:
+        self._routing = routing
+        self._board = board
+        self._alive = dict.fromkeys(alive)
+        self._has_ended = has_ended
+        self._named: dict[str, None] = {}
+
+    def begin(self, document: Sequence[Parsed]) -> None:
+        """Begins with a document, to whose blocks all of its blocks may refer."""
+        self._named = self._alive | dict.fromkeys(parsed.block.id for parsed in document if parsed.block is not None)
+
+    async def check(self, parsed: Parsed, refused: Fault | None, *, slowly: bool = False) -> Findings:
+        """The findings in the next block or procedure of the document.
+
+        Args:
+            parsed: the block or procedure, with what could not be read of it.
+            refused: why it may not enter; None if it may.
+            slowly: whether to plan the behaviors, with slow work, which only a scene that does not play allows.
+        """
+        found, block = Findings(list(parsed.problems), []), parsed.written
+        if block is None:
+            return found
+        if refused is not None:
+            found.mistakes.append(_problem(refused, block))
+        rehearsal = await (rehearse_slowly if slowly else rehearse)(block, self._routing)
+        found.mistakes.extend(self._mistakes(block, rehearsal))
+        found.notes.extend(_foreign_attributes(block, rehearsal))
+        found.notes.extend(self._remote(block))
+        for problem in rehearsal.problems:
+            (found.notes if problem.fault.warning in _UNPLAYABLE else found.mistakes).append(problem)
+        if isinstance(block, BehaviorBlock):
+            self._alive[block.id] = None
+        return found
+
+    def _mistakes(self, block: BehaviorBlock | DefineProc, rehearsal: Rehearsal) -> Iterator[Problem]:
+        def points(behavior: Behavior) -> Collection[str] | None:
+            """The sync points of a behavior, including those of its motion; None if they are not known."""
+            known = rehearsal.points.get(behavior.id) if behavior.open_points else None
+            return standard_points(behavior) if known is None else known
+
+        if isinstance(block, BehaviorBlock):
+            yield from self._unknown_others(block)
+        yield from check_references(block, points)
+        yield from self._unknown_blocks(block)
+        yield from self._unknown_predictions(block)
+        yield from _unknown_behaviors(block)
+        yield from _unknown_points(block, rehearsal)
+
+    def _unknown_others(self, block: BehaviorBlock) -> Iterator[Problem]:
+        """Unknown blocks that a block joins, interrupts or starts."""
+        for attribute in attributes_of(BehaviorBlock):
+            names = getattr(block, attribute.field) if isinstance(attribute.type, IdList) else ()
+            for name in names:
+                if name not in self._alive and not self._has_ended(name):
+                    yield _problem(
+                        UnknownTargetBlock(attribute=attribute.name, block=name, known=tuple(self._alive)), block
+                    )
+
+    def _unknown_blocks(self, block: BehaviorBlock | DefineProc) -> Iterator[Problem]:
+        known = {None, ANTICIPATORS, block.id, *self._named}
+        others = tuple(name for name in self._named if name != block.id)
+        for id_, location, ref in references_of(block):
+            if ref.block not in known:
+                yield Problem(unknown_block(ref, block, others).located(location.line, location.column), id_)
+
+    def _unknown_predictions(self, block: BehaviorBlock | DefineProc) -> Iterator[Problem]:
+        """References to points that anticipators of the human file do not have."""
+        for id_, location, anticipator, ref in _predictions_of(block):
+            try:
+                self._board.check_point(anticipator, ref.sync or "", str(ref))
+            except RealizerError as unknown:
+                yield Problem(unknown.fault.located(location.line, location.column), id_)
+
+    def _remote(self, block: BehaviorBlock | DefineProc) -> Iterator[Problem]:
+        """References to points of anticipators that are not in the human file: clients may predict these."""
+        known = tuple(self._board.anticipators)
+        for id_, location, anticipator, ref in _predictions_of(block):
+            if anticipator not in known:
+                fault = NotInHumanFile(reference=str(ref), anticipator=anticipator, known=known)
+                yield Problem(fault.located(location.line, location.column), id_)
+
+
+def _predictions_of(block: BehaviorBlock | DefineProc) -> Iterator[tuple[str, Location, str, SyncRef]]:
+    """The references to points of anticipators, after the id and the location of their owner and the anticipator."""
+    for id_, location, ref in references_of(block):
+        if ref.block == ANTICIPATORS and ref.behavior is not None:
+            yield id_, location, ref.behavior, ref
+
+
+def _unknown_points(block: BehaviorBlock | DefineProc, rehearsal: Rehearsal) -> Iterator[Problem]:
+    """Attributes for sync points that the motion of their behavior does not have."""
+    for behavior in block.behaviors:
+        known = rehearsal.points.get(behavior.id)
+        for sync, ref in behavior.syncs.items():
+            if behavior.open_points and known is not None and sync not in known:
+                fault = UnknownSync(reference=str(ref), behavior=behavior.id, sync=sync, known=tuple(known))
+                yield _problem(fault, block, behavior)
+
+
+def _foreign_attributes(block: BehaviorBlock | DefineProc, rehearsal: Rehearsal) -> Iterator[Problem]:
+    """Attributes of other namespaces that the engine of their behavior ignores; they are legal BML.
+
+    The attributes of a foreign behavior without an engine are not reported, because only an engine can judge them.
+    """
+    if isinstance(block, BehaviorBlock):
+        yield from (_problem(fault, block) for fault in _foreign(block.extensions))
+    for behavior in block.behaviors:
+        engine = rehearsal.engines.get(behavior.id)
+        known = engine.extensions if engine is not None else frozenset()
+        if engine is not None or not isinstance(behavior, ForeignBehavior):
+            unknown = (name for name in behavior.extensions if name not in known)
+            yield from (_problem(fault, block, behavior) for fault in _foreign(unknown))
+
+
+def _foreign(attributes: Iterable[tuple[str, str]]) -> Iterator[Fault]:
+    return (ForeignAttribute(attribute=name, namespace=namespace) for namespace, name in attributes)
+
+
+def _unknown_behaviors(block: BehaviorBlock | DefineProc) -> Iterator[Problem]:
+    """Unknown behaviors of the block itself that its parameter changes name."""
+    known = tuple(behavior.id for behavior in block.behaviors)
+    changes = (each for each in block.behaviors if isinstance(each, ParameterValueChange))
+    for change in changes:
+        if change.target_block in {None, block.id} and change.target_behavior not in known:
+            fault = NoSuchBehavior(block=block.id, behaviors=(change.target_behavior,), known=known)
+            yield _problem(fault, block, change)
+
+
+def _problem(fault: Fault, block: BehaviorBlock | DefineProc, behavior: Behavior | None = None) -> Problem:
+    """The problem of a block, or of a behavior of it."""
+    place = (behavior or block).location
+    id_ = block.id if behavior is None else f"{block.id}:{behavior.id}"
+    return Problem(fault.located(place.line, place.column), id_)
