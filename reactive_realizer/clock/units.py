@@ -18,3 +18,8 @@ RESOLUTION = 1e-9
 def is_due(time: GlobalTime | float | None, now: GlobalTime | float) -> bool:
     """Whether a time has come; an unknown time never has."""
     return time is not None and time <= now + RESOLUTION
+
+
+def has_passed(time: GlobalTime | float | None, since: GlobalTime | float) -> bool:
+    """Whether a time came before another one; an unknown time did not."""
+    return time is not None and time < since - RESOLUTION

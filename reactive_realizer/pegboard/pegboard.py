@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from itertools import islice
 
 from reactive_realizer.clock.ticker import Tick
-from reactive_realizer.clock.units import GlobalTime, Time, is_due
+from reactive_realizer.clock.units import GlobalTime, Time, has_passed, is_due
 from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.pegboard.anticipator import Anticipator
 from reactive_realizer.pegboard.peg_key import ANTICIPATORS, BlockKey, PegKey, anticipator_key
@@ -133,6 +133,14 @@ class PegBoard:
             time = self.forecast(owner, sync) if owner is not None and owner.counts(sync) else None
             peg = AnticipatorPeg(self.graph, str(key), time)
             self.add(key, peg)
+        return peg
+
+    def upcoming(self, anticipator: str, sync: str, since: GlobalTime) -> AnticipatorPeg:
+        """The peg of the first occurrence of a predicted point since a time; a counted point has only one."""
+        owner, peg = self.anticipators.get(anticipator), self.predicted(anticipator, sync)
+        if has_passed(peg.value, since) and not (owner is not None and owner.counts(sync)):
+            self.renew(anticipator, sync)
+            peg = self.predicted(anticipator, sync)
         return peg
 
     def renew(self, anticipator: str, sync: str) -> None:

@@ -243,11 +243,6 @@ class PlanUnit:
             return None
         return TooShort()
 
-    def over_before(self, time: GlobalTime) -> bool:
-        """Whether its end lies before a time: the start of its block."""
-        end = self.points[-1].peg.value
-        return end is not None and end < time - RESOLUTION
-
     def release(self) -> None:
         """Called when its block has started."""
         if self.state is UnitState.PENDING:

@@ -1,12 +1,13 @@
 """The life of a block from its arrival to its end; the only code that changes its state, its pegs and its progress."""
 
-from collections.abc import Callable, Collection, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 
 from reactive_realizer.clock.units import GlobalTime, is_due
 from reactive_realizer.engine.effects import Reached
 from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.pegboard import PegBoard
+from reactive_realizer.pegboard.time_peg import TimeCell
 from reactive_realizer.planunit.plan_unit import PlanUnit, UnitState
 from reactive_realizer.scheduler.block_composition import BlockComposition
 from reactive_realizer.scheduler.block_feedback import BlockFeedback
@@ -16,7 +17,7 @@ from reactive_realizer.scheduler.block_transitions import BlockTransitions
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock, Predecessor
 from reactive_realizer.scheduler.engine_routing import EngineRouting
-from reactive_realizer.scheduler.faults import ActivatedAlready, AllPast, NotAwaited, NotPreplanned
+from reactive_realizer.scheduler.faults import ActivatedAlready, NotAwaited, NotPreplanned
 from reactive_realizer.scheduler.planning import Plan, Planning
 from reactive_realizer.scheduler.predictions import Predictions
 from reactive_realizer.scheduler.problem import Precedence, Tie
@@ -111,6 +112,7 @@ class BlockLifecycle:
         with self._board.graph.transaction(f"activate {name}"):
             block.activation.set(time)
         self._transitions.take(block, BlockEvent.ACTIVATE, time)
+        self._wait_for_next(block, block.renew_predicted(self._board), time)
         return None
 
     def start_due(self, now: GlobalTime) -> bool:
@@ -214,18 +216,16 @@ class BlockLifecycle:
 
     def _start(self, block: BMLBlock, now: GlobalTime) -> None:
         time = block.start.value or GlobalTime(0.0)
+        plan = self._planning.at_start(block, time, now)
+        if plan is not None and self._fails_by(block, plan.losses, time):
+            return
         with self._board.graph.transaction(f"start {block.key.block}"):
             self._transitions.take(block, BlockEvent.START, time)
-            self._renew(block, time, now)
+            if plan is not None:
+                self._replace_plan(block, plan, now)
         block.started_at = now
-        for unit in list(block.units):
+        for unit in block.units:
             unit.release()
-            if unit.over_before(time):
-                # Its points are left on the board: the behaviors that depend on them keep their times.
-                self._units.drop(unit, AllPast(late=time - (unit.time("end") or 0.0)), now)
-        if block.failing:
-            self.fail(block, now)
-            return
         for other in dict.fromkeys(each.block for each in block.predecessors if each.block.only_persists):
             persisting = ", ".join(unit.behavior.id for unit in other.live_units)
             not_awaited = NotAwaited(block=other.key.block, behaviors=persisting)
@@ -235,14 +235,28 @@ class BlockLifecycle:
             if fault is not None:
                 self._feedback.warn_element(block.key, block.description, fault)
 
-    def _renew(self, block: BMLBlock, start: GlobalTime, now: GlobalTime) -> None:
-        """Within a transaction, give a block that starts a new plan, if it needs one."""
-        plan = self._planning.renewed(block, start, now)
-        if plan is not None:
-            replaced = self._planning.replace(block, plan)
-            for other in self._blocks.alive:
-                other.rename_pegs(replaced)
-            block.set_units(block.end.floor, plan.units, plan.kept)
+    def _wait_for_next(self, block: BMLBlock, renewed: Mapping[TimeCell, TimeCell], now: GlobalTime) -> None:
+        """Plan a block again that was activated, if points that it names had passed: it waits for the next ones."""
+        if not renewed or block.state is not BlockState.LURKING:
+            return
+        block.rename_pegs(renewed)
+        plan = self._planning.again(block, now)
+        if not self._fails_by(block, plan.losses, now):
+            with self._board.graph.transaction(f"plan {block.key.block} again"):
+                self._replace_plan(block, plan, now)
+
+    def _replace_plan(self, block: BMLBlock, plan: Plan, now: GlobalTime) -> None:
+        """Within a transaction, give a block another plan, without the behaviors that this one loses."""
+        lost = [unit for unit in block.units if unit not in plan.units]
+        missed = {point: peg for unit in lost for point, peg in self._ties.missed_by_drop(unit).items()}
+        holds, replaced = self._planning.replace(block, plan)
+        for other in self._blocks.alive:
+            other.rename_pegs(replaced)
+        block.set_plan(block.end.floor, plan.units, plan.layout.times, plan.kept, holds)
+        self._units.remove(lost, now)
+        block.dropped |= {unit.behavior.id for unit in lost}
+        if missed:
+            self._ties.release(block, missed, DroppedTie, now)
 
     def _finish(self, block: BMLBlock, now: GlobalTime) -> None:
         self._transitions.end(block, BlockEvent.FINISH, now if block.end.value is None else block.end.value)

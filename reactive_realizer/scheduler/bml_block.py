@@ -2,10 +2,11 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from reactive_realizer.bml.block import BehaviorBlock
 from reactive_realizer.bml.names import ANTICIPATORS
-from reactive_realizer.clock.units import GlobalTime, Time, is_due
+from reactive_realizer.clock.units import GlobalTime, Time, has_passed, is_due
 from reactive_realizer.pegboard.peg_key import BlockKey, PegKey
 from reactive_realizer.pegboard.peg_view import unknown_sources
 from reactive_realizer.pegboard.pegboard import PegBoard
@@ -42,6 +43,13 @@ class Predecessor:
         return state.ended or (self.chunk and state is BlockState.SUBSIDING) or self.block.only_persists
 
 
+class Meant(NamedTuple):
+    """The time from which events count for a block, s, global, and how it came to be meant, in words."""
+
+    time: GlobalTime
+    how: str
+
+
 class BMLBlock:
     """A block that is alive, and its pegs; only `BlockLifecycle` writes it.
 
@@ -51,8 +59,8 @@ class BMLBlock:
         named_blocks: the other blocks that the description names.
         arrival: number of arrival over all characters.
         started_at: time of the tick in which it started, None before; its peg may lie before that.
-        predicted: the points of anticipators that it names, by anticipator and sync id, as of its arrival: when it is
-            planned, one may have passed, and its name mean the next occurrence.
+        predicted: the points of anticipators that it names, by anticipator and sync id: the first occurrences since it
+            was ``meant``, which may have passed when it is planned or starts.
         activation: the time at which a preplanned block was activated, None before; None for other blocks.
         start: its peg; pinned when it starts.
         relax: the time at which it subsides: the latest relax of its behaviors, or end of those without a relax.
@@ -95,15 +103,18 @@ class BMLBlock:
         self.failing = False
         self._state = BlockState.IN_PREP
         name = key.block
+        self._arrived = arrived
         self.activation = AnticipatorPeg(board.graph, f"{name}:activation", None) if description.preplan else None
         self.start = BMLBlockPeg(board.graph, f"{name}:start", arrived, self._awaited())
         self.relax = LatestPeg(board.graph, f"{name}:relax", arrived, (self.start,))
         self.end = LatestPeg(board.graph, f"{name}:end", arrived, (self.start,))
         for sync in ("start", "relax", "end"):
             board.add(PegKey(*key, None, sync), self.peg(sync))
-        self.predicted = _predicted(board, description)
-        # The board forgets the names of points without dependents.
-        board.add_unnamed(key, [OffsetPeg(board.graph, peg.name, peg, 0.0) for peg in self.predicted.values()])
+        self.predicted: dict[tuple[str, str], AnticipatorPeg] = {}
+        points = ((ref.behavior, ref.sync) for ref in description.refs if ref.block == ANTICIPATORS)
+        for anticipator, point in dict.fromkeys(points):
+            if anticipator is not None and point is not None:
+                self._name(board, anticipator, point, arrived)
 
     # --- state
 
@@ -126,6 +137,14 @@ class BMLBlock:
     def awaits_activation(self) -> bool:
         """Whether it is preplanned and was not activated."""
         return self.activation is not None and self.activation.value is None
+
+    @property
+    def meant(self) -> Meant | None:
+        """From when on events count for it; None while it waits for its activation."""
+        if self.activation is None:
+            return Meant(self._arrived, "arrived")
+        time = self.activation.value
+        return None if time is None else Meant(time, "was activated")
 
     @property
     def may_start(self) -> bool:
@@ -188,17 +207,29 @@ class BMLBlock:
         kept: Sequence[Tie | Precedence],
         holds: Sequence[TimeCell],
     ) -> None:
-        """Have the behaviors of a plan; start after everything that it waits for, and not before ``floor``."""
+        """Have the behaviors of a plan; start after everything that it waits for, and not before ``floor``.
+
+        A block that plays keeps its start.
+        """
         self.holds = tuple(holds)
         self.planned_times = times
         self.set_units(floor, units, kept)
-        self.start.wait_for(floor, self._awaited())
+        if not self.state.plays:
+            self.start.wait_for(floor, self._awaited())
 
     def set_units(self, floor: GlobalTime, units: Sequence[PlanUnit], kept: Sequence[Tie | Precedence]) -> None:
         """Have other behaviors, or the same with other pegs; end not before ``floor``."""
         self.units, self.kept = list(units), tuple(kept)
         self.outside = _outside(self.kept)
         self.update_end(floor)
+
+    def renew_predicted(self, board: PegBoard) -> dict[TimeCell, TimeCell]:
+        """Name the next occurrences of the points that passed before it was meant; the new pegs by the old ones."""
+        meant = self.meant
+        passed = [(*key, peg) for key, peg in self.predicted.items() if meant and has_passed(peg.value, meant.time)]
+        for anticipator, sync, _ in passed:
+            self._name(board, anticipator, sync, meant.time if meant else self._arrived)
+        return {old: self.predicted[anticipator, sync] for anticipator, sync, old in passed}
 
     def rename_pegs(self, replaced: Mapping[TimeCell, TimeCell]) -> None:
         """Have constraints name the new pegs of other blocks."""
@@ -223,14 +254,16 @@ class BMLBlock:
         self.relax.wait_for(floor, (self.start, *(_subsiding(unit).peg for unit in self.units)))
         self.end.wait_for(floor, (self.start, *(unit.last_known.peg for unit in self.units)))
 
+    def _name(self, board: PegBoard, anticipator: str, sync: str, since: GlobalTime) -> None:
+        """Name the first occurrence of a point since a time."""
+        peg = board.upcoming(anticipator, sync, since)
+        self.predicted[anticipator, sync] = peg
+        # The board forgets the names of points without dependents.
+        board.add_unnamed(self.key, [OffsetPeg(board.graph, peg.name, peg, 0.0)])
+
     def _awaited(self) -> tuple[TimeCell, ...]:
         activation = [self.activation] if self.activation is not None else []
         return (*activation, *(each.peg for each in self.predecessors), *self.holds)
-
-
-def _predicted(board: PegBoard, description: BehaviorBlock) -> dict[tuple[str, str], AnticipatorPeg]:
-    points = ((ref.behavior, ref.sync) for ref in description.refs if ref.block == ANTICIPATORS)
-    return {(name, sync): board.predicted(name, sync) for name, sync in points if name is not None and sync is not None}
 
 
 def _subsiding(unit: PlanUnit) -> SyncPoint:

@@ -13,6 +13,7 @@ from reactive_realizer.scheduler.block_lifecycle import BlockLifecycle
 from reactive_realizer.scheduler.block_state import BlockState
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock
+from reactive_realizer.scheduler.late_ties import OuterTie, outer_ties
 from reactive_realizer.scheduler.problem import Node, Origin, Point, Precedence, Tie
 from reactive_realizer.scheduler.verify import TOLERANCE, missed
 
@@ -77,9 +78,12 @@ class ConstraintMonitor:
             moved: the cells that changed in this tick, with their values before.
             now: the time of the tick.
         """
-        late = missed(constraint, *(_time(node, block, units) for node in constraint.nodes))
+        late = _late(constraint, block, units)
         outside = [node for node in constraint.nodes if not isinstance(node, Point | Origin)]
         fired = bool(outside) and _fired(constraint, block, units)
+        if fired and late > TOLERANCE and _kept_ahead(constraint, block, units, moved):
+            self._lifecycle.settle(block, constraint)
+            return
         # A new prediction of a time that has passed, after all tied points have fired, means its next occurrence.
         renewed = fired and any(is_due(moved.get(node), now) for node in outside)
         slight = fired and isinstance(constraint, Tie) and late <= _NOTICEABLE
@@ -100,6 +104,35 @@ def _time(node: Node, block: BMLBlock, units: Mapping[str, PlanUnit]) -> Time:
     if isinstance(node, Point):
         return units[node.behavior].time(node.sync)
     return block.start.value if isinstance(node, Origin) else node.value
+
+
+def _late(constraint: Tie | Precedence, block: BMLBlock, units: Mapping[str, PlanUnit]) -> float:
+    """By how much (s) a constraint is missed; minus infinity if a time is unknown.
+
+    A block may start after a time that its start is tied to.
+    """
+    first, second = (_time(node, block, units) for node in constraint.nodes)
+    outer = _outer(constraint)
+    if outer is None or not isinstance(outer.node, Origin) or first is None or second is None:
+        return missed(constraint, first, second)
+    late = second + constraint.offset - first
+    return late if constraint.nodes[0] is outer.node else -late
+
+
+def _kept_ahead(
+    constraint: Tie | Precedence, block: BMLBlock, units: Mapping[str, PlanUnit], moved: Mapping[Cell[Any], Any]
+) -> bool:
+    """Whether a point ahead of a time from outside came as that was predicted before this tick."""
+    outer = _outer(constraint)
+    time, predicted = (None, None) if outer is None else (_time(outer.node, block, units), moved.get(outer.cell))
+    if outer is None or outer.offset >= 0 or time is None or predicted is None:
+        return False
+    return bool(abs(predicted + outer.offset - time) <= _NOTICEABLE)
+
+
+def _outer(constraint: Tie | Precedence) -> OuterTie | None:
+    """The constraint as a tie to a time from outside, if it is one."""
+    return next(outer_ties([constraint]), None) if isinstance(constraint, Tie) else None
 
 
 def _cut(constraint: Tie | Precedence, units: Mapping[str, PlanUnit]) -> bool:

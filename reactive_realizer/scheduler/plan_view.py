@@ -56,7 +56,7 @@ class PlanView:
         """A block on the board, in global times, at the end of the tick at ``now``."""
         points = {Point(unit.behavior.id, p.id): p for unit in block.units for p in unit.points}
         start = block.start.value
-        # What the start waited for need not hold once the block has started.
+        # The start of the block waits for these, and may come later.
         waited = (each for each in block.kept if not any(isinstance(node, Point) for node in each.nodes))
         return cls(
             # The end of a persistent behavior is not checked before it is ended.
@@ -69,7 +69,7 @@ class PlanView:
             None if start is None else max(start, now),
             block.end.value,
             block.end.floor,
-            frozenset(block.settled.union(waited) if block.state.plays else block.settled),
+            frozenset(block.settled.union(waited)),
             frozenset(unit.behavior.id for unit in block.units if not unit.begun),
         )
 

@@ -2,7 +2,8 @@
 
 import logging
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Set as AbstractSet
+from dataclasses import dataclass, replace
 
 from reactive_realizer.clock.units import RESOLUTION, GlobalTime, Time
 from reactive_realizer.pegboard.peg_key import PegKey
@@ -15,6 +16,8 @@ from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.scheduler.constraints import ReferenceResolver, bound_on_start, constraints_of
 from reactive_realizer.scheduler.faults import WorkFailed
 from reactive_realizer.scheduler.free_points import through_free
+from reactive_realizer.scheduler.late_ties import LateTies
+from reactive_realizer.scheduler.passed_moments import without_passed
 from reactive_realizer.scheduler.peg_layout.peg_layout import PegLayout
 from reactive_realizer.scheduler.problem import Item, Origin, Point, Precedence, SchedulingProblem, Tie
 from reactive_realizer.scheduler.solution import Loss, Solution
@@ -35,6 +38,7 @@ class BlockProblem:
         losses: behaviors and constraints that were lost before.
         start: when the block was expected to start.
         holds: constraints that the block satisfies by starting later, with the bounds that they put on its start.
+        late: the times from outside that count as unknown, because ties to them are late for the expected start.
     """
 
     units: tuple[PlanUnit, ...]
@@ -42,6 +46,7 @@ class BlockProblem:
     losses: tuple[Loss, ...]
     start: GlobalTime
     holds: Mapping[Tie | Precedence, Bound]
+    late: AbstractSet[TimeCell]
 
 
 class Plan:
@@ -85,7 +90,7 @@ class Planning:
         """The problem of a block that is ready to start; the board stays as it is.
 
         Args:
-            block: in preparation, or about to start.
+            block: in preparation.
             timings: its behaviors, with their preferences.
             now: the earliest start.
             losses: behaviors that were lost before.
@@ -95,15 +100,9 @@ class Planning:
         resolver = ReferenceResolver(block, {unit.behavior.id: unit for unit in timings}, self._board, self._blocks)
         dropped = resolver.drop_unplaceable()
         ties, orders, lost = constraints_of(block.description, resolver)
-        units = tuple(resolver.units.values())
-        items, ties, orders = through_free([Item(unit.behavior, timings[unit].closed) for unit in units], ties, orders)
-        start = max(now, block.start.value or now)
-        holds = _holds([*ties, *orders], start)
-        if holds:
-            ties, orders = [tie for tie in ties if tie not in holds], [order for order in orders if order not in holds]
-        start = max([start, *(time for bound in holds.values() for time in _known(bound))])
-        problem = SchedulingProblem(items, tuple(ties), _outer_times([*ties, *orders], start), tuple(orders))
-        return BlockProblem(units, problem, (*losses, *dropped, *lost), start, holds)
+        kept = {unit: timings[unit] for unit in resolver.units.values()}
+        posed = _pose(block, kept, ties, orders, now, starts=False)
+        return replace(posed, losses=(*losses, *dropped, *lost, *posed.losses))
 
     def solve(self, posed: BlockProblem) -> Plan:
         """A plan by the strategy; thread-safe, because it reads only the problem.
@@ -122,35 +121,47 @@ class Planning:
 
         A later start of the block does not count: the times of a plan are relative to it.
         """
-        return any(_moved(cell.value, time, posed.start) for cell, time in posed.problem.times.items())
+        times = posed.problem.times.items()
+        return any(_moved(cell.value, time, posed.start) for cell, time in times if cell not in posed.late)
 
     def is_cyclic(self, block: BMLBlock, posed: BlockProblem) -> bool:
         """Whether a time from outside has come to depend on the block itself."""
         cells = (*posed.problem.times, *(cell for cell, _ in posed.holds.values()))
         return any(cell.depends_on(block.start) for cell in cells)
 
-    def renewed(self, block: BMLBlock, start: GlobalTime, now: GlobalTime) -> Plan | None:
+    def again(self, block: BMLBlock, now: GlobalTime) -> Plan:
+        """A new plan of a block that waits, from the constraints of its present one."""
+        return self.solve(_posed_again(block, {unit: unit.timing for unit in block.units}, now, starts=False))
+
+    def at_start(self, block: BMLBlock, start: GlobalTime, now: GlobalTime) -> Plan | None:
         """A new plan of a block that starts at ``start``, with the preferences of its engines ``now`` (thesis 12.1.4).
 
+        A chunk is planned again because gestures are prepared from the position of the hands. So is a block with points
+        that have come to lie before its start, because times from outside have moved: no point comes before its block.
+
         Returns:
-            None if the present plan is still good, or the new one would lose anything.
+            None if the present plan is still good, or the new plan of a chunk would lose anything.
         """
-        if not _is_outdated(block, start):
+        times = (point.peg.value for unit in block.units for point in unit.points)
+        early = any(time is not None and time < start - RESOLUTION for time in times)
+        if not early and not any(each.chunk for each in block.predecessors):
             return None
-        plan = self.solve(self.build_problem(block, {unit: unit.preference(now) for unit in block.units}, start))
-        return None if plan.losses or len(plan.units) < len(block.units) else plan
+        timings = {unit: unit.preference(now) for unit in block.units}
+        plan = self.solve(_posed_again(block, timings, start, starts=True))
+        return plan if early or not plan.losses else None
 
     def lay_out(self, block: BMLBlock, plan: Plan) -> list[TimePeg]:
         """Within a transaction, put the pegs of a plan on the board; returns those that the block's start waits for."""
         self._board.add_block(block.key, self._build(block, plan))
-        name, bounds = f"{block.key.block}:start as constrained", plan.posed.holds.values()
-        holds: list[TimePeg] = [OffsetPeg(self._board.graph, name, cell, offset) for cell, offset in bounds]
-        self._board.add_unnamed(block.key, holds)
         self._announce(block, plan)
-        return holds
+        return self._hold(block, plan)
 
-    def replace(self, block: BMLBlock, plan: Plan) -> dict[TimeCell, TimeCell]:
-        """Within a transaction, replace the plan on the board; returns the new pegs by the old ones."""
+    def replace(self, block: BMLBlock, plan: Plan) -> tuple[list[TimePeg], dict[TimeCell, TimeCell]]:
+        """Within a transaction, replace the plan on the board.
+
+        Returns:
+            The pegs that the block's start waits for, and the new pegs of points by the old ones.
+        """
         replaced: dict[TimeCell, TimeCell] = {}
         for key, peg in self._build(block, plan).items():
             if (old := self._board.get(key)) is peg:
@@ -159,7 +170,14 @@ class Planning:
                 replaced[old] = peg
             self._board.replace(key, peg)
         self._announce(block, plan)
-        return replaced
+        return self._hold(block, plan), replaced
+
+    def _hold(self, block: BMLBlock, plan: Plan) -> list[TimePeg]:
+        """The pegs for the bounds on the start of a block."""
+        name, bounds = f"{block.key.block}:start as constrained", plan.posed.holds.values()
+        holds: list[TimePeg] = [OffsetPeg(self._board.graph, name, cell, offset) for cell, offset in bounds]
+        self._board.add_unnamed(block.key, holds)
+        return holds
 
     def _open(self, unit: PlanUnit) -> None:
         """Give a behavior that persists pegs for its unknown points, so that others may depend on them."""
@@ -196,22 +214,46 @@ class Planning:
         return known | {unit.key(sync): peg for unit in plan.units for sync, peg in unit.open.items()}
 
 
-def _is_outdated(block: BMLBlock, start: GlobalTime) -> bool:
-    """Whether a block is to be planned again when it starts.
+def _posed_again(block: BMLBlock, timings: Mapping[PlanUnit, Timing], now: GlobalTime, *, starts: bool) -> BlockProblem:
+    """The problem of a planned block, with the constraints of its present plan on the behaviors that are left."""
+    gone = {behavior.id for behavior in block.description.behaviors} - {unit.behavior.id for unit in timings}
+    left = [each for each in block.kept if not each.names(gone)]
+    ties = [each for each in left if isinstance(each, Tie)]
+    orders = [each for each in left if isinstance(each, Precedence)]
+    return _pose(block, timings, ties, orders, now, starts=starts)
 
-    So is a chunk, because gestures are prepared from the position of the hands; and a block with points that have come
-    to lie before its start, because times from outside have moved.
+
+def _pose(
+    block: BMLBlock,
+    timings: Mapping[PlanUnit, Timing],
+    ties: Sequence[Tie],
+    orders: Sequence[Precedence],
+    now: GlobalTime,
+    *,
+    starts: bool,
+) -> BlockProblem:
+    """The problem of some constraints on some behaviors of a block, which starts not before ``now``.
+
+    If the block ``starts``, late ties are moved. Until then, they are planned as if their times were unknown.
     """
-    times = (point.peg.value for unit in block.units for point in unit.points)
-    early = any(time is not None and time < start - RESOLUTION for time in times)
-    return early or any(each.chunk for each in block.predecessors)
-
-
-def _holds(constraints: Iterable[Tie | Precedence], start: GlobalTime) -> dict[Tie | Precedence, Bound]:
-    """The constraints that a block satisfies by starting later; it cannot start earlier for an `at`."""
-    bounds = ((each, bound) for each in constraints if (bound := bound_on_start(each)) is not None)
-    early = start - RESOLUTION
-    return {each: b for each, b in bounds if isinstance(each, Precedence) or not any(t < early for t in _known(b))}
+    behaviors = {unit.behavior.id: unit.behavior for unit in timings}
+    ties, orders, lost, gone = without_passed(behaviors, ties, orders, block.meant)
+    units = tuple(unit for unit in timings if unit.behavior.id not in gone)
+    items, ties, orders = through_free([Item(unit.behavior, timings[unit].closed) for unit in units], ties, orders)
+    start = max(now, block.start.value or now)
+    constraints: list[Tie | Precedence] = [*ties, *orders]
+    holds = {each: bound for each in constraints if (bound := bound_on_start(each)) is not None}
+    if holds:
+        ties, orders = [tie for tie in ties if tie not in holds], [order for order in orders if order not in holds]
+    start = max([start, *(time for bound in holds.values() for time in _known(bound))])
+    late = LateTies(items, ties, start)
+    unknown: AbstractSet[TimeCell] = late.cells
+    if starts and late.cells:
+        unknown = frozenset()
+        ties, moved = late.moved()
+        lost = (*lost, *moved)
+    problem = SchedulingProblem(items, tuple(ties), _outer_times([*ties, *orders], start, unknown), tuple(orders))
+    return BlockProblem(units, problem, tuple(lost), start, holds, unknown)
 
 
 def _known(bound: Bound) -> list[GlobalTime]:
@@ -220,10 +262,12 @@ def _known(bound: Bound) -> list[GlobalTime]:
     return [] if cell.value is None else [GlobalTime(cell.value + distance)]
 
 
-def _outer_times(constraints: Sequence[Tie | Precedence], start: GlobalTime) -> dict[TimeCell, float | None]:
+def _outer_times(
+    constraints: Sequence[Tie | Precedence], start: GlobalTime, late: AbstractSet[TimeCell]
+) -> dict[TimeCell, float | None]:
     nodes = [node for each in constraints for node in each.nodes]
     cells = (node for node in nodes if not isinstance(node, Point | Origin))
-    return {cell: None if cell.value is None else cell.value - start for cell in cells}
+    return {cell: None if cell.value is None or cell in late else cell.value - start for cell in cells}
 
 
 def _moved(now: Time, planned: float | None, start: GlobalTime) -> bool:

@@ -131,28 +131,6 @@ async def test_a_time_may_be_an_offset_from_the_start_of_another_block(pilot: Re
     assert pilot.feedback.time("two:h:start") == 1.5
 
 
-async def test_a_behavior_tied_to_a_past_point_joins_late_without_a_warning(pilot: RealizerPilot) -> None:
-    pilot.block("one", WAIT.format(5))
-    await pilot.advance(0.5)
-    pilot.block("two", '<head id="h" lexeme="NOD" start="one:w:start" end="one:w:start+2"/>')
-    await pilot.tick()
-    told = pilot.feedback
-    assert told.warnings == []
-    assert told.progress[2:4] == ["two:start", "two:h:start"]
-    assert told.time("two:h:start") == 0.0
-    await pilot.advance(3)
-    assert told.time("two:h:end") == 2.0
-
-
-async def test_a_behavior_tied_to_a_past_point_is_dropped_if_it_would_be_over(pilot: RealizerPilot) -> None:
-    pilot.block("one", WAIT.format(5))
-    await pilot.advance(3)
-    pilot.block("two", '<head id="h" lexeme="NOD" start="one:w:start" end="one:w:start+2"/>')
-    await pilot.tick()
-    assert pilot.feedback.warnings == [("two:h", "IMPOSSIBLE_TO_SCHEDULE")]
-    assert pilot.feedback.status("two") == "DONE"
-
-
 async def test_a_block_that_has_ended_cannot_be_referenced(pilot: RealizerPilot) -> None:
     pilot.block("one", WAIT.format(0.1))
     await pilot.advance(0.5)

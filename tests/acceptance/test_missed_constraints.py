@@ -63,19 +63,19 @@ async def test_a_missed_tie_between_blocks_is_reported_for_the_block_that_contai
     assert missed(pilot) == pytest.approx({("b:n", "n:start = a:w:start-0.5"): 0.5})
 
 
-@pytest.mark.parametrize(
-    ("corrections", "said"), [([1.96], {}), ([1.96, 1.92, 2.05], {}), ([1.96, 1.92, 1.87, 1.8], 0.13)]
-)
-async def test_small_corrections_are_reported_once_their_sum_is_noticeable(
-    pilot: RealizerPilot, corrections: list[float], said: Any
+@pytest.mark.parametrize("corrections", [[1.96], [2.6], [1.96, 1.92, 1.87, 1.8], [5.0, 1.7]])
+async def test_a_point_ahead_of_a_prediction_keeps_to_the_best_one_that_it_had(
+    pilot: RealizerPilot, corrections: list[float]
 ) -> None:
     pilot.predict("t", "hit", 2.0)
     pilot.block("b", AHEAD)
     await pilot.advance(1.55)
     for correction in corrections:
         await moves(pilot, ("hit", correction), 0.05)
-    await pilot.advance(2)
-    assert missed(pilot) == pytest.approx(said and {("b:n", f"n:start = {HIT}-0.5"): said})
+    await pilot.advance(4)
+    assert_time(pilot.feedback, "b:n:start", 1.5)
+    assert missed(pilot) == {}
+    assert pilot.feedback.warnings == []
 
 
 async def test_a_reached_point_may_be_predicted_again_without_a_warning(pilot: RealizerPilot) -> None:

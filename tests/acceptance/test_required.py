@@ -76,7 +76,7 @@ async def test_a_required_behavior_tied_to_a_point_that_will_not_happen_fails_it
     assert pilot.feedback.reached("new:start") == pilot.feedback.reached("third:n:start") == (composition == "MERGE")
 
 
-async def test_a_required_behavior_that_would_be_over_fails_its_block_before_it_plays(
+async def test_a_required_tie_that_is_late_fails_its_block_before_it_plays(
     pilot: RealizerPilot,
 ) -> None:
     pilot.predict("t", "hit", 5.0)
@@ -88,7 +88,7 @@ async def test_a_required_behavior_that_would_be_over_fails_its_block_before_it_
     pilot.predict("t", "hit", 1.0)
     await pilot.advance(3)
     assert pilot.feedback.warnings == SAID
-    assert [id_ for id_ in pilot.feedback.progress if id_.startswith(("new", "asleep"))] == ["new:start", "new:end"]
+    assert [id_ for id_ in pilot.feedback.progress if id_.startswith(("new", "asleep"))] == ["new:end"]
     assert_ended(pilot.feedback, "new", "FAILED")
 
 

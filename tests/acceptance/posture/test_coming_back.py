@@ -1,4 +1,4 @@
-"""Postures that become visible again after a shift, and postures that join late."""
+"""Postures that become visible again after a shift, and postures in no time."""
 
 from itertools import pairwise
 from typing import Any
@@ -101,39 +101,6 @@ async def test_replacing_everything_while_getting_up_causes_no_jump(either: Real
     either.block("c", composition="REPLACE")
     await either.advance(3)
     assert jolts(either).max() < 0.05
-
-
-# --- what joins late
-
-
-async def late(pilot: RealizerPilot, kind: str, stance: str, begun: float = 1.0) -> None:
-    """A posture whose start has passed by as much."""
-    pilot.predict("t", "hit", 1.0)
-    await pilot.advance(1.0 + begun)
-    pilot.block("b", f'<{kind} id="p" start="anticipators:t:hit">{stance}</{kind}>')
-    await pilot.advance(4)
-    assert pilot.feedback.time("b:p:start") == 1.0
-    assert pilot.feedback.warnings == []
-
-
-@pytest.mark.parametrize("begun", [0.3, 1.5])
-@pytest.mark.parametrize("legs", [OPEN, CROSSED_LEGS])
-async def test_the_feet_step_into_a_posture_that_joins_late(
-    alternating: RealizerPilot, legs: str, begun: float
-) -> None:
-    await late(alternating, "posture", legs, begun)
-    assert slides(alternating.bodies()).max() < 0.1
-    assert heights(alternating.bodies()).min() > -0.001
-
-
-@pytest.mark.parametrize("begun", [0.5, 1.0, 1.5])
-@pytest.mark.parametrize("kind", ["posture", "postureShift"])
-async def test_a_late_figure_does_not_fall_onto_the_seat(alternating: RealizerPilot, kind: str, begun: float) -> None:
-    await late(alternating, kind, SIT, begun)
-    assert root_speeds(alternating).max() < UNHURRIED
-    assert jolts(alternating).max() < 0.15
-    lowest = min(b.root[1] for b in alternating.bodies())
-    assert lowest == pytest.approx(body(alternating, 4.5).root[1], abs=0.01)
 
 
 async def test_a_posture_that_started_in_time_is_complete_in_a_later_first_frame() -> None:

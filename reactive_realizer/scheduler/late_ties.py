@@ -1,0 +1,150 @@
+"""Ties to times from outside that lie before their block can meet them (docs/semantics.md, late ties)."""
+
+from collections import defaultdict
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from typing import NamedTuple
+
+from reactive_realizer.clock.units import RESOLUTION, GlobalTime
+from reactive_realizer.errors import SchedulingFault
+from reactive_realizer.pegboard.time_peg import TimeCell
+from reactive_realizer.planunit.timing import PhaseKind
+from reactive_realizer.scheduler.problem import Item, Origin, Point, Tie
+from reactive_realizer.scheduler.solution import Loss, lost_constraint
+
+
+class LateTie(SchedulingFault):
+    """A tie to a time before the start of the block; ``late`` and ``start`` in s."""
+
+    code = "late-tie"
+    template = "{tie} is {late:g} s late, because the block starts at {start:g} s"
+    tie: str
+    late: float
+    start: float
+
+
+class OuterTie(NamedTuple):
+    """A tie between the block and a time from outside: ``node = cell + offset``, offset in s."""
+
+    node: Point | Origin
+    cell: TimeCell
+    offset: float
+    tie: Tie
+
+
+def outer_ties(ties: Iterable[Tie]) -> Iterator[OuterTie]:
+    """The ties between a point or the start of the block and a time from outside."""
+    for tie in ties:
+        left, right = tie.nodes
+        if isinstance(left, Point | Origin):
+            if not isinstance(right, Point | Origin):
+                yield OuterTie(left, right, tie.offset, tie)
+        elif isinstance(right, Point | Origin):
+            yield OuterTie(right, left, -tie.offset, tie)
+
+
+class LateTies:
+    """The ties of a block that starts too late for them.
+
+    If one tie to a time from outside is late, all ties to this time are moved together: to the earliest time at which
+    each behavior begins with its block or later, with its preferred durations. A behavior without preferences needs no
+    time before its points.
+
+    Args:
+        items: the behaviors of the block.
+        ties: all of its ties.
+        start: of the block, s, global.
+
+    Attributes:
+        cells: the times from outside to which a tie is late.
+    """
+
+    def __init__(self, items: Sequence[Item], ties: Sequence[Tie], start: GlobalTime) -> None:
+        self._items = {item.behavior.id: item for item in items}
+        self._ties = ties
+        self._start = start
+        self._outer = list(outer_ties(ties))
+        self.cells = {each.cell: None for each in self._outer if self._is_late(each)}.keys()
+
+    def moved(self) -> tuple[list[Tie], list[Loss]]:
+        """The ties of a block that starts now, and a loss for each late time, unless only starts are tied before it.
+
+        Ties to a late time become ties to the start of the block.
+        """
+        members: defaultdict[TimeCell, list[OuterTie]] = defaultdict(list)
+        for each in self._outer:
+            if each.cell in self.cells:
+                members[each.cell].append(each)
+        replaced: dict[int, Tie | None] = {}
+        losses: list[Loss] = []
+        for cell, own in members.items():
+            time = self._earliest(own)
+            replaced |= {id(each.tie): _to_start(each, time) for each in own}
+            losses += self._losses(own, self._start + time - (cell.value or 0.0))
+        ties = (replaced.get(id(tie), tie) for tie in self._ties)
+        return [tie for tie in ties if tie is not None], losses
+
+    def _is_late(self, outer: OuterTie) -> bool:
+        time = outer.cell.value
+        return time is not None and time + outer.offset < self._start + self._rigid_lead(outer.node) - RESOLUTION
+
+    def _rigid_lead(self, node: Point | Origin) -> float:
+        """The time (s) that the rigid phases of a behavior take before one of its points."""
+        item = self._items.get(node.behavior) if isinstance(node, Point) else None
+        if item is None or not isinstance(node, Point):
+            return 0.0
+        phases = item.timing.phases[: item.points.index(node)]
+        return sum(phase.duration for phase in phases if phase.kind is PhaseKind.RIGID)
+
+    def _losses(self, ties: Iterable[OuterTie], late: float) -> Iterator[Loss]:
+        named = [each for each in ties if self._is_late(each) and not self._says_start(each.node)]
+        for each in sorted(named, key=lambda each: (each.offset, each.tie.text))[:1]:
+            yield lost_constraint(each.tie, LateTie(tie=each.tie.text, late=late, start=self._start))
+
+    def _says_start(self, node: Point | Origin) -> bool:
+        return isinstance(node, Origin) or self._items[node.behavior].points[0] == node
+
+    def _earliest(self, ties: Collection[OuterTie]) -> float:
+        """The earliest time (s after the start of the block) for a time from outside.
+
+        The behaviors at its ties, and those tied to them, are at their preferred durations from it.
+        """
+        places: dict[Point | Origin, float] = {each.node: each.offset for each in ties}
+        behaviors = dict.fromkeys(node.behavior for node in places if isinstance(node, Point))
+        waiting = list(behaviors)
+        while waiting:
+            item = self._items[waiting.pop(0)]
+            places |= _placed(item, places)
+            for one, other, offset in self._inner_ties(item.behavior.id):
+                if other.behavior not in behaviors:
+                    behaviors[other.behavior] = None
+                    places[other] = places[one] + offset
+                    waiting.append(other.behavior)
+        return -min(places.values())
+
+    def _inner_ties(self, behavior: str) -> Iterator[tuple[Point, Point, float]]:
+        """The ties of a behavior to others of the block: its point, the other one, and how much later (s) that is."""
+        for tie in self._ties:
+            for one, other, offset in ((tie.left, tie.right, -tie.offset), (tie.right, tie.left, tie.offset)):
+                if isinstance(one, Point) and isinstance(other, Point) and one.behavior == behavior:
+                    yield one, other, offset
+
+
+def _placed(item: Item, places: Mapping[Point | Origin, float]) -> dict[Point | Origin, float]:
+    """All points of a behavior of which some have places: at its preferred durations from the next one that has."""
+    known = [k for k, point in enumerate(item.points) if point in places]
+    times = [0.0]
+    for phase in item.timing.phases:
+        times.append(times[-1] + (0.0 if phase.kind is PhaseKind.FREE else phase.duration))
+    placed: dict[Point | Origin, float] = {}
+    for k, point in enumerate(item.points):
+        base = next((each for each in known if each >= k), known[-1])
+        placed[point] = places[item.points[base]] + times[k] - times[base]
+    return placed
+
+
+def _to_start(outer: OuterTie, time: float) -> Tie | None:
+    """The tie to a time (s) after the start of the block, not to the one from outside; None for a tie of the start."""
+    if isinstance(outer.node, Origin):
+        return None
+    return replace(outer.tie, left=outer.node, right=Origin.BLOCK_START, offset=time + outer.offset)
