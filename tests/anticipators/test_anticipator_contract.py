@@ -2,11 +2,13 @@
 
 from math import inf, nan
 
+from anticipators.backchannel import Backchannel
 from anticipators.conducting import Conducting
 from anticipators.exercise import Exercise
 from anticipators.metronome import Metronome
 from anticipators.spacebar import Spacebar
 from anticipators.speech_stop import SpeechStop
+from anticipators.tap import Tap
 from reactive_realizer.pegboard.anticipator import Anticipator, AnticipatorContext, AnticipatorEvent, Remote
 from reactive_realizer.testing.anticipator_contract import AnticipatorContract
 
@@ -93,6 +95,35 @@ class TestConducting(AnticipatorContract):
 
     def anticipator(self, context: AnticipatorContext) -> Anticipator:
         return Conducting(context)
+
+
+class TestTap(AnticipatorContract):
+    points = ("beat", "offbeat")
+    events = (*[AnticipatorEvent("tap")] * 5, AnticipatorEvent("start"))
+
+    def anticipator(self, context: AnticipatorContext) -> Anticipator:
+        return Tap(context)
+
+
+class TestBackchannel(AnticipatorContract):
+    points = ("backchannel",)
+    events = (
+        AnticipatorEvent("pitch", 200.0),
+        AnticipatorEvent("pitch", 220.0),
+        AnticipatorEvent("pitch", 90.0),
+        AnticipatorEvent("pitch", 80.0),
+        AnticipatorEvent("pitch", 0.0),
+        AnticipatorEvent("start"),
+    )
+    refused = (
+        AnticipatorEvent("pitch"),
+        AnticipatorEvent("pitch", -1.0),
+        AnticipatorEvent("pitch", 1001.0),
+        AnticipatorEvent("pitch", nan),
+    )
+
+    def anticipator(self, context: AnticipatorContext) -> Anticipator:
+        return Backchannel(context)
 
 
 class TestRemote(AnticipatorContract):

@@ -171,6 +171,22 @@ async def test_the_conductor_follows_the_orchestra(pilot: RealizerPilot) -> None
     assert pilot.feedback.status("conduct") == "DONE"
 
 
+async def test_the_listener_moves_with_the_foot_of_the_user(pilot: RealizerPilot) -> None:
+    for _ in range(3):
+        pilot.event("foot", "tap")
+        await pilot.advance(0.8)
+    await pilot.advance(1)
+    assert pilot.feedback.time("along:with:stroke") == pytest.approx(1.6)
+
+
+async def test_the_listener_nods_seven_tenths_of_a_second_after_the_voice_has_become_low(pilot: RealizerPilot) -> None:
+    while pilot.now < 2:
+        pilot.event("voice", "pitch", 200.0 if pilot.now < 1.2 else 150.0)
+        await pilot.tick()
+    await pilot.advance(1)
+    assert pilot.feedback.time("attention:listening:start") == pytest.approx(1.2 + 0.11 + 0.7)
+
+
 async def test_every_event_on_the_page_is_accepted_by_its_anticipator(pilot: RealizerPilot) -> None:
     for fence in ready("json"):
         message = json.loads(fence.text)

@@ -62,6 +62,30 @@ async def test_the_conductor_is_ahead_of_the_music_also_where_a_beat_was_not_hea
     well(scene, *(f"bar{n}" for n in numbers))
 
 
+async def test_the_nods_are_with_the_taps_also_where_one_is_missed(example: Play) -> None:
+    entrainment = example("entrainment")
+    scene = await entrainment["main"]()
+    nods = len([line for line in scene.feedback.of("syncPointProgress") if line.id.endswith(":nod:stroke")])
+    strokes = [scene.feedback.time(f"beat{number}:nod:stroke") for number in range(1, nods + 1)]
+    late = [stroke - tap for stroke, tap in zip(strokes, entrainment["taps"]()[2:], strict=True)]
+    assert all(abs(each) < 0.1 for each in late)
+    assert abs(np.mean(late)) < 0.03
+    assert scene.feedback.warnings == []
+
+
+async def test_the_listener_nods_after_each_clause_that_ends_low_and_after_no_other(
+    example: Play, capsys: pytest.CaptureFixture[str]
+) -> None:
+    listening = example("listening")
+    scene = await listening["main"]()
+    ends = [time for time, _, end in listening["story"]() if "low" in end]
+    nods = [scene.feedback.time(f"nod{number}:nod:start") for number in range(1, len(ends) + 1)]
+    assert [nod - end for nod, end in zip(nods, ends, strict=True)] == pytest.approx([0.56] * len(ends), abs=0.05)
+    assert not scene.feedback.reached(f"nod{len(ends) + 1}:nod:start")
+    assert "a clause that goes on" in capsys.readouterr().out
+    assert scene.feedback.warnings == []
+
+
 async def test_the_turn_is_taken_after_its_end_and_not_in_a_pause(
     example: Play, capsys: pytest.CaptureFixture[str]
 ) -> None:
