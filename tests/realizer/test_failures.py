@@ -104,7 +104,9 @@ async def pilot() -> AsyncIterator[RealizerPilot]:
         engines = (FailingEngine("alice/failing"), *alice.engines)
         character = Character("alice", alice.humanoid, engines)
         time = Source(Graph(), "time", GlobalTime(0.0))
-        async with Realizer([character], World({}), lambda context: [], SmartBodyStrategy(), Limits(), time) as realizer:
+        async with Realizer(
+            [character], World({}), lambda context: [], SmartBodyStrategy(), Limits(), time
+        ) as realizer:
             yield RealizerPilot(Scene(realizer, scene.specification, scene.assets, scene.tts))
 
 
