@@ -69,7 +69,8 @@ _NOTES = {
     "pose of a posture lexeme": "a lexeme of `pose` (see below), or of [your own file](human.md#postures)",
     "emit event": "its content, of any kind, is for planners",
     "wait duration": "never stretched",
-    "wait max-wait": "the duration without other constraints, and the maximum duration",
+    "wait max-wait": "the duration without other constraints; limits a wait for an event or for a time from outside",
+    "wait event": "ends it; it takes no `end` and no `duration`",
 }
 
 _HEAD = """\

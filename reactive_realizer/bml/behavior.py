@@ -90,8 +90,19 @@ class Behavior:
         return cls.SYNC_POINTS
 
     @classmethod
-    def complete_syncs(cls, syncs: Mapping[str, SyncRef], namespace: str) -> Mapping[str, SyncRef]:
-        """The references of the sync points of a behavior in a namespace, from those that are written."""
+    def complete_syncs(
+        cls, syncs: Mapping[str, SyncRef], values: Mapping[str, object], namespace: str
+    ) -> Mapping[str, SyncRef]:
+        """The references of the sync points of a behavior, from those that are written.
+
+        Args:
+            syncs: as written.
+            values: of its other attributes, by field.
+            namespace: of its element.
+
+        Raises:
+            RealizerError: they contradict its other attributes.
+        """
         return syncs
 
     @property

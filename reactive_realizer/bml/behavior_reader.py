@@ -87,7 +87,11 @@ def _known(tree: Tree, element: Element, source: BlockSource, place: dict[str, A
         notes += source.unknown_core_content(tree, names, [*element.children, _DESCRIPTION, PARAMETER])
         values["parameters"] = read_parameters(tree, source, notes)
         values["descriptions"] = _descriptions(tree, source, notes)
-    return element.behavior(**values, syncs=element.behavior.complete_syncs(source.syncs(tree, points), namespace))
+    try:
+        syncs = element.behavior.complete_syncs(source.syncs(tree, points), values, namespace)
+    except RealizerError as refused:
+        raise RealizerError(source.located(tree, refused.fault)) from None
+    return element.behavior(**values, syncs=syncs)
 
 
 def _own_points(tree: Tree, element: Element, source: BlockSource) -> list[str]:

@@ -6,13 +6,17 @@ about a default, it is the one of OpenBMLParser.
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from types import MappingProxyType
 from typing import Final
 
-from reactive_realizer.bml.attribute_types import Duration, Enumeration, Float, Id, Integer, Target, Text
+from reactive_realizer.bml.attribute_types import Duration, Enumeration, EventName, Float, Id, Integer, Target, Text
 from reactive_realizer.bml.attributes import attribute
 from reactive_realizer.bml.behavior import Behavior, SyncPoints
-from reactive_realizer.bml.names import BML_EXT, OWN
+from reactive_realizer.bml.faults import TwoEnds
+from reactive_realizer.bml.names import ANTICIPATORS, BML_EXT, EVENTS, OWN
+from reactive_realizer.bml.sync_ref import SyncRef
 from reactive_realizer.bml.vocabulary import Influence, Mode, OffsetDirection, PosePart, Side, StanceType
+from reactive_realizer.errors import RealizerError
 
 _STROKE_POINTS: SyncPoints = ("start", "ready", "strokeStart", "stroke", "strokeEnd", "relax", "end")
 _HOLD_POINTS: SyncPoints = ("start", "ready", "relax", "end")
@@ -297,14 +301,42 @@ class Locomotion(Behavior):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Wait(Behavior):
-    """Does nothing for a while.
+    """Does nothing for a while, or until an event.
 
     Attributes:
         duration: s; None if only the sync points determine it.
         max_wait: its maximum duration, s; None for no limit.
+        event: name of the event that ends it, None for none.
     """
 
     SYNC_POINTS = _START_AND_END
 
     duration: float | None = field(default=None, metadata=attribute(Duration()))
     max_wait: float | None = field(default=None, metadata=attribute(Duration(), "max-wait"))
+    event: str | None = field(default=None, metadata=attribute(EventName()))
+
+    @classmethod
+    def complete_syncs(
+        cls, syncs: Mapping[str, SyncRef], values: Mapping[str, object], namespace: str
+    ) -> Mapping[str, SyncRef]:
+        """Ties its end to its event.
+
+        Raises:
+            RealizerError: ``two-ends``: its end is tied to something else, or it has a duration.
+        """
+        if (event := values.get("event")) is None:
+            return syncs
+        other = "duration" if values.get("duration") is not None else "end"
+        if other == "duration" or other in syncs:
+            raise RealizerError(TwoEnds(attribute=other))
+        return MappingProxyType({**syncs, "end": SyncRef(ANTICIPATORS, EVENTS, str(event))})
+
+    @property
+    def until(self) -> SyncRef | None:
+        """The point for which it waits, at most for ``max_wait``; None if it has a duration, or ends as others say.
+
+        A point of its own block is no such point: the block is planned so that the two come together.
+        """
+        end = self.syncs.get("end")
+        limited = self.duration is None and self.max_wait is not None
+        return end if (limited and end is not None and end.block is not None) or self.event is not None else None

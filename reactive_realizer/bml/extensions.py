@@ -111,7 +111,9 @@ class ParameterValueChange(Behavior):
     trajectory: Trajectory
 
     @classmethod
-    def complete_syncs(cls, syncs: Mapping[str, SyncRef], namespace: str) -> Mapping[str, SyncRef]:
+    def complete_syncs(
+        cls, syncs: Mapping[str, SyncRef], values: Mapping[str, object], namespace: str
+    ) -> Mapping[str, SyncRef]:
         """Ties BMLT's stroke to whatever its end is tied to: the two are one point."""
         if namespace != BMLT or "stroke" in syncs or "end" not in syncs:
             return syncs

@@ -221,6 +221,14 @@ class UnknownElement(ParsingFault):
     known: tuple[str, ...]
 
 
+class TwoEnds(ParsingFault):
+    """A wait that ends at an event and at something else."""
+
+    code = "two-ends"
+    template = "a wait ends at its event; it cannot have '{attribute}' too, but it can have 'max-wait'"
+    attribute: str
+
+
 class MissingElement(ParsingFault):
     """Required child elements that are missing."""
 

@@ -60,6 +60,19 @@ def not_after(bounds: tuple[float, ...], floors: tuple[float, ...]) -> Callable[
     return formula
 
 
+def until(offset: float, limit: float | None) -> Callable[[Time, Time], Time]:
+    """A distance (s) from the second time, but not before the first one, and at most ``limit`` (s) after that."""
+
+    def formula(start: Time, awaited: Time) -> Time:
+        if start is None:
+            return None
+        ends = [] if limit is None else [start + limit]
+        ends += [] if awaited is None else [max(start, awaited + offset)]
+        return GlobalTime(min(ends)) if ends else None
+
+    return formula
+
+
 def latest(floor: GlobalTime) -> Callable[..., Time]:
     """The latest of several times and the floor; None while one of them is unknown."""
 

@@ -60,6 +60,7 @@ class Timing:
         phases: one between each two points.
         instant: whether all its points have one time; other behaviors have a duration (thesis 7.14).
         persistent: whether it continues until it is ended, and its relax and end are unknown until then (thesis 6.3.1).
+        waits: whether its end comes with another point; then only its start is planned.
         rigid: whether all its phases are rigid.
         free: whether all its phases are free: it takes the time that other behaviors leave, and does not move them.
         limited: indices of the phases with authored limits that have an effect.
@@ -69,6 +70,7 @@ class Timing:
     phases: tuple[Phase, ...]
     instant: bool = False
     persistent: bool = False
+    waits: bool = False
     rigid: bool = field(init=False, repr=False, compare=False)
     free: bool = field(init=False, repr=False, compare=False)
     limited: frozenset[int] = field(init=False, repr=False, compare=False)
@@ -85,7 +87,9 @@ class Timing:
 
     @property
     def closed(self) -> "Timing":
-        """The part that can be timed: all of it or, if it is persistent, the part before its relax."""
+        """The part that can be timed: the part before its relax if it is persistent, and no time if it waits."""
+        if self.waits:
+            return Timing(self.points, tuple(Phase(0.0, PhaseKind.RIGID) for _ in self.phases), instant=True)
         if not self.persistent:
             return self
         count = len([point for point in self.points if point not in OPEN])

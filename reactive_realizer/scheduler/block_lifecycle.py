@@ -93,7 +93,7 @@ class BlockLifecycle:
             return
         with self._board.graph.transaction(f"plan {block.key.block}"):
             holds = self._planning.lay_out(block, plan)
-            block.set_plan(now, plan.units, plan.layout.times, plan.kept, holds)
+            block.set_plan(now, plan.units, plan.times, plan.kept, holds)
         for unit in plan.units:
             self._routing.assign(unit)
         self._transitions.take(block, BlockEvent.PREPLAN if block.awaits_activation else BlockEvent.PLAN, now)
@@ -239,7 +239,8 @@ class BlockLifecycle:
         """Plan a block again that was activated, if points that it names had passed: it waits for the next ones."""
         if not renewed or block.state is not BlockState.LURKING:
             return
-        block.rename_pegs(renewed)
+        with self._board.graph.transaction(f"wait for the next of {block.key.block}"):
+            block.rename_pegs(renewed)
         plan = self._planning.again(block, now)
         if not self._fails_by(block, plan.losses, now):
             with self._board.graph.transaction(f"plan {block.key.block} again"):
@@ -252,7 +253,7 @@ class BlockLifecycle:
         holds, replaced = self._planning.replace(block, plan)
         for other in self._blocks.alive:
             other.rename_pegs(replaced)
-        block.set_plan(block.end.floor, plan.units, plan.layout.times, plan.kept, holds)
+        block.set_plan(block.end.floor, plan.units, plan.times, plan.kept, holds)
         self._units.remove(lost, now)
         block.dropped |= {unit.behavior.id for unit in lost}
         if missed:

@@ -12,6 +12,7 @@ from reactive_realizer.pegboard.peg_view import unknown_sources
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.pegboard.time_peg import AnticipatorPeg, BMLBlockPeg, LatestPeg, OffsetPeg, TimeCell
 from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
+from reactive_realizer.planunit.wait_unit import WaitUnit
 from reactive_realizer.scheduler.block_state import BlockEvent, BlockState, BlockTransition, transition
 from reactive_realizer.scheduler.planning_order import named_blocks
 from reactive_realizer.scheduler.problem import Origin, Point, Precedence, Tie
@@ -232,7 +233,10 @@ class BMLBlock:
         return {old: self.predicted[anticipator, sync] for anticipator, sync, old in passed}
 
     def rename_pegs(self, replaced: Mapping[TimeCell, TimeCell]) -> None:
-        """Have constraints name the new pegs of other blocks."""
+        """Have constraints and waits name the new pegs of other blocks."""
+        for unit in self.units:
+            if isinstance(unit, WaitUnit):
+                unit.rename(replaced)
         self.kept = tuple(each.renamed(replaced) for each in self.kept)
         self.outside = _outside(self.kept)
         self.settled = {each.renamed(replaced) for each in self.settled}

@@ -1,6 +1,7 @@
 """Resolves the references of a block, and turns its constraints into ties and precedences (thesis 7.1.1)."""
 
-from collections.abc import Iterator, Mapping
+from collections import defaultdict
+from collections.abc import Collection, Iterator, Mapping
 
 from reactive_realizer.bml.block import BehaviorBlock, OrderKind, Synchronize
 from reactive_realizer.bml.block import Order as OrderConstraint
@@ -40,6 +41,13 @@ class MutualReference(SchedulingFault):
     reference: str
     other: str
     block: str
+
+
+class WaitsForItself(SchedulingFault):
+    """A wait that begins with something that waits for its end."""
+
+    code = "waits-for-itself"
+    template = "its start depends on its own end"
 
 
 class ReferenceResolver:
@@ -97,6 +105,24 @@ class ReferenceResolver:
                     _check_sync(unit, sync, ref)
                 except RealizerError as problem:
                     yield unit, problem.fault
+            if unit.timing.waits and self._waits_for_itself(unit):
+                yield unit, WaitsForItself()
+
+    def _waits_for_itself(self, waiting: PlanUnit) -> bool:
+        """Whether the start of a wait depends on its end, through behaviors that are tied to both."""
+        tied: defaultdict[str, set[str]] = defaultdict(set)
+        after: set[str] = set()
+        for unit in self.units.values():
+            own, planned = unit.behavior.id, [ref for sync, ref in unit.behavior.syncs.items() if sync not in unit.open]
+            for name, sync in (
+                (ref.behavior, ref.sync) for ref in planned if ref.block in (None, self._block.key.block)
+            ):
+                if name == waiting.behavior.id and sync in waiting.open:
+                    after.add(own)
+                elif name in self.units and sync not in self.units[name].open:
+                    tied[own].add(name)
+                    tied[name].add(own)
+        return not after.isdisjoint(_reachable(waiting.behavior.id, tied))
 
     def _outside(self, ref: SyncRef) -> TimeCell:
         """A peg of another block."""
@@ -155,6 +181,8 @@ def bound_on_start(constraint: Tie | Precedence) -> Bound | None:
 def _own_ties(unit: PlanUnit, resolver: ReferenceResolver) -> Iterator[Tie]:
     id_, behavior = unit.behavior.id, unit.behavior
     for sync, ref in behavior.syncs.items():
+        if sync in unit.open:
+            continue  # it waits for the point that its end names, and is not tied to it
         text, node = f"{id_}:{sync} = {ref}", resolver.locate(ref)
         yield Tie(Point(id_, sync), node, ref.offset, id_, behavior.location, text, behavior.required)
 
@@ -180,6 +208,15 @@ def _ordered(constraint: OrderConstraint, resolver: ReferenceResolver) -> list[P
         distance = early.offset - late.offset
         orders.append(Precedence(*nodes, distance, name, constraint.location, text, constraint.required))
     return orders
+
+
+def _reachable(first: str, links: Mapping[str, Collection[str]]) -> set[str]:
+    found, waiting = {first}, [first]
+    while waiting:
+        new = set(links.get(waiting.pop(), ())) - found
+        found |= new
+        waiting += new
+    return found
 
 
 def _written(block: BMLBlock) -> set[str]:

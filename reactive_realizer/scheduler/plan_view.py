@@ -60,7 +60,12 @@ class PlanView:
         waited = (each for each in block.kept if not any(isinstance(node, Point) for node in each.nodes))
         return cls(
             # The end of a persistent behavior is not checked before it is ended.
-            {unit.behavior.id: unit.timing if unit.points[-1].fired else unit.timing.closed for unit in block.units},
+            {
+                unit.behavior.id: unit.timing.closed
+                if unit.timing.persistent and not unit.points[-1].fired
+                else unit.timing
+                for unit in block.units
+            },
             {key: point.peg.value for key, point in points.items()},
             frozenset(key for key, point in points.items() if point.peg.pinned),
             block.kept,

@@ -3,7 +3,7 @@
 import logging
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from collections.abc import Set as AbstractSet
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from reactive_realizer.clock.units import RESOLUTION, GlobalTime, Time
 from reactive_realizer.pegboard.peg_key import PegKey
@@ -11,6 +11,7 @@ from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.pegboard.time_peg import Bound, OffsetPeg, OpenPeg, TimeCell, TimePeg
 from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
 from reactive_realizer.planunit.timing import OPEN, Timing
+from reactive_realizer.planunit.wait_unit import WaitUnit
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.scheduler.constraints import ReferenceResolver, bound_on_start, constraints_of
@@ -19,7 +20,7 @@ from reactive_realizer.scheduler.free_points import through_free
 from reactive_realizer.scheduler.late_ties import LateTies
 from reactive_realizer.scheduler.passed_moments import without_passed
 from reactive_realizer.scheduler.peg_layout.peg_layout import PegLayout
-from reactive_realizer.scheduler.problem import Item, Origin, Point, Precedence, SchedulingProblem, Tie
+from reactive_realizer.scheduler.problem import Item, Node, Origin, Point, Precedence, SchedulingProblem, Tie
 from reactive_realizer.scheduler.solution import Loss, Solution
 from reactive_realizer.scheduler.strategy import SchedulingStrategy, solve
 
@@ -39,6 +40,7 @@ class BlockProblem:
         start: when the block was expected to start.
         holds: constraints that the block satisfies by starting later, with the bounds that they put on its start.
         late: the times from outside that count as unknown, because ties to them are late for the expected start.
+        awaited: the points for which behaviors wait; empty if they wait already.
     """
 
     units: tuple[PlanUnit, ...]
@@ -47,6 +49,7 @@ class BlockProblem:
     start: GlobalTime
     holds: Mapping[Tie | Precedence, Bound]
     late: AbstractSet[TimeCell]
+    awaited: Mapping[WaitUnit, Node] = field(default_factory=dict)
 
 
 class Plan:
@@ -59,6 +62,7 @@ class Plan:
         units: the behaviors that have times.
         losses: those of the problem and of the strategy.
         kept: the constraints that are kept.
+        times: of the planned points, s after the start of the block; None for those that depend on an unknown time.
     """
 
     def __init__(self, posed: BlockProblem, solution: Solution) -> None:
@@ -69,6 +73,8 @@ class Plan:
         self.units = [unit for unit in posed.units if unit.behavior.id in planned]
         self.losses = (*posed.losses, *solution.losses)
         self.kept = (*self.layout.kept.constraints, *posed.holds)
+        waiting = {Point(unit.behavior.id, sync) for unit in self.units for sync in unit.open}
+        self.times = {point: time for point, time in self.layout.times.items() if point not in waiting}
 
 
 class Planning:
@@ -102,7 +108,8 @@ class Planning:
         ties, orders, lost = constraints_of(block.description, resolver)
         kept = {unit: timings[unit] for unit in resolver.units.values()}
         posed = _pose(block, kept, ties, orders, now, starts=False)
-        return replace(posed, losses=(*losses, *dropped, *lost, *posed.losses))
+        awaited = {unit: resolver.locate(unit.until) for unit in kept if isinstance(unit, WaitUnit)}
+        return replace(posed, losses=(*losses, *dropped, *lost, *posed.losses), awaited=awaited)
 
     def solve(self, posed: BlockProblem) -> Plan:
         """A plan by the strategy; thread-safe, because it reads only the problem.
@@ -180,9 +187,13 @@ class Planning:
         return holds
 
     def _open(self, unit: PlanUnit) -> None:
-        """Give a behavior that persists pegs for its unknown points, so that others may depend on them."""
-        if unit.timing.persistent and not unit.open:
-            graph = self._board.graph
+        """Give a behavior pegs for the points that are not planned, so that others may depend on them."""
+        graph = self._board.graph
+        if unit.open:
+            return
+        if isinstance(unit, WaitUnit):
+            unit.open = {"end": unit.make_end(graph)}
+        elif unit.timing.persistent:
             unit.open = {sync: OpenPeg(graph, str(unit.key(sync))) for sync in unit.timing.points if sync in OPEN}
 
     def _announce(self, block: BMLBlock, plan: Plan) -> None:
@@ -204,6 +215,8 @@ class Planning:
             unit.points = []
         for point, peg in pegs.items():
             unit, texts = units[point.behavior], reasons.get(point)
+            if point.sync in unit.open:
+                continue
             if texts:
                 peg.why = "; ".join(texts)
             unit.points.append(SyncPoint(point.sync, peg, tied=bool(texts)))
@@ -211,7 +224,16 @@ class Planning:
         for unit in plan.units:
             unit.points += [SyncPoint(sync, peg) for sync, peg in unit.open.items()]
             unit.wake()
+        for unit, node in plan.posed.awaited.items():
+            if unit in plan.units:
+                unit.follow(_cell_of(node, block, pegs))
         return known | {unit.key(sync): peg for unit in plan.units for sync, peg in unit.open.items()}
+
+
+def _cell_of(node: Node, block: BMLBlock, pegs: Mapping[Point, TimePeg]) -> TimeCell | None:
+    if isinstance(node, Point):
+        return pegs.get(node)
+    return block.start if isinstance(node, Origin) else node
 
 
 def _posed_again(block: BMLBlock, timings: Mapping[PlanUnit, Timing], now: GlobalTime, *, starts: bool) -> BlockProblem:

@@ -149,7 +149,7 @@ def test_an_unreadable_behavior_or_constraint_is_dropped_with_one_problem(
 
 KEPT = {
     '<wait id="x" color="red" mood="blue"/>': "unknown attribute color, mood of <wait>; "
-    "known: id, duration, max-wait, start, end",
+    "known: id, duration, max-wait, event, start, end",
     '<head id="x" lexeme="NOD" repetition="2" stroke="1"/>': "unknown attribute stroke of <head>; "
     "known: id, lexeme, repetition, amount, start, ready, strokeStart, strokeEnd, relax, end; "
     "did you mean 'strokeEnd'?",

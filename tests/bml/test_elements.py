@@ -135,6 +135,7 @@ WRITTEN: dict[str, tuple[type[Behavior], dict[str, object], tuple[str, ...]]] = 
     '<locomotion id="x" target="door"/>': (Locomotion, {"target": "door", "manner": "WALK"}, SHIFT),
     '<locomotion id="x" target="door" manner="RUN"/>': (Locomotion, {"manner": "RUN"}, SHIFT),
     '<wait id="x"/>': (Wait, {"duration": None, "max_wait": None}, SHIFT),
+    '<wait id="x" event="go" max-wait="3"/>': (Wait, {"event": "go", "max_wait": 3.0}, SHIFT),
     '<wait id="x" duration="1.5" max-wait="3"/>': (Wait, {"duration": 1.5, "max_wait": 3.0}, SHIFT),
     '<bmla:activate id="x" target="b1"/>': (Activate, {"target": "b1"}, SHIFT),
     '<bmla:interrupt id="x" target="b1"/>': (

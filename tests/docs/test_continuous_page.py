@@ -63,6 +63,7 @@ WRONG = {
         ("b", CUT.format('include="words"'), ""),
     ],
     "resource-taken": [("talk", WORDS, ""), ("b", WORDS, "")],
+    "waits-for-itself": [("b", '<wait id="x" event="go" start="x:end+1"/>', "")],
     "unknown-procedure": [],
 }
 """The blocks that cause the fault of each row of the table."""
