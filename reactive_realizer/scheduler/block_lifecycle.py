@@ -117,7 +117,7 @@ class BlockLifecycle:
 
     def start_due(self, now: GlobalTime) -> bool:
         """Start the blocks whose start is due, in order of time; whether there were any."""
-        due = [block for block in self._blocks.alive if block.may_start and is_due(block.start.value, now)]
+        due = [block for block in self._blocks.starting.take_due(now) if block.may_start]
         for block in sorted(due, key=lambda b: (b.start.value, b.arrival)):
             self._start(block, now)
         return bool(due)
@@ -155,7 +155,7 @@ class BlockLifecycle:
 
     def end_due(self, now: GlobalTime) -> bool:
         """End the blocks and behaviors that are to end by now; whether there were any."""
-        failing = [block for block in self._blocks.alive if block.failing]
+        failing = [block for block in self._units.touched() if block.failing]
         for block in failing:
             self.fail(block, now)
         cuts = self._units.due_cuts(now)
@@ -164,7 +164,8 @@ class BlockLifecycle:
             if cut is not None and unit in cut.live_units:
                 self._cut(cut, [unit], time)
             self._units.forget_cut(unit)
-        over = [block for block in self._blocks.alive if block.state.plays and not block.live_units]
+        over = [block for block in self._units.touched() if block.state.plays and not block.live_units]
+        self._units.forget_touched()
         for block in over:
             self._finish(block, now)
         return bool(failing or cuts or over)
@@ -224,6 +225,7 @@ class BlockLifecycle:
             if plan is not None:
                 self._replace_plan(block, plan, now)
         block.started_at = now
+        self._units.touch(block.key)
         for unit in block.units:
             unit.release()
         for other in dict.fromkeys(each.block for each in block.predecessors if each.block.only_persists):

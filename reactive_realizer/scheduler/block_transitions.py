@@ -49,6 +49,7 @@ class BlockTransitions:
             IllegalTransitionError: the table has no such transition from the present state.
         """
         row = block.take(event)
+        self._blocks.starting.note(block)
         cut: list[TimePeg] = []
         with self._board.graph.transaction(f"{'end' if row.target.ended else event.value} {block.key.block}"):
             for point in row.pins:

@@ -3,8 +3,9 @@
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 
-from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.clock.units import GlobalTime, Time
 from reactive_realizer.errors import Fault, SchedulingFault, TargetFault
+from reactive_realizer.pegboard.agenda import Agenda
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.pegboard.time_peg import TimeCell
@@ -44,9 +45,13 @@ class Blocks:
 
     Args:
         remembered: how many ended blocks are kept.
+
+    Attributes:
+        starting: those that are planned, by their starts.
     """
 
     def __init__(self, remembered: int) -> None:
+        self.starting: Agenda[BMLBlock] = Agenda(_start, lambda block: (block.start,))
         self._remembered = remembered
         self._alive: dict[BlockKey, BMLBlock] = {}
         self._ended: dict[BlockKey, EndedBlock] = {}
@@ -115,10 +120,12 @@ class Blocks:
     def add(self, block: BMLBlock) -> None:
         """Add an accepted block."""
         self._alive[block.key] = block
+        self.starting.add(block)
 
     def end(self, block: BMLBlock, time: GlobalTime) -> None:
         """Move a block from those alive to those ended."""
         self._alive.pop(block.key, None)
+        self.starting.remove(block)
         self._ended.pop(block.key, None)
         self._ended[block.key] = EndedBlock(block.key, block.state, time)
         while len(self._ended) > self._remembered:
@@ -128,3 +135,7 @@ class Blocks:
         """The blocks in preparation among those that a block names."""
         found = (self.find(block.key.character, id_) for id_ in ids)
         return [other for other in found if other is not None and other.state is BlockState.IN_PREP]
+
+
+def _start(block: BMLBlock) -> Time:
+    return block.start.value if block.state is BlockState.LURKING else None

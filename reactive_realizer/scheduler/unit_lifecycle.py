@@ -9,11 +9,13 @@ from reactive_realizer.clock.units import GlobalTime, is_due
 from reactive_realizer.engine.effects import Reached
 from reactive_realizer.engine.faults import UnitFailed
 from reactive_realizer.errors import Fault
+from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.planunit.plan_unit import DuePoint, PlanUnit, UnitState
 from reactive_realizer.reactive.graph import Cell
 from reactive_realizer.scheduler.block_feedback import BlockFeedback
 from reactive_realizer.scheduler.blocks import Blocks
+from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.scheduler.engine_routing import EngineRouting
 
 logger = logging.getLogger(__name__)
@@ -28,7 +30,21 @@ class UnitLifecycle:
         self._blocks = blocks
         self._feedback = feedback
         self._scheduled_cuts: dict[PlanUnit, GlobalTime] = {}
+        self._touched: set[BlockKey] = set()
         board.graph.before_commit(self._correct_points)
+
+    def touch(self, block: BlockKey) -> None:
+        """Note that a block may have ended or failed."""
+        self._touched.add(block)
+
+    def touched(self) -> list[BMLBlock]:
+        """The blocks that may have ended or failed since `forget_touched`, in order of arrival."""
+        blocks = [block for key in self._touched if (block := self._blocks.get(key)) is not None]
+        return sorted(blocks, key=lambda block: block.arrival)
+
+    def forget_touched(self) -> None:
+        """Forget the touched blocks, because they were looked at."""
+        self._touched.clear()
 
     def sync_points_reached(self, reached: Sequence[Reached]) -> None:
         """Pin each sync point at the time at which it was reached, and report it; no other code reports one."""
@@ -38,6 +54,7 @@ class UnitLifecycle:
                 if each.emits is not None:
                     self._board.occur(EVENTS, each.emits.event, each.time)
         for each in reached:
+            self.touch(each.unit.block)
             self._feedback.sync_point_reached(each)
 
     def begin(self, unit: PlanUnit, now: GlobalTime) -> list[Reached]:
@@ -104,6 +121,7 @@ class UnitLifecycle:
     def drop(self, unit: PlanUnit, fault: Fault, now: GlobalTime) -> None:
         """Drop a behavior with a warning; if it had begun, it ends now. The block of a required one fails."""
         unit.drop(now)
+        self.touch(unit.block)
         block = self._blocks.get(unit.block)
         self._feedback.warn_behavior(unit, fault)
         if block is not None and unit in block.units:
@@ -122,6 +140,7 @@ class UnitLifecycle:
         """Take behaviors out of their plans without feedback."""
         for unit in list(units):
             unit.drop(now)
+            self.touch(unit.block)
             self._routing.unassign(unit)
 
     def _correct_points(self, changed: Collection[Cell[Any]]) -> None:
