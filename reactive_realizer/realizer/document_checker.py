@@ -9,7 +9,7 @@ from reactive_realizer.bml.behavior import Behavior, ForeignBehavior
 from reactive_realizer.bml.block import BehaviorBlock, DefineProc, Parsed, Problem
 from reactive_realizer.bml.extensions import ParameterValueChange
 from reactive_realizer.bml.faults import ForeignAttribute, UnknownSync
-from reactive_realizer.bml.names import ANTICIPATORS, Location
+from reactive_realizer.bml.names import ANTICIPATORS, EVENTS, Location
 from reactive_realizer.bml.references import check_references, references_of, standard_points, unknown_block
 from reactive_realizer.bml.sync_ref import SyncRef
 from reactive_realizer.errors import Fault, RealizerError, WarningType
@@ -145,7 +145,7 @@ class DocumentChecker:
         """References to points of anticipators that are not in the human file: clients may predict these."""
         known = tuple(self._board.anticipators)
         for id_, location, anticipator, ref in _predictions_of(block):
-            if anticipator not in known:
+            if anticipator not in (*known, EVENTS):
                 fault = NotInHumanFile(reference=str(ref), anticipator=anticipator, known=known)
                 yield Problem(fault.located(location.line, location.column), id_)
 

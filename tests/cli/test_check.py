@@ -78,6 +78,7 @@ def test_an_unknown_point_of_an_anticipator_is_a_problem(
     anticipator, _, sync = point.partition(":")
     assert status == 1
     assert line.startswith(f"{file}:2:1: anticipators:{point}: the anticipator '{anticipator}' has no point '{sync}'")
+    assert ("did you mean 'press'?" in line) is (sync == "pres")
 
 
 def test_points_with_names_of_the_human_file_are_known(
@@ -97,6 +98,14 @@ def test_an_anticipator_that_is_not_in_the_human_file_is_reported_on_stderr_only
     captured = capsys.readouterr()
     assert captured.out == ""
     assert "the human file has no anticipator 'spacbar', so clients must predict it" in captured.err
+    assert "did you mean 'spacebar'?" in captured.err
+
+
+def test_an_event_that_behaviors_emit_is_a_point_without_an_anticipator(
+    bml: Callable[..., str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["check", bml(block("b", '<head id="h" lexeme="NOD" start="anticipators:events:asked"/>'))]) == 0
+    assert capsys.readouterr() == ("", "")
 
 
 BMLT = 'xmlns:x="http://hmi.ewi.utwente.nl/bmlt"'
