@@ -18,7 +18,8 @@ _HEAD = """\
 
 Each rejection, warning and failure has a code, which does not change, and a sentence, in which the words in braces are
 filled in. [Plug-ins](plugins.md#a-fault) can add their own. `make docs` generates this page from the subclasses of
-`Fault`; the packages of the code define them.
+`Fault`; the packages of the code define them. A sentence about an unknown name ends with the nearest known one, if one
+is near: *did you mean 'BEAT'?*
 
 The column *warning* is the `type` of the `<warningFeedback>`, *HTTP* is the status of the answer to a request if it is
 not 400, and *close* is the code with which the socket is closed. A row with none of these appears on stderr, in an

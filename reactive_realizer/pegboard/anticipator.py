@@ -29,9 +29,10 @@ class UnknownEvent(Fault):
 
     code = "unknown-event"
     template = "'{anticipator}' does not know the event {event}; known events: {known}"
+    unknown = "event"
     anticipator: str
     event: str
-    known: str
+    known: tuple[str, ...]
 
 
 class UnknownPoint(SchedulingFault):
@@ -238,8 +239,8 @@ class Anticipator(ABC):
             raise RealizerError(UnknownPoint(reference=reference, anticipator=self.id, point=point, known=known))
 
     def _unknown(self, event: str) -> RealizerError:
-        known = ", ".join([*self.events, *(f"{name} with a text" for name in self.heard)])
-        return RealizerError(UnknownEvent(anticipator=self.id, event=event, known=known or "none"))
+        known = (*self.events, *(f"{name} with a text" for name in self.heard))
+        return RealizerError(UnknownEvent(anticipator=self.id, event=event, known=known))
 
 
 class Remote(Anticipator):
@@ -256,5 +257,4 @@ class Remote(Anticipator):
         """Accept every prediction."""
 
     def _unknown(self, event: str) -> RealizerError:
-        known = "none (it takes predictions)"
-        return RealizerError(UnknownEvent(anticipator=self.id, event=event, known=known))
+        return RealizerError(UnknownEvent(anticipator=self.id, event=event, known=("none (it takes predictions)",)))

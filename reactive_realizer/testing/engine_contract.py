@@ -1,6 +1,7 @@
 """The contract of engines (thesis 8.6): a pytest class to inherit from; needs pytest."""
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from dataclasses import replace
 from math import isfinite
 from typing import ClassVar
@@ -16,7 +17,7 @@ from reactive_realizer.engine.context import EngineContext
 from reactive_realizer.engine.effects import Output
 from reactive_realizer.engine.engine import Engine
 from reactive_realizer.engine.faults import EngineFailed
-from reactive_realizer.errors import RealizerError
+from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.testing.engine_harness import (
     BLOCK,
@@ -94,6 +95,28 @@ class EngineContract(ABC):
                 harness.plan(behavior_of(element))
             assert refusal.value.fault.sentence
         self._plays_whole(harness, harness.schedule(behavior_of(self.elements[0]), _START))
+
+    def test_a_check_tells_the_points_or_the_fault_of_the_plan(self, element: str) -> None:
+        harness, behavior = self._harness(), behavior_of(element)
+        known = harness.engine.check(behavior)
+        assert known is None or tuple(known) == harness.plan(behavior).timing.points
+        for refused in self.refused:
+            faults = [_refusal(make, behavior_of(refused)) for make in (harness.engine.check, harness.plan)]
+            assert faults[0] in (None, faults[1])
+
+    def test_a_check_while_another_behavior_plays_changes_nothing(self, element: str) -> None:
+        harnesses = self._harness(), self._harness()
+        for harness, checked in zip(harnesses, (True, False), strict=True):
+            unit = harness.schedule(behavior_of(element), _START)
+            harness.advance(_START + _duration(unit) / 2)
+            if checked:
+                for each in (element, *self.elements, *self.refused):
+                    _refusal(harness.engine.check, behavior_of(each))
+            harness.schedule(_renamed(element), harness.now)
+            harness.advance(_duration(unit) + 1.0)
+        assert [each[1:] for each in harnesses[0].reached] == [each[1:] for each in harnesses[1].reached]
+        assert harnesses[0].audio == harnesses[1].audio
+        _assert_same_frames(*harnesses, 0)
 
     def test_one_preparation_serves_two_plans(self, element: str) -> None:
         harness, behavior = self._harness(), behavior_of(element)
@@ -317,6 +340,15 @@ class EngineContract(ABC):
 
 class _Unknown(Behavior):
     """A behavior that no engine plays."""
+
+
+def _refusal(make: Callable[[Behavior], object], behavior: Behavior) -> Fault | None:
+    """The fault with which a check or a plan refuses a behavior, None if it does not."""
+    try:
+        make(behavior)
+    except RealizerError as refused:
+        return refused.fault
+    return None
 
 
 def _renamed(element: str) -> Behavior:

@@ -1,6 +1,6 @@
 """Each of these engines breaks its contract in one way, and the test for that fails."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import replace
 from itertools import count
 from types import MappingProxyType
@@ -50,6 +50,22 @@ class Hasty(WaitEngine):
         unit = super().plan(block, behavior, prepared)
         self.player.add(unit)
         return unit
+
+
+class Mistaken(WaitEngine):
+    """Says before planning that a behavior has points that it will not have."""
+
+    def check(self, behavior: Behavior) -> Collection[str]:
+        return ("start", "stroke", "end")
+
+
+class Intrusive(WaitEngine):
+    """Stops what plays when it is asked about another behavior."""
+
+    def check(self, behavior: Behavior) -> Collection[str] | None:
+        for unit in self.player.units:
+            self.player.remove(unit)
+        return None
 
 
 class OneOff(WaitEngine):
@@ -185,6 +201,8 @@ def engine_contract(engine: Callable[[EngineContext], WaitEngine]) -> type[Engin
         (TickTimed, "test_every_point_is_reached_once_in_order_at_the_time_of_its_peg"),
         (Repeating, "test_every_point_is_reached_once_in_order_at_the_time_of_its_peg"),
         (Hasty, "test_a_unit_outside_its_plan_is_not_played"),
+        (Mistaken, "test_a_check_tells_the_points_or_the_fault_of_the_plan"),
+        (Intrusive, "test_a_check_while_another_behavior_plays_changes_nothing"),
         (OneOff, "test_one_preparation_serves_two_plans"),
         (Greedy, "test_it_supports_its_own_behaviors_and_no_others"),
         (Boastful, "test_declared_parameters_exist_and_can_be_changed_while_it_plays"),

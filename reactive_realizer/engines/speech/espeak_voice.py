@@ -25,7 +25,9 @@ class UnknownVoice(CreationFault):
 
     code = "unknown-voice"
     template = "there is no voice '{voice}'; voices have names such as en-us, en-gb, fr, nl or en-us+f3"
+    unknown = "voice"
     voice: str
+    known: tuple[str, ...] = ()
 
 
 class VoiceFailed(CreationFault):
@@ -116,7 +118,10 @@ def _succeeded(reply: WorkerMessage) -> WorkerMessage:
 
 def _identifier(hello: WorkerMessage, voice: str) -> str:
     """The library's identifier of a voice; the library would take an unknown name for the name of a file."""
+    voices, variants = hello.header["voices"], hello.header["variants"]
     name, plus, variant = voice.partition("+")
-    if name.lower() not in hello.header["voices"] or (plus and variant not in hello.header["variants"]):
-        raise RealizerError(UnknownVoice(voice=voice))
-    return str(hello.header["voices"][name.lower()]) + plus + variant
+    if name.lower() not in voices:
+        raise RealizerError(UnknownVoice(voice=voice, known=tuple(voices)))
+    if plus and variant not in variants:
+        raise RealizerError(UnknownVoice(voice=voice, known=tuple(f"{name}+{each}" for each in variants)))
+    return str(voices[name.lower()]) + plus + variant
