@@ -83,12 +83,25 @@ def latest(floor: GlobalTime) -> Callable[..., Time]:
     return formula
 
 
-def not_after_next(formula: Callable[..., Time]) -> Callable[..., Time]:
-    """The result of another formula for all times but the last, and not after the last if both are known."""
+def not_after_next(formula: Callable[..., Time], distance: float) -> Callable[..., Time]:
+    """The result of another formula for all times but the last, and no later than at a distance (s) from the last.
+
+    None while that result is unknown; an unknown last time has no effect.
+    """
 
     def bounded(*times: Time) -> Time:
         time, successor = formula(*times[:-1]), times[-1]
-        return time if time is None or successor is None else min(time, successor)
+        return time if time is None or successor is None else min(time, GlobalTime(successor + distance))
+
+    return bounded
+
+
+def not_earlier(formula: Callable[..., Time], earliest: GlobalTime) -> Callable[..., Time]:
+    """The result of another formula, and not before a time if it is known."""
+
+    def bounded(*times: Time) -> Time:
+        time = formula(*times)
+        return None if time is None else max(time, earliest)
 
     return bounded
 

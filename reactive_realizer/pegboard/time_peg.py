@@ -16,6 +16,7 @@ from reactive_realizer.pegboard.formulas import (
     not_after,
     not_after_next,
     not_before,
+    not_earlier,
     shifted_by,
     until,
 )
@@ -54,10 +55,11 @@ class TimePeg(Derived[Time]):
     Attributes:
         kind: name of its kind.
         why: text of the BML constraint that it was made for; None if there is none.
-        successors: number of the last dependencies that only keep it from coming after them.
+        successors: distances (s) from the last dependencies, which only keep it from coming later than that.
+        earliest: time before which it does not come, whatever it depends on; None if there is none.
     """
 
-    __slots__ = ("_cut_from", "successors", "why")
+    __slots__ = ("_cut_from", "earliest", "successors", "why")
 
     kind: ClassVar[str]
 
@@ -66,7 +68,8 @@ class TimePeg(Derived[Time]):
     ) -> None:
         super().__init__(graph, name, dependencies, formula)
         self.why: str | None = None
-        self.successors = 0
+        self.successors: tuple[float, ...] = ()
+        self.earliest: Time = None
         self._cut_from: tuple[Link, ...] = ()
 
     @property
@@ -83,19 +86,28 @@ class TimePeg(Derived[Time]):
     def deciding(self) -> tuple[Link, ...]:
         """The links that determine its time, or for which it waits."""
         time = time_of(self)
-        overtaken_by = [link for link in self._split_links[1] if time is not None and link.time == time]
+        if time is not None and time == self.earliest:
+            return ()
+        successors = zip(self._split_links[1], self.successors, strict=True)
+        overtaken_by = [link for link, distance in successors if link.time is not None and link.time + distance == time]
         return tuple(overtaken_by[:1]) or self._deciding()
 
-    def keep_before(self, successor: "TimePeg") -> None:
-        """Within a transaction, keep this peg from coming after another one from now on.
+    def keep_before(self, successor: "TimePeg", distance: float = 0.0) -> None:
+        """Within a transaction, keep this peg from coming later than at a distance (s) from another one from now on.
 
-        If the other peg depends on this one, this one is pinned at the time of the other instead.
+        If the other peg depends on this one, this one is pinned at its latest time instead.
         """
         if self.pinned or successor.depends_on(self):
-            self.pin(successor.value)
+            self.pin(None if successor.value is None else GlobalTime(successor.value + distance))
         else:
-            self.rebind((*self.dependencies, successor), not_after_next(self.formula))
-            self.successors += 1
+            self.rebind((*self.dependencies, successor), not_after_next(self.formula, distance))
+            self.successors += (distance,)
+
+    def keep_after(self, time: GlobalTime) -> None:
+        """Within a transaction, keep this peg from coming before a time from now on, unless it is pinned."""
+        if not self.pinned:
+            self.rebind(self.dependencies, not_earlier(self.formula, time))
+            self.earliest = time
 
     def pin(self, value: Time) -> None:
         """Within a transaction, cut it from its dependencies, which are noted, and give it its last time."""
@@ -117,7 +129,10 @@ class TimePeg(Derived[Time]):
     def describe(self) -> str:
         """The rule by which its time follows from its links, for people."""
         own, successors = self._split_links
-        return ", not after ".join([self._rule(own), *(link.name for link in successors)])
+        bounds = zip(successors, self.successors, strict=True)
+        names = (f"{link.name} {distance:+g} s" if distance else link.name for link, distance in bounds)
+        rule = ", not after ".join([self._rule(own), *names])
+        return rule if self.earliest is None else f"{rule}, not before {self.earliest:g} s"
 
     @abstractmethod
     def _rule(self, links: Sequence[Link]) -> str:
@@ -131,7 +146,7 @@ class TimePeg(Derived[Time]):
     def _split_links(self) -> tuple[tuple[Link, ...], tuple[Link, ...]]:
         """The links without the successors, and the successors."""
         links = self.links
-        count = len(links) - self.successors
+        count = len(links) - len(self.successors)
         return links[:count], links[count:]
 
 

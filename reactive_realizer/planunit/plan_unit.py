@@ -2,7 +2,7 @@
 
 import itertools
 import logging
-from collections.abc import Callable, Container, Mapping, Sequence
+from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
 from typing import NamedTuple
@@ -12,10 +12,14 @@ from reactive_realizer.clock.units import RESOLUTION, GlobalTime, Time, is_due
 from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.peg_key import BlockKey, PegKey
 from reactive_realizer.pegboard.time_peg import OpenPeg, TimePeg
+from reactive_realizer.planunit.pace import Pace
 from reactive_realizer.planunit.parameter import Parameter
 from reactive_realizer.planunit.timing import OPEN, SHORTEST, Overtaken, Timing, TooShort
 
 logger = logging.getLogger(__name__)
+
+LATE = 0.05
+"""A unit that starts later than this after its start has joined late, s."""
 
 
 class UnitState(Enum):
@@ -51,6 +55,30 @@ class SyncPoint:
     details: Mapping[str, str] = field(default_factory=dict)
 
 
+class Hurry(NamedTuple):
+    """A point that was asked for earlier than its unit can reach it.
+
+    Attributes:
+        need: time that the unit needed from then on, s.
+        room: time that it was given, s.
+    """
+
+    need: float
+    room: float
+
+
+class _Later(NamedTuple):
+    """A later point, as earlier ones see it: they come no later than at a distance (s) from it."""
+
+    latest: GlobalTime
+    peg: TimePeg
+    distance: float
+
+    def ahead(self, need: float) -> "_Later":
+        """The same point, as seen from before a phase that needs some time (s)."""
+        return _Later(GlobalTime(self.latest - need), self.peg, self.distance - need) if need else self
+
+
 class DuePoint(NamedTuple):
     """A sync point that is about to fire, and the time (s, global) to report."""
 
@@ -79,6 +107,8 @@ class PlanUnit:
         open: pegs of the points that are unknown until it is ended, if it is persistent.
         parameters: those that may be changed while it plays, by name.
         wake: called when its pegs or its state have changed outside of its engine; its player sets it.
+        shortest: duration that the body needs for each phase, s.
+        hurries: the points that come later than they were asked for, by sync id.
     """
 
     def __init__(
@@ -94,7 +124,10 @@ class PlanUnit:
         self.open: dict[str, TimePeg] = {}
         self.parameters: dict[str, Parameter] = {}
         self.wake: Callable[[], None] = sleep
+        self.shortest = [phase.shortest for phase in timing.phases]
+        self.hurries: dict[str, Hurry] = {}
         self.state = UnitState.PENDING
+        self._pace: Pace | None = None
 
     # --- for subclasses
 
@@ -253,26 +286,63 @@ class PlanUnit:
         """Begin to play; the start itself fires with the next `fire`."""
         self.state = UnitState.IN_EXEC
 
-    def keep_order(self) -> bool:
-        """Within a transaction, keep each point that has not fired from coming after later ones; whether any did.
+    def earliest(self, now: GlobalTime) -> Iterator[tuple[SyncPoint, GlobalTime]]:
+        """The points ahead that its body cannot reach at once, each with the earliest time at which it can.
 
-        A point that was overtaken moves with the one that overtook it, for as long as that is earlier.
+        A unit that is not about to begin has none.
+        """
+        start, ahead = self.points[0].peg.value, self.ahead()
+        if not any(self.shortest) or len(self.points) <= len(self.shortest) or not ahead or not is_due(start, now):
+            return
+        time, first = now, len(self.points) - len(ahead)
+        for index, point in enumerate(ahead, first):
+            if index > 0:
+                left = 1.0 - self.progress(now) if index == first else 1.0
+                time = GlobalTime(time + left * self.shortest[index - 1])
+            if time > now + RESOLUTION:
+                yield point, time
+
+    def progress(self, now: GlobalTime) -> float:
+        """The share of its present phase that is done, 0 to 1."""
+        ahead = self.ahead()
+        if self._pace is None or not ahead:
+            return 0.0
+        self._pace.move(ahead[0].peg.value, now)
+        return self._pace.share(now)
+
+    def keep_order(self, part: Callable[[SyncPoint], None] = lambda point: None) -> bool:
+        """Within a transaction, keep each point that has not fired in time for later ones; whether any was not.
+
+        A point that a later one overtook, or left less time than the body needs, moves with that, for as long as it is
+        so early.
+
+        Args:
+            part: called with each point before its peg is changed.
         """
         moved = False
-        later: list[tuple[GlobalTime, TimePeg]] = []
-        for point in reversed(self.ahead()):
+        later: list[_Later] = []
+        for index in range(len(self.points) - 1, -1, -1):
+            point, need = self.points[index], self._need(index)
+            if point.fired:
+                break
+            later = [each.ahead(need) for each in later]
             time = point.peg.value
             if time is None:
                 continue
-            overtaking = [(each, peg) for each, peg in later if time > each + RESOLUTION]
+            overtaking = [each for each in later if time > each.latest + RESOLUTION]
             if overtaking:
                 # Points between the two may depend on both; only one that does not depend on this one can hold it.
-                independent = [(each, peg) for each, peg in overtaking if not peg.depends_on(point.peg)]
-                time, successor = min(independent or overtaking, key=lambda pair: pair[0])
-                point.peg.keep_before(successor)
-                moved = True
-            later.append((time, point.peg))
+                independent = [each for each in overtaking if not each.peg.depends_on(point.peg)]
+                successor = min(independent or overtaking, key=lambda each: each.latest)
+                part(point)
+                point.peg.keep_before(successor.peg, successor.distance)
+                time, moved = successor.latest, True
+            later.append(_Later(time, point.peg, 0.0))
         return moved
+
+    def _need(self, index: int) -> float:
+        """The shortest duration (s) of the phase after a point."""
+        return self.shortest[index] if index < len(self.shortest) else 0.0
 
     def due_points(self, now: GlobalTime, *, end: bool = True) -> list[DuePoint]:
         """The points that are due, and unknown points before them, which have the time of the next known point."""
@@ -289,6 +359,10 @@ class PlanUnit:
         """Fire points that are due ``now``."""
         for point, time in due:
             self._fire(point, time)
+        if due and (ahead := self.ahead()):
+            late = now - due[-1].time > LATE
+            since, need = now if late else due[-1].time, self._need(len(self.points) - len(ahead) - 1)
+            self._pace = Pace(since, ahead[0].peg.value, need)
 
     def interrupt(self, time: GlobalTime) -> list[SyncPoint]:
         """Within a transaction, end at a time: ``relax`` and ``end`` move there alone; other points are removed."""

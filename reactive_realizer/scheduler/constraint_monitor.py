@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from reactive_realizer.clock.units import GlobalTime, Time, is_due
-from reactive_realizer.errors import SchedulingFault
+from reactive_realizer.errors import Fault, SchedulingFault
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.reactive.graph import Cell, Commit
@@ -28,6 +28,20 @@ class ConstraintLost(SchedulingFault):
     template = "{constraint} no longer holds: it is off by {gap:g} s"
     constraint: str
     gap: float
+
+
+class ConstraintHurried(SchedulingFault):
+    """A constraint that a change left too little time for; times in s."""
+
+    code = "constraint-hurried"
+    template = (
+        "{constraint} no longer holds: it is off by {gap:g} s, because {point} needs {need:.2f} s, has {room:.2f} s"
+    )
+    constraint: str
+    gap: float
+    point: str
+    need: float
+    room: float
 
 
 class ConstraintMonitor:
@@ -86,18 +100,31 @@ class ConstraintMonitor:
             return
         # A new prediction of a time that has passed, after all tied points have fired, means its next occurrence.
         renewed = fired and any(is_due(moved.get(node), now) for node in outside)
-        slight = fired and isinstance(constraint, Tie) and late <= _NOTICEABLE
+        hurried = _hurried(constraint, units)
+        slight = (fired or hurried is not None) and isinstance(constraint, Tie) and late <= _NOTICEABLE
         lost = late > TOLERANCE and not slight
         if lost and not renewed:
-            self._warn(block, constraint, late)
+            self._warn(block, constraint, _fault(constraint, late, hurried, units))
         if lost or (renewed and any(node.value is None for node in outside)):
             self._lifecycle.settle(block, constraint)
 
-    def _warn(self, block: BMLBlock, constraint: Tie | Precedence, late: float) -> None:
+    def _warn(self, block: BMLBlock, constraint: Tie | Precedence, fault: Fault) -> None:
         owner = constraint.owner if isinstance(constraint, Tie) else None
-        fault = ConstraintLost(constraint=constraint.text, gap=late)
         id_ = block.key.block if owner is None else f"{block.key.block}:{owner}"
         self._feedback.warn(block.key.character, id_, fault, constraint.location)
+
+
+def _hurried(constraint: Tie | Precedence, units: Mapping[str, PlanUnit]) -> Point | None:
+    """The first point of a constraint that its body cannot reach in time."""
+    points = (node for node in constraint.nodes if isinstance(node, Point))
+    return next((point for point in points if point.sync in units[point.behavior].hurries), None)
+
+
+def _fault(constraint: Tie | Precedence, late: float, hurried: Point | None, units: Mapping[str, PlanUnit]) -> Fault:
+    if hurried is None:
+        return ConstraintLost(constraint=constraint.text, gap=late)
+    need, room = units[hurried.behavior].hurries[hurried.sync]
+    return ConstraintHurried(constraint=constraint.text, gap=late, point=":".join(hurried), need=need, room=room)
 
 
 def _time(node: Node, block: BMLBlock, units: Mapping[str, PlanUnit]) -> Time:

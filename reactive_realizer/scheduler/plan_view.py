@@ -1,7 +1,7 @@
 """A plan as times at one moment, for the checks of `verify`."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Self
 
 from reactive_realizer.clock.units import GlobalTime
@@ -30,6 +30,7 @@ class PlanView:
         settled: the constraints that need not hold any more.
         lurking: ids of behaviors on the board that have not begun. They are checked when they begin; until then, times
             from outside may bring them out of order, or before their block.
+        shortest: duration that the body needs for each phase, s, by the id of the behavior.
     """
 
     timings: Mapping[str, Timing]
@@ -43,21 +44,26 @@ class PlanView:
     end_floor: float = 0.0
     settled: frozenset[Tie | Precedence] = frozenset()
     lurking: frozenset[str] = frozenset()
+    shortest: Mapping[str, Sequence[float]] = field(default_factory=dict)
 
     @classmethod
     def of_solution(cls, problem: SchedulingProblem, solution: Solution) -> Self:
         """The solution of a strategy, in times after the start of the block."""
         layout = PegLayout(problem, solution)
         timings = {item.behavior.id: item.timing for item in layout.kept.items}
-        return cls(timings, layout.times, frozenset(), layout.kept.constraints, problem.times, start=0.0, earliest=0.0)
+        shortest = {id_: [phase.shortest for phase in timing.phases] for id_, timing in timings.items()}
+        kept, outer = layout.kept.constraints, problem.times
+        return cls(timings, layout.times, frozenset(), kept, outer, start=0.0, earliest=0.0, shortest=shortest)
 
     @classmethod
     def of_block(cls, block: BMLBlock, now: GlobalTime) -> Self:
         """A block on the board, in global times, at the end of the tick at ``now``."""
         points = {Point(unit.behavior.id, p.id): p for unit in block.units for p in unit.points}
         start = block.start.value
-        # The start of the block waits for these, and may come later.
+        # The start of the block waits for these, and may come later; a body was too slow for the others.
         waited = (each for each in block.kept if not any(isinstance(node, Point) for node in each.nodes))
+        hurried = {Point(unit.behavior.id, sync) for unit in block.units for sync in unit.hurries}
+        missed = (each for each in block.kept if not hurried.isdisjoint(each.nodes))
         return cls(
             # The end of a persistent behavior is not checked before it is ended.
             {
@@ -74,8 +80,9 @@ class PlanView:
             None if start is None else max(start, now),
             block.end.value,
             block.end.floor,
-            frozenset(block.settled.union(waited)),
+            frozenset(block.settled.union(waited, missed)),
             frozenset(unit.behavior.id for unit in block.units if not unit.begun),
+            {unit.behavior.id: unit.shortest for unit in block.units},
         )
 
     @property

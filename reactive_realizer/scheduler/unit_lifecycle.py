@@ -2,16 +2,18 @@
 
 import logging
 from collections.abc import Collection, Iterable, Sequence
+from functools import partial
 from typing import Any
 
 from reactive_realizer.bml.names import EVENTS
-from reactive_realizer.clock.units import GlobalTime, is_due
+from reactive_realizer.clock.units import RESOLUTION, GlobalTime, is_due
 from reactive_realizer.engine.effects import Reached
 from reactive_realizer.engine.faults import UnitFailed
 from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.planunit.plan_unit import DuePoint, PlanUnit, UnitState
+from reactive_realizer.pegboard.time_peg import OffsetPeg
+from reactive_realizer.planunit.plan_unit import DuePoint, Hurry, PlanUnit, SyncPoint, UnitState
 from reactive_realizer.reactive.graph import Cell
 from reactive_realizer.scheduler.block_feedback import BlockFeedback
 from reactive_realizer.scheduler.blocks import Blocks
@@ -53,6 +55,9 @@ class UnitLifecycle:
                 each.point.peg.pin(each.time)
                 if each.emits is not None:
                     self._board.occur(EVENTS, each.emits.event, each.time)
+            hurried = dict.fromkeys(each.unit for each in reached if each.unit.live and any(each.unit.shortest))
+            self._hold_back(hurried)
+            self._keep_order(hurried)
         for each in reached:
             self.touch(each.unit.block)
             self._feedback.sync_point_reached(each)
@@ -146,13 +151,40 @@ class UnitLifecycle:
     def _correct_points(self, changed: Collection[Cell[Any]]) -> None:
         """Correct points that a transaction has moved, before it commits (docs/semantics.md, pegs).
 
-        In a playing block, a point that has moved before the last tick is pinned at this one. In a playing behavior, a
-        point that is overtaken by its successor moves with it from then on. These are added to ``changed``.
+        In a playing block, a point that its body cannot reach in time comes when it can be reached, and another one
+        that has moved before the last tick is pinned at this one. In a playing behavior, a point that is overtaken by
+        its successor moves with it from then on. These are added to ``changed``.
         """
         while units := self._moved(changed):
-            begun = (unit for unit in units if unit.begun)
-            if not (self._pin_past(units, changed) or any(unit.keep_order() for unit in begun)):
+            if not (self._hold_back(units) or self._pin_past(units, changed) or self._keep_order(units)):
                 return
+
+    def _keep_order(self, units: Iterable[PlanUnit]) -> bool:
+        begun = (unit for unit in units if unit.begun)
+        return any(unit.keep_order(partial(self._part_from_rigid, unit)) for unit in begun)
+
+    def _hold_back(self, units: Iterable[PlanUnit]) -> bool:
+        """Have points not come before their bodies can reach them; whether any of them did."""
+        held = False
+        now = self._board.time
+        for unit in units:
+            for point, earliest in unit.earliest(now):
+                time = point.peg.value
+                if time is not None and time < earliest - RESOLUTION and not point.peg.pinned:
+                    unit.hurries[point.id] = Hurry(need=earliest - now, room=max(0.0, time - now))
+                    self._part_from_rigid(unit, point)
+                    point.peg.keep_after(earliest)
+                    held = True
+        return held
+
+    def _part_from_rigid(self, unit: PlanUnit, point: SyncPoint) -> None:
+        """Give a point a peg of its own if it shares one with a behavior that cannot wait for it."""
+        block = self._blocks.get(unit.block)
+        others = (other for other in block.units if other is not unit and other.timing.rigid) if block else iter(())
+        if any(each.peg is point.peg for other in others for each in other.points):
+            point.peg = OffsetPeg(self._board.graph, str(unit.key(point.id)), point.peg, 0.0)
+            self._board.add(unit.key(point.id), point.peg)
+            unit.wake()
 
     def _moved(self, changed: Collection[Cell[Any]]) -> list[PlanUnit]:
         """The units of playing blocks of which a point has changed, except for those with a scheduled cut."""

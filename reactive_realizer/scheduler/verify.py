@@ -56,7 +56,16 @@ def verify(plan: PlanView) -> list[Violation]:
     Unknown times, points that were cut, `at` constraints of past points, and before/after constraints whose later point
     is past are not checked.
     """
-    checks = (_constraints, _not_before_block, _durations, _sequences, _rigid_phases, _early_clusters, _block_end)
+    checks = (
+        _constraints,
+        _not_before_block,
+        _durations,
+        _sequences,
+        _rigid_phases,
+        _shortest_phases,
+        _early_clusters,
+        _block_end,
+    )
     return [violation for check in checks for violation in check(plan) if violation.amount > TOLERANCE]
 
 
@@ -114,6 +123,17 @@ def _rigid_phases(plan: PlanView) -> Iterator[Violation]:
                 short, long = _gap(plan, after, point, phase.duration), _gap(plan, point, after, -phase.duration)
                 text = f"{phase.duration:g} s from {id_}:{point.sync} to its {after.sync}"
                 yield Violation("7.1.4", _names(point, after), max(short, long), text)
+
+
+def _shortest_phases(plan: PlanView) -> Iterator[Violation]:
+    """7.2.1: no phase is shorter than the body needs; on the board, once it has begun."""
+    for id_, timing in plan.timings.items():
+        points = [Point(id_, sync) for sync in timing.points]
+        for shortest, (point, after) in zip(plan.shortest.get(id_, ()), itertools.pairwise(points), strict=False):
+            begun = not plan.past or (point in plan.past and plan.movable(after))
+            if shortest > 0 and begun and id_ not in plan.lurking:
+                text = f"{shortest:g} s from {id_}:{point.sync} to its {after.sync} at least"
+                yield Violation("7.2.1", _names(point, after), _gap(plan, after, point, shortest), text)
 
 
 def _early_clusters(plan: PlanView) -> Iterator[Violation]:

@@ -37,13 +37,17 @@ TIMINGS: Mapping[str, Timing] = MappingProxyType(
             ),
         ),
         "gaze": Timing(("start", "ready", "relax", "end"), (Phase(0.25), Phase(1.5, _HOLD), Phase(0.25))),
+        "reach": Timing(
+            ("start", "ready", "stroke", "relax", "end"),
+            (Phase(0.5, shortest=0.25), Phase(0.2, shortest=0.1), Phase(0.75, _HOLD), Phase(0.5)),
+        ),
         "shake": timing_at({"start": 0.0, "strokeStart": 0.0, "stroke": 0.35, "strokeEnd": 0.7, "end": 0.7}),
         "speech": timing_at({"start": 0.0, "sync1": 0.5, "sync2": 1.25, "end": 2.0}, PhaseKind.RIGID),
         "change": timing_at({"start": 0.0, "end": 1.0}, PhaseKind.FREE),
         "event": Timing(("start", "end"), (Phase(0.0, PhaseKind.RIGID),), instant=True),
     }
 )
-"""Preferred timings by name: elastic, with holds and limits, rigid, free, instant."""
+"""Preferred timings by name: elastic, with holds, limits and shortest durations, rigid, free, instant."""
 
 
 def item(id_: str, timing: Timing, *, required: bool = False) -> Item:

@@ -17,9 +17,9 @@ async def test_the_performance_plays_without_a_warning_and_its_strokes_fall_on_t
     async with open_pilot(SceneOptions()) as pilot:
         pilot.event("metronome", "start")
         pilot.perform(PERFORMANCE)
-        await pilot.advance(13.5)
+        await pilot.advance(13.1)
         pilot.event("metronome", "tempo", tempo)
-        await pilot.advance(10)
+        await pilot.advance(10.4)
         assert pilot.feedback.warnings == []
         assert [pilot.feedback.status(block) for block in ("greeting", "pegs", "conducting")] == ["DONE"] * 3
         times = [pilot.feedback.time(stroke) for stroke in STROKES]

@@ -33,9 +33,9 @@ async def test_a_speech_whose_start_moves_into_the_past_starts_now_and_stays_who
 async def test_a_stroke_stays_with_its_word_when_the_speech_moves_to_now(pilot: RealizerPilot, turned: Any) -> None:
     pilot.predict("t", "hit", 4.0)
     speech = SPEECH.format("s", f' end="{HIT}"')
-    pilot.block("b", turned(speech, '<gesture id="g" lexeme="BEAT" stroke="s:k-0.3"/>'))
+    pilot.block("b", turned(speech, '<gesture id="g" lexeme="BEAT" stroke="s:k"/>'))
     await moves(pilot, 1, ("hit", 1.2), 4)
-    assert_linked(pilot.feedback, "b:g:stroke", "b:s:k", -0.3)
+    assert_linked(pilot.feedback, "b:g:stroke", "b:s:k")
     assert_linked(pilot.feedback, "b:s:end", "b:s:start", LONG)
 
 

@@ -4,6 +4,7 @@ import pytest
 
 from reactive_realizer.testing.pilot import RealizerPilot
 
+NOD = '<head id="n" lexeme="NOD" stroke="g:stroke"/>'
 TOLD = "there is too little time for"
 
 
@@ -21,7 +22,7 @@ async def test_a_stroke_that_cannot_meet_the_first_word_loses_its_tie(pilot: Rea
     await pilot.advance(3)
     (text,) = texts(pilot, "b:g")
     assert "g:stroke = s:w is dropped" in text
-    assert "g from start to stroke: needs 0.36 s, has 0.00 s" in text
+    assert "g from start to stroke: needs 0.39 s, has 0.00 s" in text
     assert pilot.feedback.time("b:s:start") == 2.0
     assert pilot.feedback.time("b:g:stroke") - pilot.feedback.time("b:g:start") > 0.36
 
@@ -70,3 +71,72 @@ async def test_a_tie_that_is_not_required_gives_way_to_one_that_is(pilot: Realiz
     await pilot.advance(3)
     assert "p:start = 0.5 is dropped" in texts(pilot, "b:p")[0]
     assert pilot.feedback.time("b:p:ready") == pytest.approx(0.55)
+
+
+# --- while it plays
+
+
+async def test_a_prediction_that_comes_early_hurries_a_stroke_at_most_to_its_limit(pilot: RealizerPilot) -> None:
+    pilot.watch()
+    pilot.predict("t", "hit", 2.0)
+    pilot.block("b", '<gesture id="g" lexeme="BEAT" mode="RIGHT_HAND" stroke="anticipators:t:hit"/>')
+    await pilot.advance(1.3)
+    assert not pilot.feedback.reached("b:g:ready")
+    pilot.predict("t", "hit", 1.4)
+    await pilot.advance(3)
+    stroke = pilot.feedback.time("b:g:stroke")
+    assert 1.5 < stroke < 1.3 + 0.39
+    (text,) = texts(pilot, "b:g")
+    assert "g:stroke = anticipators:t:hit no longer holds" in text
+    assert "because g:stroke needs" in text
+    assert pilot.feedback.time("b:g:ready") < stroke < pilot.feedback.time("b:g:strokeEnd")
+    first, last = (round(50 * pilot.feedback.time(f"b:g:{point}")) for point in ("ready", "strokeEnd"))
+    heights = pilot.path("r_wrist")[:, 1]
+    assert heights[round(50 * stroke)] < heights[first:last].min() + 0.02
+
+
+async def test_a_prediction_that_comes_a_little_early_is_no_loss(pilot: RealizerPilot) -> None:
+    pilot.predict("t", "hit", 2.0)
+    pilot.block("b", '<gesture id="g" lexeme="BEAT" stroke="anticipators:t:hit"/>')
+    await pilot.advance(1.3)
+    pilot.predict("t", "hit", 1.65)
+    await pilot.advance(3)
+    assert pilot.feedback.warnings == []
+    assert 1.65 <= pilot.feedback.time("b:g:stroke") < 1.75
+
+
+async def test_a_stroke_that_waits_for_its_hand_follows_a_prediction_that_is_late_again(pilot: RealizerPilot) -> None:
+    pilot.predict("t", "hit", 2.0)
+    pilot.block(
+        "b", '<gesture id="g" lexeme="BEAT" stroke="anticipators:t:hit"/><head id="n" lexeme="NOD" stroke="g:stroke"/>'
+    )
+    await pilot.advance(1.3)
+    pilot.predict("t", "hit", 1.31)
+    await pilot.advance(0.1)
+    pilot.predict("t", "hit", 1.9)
+    await pilot.advance(3)
+    assert pilot.feedback.time("b:g:stroke") == pilot.feedback.time("b:n:stroke") == 1.9
+
+
+async def test_a_word_does_not_wait_for_a_hand_that_is_late(pilot: RealizerPilot) -> None:
+    pilot.predict("t", "hit", 3.0)
+    pilot.block(
+        "b",
+        '<speech id="s" start="anticipators:t:hit"><text><sync id="w"/>Oh, there.</text></speech>'
+        '<gesture id="g" lexeme="BEAT" stroke="s:w"/>',
+    )
+    await pilot.advance(1)
+    pilot.predict("t", "hit", 0.9)
+    await pilot.advance(3)
+    assert pilot.feedback.time("b:s:start") == 1.0
+    assert pilot.feedback.time("b:s:w") == 1.0
+    assert pilot.feedback.time("b:g:stroke") > 1.36
+    assert "g:stroke = s:w no longer holds" in texts(pilot, "b:g")[0]
+
+
+async def test_a_gesture_that_follows_another_one_at_once_starts_from_its_hand(pilot: RealizerPilot) -> None:
+    beat = '<gesture id="{}" lexeme="BEAT" mode="RIGHT_HAND" start="{}" stroke="{}" relax="{}" end="{}"/>'
+    pilot.block("b", beat.format("g", "0", "0.7", "1", "1") + beat.format("h", "g:end", "1.25", "1.6", "1.6"))
+    await pilot.advance(3)
+    assert pilot.feedback.warnings == []
+    assert pilot.feedback.time("b:h:stroke") == 1.25

@@ -253,3 +253,27 @@ def test_a_peg_that_is_kept_before_one_that_depends_on_it_is_pinned_there(graph:
     with graph.transaction("test"):
         stroke.keep_before(last)
     assert (stroke.value, stroke.pinned, last.value) == (2.0, True, 2.0)
+
+
+def test_a_peg_that_is_kept_after_a_time_follows_its_natural_time_from_then_on(graph: Graph) -> None:
+    hit = AnticipatorPeg(graph, "hit", GlobalTime(1.0))
+    stroke = OffsetPeg(graph, "stroke", hit, 0.0)
+    with graph.transaction("test"):
+        stroke.keep_after(GlobalTime(2.0))
+    assert stroke.value == 2.0
+    assert stroke.describe() == "hit +0 s, not before 2 s"
+    assert [link.name for link in stroke.deciding] == []
+    with graph.transaction("test"):
+        hit.set(GlobalTime(3.0))
+    assert stroke.value == 3.0
+    assert [link.name for link in stroke.deciding] == ["hit"]
+
+
+def test_a_peg_can_be_kept_at_a_distance_before_another_one(graph: Graph) -> None:
+    hit, end = AnticipatorPeg(graph, "hit", GlobalTime(3.0)), AnticipatorPeg(graph, "end", GlobalTime(2.0))
+    ready, stroke = OffsetPeg(graph, "ready", hit, 0.0), OffsetPeg(graph, "stroke", end, 0.0)
+    with graph.transaction("test"):
+        ready.keep_before(stroke, -0.25)
+    assert ready.value == 1.75
+    assert ready.describe() == "hit +0 s, not after stroke -0.25 s"
+    assert [link.name for link in ready.deciding] == ["stroke"]

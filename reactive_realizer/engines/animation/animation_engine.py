@@ -34,6 +34,7 @@ from reactive_realizer.engine.lexicon import LexiconEntry
 from reactive_realizer.engines.animation.animation_predictor import AnimationPredictor
 from reactive_realizer.engines.animation.animation_unit import AnimationUnit, MotionContext, keys_of
 from reactive_realizer.engines.animation.expression.functions import plugin_functions
+from reactive_realizer.engines.animation.fade_out import DURATION as FADE_OUT
 from reactive_realizer.engines.animation.fade_out import (
     FadeOut,
     fade_out_duration,
@@ -96,6 +97,8 @@ class AnimationEngine(DefaultEngine):
         self._persistent = PersistentPoses()
         self._eye_controller = EyeController(self._idle.blink) if self._idle else EyeController()
         self._fade_outs: list[FadeOut] = []
+        # Layers of ended gestures, as the times of their points imply, whether frames are made or not.
+        self._left_hands: list[FadeOut] = []
         # Bodies in postures that were cut since the last plan; the figure may still be there.
         self._interrupted_bodies: list[Body] = []
         # Units of the block that is being planned; they are not in the plan yet.
@@ -115,7 +118,7 @@ class AnimationEngine(DefaultEngine):
             lambda: self._humanoid.body,
             lambda: self._humanoid.shown,
             self._predictor.state_before,
-            self._retracting_hands,
+            self._hands,
             self._note_gaze_change,
             self._fade_out,
             graph,
@@ -179,7 +182,20 @@ class AnimationEngine(DefaultEngine):
         candidates = self._library.candidates(behavior)
         if isinstance(candidates.planned.motion, TransitionMotionUnit):
             return TransitionUnit(block, behavior, candidates, self._motion_context, self._predictor.state_after)
-        return AnimationUnit(block, behavior, candidates, self._motion_context)
+        unit = AnimationUnit(block, behavior, candidates, self._motion_context)
+        previous = self._continued(unit)
+        if previous is not None:
+            unit.continue_from(previous.relaxed_body(GlobalTime(0.0), self._rest.body))
+        return unit
+
+    def _continued(self, unit: AnimationUnit) -> AnimationUnit | None:
+        """Return the gesture of the same block that a new unit follows at once with the same hand, if there is one."""
+        start = unit.behavior.syncs.get("start")
+        if start is None or start.block not in (None, unit.block.block) or start.sync not in ("relax", "end"):
+            return None
+        drafts = (draft for draft in self._drafts if draft.behavior.id == start.behavior)
+        follows = start.offset < FADE_OUT
+        return next((draft for draft in drafts if follows and draft.resources & unit.resources), None)
 
     def reset(self, time: GlobalTime) -> None:
         """Return to the initial posture and gaze."""
@@ -252,16 +268,30 @@ class AnimationEngine(DefaultEngine):
         if gaze is not None and gaze.eyes > 0.0:
             self._eye_controller.note_change(time)
 
-    def _retracting_hands(self, now: GlobalTime) -> Body | None:
+    def _hands(self, now: GlobalTime) -> Body | None:
         rest = hands = self._rest.body
-        for unit in self.player.playing:
-            if isinstance(unit, AnimationUnit) and unit.motion.kind is LayerKind.GESTURE and unit.subsiding(now):
+        self._left_hands = [left for left in self._left_hands if not left.finished(now)]
+        playing = [unit for unit in self.player.playing if isinstance(unit, AnimationUnit)]
+        for unit in playing:
+            if unit.motion.kind is LayerKind.POSTURE:
+                hands = over(hands, unit.timed_layer(now, rest))
+        for left in self._left_hands:
+            hands = over(hands, left.at(now))
+        for unit in playing:
+            if unit.motion.kind is LayerKind.GESTURE and unit.subsiding(now):
                 hands = over(hands, unit.retraction_layer(now, rest))
         return None if hands is rest else hands
+
+    def _note_hands(self, unit: AnimationUnit, time: GlobalTime) -> None:
+        """Note where a gesture leaves the hands."""
+        if unit.motion.kind is LayerKind.GESTURE and unit.shortest[0] > 0.0:
+            left = FadeOut(unit.final_layer(time, self._rest.body), time)
+            self._left_hands = [each for each in (*self._left_hands, left) if not each.finished(time)]
 
     def _fade_out(self, unit: AnimationUnit, time: GlobalTime) -> None:
         """Take over the joints of a unit that has ended. A pose that persists lies below all others from now on."""
         self._note_gaze_change(unit, time)
+        self._note_hands(unit, time)
         done = unit.state is UnitState.DONE and not unit.was_cut("end")
         stays = done and unit.motion.persists_as is not None
         if not done:

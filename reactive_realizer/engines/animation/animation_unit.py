@@ -10,7 +10,7 @@ from reactive_realizer.bml.behavior import Behavior, SyncPoints
 from reactive_realizer.bml.behaviors import Pointing
 from reactive_realizer.clock.units import RESOLUTION, GlobalTime
 from reactive_realizer.embodiment.body import Body
-from reactive_realizer.embodiment.pose import Layer, LayerKind
+from reactive_realizer.embodiment.pose import Layer, LayerKind, over
 from reactive_realizer.engine.player import height
 from reactive_realizer.engines.animation.candidates import Candidate, Candidates, select
 from reactive_realizer.engines.animation.coasting import Coasting, LayerSample
@@ -27,7 +27,7 @@ from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.parameter import Parameter, ParameterValues
 from reactive_realizer.planunit.phase_clock import PhaseClock
-from reactive_realizer.planunit.plan_unit import DuePoint, PlanUnit, SyncPoint
+from reactive_realizer.planunit.plan_unit import LATE, DuePoint, PlanUnit, SyncPoint
 from reactive_realizer.planunit.timing import Phase, PhaseKind, Timing
 from reactive_realizer.reactive.graph import Graph
 
@@ -45,9 +45,6 @@ _HOLDS = frozenset({("ready", "strokeStart"), ("strokeEnd", "relax")})
 _STAYS = frozenset({("strokeStart", "stroke"), ("stroke", "strokeEnd")})
 """The stroke of a pointing gesture is a hold."""
 
-_LATE = 0.05
-"""A unit that starts later than this after its start has joined late, s."""
-
 
 @dataclass(frozen=True, slots=True)
 class MotionContext:
@@ -57,8 +54,8 @@ class MotionContext:
         body: returns the body as shown last, without additive layers.
         shown: returns the body as shown last.
         state_at: returns the kinematic state at a time: the body as shown last, extrapolated.
-        hands: returns the body with its hands where they are at a time on their way back to rest, whether frames are
-            made or not; None if they are at rest.
+        hands: returns the body with its hands where they are at a time, as the times of points imply, whether frames
+            are made or not; None if they are at rest.
         passed: called when a unit passes a sync point.
         released: called when a unit ends, to take over its joints.
         graph: of the cells of parameters.
@@ -144,6 +141,13 @@ class AnimationUnit(PlanUnit):
         if chosen.motion is not self.motion:
             self._play(chosen, keys_of(self.behavior, chosen.motion))
 
+    def continue_from(self, body: Body) -> None:
+        """Expect to begin where a body is, if that needs less time than from rest."""
+        needed, (first, *others) = self.motion.preparation(body), self.timing.phases
+        if needed is not None and needed.shortest < first.shortest:
+            self.timing = replace(self.timing, phases=(replace(first, shortest=needed.shortest), *others))
+            self.shortest[0] = needed.shortest
+
     def preference(self, now: GlobalTime) -> Timing:
         """Return the preferred timing.
 
@@ -175,13 +179,24 @@ class AnimationUnit(PlanUnit):
         """Fire as every unit does. A unit that starts after its start has passed joins late."""
         begins = not self.begun and bool(due)
         super().fire(due, now)
-        if begins and now - due[0].time > _LATE:
+        if begins and now - due[0].time > LATE:
             self.motion.joined = now
 
     def on_start(self, time: GlobalTime) -> None:
         """Start the motion from the current body. It is extrapolated to the time, unless the motion is additive."""
         added = self.motion.kind is LayerKind.ADDITIVE
+        self._set_shortest(time)
         self.motion.start(self._context.body() if added else self._context.state_at(time).body)
+
+    def _set_shortest(self, time: GlobalTime) -> None:
+        """Set the shortest duration of the preparation from where the hands are."""
+        if self.shortest[0] > 0.0:
+            hands = self._context.hands(time)
+            needed = None if hands is None else self.motion.preparation(hands)
+            if needed is not None:
+                self.shortest[0] = needed.shortest
+            else:
+                self.shortest[0] = self.motion.shortest.get(self.timing.points[1], 0.0)
 
     def on_sync(self, sync: str, time: GlobalTime) -> None:
         """Report the sync point: a gaze may get or release the eyes here."""
@@ -221,13 +236,42 @@ class AnimationUnit(PlanUnit):
         self._fault_reported = self._fault_reported or fault is not None
         return fault
 
+    def timed_layer(self, now: GlobalTime, rest: Body) -> Layer:
+        """Return the layer of a playing unit, over a body at rest. It depends on the times of its points alone."""
+        ahead = self.ahead()
+        begin, end = (self.keys.get(point.id, 1.0) for point in (self.points[-len(ahead) - 1], ahead[0]))
+        return layer_of(self.motion, Moment(begin + self.progress(now) * (end - begin), now, rest))
+
     def retraction_layer(self, now: GlobalTime, rest: Body) -> Layer:
         """Return the layer of a unit past its relax, on its way to a body at rest.
 
         It depends on the times of its points alone.
         """
         relax, end = self.time("relax"), self.time("end")
-        gone = 0.0 if relax is None or end is None else share(now, relax, end)
+        return self._relaxing_layer(0.0 if relax is None or end is None else share(now, relax, end), now, rest)
+
+    def final_layer(self, now: GlobalTime, rest: Body) -> Layer:
+        """Return the layer of a unit that has ended or was cut, at that moment; without weight if it was at rest.
+
+        It depends on the times of its points alone.
+        """
+        if not self.motion.key_positions.keys() >= {"ready", "relax"}:
+            return Layer(self.motion.kind, {}, 0.0)
+        fired = [point for point in self.points if point.fired and not point.cut]
+        relax = next((point for point in fired if point.id == "relax"), None)
+        if relax is not None:
+            returned = not self.was_cut("end") and relax.peg.value != self.points[-1].peg.value
+            return self._relaxing_layer(float(returned), now, rest)
+        last = max((self.motion.key_positions.get(point.id, 0.0) for point in fired), default=0.0)
+        ready = self.motion.key_positions["ready"]
+        layer = layer_of(self.motion, Moment(max(last, ready), now, rest))
+        return layer if last >= ready else replace(layer, weight=minimum_jerk(self.progress(now)))
+
+    def relaxed_body(self, now: GlobalTime, rest: Body) -> Body:
+        """Return a body at rest, with its hands where they are at the relax of the unit."""
+        return over(rest, self._relaxing_layer(0.0, now, rest))
+
+    def _relaxing_layer(self, gone: float, now: GlobalTime, rest: Body) -> Layer:
         begin = self.motion.key_positions.get("relax", 1.0)
         return layer_of(self.motion, Moment(begin + gone * (1.0 - begin), now, rest))
 

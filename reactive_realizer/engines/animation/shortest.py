@@ -33,7 +33,7 @@ def from_rest(moving: float) -> float:
 
 
 def shortest_duration(bodies: Sequence[Body], joints: Iterable[str]) -> float:
-    """Return the shortest duration of a motion through several poses, evenly spaced in time, s.
+    """Return the shortest duration of a motion from rest through several poses, evenly spaced in time, s.
 
     The body may fall behind where the motion is fastest, and has caught up with it at the end: from no pose on does the
     rest of the way take more than the rest of the time.
@@ -43,7 +43,7 @@ def shortest_duration(bodies: Sequence[Body], joints: Iterable[str]) -> float:
         joints: that turn.
     """
     steps = _step_times(bodies, list(joints))
-    return max(left * len(steps) / number for number, left in enumerate(accumulate(reversed(steps)), 1))
+    return from_rest(max(left * len(steps) / number for number, left in enumerate(accumulate(reversed(steps)), 1)))
 
 
 def _step_times(bodies: Sequence[Body], joints: Sequence[str]) -> list[float]:

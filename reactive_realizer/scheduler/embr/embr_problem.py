@@ -16,12 +16,14 @@ class Segment(NamedTuple):
         end: the later one.
         preferred: duration, s.
         rigid: whether it cannot be stretched; EMBR does not distinguish the other kinds of phases.
+        shortest: duration that the body needs, s.
     """
 
     start: Point
     end: Point
     preferred: float
     rigid: bool
+    shortest: float
 
 
 class EmbrProblem:
@@ -72,7 +74,9 @@ def _knots(item: Item, named: Iterable[Node]) -> list[int]:
 def _segments(item: Item, knots: Sequence[int]) -> list[Segment]:
     points = [Point(item.behavior.id, sync) for sync in item.timing.points]
     offsets, phases = item.timing.offsets, item.timing.phases
-    return [
-        Segment(points[first], points[last], offsets[last] - offsets[first], phases[first].kind is PhaseKind.RIGID)
-        for first, last in itertools.pairwise(knots)
-    ]
+    segments = []
+    for first, last in itertools.pairwise(knots):
+        rigid = phases[first].kind is PhaseKind.RIGID
+        shortest = 0.0 if rigid else sum(phase.shortest for phase in phases[first:last])
+        segments.append(Segment(points[first], points[last], offsets[last] - offsets[first], rigid, shortest))
+    return segments

@@ -1,15 +1,15 @@
 """EMBR's scheduling: a linear program of least deviations (thesis 7.2.3; Kipp, Heloir, Schröder and Gebhard 2010)."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import accumulate, pairwise
 
 from reactive_realizer.errors import Fault, SchedulingFault
-from reactive_realizer.planunit.timing import SHORTEST, TooShort
+from reactive_realizer.planunit.timing import SHORTEST, TooShort, stretched
 from reactive_realizer.scheduler.embr.embr_problem import EmbrProblem
 from reactive_realizer.scheduler.embr.keeping import keep
 from reactive_realizer.scheduler.embr.placing import place
 from reactive_realizer.scheduler.faults import AllPast, ContradictoryTie
 from reactive_realizer.scheduler.problem import Item, Node, Point, Precedence, SchedulingProblem, Tie
-from reactive_realizer.scheduler.smartbody.placement import ratio_between
 from reactive_realizer.scheduler.solution import Loss, Solution, lost_behavior
 
 
@@ -57,11 +57,13 @@ class EmbrStrategy:
 
 def _points(item: Item, knots: Sequence[int], times: Mapping[Node, float]) -> Iterator[tuple[Point, float]]:
     """The times of all points of a behavior: between knots, all phases are stretched evenly."""
-    points = item.points
-    for i, point in enumerate(points):
-        before, after = max(knot for knot in knots if knot <= i), min(knot for knot in knots if knot >= i)
-        low, high = times[points[before]], times[points[after]]
-        yield point, low + ratio_between(item.timing.offsets, before, i, after) * (high - low)
+    yield item.points[0], times[item.points[0]]
+    for before, after in pairwise(knots):
+        low, high = times[item.points[before]], times[item.points[after]]
+        durations = stretched(item.timing.phases[before:after], high - low)
+        ends = (low + passed for passed in accumulate(durations[:-1]))
+        yield from zip(item.points[before + 1 : after], ends, strict=True)
+        yield item.points[after], high
 
 
 def _alone(item: Item, constraints: Iterable[Tie | Precedence], given: Mapping[Node, float | None]) -> Fault | None:

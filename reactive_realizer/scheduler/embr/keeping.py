@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 from reactive_realizer.scheduler.embr.differences import Differences, Row
 from reactive_realizer.scheduler.embr.embr_problem import EmbrProblem
-from reactive_realizer.scheduler.faults import ContradictoryTie, OuterTie
-from reactive_realizer.scheduler.offset_union_find import OffsetUnionFind
+from reactive_realizer.scheduler.faults import ContradictoryTie, OuterTie, TooHurried
+from reactive_realizer.scheduler.offset_union_find import TIE_TOLERANCE, OffsetUnionFind
 from reactive_realizer.scheduler.problem import Node, Origin, Point, Precedence, Tie
 from reactive_realizer.scheduler.solution import Loss, lost_constraint
 
@@ -64,7 +64,7 @@ class _Admission:
                 self._groups.union(segment.end, segment.start, segment.preferred)
                 self._differences.add(*_equal(segment.end, segment.start, segment.preferred))
             else:
-                self._add(Row(segment.end, segment.start, 0.0))
+                self._add(Row(segment.end, segment.start, segment.shortest))
         for id_, item in self._problem.items.items():
             if not item.timing.instant:
                 self._add(Row(Point(id_, item.timing.points[-1]), Point(id_, item.timing.points[0]), _LEAST))
@@ -90,8 +90,28 @@ class _Admission:
             if gap is None:
                 self._groups.union(constraint.left, constraint.right, constraint.offset)
         if gap is not None:
-            self._losses.append(lost_constraint(constraint, ContradictoryTie(tie=constraint.text, gap=gap)))
+            fault = self._hurried(constraint, gap) or ContradictoryTie(tie=constraint.text, gap=gap)
+            self._losses.append(lost_constraint(constraint, fault))
         return gap is None
+
+    def _hurried(self, constraint: Tie | Precedence, gap: float) -> TooHurried | None:
+        """The fault if a constraint leaves phases next to one of its points too little time, by a gap (s)."""
+        points = [node for node in constraint.nodes if isinstance(node, Point)]
+        needs = [need for point in points for need in self._needs(point) if need[2] >= gap - TIE_TOLERANCE]
+        if not needs:
+            return None
+        start, end, need = min(needs, key=lambda each: each[2])
+        phases = (f"{start.behavior} from {start.sync} to {end.sync}",)
+        return TooHurried(what=constraint.text, phases=phases, need=need, room=max(0.0, need - gap))
+
+    def _needs(self, point: Point) -> Iterator[tuple[Point, Point, float]]:
+        """The ends and the shortest durations (s) of all sequences of segments that end or begin at a point."""
+        own = [segment for segment in self._problem.segments if segment.start.behavior == point.behavior]
+        index = next((i for i, segment in enumerate(own) if segment.start == point), len(own))
+        for before in range(index):
+            yield own[before].start, point, sum(segment.shortest for segment in own[before:index])
+        for after in range(index, len(own)):
+            yield point, own[after].end, sum(segment.shortest for segment in own[index : after + 1])
 
     def _outer(self, tie: Tie) -> bool:
         """Whether it would equate two given times, of which one may move without the other."""

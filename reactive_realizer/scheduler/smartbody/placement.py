@@ -7,7 +7,8 @@ from enum import Enum
 from typing import NamedTuple
 
 from reactive_realizer.errors import RealizerError, SchedulingFault
-from reactive_realizer.planunit.timing import SHORTEST, TooShort
+from reactive_realizer.planunit.timing import SHORTEST, Phase, TooShort, stretched
+from reactive_realizer.scheduler.offset_union_find import TIE_TOLERANCE
 from reactive_realizer.scheduler.problem import Item, Node
 
 
@@ -53,18 +54,41 @@ class Placement(NamedTuple):
         return Placement(self.time + distance, self.known, self.cluster, self.outer) if distance else self
 
 
+class Squeeze(NamedTuple):
+    """Given points that are nearer to each other than the phases between them allow.
+
+    Attributes:
+        before: index of the earlier point.
+        after: index of the later one.
+        need: shortest duration of these phases, s.
+        room: time that is given, s.
+    """
+
+    before: int
+    after: int
+    need: float
+    room: float
+
+
 def fill(item: Item, given: Mapping[int, Placement]) -> list[Placement]:
-    """All points from the given ones: in proportion between two of them, or at a distance from the nearest."""
-    offsets = item.timing.offsets
-    stretch = _average_stretch(offsets, {i: placed.time for i, placed in given.items() if placed.known})
+    """All points from the given ones: in proportion between two of them, or at a distance from the nearest.
+
+    Phases that would become shorter than their shortest duration have that.
+    """
+    timing = item.timing
+    stretch = _average_stretch(timing.offsets, {i: placed.time for i, placed in given.items() if placed.known})
     indices = sorted(given)
-    return [given.get(i) or _place(i, offsets, given, indices, stretch) for i in range(len(offsets))]
+    return [given.get(i) or _place(i, timing.phases, given, indices, stretch) for i in range(len(timing.points))]
 
 
-def ratio_between(offsets: Sequence[float], before: int, index: int, after: int) -> float:
-    """The fraction of the way from one point to another at which a third lies, with preferred durations."""
-    preferred = offsets[after] - offsets[before]
-    return (offsets[index] - offsets[before]) / preferred if preferred > 0 else 0.0
+def squeeze(item: Item, given: Mapping[int, Placement]) -> Squeeze | None:
+    """The first two given points with known times that leave the phases between them too little time, if there are."""
+    known = [(i, placed.time) for i, placed in sorted(given.items()) if placed.known]
+    for (before, time), (after, later) in itertools.pairwise(known):
+        need = sum(phase.shortest for phase in item.timing.phases[before:after])
+        if later - time < need - TIE_TOLERANCE:
+            return Squeeze(before, after, need, max(0.0, later - time))
+    return None
 
 
 def check_given(item: Item, given: Mapping[int, Placement]) -> None:
@@ -91,17 +115,23 @@ def check_playable(item: Item, placed: Sequence[Placement]) -> None:
 
 
 def _place(
-    i: int, offsets: Sequence[float], given: Mapping[int, Placement], indices: Sequence[int], stretch: float
+    i: int, phases: Sequence[Phase], given: Mapping[int, Placement], indices: Sequence[int], stretch: float
 ) -> Placement:
     """A point that is not given itself; ``indices`` are the given ones, in order."""
     after = bisect(indices, i)
-    if not 0 < after < len(indices):
-        nearest = indices[max(after - 1, 0)]
-        return given[nearest].moved((offsets[i] - offsets[nearest]) * stretch)
-    low, high = indices[after - 1], indices[after]
+    if after == 0:
+        return given[indices[0]].moved(-sum(_durations(phases[i : indices[0]], stretch)))
+    low = indices[after - 1]
+    if after == len(indices):
+        return given[low].moved(sum(_durations(phases[low:i], stretch)))
+    high = indices[after]
     one, other = given[low], given[high]
-    time = one.time + ratio_between(offsets, low, i, high) * (other.time - one.time)
+    time = one.time + sum(stretched(phases[low:high], other.time - one.time)[: i - low])
     return Placement(time, one.known and other.known, one.cluster, one.outer | other.outer)
+
+
+def _durations(phases: Sequence[Phase], stretch: float) -> list[float]:
+    return [max(phase.shortest, phase.duration * stretch) for phase in phases]
 
 
 def _average_stretch(offsets: Sequence[float], known: Mapping[int, float]) -> float:

@@ -6,10 +6,26 @@ from math import isfinite
 
 from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.planunit.timing import SHORTEST
-from reactive_realizer.scheduler.faults import AllPast, BeforeBlock, ContradictoryTie, NoOrder, OuterTie, Rigid
+from reactive_realizer.scheduler.faults import (
+    AllPast,
+    BeforeBlock,
+    ContradictoryTie,
+    NoOrder,
+    OuterTie,
+    Rigid,
+    TooHurried,
+)
 from reactive_realizer.scheduler.offset_union_find import TIE_TOLERANCE, OffsetUnionFind
 from reactive_realizer.scheduler.problem import Item, Node, Origin, Point, SchedulingProblem, Tie
-from reactive_realizer.scheduler.smartbody.placement import Cluster, Fixed, Placement, check_given, check_playable, fill
+from reactive_realizer.scheduler.smartbody.placement import (
+    Cluster,
+    Fixed,
+    Placement,
+    check_given,
+    check_playable,
+    fill,
+    squeeze,
+)
 from reactive_realizer.scheduler.solution import Loss, Solution, lost_behavior, lost_constraint, with_required
 
 _SAME = 1e-3
@@ -93,6 +109,8 @@ class _Run:
         first = min(tied)
         known = self._not_before_the_block(item, {first: tied[first]} if item.timing.rigid else tied)
         check_given(item, known)
+        if not item.timing.rigid:
+            known = self._unsqueezed(item, points, known)
         placed = fill(item, known)
         if item.timing.rigid:  # it stays in one piece when its start has passed
             placed = fill(item, {0: placed[0]})
@@ -157,6 +175,20 @@ class _Run:
                 located = fault.located(place.line, place.column)
                 self._losses.append(Loss(item.behavior.id, located, False, tie.required, tie))
         return met
+
+    def _unsqueezed(self, item: Item, points: Sequence[Point], known: dict[int, Placement]) -> dict[int, Placement]:
+        """The known points without those that leave earlier phases too little time; their ties are lost."""
+        while (found := squeeze(item, known)) is not None:
+            start, end = item.timing.points[found.before], item.timing.points[found.after]
+            phases = (f"{item.behavior.id} from {start} to {end}",)
+            lost = [loss.constraint for loss in self._losses]
+            ties = [tie for tie in self._problem.ties if points[found.after] in tie.nodes and tie not in lost]
+            self._losses += [
+                lost_constraint(tie, TooHurried(what=tie.text, phases=phases, need=found.need, room=found.room))
+                for tie in ties
+            ]
+            known = {i: placed for i, placed in known.items() if i != found.after}
+        return known
 
     def _gap(
         self, item: Item, points: Sequence[Point], known: Mapping[int, Placement], first: int, index: int
