@@ -5,7 +5,6 @@ import logging
 from collections import deque
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import aclosing
-from dataclasses import dataclass
 from functools import partial
 from math import isfinite
 
@@ -53,14 +52,6 @@ class UndeclaredPoint(Fault):
     known: tuple[str, ...]
 
 
-@dataclass(eq=False, slots=True)
-class _Stream:
-    """A running stream, and what it has predicted since the last tick."""
-
-    task: "asyncio.Task[None]"
-    predicted: list[Predicted]
-
-
 class AnticipatorStreams:
     """The streams of the anticipators of a board.
 
@@ -76,7 +67,10 @@ class AnticipatorStreams:
         self.clock = TickClock()
         self._board = board
         self._points = points
-        self._streams: dict[str, _Stream] = {}
+        self._new: list[Anticipator] = []
+        self._tasks: dict[str, asyncio.Task[None]] = {}
+        self._predicted: dict[int, list[Predicted]] = {}
+        """What streams have predicted since the last tick, by the rank of the stream."""
         self._listeners: list[Callable[[Forecast], None]] = []
         board.forecast = self._forecast
 
@@ -87,6 +81,7 @@ class AnticipatorStreams:
     def add(self, anticipator: Anticipator) -> None:
         """Add an anticipator; its stream starts in the next tick."""
         self._board.anticipators[anticipator.id] = anticipator
+        self._new.append(anticipator)
 
     def open(self, group: asyncio.TaskGroup | asyncio.AbstractEventLoop) -> None:
         """Have the streams run as tasks of a group, from the next tick on."""
@@ -94,8 +89,8 @@ class AnticipatorStreams:
 
     def close(self) -> None:
         """End the streams."""
-        for stream in self._streams.values():
-            stream.task.cancel()
+        for task in self._tasks.values():
+            task.cancel()
 
     def listen(self, listener: Callable[[Forecast], None]) -> None:
         """Call a listener with each forecast, before it has any effect."""
@@ -104,10 +99,8 @@ class AnticipatorStreams:
     @property
     def expectant(self) -> bool:
         """Whether a stream waits for anything but an event, and may predict then."""
-        return any(
-            not stream.task.done() and not self._board.anticipators[id_].waits_for_event
-            for id_, stream in self._streams.items()
-        )
+        tasks = self._tasks.items()
+        return any(not task.done() and not self._board.anticipators[id_].waits_for_event for id_, task in tasks)
 
     async def run(self, events: Iterable[tuple[str, AnticipatorEvent]], now: GlobalTime) -> tuple[Predicted, ...]:
         """Start new streams, pass them events, and wake those that wait for the time; all that has been predicted.
@@ -116,18 +109,19 @@ class AnticipatorStreams:
             events: with the ids of their anticipators.
             now: the time of the tick.
         """
-        awake = self.clock.advance(now)
-        for id_ in [id_ for id_ in self._board.anticipators if id_ not in self._streams]:
-            self._start(id_)
-            awake = True
+        awake = self.clock.advance(now) or bool(self._new)
+        for anticipator in self._new:
+            self._start(anticipator)
+        self._new.clear()
         for id_, event in events:
-            if not self._streams[id_].task.done():
+            if not self._tasks[id_].done():
                 self._board.anticipators[id_].enter(event)
                 awake = True
         if awake:
             for _ in range(_TURNS):
                 await asyncio.sleep(0)
-        return tuple(each for stream in self._streams.values() for each in _taken(stream.predicted))
+        predicted, self._predicted = self._predicted, {}
+        return tuple(each for rank in sorted(predicted) for each in predicted[rank])
 
     def apply(self, predicted: Sequence[Predicted], now: GlobalTime) -> None:
         """Write predictions on the board, within a transaction."""
@@ -152,12 +146,13 @@ class AnticipatorStreams:
 
         self._board.forecast = forecast
 
-    def _start(self, id_: str) -> None:
-        predicted: list[Predicted] = []
-        task = self._group.create_task(
-            _run(self._board.anticipators[id_], predicted.append), name=f"anticipators:{id_}"
-        )
-        self._streams[id_] = _Stream(task, predicted)
+    def _start(self, anticipator: Anticipator) -> None:
+        take = partial(self._take, len(self._tasks))
+        name = f"anticipators:{anticipator.id}"
+        self._tasks[anticipator.id] = self._group.create_task(_run(anticipator, take), name=name)
+
+    def _take(self, rank: int, predicted: Predicted) -> None:
+        self._predicted.setdefault(rank, []).append(predicted)
 
     def _forecast(self, anticipator: Anticipator, sync: str) -> Time:
         try:
@@ -199,8 +194,3 @@ def _checked(anticipator: Anticipator, item: tuple[str, float | None] | Revoked)
     if time is not None and not isfinite(time):
         raise RealizerError(NotANumber())
     return Prediction(anticipator.id, point, None if time is None else GlobalTime(time))
-
-
-def _taken(predicted: list[Predicted]) -> list[Predicted]:
-    taken, predicted[:] = predicted[:], []
-    return taken
