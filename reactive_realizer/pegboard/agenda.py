@@ -1,27 +1,17 @@
 """An agenda: items by the times at which they are next due, which follow pegs."""
 
 from collections.abc import Callable, Iterable
-from functools import partial
 from heapq import heapify, heappop, heappush
-from typing import Generic, NamedTuple, TypeVar
+from typing import Generic, TypeVar
 
 from reactive_realizer.clock.units import GlobalTime, Time, is_due
 from reactive_realizer.pegboard.time_peg import TimeCell
-from reactive_realizer.reactive.graph import Subscription
+from reactive_realizer.pegboard.watch import Watch
 
 T = TypeVar("T")
 
 _FEW = 32
 """Outdated entries of the heap that are left there."""
-
-
-class _Entry(NamedTuple):
-    """When an item is due, as far as it was read; ``number`` is unique."""
-
-    number: int
-    time: Time
-    pegs: tuple[TimeCell, ...]
-    subscriptions: tuple[Subscription, ...]
 
 
 class Agenda(Generic[T]):
@@ -45,7 +35,8 @@ class Agenda(Generic[T]):
         self.wake = wake
         self._due = due
         self._pegs = pegs
-        self._entries: dict[T, _Entry] = {}
+        self._watch: Watch[T] = Watch(lambda item, _: self.note(item))
+        self._numbers: dict[T, int] = {}
         self._unread: dict[T, None] = {}
         self._items: dict[int, T] = {}
         self._heap: list[tuple[GlobalTime, int]] = []
@@ -53,21 +44,18 @@ class Agenda(Generic[T]):
 
     def add(self, item: T) -> None:
         """Add an item."""
-        self._entries[item] = _Entry(self._next_number(item), None, (), ())
+        self._renumber(item)
         self.note(item)
 
     def remove(self, item: T) -> None:
         """Remove an item, if it is on the agenda."""
         self._unread.pop(item, None)
-        entry = self._entries.pop(item, None)
-        if entry is not None:
-            del self._items[entry.number]
-            for subscription in entry.subscriptions:
-                subscription.dispose()
+        self._watch.forget(item)
+        self._items.pop(self._numbers.pop(item, 0), None)
 
     def note(self, item: T) -> None:
         """Note that an item has changed; an item that is not on the agenda is ignored."""
-        if item in self._entries:
+        if item in self._numbers:
             self._unread[item] = None
             self.wake()
 
@@ -93,25 +81,19 @@ class Agenda(Generic[T]):
         while self._unread:
             item = next(iter(self._unread))
             time = self._due(item)
-            entry, pegs = self._entries[item], tuple(dict.fromkeys(self._pegs(item)))
-            subscriptions = entry.subscriptions
-            if pegs != entry.pegs:
-                for subscription in subscriptions:
-                    subscription.dispose()
-                subscriptions = tuple([peg.observe(partial(self._note_move, item)) for peg in pegs])
-            del self._items[entry.number]
-            self._entries[item] = _Entry(self._next_number(item), time, pegs, subscriptions)
+            self._watch.follow(item, self._pegs(item))
+            number = self._renumber(item)
             if time is not None:
-                heappush(self._heap, (time, self._number))
+                heappush(self._heap, (time, number))
             del self._unread[item]
-        if len(self._heap) > 2 * len(self._entries) + _FEW:
+        if len(self._heap) > 2 * len(self._numbers) + _FEW:
             self._heap = [each for each in self._heap if each[1] in self._items]
             heapify(self._heap)
 
-    def _note_move(self, item: T, _: object) -> None:
-        self.note(item)
-
-    def _next_number(self, item: T) -> int:
+    def _renumber(self, item: T) -> int:
+        """Give an item a new number; the heap's entry with the old one is outdated."""
+        self._items.pop(self._numbers.get(item, 0), None)
         self._number += 1
+        self._numbers[item] = self._number
         self._items[self._number] = item
         return self._number

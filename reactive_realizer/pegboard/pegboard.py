@@ -78,10 +78,6 @@ class PegBoard:
         self._pegs[key] = peg
         self._owners.setdefault(peg, key.block_key)
 
-    def owner(self, peg: TimeCell) -> BlockKey | None:
-        """The block that a peg was first named for; None if it has no name."""
-        return self._owners.get(peg)
-
     def get(self, key: PegKey) -> TimeCell | None:
         """The peg of that name."""
         return self._pegs.get(key)

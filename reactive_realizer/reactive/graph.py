@@ -1,8 +1,7 @@
 """Cells and the graph that propagates changes through them: many writes, one propagation, one record."""
 
-import asyncio
 import logging
-from collections.abc import AsyncIterator, Callable, Collection, Iterator
+from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from heapq import heappop, heappush
@@ -105,13 +104,6 @@ class Cell(Generic[T]):
         """
         return Subscription(self.observers, notify, ended)
 
-    def changes(self) -> AsyncIterator[T | Failure]:
-        """The values that commits give the cell from now on; a slow reader gets only the latest.
-
-        It ends when the cell is disposed of. It holds no subscription between two values, so it may be abandoned.
-        """
-        return self._changes_since(self._value)
-
     def dispose(self) -> None:
         """Take the cell out of propagation, at any time: it keeps its value.
 
@@ -122,25 +114,6 @@ class Cell(Generic[T]):
         for subscription in list(self.observers):
             subscription.dispose()
             subscription.ended()
-
-    async def _changes_since(self, seen: T | Failure) -> AsyncIterator[T | Failure]:
-        while True:
-            # NaN is not equal to itself, but it is no change.
-            if self._value is not seen and self._value != seen:
-                seen = self._value
-                yield seen
-            elif self.disposed:
-                return
-            else:
-                await self._next_change()
-
-    async def _next_change(self) -> None:
-        changed = asyncio.Event()
-        subscription = self.observe(lambda _: changed.set(), changed.set)
-        try:
-            await changed.wait()
-        finally:
-            subscription.dispose()
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__} {self.name} = {self._value}>"

@@ -23,7 +23,6 @@ from reactive_realizer.pegboard.peg_key import ANTICIPATORS
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.pegboard.predicted_points import PredictedPoints
 from reactive_realizer.reactive.cell import Source
-from reactive_realizer.reactive.graph import Commit
 from reactive_realizer.realizer.anticipator_streams import AnticipatorFailed, AnticipatorStreams
 from reactive_realizer.realizer.background_tasks import BackgroundTasks
 from reactive_realizer.realizer.character import Character
@@ -87,12 +86,10 @@ class Realizer:
         self._leading = EngineTasks(engine for engine in self._routing.engines if engine.leads)
         self._following = EngineTasks(engine for engine in self._routing.engines if not engine.leads)
         self._inbox = Inbox(self.board, self._streams, world, limits)
-        self._commits: list[Commit] = []
         self._frame_listeners: list[FrameListener] = []
         self._audio_listeners: list[AudioListener] = []
         self._entry_listeners: list[EntryListener] = []
         self._stack = AsyncExitStack()
-        self.board.graph.listen(self._commits.append)
 
     @property
     def anticipators(self) -> Mapping[str, Anticipator]:
@@ -113,7 +110,7 @@ class Realizer:
         self.scheduler = BMLScheduler(
             self.board, self._routing, self.feedback, self._background, self._strategy, self.limits
         )
-        self._verifier = Verifier(self.board, self.scheduler, self.feedback) if self._verify else None
+        self._verifier = Verifier(self.scheduler, self.feedback) if self._verify else None
         return self
 
     async def __aexit__(
@@ -288,11 +285,10 @@ class Realizer:
                 self._time.set(now)
 
     def _check(self, now: GlobalTime) -> None:
-        """Report the constraints that the commits since the last call have broken."""
+        """Report the constraints that have been broken since the last call."""
         if self._verifier is not None:
-            self._verifier.check(self._commits, now)
-        self.scheduler.check(self._commits, now)
-        self._commits.clear()
+            self._verifier.check(now)
+        self.scheduler.check(now)
 
     def _publish_audio(self, change: AudioChange) -> None:
         for listener in self._audio_listeners:

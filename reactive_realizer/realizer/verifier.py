@@ -1,7 +1,6 @@
 """Checks plans while they play (``--verify``)."""
 
 import logging
-from collections.abc import Iterable
 from dataclasses import replace
 from weakref import WeakKeyDictionary
 
@@ -10,8 +9,6 @@ from reactive_realizer.errors import WarningType
 from reactive_realizer.feedback.feedback_manager import FeedbackManager
 from reactive_realizer.feedback.messages import WarningFeedback
 from reactive_realizer.pegboard.peg_key import BlockKey
-from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.reactive.graph import Commit
 from reactive_realizer.scheduler.block_state import BlockState
 from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.scheduler.bml_scheduler import BMLScheduler
@@ -31,18 +28,16 @@ class Verifier:
     otherwise, `ConstraintMonitor` reports the constraints that can no longer be satisfied.
     """
 
-    def __init__(self, board: PegBoard, scheduler: BMLScheduler, feedback: FeedbackManager) -> None:
-        self._board = board
-        self._blocks = scheduler.blocks
+    def __init__(self, scheduler: BMLScheduler, feedback: FeedbackManager) -> None:
+        self._moves = scheduler.blocks.watch.moves()
         self._feedback = feedback
         self._reported: WeakKeyDictionary[BMLBlock, set[tuple[str, tuple[str, ...]]]] = WeakKeyDictionary()
         self._outside: WeakKeyDictionary[BMLBlock, list[float | None]] = WeakKeyDictionary()
         scheduler.listen_to_plans(self._hold)
 
-    def check(self, commits: Iterable[Commit], now: GlobalTime) -> None:
-        """Check the blocks that commits of the tick at ``now`` moved, before missed constraints count as settled."""
-        moved = {change.cell for commit in commits for change in commit.changes}
-        for block in self._blocks.affected_by(moved, self._board):
+    def check(self, now: GlobalTime) -> None:
+        """Check the blocks that have moved in the tick at ``now``, before missed constraints count as settled."""
+        for block in self._moves.take()[0]:
             if block.state is not BlockState.IN_PREP:
                 self._judge(block, now)
 

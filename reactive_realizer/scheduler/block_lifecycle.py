@@ -94,6 +94,7 @@ class BlockLifecycle:
         with self._board.graph.transaction(f"plan {block.key.block}"):
             holds = self._planning.lay_out(block, plan)
             block.set_plan(now, plan.units, plan.times, plan.kept, holds)
+        self._blocks.watch.follow(block)
         for unit in plan.units:
             self._routing.assign(unit)
         self._transitions.take(block, BlockEvent.PREPLAN if block.awaits_activation else BlockEvent.PLAN, now)
@@ -253,9 +254,11 @@ class BlockLifecycle:
         lost = [unit for unit in block.units if unit not in plan.units]
         missed = {point: peg for unit in lost for point, peg in self._ties.missed_by_drop(unit).items()}
         holds, replaced = self._planning.replace(block, plan)
-        for other in self._blocks.alive:
+        for other in self._blocks.watch.following(replaced):
             other.rename_pegs(replaced)
+            self._blocks.watch.follow(other)
         block.set_plan(block.end.floor, plan.units, plan.times, plan.kept, holds)
+        self._blocks.watch.follow(block)
         self._units.remove(lost, now)
         block.dropped |= {unit.behavior.id for unit in lost}
         if missed:

@@ -1,15 +1,14 @@
 """The blocks of all characters: those alive, and a record of those that ended last."""
 
-from collections.abc import Collection, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from reactive_realizer.clock.units import GlobalTime, Time
 from reactive_realizer.errors import Fault, SchedulingFault, TargetFault
 from reactive_realizer.pegboard.agenda import Agenda
 from reactive_realizer.pegboard.peg_key import BlockKey
-from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.pegboard.time_peg import TimeCell
 from reactive_realizer.scheduler.block_state import BlockState
+from reactive_realizer.scheduler.block_watch import BlockWatch
 from reactive_realizer.scheduler.bml_block import BMLBlock
 
 
@@ -48,10 +47,12 @@ class Blocks:
 
     Attributes:
         starting: those that are planned, by their starts.
+        watch: observes those that are alive.
     """
 
     def __init__(self, remembered: int) -> None:
         self.starting: Agenda[BMLBlock] = Agenda(_start, lambda block: (block.start,))
+        self.watch = BlockWatch()
         self._remembered = remembered
         self._alive: dict[BlockKey, BMLBlock] = {}
         self._ended: dict[BlockKey, EndedBlock] = {}
@@ -104,13 +105,6 @@ class Blocks:
         """The ids of the blocks of a character that are alive."""
         return tuple(block.key.block for block in self.of(character))
 
-    def affected_by(self, moved: Collection[TimeCell], board: PegBoard) -> list[BMLBlock]:
-        """The blocks alive of which a peg moved, or whose constraints name a peg of others that moved."""
-        if not moved:
-            return []
-        owners = {board.owner(cell) for cell in moved}
-        return [block for block in self.alive if block.key in owners or not block.outside.isdisjoint(moved)]
-
     def planned_before(self, block: BMLBlock) -> list[BMLBlock]:
         """The blocks in preparation whose points a block names, and the earlier ones whose parameters it changes."""
         changed = self._preparing(block, block.named_blocks.parameters)
@@ -121,11 +115,13 @@ class Blocks:
         """Add an accepted block."""
         self._alive[block.key] = block
         self.starting.add(block)
+        self.watch.follow(block)
 
     def end(self, block: BMLBlock, time: GlobalTime) -> None:
         """Move a block from those alive to those ended."""
         self._alive.pop(block.key, None)
         self.starting.remove(block)
+        self.watch.forget(block)
         self._ended.pop(block.key, None)
         self._ended[block.key] = EndedBlock(block.key, block.state, time)
         while len(self._ended) > self._remembered:

@@ -1,6 +1,6 @@
 """A block of the stream: its pegs, its behaviors and its predecessors (thesis 7.3.4)."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -166,6 +166,14 @@ class BMLBlock:
         return early and all(_subsiding(unit).fired for unit in self.units)
 
     # --- times
+
+    @property
+    def pegs(self) -> Iterator[TimeCell]:
+        """The pegs of its points, and those from outside that its constraints name."""
+        yield from (self.start, self.relax, self.end)
+        for unit in self.units:
+            yield from (point.peg for point in unit.points)
+        yield from self.outside
 
     def peg(self, sync: str) -> LatestPeg:
         """The peg of its own ``start``, ``relax`` or ``end``."""

@@ -10,7 +10,6 @@ from reactive_realizer.feedback.feedback_manager import FeedbackManager
 from reactive_realizer.limits import Limits
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.reactive.graph import Commit
 from reactive_realizer.scheduler.admission import Admission
 from reactive_realizer.scheduler.block_composition import BlockComposition
 from reactive_realizer.scheduler.block_feedback import BlockFeedback
@@ -69,7 +68,7 @@ class BMLScheduler:
         self._routing = routing
         self._limits = limits
         self._feedback = BlockFeedback(feedback, self.blocks)
-        self._predictions = Predictions(feedback, board)
+        self._predictions = Predictions(feedback, self.blocks.watch)
         self._procedures = Procedures(routing, background)
         self._planning = Planning(board, self.blocks, strategy)
         self._planner = BlockPlanner(routing, self.blocks, self._planning, self._procedures, background, self._feedback)
@@ -77,7 +76,7 @@ class BMLScheduler:
             board, routing, self.blocks, self._planner, self._planning, self._feedback, self._predictions
         )
         self._requests = EngineRequests(self.blocks, self._lifecycle, self._feedback)
-        self._monitor = ConstraintMonitor(board, self.blocks, self._lifecycle, self._feedback)
+        self._monitor = ConstraintMonitor(self.blocks.watch, self._lifecycle, self._feedback)
         self._lifecycle.listen(self._count)
 
     def listen(self, listener: Callable[[BMLBlock], None]) -> None:
@@ -156,11 +155,11 @@ class BMLScheduler:
 
     def publish(self, now: GlobalTime) -> None:
         """Report the predictions that have moved."""
-        self._predictions.publish(self.blocks.alive, now)
+        self._predictions.publish(now)
 
-    def check(self, commits: Iterable[Commit], now: GlobalTime) -> None:
-        """Warn of the constraints that the commits of a tick have broken."""
-        self._monitor.check(commits, now)
+    def check(self, now: GlobalTime) -> None:
+        """Warn of the constraints that have been broken in a tick."""
+        self._monitor.check(now)
 
     # --- the end of a session
 

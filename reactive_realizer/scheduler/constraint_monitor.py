@@ -1,17 +1,16 @@
 """Warns of constraints that held and can no longer be satisfied (thesis 7.3.6: drop a violated constraint)."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 from reactive_realizer.clock.units import GlobalTime, Time, is_due
 from reactive_realizer.errors import Fault, SchedulingFault
-from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.planunit.plan_unit import PlanUnit
-from reactive_realizer.reactive.graph import Cell, Commit
+from reactive_realizer.reactive.graph import Cell
 from reactive_realizer.scheduler.block_feedback import BlockFeedback
 from reactive_realizer.scheduler.block_lifecycle import BlockLifecycle
 from reactive_realizer.scheduler.block_state import BlockState
-from reactive_realizer.scheduler.blocks import Blocks
+from reactive_realizer.scheduler.block_watch import BlockWatch
 from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.scheduler.late_ties import OuterTie, outer_ties
 from reactive_realizer.scheduler.problem import Node, Origin, Point, Precedence, Tie
@@ -50,21 +49,18 @@ class ConstraintMonitor:
     Pegs keep a constraint until one side has passed, or until two times from outside move too close together.
     """
 
-    def __init__(self, board: PegBoard, blocks: Blocks, lifecycle: BlockLifecycle, feedback: BlockFeedback) -> None:
-        self._board = board
-        self._blocks = blocks
+    def __init__(self, watch: BlockWatch, lifecycle: BlockLifecycle, feedback: BlockFeedback) -> None:
+        self._moves = watch.moves()
         self._lifecycle = lifecycle
         self._feedback = feedback
         self._ended: list[BMLBlock] = []
         lifecycle.listen(self._note_end)
 
-    def check(self, commits: Iterable[Commit], now: GlobalTime) -> None:
-        """Check the blocks of which the commits of the tick at ``now`` moved something."""
-        moved: dict[Cell[Any], Any] = {}
-        for change in (change for commit in commits for change in commit.changes):
-            moved.setdefault(change.cell, change.old)
+    def check(self, now: GlobalTime) -> None:
+        """Check the blocks of which something has moved in the tick at ``now``."""
+        blocks, moved = self._moves.take()
         ended, self._ended = self._ended, []
-        for block in (*ended, *self._blocks.affected_by(moved, self._board)):
+        for block in (*ended, *blocks):
             units = {unit.behavior.id: unit for unit in block.units}
             for each in block.kept:
                 if each not in block.settled and not _cut(each, units):

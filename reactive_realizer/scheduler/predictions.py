@@ -1,13 +1,11 @@
 """Prediction feedback: reported when it is requested, and again when a reported time has moved."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 
 from reactive_realizer.clock.units import BlockTime, GlobalTime, Time
 from reactive_realizer.feedback.feedback_manager import FeedbackManager
 from reactive_realizer.feedback.messages import BehaviorPrediction, PredictionFeedback
-from reactive_realizer.pegboard.peg_key import BlockKey
-from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.reactive.graph import Commit
+from reactive_realizer.scheduler.block_watch import BlockWatch, in_order
 from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.scheduler.problem import Point
 
@@ -21,24 +19,21 @@ _Times = Mapping[tuple[str, str], Time]
 class Predictions:
     """Reports ``predictionFeedback``, at most once for each block and tick, with the times at the end of the tick."""
 
-    def __init__(self, feedback: FeedbackManager, board: PegBoard) -> None:
+    def __init__(self, feedback: FeedbackManager, watch: BlockWatch) -> None:
         self._feedback = feedback
-        self._board = board
-        self._moved: set[BlockKey | None] = set()
+        self._moves = watch.moves()
         self._published: dict[BMLBlock, _Times] = {}
         self._requested: set[BMLBlock] = set()
-        board.graph.listen(self._note)
 
     def request(self, block: BMLBlock) -> None:
         """Have this tick report the prediction of a block, even if no time has moved."""
         self._requested.add(block)
 
-    def publish(self, blocks: Iterable[BMLBlock], now: GlobalTime) -> None:
+    def publish(self, now: GlobalTime) -> None:
         """Report the predictions that were requested, and those of blocks of which a time has moved."""
-        moved, self._moved = self._moved, set()
-        for block in blocks if moved or self._requested else ():
-            if block.key in moved or block in self._requested:
-                self._publish(block, now)
+        moved, _ = self._moves.take()
+        for block in in_order({*moved, *self._requested}):
+            self._publish(block, now)
 
     def close(self, block: BMLBlock, now: GlobalTime) -> None:
         """Forget a block that ends; a prediction that was requested is reported if the block plays."""
@@ -54,9 +49,6 @@ class Predictions:
             self._requested.discard(block)
             self._published[block] = times
             self._feedback.add(_prediction(block, times, now))
-
-    def _note(self, commit: Commit) -> None:
-        self._moved.update(self._board.owner(change.cell) for change in commit.changes)
 
 
 def _moved(old: _Times, new: _Times) -> bool:

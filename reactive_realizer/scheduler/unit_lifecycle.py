@@ -188,7 +188,7 @@ class UnitLifecycle:
 
     def _moved(self, changed: Collection[Cell[Any]]) -> list[PlanUnit]:
         """The units of playing blocks of which a point has changed, except for those with a scheduled cut."""
-        blocks = (block for block in self._blocks.affected_by(changed, self._board) if block.state.plays)
+        blocks = (block for block in self._blocks.watch.following(changed) if block.state.plays)
         units = (unit for block in blocks for unit in block.live_units if not self.cut_scheduled(unit))
         return [unit for unit in units if any(point.peg in changed for point in unit.points)]
 

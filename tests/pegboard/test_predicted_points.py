@@ -147,11 +147,12 @@ def test_nothing_is_revoked_before_the_first_occurrence(stage: Stage) -> None:
 
 
 def test_a_renewed_point_keeps_its_owner(stage: Stage) -> None:
-    old = stage.board.predicted("key", "press")
-    owner = stage.board.owner(old)
+    stage.board.predicted("key", "press")
+    (old,) = stage.board.snapshot()
     stage.predict("press", 2.0, now=2.0)
-    assert stage.board.owner(stage.board.predicted("key", "press")) == owner
-    assert stage.board.owner(old) is None
+    (new,) = stage.board.snapshot()
+    assert new.time is None
+    assert new.owner == old.owner
 
 
 def test_renewing_leaves_nothing_behind(stage: Stage) -> None:

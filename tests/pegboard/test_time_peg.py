@@ -161,7 +161,7 @@ def test_a_bound_of_an_after_peg_after_a_ceiling_has_no_effect_and_it_waits_for_
 def test_a_bound_that_moves_without_effect_notifies_no_observer(graph: Graph) -> None:
     natural, bound = AnticipatorPeg(graph, "natural", GlobalTime(5.0)), AnticipatorPeg(graph, "bound", GlobalTime(1.0))
     told: list[object] = []
-    AfterPeg(graph, "after", natural, [(bound, 0.0)]).observe(told.append)
+    AfterPeg(graph, "after", natural, [(bound, 0.0)]).observe(lambda change: told.append(change.new))
     write(bound, 4.0)
     assert told == []
     write(bound, 6.0)
@@ -204,7 +204,7 @@ def test_an_offset_peg_across_blocks_is_computed_once_when_both_blocks_move(grap
     one, two, natural, bound = blocks(graph)
     between = RatioPeg(graph, "between", natural, bound, 0.5)
     told: list[object] = []
-    between.observe(told.append)
+    between.observe(lambda change: told.append(change.new))
     with graph.transaction("test"):
         one.set(GlobalTime(2.0))
         two.set(GlobalTime(4.0))

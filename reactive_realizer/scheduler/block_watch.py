@@ -1,0 +1,65 @@
+"""Observes blocks: which of them have moved, and from which times."""
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from reactive_realizer.pegboard.time_peg import TimeCell
+from reactive_realizer.pegboard.watch import Watch
+from reactive_realizer.reactive.graph import Cell, Change
+from reactive_realizer.scheduler.bml_block import BMLBlock
+
+
+class BlockMoves:
+    """The blocks of which something has moved since `take`, in order of arrival."""
+
+    def __init__(self) -> None:
+        self._blocks: set[BMLBlock] = set()
+        self._old: dict[Cell[Any], Any] = {}
+
+    def note(self, block: BMLBlock, change: Change) -> None:
+        """Note that a peg of a block has moved."""
+        self._blocks.add(block)
+        self._old.setdefault(change.cell, change.old)
+
+    def take(self) -> tuple[list[BMLBlock], Mapping[Cell[Any], Any]]:
+        """The blocks that are alive, and the values that the pegs had before they moved."""
+        if not self._blocks:
+            return [], {}
+        blocks, old = self._blocks, self._old
+        self._blocks, self._old = set(), {}
+        return in_order(block for block in blocks if not block.state.ended), old
+
+
+class BlockWatch:
+    """Observes the pegs of the blocks that are alive, and those of others that their constraints name."""
+
+    def __init__(self) -> None:
+        self._watch: Watch[BMLBlock] = Watch(self._note)
+        self._moves: list[BlockMoves] = []
+
+    def moves(self) -> BlockMoves:
+        """The moves from now on."""
+        moves = BlockMoves()
+        self._moves.append(moves)
+        return moves
+
+    def follow(self, block: BMLBlock) -> None:
+        """Observe the present pegs of a block."""
+        self._watch.follow(block, block.pegs)
+
+    def forget(self, block: BMLBlock) -> None:
+        """Observe a block no more."""
+        self._watch.forget(block)
+
+    def following(self, pegs: Iterable[TimeCell]) -> list[BMLBlock]:
+        """The blocks that have any of some pegs, or whose constraints name one."""
+        return in_order(self._watch.following(pegs))
+
+    def _note(self, block: BMLBlock, change: Change) -> None:
+        for moves in self._moves:
+            moves.note(block, change)
+
+
+def in_order(blocks: Iterable[BMLBlock]) -> list[BMLBlock]:
+    """Blocks in order of arrival."""
+    return sorted(blocks, key=lambda block: block.arrival)
