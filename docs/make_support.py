@@ -82,12 +82,19 @@ and values. A *realized* feature can be seen or heard. A feature that is read bu
 warning, and the rest of the block plays.
 """
 
+_BLOCK_POINTS = """
+The attributes `ready`, `strokeStart`, `stroke` and `strokeEnd` name the sync point of one of its behaviors, which is
+also that sync point of the block. The attribute `start` names a sync point of another block or of an anticipator;
+`start="b1:end"` equals `appendAfter="b1"`, and `start="b1:relax"` equals `chunkAfter="b1"`. An extension of BML 1.0
+(thesis 12.1.3).
+"""
+
 _SYNC_POINTS = """\
 
 Every sync point is an attribute that can refer to another sync point. A `head` with a `repetition` n above 1 has
 `stroke:1` to `stroke:n` instead of `stroke`. A `speech` has its inline `<sync id="..."/>` elements between `start` and
-`end`. Blocks have the sync points `start`, `relax` and `end`: `b1:relax` refers to the block b1 unless a behavior of
-the same block is named b1, and `b1:bml:relax` always refers to the block.
+`end`. Blocks have the sync points `start`, `relax` and `end`, and those that they define: `b1:relax` refers to the
+block b1 unless a behavior of the same block is named b1, and `b1:bml:relax` always refers to the block.
 
 An attribute without a namespace that is not in these tables is ignored with a warning (`PARSING_FAILURE`). An attribute
 with an unreadable value drops its behavior with the same warning.
@@ -144,7 +151,6 @@ this table causes a warning.
 | draft | read as |
 |---|---|
 | `bml scheduling="append"` | `composition` |
-| `bml start="b1:end"`, `start="b1:relax"` | `appendAfter="b1"`, `chunkAfter="b1"` |
 | `head action="ROTATION" rotation="NOD"`, `head type="NOD"` | `lexeme`; a rotation X is NOD, Y is SHAKE, Z is TILT |
 | `head repeats` | `repetition` |
 | `gesture type="BEAT"`, `type="LEXICALIZED" lexeme="..."` | `lexeme` |
@@ -183,6 +189,7 @@ def _block() -> str:
         [
             "\n## The block\n\n",
             _attribute_table("bml", [each for each in attributes if not each.continuous], True),
+            _BLOCK_POINTS,
             _attributes("bml, of BMLA or BMLT", [each for each in attributes if each.continuous], True),
             _attributes("defineproc", attributes_of(DefineProc), True),
             "\nIt is written beside blocks and has the contents of a block. It does not play until it is used.\n",

@@ -118,6 +118,7 @@ class BehaviorBlock:
         on_start: ids of the preplanned blocks that start when it starts.
         preplan: whether it waits to be activated.
         external_refs: whether its references may name behaviors of other blocks; only drafts restrict this.
+        points: the points of its behaviors that are its own sync points, by name of these (thesis, example 35).
         procedure: id of the procedure that provides its behaviors and constraints; None if it contains its own.
         behaviors: in document order, including those inside ``<required>``.
         constraints: in document order.
@@ -137,6 +138,7 @@ class BehaviorBlock:
     on_start: tuple[str, ...] = field(default=(), metadata=attribute(IdList(), continuous=True))
     preplan: bool = field(default=False, metadata=attribute(Boolean(), continuous=True))
     external_refs: bool = field(default=False, metadata=attribute(Boolean(), "allowexternalrefs", continuous=True))
+    points: Mapping[str, SyncRef] = field(default_factory=dict)
     procedure: str | None = None
     behaviors: tuple[Behavior, ...] = ()
     constraints: tuple[Constraint, ...] = ()

@@ -4,7 +4,6 @@ One tolerant reading serves the draft of the thesis (van Welbergen 2011, chapter
 reads. Nothing is guessed: what this module does not know stays as it is, and the reader of BML 1.0 reports it.
 """
 
-import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from dataclasses import replace
 from types import MappingProxyType
@@ -17,13 +16,10 @@ from reactive_realizer.bml.behaviors import Gaze, GazeShift, Posture, PostureShi
 from reactive_realizer.bml.block import Constraint, Synchronize
 from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.faults import UnknownWord
-from reactive_realizer.bml.names import CONTINUOUS
 from reactive_realizer.bml.sync_ref import DRAFT_SPELLINGS
 from reactive_realizer.bml.trees import Tree, children_of, name_of, stray_text_of
 from reactive_realizer.errors import RealizerError
 
-_START: Final = re.compile(r"([^\s:]+):(relax|end)")
-_AFTER: Final = {"relax": "chunkAfter", "end": "appendAfter"}
 _ENDING: Final = frozenset({"relax", "end"})
 
 _AXES: Final = {"X": "NOD", "Y": "SHAKE", "Z": "TILT"}
@@ -35,17 +31,11 @@ _FACES: Final = {"FACS": "faceFacs", "LEXICALIZED": "faceLexeme"}
 def modernize_block(tree: Tree) -> None:
     """Rewrites the attributes of a block, or of a use of a procedure, as BML 1.0 and BMLA, in place.
 
-    ``scheduling`` is the composition; a start at the relax or the end of another block (thesis 12.1.3) is chunkAfter or
-    appendAfter.
+    ``scheduling`` is the composition.
     """
+    _rename_points(tree)
     if "scheduling" in tree.attrib and "composition" not in tree.attrib:
         tree.set("composition", str(tree.attrib.pop("scheduling")))
-    start = _START.fullmatch(tree.get("start", "").strip())
-    if start is not None:
-        del tree.attrib["start"]
-        spellings = [f"{{{namespace}}}{_AFTER[start[2]]}" for namespace in CONTINUOUS]
-        after = next((name for name in spellings if name in tree.attrib), spellings[0])
-        tree.set(after, ",".join(filter(None, [tree.get(after), start[1]])))
 
 
 def modernize(tree: Tree, source: BlockSource) -> None:
@@ -54,8 +44,7 @@ def modernize(tree: Tree, source: BlockSource) -> None:
     Raises:
         RealizerError: ``bad-attribute``: BML 1.0 has no equivalent.
     """
-    for old, new in DRAFT_SPELLINGS.items():
-        _rename(tree, old, new)
+    _rename_points(tree)
     rewrite = _REWRITES.get(name_of(tree))
     if rewrite is not None:
         rewrite(tree, source)
@@ -149,6 +138,11 @@ _REWRITES: Final[Mapping[str, Callable[[Tree, BlockSource], None]]] = {
     "speech": _speech,
     "synchronize": _synchronize,
 }
+
+
+def _rename_points(tree: Tree) -> None:
+    for old, new in DRAFT_SPELLINGS.items():
+        _rename(tree, old, new)
 
 
 def _rename(tree: Tree, old: str, new: str, words: Mapping[str, str] = MappingProxyType({})) -> None:

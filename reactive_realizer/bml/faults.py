@@ -192,7 +192,22 @@ class OnlyBlockStart(Fault):
     """A sync point of a block that references cannot name."""
 
     code = "only-block-start"
-    template = "a reference can name the start of its own block, or the start, relax or end of another block"
+    template = "a reference can name the start of its own block, or a sync point of another block: {known}"
+    known: tuple[str, ...]
+
+
+class NotOwnPoint(Fault):
+    """A sync point of a block that is not defined by a point of a behavior of this block."""
+
+    code = "not-own-point"
+    template = "a sync point of a block is one of its behaviors, behavior:sync, without an offset"
+
+
+class NotOuterPoint(Fault):
+    """A start of a block that is not tied to another block or an anticipator."""
+
+    code = "not-outer-point"
+    template = "a block can start at a sync point of another block or of an anticipator"
 
 
 class ExternalReference(Fault):

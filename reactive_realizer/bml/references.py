@@ -36,6 +36,8 @@ def references_of(block: BehaviorBlock | DefineProc) -> Iterator[tuple[str, Loca
     for behavior in block.behaviors:
         for ref in behavior.syncs.values():
             yield f"{block.id}:{behavior.id}", behavior.location, ref
+    if isinstance(block, BehaviorBlock):
+        yield from ((block.id, block.location, ref) for ref in block.points.values())
     for constraint in block.constraints:
         place = f"{block.id}:{constraint.id}" if constraint.id else block.id
         for ref in _refs_of(constraint):

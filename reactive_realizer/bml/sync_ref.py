@@ -15,7 +15,10 @@ from reactive_realizer.limits import Limits
 NUMBER: Final = r"(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
 """Pattern of a number without a sign."""
 
-BLOCK_POINTS: Final = ("start", "relax", "end")
+OWN_BLOCK_POINTS: Final = ("ready", "strokeStart", "stroke", "strokeEnd")
+"""The sync points of a block that it may define by points of its behaviors (thesis 12.1.3)."""
+
+BLOCK_POINTS: Final = ("start", *OWN_BLOCK_POINTS, "relax", "end")
 """The sync points of a block; at its relax, all of its behaviors that still play are in retraction."""
 
 DRAFT_SPELLINGS: Final[Mapping[str, str]] = MappingProxyType({"stroke_start": "strokeStart", "stroke_end": "strokeEnd"})
@@ -38,8 +41,8 @@ class SyncRef:
     Attributes:
         block: id of another block, or "anticipators"; None for the block in which the reference stands.
         behavior: id of a behavior, or of an anticipator; None for the block itself.
-        sync: name of its sync point, ``stroke:2`` for the second stroke; for a block "relax", "end", or None for its
-            start.
+        sync: name of its sync point, ``stroke:2`` for the second stroke; of a block one of `BLOCK_POINTS`, or None for
+            its start.
         offset: seconds after that point.
     """
 
@@ -121,7 +124,7 @@ def _block_point(block: str | None, sync: str | None) -> str | None:
     if sync in {None, "start"}:
         return None
     if block is None or sync not in BLOCK_POINTS:
-        raise RealizerError(OnlyBlockStart())
+        raise RealizerError(OnlyBlockStart(known=BLOCK_POINTS))
     return sync
 
 

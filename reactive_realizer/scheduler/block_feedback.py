@@ -6,6 +6,7 @@ from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.block import BehaviorBlock
 from reactive_realizer.bml.faults import ForeignAttribute
 from reactive_realizer.bml.names import BLOCK, Location
+from reactive_realizer.bml.sync_ref import OWN_BLOCK_POINTS
 from reactive_realizer.clock.units import BlockTime, GlobalTime
 from reactive_realizer.engine.effects import Reached
 from reactive_realizer.errors import Fault
@@ -19,7 +20,10 @@ from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.scheduler.solution import Loss
 
 _BEFORE_BEHAVIORS, _AFTER_BEHAVIORS = -1.0, float("inf")
-_BLOCK_ORDER = {"start": (_BEFORE_BEHAVIORS, 0), "relax": (_AFTER_BEHAVIORS, 0), "end": (_AFTER_BEHAVIORS, 1)}
+_BLOCK_ORDER = {
+    "start": (_BEFORE_BEHAVIORS, 0),
+    **{sync: (_AFTER_BEHAVIORS, rank) for rank, sync in enumerate((*OWN_BLOCK_POINTS, "relax", "end"))},
+}
 
 
 class BlockFeedback:
@@ -32,7 +36,7 @@ class BlockFeedback:
     # --- progress
 
     def block_progress(self, block: BMLBlock, sync: str, time: GlobalTime) -> None:
-        """Report that a block reached its ``start``, ``relax`` or ``end``."""
+        """Report that a block reached one of its sync points."""
         message = BlockProgress(*block.key, sync, time, block.state.value)
         self._feedback.add_progress(message, _order(block, time, *_BLOCK_ORDER[sync]))
 

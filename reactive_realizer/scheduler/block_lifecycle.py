@@ -126,10 +126,20 @@ class BlockLifecycle:
     # --- sync points and behaviors
 
     def sync_points_reached(self, reached: Sequence[Reached]) -> None:
-        """Pin and report sync points; a block may subside by them."""
+        """Pin and report sync points; a block may subside by them, and reach sync points of its own."""
         self._units.sync_points_reached(reached)
+        for each in reached:
+            block = self._blocks.get(each.unit.block)
+            if block is not None and block.description.points:
+                self._report_own(block, each)
         for key in {each.unit.block: None for each in reached}:
             self._transitions.subside(key)
+
+    def _report_own(self, block: BMLBlock, reached: Reached) -> None:
+        """Report the sync points of a block that a sync point of a behavior defines."""
+        for sync, ref in block.description.points.items():
+            if (ref.behavior, ref.sync) == (reached.unit.behavior.id, reached.point.id):
+                self._feedback.block_progress(block, sync, reached.time)
 
     def begin_behavior(self, unit: PlanUnit, now: GlobalTime) -> None:
         """Begin a behavior, if it is due, before its engine plays."""

@@ -2,13 +2,14 @@
 
 from collections import defaultdict
 from collections.abc import Collection, Iterator, Mapping
+from dataclasses import replace
 
 from reactive_realizer.bml.block import BehaviorBlock, OrderKind, Synchronize
 from reactive_realizer.bml.block import Order as OrderConstraint
 from reactive_realizer.bml.faults import LostWith, UnknownReference, UnknownSync
 from reactive_realizer.bml.names import ANTICIPATORS
 from reactive_realizer.bml.references import unknown_block
-from reactive_realizer.bml.sync_ref import SyncRef
+from reactive_realizer.bml.sync_ref import OWN_BLOCK_POINTS, SyncRef
 from reactive_realizer.errors import Fault, RealizerError, SchedulingFault
 from reactive_realizer.pegboard.peg_key import PegKey
 from reactive_realizer.pegboard.pegboard import PegBoard
@@ -131,6 +132,8 @@ class ReferenceResolver:
         if other is None:
             known = self._blocks.names(self._block.key.character)
             raise RealizerError(unknown_block(ref, self._block.description, known))
+        if ref.behavior is None and ref.sync in OWN_BLOCK_POINTS:
+            ref = self._defining(other, ref)
         peg = self._board.get(PegKey(*other.key, ref.behavior, ref.sync or "start"))
         if peg is not None and peg.depends_on(self._block.start):
             raise RealizerError(CyclicReference(block=self._block.key.block, reference=str(ref)))
@@ -146,9 +149,29 @@ class ReferenceResolver:
             raise RealizerError(MutualReference(block=self._block.key.block, other=name, reference=str(ref)))
         raise RealizerError(LostWith(behavior=f"{name}:{ref.behavior}", reference=str(ref)))
 
+    def _defining(self, other: BMLBlock, ref: SyncRef) -> SyncRef:
+        """The reference to the behavior that defines a sync point of another block (thesis 12.1.3).
+
+        By default, a block is ready with the behavior that is planned to be ready first.
+
+        Raises:
+            RealizerError: the block has no such point.
+        """
+        own = other.description.points.get(ref.sync or "")
+        if own is not None:
+            return replace(ref, behavior=own.behavior, sync=own.sync)
+        times = {unit.behavior.id: unit.time("ready") for unit in other.units if "ready" in unit.timing.points}
+        if ref.sync == "ready" and times:
+            return replace(ref, behavior=min(times, key=lambda id_: (times[id_] is None, times[id_] or 0.0)))
+        if ref.sync == "ready" and other.state is BlockState.IN_PREP:
+            raise RealizerError(MutualReference(block=self._block.key.block, other=other.key.block, reference=str(ref)))
+        known = ("start", *other.description.points, "relax", "end")
+        fault = UnknownSync(reference=str(ref), behavior=other.key.block, sync=ref.sync or "", known=known)
+        raise RealizerError(fault)
+
 
 def constraints_of(block: BehaviorBlock, resolver: ReferenceResolver) -> tuple[list[Tie], list[Precedence], list[Loss]]:
-    """All `at` and before/after constraints of the units of a block, and losses for those with invalid references."""
+    """All `at` and before/after constraints of the units of a block, and losses for invalid references of the block."""
     ties = [tie for unit in resolver.units.values() for tie in _own_ties(unit, resolver)]
     orders: list[Precedence] = []
     losses: list[Loss] = []
@@ -161,6 +184,12 @@ def constraints_of(block: BehaviorBlock, resolver: ReferenceResolver) -> tuple[l
         except RealizerError as problem:
             fault = problem.fault.located(each.location.line, each.location.column)
             losses.append(Loss(None, fault, dropped=False, required=each.required))
+    for ref in block.points.values():
+        try:
+            resolver.locate(ref)
+        except RealizerError as problem:
+            fault = problem.fault.located(block.location.line, block.location.column)
+            losses.append(Loss(None, fault, dropped=False, required=False))
     return ties, orders, losses
 
 

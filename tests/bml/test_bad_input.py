@@ -119,8 +119,8 @@ DROPPED = {
     ),
     '<bmlt:text id="x" start="bml:end"/>': (
         "b:x",
-        "start='bml:end' of <text>: a reference can name the start of its own block, or the start, relax or end of "
-        "another block",
+        "start='bml:end' of <text>: a reference can name the start of its own block, or a sync point of another "
+        "block: start, ready, strokeStart, stroke, strokeEnd, relax, end",
     ),
     '<constraint id="x"><synchronize><sync ref="1"/></synchronize></constraint>': (
         "b:x",
@@ -225,7 +225,11 @@ def test_a_bad_attribute_of_a_block_has_its_default() -> None:
             "b",
             "composition='SOMEHOW' of <bml>: not one of MERGE, APPEND, REPLACE, APPEND-AFTER(ids), CHUNK-AFTER(ids)",
         ),
-        ("b", "unknown attribute mood of <bml>; known: id, characterId, composition"),
+        (
+            "b",
+            "unknown attribute mood of <bml>; known: id, characterId, composition, start, ready, strokeStart, "
+            "stroke, strokeEnd",
+        ),
         ("b", "unexpected text 'so'"),
     ]
 

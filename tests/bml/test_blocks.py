@@ -126,9 +126,9 @@ def test_references_to_existing_sync_points_have_no_problem(block: Block) -> Non
 
 
 MISSING = {
-    '<head id="h" lexeme="NOD" start="nobody:ready+1"/>': (
+    '<head id="h" lexeme="NOD" start="nobody:attackPeak+1"/>': (
         "b:h",
-        "line 1, column {column}: nobody:ready+1: there is no behavior 'nobody'; available: nod, h",
+        "line 1, column {column}: nobody:attackPeak+1: there is no behavior 'nobody'; available: nod, h",
     ),
     '<wait id="w" start="w:apex"/>': (
         "b:w",

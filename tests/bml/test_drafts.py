@@ -257,8 +257,8 @@ def test_composition_takes_precedence_over_scheduling() -> None:
 
 
 def test_a_block_cannot_start_at_the_stroke_of_a_behavior() -> None:
-    (problem,) = read("", 'start="g:stroke"').problems
-    assert problem.fault.sentence.startswith("unknown attribute start of <bml>")
+    (problem,) = read('<gesture id="g" lexeme="BEAT"/>', 'start="g:stroke"').problems
+    assert problem.fault.sentence.startswith("start='g:stroke' of <bml>: a block can start at a sync point of another")
 
 
 def test_rewritten_elements_keep_their_location() -> None:

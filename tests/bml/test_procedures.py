@@ -105,7 +105,7 @@ def test_the_content_of_a_use_is_ignored() -> None:
 
 
 def test_a_missing_reference_in_a_procedure_is_reported() -> None:
-    parsed = read('<p:defineproc id="greet"><wait id="w" start="look:ready"/></p:defineproc>')
+    parsed = read('<p:defineproc id="greet"><wait id="w" start="look:attackPeak"/></p:defineproc>')
     assert parsed.procedure is not None
     (problem,) = check_references(parsed.procedure)
     assert (problem.id, problem.fault.code) == ("greet:w", "unknown-reference")

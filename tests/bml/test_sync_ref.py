@@ -92,7 +92,7 @@ def test_a_text_that_is_not_a_reference_is_refused(subtests: pytest.Subtests) ->
             assert refused.value.fault.code == "not-a-reference"
 
 
-ENDS_OF_ITS_BLOCK = ["bml:end", "bml:relax", "b:bml:end", "b:end", "b1:bml:ready", "bml:bml:relax"]
+ENDS_OF_ITS_BLOCK = ["bml:end", "bml:relax", "b:bml:end", "b:end", "b:stroke", "b1:bml:attackPeak", "bml:bml:relax"]
 
 
 def test_a_reference_to_the_end_of_its_own_block_is_refused(subtests: pytest.Subtests) -> None:
@@ -113,7 +113,10 @@ BLOCK_POINTS = {
     "b:start": SyncRef(None, None, None),
     "b:1": SyncRef(None, None, None, 1.0),
     "g1:end": SyncRef(None, "g1", "end"),
-    "g2:stroke": SyncRef(None, "g2", "stroke"),
+    "g1:stroke": SyncRef(None, "g1", "stroke"),
+    "g2:stroke": SyncRef("g2", None, "stroke"),
+    "b1:bml:ready": SyncRef("b1", None, "ready"),
+    "g2:attackPeak": SyncRef(None, "g2", "attackPeak"),
     "b1:g1:end": SyncRef("b1", "g1", "end"),
 }
 

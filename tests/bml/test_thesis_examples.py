@@ -219,16 +219,7 @@ EXAMPLES: dict[int, tuple[Part, ...]] = {
     32: (Part(8907, 8910, "Speech Gesture", (SYNC, slip("type=..", 'type="BEAT"')), ("malformed-xml", 2)),),
     33: (Part(8921, 8923, "", (DOTS,), ("stray-text", 1)),),
     34: (Part(8928, 8937, "Order", (DOTS,), ("stray-text", 1)),),
-    35: (
-        Part(
-            8942,
-            8945,
-            "Speech Gesture",
-            (SYNC, slip("type=..", 'type="BEAT"')),
-            ("malformed-xml", 2),
-            still="unknown-attribute",
-        ),
-    ),
+    35: (Part(8942, 8945, "Speech Gesture", (SYNC, slip("type=..", 'type="BEAT"')), ("malformed-xml", 2)),),
     36: (Part(9309, 9312, "Keyframe", (block(),), UNBOUND),),
     37: (Part(9335, 9335, "ForeignBehavior", (block(),), UNBOUND),),
     38: (Part(9359, 9362, "ForeignBehavior", (block(),), UNBOUND),),
