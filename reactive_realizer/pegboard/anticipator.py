@@ -114,7 +114,7 @@ class Anticipator(ABC):
         kind: name of its class in the human file.
         events: names of the events that it takes.
         heard: names of the events with a text that it takes.
-        points: its points; empty if they are not known in advance, and then none recurs.
+        points: its points; empty if they are not known in advance.
         id: its name in BML, ``anticipators:ID:POINT``.
         clock: of the realizer; it stands still between two ticks.
     """
@@ -217,7 +217,7 @@ class Anticipator(ABC):
         return not self.points or self.recurs(point) or self.counts(point)
 
     def recurs(self, point: str) -> bool:
-        """Whether the name of a point means its next occurrence."""
+        """Whether the name of a point means its next occurrence as soon as it has passed."""
         return point in self.points
 
     def counts(self, point: str) -> bool:
@@ -244,7 +244,7 @@ class Anticipator(ABC):
 
 
 class Remote(Anticipator):
-    """Predicts what clients predict; its points are those that they name, and none recurs."""
+    """Predicts what clients predict; its points are those that they name."""
 
     kind = "remote"
 
