@@ -10,7 +10,7 @@ from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.extensions import Activate, Interrupt
 from reactive_realizer.bml.vocabulary import InterruptSpeech
 from reactive_realizer.clock.ticker import Tick
-from reactive_realizer.clock.units import GlobalTime, Time
+from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.engine.context import EngineContext
 from reactive_realizer.engine.effects import ActivateBlock, InterruptBlock, Request
 from reactive_realizer.engine.engine import DefaultEngine
@@ -37,10 +37,6 @@ class RequestUnit(PlanUnit):
     def due(self, now: GlobalTime) -> bool:
         """Whether the request is sent and the unit may start."""
         return self._sent and super().due(now)
-
-    def next_due(self) -> Time:
-        """The time of its request; then it waits for the scheduler."""
-        return None if self._sent else super().next_due()
 
     def request_due(self, now: GlobalTime) -> bool:
         """Whether it is time to send the request."""
