@@ -139,6 +139,8 @@ class BMLScheduler:
 
     def apply(self, plays: Sequence[Play], now: GlobalTime) -> bool:
         """Apply the effects of engines, in their order; whether anything changed."""
+        if not plays:
+            return False
         for play in plays:
             for dropped in play.dropped:
                 self._lifecycle.drop_behavior(dropped.unit, dropped.fault, now)

@@ -180,10 +180,13 @@ class UnitLifecycle:
     def _part_from_rigid(self, unit: PlanUnit, point: SyncPoint) -> None:
         """Give a point a peg of its own if it shares one with a behavior that cannot wait for it."""
         block = self._blocks.get(unit.block)
-        others = (other for other in block.units if other is not unit and other.timing.rigid) if block else iter(())
+        if block is None:
+            return
+        others = (other for other in block.units if other is not unit and other.timing.rigid)
         if any(each.peg is point.peg for other in others for each in other.points):
             point.peg = OffsetPeg(self._board.graph, str(unit.key(point.id)), point.peg, 0.0)
             self._board.add(unit.key(point.id), point.peg)
+            self._blocks.watch.follow(block)
             unit.wake()
 
     def _moved(self, changed: Collection[Cell[Any]]) -> list[PlanUnit]:

@@ -1,7 +1,10 @@
 """A character that waits costs nothing: its engines are not asked to play, and its behaviors are not read."""
 
+import gc
+import sys
 from collections import Counter
 from collections.abc import AsyncIterator, Callable
+from types import FrameType
 from typing import Any
 
 import pytest
@@ -62,6 +65,30 @@ async def test_a_character_that_only_waits_is_not_asked_for_anything(
     calls.clear()
     await pilot.advance(10)
     assert calls == {}
+
+
+async def calls_in_a_second(blocks: int) -> int:
+    """The number of all function calls of a second in which blocks wait."""
+    calls = 0
+
+    def count(frame: FrameType, event: str, argument: object) -> None:
+        nonlocal calls
+        calls += event == "call"
+
+    async with open_pilot() as pilot:
+        for number in range(blocks):
+            pilot.block(f"b{number}", WAITING)
+        await pilot.advance(0.1)
+        gc.disable()  # callbacks of the collector would be counted
+        sys.setprofile(count)
+        await pilot.advance(1)
+        sys.setprofile(None)
+        gc.enable()
+    return calls
+
+
+async def test_blocks_that_wait_cost_as_much_as_none() -> None:
+    assert await calls_in_a_second(30) == await calls_in_a_second(0)
 
 
 async def test_a_prediction_wakes_the_engines_that_wait_for_it_once_each(
