@@ -10,7 +10,7 @@ from typing import Any, Final, TypeVar
 
 from reactive_realizer.assembly.faults import BadHumanFile
 from reactive_realizer.bml.faults import NotAnId
-from reactive_realizer.bml.names import BLOCK
+from reactive_realizer.bml.names import BLOCK, EVENTS
 from reactive_realizer.embodiment.vector import ZERO, Vec3
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.limits import Limits
@@ -128,6 +128,8 @@ class _Reader:
     def anticipator(self, key: str, table: Any) -> AnticipatorSpec:
         if not isinstance(table, dict) or not isinstance(table.get("kind"), str):
             raise self._bad(key, "expected a table with a kind")
+        if key == f"anticipator.{EVENTS}":
+            raise self._bad(key, "this id is reserved for the events that behaviors emit")
         kinds = {name: tuple[str, ...] if isinstance(value, list) else float for name, value in table.items()}
         rest = {name: self._value(f"{key}.{name}", table[name], kinds[name]) for name in table if name != "kind"}
         return AnticipatorSpec(table["kind"], rest)

@@ -5,6 +5,7 @@ from collections.abc import Callable, Sequence
 from math import isfinite
 from typing import ParamSpec, TypeVar
 
+from reactive_realizer.bml.names import EVENTS
 from reactive_realizer.clock.units import GlobalTime, is_due
 from reactive_realizer.embodiment.world import World
 from reactive_realizer.errors import Fault, NotANumber, RealizerError
@@ -79,9 +80,8 @@ class Inbox:
         points = len(self._board.predicted_points) + len(new)
         if points > limit and points - len(set(self._board.spent_points(now)) - waiting) > limit:
             raise RealizerError(TooManyNames(limit=limit, things="predicted points"))
-        if len(self._board.anticipators.keys() | {each.behavior for each in new}) > max(
-            limit, len(self._board.anticipators)
-        ):
+        anticipators = self._board.anticipators.keys() - {EVENTS}
+        if len(anticipators | {each.behavior for each in new}) > max(limit, len(anticipators)):
             raise RealizerError(TooManyNames(limit=limit, things="anticipators"))
 
     def take(self, now: GlobalTime) -> tuple[Input, ...]:

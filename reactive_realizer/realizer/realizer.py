@@ -7,6 +7,7 @@ from types import TracebackType
 from typing import Self
 
 from reactive_realizer.bml.document import parse
+from reactive_realizer.bml.names import EVENTS
 from reactive_realizer.clock.ticker import Tick, tick_time
 from reactive_realizer.clock.units import GlobalTime, is_due
 from reactive_realizer.embodiment.audio import AudioChange
@@ -27,6 +28,7 @@ from reactive_realizer.realizer.anticipator_streams import AnticipatorFailed, An
 from reactive_realizer.realizer.background_tasks import BackgroundTasks
 from reactive_realizer.realizer.character import Character
 from reactive_realizer.realizer.document_checker import DocumentChecker
+from reactive_realizer.realizer.emitted_events import EmittedEvents
 from reactive_realizer.realizer.inbox import Inbox
 from reactive_realizer.realizer.inputs import BmlText, Forecast, Input, StreamFailure, TickInputs
 from reactive_realizer.realizer.verifier import Verifier
@@ -78,6 +80,7 @@ class Realizer:
         self._streams = AnticipatorStreams(self.board, PredictedPoints(self.board, limits.predicted_points))
         for anticipator in anticipators(self._streams.context):
             self._streams.add(anticipator)
+        self._streams.add(EmittedEvents(self._streams.context(EVENTS), limits))
         self.time = GlobalTime(0.0)
         self._time = time
         self._strategy = strategy

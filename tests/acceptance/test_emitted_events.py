@@ -107,6 +107,23 @@ async def test_events_reach_behaviors_of_another_character() -> None:
         assert pilot.feedback.time("b:n:start") == 1.0
 
 
+async def test_a_client_emits_an_event_with_a_message(pilot: RealizerPilot) -> None:
+    pilot.block("b", NOD.format("+0.1"))
+    await pilot.advance(0.5)
+    pilot.event("events", "go")
+    await pilot.advance(0.5)
+    pilot.block("late", NOD.format("").replace("NOD", "SHAKE"))
+    await pilot.advance(1)
+    assert pilot.feedback.time("b:n:start") == 0.6
+    assert not pilot.feedback.reached("late:n:start")
+    pilot.block("a", EMIT.format("0"))
+    await pilot.advance(1)
+    assert pilot.feedback.time("late:n:start") == 2
+    pilot.event("events", "go")
+    await pilot.advance(1)
+    assert pilot.feedback.warnings == []
+
+
 @pytest.mark.parametrize(
     ("emit", "code"),
     [

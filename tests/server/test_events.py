@@ -27,6 +27,18 @@ async def test_a_key_event_starts_a_behavior_that_is_tied_to_it(on_air: Open) ->
         assert 'id="b:end"' in (await socket.hear_feedback("b:end"))["xml"]
 
 
+async def test_a_client_emits_an_event_but_neither_predicts_it_nor_names_it_badly(on_air: Open) -> None:
+    async with on_air(HUMAN) as air:
+        socket = await air.connect()
+        await socket.ask(type="bml", xml=WAIT.format("events:go"))
+        await air.tick_until(0.5)
+        assert (await socket.ask(type="predict", anticipator="events", sync="go", time=9))["code"] == "predicts-itself"
+        assert (await socket.ask(type="event", anticipator="events", event="a-1"))["code"] == "not-an-event"
+        assert (await socket.ask(type="event", anticipator="events", event="go"))["type"] == "accepted"
+        await air.tick_until(1.0)
+        assert 'id="b:end"' in (await socket.hear_feedback("b:end"))["xml"]
+
+
 async def test_recognized_words_reach_the_anticipator(on_air: Open) -> None:
     async with on_air(HUMAN) as air:
         socket = await air.connect()

@@ -121,6 +121,7 @@ async def test_the_capabilities_list_anticipators_and_their_events(on_air: Open)
         "user": {"kind": "speech_stop", "events": ["voice"], "textEvents": ["words"], "points": ["stop"]},
         "metronome": {"kind": "metronome", "events": ["tempo", "start"], "textEvents": [], "points": ["tickN"]},
         "trainer": {"kind": "exercise", "events": ["sample", "start"], "textEvents": [], "points": ["N", "down", "up"]},
+        "events": {"kind": "events", "events": [], "textEvents": [], "points": []},
         "partner": {"kind": "remote", "events": [], "textEvents": [], "points": ["hit"]},
     }
     assert {"convex", "embr", "smartbody"} <= set(told["strategies"])
