@@ -50,4 +50,19 @@ class AudioStop:
     fade: float
 
 
+@dataclass(frozen=True, slots=True)
+class AudioHeard:
+    """A client reports what is heard of a clip.
+
+    Attributes:
+        id: of the clip.
+        position: in the clip, s.
+        time: of the frames that the client shows at that moment, s.
+    """
+
+    id: str
+    position: float
+    time: GlobalTime
+
+
 AudioChange = AudioStart | AudioMove | AudioGain | AudioStop

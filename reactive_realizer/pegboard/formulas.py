@@ -83,6 +83,30 @@ def latest(floor: GlobalTime) -> Callable[..., Time]:
     return formula
 
 
+class Later:
+    """The result of another formula, later by some seconds.
+
+    Attributes:
+        formula: the other formula.
+        seconds: negative for earlier.
+    """
+
+    __slots__ = ("formula", "seconds")
+
+    def __init__(self, formula: Callable[..., Time], seconds: float) -> None:
+        self.formula = formula
+        self.seconds = seconds
+
+    def later(self, seconds: float) -> "Later":
+        """The result of the same formula, later by some more seconds."""
+        return Later(self.formula, self.seconds + seconds)
+
+    def __call__(self, *times: Time) -> Time:
+        """The time; None while the other formula gives none."""
+        time = self.formula(*times)
+        return None if time is None else GlobalTime(time + self.seconds)
+
+
 def not_after_next(formula: Callable[..., Time], distance: float) -> Callable[..., Time]:
     """The result of another formula for all times but the last, and no later than at a distance (s) from the last.
 

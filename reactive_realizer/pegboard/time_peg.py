@@ -11,6 +11,7 @@ from typing import ClassVar, NamedTuple
 
 from reactive_realizer.clock.units import GlobalTime, Time
 from reactive_realizer.pegboard.formulas import (
+    Later,
     between,
     latest,
     not_after,
@@ -109,6 +110,12 @@ class TimePeg(Derived[Time]):
             self.rebind(self.dependencies, not_earlier(self.formula, time))
             self.earliest = time
 
+    def shift(self, seconds: float) -> None:
+        """Within a transaction, come later than its dependencies say from now on, or earlier."""
+        shifted = self.formula
+        later = shifted.later(seconds) if isinstance(shifted, Later) else Later(shifted, seconds)
+        self.rebind(self.dependencies, later)
+
     def pin(self, value: Time) -> None:
         """Within a transaction, cut it from its dependencies, which are noted, and give it its last time."""
         links = self.links
@@ -131,7 +138,10 @@ class TimePeg(Derived[Time]):
         own, successors = self._split_links
         bounds = zip(successors, self.successors, strict=True)
         names = (f"{link.name} {distance:+g} s" if distance else link.name for link, distance in bounds)
-        rule = ", not after ".join([self._rule(own), *names])
+        rule, formula = self._rule(own), self.formula
+        if isinstance(formula, Later):
+            rule += f" {formula.seconds:+g} s of drift"
+        rule = ", not after ".join([rule, *names])
         return rule if self.earliest is None else f"{rule}, not before {self.earliest:g} s"
 
     @abstractmethod

@@ -7,6 +7,7 @@ from typing import ParamSpec, TypeVar
 
 from reactive_realizer.bml.names import EVENTS
 from reactive_realizer.clock.units import GlobalTime, is_due
+from reactive_realizer.embodiment.audio import AudioHeard
 from reactive_realizer.embodiment.world import World
 from reactive_realizer.errors import Fault, NotANumber, RealizerError
 from reactive_realizer.limits import Limits
@@ -114,7 +115,7 @@ class Inbox:
             case Event(id_, name, value, text):
                 self._anticipator(id_).check_heard(name)
                 return id_, AnticipatorEvent(name, value, text, now)
-            case BmlText() | TargetMoved():
+            case BmlText() | TargetMoved() | AudioHeard():
                 return None
 
     def _anticipator(self, id_: str) -> Anticipator:

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 
 from reactive_realizer.bml.block import Parsed
 from reactive_realizer.clock.units import Time
+from reactive_realizer.embodiment.audio import AudioHeard
 from reactive_realizer.errors import Fault
 
 WorldPosition = tuple[float, float, float]
@@ -50,7 +51,7 @@ class TargetMoved:
     position: WorldPosition | None
 
 
-Input = BmlText | Prediction | Event | TargetMoved
+Input = BmlText | Prediction | Event | TargetMoved | AudioHeard
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,7 +10,7 @@ from reactive_realizer.bml.document import parse
 from reactive_realizer.bml.names import EVENTS
 from reactive_realizer.clock.ticker import Tick, tick_time
 from reactive_realizer.clock.units import GlobalTime, is_due
-from reactive_realizer.embodiment.audio import AudioChange
+from reactive_realizer.embodiment.audio import AudioChange, AudioHeard
 from reactive_realizer.embodiment.frame import Frame
 from reactive_realizer.embodiment.world import World
 from reactive_realizer.engine.effects import Output
@@ -136,6 +136,14 @@ class Realizer:
         """
         self._inbox.check_prediction(anticipator, sync, self.time)
 
+    def check_heard(self, heard: AudioHeard) -> bool:
+        """Whether a report of what is heard is about a sound that plays now.
+
+        Raises:
+            RealizerError: "outside-sound" or "far-off".
+        """
+        return self.scheduler.check_heard(heard)
+
     def admission(self) -> Admission:
         """Checks for blocks and procedures that would enter after all earlier inputs."""
         admission = self.scheduler.admission()
@@ -224,10 +232,13 @@ class Realizer:
         return TickInputs(tick.number, inputs, work, predicted)
 
     def _apply(self, entered: TickInputs, now: GlobalTime) -> None:
-        """Move targets, and write predictions."""
+        """Move targets, write predictions, and have speech follow what is heard."""
         with self.board.graph.transaction("inputs"):
             self._inbox.apply(entered.inputs)
             self._streams.apply(entered.predicted, now)
+        for entry in entered.inputs:
+            if isinstance(entry, AudioHeard):
+                self.scheduler.follow_heard(entry)
         for each in entered.predicted:
             if isinstance(each, StreamFailure):
                 fault = AnticipatorFailed(anticipator=each.anticipator, reason=each.reason)

@@ -150,6 +150,10 @@ class BlockLifecycle:
         self._units.finish(unit, time)
         self._transitions.subside(unit.block)
 
+    def shift_behavior(self, unit: PlanUnit, seconds: float) -> None:
+        """Move the points ahead of a playing behavior that has drifted, with what is tied to them."""
+        self._units.shift(unit, seconds)
+
     def drop_behavior(self, unit: PlanUnit, fault: Fault, now: GlobalTime) -> None:
         """Drop a behavior that cannot be played any more, and release the behaviors that depend on it."""
         missed = self._ties.missed_by_drop(unit)

@@ -4,7 +4,9 @@ from collections.abc import Callable, Iterable, Sequence
 
 from reactive_realizer.bml.block import BehaviorBlock, Parsed
 from reactive_realizer.clock.units import GlobalTime, Time, is_due
+from reactive_realizer.embodiment.audio import AudioHeard
 from reactive_realizer.engine.effects import Play
+from reactive_realizer.engine.hearing import HearingEngine
 from reactive_realizer.errors import Fault, PlayingFault, RealizerError, SchedulingFault
 from reactive_realizer.feedback.feedback_manager import FeedbackManager
 from reactive_realizer.limits import Limits
@@ -77,6 +79,7 @@ class BMLScheduler:
         )
         self._requests = EngineRequests(self.blocks, self._lifecycle, self._feedback)
         self._monitor = ConstraintMonitor(self.blocks.watch, self._lifecycle, self._feedback)
+        self._hearing = [engine for engine in routing.engines if isinstance(engine, HearingEngine)]
         self._lifecycle.listen(self._count)
 
     def listen(self, listener: Callable[[BMLBlock], None]) -> None:
@@ -131,6 +134,20 @@ class BMLScheduler:
             self._lifecycle.plan(block, plan, now)
         ended = self._lifecycle.end_due(now)
         return self._lifecycle.start_due(now) or ended
+
+    def check_heard(self, heard: AudioHeard) -> bool:
+        """Whether a report of what is heard is about a sound that plays now.
+
+        Raises:
+            RealizerError: the report cannot be true.
+        """
+        return any(engine.check_heard(heard) for engine in self._hearing)
+
+    def follow_heard(self, heard: AudioHeard) -> None:
+        """Have the behavior of a sound, and what is tied to it, follow what is heard (thesis 8.17)."""
+        for engine in self._hearing:
+            if (drift := engine.hear(heard)) is not None:
+                self._lifecycle.shift_behavior(drift.unit, drift.seconds)
 
     def next_due(self, after: GlobalTime) -> Time:
         """The earliest known time after ``after`` at which a block has something to do; None if there is none."""

@@ -19,6 +19,7 @@ from reactive_realizer.scheduler.block_feedback import BlockFeedback
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.scheduler.engine_routing import EngineRouting
+from reactive_realizer.scheduler.rigid_points import pegs_ahead
 
 logger = logging.getLogger(__name__)
 
@@ -91,6 +92,18 @@ class UnitLifecycle:
             unit.detach(unit.points[-1], time)
             if block is not None:
                 block.update_end()
+
+    def shift(self, unit: PlanUnit, seconds: float) -> None:
+        """Move the points ahead of a playing rigid behavior, with what is tied to them, because it has drifted."""
+        block = self._blocks.get(unit.block)
+        if block is None or unit.state is not UnitState.IN_EXEC:
+            return
+        with self._board.graph.transaction(f"drift of {unit.behavior.id}"):
+            for peg in pegs_ahead(block, unit):
+                peg.shift(seconds)
+            if unit in self._scheduled_cuts:
+                self.schedule_cut(unit, GlobalTime(self._scheduled_cuts[unit] + seconds))
+        unit.wake()
 
     def cut_scheduled(self, unit: PlanUnit) -> bool:
         """Whether a behavior has a cut scheduled."""

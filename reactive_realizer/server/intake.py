@@ -11,10 +11,12 @@ from reactive_realizer.bml.faults import AbsurdTime
 from reactive_realizer.bml.names import BML
 from reactive_realizer.clock.ticker import tick_time
 from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.embodiment.audio import AudioHeard
 from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.realizer.inbox import TooManyNames
 from reactive_realizer.realizer.inputs import BmlText, Event, Prediction, TargetMoved, WorldPosition
 from reactive_realizer.server.faults import NoDemo, NotMovable, UnknownAnticipator
+from reactive_realizer.server.heard_reports import HeardReports
 from reactive_realizer.server.live_scene import LiveScene
 from reactive_realizer.server.protocol import Message
 
@@ -111,6 +113,7 @@ class Intake:
         self._live = live
         self._realizer = live.realizer
         self._stops = 0
+        self._heard = HeardReports(live)
         self.demo = Demo(live, self.stop)
 
     async def document(self, text: str | bytes) -> Answer:
@@ -164,8 +167,12 @@ class Intake:
             self._realizer.put(BmlText(f'<bml xmlns="{BML}" {attributes} composition="REPLACE"/>'))
         return [id_] * len(self._realizer.characters)
 
-    def message(self, message: Message) -> None:
+    def message(self, message: Message, client: object) -> None:
         """Handles a checked message of the socket other than BML, ping and clock.
+
+        Args:
+            message: the message.
+            client: its sender.
 
         Raises:
             RealizerError: it is refused.
@@ -179,6 +186,8 @@ class Intake:
                 self._realizer.put(TargetMoved("camera", _position(message["position"])))
             case "world":
                 self._move(message["set"])
+            case "heard":
+                self._heard.take(AudioHeard(message["id"], message["position"], GlobalTime(message["time"])), client)
             case _:  # "demo", the last type of the protocol
                 self.demo.perform()
 

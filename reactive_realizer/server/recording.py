@@ -10,6 +10,7 @@ from reactive_realizer.assembly.registry import load_all
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.bml.faults import BadEncoding
 from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.embodiment.audio import AudioHeard
 from reactive_realizer.errors import FAULTS, Fault, RealizerError
 from reactive_realizer.realizer.inputs import (
     BmlText,
@@ -54,6 +55,8 @@ def message_of(entry: Input) -> Message:
             return {"type": "event", "anticipator": anticipator, "event": name, **content}
         case TargetMoved(target, position):
             return {"type": "world", "set": {target: position}}
+        case AudioHeard(id_, position, time):
+            return {"type": "heard", "id": id_, "position": position, "time": time}
         case _:
             assert_never(entry)
 
@@ -72,6 +75,8 @@ def input_of(message: Message) -> Input:
             return Prediction(anticipator, sync, None if time is None else GlobalTime(time))
         case {"type": "event", "anticipator": anticipator, "event": name}:
             return Event(anticipator, name, message.get("value"), message.get("text"))
+        case {"type": "heard", "id": id_, "position": position, "time": time}:
+            return AudioHeard(id_, position, GlobalTime(time))
         case {"type": "world", "set": targets} if len(targets) == 1:
             return _moved(targets)
         case _:

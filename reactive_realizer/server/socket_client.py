@@ -206,7 +206,7 @@ class SocketClient:
             case "bml":
                 return self._about(await self._intake.blocks(message["xml"]))
             case _:
-                self._intake.message(message)
+                self._intake.message(message, self)
         return {}
 
     def _about(self, answer: Answer) -> Message:

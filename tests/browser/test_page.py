@@ -1,9 +1,13 @@
 """The page in a browser."""
 
+import asyncio
+
 import pytest
 from playwright.async_api import Page, expect
 
 from anticipators.metronome import Metronome
+from reactive_realizer.embodiment.audio import AudioChange, AudioHeard, AudioMove, AudioStart
+from reactive_realizer.realizer.inputs import TickInputs
 
 from .conftest import Serve
 
@@ -99,6 +103,45 @@ async def test_a_page_that_is_opened_late_plays_the_speech_from_its_current_posi
         starts = [await page.evaluate("viewer.speech[0].start") for page in (first, late)]
         assert starts[0] == starts[1]
         await late.wait_for_function("() => viewer.morph('alice', 'jawOpen') > 0.05")
+
+
+DELAY = """
+window.delay = 0;
+const {get} = Object.getOwnPropertyDescriptor(AudioContext.prototype, 'outputLatency');
+Object.defineProperty(AudioContext.prototype, 'outputLatency', {get() { return get.call(this) + window.delay; }});
+"""
+
+
+@pytest.mark.speech
+async def test_a_speech_whose_sound_is_delayed_moves_to_what_is_heard(serve: Serve) -> None:
+    async with serve(ALICE, voice="espeak") as scene:
+        reports: list[AudioHeard] = []
+        sounds: list[AudioChange] = []
+        realizer = scene.live.realizer
+        several = asyncio.Event()
+
+        def note(entered: TickInputs) -> None:
+            reports.extend(each for each in entered.inputs if isinstance(each, AudioHeard))
+            if len(reports) >= 4:
+                several.set()
+
+        realizer.record(note)
+        realizer.hear(sounds.append)
+        page = await scene.open()
+        await page.evaluate(DELAY)
+        text = "Round the rugged rock the ragged rascal ran, and on he went for ever. " * 3
+        await send(page, f'<bml {BML} id="say"><speech id="s" start="1"><text>{text}</text></speech></bml>')
+        await page.wait_for_function("() => viewer.speech.some(clip => clip.begin !== null)")
+        await asyncio.wait_for(several.wait(), 20)
+        (start,) = [each.start for each in sounds if isinstance(each, AudioStart)]
+        assert [each.time - each.position - start for each in reports] == pytest.approx([0.0] * len(reports), abs=0.06)
+        before, moved = len(sounds), await page.evaluate("[viewer.speech[0].start, viewer.speech[0].begin]")
+        await page.evaluate("delay = 0.3")
+        await page.wait_for_function("start => viewer.speech[0].start > start + 0.2", arg=moved[0])
+        assert await page.evaluate("viewer.speech[0].begin") == moved[1], "the page does not seek"
+        moves = [each.start for each in sounds[before:] if isinstance(each, AudioMove)]
+        assert moves[-1] == pytest.approx(start + 0.3, abs=0.06)
+        await expect(page.locator("#feedback")).to_contain_text("say:s:end", timeout=20_000)
 
 
 async def test_each_of_two_figures_performs_its_own_behavior(serve: Serve) -> None:

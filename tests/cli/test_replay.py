@@ -3,6 +3,7 @@
 import asyncio
 import json
 import logging
+import struct
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,7 @@ from reactive_realizer.__main__ import main
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.clock.clock import SystemClock
 from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.embodiment.audio import AudioHeard
 from reactive_realizer.feedback.feedback_manager import Report
 from reactive_realizer.server import serve as serving
 from reactive_realizer.server.feedback_log import with_posix_times
@@ -61,11 +63,23 @@ async def live_session(options: ServerOptions) -> list[tuple[float, str]]:
 
 async def talk(http: aiohttp.ClientSession) -> list[tuple[float, str]]:
     told: list[tuple[float, str]] = []
+    sounds: dict[str, float] = {}
     async with http.ws_connect("/ws?after=0") as socket:
+
+        async def report_sounds(frame: bytes) -> None:
+            """Report every fifth frame that each sound is heard 0.2 s late."""
+            number, time = struct.unpack_from("<Id", frame, 4)
+            for id_, start in sounds.items() if number % 5 == 0 else ():
+                if 0 <= (position := time - start - 0.2) <= 1.0:
+                    await socket.send_json({"type": "heard", "id": id_, "position": position, "time": time})
 
         async def hear(part: str) -> None:
             async for message in socket:
+                if message.type is aiohttp.WSMsgType.BINARY:
+                    await report_sounds(message.data)
                 said = message.json() if message.type is aiohttp.WSMsgType.TEXT else {}
+                if said.get("type") == "audio":
+                    sounds[said["id"]] = said["start"]
                 if said.get("type") == "feedback":
                     told.append((said["time"], said["xml"]))
                     if part in said["xml"]:
@@ -113,6 +127,8 @@ def test_a_recorded_session_with_late_ticks_is_replayed_with_identical_bytes(
     ticks = [entered.tick for entered in recording.ticks]
     assert ticks[-1] > 1.5 * len(ticks), "ticks were left out"
     assert any(entered.work for entered in recording.ticks) == (voice == "espeak")
+    heard = [entry for entered in recording.ticks for entry in entered.inputs if isinstance(entry, AudioHeard)]
+    assert (len(heard) > 2) == (voice == "espeak")
 
     feedback, frames = replayed(file, tmp_path, "one")
     message: Any = None  # only the XML is read

@@ -128,11 +128,11 @@ def on_air(tmp_path: Path) -> Open:
 
     @asynccontextmanager
     async def open_(
-        human: str = ALICE, security: Security = OPEN, performance: str | None = None
+        human: str = ALICE, security: Security = OPEN, performance: str | None = None, voice: str = "text"
     ) -> AsyncIterator[OnAir]:
         file = tmp_path / "human.toml"
         file.write_text(human, encoding="utf-8")
-        async with open_scene(SceneOptions(file, "text")) as scene:
+        async with open_scene(SceneOptions(file, voice)) as scene:
             live = LiveScene(scene, ManualClock(), performance)
             async with TestClient(TestServer(create_app(live, security))) as client:
                 yield OnAir(live, client, live.ticker.ticks())

@@ -48,6 +48,10 @@ BAD = {
     "a world that is a list": ('{"type":"world","set":[]}', "bad-message"),
     "a target that is text": ('{"type":"world","set":{"bluebox":"there"}}', "bad-message"),
     "a character that is moved": ('{"type":"world","set":{"alice":[0,0,0]}}', "not-movable"),
+    "a sound that nobody makes": ('{"type":"heard","id":"alice-1","position":0,"time":0}', "no-clip"),
+    "a position before the sound": ('{"type":"heard","id":"alice-1","position":-1,"time":0}', "bad-message"),
+    "a sound without a name": ('{"type":"heard","position":0,"time":0}', "bad-message"),
+    "a time of hearing that is text": ('{"type":"heard","id":"alice-1","position":0,"time":"now"}', "bad-message"),
     "a demo where there is none": ('{"type":"demo"}', "no-demo"),
     "half a letter": ('{"type":"world","set":{"\\ud800":"there"}}', "bad-message"),
 }

@@ -13,6 +13,7 @@ from jsonschema import Draft202012Validator
 from reactive_realizer.assembly.scene import DEFAULT_HUMAN, SceneOptions, open_scene
 from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.embodiment.audio import AudioHeard
 from reactive_realizer.engines.speech.espeak_voice import VoiceFailed
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.realizer.inputs import (
@@ -43,6 +44,7 @@ INPUTS: list[Input] = [
     Event("metronome", "tempo", 92.5, "faster"),
     TargetMoved("bluebox", (0.1, 1.0, -2.5)),
     TargetMoved("bluebox", None),
+    AudioHeard("alice-1", 0.1 + 0.2, GlobalTime(1.7)),
 ]
 PREDICTED = (
     Prediction("user", "stop", GlobalTime(1.3)),
@@ -133,7 +135,7 @@ def test_all_complete_ticks_of_a_truncated_file_are_read(read: Callable[[str | b
 
 
 GOOD = recorded(SESSION).splitlines()
-EVENT = '{"seq": 12, "tick": 10, "time": 0.1, "input": {"type": "event", "anticipator": "a", "event": "e"}}'
+EVENT = '{"seq": 13, "tick": 10, "time": 0.1, "input": {"type": "event", "anticipator": "a", "event": "e"}}'
 FORECAST = '{"tick": 9, "forecast": {"anticipator": "m", "sync": "tick1", "time": null}}'
 
 
@@ -149,7 +151,7 @@ FORECAST = '{"tick": 9, "forecast": {"anticipator": "m", "sync": "tick1", "time"
         ([GOOD[0], "[]"], 2, "Tick: []"),
         ([GOOD[0], '{"tick": -1}'], 2, "minimum 0"),
         ([GOOD[0], '{"tick": 3}', '{"tick": 3}'], 3, "tick 3 follows tick 3"),
-        ([GOOD[0], EVENT.replace("12", "2")], 2, "input 2 follows where input 1"),
+        ([GOOD[0], EVENT.replace("13", "2")], 2, "input 2 follows where input 1"),
         ([*GOOD, EVENT.replace("10", "9")], len(GOOD) + 1, "tick 9 follows tick 9"),
         ([*GOOD, EVENT, '{"tick": 11}'], len(GOOD) + 2, "tick 11 follows tick 10"),
         ([GOOD[0], FORECAST], 2, "tick 9 follows tick -1"),

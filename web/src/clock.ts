@@ -93,18 +93,18 @@ export class Pings {
 }
 
 /**
- * The realizer time that is shown and heard now.
+ * The realizer time that is shown now.
  *
- * It follows a master: the audio clock while speech plays, otherwise the server's clock less the playout delay. It glides
- * towards its master, so that neither corrections nor the coarse steps of the audio clock make motion jerk.
+ * It follows the server's clock less the playout delay, and glides towards it, so that corrections do not make motion
+ * jerk.
  */
 export class PlayoutClock {
   private offset: number | null = null;
   private lastPage = 0;
 
-  /** Moves towards the master's time at this page time; both s. */
-  follow(page: number, master: number): void {
-    const target = master - page;
+  /** Moves towards the time that is due at this page time; both s. */
+  follow(page: number, due: number): void {
+    const target = due - page;
     const elapsed = Math.max(0, page - this.lastPage);
     this.lastPage = page;
     if (this.offset === null || Math.abs(target - this.offset) > JUMP) {

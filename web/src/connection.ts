@@ -13,6 +13,7 @@ import type {
   Demo,
   Event,
   Feedback,
+  Heard,
   Hello,
   Ping,
   Predict,
@@ -32,7 +33,7 @@ export type AudioMessage = AudioStart | AudioMove | AudioGain | AudioStop;
 export type Request = Bml | Predict | Event | Demo;
 
 /** A message without an answer. */
-export type Notice = Ping | Camera;
+export type Notice = Ping | Camera | Heard;
 
 /** Receives what arrives on the connection. */
 export interface ConnectionListener {

@@ -10,7 +10,7 @@ export type Message = ClientMessage | ServerMessage;
 /**
  * A message of a client. If it has a ref, the answer is accepted or error with the same ref.
  */
-export type ClientMessage = Bml | Predict | Event | Ping | Clock | Camera | WorldChange | Demo;
+export type ClientMessage = Bml | Predict | Event | Ping | Clock | Camera | WorldChange | Heard | Demo;
 /**
  * Chosen by the client, and repeated in the answer.
  */
@@ -114,6 +114,16 @@ export interface WorldChange {
   set: {
     [k: string]: Position | null;
   };
+  ref?: Ref;
+}
+/**
+ * Reports what is heard of a sound: which position of it (s), at the moment at which the frames of a time are shown. One client leads each sound; the reports of others have no effect.
+ */
+export interface Heard {
+  type: "heard";
+  id: string;
+  position: number;
+  time: Seconds;
   ref?: Ref;
 }
 /**

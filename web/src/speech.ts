@@ -1,10 +1,19 @@
 import { heardTime, type PlayoutClock } from "./clock";
 import type { AudioMessage } from "./connection";
-import type { AudioStart } from "./protocol";
+import type { AudioStart, Heard } from "./protocol";
 import { Utterance } from "./utterance";
 
 /** Number of utterances kept as records. */
 const REMEMBERED = 20;
+
+/** Time between two reports of what is heard, s. */
+const REPORT_INTERVAL = 0.25;
+
+/** Drift from the plan above which a sound is heard to be off, s: that at which Elckerlyc skips (thesis 8.17). */
+const OFF = 0.07;
+
+/** Number of reports for which a sound may be off, before it skips: the realizer follows another page. */
+const PATIENCE = 8;
 
 /** How an utterance was played, s: `start` and `end` in realizer time, `begin` the audio time of its first sample. */
 export interface SpeechRecord {
@@ -18,10 +27,12 @@ export interface SpeechRecord {
 /**
  * Plays all speech of the scene, scheduled on the audio clock such that it is heard at its realizer time.
  *
- * While speech plays, it is the master of the playout clock, so that lips and sound stay together.
+ * It reports what is heard. If that drifts from the plan, the realizer moves the plan, so that lips, gestures and sound
+ * stay together.
  */
 export class SpeechPlayer {
   private utterances = new Map<string, Utterance>();
+  private nextReport = 0;
 
   constructor(
     private readonly context: AudioContext,
@@ -49,8 +60,8 @@ export class SpeechPlayer {
     if (utterance === undefined) return;
     switch (message.type) {
       case "audio_move":
-        utterance.start = message.start;
-        this.schedule(utterance);
+        utterance.move(message.start);
+        if (!this.onTime(utterance)) this.schedule(utterance);
         break;
       case "audio_gain":
         utterance.changeGain(message.time, message.gain);
@@ -61,15 +72,21 @@ export class SpeechPlayer {
     }
   }
 
-  /** The realizer time of the speech heard now, s; null when none plays. */
-  heard(): number | null {
-    const heard = heardTime(this.context);
+  /** What is heard now of each sound, a few times a second; a sound that stays off its plan skips to its place. */
+  report(): Heard[] {
+    const page = performance.now() / 1000;
+    const time = this.clock.at(page);
+    if (time === null || page < this.nextReport || this.context.state !== "running") return [];
+    this.nextReport = page + REPORT_INTERVAL;
+    const reports: Heard[] = [];
     for (const utterance of this.utterances.values()) {
-      if (utterance.begin === null) continue;
-      const time = utterance.start + heard - utterance.begin;
-      if (time >= utterance.start && time < utterance.end) return time;
+      const position = utterance.positionAt(heardTime(this.context));
+      if (position === null) continue;
+      reports.push({ type: "heard", id: utterance.announced.id, position, time });
+      utterance.strayed = this.onTime(utterance) ? 0 : utterance.strayed + 1;
+      if (utterance.strayed >= PATIENCE) this.schedule(utterance);
     }
-    return null;
+    return reports;
   }
 
   /** Stops and removes all utterances: the realizer is new. */
@@ -88,8 +105,16 @@ export class SpeechPlayer {
     }, this.onFailure);
   }
 
+  /** Whether a sound is heard now, in its place. */
+  private onTime(utterance: Utterance): boolean {
+    const position = utterance.positionAt(heardTime(this.context));
+    const shown = this.clock.at(performance.now() / 1000);
+    return position !== null && shown !== null && Math.abs(shown - utterance.start - position) <= OFF;
+  }
+
   private schedule(utterance: Utterance): void {
     utterance.silence();
+    utterance.strayed = 0;
     const shown = this.clock.at(performance.now() / 1000);
     if (shown === null || shown >= utterance.end || this.context.state !== "running") return;
     utterance.schedule(heardTime(this.context) + utterance.start - shown);

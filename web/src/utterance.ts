@@ -27,6 +27,8 @@ export function entry(begin: number, now: number): Entry {
 export class Utterance {
   /** Realizer time of its first sample, s; `audio_move` changes it. */
   start: number;
+  /** How many times in a row it was heard far off its plan. */
+  strayed = 0;
   /** Audio time at which its first sample is (or would have been) played, s; null while not scheduled. */
   begin: number | null = null;
   /** Realizer time at which it is stopped early, and its fade, s. */
@@ -78,6 +80,19 @@ export class Utterance {
     this.source.connect(this.gain);
     this.source.start(at, offset);
     for (const change of this.gains) if (change.time > entered) this.follow(change);
+    this.applyStop();
+  }
+
+  /** The position that is heard at an audio time, s; null while nothing of it is heard. */
+  positionAt(audio: number): number | null {
+    if (this.begin === null) return null;
+    const position = audio - this.begin;
+    return position >= 0 && position < this.end - this.start ? position : null;
+  }
+
+  /** Changes the realizer time of the first sample, without a change of what is played. */
+  move(start: number): void {
+    this.start = start;
     this.applyStop();
   }
 

@@ -62,7 +62,7 @@ export class Viewer implements ConnectionListener {
     this.demoButton.hidden = hello.demo !== true;
     this.cameraReport.reset();
     if (renewed) this.renew(hello);
-    this.followMaster();
+    this.followServer();
     void this.loadWorld();
   }
 
@@ -94,19 +94,20 @@ export class Viewer implements ConnectionListener {
   }
 
   private play(page: number): void {
-    const time = this.followMaster();
+    const time = this.followServer();
+    for (const report of this.speech.report()) this.connection.notify(report);
     if (time !== null) this.characters.show(time);
     if (this.characters.complete) this.viewport.frame(this.characters.roots());
     this.viewport.draw(page);
     this.cameraReport.update(page, this.viewport.eye);
   }
 
-  /** Moves the playout clock towards the speech that is heard, or else the realizer; returns the time to show, s. */
-  private followMaster(): number | null {
+  /** Moves the playout clock towards the realizer's; returns the time to show, s. */
+  private followServer(): number | null {
     const page = performance.now() / 1000;
     const server = this.serverClock.at(page);
     if (server === null) return null;
-    this.clock.follow(page, this.speech.heard() ?? server - PLAYOUT_DELAY);
+    this.clock.follow(page, server - PLAYOUT_DELAY);
     return this.clock.at(page);
   }
 

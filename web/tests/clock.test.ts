@@ -44,11 +44,11 @@ describe("the server clock", () => {
 });
 
 describe("the playout clock", () => {
-  it("shows nothing before it has a master", () => {
+  it("shows nothing before it knows the time", () => {
     expect(new PlayoutClock().at(1)).toBeNull();
   });
 
-  it("begins where its master is and runs on between two readings", () => {
+  it("begins at the time that is due and runs on between two readings", () => {
     const clock = new PlayoutClock();
     clock.follow(100, 5);
     expect(clock.at(100)).toBeCloseTo(5, 9);
@@ -71,7 +71,7 @@ describe("the playout clock", () => {
     expect(clock.at(0.01)).toBeCloseTo(3, 9);
   });
 
-  it("never goes backwards while its master trembles as an audio clock does", () => {
+  it("never goes backwards while the time that is due comes in coarse steps", () => {
     const clock = new PlayoutClock();
     let last = -Infinity;
     for (let page = 0; page < 1; page += 1 / 60) {

@@ -17,6 +17,12 @@ function playerAt(shown: number, audioTime: number): { player: SpeechPlayer; aud
   return { player, audio, failures };
 }
 
+/** The position that is reported next, null if none is. */
+function reported(player: SpeechPlayer): number | null {
+  vi.advanceTimersByTime(300);
+  return player.report()[0]?.position ?? null;
+}
+
 function announced(start: number, duration = 2): AudioStart {
   return { type: "audio", character: "alice", id: "s1", url: "/audio/s1.wav", start, duration, gain: 0.8 };
 }
@@ -69,15 +75,78 @@ describe("speech", () => {
     expect(played.last.offset).toBeCloseTo(0.5 + LATENCY, 9);
   });
 
-  it("is the master of the clock exactly while it is heard", async () => {
+  it("is reported, with the time that is shown, exactly while it is heard", async () => {
     const { player, audio } = playerAt(10, 3);
     player.handle(announced(10.5));
     await played.settled();
-    expect(player.heard()).toBeNull();
+    expect(reported(player)).toBeNull();
     audio.currentTime = 4.5;
-    expect(player.heard()).toBeCloseTo(11.5, 9);
+    expect(reported(player)).toBeCloseTo(1, 9);
     audio.currentTime = 5.6;
-    expect(player.heard()).toBeNull();
+    expect(reported(player)).toBeNull();
+  });
+
+  it("is reported four times a second", async () => {
+    const { player, audio } = playerAt(10, 3);
+    player.handle(announced(10));
+    await played.settled();
+    audio.currentTime = 3.1;
+    const reports = Array.from({ length: 60 }, () => {
+      vi.advanceTimersByTime(1000 / 60);
+      return player.report();
+    }).flat();
+    expect(reports).toHaveLength(4);
+    expect(reports[0]).toMatchObject({ type: "heard", id: "s1", position: expect.closeTo(0.1, 9) as number });
+    expect((reports[1]?.time ?? 0) - (reports[0]?.time ?? 0)).toBeCloseTo(0.25, 1);
+  });
+
+  it("is not reported while the browser forbids sound", async () => {
+    const { player, audio } = playerAt(10, 3);
+    player.handle(announced(10));
+    await played.settled();
+    audio.currentTime = 3.5;
+    audio.state = "suspended";
+    expect(reported(player)).toBeNull();
+  });
+
+  it("goes on when the plan moves to what is heard", async () => {
+    const { player, audio } = playerAt(10, 3);
+    player.handle(announced(10));
+    await played.settled();
+    audio.currentTime = 3.4; // 0.2 s late
+    vi.advanceTimersByTime(600);
+    player.handle({ type: "audio_move", id: "s1", start: 10.2 });
+    expect(played.sources).toHaveLength(1);
+    expect(player.records[0]).toMatchObject({ start: 10.2, end: 12.2 });
+    player.handle({ type: "audio_stop", id: "s1", time: 11.2, fade: 0 });
+    expect(played.last.stoppedAt).toBeCloseTo(4 - LATENCY, 9);
+  });
+
+  it("skips when the plan moves away from what is heard", async () => {
+    const { player, audio } = playerAt(10, 3);
+    player.handle(announced(10));
+    await played.settled();
+    audio.currentTime = 3.6;
+    vi.advanceTimersByTime(600);
+    player.handle({ type: "audio_move", id: "s1", start: 10.2 });
+    expect(played.sources).toHaveLength(2);
+    expect(played.last.offset).toBeCloseTo(0.4 + LATENCY, 9);
+  });
+
+  it("skips to its place when the realizer does not follow it", async () => {
+    const { player, audio } = playerAt(10, 3);
+    player.handle(announced(10, 5));
+    await played.settled();
+    for (let step = 1; step <= 7; step++) {
+      vi.advanceTimersByTime(260);
+      audio.currentTime = 3 + 0.26 * step - 0.1;
+      player.report();
+      expect(played.sources).toHaveLength(1);
+    }
+    vi.advanceTimersByTime(260);
+    audio.currentTime = 4.98;
+    player.report();
+    expect(played.sources).toHaveLength(2);
   });
 
   it("is scheduled anew when it moves", async () => {
@@ -98,9 +167,9 @@ describe("speech", () => {
     player.handle({ type: "audio_stop", id: "s1", time: 11, fade: 0.1 });
     expect(played.last.stoppedAt).toBeCloseTo(4.1 - LATENCY, 9);
     audio.currentTime = 4.05;
-    expect(player.heard()).toBeCloseTo(11.05, 9);
+    expect(reported(player)).toBeCloseTo(0.55, 9);
     audio.currentTime = 4.3;
-    expect(player.heard()).toBeNull();
+    expect(reported(player)).toBeNull();
   });
 
   it("stays silent when it was stopped before its sound had come", async () => {

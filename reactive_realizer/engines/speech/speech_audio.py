@@ -36,6 +36,10 @@ class SpeechAudio:
         self._announced: dict[SpeechUnit, _Announced] = {}
         self._count = 0
 
+    def unit(self, clip: str) -> SpeechUnit | None:
+        """The live speech that a clip was announced for."""
+        return next((unit for unit, announced in self._announced.items() if announced.clip == clip and unit.live), None)
+
     def changes(self, units: Iterable[SpeechUnit], now: GlobalTime) -> tuple[AudioChange, ...]:
         """The changes since the last call."""
         out: list[AudioChange] = []
@@ -50,7 +54,7 @@ class SpeechAudio:
 
     def _new(self, unit: SpeechUnit) -> GlobalTime | None:
         new = unit.live and unit.utterance.audio and unit not in self._announced
-        return unit.time("start") if new else None
+        return unit.origin if new else None
 
     def _announce(self, unit: SpeechUnit, start: GlobalTime) -> AudioStart:
         self._count += 1
@@ -72,7 +76,7 @@ def wav_bytes(utterance: Utterance) -> bytes:
 
 def _differences(unit: SpeechUnit, announced: _Announced, now: GlobalTime) -> Iterator[AudioChange]:
     """The changes of a live speech since its last announcement, which they update."""
-    time = unit.time("start")
+    time = unit.origin
     if time is not None and abs(time - announced.start) > _WORTH_MOVING:
         announced.start = time
         yield AudioMove(announced.clip, time)

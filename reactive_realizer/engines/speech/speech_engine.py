@@ -7,9 +7,10 @@ from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.behaviors import WORDS, Speech
 from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.clock.units import GlobalTime
-from reactive_realizer.embodiment.audio import AudioChange
+from reactive_realizer.embodiment.audio import AudioChange, AudioHeard
 from reactive_realizer.engine.context import EngineContext
 from reactive_realizer.engine.engine import DefaultEngine
+from reactive_realizer.engine.hearing import Drift
 from reactive_realizer.engine.tts import Utterance
 from reactive_realizer.engines.speech.speech_audio import SpeechAudio
 from reactive_realizer.engines.speech.speech_unit import VOLUME_RANGE, SpeechUnit
@@ -74,9 +75,33 @@ class SpeechEngine(DefaultEngine):
     def mouth(self, time: GlobalTime) -> Mapping[str, float] | None:
         """Weights of ARKit morphs for the present speech, None without one; an interrupted speech ends at once."""
         for unit in self.player.playing:
-            if isinstance(unit, SpeechUnit) and unit.started is not None and unit.utterance.phonemes:
-                return self._track(unit).weights(time - unit.started)
+            if isinstance(unit, SpeechUnit) and unit.hearing is not None and unit.utterance.phonemes:
+                return self._track(unit).weights(unit.position(time))
         return None
+
+    def check_heard(self, heard: AudioHeard) -> bool:
+        """Whether a report is about a speech that plays now.
+
+        Raises:
+            RealizerError: "outside-sound" or "far-off".
+        """
+        unit = self._audio.unit(heard.id)
+        if unit is None or unit.hearing is None:
+            return False
+        unit.hearing.check(heard)
+        return True
+
+    def hear(self, heard: AudioHeard) -> Drift | None:
+        """Take a report of what is heard of a speech; its drift, if its points are to move."""
+        unit = self._audio.unit(heard.id)
+        if unit is None or unit.hearing is None:
+            return None
+        try:
+            unit.hearing.check(heard)
+        except RealizerError:
+            return None
+        change = unit.hearing.take(heard)
+        return Drift(unit, change) if change else None
 
     def _speak(self, behavior: Behavior) -> Utterance | Awaitable[Utterance]:
         if not isinstance(behavior, Speech):

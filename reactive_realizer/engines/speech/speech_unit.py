@@ -4,8 +4,9 @@ from collections.abc import Mapping
 
 from reactive_realizer.binding.asset_file import parse_boolean
 from reactive_realizer.bml.behaviors import WORDS, Speech
-from reactive_realizer.clock.units import RESOLUTION, GlobalTime
+from reactive_realizer.clock.units import RESOLUTION, GlobalTime, Time
 from reactive_realizer.engine.tts import Utterance, Word
+from reactive_realizer.engines.speech.hearing import Hearing
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.parameter import Parameter, Range
 from reactive_realizer.planunit.plan_unit import DuePoint, PlanUnit
@@ -24,7 +25,7 @@ class SpeechUnit(PlanUnit):
 
     Attributes:
         utterance: words and audio, with their times.
-        started: time of its start, None before.
+        hearing: what is known of its sound since its start, None before.
         cut: time at which it was interrupted, None if it was not.
 
     Raises:
@@ -38,7 +39,7 @@ class SpeechUnit(PlanUnit):
         offsets = {"start": 0.0, **dict(sorted(inside.items(), key=lambda each: each[1])), "end": utterance.duration}
         super().__init__(block, behavior, timing_at(offsets, PhaseKind.RIGID), frozenset({VOICE}))
         self.utterance = utterance
-        self.started: GlobalTime | None = None
+        self.hearing: Hearing | None = None
         self.cut: GlobalTime | None = None
         self._volume = Parameter(graph, str(self.key("volume")), _VOLUME_OF_GAIN_1, VOLUME_RANGE)
         self.parameters["volume"] = self._volume
@@ -50,18 +51,27 @@ class SpeechUnit(PlanUnit):
 
     def on_start(self, time: GlobalTime) -> None:
         """Notes the time of the start."""
-        self.started = time
+        self.hearing = Hearing(time, self.utterance.duration)
 
     def on_finish(self, time: GlobalTime) -> None:
         """Notes whether the speech ends early."""
-        if self.started is not None and time < self.started + self.utterance.duration - RESOLUTION:
+        if self.hearing is not None and self.position(time) < self.utterance.duration - RESOLUTION:
             self.cut = time
+
+    def position(self, time: GlobalTime) -> float:
+        """The position in the utterance that is heard at a time, s; 0 before it has started."""
+        return 0.0 if self.hearing is None else time - self.hearing.origin
+
+    @property
+    def origin(self) -> Time:
+        """When its first sample is heard: at its start or, if it has drifted, as if all had been heard like this."""
+        return self.time("start") if self.hearing is None else self.hearing.origin
 
     def gentle_end(self, time: GlobalTime) -> GlobalTime:
         """The end of the present word: the start of the next one, or the end of the speech."""
-        if self.started is None:
+        if self.hearing is None:
             return time
-        return GlobalTime(self.started + self.utterance.next_word(time - self.started))
+        return GlobalTime(self.hearing.origin + self.utterance.next_word(self.position(time)))
 
     def due_at_cut(self, now: GlobalTime, *, end: bool = True) -> list[DuePoint]:
         """The due points without a word that would begin with the cut."""
@@ -76,7 +86,7 @@ class SpeechUnit(PlanUnit):
         return self._heard(time) if sync == "end" else {}
 
     def _heard(self, time: GlobalTime) -> Mapping[str, str]:
-        position = 0.0 if self.started is None else time - self.started
+        position = self.position(time)
         begun = self.utterance.words_begun(position)
         if not begun:
             return {"word": "-1", "text": "", "heard": "0"}
