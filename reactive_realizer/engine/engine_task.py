@@ -85,10 +85,7 @@ class EngineTasks:
         """One round of a tick: the engines that are due or woken play; their effects are in rank order."""
         posted = self._take_due(tick.time)
         answers = [task.post(tick) for task in self.tasks if task in posted] if posted else []
-        plays = [await answer for answer in answers]
-        for task in posted:
-            self._agenda.note(task)
-        return plays
+        return [await answer for answer in answers]
 
     def show(self, tick: Tick) -> list[Output]:
         """The outputs of all engines for the frame of a tick, in rank order."""
@@ -97,4 +94,6 @@ class EngineTasks:
     def _take_due(self, now: GlobalTime) -> set[EngineTask]:
         due = {*self._agenda.take_due(now), *self._woken}
         self._woken.clear()
+        for task in due:
+            self._agenda.note(task)  # to be read when it has played
         return due
