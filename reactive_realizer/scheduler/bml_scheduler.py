@@ -22,6 +22,7 @@ from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.scheduler.constraint_monitor import ConstraintMonitor
 from reactive_realizer.scheduler.engine_routing import EngineRouting
+from reactive_realizer.scheduler.planned_events import PlannedEvents
 from reactive_realizer.scheduler.planning import PlanListener, Planning
 from reactive_realizer.scheduler.predictions import Predictions
 from reactive_realizer.scheduler.preparation import BackgroundWork
@@ -77,6 +78,7 @@ class BMLScheduler:
         self._lifecycle = BlockLifecycle(
             board, routing, self.blocks, self._planner, self._planning, self._feedback, self._predictions
         )
+        self._events = PlannedEvents(board)
         self._requests = EngineRequests(self.blocks, self._lifecycle, self._feedback)
         self._monitor = ConstraintMonitor(self.blocks.watch, self._lifecycle, self._feedback)
         self._hearing = [engine for engine in routing.engines if isinstance(engine, HearingEngine)]
@@ -132,7 +134,9 @@ class BMLScheduler:
         """Plan prepared blocks, then end and start those that are due; whether anything started or ended."""
         for block, plan in self._planner.plans(now):
             self._lifecycle.plan(block, plan, now)
+            self._events.add(block.units)
         ended = self._lifecycle.end_due(now)
+        self._events.predict(now)
         return self._lifecycle.start_due(now) or ended
 
     def check_heard(self, heard: AudioHeard) -> bool:

@@ -73,6 +73,53 @@ async def test_an_event_counts_for_blocks_that_arrived_before_it(pilot: Realizer
     assert pilot.feedback.warnings == []
 
 
+async def test_an_event_is_predicted_while_one_is_planned_and_moves_with_its_emit(any_strategy: RealizerPilot) -> None:
+    pilot = any_strategy
+    pilot.block("b", '<gesture id="g" lexeme="BEAT" stroke="anticipators:events:go"/>')
+    pilot.predict("t", "hit", 3.0)
+    await pilot.advance(0.1)
+    pilot.block("a", EMIT.format("anticipators:t:hit"))
+    await pilot.advance(0.1)
+    assert pilot.feedback.predicted("b:g:stroke") == 3
+    pilot.block("early", EMIT.format("2.3"))
+    await pilot.advance(0.1)
+    assert pilot.feedback.predicted("b:g:stroke") == 2.5
+    pilot.block("stop", '<bmla:interrupt id="i" target="early"/>')
+    pilot.predict("t", "hit", 2.0)
+    await pilot.advance(0.1)
+    assert pilot.feedback.predicted("b:g:stroke") == 2
+    await pilot.advance(3)
+    assert pilot.feedback.time("a:e:start") == pilot.feedback.time("b:g:stroke") == 2
+    assert pilot.feedback.time("b:g:start") < pilot.feedback.time("b:g:strokeStart") < 2
+    assert pilot.feedback.warnings == []
+
+
+async def test_an_event_is_unknown_again_if_its_only_emit_is_interrupted(pilot: RealizerPilot) -> None:
+    pilot.block("b", NOD.format(""))
+    pilot.block("a", EMIT.format("2"))
+    pilot.block("stop", '<bmla:interrupt id="i" target="a" start="1.99"/>')
+    await pilot.advance(1)
+    assert pilot.feedback.predicted("b:n:start") == 2
+    await pilot.advance(2)
+    assert not pilot.feedback.reached("b:n:start")
+    with pytest.raises(LookupError):
+        pilot.feedback.predicted("b:n:start")
+    assert pilot.feedback.warnings == []
+
+
+async def test_an_emit_that_waits_for_its_own_event_predicts_nothing(pilot: RealizerPilot) -> None:
+    pilot.block("a", NOD.format("") + EMIT.format("n:start"))
+    pilot.block("b", NOD.format("").replace("NOD", "SHAKE"))
+    pilot.block("c", EMIT.format("0"), composition="APPEND")
+    await pilot.advance(5)
+    assert len(pilot.feedback.predictions("c")) <= 3
+    assert not pilot.feedback.reached("c:start")
+    pilot.block("d", EMIT.format("0"))
+    await pilot.advance(3)
+    assert pilot.feedback.time("b:n:start") == pilot.feedback.time("a:e:start") == 5
+    assert pilot.feedback.status("c") == "DONE"
+
+
 async def test_an_event_that_is_interrupted_before_it_is_emitted_does_not_happen(pilot: RealizerPilot) -> None:
     pilot.block("b", NOD.format(""))
     pilot.block("a", GESTURE + EMIT.format("g:stroke"))
