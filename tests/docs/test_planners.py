@@ -102,6 +102,12 @@ async def test_a_story_plays_on_while_an_interrupt_waits(barges_in: float | None
         assert pilot.feedback.warnings == []
 
 
+async def test_a_planner_answers_an_event_with_an_event(server: str) -> None:
+    printed = await run("events.py", server, TO_ITS_END)
+    assert printed == ["asked: the way\n", "the wait ended with its event\n"]
+    assert all(line.strip() in page(PLANNERS) for line in printed)
+
+
 async def test_the_javascript_planner_yields_too(server: str) -> None:
     program = (EXAMPLES / "barge_in.mjs").read_text(encoding="utf-8")
     for _ in range(2):
@@ -130,9 +136,10 @@ def test_the_test_on_the_page_runs_a_planner_without_a_server() -> None:
 
 
 def test_the_page_shows_the_programs_of_the_examples() -> None:
-    planner, barge_in, over_http, _ = fences(PLANNERS, "python")
+    planner, barge_in, events, over_http, _ = fences(PLANNERS, "python")
     in_javascript, _ = fences(PLANNERS, "javascript")
-    shown = {"planner.py": planner, "barge_in.py": barge_in, "over_http.py": over_http, "barge_in.mjs": in_javascript}
+    shown = {"planner.py": planner, "barge_in.py": barge_in, "events.py": events, "over_http.py": over_http}
+    shown["barge_in.mjs"] = in_javascript
     for name, program in shown.items():
         assert program.text == (EXAMPLES / name).read_text(encoding="utf-8")
 
