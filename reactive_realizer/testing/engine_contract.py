@@ -204,6 +204,15 @@ class EngineContract(ABC):
             harness.shift(unit, 1.0, "end")
         self._plays_whole(harness, unit)
 
+    def test_a_behavior_that_is_moved_ahead_begins_then(self, element: str) -> None:
+        harness = self._harness()
+        unit = harness.schedule(behavior_of(element), _START + 1.0)
+        harness.advance(0.3)
+        harness.shift(unit, -0.5)
+        harness.advance(_START + 0.25)
+        assert unit.begun
+        self._plays_whole(harness, unit)
+
     def test_playing_a_tick_again_changes_nothing(self, element: str) -> None:
         harness = self._harness()
         unit = harness.schedule(behavior_of(element), _START)

@@ -137,6 +137,7 @@ class EngineHarness:
         self._number = -1
         self._playing = False
         self._woken = False
+        self._due: Time = None
         engine.listen(self._wake)
         context.graph.listen(self._note)
 
@@ -292,8 +293,9 @@ class EngineHarness:
 
     def _plays_or_shows(self, tick: Tick) -> bool:
         """Plays a round if something is due; otherwise shows a frame, if one is due; whether anything changed."""
-        if self._woken or is_due(self.engine.next_due, tick.time):
+        if self._woken or is_due(self._due, tick.time):
             self.play(tick)
+            self._due = self.engine.next_due
             if self._carry_out(self.play_result):
                 return True
         if not tick.frame:

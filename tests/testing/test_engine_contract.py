@@ -185,6 +185,29 @@ class Impatient(Deaf):
     remove = DefaultEngine.remove
 
 
+class Drowsy(WaitEngine):
+    """Does not wake when something changes."""
+
+    def listen(self, wake: Callable[[], None]) -> None:
+        pass
+
+
+class Inattentive(WaitEngine):
+    """Wakes for new behaviors, but not when their times move."""
+
+    def add(self, unit: PlanUnit) -> None:
+        super().add(unit)
+        self.player._agenda._watch.follow = lambda item, pegs: None  # type: ignore[method-assign]
+
+
+class Nervous(WaitEngine):
+    """Plays in each tick."""
+
+    @property
+    def next_due(self) -> GlobalTime:
+        return GlobalTime(0.0)
+
+
 def engine_contract(engine: Callable[[EngineContext], WaitEngine]) -> type[EngineContract]:
     class Contract(EngineContract):
         elements = (ELEMENT,)
@@ -216,6 +239,9 @@ def engine_contract(engine: Callable[[EngineContext], WaitEngine]) -> type[Engin
         (Fragile, "test_a_behavior_that_fails_at_any_point_drops_only_itself"),
         (Forgetful, "test_an_engine_that_fails_drops_its_behaviors_and_plays_later_ones"),
         (Deaf, "test_a_behavior_removed_before_its_start_leaves_nothing"),
+        (Drowsy, "test_every_point_is_reached_once_in_order_at_the_time_of_its_peg"),
+        (Inattentive, "test_a_behavior_that_is_moved_ahead_begins_then"),
+        (Nervous, "test_it_is_not_asked_to_play_while_its_behaviors_wait"),
         (Impatient, "test_a_behavior_waits_for_the_start_of_its_block"),
     ],
 )
