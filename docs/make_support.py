@@ -161,6 +161,7 @@ this table causes a warning.
 | `posture stance="standing" shape="open" part="lower"` | `stance` and `pose`, here LEGS and LEGS_OPEN |
 | text directly in `speech`, `<tm id="..."/>` | `text`, `sync` |
 | `synchronize ref="..."` | an additional `sync` in it |
+| `event message="NAME content" stroke="..."` | `bmla:emit event="NAME" start="..."` with the content |
 | `stroke_start`, `stroke_end` | `strokeStart`, `strokeEnd` |
 
 A `gaze` or `posture` without a constraint on its end [persists](semantics.md#persistent-behaviors-and-shifts).

@@ -16,6 +16,7 @@ from reactive_realizer.bml.behaviors import Gaze, GazeShift, Posture, PostureShi
 from reactive_realizer.bml.block import Constraint, Synchronize
 from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.faults import UnknownWord
+from reactive_realizer.bml.names import BMLA
 from reactive_realizer.bml.sync_ref import DRAFT_SPELLINGS
 from reactive_realizer.bml.trees import Tree, children_of, name_of, stray_text_of
 from reactive_realizer.errors import RealizerError
@@ -129,6 +130,18 @@ def _synchronize(tree: Tree, source: BlockSource) -> None:
         _add(tree, "sync", {"ref": _take(tree, "ref")}, source)
 
 
+def _event(tree: Tree, source: BlockSource) -> None:
+    """SmartBody's event: the first word of its message is the name, as on its message bus, and the rest the content."""
+    name, _, content = _take(tree, "message").partition(" ")
+    tree.tag = f"{{{BMLA}}}emit"
+    _rename(tree, "stroke", "start")
+    if name:
+        tree.set("event", name)
+        tree.text = content
+    if not tree.get("id"):
+        source.ids.give(tree)
+
+
 _REWRITES: Final[Mapping[str, Callable[[Tree, BlockSource], None]]] = {
     "head": _head,
     "gesture": _gesture,
@@ -137,6 +150,7 @@ _REWRITES: Final[Mapping[str, Callable[[Tree, BlockSource], None]]] = {
     "posture": _posture,
     "speech": _speech,
     "synchronize": _synchronize,
+    "event": _event,
 }
 
 

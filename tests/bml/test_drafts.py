@@ -20,6 +20,7 @@ from reactive_realizer.bml.behaviors import (
 )
 from reactive_realizer.bml.block import BehaviorBlock, Order, Parsed, Synchronize
 from reactive_realizer.bml.document import parse
+from reactive_realizer.bml.extensions import Emit
 from reactive_realizer.bml.names import BML, BMLT, Location
 from reactive_realizer.bml.references import check_references
 from reactive_realizer.bml.vocabulary import Composition, Influence, Mode, PosePart, Side, StanceType
@@ -254,6 +255,25 @@ def test_composition_takes_precedence_over_scheduling() -> None:
     assert problem.fault.sentence.startswith("unknown attribute scheduling of <bml>")
     assert parsed.block is not None
     assert parsed.block.composition is Composition.REPLACE
+
+
+def test_an_event_of_smartbody_is_an_emit() -> None:
+    parsed = read('<event message="vrSpoke brad  user" stroke="x:end"/><event id="e" message="done" start="1"/>')
+    assert parsed.block is not None
+    first, second = (each for each in parsed.block.behaviors if isinstance(each, Emit))
+    assert (first.id, first.event, first.content, str(first.syncs["start"])) == (
+        "emit1",
+        "vrSpoke",
+        "brad  user",
+        "x:end",
+    )
+    assert (second.id, second.event, second.content, str(second.syncs["start"])) == ("e", "done", "", "1")
+    assert parsed.problems == ()
+
+
+def test_an_event_of_smartbody_without_a_message_is_dropped() -> None:
+    (problem,) = read('<event start="1"/>').problems
+    assert problem.fault.sentence == "<emit> requires the attribute 'event'"
 
 
 def test_a_block_cannot_start_at_the_stroke_of_a_behavior() -> None:

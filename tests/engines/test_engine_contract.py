@@ -73,6 +73,8 @@ class TestWait(EngineContract):
         '<wait id="w" max-wait="2"/>',
         '<wait id="w"/>',
         '<wait id="w" start="0" end="1"/>',
+        '<wait id="w" event="go" max-wait="2"/>',
+        '<bmla:emit id="e" event="go">content</bmla:emit>',
     )
 
     def engine(self, context: EngineContext) -> Engine:
