@@ -5,6 +5,7 @@ import logging
 from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
+from math import inf
 from typing import NamedTuple
 
 from reactive_realizer.bml.behavior import Behavior
@@ -321,16 +322,19 @@ class PlanUnit:
         """
         moved = False
         later: list[_Later] = []
+        soonest = inf  # of all of these: a speech may have hundreds of points
         for index in range(len(self.points) - 1, -1, -1):
             point, need = self.points[index], self._need(index)
             if point.fired:
                 break
-            later = [each.ahead(need) for each in later]
+            if need > 0.0:
+                later = [each.ahead(need) for each in later]
+                soonest -= need
             time = point.peg.value
             if time is None:
                 continue
-            overtaking = [each for each in later if time > each.latest + RESOLUTION]
-            if overtaking:
+            if time > soonest + RESOLUTION:
+                overtaking = [each for each in later if time > each.latest + RESOLUTION]
                 # Points between the two may depend on both; only one that does not depend on this one can hold it.
                 independent = [each for each in overtaking if not each.peg.depends_on(point.peg)]
                 successor = min(independent or overtaking, key=lambda each: each.latest)
@@ -338,6 +342,7 @@ class PlanUnit:
                 point.peg.keep_before(successor.peg, successor.distance)
                 time, moved = successor.latest, True
             later.append(_Later(time, point.peg, 0.0))
+            soonest = min(soonest, time)
         return moved
 
     def _need(self, index: int) -> float:
