@@ -1,6 +1,6 @@
 """The engine of ``speech`` (thesis 8.10)."""
 
-from collections.abc import Awaitable, Mapping
+from collections.abc import Awaitable, Collection, Mapping
 from types import MappingProxyType
 
 from reactive_realizer.bml.behavior import Behavior
@@ -13,7 +13,7 @@ from reactive_realizer.engine.engine import DefaultEngine
 from reactive_realizer.engine.hearing import Drift
 from reactive_realizer.engine.tts import Utterance
 from reactive_realizer.engines.speech.speech_audio import SpeechAudio
-from reactive_realizer.engines.speech.speech_unit import VOLUME_RANGE, SpeechUnit
+from reactive_realizer.engines.speech.speech_unit import VOLUME_RANGE, SpeechUnit, wants_words
 from reactive_realizer.engines.speech.visemes import VisemeTrack
 from reactive_realizer.errors import CreationFault, RealizerError
 from reactive_realizer.pegboard.peg_key import BlockKey
@@ -42,6 +42,14 @@ class SpeechEngine(DefaultEngine):
         self._graph = context.graph
         self._audio = SpeechAudio(context.character)
         self._tracks: dict[SpeechUnit, VisemeTrack] = {}
+
+    def check(self, behavior: Behavior) -> Collection[str] | None:
+        """The sync points, unless its words are among them: only the voice finds these.
+
+        Raises:
+            RealizerError: ``not-a-flag``.
+        """
+        return None if wants_words(behavior) else behavior.sync_points
 
     def prepare(self, behavior: Behavior) -> Awaitable[object] | None:
         """The synthesis, unless the voice answers at once."""

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 
 from reactive_realizer.binding.asset_file import parse_boolean
+from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.behaviors import WORDS, Speech
 from reactive_realizer.clock.units import RESOLUTION, GlobalTime, Time
 from reactive_realizer.engine.tts import Utterance, Word
@@ -95,9 +96,18 @@ class SpeechUnit(PlanUnit):
         return {"word": str(len(begun) - 1), "text": begun[-1].text, "heard": str(heard)}
 
 
+def wants_words(behavior: Behavior) -> bool:
+    """Whether the words of a speech are sync points.
+
+    Raises:
+        RealizerError: "not-a-flag".
+    """
+    return parse_boolean(WORDS[1], behavior.extensions.get(WORDS, "false"))
+
+
 def _word_points(behavior: Speech, utterance: Utterance) -> dict[str, tuple[int, Word]]:
     """The sync points of words, with their indices, if the behavior wants them; a mark keeps its name."""
-    if not parse_boolean(WORDS[1], behavior.extensions.get(WORDS, "false")):
+    if not wants_words(behavior):
         return {}
     marks = {mark.id for mark in behavior.marks}
     points = {f"word{index}": (index, word) for index, word in enumerate(utterance.words)}
