@@ -1,7 +1,8 @@
 """The shortest durations of motions: how fast the limits of the body let them be (`speed_limit`)."""
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from functools import lru_cache
 from itertools import accumulate, pairwise
 
 from reactive_realizer.embodiment.body import Body
@@ -12,6 +13,15 @@ from reactive_realizer.embodiment.vector import distance
 
 _STARTING = WRIST_SPEED / (2.0 * WRIST_ACCELERATION)
 """Time that a wrist loses while it accelerates to its highest speed, s."""
+
+Profile = Callable[[float], float]
+"""The completed share of a movement, 0 to 1, after a share of its time."""
+
+_SHARES = 100
+"""Number of shares of the time at which a profile is examined."""
+
+_STEP, _FEWEST, _MOST = 0.08, 2, 16
+"""Duration of the steps in which the speed of a motion is measured, s, and limits of their number."""
 
 _WRISTS = tuple(f"{side}_wrist" for side in SIDES)
 
@@ -32,18 +42,52 @@ def from_rest(moving: float) -> float:
     return moving + _STARTING if moving > _STARTING else 2.0 * math.sqrt(moving * _STARTING)
 
 
-def shortest_duration(bodies: Sequence[Body], joints: Iterable[str]) -> float:
-    """Return the shortest duration of a motion from rest through several poses, evenly spaced in time, s.
+@lru_cache
+def lag(profile: Profile) -> float:
+    """Return the factor by which a movement with a profile is slower than at its highest speed, so that it is not late.
 
-    The body may fall behind where the motion is fastest, and has caught up with it at the end: from no pose on does the
-    rest of the way take more than the rest of the time.
+    A limb that falls behind where the profile is fastest has caught up with it at the end.
+    """
+    shares = (number / _SHARES for number in range(_SHARES))
+    return max((1.0 - profile(share)) / (1.0 - share) for share in shares)
+
+
+def shortest_duration(
+    body_at: Callable[[float], Body], begin: float, end: float, duration: float, joints: Collection[str]
+) -> float:
+    """Return the shortest duration of the part of a motion between two of its phases, starting at rest, s.
+
+    The body may fall behind where the motion is fastest, and has caught up with it at the end: from no phase on does
+    the rest of the way take more than the rest of the time.
 
     Args:
-        bodies: two or more, with equal roots.
+        body_at: returns the body at a phase of the motion, always with the same root.
+        begin: first phase, 0 to 1.
+        end: last phase, 0 to 1.
+        duration: preferred, s; the result is not longer.
         joints: that turn.
     """
-    steps = _step_times(bodies, list(joints))
-    return from_rest(max(left * len(steps) / number for number, left in enumerate(accumulate(reversed(steps)), 1)))
+    count = min(max(_FEWEST, math.ceil(duration / _STEP)), _MOST)
+    bodies = [body_at(begin + (end - begin) * number / count) for number in range(count + 1)]
+    left = accumulate(reversed(_step_times(bodies, list(joints))))
+    return min(duration, from_rest(max(time * count / number for number, time in enumerate(left, 1))))
+
+
+def shortest_parts(
+    body_at: Callable[[float], Body], key_positions: Mapping[str, float], duration: float, joints: Collection[str]
+) -> dict[str, float]:
+    """Return the shortest durations of all parts of a motion, by the points at which they end (`MotionUnit`), s.
+
+    Args:
+        body_at: returns the body at a phase of the motion, always with the same root.
+        key_positions: of its points, in order.
+        duration: preferred, s; no part is longer than that.
+        joints: that turn.
+    """
+    parts = ((point, begin, end) for (_, begin), (point, end) in pairwise(key_positions.items()) if begin < end)
+    return {
+        point: shortest_duration(body_at, begin, end, duration * (end - begin), joints) for point, begin, end in parts
+    }
 
 
 def _step_times(bodies: Sequence[Body], joints: Sequence[str]) -> list[float]:

@@ -31,6 +31,7 @@ from reactive_realizer.engines.animation.motion_maker import MakerContext, Motio
 from reactive_realizer.engines.animation.motion_parameters import parameter_values
 from reactive_realizer.engines.animation.motion_unit import START_TO_END, Moment, MotionPose, MotionUnit, Resource
 from reactive_realizer.engines.animation.posture.rest_posture import RestPosture
+from reactive_realizer.engines.animation.shortest import lag, moving_time
 from reactive_realizer.errors import RealizerError
 
 
@@ -92,7 +93,12 @@ class GazeMotionUnit(MotionUnit):
     joints = frozenset(joint for joints in JOINT_GROUPS.values() for joint in joints)
 
     def __init__(
-        self, target: GazeTarget, weights: Mapping[str, float], rest: RestPosture, kind: GazeKind = LOOK
+        self,
+        target: GazeTarget,
+        weights: Mapping[str, float],
+        rest: RestPosture,
+        kind: GazeKind = LOOK,
+        expected: GazeTarget | None = None,
     ) -> None:
         """Plan a gaze.
 
@@ -101,6 +107,7 @@ class GazeMotionUnit(MotionUnit):
             weights: group of joints -> its share (`GAZE_WEIGHTS`); without eyes, it is a head direction.
             rest: posture of trunk, neck and head without gaze.
             kind: of gaze.
+            expected: the target as it is now; without one, the gaze has no shortest durations.
         """
         self.parameters = dict(weights)
         self.ranges = {group: GAZE_WEIGHTS[group] for group in weights}
@@ -116,6 +123,16 @@ class GazeMotionUnit(MotionUnit):
         self._settling = InertializedGoal()
         self._begin = rest.body
         self._late = False
+        if expected is not None:
+            self.shortest = {"ready" if "ready" in kind.key_positions else "end": self._shortest(expected)}
+
+    def _shortest(self, expected: GazeTarget) -> float:
+        """Return the shortest duration of the turn from rest to the expected target, s."""
+        body = self._rest.body
+        turn = head_turn_toward(body, self._rest.pose, expected.point, self.parameters).rotations
+        return min(
+            self._ready * self.preferred_duration, lag(minimum_jerk) * moving_time((body, body.posed(turn)), turn)
+        )
 
     def start(self, body: Body) -> None:
         """Turn the head from its current direction, which may be another gaze."""
@@ -200,14 +217,17 @@ class GazeMaker:
         gaze = request.behavior
         if not isinstance(gaze, Gaze):
             raise RealizerError(WrongElement(unit="gaze", element=gaze.name))
-        follow = self._follow or _follows(gaze)
-        target = GazeTarget(
-            target_locator(self._context, gaze.target, follow=follow), gaze.offset_angle, gaze.offset_direction
+        target, expected = (
+            GazeTarget(
+                target_locator(self._context, gaze.target, follow=follow), gaze.offset_angle, gaze.offset_direction
+            )
+            for follow in (self._follow or _follows(gaze), True)
         )
         weights = default_weights(gaze.influence or self._influence) | parameter_values(
             request.parameters, GAZE_WEIGHTS
         )
-        return GazeMotionUnit(target, weights, self._context.rest, GAZE_SHIFT if isinstance(gaze, GazeShift) else LOOK)
+        kind = GAZE_SHIFT if isinstance(gaze, GazeShift) else LOOK
+        return GazeMotionUnit(target, weights, self._context.rest, kind, expected)
 
 
 class HeadDirectionMaker:
@@ -221,10 +241,12 @@ class HeadDirectionMaker:
         shift = request.behavior
         if not isinstance(shift, HeadDirectionShift):
             raise RealizerError(WrongElement(unit="head-direction", element=shift.name))
-        target = GazeTarget(target_locator(self._context, shift.target, follow=_follows(shift)))
+        target, expected = (
+            GazeTarget(target_locator(self._context, shift.target, follow=follow)) for follow in (_follows(shift), True)
+        )
         weights = default_weights(Influence.HEAD) | parameter_values(request.parameters, GAZE_WEIGHTS)
         del weights[EYE_WEIGHT]
-        return GazeMotionUnit(target, weights, self._context.rest, HEAD_SHIFT)
+        return GazeMotionUnit(target, weights, self._context.rest, HEAD_SHIFT, expected)
 
 
 def _follows(behavior: Behavior) -> bool:

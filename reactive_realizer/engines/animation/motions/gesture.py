@@ -38,9 +38,6 @@ HOLD_RANGE = Range(0.0, 600.0)
 
 _INNER = GESTURE_POINTS[1:-1]
 
-_SAMPLES = 4
-"""Number of steps in which the speed of a phase of a stroke is measured."""
-
 
 class GestureMotionUnit(MotionUnit):
     """Prepares from the current pose of the arms, performs the stroke, holds, and retracts to the rest pose.
@@ -99,8 +96,7 @@ class GestureMotionUnit(MotionUnit):
         if begin == end:
             return PhaseDuration(0.0)
         preferred = whole * (end - begin)
-        bodies = [self._body(begin + (end - begin) * number / _SAMPLES) for number in range(_SAMPLES + 1)]
-        return PhaseDuration(preferred, min(preferred, shortest_duration(bodies, self.joints)))
+        return PhaseDuration(preferred, shortest_duration(self._body, begin, end, preferred, self.joints))
 
     def _body(self, phase: float) -> Body:
         """Return the body at rest in the pose of a phase of the animation."""

@@ -10,6 +10,7 @@ from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.joints import SIDES
 from reactive_realizer.embodiment.pose import LayerKind
 from reactive_realizer.embodiment.quaternion import Quat, from_euler, multiply
+from reactive_realizer.embodiment.speed_limit import ROOT_SPEED
 from reactive_realizer.embodiment.vector import distance
 from reactive_realizer.engines.animation.easing import minimum_jerk, share
 from reactive_realizer.engines.animation.faults import WrongElement
@@ -25,6 +26,7 @@ from reactive_realizer.engines.animation.motion_unit import (
 )
 from reactive_realizer.engines.animation.posture.posture_library import PART_JOINTS, BodyPosture
 from reactive_realizer.engines.animation.posture.rest_posture import RestPosture
+from reactive_realizer.engines.animation.shortest import from_rest, lag, moving_time
 from reactive_realizer.errors import RealizerError
 
 _BOW = {"vl5": (0.6, 0.0, 0.0), "vt10": (0.3, 0.0, 0.0)}
@@ -89,6 +91,14 @@ class PostureMotionUnit(MotionUnit):
         starts = (self._from,) if self._root is None else (self._from, *rest.possible_bodies)
         self.fade_in = max(map(self._duration_from, starts))
         self.preferred_duration = self.fade_in / self._ready
+        self.shortest = {"end" if shift else "ready": self._shortest()}
+
+    def _shortest(self) -> float:
+        """Return the shortest duration of the change, s."""
+        goal = self.body.posed({}, self._from.root)
+        limbs = moving_time((self._from, goal), self.joints)
+        pelvis = 0.0 if self._root is None else distance(self._from.root, self._root) / ROOT_SPEED
+        return min(self.fade_in or 0.0, from_rest(lag(minimum_jerk) * max(limbs, pelvis)))
 
     def _update_goal(self, base: BodyPosture) -> None:
         """Determine the goal from a base posture."""

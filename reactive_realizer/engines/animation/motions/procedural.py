@@ -1,6 +1,7 @@
 """Procedural animations as motions: head movements, and animations that a behavior chooses by file."""
 
 from collections.abc import Mapping
+from contextlib import suppress
 from functools import lru_cache
 
 from reactive_realizer.binding.gesture_binding import finite_numbers
@@ -28,6 +29,8 @@ from reactive_realizer.engines.animation.motion_unit import (
 )
 from reactive_realizer.engines.animation.procedural.procedural_animation import AuthoredTiming, ProceduralAnimation
 from reactive_realizer.engines.animation.procedural.procedural_animation_reader import load_animation
+from reactive_realizer.engines.animation.shortest import shortest_parts
+from reactive_realizer.errors import RealizerError
 from reactive_realizer.planunit.parameter import Range
 
 _SAID = (NAME, MIRROR, JOINTS)
@@ -90,13 +93,20 @@ class ProceduralMotionUnit(MotionUnit):
     fixed = FILE_PARAMETERS
     predictability = Predictability.ALWAYS
 
-    def __init__(self, animation: ProceduralAnimation, parameters: Mapping[str, float], kind: LayerKind) -> None:
+    def __init__(
+        self,
+        animation: ProceduralAnimation,
+        parameters: Mapping[str, float],
+        kind: LayerKind,
+        rest: Body | None = None,
+    ) -> None:
         """Prepare a motion.
 
         Args:
             animation: to play.
             parameters: values of some parameters; unknown names have no effect.
             kind: of its layer; an additive motion owns nothing, a full-body one also owns the stance.
+            rest: the body that it is planned for; without one, it has no shortest durations.
 
         Raises:
             RealizerError: "no-motion", "bad-keys": durations or key positions are invalid for these values;
@@ -114,6 +124,18 @@ class ProceduralMotionUnit(MotionUnit):
         self.preferred_duration, self.limits = timing.duration, timing.limits
         self.key_positions = _with_repeats(timing, round(self.parameters.get(REPEATS, 1.0)))
         self._arrival: InertializedStart | None = None
+        if rest is not None:
+            self.shortest = self._shortest(rest)
+
+    def _shortest(self, rest: Body) -> Mapping[str, float]:
+        """Return the shortest durations; none if the animation has no pose at some phase."""
+
+        def body_at(phase: float) -> Body:
+            return rest.posed(self._animation.sample(phase, self.parameters, rest).rotations)
+
+        with suppress(RealizerError):
+            return shortest_parts(body_at, self.key_positions, self.preferred_duration, self.joints)
+        return {}
 
     def start(self, body: Body) -> None:
         """Start from the current body, unless the motion is additive."""
@@ -155,7 +177,8 @@ class ProceduralMotionMaker:
 
     def __init__(self, context: MakerContext) -> None:
         self._files = AnimationFinder(context)
-        self._motion = lru_cache(_MOST)(_made)
+        self._rest = context.rest
+        self._motion = lru_cache(_MOST)(self._made)
 
     def __call__(self, request: MotionRequest) -> ProceduralMotionUnit:
         """Make a motion."""
@@ -167,8 +190,8 @@ class ProceduralMotionMaker:
         """Look for files again."""
         self._files.refresh()
 
-
-def _made(
-    animation: ProceduralAnimation, parameters: tuple[tuple[str, float], ...], added: bool
-) -> ProceduralMotionUnit:
-    return ProceduralMotionUnit(animation, dict(parameters), LayerKind.ADDITIVE if added else kind_of(animation))
+    def _made(
+        self, animation: ProceduralAnimation, parameters: tuple[tuple[str, float], ...], added: bool
+    ) -> ProceduralMotionUnit:
+        kind = LayerKind.ADDITIVE if added else kind_of(animation)
+        return ProceduralMotionUnit(animation, dict(parameters), kind, self._rest.body)

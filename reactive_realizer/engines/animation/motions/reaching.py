@@ -1,7 +1,7 @@
 """Reaching: durations and speed profiles of hand movements, and the key positions that follow."""
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import lru_cache, partial
 from itertools import accumulate
 
@@ -11,12 +11,7 @@ from reactive_realizer.embodiment.quaternion import slerp
 from reactive_realizer.engines.animation.easing import minimum_jerk
 from reactive_realizer.engines.animation.kinematics import path_length
 from reactive_realizer.engines.animation.motion_unit import GESTURE_POINTS, PhaseDuration
-from reactive_realizer.engines.animation.shortest import from_rest, moving_time
-
-Profile = Callable[[float], float]
-"""The completed share of a reach, 0 to 1, after a share of its time."""
-
-_SAMPLES = 100
+from reactive_realizer.engines.animation.shortest import Profile, from_rest, lag, moving_time
 
 
 def reach(start: Body, goal: Body, joints: frozenset[str], profile: Profile = minimum_jerk) -> PhaseDuration:
@@ -35,18 +30,8 @@ def reach(start: Body, goal: Body, joints: frozenset[str], profile: Profile = mi
     bodies = (start, start.posed(between), goal)
     sides = [side for side in SIDES if f"{side}_shoulder" in joints]
     preferred = max(0.25 + 0.75 * path_length("wrist", sides, bodies), 0.84 * path_length("middle3", sides, bodies))
-    shortest = from_rest(_lag(profile) * moving_time(bodies, joints))
+    shortest = from_rest(lag(profile) * moving_time(bodies, joints))
     return PhaseDuration(max(preferred, shortest), shortest)
-
-
-@lru_cache
-def _lag(profile: Profile) -> float:
-    """Return the factor by which a reach is slower than at its highest speed, so that it is not late.
-
-    A limb that falls behind a reach with a high peak speed has caught up with it at the end.
-    """
-    shares = (number / _SAMPLES for number in range(_SAMPLES))
-    return max((1.0 - profile(share)) / (1.0 - share) for share in shares)
 
 
 def gesture_key_positions(durations: Sequence[float]) -> dict[str, float]:
