@@ -84,6 +84,8 @@ def _in_order(name: str, behavior: Behavior) -> Check:
 
 def _ties(block: BehaviorBlock, name: str, behavior: Behavior) -> Iterator[Check]:
     for sync, ref in behavior.syncs.items():
+        if isinstance(behavior, Wait) and sync == "end" and behavior.until is not None:
+            continue  # it may end at its limit
         yield from _linked(f"{name}:{sync}", 0.0, block, ref, f'{sync}="{ref}"')
     if isinstance(behavior, Wait) and behavior.duration is not None and not {"start", "end"} <= behavior.syncs.keys():
         text = f'duration="{behavior.duration:g}"'

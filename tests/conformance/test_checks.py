@@ -52,6 +52,12 @@ async def test_feedback_that_follows_the_script_has_no_problem() -> None:
     assert problems(case_of(SCRIPT), await played(SCRIPT)) == []
 
 
+async def test_a_wait_may_end_at_its_limit() -> None:
+    wait, nod = '<wait id="w" end="c:n:start" max-wait="1"/>', '<head id="n" lexeme="NOD" start="3"/>'
+    script = block("b", wait) + block("c", nod)
+    assert problems(case_of(script), await played(script)) == []
+
+
 async def test_missing_progress_is_reported() -> None:
     told = await played(SCRIPT)
     for number in progress(told):
