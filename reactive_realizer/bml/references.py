@@ -54,6 +54,18 @@ def unknown_block(ref: SyncRef, block: BehaviorBlock | DefineProc, blocks: Itera
     return UnknownOwner(reference=str(ref), block=name, known=known)
 
 
+def unknown_block_point(ref: SyncRef, block: BehaviorBlock) -> Fault | None:
+    """The fault of a reference to a sync point that a block does not have; None if it has it.
+
+    By default, a block is ready if one of its behaviors is.
+    """
+    ready = any("ready" in behavior.sync_points for behavior in block.behaviors)
+    known = dict.fromkeys(("start", *(["ready"] if ready else []), *block.points, "relax", "end"))
+    if (sync := ref.sync or "start") in known:
+        return None
+    return UnknownSync(reference=str(ref), behavior=block.id, sync=sync, known=tuple(known))
+
+
 def _refs_of(constraint: Constraint) -> tuple[SyncRef, ...]:
     return (constraint.ref, *constraint.refs) if isinstance(constraint, Order) else constraint.refs
 

@@ -10,7 +10,13 @@ from reactive_realizer.bml.block import BehaviorBlock, DefineProc, Parsed, Probl
 from reactive_realizer.bml.extensions import ParameterValueChange
 from reactive_realizer.bml.faults import ForeignAttribute, UnknownSync
 from reactive_realizer.bml.names import ANTICIPATORS, EVENTS, Location
-from reactive_realizer.bml.references import check_references, references_of, standard_points, unknown_block
+from reactive_realizer.bml.references import (
+    check_references,
+    references_of,
+    standard_points,
+    unknown_block,
+    unknown_block_point,
+)
 from reactive_realizer.bml.sync_ref import SyncRef
 from reactive_realizer.errors import Fault, RealizerError, WarningType
 from reactive_realizer.pegboard.pegboard import PegBoard
@@ -74,10 +80,14 @@ class DocumentChecker:
         self._alive = dict.fromkeys(alive)
         self._has_ended = has_ended
         self._named: dict[str, None] = {}
+        self._written: dict[str, BehaviorBlock] = {}
 
     def begin(self, document: Sequence[Parsed]) -> None:
         """Begins with a document, to whose blocks all of its blocks may refer."""
-        self._named = self._alive | dict.fromkeys(parsed.block.id for parsed in document if parsed.block is not None)
+        blocks = [parsed.block for parsed in document if parsed.block is not None]
+        self._named = self._alive | dict.fromkeys(block.id for block in blocks)
+        # The behaviors of a procedure are not known here.
+        self._written = {block.id: block for block in blocks if block.procedure is None}
 
     async def check(self, parsed: Parsed, refused: Fault | None, *, slowly: bool = False) -> Findings:
         """The findings in the next block or procedure of the document.
@@ -132,6 +142,9 @@ class DocumentChecker:
         for id_, location, ref in references_of(block):
             if ref.block not in known:
                 yield Problem(unknown_block(ref, block, others).located(location.line, location.column), id_)
+            other = None if ref.block == block.id or ref.behavior is not None else self._written.get(ref.block or "")
+            if other is not None and (fault := unknown_block_point(ref, other)) is not None:
+                yield Problem(fault.located(location.line, location.column), id_)
 
     def _unknown_predictions(self, block: BehaviorBlock | DefineProc) -> Iterator[Problem]:
         """References to points that anticipators of the human file do not have."""

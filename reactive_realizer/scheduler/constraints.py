@@ -8,7 +8,7 @@ from reactive_realizer.bml.block import BehaviorBlock, OrderKind, Synchronize
 from reactive_realizer.bml.block import Order as OrderConstraint
 from reactive_realizer.bml.faults import LostWith, UnknownReference, UnknownSync
 from reactive_realizer.bml.names import ANTICIPATORS
-from reactive_realizer.bml.references import unknown_block
+from reactive_realizer.bml.references import unknown_block, unknown_block_point
 from reactive_realizer.bml.sync_ref import OWN_BLOCK_POINTS, SyncRef
 from reactive_realizer.errors import Fault, RealizerError, SchedulingFault
 from reactive_realizer.pegboard.peg_key import PegKey
@@ -165,9 +165,8 @@ class ReferenceResolver:
             return replace(ref, behavior=min(times, key=lambda id_: (times[id_] is None, times[id_] or 0.0)))
         if ref.sync == "ready" and other.state is BlockState.IN_PREP:
             raise RealizerError(MutualReference(block=self._block.key.block, other=other.key.block, reference=str(ref)))
-        known = ("start", *other.description.points, "relax", "end")
-        fault = UnknownSync(reference=str(ref), behavior=other.key.block, sync=ref.sync or "", known=known)
-        raise RealizerError(fault)
+        unknown = unknown_block_point(ref, other.description)
+        raise RealizerError(unknown or LostWith(behavior=f"{other.key.block}:ready", reference=str(ref)))
 
 
 def constraints_of(block: BehaviorBlock, resolver: ReferenceResolver) -> tuple[list[Tie], list[Precedence], list[Loss]]:

@@ -36,6 +36,17 @@ def test_an_unknown_element_is_a_problem(bml: Callable[..., str], capsys: pytest
     assert "<speach> is not a behavior" in line
 
 
+def test_a_sync_point_that_another_block_does_not_define_is_a_problem(
+    bml: Callable[..., str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    nod = '<head id="n" lexeme="NOD" start="a:{}"/>'
+    gesture = block("a", '<gesture id="g" lexeme="BEAT"/>', stroke="g:stroke")
+    assert check(capsys, bml(gesture + block("b", nod.format("stroke")) + block("c", nod.format("ready")))) == (0, [])
+    status, (line,) = check(capsys, bml(gesture + block("b", nod.format("strokeEnd"))))
+    assert status == 1
+    assert "a:strokeEnd: 'a' has no sync point 'strokeEnd'; it has start, ready, stroke, relax, end" in line
+
+
 def test_a_block_may_refer_to_blocks_of_its_file_and_of_earlier_files(
     bml: Callable[..., str], capsys: pytest.CaptureFixture[str]
 ) -> None:
