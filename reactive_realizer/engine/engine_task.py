@@ -75,6 +75,7 @@ class EngineTasks:
 
     def __init__(self, engines: Iterable[Engine]) -> None:
         self.tasks = tuple(map(EngineTask, engines))
+        self._ranks = {task: rank for rank, task in enumerate(self.tasks)}
         self._agenda: Agenda[EngineTask] = Agenda(lambda task: task.next_due, lambda task: ())
         self._woken: set[EngineTask] = set()
         for task in self.tasks:
@@ -83,17 +84,16 @@ class EngineTasks:
 
     async def play(self, tick: Tick) -> list[Play]:
         """One round of a tick: the engines that are due or woken play; their effects are in rank order."""
-        posted = self._take_due(tick.time)
-        answers = [task.post(tick) for task in self.tasks if task in posted] if posted else []
+        answers = [task.post(tick) for task in self._take_due(tick.time)]
         return [await answer for answer in answers]
 
     def show(self, tick: Tick) -> list[Output]:
         """The outputs of all engines for the frame of a tick, in rank order."""
         return [task.show(tick) for task in self.tasks]
 
-    def _take_due(self, now: GlobalTime) -> set[EngineTask]:
+    def _take_due(self, now: GlobalTime) -> list[EngineTask]:
         due = {*self._agenda.take_due(now), *self._woken}
         self._woken.clear()
         for task in due:
             self._agenda.note(task)  # to be read when it has played
-        return due
+        return sorted(due, key=self._ranks.__getitem__)
