@@ -161,6 +161,7 @@ class BlockLifecycle:
         block = self._blocks.get(unit.block)
         if block is not None and not block.failing:
             self._ties.release(block, missed, DroppedTie, now)
+            self._transitions.subside(unit.block)
 
     def settle(self, block: BMLBlock, constraint: Tie | Precedence) -> None:
         """Have a constraint not be checked any more."""

@@ -104,14 +104,6 @@ class NamesDropped(SchedulingFault):
     behavior: str
 
 
-class AllPast(SchedulingFault):
-    """A behavior that would end before its block starts; ``late`` in s."""
-
-    code = "all-past"
-    template = "it would have ended {late:g} s before its block starts"
-    late: float
-
-
 class WorkFailed(CreationFault):
     """An exception while a behavior was prepared."""
 

@@ -87,11 +87,9 @@ def _constraints(plan: PlanView) -> Iterator[Violation]:
 
 
 def _not_before_block(plan: PlanView) -> Iterator[Violation]:
-    """7.13: no point comes before the start of its block, unless its behavior joins a past time from outside."""
-    late = [behaviors for behaviors, ties in _clusters(plan, plan.timings) if _joins_late(plan, ties)]
-    excused = plan.lurking.union(*late)
+    """7.13: no point comes before the start of its block."""
     for point in plan.times:
-        if point.behavior not in excused and plan.movable(point):
+        if point.behavior not in plan.lurking and plan.movable(point):
             amount = _gap(plan, point, Origin.BLOCK_START)
             yield Violation("7.13", _names(point), amount, f"{_name(point)} not before its block")
 
@@ -188,14 +186,6 @@ def _clusters(plan: PlanView, behaviors: Collection[str]) -> list[tuple[frozense
     for id_ in behaviors:
         members.setdefault(groups.find(id_)[0], []).append(id_)
     return [(frozenset(ids), [tie for id_ in ids for tie in own[id_]]) for ids in members.values()]
-
-
-def _joins_late(plan: PlanView, ties: Collection[Tie]) -> bool:
-    """Whether a time from outside places a cluster before its block, or a point that one is tied to was cut."""
-    tied = [tie for tie in ties if not plan.outer.keys().isdisjoint(tie.nodes)]
-    times = [time for tie in tied for node in tie.nodes if (time := plan.time(node)) is not None]
-    cut = any(isinstance(node, Point) and node not in plan.times for tie in ties for node in tie.nodes)
-    return cut or (plan.start is not None and any(time < plan.start for time in times))
 
 
 def _gap(plan: PlanView, later: Node, earlier: Node, offset: float = 0.0) -> float:

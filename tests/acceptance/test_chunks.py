@@ -80,3 +80,16 @@ async def test_an_appended_block_waits_for_a_chunk_and_its_predecessors(pilot: R
     pilot.block("next", composition="APPEND")
     await pilot.advance(6)
     assert pilot.feedback.time("two:end") < pilot.feedback.time("one:end") == pilot.feedback.time("next:start")
+
+
+async def test_a_chunk_starts_when_the_last_behavior_before_it_is_dropped(pilot: RealizerPilot) -> None:
+    pilot.block(
+        "a",
+        '<gesture id="g" lexeme="BEAT" mode="RIGHT_HAND" start="0" relax="1" end="3"/>'
+        '<gesture id="h" lexeme="BEAT" mode="RIGHT_HAND" start="1.5"/>',
+    )
+    pilot.block("b", '<head id="n" lexeme="NOD"/>', **{"bmla:chunkAfter": "a"})
+    await pilot.advance(2)
+    assert pilot.feedback.warnings == [("a:h", "IMPOSSIBLE_TO_SCHEDULE")]
+    assert pilot.feedback.time("a:relax") == pilot.feedback.time("b:n:start") == 1.5
+    assert not pilot.feedback.reached("b:n:end")

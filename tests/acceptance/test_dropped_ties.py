@@ -51,7 +51,8 @@ async def test_the_warning_of_a_dropped_constraint_names_the_dropped_behavior(pi
 async def test_a_reference_to_an_unknown_behavior_lists_the_known_ones(pilot: RealizerPilot) -> None:
     pilot.block("b", nod("n", start="nobody:stroke") + nod("m"))
     await pilot.advance(2)
-    assert told(pilot, "b:n") == ["nobody:stroke: there is no behavior 'nobody'; available: n, m"]
+    reason = "'nobody' is neither a behavior of this block nor a block that is still alive; behaviors: n, m"
+    assert told(pilot, "b:n") == [f"nobody:stroke: {reason}"]
 
 
 async def test_the_dropped_behavior_may_be_in_another_block(pilot: RealizerPilot) -> None:

@@ -164,3 +164,13 @@ async def test_dependents_in_other_blocks_follow_a_behavior_that_was_late(pilot:
     await pilot.advance(5)
     assert_time(pilot.feedback, "b:n:start", 2.0)
     assert_linked(pilot.feedback, "c:m:start", "b:n:end")
+
+
+async def test_what_is_tied_ahead_of_a_passed_time_does_not_begin_before_its_block(pilot: RealizerPilot) -> None:
+    pilot.block("a", wait("w", 0.2) + wait("v", 3))
+    await pilot.advance(0.25)
+    pilot.block("b", nod("n", stroke="a:w:end+0.2"))
+    await pilot.advance(2)
+    assert_time(pilot.feedback, "b:n:start", 0.25)
+    assert_time(pilot.feedback, "b:n:stroke", 0.4)
+    assert pilot.feedback.warnings == []

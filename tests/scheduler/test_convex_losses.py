@@ -80,11 +80,11 @@ def test_a_behavior_without_a_duration_is_dropped_alone() -> None:
     assert plan.solution.behaviors == {"b"}
 
 
-def test_a_behavior_tied_to_a_past_point_joins_late_or_is_dropped_if_it_would_be_over() -> None:
-    assert Plan({"n": NOD}, at("n:start", outer("hit", -0.5))).times("n") == pytest.approx([-0.5, -0.1, 0.5])
-    plan = Plan({"n": NOD}, at("n:start", outer("hit", -1.5)))
-    assert plan.losses == [("n", "all-past", True)]
-    assert plan.solution.losses[0].fault.details["late"] == pytest.approx(0.5)
+def test_a_tie_to_a_time_before_the_block_is_dropped() -> None:
+    plan = Plan({"n": NOD}, at("n:start", outer("hit", -0.5)))
+    assert plan.times("n") == pytest.approx([0.0, 0.4, 1.0])
+    assert plan.losses == [("n", "clash", False)]
+    assert "the start of the block by 0.5 s" in plan.solution.losses[0].fault.sentence
 
 
 def test_independent_contradictions_are_all_reported() -> None:

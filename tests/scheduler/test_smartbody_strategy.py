@@ -219,13 +219,9 @@ def test_a_behavior_tied_to_an_outer_time_follows_it() -> None:
     assert plan["g:start"] == 3.0
 
 
-def test_a_behavior_tied_to_a_past_point_joins_late() -> None:
-    assert Plan([item("g", NOD)], tie("g:start", outer(-0.5))).times("g") == pytest.approx([-0.5, -0.1, 0.5])
-
-
-def test_a_behavior_that_would_be_over_is_dropped() -> None:
+def test_a_behavior_tied_to_a_past_point_is_dropped() -> None:
     plan = Plan([item("g", NOD)], tie("g:start", outer(-1.5)))
-    assert plan.losses == [("g", "all-past", True)]
+    assert plan.losses == [("g", "before-block", True)]
     assert plan.kept == set()
 
 

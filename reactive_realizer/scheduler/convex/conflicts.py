@@ -54,13 +54,11 @@ class Conflict:
 
     Attributes:
         gap: the contradiction, s; infinite where two times from outside are tied.
-        late: whether a behavior is in conflict because it would have ended before its block starts.
         needs: the phases whose shortest durations take part.
     """
 
     requirements: frozenset[Requirement]
     gap: float
-    late: bool = False
     needs: tuple[Need, ...] = ()
 
     @property

@@ -88,7 +88,6 @@ class Model:
         knots: nodes of each behavior, by index of the point, in order.
         parts: spans of each behavior.
         spans: all of them.
-        late: the behaviors that join late; thesis 7.13 does not apply to them (docs/semantics.md).
         bounds: all inequalities.
         conflicts: those found while building.
         size: number of variables.
@@ -105,7 +104,6 @@ class Model:
         self._add_behaviors(lifted)
         self._link()
         self._found = [self.groups.find(node) for node in range(len(self.groups))]
-        self.late = self._late_behaviors()
         self.spans = [span for part in self.parts.values() for span in part.spans]
         self.places = self._find_places()
         self.size = 1 + max(variable for variable, _ in self.places)
@@ -146,29 +144,6 @@ class Model:
             if conflict is not None:
                 self.conflicts.append(conflict)
 
-    def _late_behaviors(self) -> set[int]:
-        """The behaviors with a tied point that a time from outside brought before the block's start."""
-        times = list(self.relaxed.fixed.values())
-        passed = set[int]()
-        for node, (root, offset) in enumerate(self._found):
-            time = times[root] if root < len(times) else None
-            if time is not None and time + offset < 0:
-                passed.add(node)
-        ties = (
-            [[(node, self.nodes[node]) for node in tie.nodes] for tie in self.relaxed.ties.values()] if passed else []
-        )
-        late = passed.intersection(range(START + 1, len(times)))
-        for tie in ties:
-            if any(not isinstance(node, Point | Origin) for node, _ in tie):
-                late |= {self._found[number][0] for _, number in tie if number in passed}
-        names = {
-            node.behavior
-            for tie in ties
-            for node, number in tie
-            if isinstance(node, Point) and number in passed and self._found[number][0] in late
-        }
-        return {index for index, item in self.relaxed.items.items() if item.behavior.id in names}
-
     # --- variables
 
     def _find_places(self) -> list[tuple[int, float]]:
@@ -200,9 +175,8 @@ class Model:
     def _inequalities(self) -> Iterator[Inequality]:
         for requirement, order in self.relaxed.orders.items():
             yield Inequality(self.nodes[order.later], self.nodes[order.earlier], order.offset, requirement)
-        for index, knots in self.knots.items():
-            if index not in self.late:
-                yield Inequality(knots[0], START, 0.0, GIVEN)  # thesis 7.13
+        for knots in self.knots.values():
+            yield Inequality(knots[0], START, 0.0, GIVEN)  # thesis 7.13
         for span in self.spans:
             yield from _limits(span)
 

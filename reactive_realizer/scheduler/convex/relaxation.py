@@ -7,7 +7,6 @@ from reactive_realizer.planunit.timing import TooShort
 from reactive_realizer.scheduler.convex.conflicts import GIVEN, Conflict, Rank, Requirement
 from reactive_realizer.scheduler.convex.model import RelaxedProblem
 from reactive_realizer.scheduler.faults import (
-    AllPast,
     BeforeBlock,
     Conflicting,
     ContradictoryTie,
@@ -100,8 +99,6 @@ class Relaxation:
     def _behavior_fault(self, dropped: Requirement, conflict: Conflict) -> Fault:
         if (hurried := self._hurried(dropped, conflict)) is not None:
             return hurried
-        if conflict.late:
-            return AllPast(late=conflict.gap)
         if conflict.requirements == {dropped}:
             return TooShort()
         if conflict.requirements == {dropped, GIVEN}:

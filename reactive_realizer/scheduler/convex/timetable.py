@@ -137,9 +137,7 @@ def _lengths(model: Model, behavior: int) -> list[float]:
 
 
 def _unplayable(model: Model, behavior: int, points: Sequence[float]) -> Iterator[Conflict]:
-    """Whether a behavior has no duration (thesis 7.14), or has ended before its block starts."""
+    """Whether a behavior has no duration (thesis 7.14)."""
     requirements = frozenset({Requirement(Rank.BEHAVIOR, behavior)})
     if points[-1] - points[0] < SHORTEST and not model.relaxed.items[behavior].timing.instant:
         yield Conflict(requirements, 0.0)
-    elif behavior in model.late and points[-1] < -SHORTEST:
-        yield Conflict(requirements, -points[-1], late=True)

@@ -8,7 +8,7 @@ from reactive_realizer.planunit.timing import SHORTEST, TooShort, stretched
 from reactive_realizer.scheduler.embr.embr_problem import EmbrProblem
 from reactive_realizer.scheduler.embr.keeping import keep
 from reactive_realizer.scheduler.embr.placing import place
-from reactive_realizer.scheduler.faults import AllPast, ContradictoryTie
+from reactive_realizer.scheduler.faults import ContradictoryTie
 from reactive_realizer.scheduler.problem import Item, Node, Point, Precedence, SchedulingProblem, Tie
 from reactive_realizer.scheduler.solution import Loss, Solution, lost_behavior
 
@@ -40,17 +40,11 @@ class EmbrStrategy:
         """See `SchedulingStrategy`."""
         items, constraints, given = problem.items, problem.constraints, problem.given
         faults = {item.behavior.id: fault for item in items if (fault := _alone(item, constraints, given)) is not None}
-        while True:
-            playable = [item for item in items if item.behavior.id not in faults]
-            program = EmbrProblem(playable, [each for each in constraints if not each.names(faults)], given)
-            kept = keep(program)
-            knots = place(program, kept)
-            times = {p: time for item in playable for p, time in _points(item, program.knots[item.behavior.id], knots)}
-            ends = {item.behavior.id: times[item.points[-1]] for item in playable}
-            past = {id_: ends[id_] for id_ in kept.late if ends[id_] < -SHORTEST}
-            if not past:  # otherwise, the behaviors that are tied to them may be earlier without them
-                break
-            faults |= {id_: AllPast(late=-end) for id_, end in past.items()}
+        playable = [item for item in items if item.behavior.id not in faults]
+        program = EmbrProblem(playable, [each for each in constraints if not each.names(faults)], given)
+        kept = keep(program)
+        knots = place(program, kept)
+        times = {p: time for item in playable for p, time in _points(item, program.knots[item.behavior.id], knots)}
         losses = [_dropped(item, constraints, faults[item.behavior.id]) for item in items if item not in playable]
         return Solution(times, (*losses, *kept.losses))
 

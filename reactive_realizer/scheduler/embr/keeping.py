@@ -1,13 +1,13 @@
 """Chooses the constraints that can be met together."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from reactive_realizer.scheduler.embr.differences import Differences, Row
 from reactive_realizer.scheduler.embr.embr_problem import EmbrProblem
 from reactive_realizer.scheduler.faults import ContradictoryTie, OuterTie, TooHurried
 from reactive_realizer.scheduler.offset_union_find import TIE_TOLERANCE, OffsetUnionFind
-from reactive_realizer.scheduler.problem import Node, Origin, Point, Precedence, Tie
+from reactive_realizer.scheduler.problem import Node, Point, Precedence, Tie
 from reactive_realizer.scheduler.solution import Loss, lost_constraint
 
 _LEAST = 2e-5
@@ -23,7 +23,6 @@ class Kept:
         losses: the other constraints.
         groups: of points that `at` constraints and rigid phases hold together.
         rows: the other conditions on all times, including the before/after constraints.
-        late: ids of the behaviors that depend on a given time before the start of the block: they may begin before it.
         least: the earliest solution.
     """
 
@@ -31,27 +30,19 @@ class Kept:
     losses: tuple[Loss, ...]
     groups: OffsetUnionFind[Node]
     rows: tuple[Row[Node], ...]
-    late: frozenset[str]
     least: Differences[Node]
 
 
 def keep(problem: EmbrProblem) -> Kept:
     """Admit constraints in their order, except for those that cannot be met together with earlier ones."""
-    late = frozenset(_late(problem, problem.constraints))
-    while True:
-        kept = _Admission(problem, late).keep()
-        still = late.intersection(_late(problem, kept.constraints))
-        if still == late:
-            return kept
-        late = still
+    return _Admission(problem).keep()
 
 
 class _Admission:
     """One pass over the constraints."""
 
-    def __init__(self, problem: EmbrProblem, late: frozenset[str]) -> None:
+    def __init__(self, problem: EmbrProblem) -> None:
         self._problem = problem
-        self._late = late
         self._groups = OffsetUnionFind[Node](problem.given)
         self._rows: list[Row[Node]] = []
         self._losses: list[Loss] = []
@@ -70,7 +61,7 @@ class _Admission:
                 self._add(Row(Point(id_, item.timing.points[-1]), Point(id_, item.timing.points[0]), _LEAST))
         constraints = tuple(each for each in self._problem.constraints if self._admit(each))
         losses, rows = tuple(self._losses), tuple(self._rows)
-        return Kept(constraints, losses, self._groups, rows, self._late, self._differences)
+        return Kept(constraints, losses, self._groups, rows, self._differences)
 
     def _add(self, row: Row[Node]) -> float | None:
         """Add a row; by how much it misses being met together with the others, None if it does not."""
@@ -119,32 +110,10 @@ class _Admission:
         return len(roots) == 2 and roots <= self._problem.given.keys()
 
     def _floors(self) -> dict[Node, float]:
-        """Given times; for knots the start of the block, or for late ones a time before all others."""
+        """Given times; for knots the start of the block."""
         floors = {node: time or 0.0 for node, time in self._problem.given.items()}
-        wanted = sum(item.timing.offsets[-1] for item in self._problem.items.values())
-        ever = min(floors.values()) - wanted - sum(abs(each.offset) for each in self._problem.constraints)
-        for segment in self._problem.segments:
-            floors[segment.start] = floors[segment.end] = ever if segment.start.behavior in self._late else 0.0
+        floors |= {node: 0.0 for segment in self._problem.segments for node in (segment.start, segment.end)}
         return floors
-
-
-def _late(problem: EmbrProblem, constraints: Iterable[Tie | Precedence]) -> set[str]:
-    """The behaviors that ties connect, directly or not, to a given time before the start of the block."""
-    ties = [each for each in constraints if isinstance(each, Tie)]
-    late: set[str] = set()
-    while found := {id_ for tie in ties for id_ in _late_in(problem, tie, late)}.intersection(problem.items) - late:
-        late |= found
-    return late
-
-
-def _late_in(problem: EmbrProblem, tie: Tie, late: set[str]) -> Iterator[str]:
-    """The behaviors of a tie to a past time, or to a late behavior."""
-    for node, partner, offset in ((tie.left, tie.right, tie.offset), (tie.right, tie.left, -tie.offset)):
-        time = None if partner is Origin.BLOCK_START else problem.known(partner)
-        reach = 0.0 if isinstance(partner, Point) else min(0.0, offset)
-        past = time is not None and time + reach < 0
-        if isinstance(node, Point) and (past or (isinstance(partner, Point) and partner.behavior in late)):
-            yield node.behavior
 
 
 def _equal(left: Node, right: Node, offset: float) -> tuple[Row[Node], Row[Node]]:

@@ -10,7 +10,7 @@ from reactive_realizer.scheduler.embr.embr_problem import EmbrProblem, Segment
 from reactive_realizer.scheduler.embr.keeping import Kept
 from reactive_realizer.scheduler.embr.linear_program import Wish, least_deviations
 from reactive_realizer.scheduler.offset_union_find import TIE_TOLERANCE, OffsetUnionFind
-from reactive_realizer.scheduler.problem import Node, Origin, Point, Tie
+from reactive_realizer.scheduler.problem import Node, Origin, Tie
 
 _STIFFEST = 0.1
 """s; segments with shorter preferred durations are not stiffer."""
@@ -112,9 +112,7 @@ class _Group:
         floors: dict[Node, float] = {}
         for node in self._nodes():
             root, later = groups.find(node)
-            late = isinstance(node, Point) and node.behavior in self._kept.late
-            bound = not late and self._problem.known(node) is None
-            floors[root] = max(floors.get(root, -inf), -later if bound else -inf)
+            floors[root] = max(floors.get(root, -inf), -later if self._problem.known(node) is None else -inf)
         return floors
 
 

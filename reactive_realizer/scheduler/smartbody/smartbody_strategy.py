@@ -7,7 +7,6 @@ from math import isfinite
 from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.planunit.timing import SHORTEST
 from reactive_realizer.scheduler.faults import (
-    AllPast,
     BeforeBlock,
     ContradictoryTie,
     NoOrder,
@@ -204,27 +203,18 @@ class _Run:
     def _not_before_the_block(self, item: Item, known: dict[int, Placement]) -> dict[int, Placement]:
         """Have a behavior that would start before its block start with it, by shortening its first phases (7.13).
 
-        This does not concern clusters that are moved later, and behaviors that join a past time from outside.
+        This does not concern clusters that are moved later.
         """
         first = min((i for i, placed in known.items() if placed.known), default=None)
         if first is None:
             return known
         given, start = known[first], fill(item, known)[0]
         early = -(start if start.known else given).time
-        if early <= SHORTEST or self._is_free(given) or self._joins_late(given):
+        if early <= SHORTEST or self._is_free(given):
             return known
         if not start.known or first == 0 or item.timing.rigid or given.time <= 0:
             raise RealizerError(BeforeBlock(early=early))
         return {0: self._start, **known}
-
-    def _joins_late(self, given: Placement) -> bool:
-        """Whether a time from outside on which a point depends, or a point tied to such a time, is before the block."""
-        for tie in self._problem.ties if given.cluster is Fixed.OUTSIDE else ():
-            for node in given.outer.intersection(tie.nodes):
-                time, offset = self._given[node], tie.offset if tie.right == node else -tie.offset
-                if time is not None and time + (0.0 if isinstance(node, Point) else min(0.0, offset)) < 0:
-                    return True
-        return False
 
     def _cluster(self, placed: Placement) -> Cluster:
         return self._clusters.find(placed.cluster)[0]
@@ -243,11 +233,8 @@ class _Run:
 
     def _past(self, placed: Sequence[Placement]) -> Fault | None:
         """The fault of a behavior before its block, whose cluster a later behavior has tied to something fixed."""
-        past = [each for each in placed if each.known and each.time < -SHORTEST and not self._is_free(each)]
-        early = next((each for each in past if each.cluster is not Fixed.OUTSIDE), None)
-        if early is not None:
-            return BeforeBlock(early=-early.time)
-        return AllPast(late=-past[-1].time) if past and past[-1] is placed[-1] else None
+        early = (each.time for each in placed if each.known and each.time < -SHORTEST and not self._is_free(each))
+        return next((BeforeBlock(early=-time) for time in early), None)
 
 
 def _sorted(problem: SchedulingProblem, ties: OffsetUnionFind[Node]) -> list[Item]:
