@@ -1,24 +1,47 @@
 """The points at fixed distances from those of a rigid behavior."""
 
-from collections.abc import Iterable
+from collections.abc import Container, Iterable
 
+from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.pegboard.time_peg import TimeCell, TimePeg
 from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.scheduler.bml_block import BMLBlock
-from reactive_realizer.scheduler.problem import Point, Tie
+from reactive_realizer.scheduler.problem import Node, Point, Precedence, Tie
+from reactive_realizer.scheduler.verify import TOLERANCE, missed
 
 
-def pegs_ahead(block: BMLBlock, unit: PlanUnit) -> list[TimePeg]:
-    """The pegs of the points ahead of a rigid behavior of a block, and of those that are tied to it, each once.
+def shift_ahead(block: BMLBlock, unit: PlanUnit, seconds: float) -> None:
+    """Within a transaction, move the points ahead of a rigid behavior, and those that are tied to them.
 
-    A peg that follows another of these is left out.
+    Points that a `before` or an `after` constraint keeps behind or ahead of these give way.
     """
     points = _tied_points(block, unit)
-    units = {each.behavior.id: each for each in block.live_units}
-    ahead = [each.peg for id_, other in units.items() for each in other.ahead() if Point(id_, each.id) in points]
-    pegs = [peg for peg in dict.fromkeys(ahead) if not peg.pinned]
-    followers = _followers_of(pegs)
-    return [peg for peg in pegs if peg not in followers]
+    pegs = {point: peg for point, peg in _pegs_ahead(block).items() if point in points}
+    followers = _followers_of(pegs.values())
+    for peg in dict.fromkeys(pegs.values()):
+        if peg not in followers and not peg.pinned:
+            peg.shift(seconds)
+    _keep_orders(block, points)
+
+
+def _keep_orders(block: BMLBlock, moved: Container[Node]) -> None:
+    """Have points give way to some that have moved."""
+    pegs = _pegs_ahead(block)
+    for each in block.kept:
+        if not isinstance(each, Precedence) or (each.later in moved) == (each.earlier in moved):
+            continue
+        later, earlier = (pegs.get(node) if isinstance(node, Point) else None for node in each.nodes)
+        if later is None or earlier is None or missed(each, later.value, earlier.value) <= TOLERANCE:
+            continue
+        if each.earlier in moved and earlier.value is not None:
+            later.keep_after(GlobalTime(earlier.value + each.offset))
+        elif each.later in moved and not earlier.pinned:
+            earlier.keep_before(later, -each.offset)
+
+
+def _pegs_ahead(block: BMLBlock) -> dict[Point, TimePeg]:
+    """The pegs of the points of a block that have not fired."""
+    return {Point(unit.behavior.id, point.id): point.peg for unit in block.live_units for point in unit.ahead()}
 
 
 def _tied_points(block: BMLBlock, unit: PlanUnit) -> set[Point]:

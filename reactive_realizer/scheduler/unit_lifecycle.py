@@ -19,7 +19,7 @@ from reactive_realizer.scheduler.block_feedback import BlockFeedback
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.scheduler.engine_routing import EngineRouting
-from reactive_realizer.scheduler.rigid_points import pegs_ahead
+from reactive_realizer.scheduler.rigid_points import shift_ahead
 
 logger = logging.getLogger(__name__)
 
@@ -99,8 +99,7 @@ class UnitLifecycle:
         if block is None or unit.state is not UnitState.IN_EXEC:
             return
         with self._board.graph.transaction(f"drift of {unit.behavior.id}"):
-            for peg in pegs_ahead(block, unit):
-                peg.shift(seconds)
+            shift_ahead(block, unit, seconds)
             if unit in self._scheduled_cuts:
                 self.schedule_cut(unit, GlobalTime(self._scheduled_cuts[unit] + seconds))
         unit.wake()

@@ -76,6 +76,25 @@ async def test_points_ahead_and_what_is_tied_to_them_move_to_what_is_heard(talki
     assert told.status("b") == told.status("other") == "DONE"
 
 
+@pytest.mark.parametrize("late", [0.15, -0.1])
+@pytest.mark.parametrize(("order", "nod"), [("after", "start"), ("after", "stroke"), ("before", "end")])
+async def test_what_comes_before_or_after_a_word_gives_way(order: str, nod: str, late: float) -> None:
+    # What follows a word that is heard early keeps to its plan, which is not as early as can be.
+    async with open_pilot(SceneOptions(voice="espeak", verify=late > 0)) as pilot:
+        rule = f'<constraint id="c"><{order} ref="s:two"><sync ref="n:{nod}"/></{order}></constraint>'
+        start_ = ' start="s:two-0.71"' if order == "before" else ""
+        pilot.block("b", SPEECH + f'<head id="n" lexeme="NOD"{start_}/>' + rule)
+        while not pilot.feedback.reached("b:s:start"):
+            await pilot.tick()
+        await pilot.advance(0.5)
+        await hear(pilot, late)
+        await hear(pilot, late + 0.05)
+        await pilot.advance(5)
+        word, point = (pilot.feedback.time(f"b:{each}") for each in ("s:two", f"n:{nod}"))
+        assert point >= word - 1e-6 if order == "after" else point <= word + 1e-6
+        assert pilot.feedback.warnings == []
+
+
 async def test_words_are_reported_when_they_are_heard(talking: RealizerPilot) -> None:
     before = planned(talking)
     await hear(talking, 0.12)
