@@ -40,6 +40,7 @@ class PegBoard:
         self._pegs: dict[PegKey, TimeCell] = {}
         self._blocks: dict[BlockKey, list[PegKey]] = {}
         self._owners: dict[TimeCell, BlockKey] = {}
+        self._last: dict[PegKey, AnticipatorPeg] = {}
         self._unnamed: dict[BlockKey, list[TimePeg]] = {}
         self.anticipators: dict[str, Anticipator] = {}
         self.forecast: Callable[[Anticipator, str], Time] = lambda anticipator, sync: anticipator.forecast(sync)
@@ -118,7 +119,7 @@ class PegBoard:
         predicted = self._blocks.get(_PREDICTED, [])
         self._blocks[_PREDICTED] = [key for key in predicted if not self._forgettable(key)]
         for key in set(predicted).difference(self._blocks[_PREDICTED]):
-            self._owners.pop(self._pegs.pop(key), None)
+            self._forget(key)
 
     def predicted(self, anticipator: str, sync: str) -> AnticipatorPeg:
         """The peg of a predicted point, made when the point is first named."""
@@ -131,18 +132,26 @@ class PegBoard:
             self.add(key, peg)
         return peg
 
-    def upcoming(self, anticipator: str, sync: str, since: GlobalTime) -> AnticipatorPeg:
-        """The peg of the first occurrence of a predicted point since a time; a counted point has only one."""
+    def upcoming(self, anticipator: str, sync: str) -> AnticipatorPeg:
+        """The peg of the next occurrence of a predicted point; a counted point has only one."""
         owner, peg = self.anticipators.get(anticipator), self.predicted(anticipator, sync)
-        if has_passed(peg.value, since) and not (owner is not None and owner.counts(sync)):
+        if is_due(peg.value, self.time) and not (owner is not None and owner.counts(sync)):
             self.renew(anticipator, sync)
             peg = self.predicted(anticipator, sync)
         return peg
+
+    def first_since(self, anticipator: str, sync: str, time: GlobalTime) -> AnticipatorPeg:
+        """The peg of the last occurrence of a predicted point, unless that was before a time; else of the next one."""
+        last = self._last.get(anticipator_key(anticipator, sync))
+        if last is None or last.value is None or has_passed(last.value, time):
+            return self.upcoming(anticipator, sync)
+        return last
 
     def renew(self, anticipator: str, sync: str) -> None:
         """Make a predicted point mean its next occurrence; pegs that depend on it already keep this one."""
         key = anticipator_key(anticipator, sync)
         if key in self._pegs:
+            self._last[key] = self.predicted(anticipator, sync)
             self._owners.pop(self._pegs[key], None)
             self._pegs[key] = AnticipatorPeg(self.graph, str(key), None)
             self._owners[self._pegs[key]] = key.block_key
@@ -181,7 +190,7 @@ class PegBoard:
     def forget_point(self, key: PegKey) -> None:
         """Forget a predicted point that no peg depends on; if it is named again, it is a new one."""
         self._blocks[_PREDICTED].remove(key)
-        self._owners.pop(self._pegs.pop(key), None)
+        self._forget(key)
 
     def snapshot(self, newest: int | None = None) -> tuple[PegView, ...]:
         """The named pegs, in order of naming; only the newest, if a number is given."""
@@ -193,6 +202,10 @@ class PegBoard:
         if key not in self._pegs:
             raise RealizerError(NoPoint(point=str(key)))
         return self._pegs[key]
+
+    def _forget(self, key: PegKey) -> None:
+        self._owners.pop(self._pegs.pop(key), None)
+        self._last.pop(key, None)
 
     def _forgettable(self, key: PegKey) -> bool:
         peg, anticipator = self._pegs[key], self.anticipators.get(key.behavior or "")

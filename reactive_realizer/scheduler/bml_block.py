@@ -115,7 +115,7 @@ class BMLBlock:
         points = ((ref.behavior, ref.sync) for ref in description.refs if ref.block == ANTICIPATORS)
         for anticipator, point in dict.fromkeys(points):
             if anticipator is not None and point is not None:
-                self._name(board, anticipator, point, arrived)
+                self._name(board, anticipator, point, board.upcoming(anticipator, point))
 
     # --- state
 
@@ -216,29 +216,29 @@ class BMLBlock:
         kept: Sequence[Tie | Precedence],
         holds: Sequence[TimeCell],
     ) -> None:
-        """Have the behaviors of a plan; start after everything that it waits for, and not before ``floor``.
+        """Have the behaviors of a plan; start after everything that it waits for, and end not before ``floor``.
 
         A block that plays keeps its start.
         """
         self.holds = tuple(holds)
         self.planned_times = times
-        self.set_units(floor, units, kept)
-        if not self.state.plays:
-            self.start.wait_for(floor, self._awaited())
-
-    def set_units(self, floor: GlobalTime, units: Sequence[PlanUnit], kept: Sequence[Tie | Precedence]) -> None:
-        """Have other behaviors, or the same with other pegs; end not before ``floor``."""
         self.units, self.kept = list(units), tuple(kept)
         self.outside = _outside(self.kept)
         self.update_end(floor)
+        if not self.state.plays:
+            self.start.wait_for(floor, self._awaited())
 
-    def renew_predicted(self, board: PegBoard) -> dict[TimeCell, TimeCell]:
+    def renew_predicted(self, board: PegBoard) -> Mapping[TimeCell, TimeCell]:
         """Name the next occurrences of the points that passed before it was meant; the new pegs by the old ones."""
         meant = self.meant
-        passed = [(*key, peg) for key, peg in self.predicted.items() if meant and has_passed(peg.value, meant.time)]
-        for anticipator, sync, _ in passed:
-            self._name(board, anticipator, sync, meant.time if meant else self._arrived)
-        return {old: self.predicted[anticipator, sync] for anticipator, sync, old in passed}
+        if meant is None:
+            return {}
+        renewed = dict[TimeCell, AnticipatorPeg]()
+        for (anticipator, sync), old in list(self.predicted.items()):
+            if has_passed(old.value, meant.time):
+                renewed[old] = board.first_since(anticipator, sync, meant.time)
+                self._name(board, anticipator, sync, renewed[old])
+        return renewed
 
     def rename_pegs(self, replaced: Mapping[TimeCell, TimeCell]) -> None:
         """Have constraints and waits name the new pegs of other blocks."""
@@ -266,9 +266,8 @@ class BMLBlock:
         self.relax.wait_for(floor, (self.start, *(_subsiding(unit).peg for unit in self.units)))
         self.end.wait_for(floor, (self.start, *(unit.last_known.peg for unit in self.units)))
 
-    def _name(self, board: PegBoard, anticipator: str, sync: str, since: GlobalTime) -> None:
-        """Name the first occurrence of a point since a time."""
-        peg = board.upcoming(anticipator, sync, since)
+    def _name(self, board: PegBoard, anticipator: str, sync: str, peg: AnticipatorPeg) -> None:
+        """Name an occurrence of a point."""
         self.predicted[anticipator, sync] = peg
         # The board forgets the names of points without dependents.
         board.add_unnamed(self.key, [OffsetPeg(board.graph, peg.name, peg, 0.0)])

@@ -91,6 +91,8 @@ class ConstraintMonitor:
         late = _late(constraint, block, units)
         outside = [node for node in constraint.nodes if not isinstance(node, Point | Origin)]
         fired = bool(outside) and _fired(constraint, block, units)
+        if not block.state.plays and not block.state.ended and _outer(constraint) is not None:
+            return  # a late tie is reported when the block starts
         if fired and late > TOLERANCE and _kept_ahead(constraint, block, units, moved):
             self._lifecycle.settle(block, constraint)
             return

@@ -3,9 +3,10 @@
 from collections import defaultdict
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from math import inf
 from typing import NamedTuple
 
-from reactive_realizer.clock.units import RESOLUTION, GlobalTime
+from reactive_realizer.clock.units import GlobalTime, has_passed
 from reactive_realizer.errors import SchedulingFault
 from reactive_realizer.pegboard.time_peg import TimeCell
 from reactive_realizer.planunit.timing import PhaseKind
@@ -41,6 +42,16 @@ def outer_ties(ties: Iterable[Tie]) -> Iterator[OuterTie]:
                 yield OuterTie(left, right, tie.offset, tie)
         elif isinstance(right, Point | Origin):
             yield OuterTie(right, left, -tie.offset, tie)
+
+
+def least_times(items: Iterable[Item], ties: Iterable[Tie]) -> dict[TimeCell, float]:
+    """For each time from outside that points are tied to, the earliest to which no tie is late, s after the start."""
+    leads = {point: _rigid_lead(item, k) for item in items for k, point in enumerate(item.points)}
+    least: dict[TimeCell, float] = {}
+    for each in outer_ties(ties):
+        if isinstance(each.node, Point):
+            least[each.cell] = max(least.get(each.cell, -inf), leads[each.node] - each.offset)
+    return least
 
 
 class LateTies:
@@ -86,15 +97,13 @@ class LateTies:
 
     def _is_late(self, outer: OuterTie) -> bool:
         time = outer.cell.value
-        return time is not None and time + outer.offset < self._start + self._rigid_lead(outer.node) - RESOLUTION
-
-    def _rigid_lead(self, node: Point | Origin) -> float:
-        """The time (s) that the rigid phases of a behavior take before one of its points."""
-        item = self._items.get(node.behavior) if isinstance(node, Point) else None
-        if item is None or not isinstance(node, Point):
-            return 0.0
-        phases = item.timing.phases[: item.points.index(node)]
-        return sum(phase.duration for phase in phases if phase.kind is PhaseKind.RIGID)
+        if time is None:
+            return False
+        lead = 0.0
+        if isinstance(outer.node, Point):
+            item = self._items[outer.node.behavior]
+            lead = _rigid_lead(item, item.points.index(outer.node))
+        return has_passed(time + outer.offset, self._start + lead)
 
     def _losses(self, ties: Iterable[OuterTie], late: float) -> Iterator[Loss]:
         named = [each for each in ties if self._is_late(each) and not self._says_start(each.node)]
@@ -128,6 +137,11 @@ class LateTies:
             for one, other, offset in ((tie.left, tie.right, -tie.offset), (tie.right, tie.left, tie.offset)):
                 if isinstance(one, Point) and isinstance(other, Point) and one.behavior == behavior:
                     yield one, other, offset
+
+
+def _rigid_lead(item: Item, point: int) -> float:
+    """The time (s) that the rigid phases of a behavior take before one of its points."""
+    return sum(phase.duration for phase in item.timing.phases[:point] if phase.kind is PhaseKind.RIGID)
 
 
 def _placed(item: Item, places: Mapping[Point | Origin, float]) -> dict[Point | Origin, float]:

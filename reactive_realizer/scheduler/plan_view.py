@@ -8,6 +8,7 @@ from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.pegboard.time_peg import TimeCell
 from reactive_realizer.planunit.timing import Timing
 from reactive_realizer.scheduler.bml_block import BMLBlock
+from reactive_realizer.scheduler.late_ties import outer_ties
 from reactive_realizer.scheduler.peg_layout.peg_layout import PegLayout
 from reactive_realizer.scheduler.problem import Node, Origin, Point, Precedence, SchedulingProblem, Tie
 from reactive_realizer.scheduler.solution import Solution
@@ -60,8 +61,10 @@ class PlanView:
         """A block on the board, in global times, at the end of the tick at ``now``."""
         points = {Point(unit.behavior.id, p.id): p for unit in block.units for p in unit.points}
         start = block.start.value
-        # The start of the block waits for these, and may come later; a body was too slow for the others.
+        # The start of the block waits for these, and may come later; a body was too slow for the others. Until the
+        # block starts, ties to times from outside may be late.
         waited = (each for each in block.kept if not any(isinstance(node, Point) for node in each.nodes))
+        late = (each.tie for each in outer_ties(each for each in block.kept if isinstance(each, Tie)))
         hurried = {Point(unit.behavior.id, sync) for unit in block.units for sync in unit.hurries}
         missed = (each for each in block.kept if not hurried.isdisjoint(each.nodes))
         return cls(
@@ -80,7 +83,7 @@ class PlanView:
             None if start is None else max(start, now),
             block.end.value,
             block.end.floor,
-            frozenset(block.settled.union(waited, missed)),
+            frozenset(block.settled.union(waited, missed, () if block.state.plays else late)),
             frozenset(unit.behavior.id for unit in block.units if not unit.begun),
             {unit.behavior.id: unit.shortest for unit in block.units},
         )

@@ -5,10 +5,10 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, field, replace
 
-from reactive_realizer.clock.units import RESOLUTION, GlobalTime, Time
+from reactive_realizer.clock.units import RESOLUTION, GlobalTime, Time, has_passed, is_due
 from reactive_realizer.pegboard.peg_key import PegKey
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.pegboard.time_peg import Bound, OffsetPeg, OpenPeg, TimeCell, TimePeg
+from reactive_realizer.pegboard.time_peg import AfterPeg, Bound, OffsetPeg, OpenPeg, TimeCell, TimePeg
 from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
 from reactive_realizer.planunit.timing import OPEN, Timing
 from reactive_realizer.planunit.wait_unit import WaitUnit
@@ -18,7 +18,7 @@ from reactive_realizer.scheduler.constraints import ReferenceResolver, bound_on_
 from reactive_realizer.scheduler.duration_limits import beyond_limits
 from reactive_realizer.scheduler.faults import WorkFailed
 from reactive_realizer.scheduler.free_points import through_free
-from reactive_realizer.scheduler.late_ties import LateTies
+from reactive_realizer.scheduler.late_ties import LateTies, least_times
 from reactive_realizer.scheduler.passed_moments import without_passed
 from reactive_realizer.scheduler.peg_layout.peg_layout import PegLayout
 from reactive_realizer.scheduler.problem import Item, Node, Origin, Point, Precedence, SchedulingProblem, Tie
@@ -147,13 +147,13 @@ class Planning:
         """A new plan of a block that starts at ``start``, with the preferences of its engines ``now`` (thesis 12.1.4).
 
         A chunk is planned again because gestures are prepared from the position of the hands. So is a block with points
-        that have come to lie before its start, because times from outside have moved: no point comes before its block.
+        or ties before its start, because times from outside have moved: no point comes before its block.
 
         Returns:
             None if the present plan is still good, or the new plan of a chunk would lose anything.
         """
         times = (point.peg.value for unit in block.units for point in unit.points)
-        early = any(time is not None and time < start - RESOLUTION for time in times)
+        early = any(has_passed(time, start) for time in times) or _has_late_ties(block, start)
         if not early and not any(each.chunk for each in block.predecessors):
             return None
         timings = {unit: unit.preference(now) for unit in block.units}
@@ -189,6 +189,17 @@ class Planning:
         self._board.add_unnamed(block.key, holds)
         return holds
 
+    def _starts(self, block: BMLBlock, plan: Plan) -> bool:
+        """Whether a block has started, or starts in this tick."""
+        return block.state.plays or (not plan.posed.holds and is_due(block.start.value, self._board.time))
+
+    def _not_before(self, block: BMLBlock, plan: Plan) -> dict[TimeCell, TimePeg]:
+        """Pegs for times from outside, for a block that waits: none comes before a tie to it can be met."""
+        graph, layout = self._board.graph, plan.layout.kept
+        least = least_times(layout.items, layout.ties).items()
+        name = f"for {block.key.block}"
+        return {cell: AfterPeg(graph, f"{cell.name} {name}", cell, [(block.start, time)]) for cell, time in least}
+
     def _open(self, unit: PlanUnit) -> None:
         """Give a behavior pegs for the points that are not planned, so that others may depend on them."""
         graph = self._board.graph
@@ -205,8 +216,9 @@ class Planning:
 
     def _build(self, block: BMLBlock, plan: Plan) -> dict[PegKey, TimePeg]:
         """Make the pegs of a plan, and give them to the points of its units."""
-        pegs, unnamed = plan.layout.build(self._board.graph, block.key.block, block.start)
-        self._board.add_unnamed(block.key, unnamed)
+        outside = {} if self._starts(block, plan) else self._not_before(block, plan)
+        pegs, unnamed = plan.layout.build(self._board.graph, block.key.block, block.start, outside)
+        self._board.add_unnamed(block.key, [*outside.values(), *unnamed])
         reasons: dict[Point, list[str]] = {}
         for each in plan.kept:
             for node in each.nodes:
@@ -237,6 +249,14 @@ def _cell_of(node: Node, block: BMLBlock, pegs: Mapping[Point, TimePeg]) -> Time
     if isinstance(node, Point):
         return pegs.get(node)
     return block.start if isinstance(node, Origin) else node
+
+
+def _has_late_ties(block: BMLBlock, start: GlobalTime) -> bool:
+    if not block.outside:
+        return False
+    items = (Item(unit.behavior, unit.timing.closed) for unit in block.units)
+    ties = (each for each in block.kept if isinstance(each, Tie))
+    return any(has_passed(cell.value, start + time) for cell, time in least_times(items, ties).items())
 
 
 def _posed_again(block: BMLBlock, timings: Mapping[PlanUnit, Timing], now: GlobalTime, *, starts: bool) -> BlockProblem:

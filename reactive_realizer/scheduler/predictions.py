@@ -74,7 +74,8 @@ def _prediction(block: BMLBlock, times: _Times, now: GlobalTime) -> PredictionFe
     if end is None:
         end = max([start, *(time for own in known.values() for time in own.values())])
     behaviors = tuple(
-        BehaviorPrediction(unit.behavior, {sync: BlockTime(time - start) for sync, time in own.items()})
+        # A waiting block is planned again at its start, so that no point comes before that.
+        BehaviorPrediction(unit.behavior, {sync: BlockTime(max(time - start, 0.0)) for sync, time in own.items()})
         for unit, own in known.items()
     )
     return PredictionFeedback(*block.key, start, end, block.state.value, behaviors)

@@ -157,13 +157,15 @@ async def test_a_behavior_after_a_passed_time_starts_with_its_block(strategy: st
 
 async def test_dependents_in_other_blocks_follow_a_behavior_that_was_late(pilot: RealizerPilot) -> None:
     pilot.block("a", wait("w", 2))
-    pilot.block("b", nod("n", start=f"{STOP}"), composition="APPEND")
-    pilot.block("c", nod("m", start="b:n:end"))
+    pilot.block("b", nod("n", start=STOP), composition="APPEND")
+    pilot.block("c", nod("m", start="b:n:start") + nod("k", start="b:n:end"))
     await pilot.advance(1)
-    pilot.predict("user", "stop", 1.5)
+    pilot.predict("user", "stop", 1.1)
     await pilot.advance(5)
     assert_time(pilot.feedback, "b:n:start", 2.0)
-    assert_linked(pilot.feedback, "c:m:start", "b:n:end")
+    assert_time(pilot.feedback, "c:m:start", 2.0)
+    assert_linked(pilot.feedback, "c:k:start", "b:n:end")
+    assert pilot.feedback.warnings == []
 
 
 async def test_what_is_tied_ahead_of_a_passed_time_does_not_begin_before_its_block(pilot: RealizerPilot) -> None:
@@ -174,3 +176,15 @@ async def test_what_is_tied_ahead_of_a_passed_time_does_not_begin_before_its_blo
     assert_time(pilot.feedback, "b:n:start", 0.25)
     assert_time(pilot.feedback, "b:n:stroke", 0.4)
     assert pilot.feedback.warnings == []
+
+
+async def test_predictions_place_no_point_of_a_waiting_block_before_its_start(pilot: RealizerPilot) -> None:
+    pilot.block("a", wait("w", 2))
+    behaviors = WELL.format("") + nod("n", start="s:end") + BEAT.format(f' stroke="{STOP}"')
+    pilot.block("b", behaviors + synchronize("s:m", STOP), composition="APPEND")
+    await pilot.advance(1)
+    pilot.predict("user", "stop", 1.1)
+    await pilot.advance(0.5)
+    assert pilot.feedback.predicted("b:s:start") == pytest.approx(2.0)
+    assert pilot.feedback.predicted("b:g:start") >= 2.0
+    assert pilot.feedback.predicted("b:n:start") == pytest.approx(2.0 + LENGTH)

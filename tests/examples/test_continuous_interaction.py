@@ -147,6 +147,14 @@ async def test_a_path_of_the_plan_is_spoken_without_a_gap_and_the_others_are_giv
     assert len([each for each in scene.sounds if isinstance(each, AudioStart)]) == len(path)
 
 
+async def test_each_utterance_starts_with_the_release_at_the_end_of_the_response_before_it(example: Play) -> None:
+    speaker = example("attentive_speaker")
+    scene, releases = await speaker["main"]()
+    parts = [f"part{number}" for number in range(1, len(speaker["ROUTE"]) + 1)]
+    assert [scene.feedback.time(f"{part}:words:start") for part in parts] == pytest.approx(releases)
+    well(scene, *parts)
+
+
 async def test_each_part_is_broken_off_where_it_was_said_and_goes_on_as_it_was_prepared(example: Play) -> None:
     scene = await example("graceful_interruption")["main"]()
     told = scene.feedback

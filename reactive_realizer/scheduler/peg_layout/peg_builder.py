@@ -19,6 +19,7 @@ class PegBuilder:
         points: of the section, in the order of their names.
         start: the peg of the block's start.
         pegs: those of the points of earlier sections.
+        outside: those to depend on instead of some pegs from outside.
 
     Attributes:
         made: all pegs that were made.
@@ -32,6 +33,7 @@ class PegBuilder:
         points: Sequence[Point],
         start: TimeCell,
         pegs: Mapping[Point, TimePeg],
+        outside: Mapping[TimeCell, TimePeg],
     ) -> None:
         self._graph = graph
         self._block = block
@@ -39,7 +41,7 @@ class PegBuilder:
         self._network = section.network
         self._points = points
         self._start = start
-        self._given = [self._link(node, pegs) for node in section.network.given]
+        self._given = [self._link(node, pegs, outside) for node in section.network.given]
         self._outer = set(self._given).difference(pegs.values())
         self._names: dict[tuple[int, float], str] = {}
         for point in points:
@@ -129,11 +131,11 @@ class PegBuilder:
             link = self._start
         return self._keep(OffsetPeg(self._graph, name, link, offset))
 
-    def _link(self, node: Node, pegs: Mapping[Point, TimePeg]) -> TimeCell:
+    def _link(self, node: Node, pegs: Mapping[Point, TimePeg], outside: Mapping[TimeCell, TimePeg]) -> TimeCell:
         """The peg of a given node."""
         if isinstance(node, Point):
             return pegs[node]
-        return self._start if isinstance(node, Origin) else node
+        return self._start if isinstance(node, Origin) else outside.get(node, node)
 
     def _name_of(self, point: Point) -> str:
         return f"{self._block}:{point.behavior}:{point.sync}"

@@ -1,6 +1,7 @@
 """From the times of a plan to its pegs."""
 
 from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 from typing import NamedTuple
 
 from reactive_realizer.pegboard.time_peg import TimeCell, TimePeg
@@ -63,19 +64,22 @@ class PegLayout:
                 waiting |= section.following(waiting)
         return {point: None if point in waiting else self._times[point] for point in self._points}
 
-    def build(self, graph: Graph, block: str, start: TimeCell) -> BuiltPegs:
+    def build(
+        self, graph: Graph, block: str, start: TimeCell, outside: Mapping[TimeCell, TimePeg] = MappingProxyType({})
+    ) -> BuiltPegs:
         """The pegs of all points.
 
         Args:
             graph: where they live.
             block: id of the block, for their names.
             start: the peg of the block's start.
+            outside: pegs to depend on instead of some pegs from outside.
         """
         named: dict[Point, TimePeg] = {}
         made: list[TimePeg] = []
         for section in self._sections:
             points = [point for point in self._points if point in section.points]
-            builder = PegBuilder(graph, block, section, points, start, named)
+            builder = PegBuilder(graph, block, section, points, start, named, outside)
             named |= builder.build()
             made += builder.made
         named = {point: named[point] for point in self._points}
