@@ -128,12 +128,12 @@ async def test_a_tie_is_late_only_if_it_is_when_its_block_starts(pilot: Realizer
 
 
 async def test_a_late_prediction_that_comes_back_is_met(pilot: RealizerPilot) -> None:
-    pilot.predict("t", "hit", 4.0)
+    pilot.predict("t", "hit", 2.4)
     pilot.block("a", wait("w", 2))
     pilot.block("b", nod("n", start="0", stroke=HIT), composition="APPEND")
-    await moves(pilot, 0.5, ("hit", 1.9), 1, ("hit", 3.0), 3)
+    await moves(pilot, 0.5, ("hit", 1.9), 1, ("hit", 2.5), 3)
     assert_time(pilot.feedback, "b:n:start", 2.0)
-    assert_time(pilot.feedback, "b:n:stroke", 3.0)
+    assert_time(pilot.feedback, "b:n:stroke", 2.5)
     assert pilot.feedback.warnings == []
 
 
@@ -171,10 +171,10 @@ async def test_dependents_in_other_blocks_follow_a_behavior_that_was_late(pilot:
 async def test_what_is_tied_ahead_of_a_passed_time_does_not_begin_before_its_block(pilot: RealizerPilot) -> None:
     pilot.block("a", wait("w", 0.2) + wait("v", 3))
     await pilot.advance(0.25)
-    pilot.block("b", nod("n", stroke="a:w:end+0.2"))
+    pilot.block("b", nod("n", stroke="a:w:end+0.25"))
     await pilot.advance(2)
     assert_time(pilot.feedback, "b:n:start", 0.25)
-    assert_time(pilot.feedback, "b:n:stroke", 0.4)
+    assert_time(pilot.feedback, "b:n:stroke", 0.45)
     assert pilot.feedback.warnings == []
 
 
