@@ -255,14 +255,19 @@ def _has_late_ties(block: BMLBlock, start: GlobalTime) -> bool:
     if not block.outside:
         return False
     items = (Item(unit.behavior, unit.timing.closed) for unit in block.units)
-    ties = (each for each in block.kept if isinstance(each, Tie))
+    ties = (each for each in _left(block) if isinstance(each, Tie))
     return any(has_passed(cell.value, start + time) for cell, time in least_times(items, ties).items())
+
+
+def _left(block: BMLBlock) -> list[Tie | Precedence]:
+    """The constraints of the present plan of a block on the behaviors that are left."""
+    gone = {behavior.id for behavior in block.description.behaviors} - {unit.behavior.id for unit in block.units}
+    return [each for each in block.kept if not each.names(gone)]
 
 
 def _posed_again(block: BMLBlock, timings: Mapping[PlanUnit, Timing], now: GlobalTime, *, starts: bool) -> BlockProblem:
     """The problem of a planned block, with the constraints of its present plan on the behaviors that are left."""
-    gone = {behavior.id for behavior in block.description.behaviors} - {unit.behavior.id for unit in timings}
-    left = [each for each in block.kept if not each.names(gone)]
+    left = _left(block)
     ties = [each for each in left if isinstance(each, Tie)]
     orders = [each for each in left if isinstance(each, Precedence)]
     return _pose(block, timings, ties, orders, now, starts=starts)

@@ -74,7 +74,7 @@ async def play(strategy: str, prepared: list[str], script: list[tuple[float, tup
         return pilot.feedback
 
 
-@settings(max_examples=25)
+@settings(max_examples=15)
 @given(
     st.sampled_from(["convex", "embr", "smartbody"]),
     st.lists(behaviors(), min_size=2, max_size=2),

@@ -188,3 +188,15 @@ async def test_predictions_place_no_point_of_a_waiting_block_before_its_start(pi
     assert pilot.feedback.predicted("b:s:start") == pytest.approx(2.0)
     assert pilot.feedback.predicted("b:g:start") >= 2.0
     assert pilot.feedback.predicted("b:n:start") == pytest.approx(2.0 + LENGTH)
+
+
+async def test_a_waiting_block_starts_without_a_behavior_whose_time_will_never_come(pilot: RealizerPilot) -> None:
+    pilot.block("never", nod("n"), **{"bmla:preplan": "true"})
+    pilot.block("a", wait("w", 1))
+    pilot.block("b", nod("n", start="never:n:start") + nod("m", start="a:w:start"), composition="APPEND")
+    await pilot.advance(0.5)
+    pilot.block("c", '<bmla:interrupt id="i" target="never"/>')
+    await pilot.advance(3)
+    assert_not_played(pilot.feedback, "b:n")
+    assert_time(pilot.feedback, "b:m:start", 1.0)
+    assert [id_ for id_, _ in pilot.feedback.warnings] == ["b:n"]
