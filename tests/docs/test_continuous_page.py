@@ -62,6 +62,11 @@ WRONG = {
         ("talk", WORDS + '<head id="x" lexeme="NOD" start="words:end"/>', ""),
         ("b", CUT.format('include="words"'), ""),
     ],
+    "late-tie": [("talk", WORDS, ""), ("b", '<head id="x" lexeme="NOD" end="talk:start"/>', "")],
+    "passed-moment": [
+        ("talk", WORDS, ""),
+        ("b", '<head id="x" lexeme="NOD" start="anticipators:metronome:tick0"/>', ""),
+    ],
     "resource-taken": [("talk", WORDS, ""), ("b", WORDS, "")],
     "waits-for-itself": [("b", '<wait id="x" event="go" start="x:end+1"/>', "")],
     "unknown-procedure": [],
@@ -84,7 +89,9 @@ def ends(example: Fence) -> dict[str, str]:
 async def test_every_block_of_an_example_ends_as_the_page_says_and_without_a_warning(example: Fence) -> None:
     async with open_pilot() as pilot:
         pilot.perform(example.text)
-        await pilot.advance(12)
+        await pilot.advance(4)
+        pilot.event("spacebar", "release")
+        await pilot.advance(8)
         assert {id_: pilot.feedback.status(id_) for id_ in ends(example)} == ends(example)
         assert pilot.feedback.warnings == []
 
