@@ -36,6 +36,12 @@ def moving_time(bodies: Sequence[Body], joints: Iterable[str]) -> float:
     return sum(_step_times(bodies, list(joints)))
 
 
+def turning_time(before: Body, after: Body, joints: Iterable[str]) -> float:
+    """Return the time in which joints turn from one pose to another at their highest speeds, s."""
+    pairs = ((joint, before.rotation(joint), after.rotation(joint)) for joint in joints)
+    return max((angle(difference(one, two)) / fastest(joint) for joint, one, two in pairs if one != two), default=0.0)
+
+
 def from_rest(moving: float) -> float:
     """Return the duration of a movement that starts at rest and would take some time at its highest speed, s."""
     # On the way of a short movement, the speed only rises.
@@ -96,10 +102,6 @@ def _step_times(bodies: Sequence[Body], joints: Sequence[str]) -> list[float]:
 
 
 def _step_time(before: Body, after: Body, joints: Sequence[str]) -> float:
-    pairs = ((joint, before.rotation(joint), after.rotation(joint)) for joint in joints)
-    turning = max(
-        (angle(difference(one, two)) / fastest(joint) for joint, one, two in pairs if one != two), default=0.0
-    )
     wrists = (wrist for wrist in _WRISTS if wrist in before.skeleton)
     ways = (distance(before.transform(wrist).position, after.transform(wrist).position) for wrist in wrists)
-    return max(turning, max(ways, default=0.0) / WRIST_SPEED)
+    return max(turning_time(before, after, joints), max(ways, default=0.0) / WRIST_SPEED)

@@ -31,7 +31,7 @@ from reactive_realizer.engines.animation.motion_maker import MakerContext, Motio
 from reactive_realizer.engines.animation.motion_parameters import parameter_values
 from reactive_realizer.engines.animation.motion_unit import START_TO_END, Moment, MotionPose, MotionUnit, Resource
 from reactive_realizer.engines.animation.posture.rest_posture import RestPosture
-from reactive_realizer.engines.animation.shortest import lag, moving_time
+from reactive_realizer.engines.animation.shortest import lag, turning_time
 from reactive_realizer.errors import RealizerError
 
 
@@ -130,9 +130,8 @@ class GazeMotionUnit(MotionUnit):
         """Return the shortest duration of the turn from rest to the expected target, s."""
         body = self._rest.body
         turn = head_turn_toward(body, self._rest.pose, expected.point, self.parameters).rotations
-        return min(
-            self._ready * self.preferred_duration, lag(minimum_jerk) * moving_time((body, body.posed(turn)), turn)
-        )
+        turning = turning_time(body, body.posed(turn), turn)
+        return min(self._ready * self.preferred_duration, lag(minimum_jerk) * turning)
 
     def start(self, body: Body) -> None:
         """Turn the head from its current direction, which may be another gaze."""
