@@ -89,7 +89,7 @@ class BlockLifecycle:
 
     def plan(self, block: BMLBlock, plan: Plan, now: GlobalTime) -> None:
         """Commit the plan of a block, or fail the block if something required is lost."""
-        if self._fails_by(block, (*plan.losses, *plan.notes), now):
+        if self._fails_by(block, plan.losses, now):
             return
         with self._board.graph.transaction(f"plan {block.key.block}"):
             holds = self._planning.lay_out(block, plan)

@@ -15,7 +15,6 @@ from reactive_realizer.planunit.wait_unit import WaitUnit
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.scheduler.constraints import ReferenceResolver, bound_on_start, constraints_of
-from reactive_realizer.scheduler.duration_limits import beyond_limits
 from reactive_realizer.scheduler.faults import WorkFailed
 from reactive_realizer.scheduler.free_points import through_free
 from reactive_realizer.scheduler.late_ties import LateTies, least_times
@@ -62,7 +61,6 @@ class Plan:
         layout: how the points depend on each other.
         units: the behaviors that have times.
         losses: those of the problem and of the strategy.
-        notes: the limits of authors that it does not keep.
         kept: the constraints that are kept.
         times: of the planned points, s after the start of the block; None for those that depend on an unknown time.
     """
@@ -74,7 +72,6 @@ class Plan:
         planned = {item.behavior.id for item in self.layout.kept.items}
         self.units = [unit for unit in posed.units if unit.behavior.id in planned]
         self.losses = (*posed.losses, *solution.losses)
-        self.notes = beyond_limits(posed.problem, solution)
         self.kept = (*self.layout.kept.constraints, *posed.holds)
         waiting = {Point(unit.behavior.id, sync) for unit in self.units for sync in unit.open}
         self.times = {point: time for point, time in self.layout.times.items() if point not in waiting}

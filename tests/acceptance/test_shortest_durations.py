@@ -140,21 +140,3 @@ async def test_a_gesture_that_follows_another_one_at_once_starts_from_its_hand(p
     await pilot.advance(3)
     assert pilot.feedback.warnings == []
     assert pilot.feedback.time("b:h:stroke") == 1.25
-
-
-# --- limits that the author of a motion has set
-
-
-@pytest.mark.parametrize(
-    ("point", "time", "limit"),
-    [("end", 1.0, "from start to end, where its author allows 1.20 s or more"),
-     ("ready", 3.0, "from start to end, where its author allows 8.00 s or less")],
-)  # fmt: skip
-async def test_a_constraint_that_exceeds_the_limits_of_an_author_holds_with_a_warning(
-    pilot: RealizerPilot, point: str, time: float, limit: str
-) -> None:
-    pilot.block("b", f'<bmlt:procanimation id="p" name="breathe_clavicular" start="0" {point}="{time}"/>')
-    await pilot.advance(15)
-    (text,) = texts(pilot, "b:p")
-    assert limit in text
-    assert pilot.feedback.time(f"b:p:{point}") == time
