@@ -46,11 +46,12 @@ def outer_ties(ties: Iterable[Tie]) -> Iterator[OuterTie]:
 
 def least_times(items: Iterable[Item], ties: Iterable[Tie]) -> dict[TimeCell, float]:
     """For each time from outside that points are tied to, the earliest to which no tie is late, s after the start."""
-    leads = {point: _rigid_lead(item, k) for item in items for k, point in enumerate(item.points)}
+    behaviors = {item.behavior.id: item for item in items}
     least: dict[TimeCell, float] = {}
     for each in outer_ties(ties):
         if isinstance(each.node, Point):
-            least[each.cell] = max(least.get(each.cell, -inf), leads[each.node] - each.offset)
+            time = _rigid_lead(behaviors[each.node.behavior], each.node) - each.offset
+            least[each.cell] = max(least.get(each.cell, -inf), time)
     return least
 
 
@@ -101,8 +102,7 @@ class LateTies:
             return False
         lead = 0.0
         if isinstance(outer.node, Point):
-            item = self._items[outer.node.behavior]
-            lead = _rigid_lead(item, item.points.index(outer.node))
+            lead = _rigid_lead(self._items[outer.node.behavior], outer.node)
         return has_passed(time + outer.offset, self._start + lead)
 
     def _losses(self, ties: Iterable[OuterTie], late: float) -> Iterator[Loss]:
@@ -139,9 +139,10 @@ class LateTies:
                     yield one, other, offset
 
 
-def _rigid_lead(item: Item, point: int) -> float:
+def _rigid_lead(item: Item, point: Point) -> float:
     """The time (s) that the rigid phases of a behavior take before one of its points."""
-    return sum(phase.duration for phase in item.timing.phases[:point] if phase.kind is PhaseKind.RIGID)
+    phases = item.timing.phases[: item.timing.points.index(point.sync)]
+    return sum(phase.duration for phase in phases if phase.kind is PhaseKind.RIGID)
 
 
 def _placed(item: Item, places: Mapping[Point | Origin, float]) -> dict[Point | Origin, float]:
