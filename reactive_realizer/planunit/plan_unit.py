@@ -76,7 +76,9 @@ class _Later(NamedTuple):
     distance: float
 
     def ahead(self, need: float) -> "_Later":
-        """The same point, as seen from before a phase that needs some time (s)."""
+        """The same point, as seen from before a phase that needs some time (s); a pinned one cannot wait for that."""
+        if self.peg.pinned:
+            return self
         return _Later(GlobalTime(self.latest - need), self.peg, self.distance - need) if need else self
 
 
@@ -300,8 +302,12 @@ class PlanUnit:
             if index > 0:
                 left = 1.0 - self.progress(now) if index == first else 1.0
                 time = GlobalTime(time + left * self.shortest[index - 1])
-            if time > now + RESOLUTION:
-                yield point, time
+            # Another behavior may hold a point that both share.
+            time = max(time, point.peg.earliest or time)
+            pinned = [each.peg.value for each in ahead[index - first :] if each.peg.pinned]
+            latest = min((at for at in pinned if at is not None), default=time)
+            if min(time, latest) > now + RESOLUTION:
+                yield point, min(time, latest)
 
     def progress(self, now: GlobalTime) -> float:
         """The share of its present phase that is done, 0 to 1."""
@@ -329,7 +335,7 @@ class PlanUnit:
                 break
             if need > 0.0:
                 later = [each.ahead(need) for each in later]
-                soonest -= need
+                soonest = min((each.latest for each in later), default=inf)
             time = point.peg.value
             if time is None:
                 continue

@@ -23,6 +23,9 @@ from reactive_realizer.scheduler.rigid_points import shift_ahead
 
 logger = logging.getLogger(__name__)
 
+_MOST_CORRECTIONS = 20
+"""Corrections of one transaction; if behaviors that share points still disagree then, their points keep their times."""
+
 
 class UnitLifecycle:
     """Takes single behaviors to their end and reports it; `BlockLifecycle` decides what that means for the block."""
@@ -167,7 +170,8 @@ class UnitLifecycle:
         that has moved before the last tick is pinned at this one. In a playing behavior, a point that is overtaken by
         its successor moves with it from then on. These are added to ``changed``.
         """
-        while units := self._moved(changed):
+        for _ in range(_MOST_CORRECTIONS):
+            units = self._moved(changed)
             if not (self._hold_back(units) or self._pin_past(units, changed) or self._keep_order(units)):
                 return
 
