@@ -27,7 +27,7 @@ def advanced(last: Progress, phases: Sequence[float], time_of: Callable[[int], T
 
     The phase advances linearly from each key position to the next, to arrive when its sync point is due. If a point
     moves, the rate changes from now on, but not the phase itself: a motion is slowed down or sped up, and never jumps.
-    It stands still while the next point is unknown.
+    It passes over unknown points to the next known one, and stands still while no further point is known.
 
     Args:
         last: the last progress.
@@ -36,17 +36,20 @@ def advanced(last: Progress, phases: Sequence[float], time_of: Callable[[int], T
         now: s.
     """
     reached, since, phase = last
-    while reached < len(phases):
-        time = time_of(reached)
-        if time is None:
-            break
+    while (key := _next_known(reached, len(phases), time_of)) is not None:
+        number, time = key
         if time > now + RESOLUTION:
-            left = time - since
-            phase += (phases[reached] - phase) * (now - since) / left
+            # A point that was unknown may have been passed over.
+            phase += max(phases[number] - phase, 0.0) * (now - since) / (time - since)
             break
-        phase, since = phases[reached], max(since, time)
-        reached += 1
+        phase, since = max(phase, phases[number]), max(since, time)
+        reached = number + 1
     return Progress(reached, now, phase)
+
+
+def _next_known(first: int, end: int, time_of: Callable[[int], Time]) -> tuple[int, GlobalTime] | None:
+    """The first key position from a number on whose time is known, with the time; None if there is none."""
+    return next(((number, time) for number in range(first, end) if (time := time_of(number)) is not None), None)
 
 
 def progress_cell(unit: PlanUnit, phases: Sequence[float], time: Source[GlobalTime]) -> Scan[Progress]:

@@ -177,7 +177,9 @@ async def _run(anticipator: Anticipator, take: Callable[[Predicted], None]) -> N
         async with aclosing(anticipator.predictions()) as predictions:
             async for each in predictions:
                 take(_checked(anticipator, each))
-    except Exception as failure:
+    except (Exception, asyncio.CancelledError, GeneratorExit, SystemExit) as failure:
+        if (task := asyncio.current_task()) is not None and task.cancelling():
+            raise
         logger.exception("the anticipator '%s' has failed", anticipator.id)
         reason = (
             failure.fault.sentence if isinstance(failure, RealizerError) else f"{type(failure).__name__}: {failure}"
@@ -193,4 +195,4 @@ def _checked(anticipator: Anticipator, item: tuple[str, float | None] | Revoked)
         return Revocation(anticipator.id, point)
     if time is not None and not isfinite(time):
         raise RealizerError(NotANumber())
-    return Prediction(anticipator.id, point, None if time is None else GlobalTime(time))
+    return Prediction(anticipator.id, point, None if time is None else GlobalTime(float(time)))

@@ -73,6 +73,7 @@ PREDICTION = "prediction"
 _WAITING = (BlockState.IN_PREP, BlockState.PENDING, BlockState.LURKING)
 _PLAYING = (BlockState.IN_EXEC, BlockState.SUBSIDING)
 _PLAN = "behaviors, their points, what `start` waits for"
+_ACTIVATION = "activation; a new plan, if points from outside have passed"
 _END = "leaves the board and the engines"
 
 
@@ -84,7 +85,7 @@ TRANSITIONS = (
     BlockTransition((BlockState.IN_PREP,), BlockEvent.PLAN, BlockState.LURKING, _PLAN, reports=(PREDICTION,)),
     BlockTransition((BlockState.IN_PREP,), BlockEvent.PREPLAN, BlockState.PENDING, _PLAN, reports=(PREDICTION,)),
     BlockTransition((BlockState.IN_PREP,), BlockEvent.ACTIVATE, BlockState.IN_PREP, "activation"),
-    BlockTransition((BlockState.PENDING,), BlockEvent.ACTIVATE, BlockState.LURKING, "activation"),
+    BlockTransition((BlockState.PENDING,), BlockEvent.ACTIVATE, BlockState.LURKING, _ACTIVATION),
     BlockTransition(
         (BlockState.LURKING,),
         BlockEvent.START,

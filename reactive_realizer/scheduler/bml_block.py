@@ -1,6 +1,6 @@
 """A block of the stream: its pegs, its behaviors and its predecessors (thesis 7.3.4)."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -207,6 +207,11 @@ class BMLBlock:
         return [unit for unit in self.units if unit.live]
 
     # --- writing, within a transaction
+
+    def release_start(self, holds: Collection[TimeCell], now: GlobalTime) -> None:
+        """Do not wait any more for some of the pegs that hold the start; a block that has not started starts later."""
+        self.holds = tuple(hold for hold in self.holds if hold not in holds)
+        self.start.wait_for(max(self.start.floor, now), self._awaited())
 
     def set_plan(
         self,

@@ -7,7 +7,7 @@ from reactive_realizer.errors import SchedulingFault
 from reactive_realizer.pegboard.peg_key import BlockKey, PegKey
 from reactive_realizer.pegboard.peg_view import followers_of
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.pegboard.time_peg import OpenPeg, TimePeg
+from reactive_realizer.pegboard.time_peg import OpenPeg, TimeCell, TimePeg
 from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
 from reactive_realizer.scheduler.block_feedback import BlockFeedback
 from reactive_realizer.scheduler.blocks import Blocks
@@ -40,6 +40,14 @@ class NeverComes(SchedulingFault):
 
     code = "never-comes"
     template = "it is dropped: it depends on {point}, which will never come"
+    point: str
+
+
+class StartReleased(SchedulingFault):
+    """A block that does not wait for a point any more."""
+
+    code = "start-released"
+    template = "it does not wait for {point} any more, which will never come"
     point: str
 
 
@@ -100,6 +108,8 @@ class TieRelease:
         gone = frozenset(cut)
         followed = {follower: peg for peg in cut for follower in (peg, *followers_of(peg))}
         alive = self._blocks.alive if followed else ()
+        for block in alive:
+            self._release_start(block, followed, now)
         for block, unit in [(each, unit) for each in alive for unit in each.live_units]:
             tied = [point.peg for point in unit.ahead() if point.peg in followed]
             if not tied:
@@ -112,6 +122,16 @@ class TieRelease:
                 self._feedback.warn_behavior(unit, kind(point=point))
                 warned.add(unit)
         return warned
+
+    def _release_start(self, block: BMLBlock, followed: Mapping[TimeCell, TimePeg], now: GlobalTime) -> None:
+        """Have a block start without points that were cut before their times were known."""
+        holds = {hold: followed[hold] for hold in block.holds if hold in followed and hold.value is None}
+        if not holds or block.state.plays:
+            return
+        with self._board.graph.transaction(f"release the start of {block.key.block}"):
+            block.release_start(holds, now)
+        for point in dict.fromkeys(peg.name for peg in holds.values()):
+            self._feedback.warn_element(block.key, block.description, StartReleased(point=point))
 
     def _pegs_of(self, unit: PlanUnit, points: Iterable[SyncPoint]) -> dict[Point, TimePeg]:
         pegs = ((Point(unit.behavior.id, point.id), self._board.get(unit.key(point.id))) for point in points)

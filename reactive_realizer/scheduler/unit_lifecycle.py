@@ -75,7 +75,7 @@ class UnitLifecycle:
 
     def cut(self, unit: PlanUnit, now: GlobalTime) -> bool:
         """End a planned behavior now, after its due points have fired; whether anything of it was cut."""
-        if unit.due(now):
+        if unit.due(now) and unit.refusal() is None:
             unit.begin()
         if unit.state is not UnitState.IN_EXEC:
             self.remove([unit], now)

@@ -58,3 +58,19 @@ async def test_a_block_that_has_ended_leaves_no_dependents_on_its_constraints(pi
         await pilot.advance(1)
     assert [line.id for line in pilot.feedback.of("blockProgress")].count("b:end") == 3
     assert len(pilot.realizer.board.predicted("t", "hit").dependents) == hanging
+
+
+@pytest.mark.parametrize("outside", ["unknown", "known"])
+async def test_a_block_does_not_wait_for_a_point_that_will_never_come(pilot: RealizerPilot, outside: str) -> None:
+    pilot.block("a", nod("n", start=HIT if outside == "unknown" else "1"))
+    pilot.block("b", nod("n"), start="a:n:stroke")
+    await pilot.advance(0.5)
+    pilot.block("stop", '<bmla:interrupt id="i" target="a"/>')
+    await pilot.advance(3)
+    assert pilot.feedback.status("b") == "DONE"
+    if outside == "unknown":
+        assert_time(pilot.feedback, "b:start", 0.5)
+        assert texts(pilot) == ["line 1, column 1: it does not wait for a:n:stroke any more, which will never come"]
+    else:
+        assert pilot.feedback.time("b:start") > 1.0
+        assert pilot.feedback.warnings == []

@@ -65,6 +65,20 @@ async def test_a_behavior_whose_start_is_due_starts_and_ends_at_once(pilot: Real
     assert points(pilot, "b:w") == [("start", 0.995), ("end", 1.0)]
 
 
+async def test_a_behavior_whose_points_lost_their_order_is_removed_when_it_is_cut_at_its_start(
+    pilot: RealizerPilot,
+) -> None:
+    events = "anticipators:events"
+    pilot.block("b", f'<pointing id="p" target="bluebox" ready="{events}:early-0.3" start="{events}:late"/>')
+    pilot.block("i", f'<bmla:interrupt id="i" target="b" start="{events}:late"/>')
+    await pilot.advance(1)
+    pilot.event("events", "early")
+    await pilot.advance(3)
+    pilot.event("events", "late")
+    await pilot.advance(1)
+    assert points(pilot, "b:p") == []
+
+
 async def test_behaviors_that_have_not_started_are_removed_without_feedback(pilot: RealizerPilot) -> None:
     pilot.block("b", f'<head id="later" lexeme="NOD" start="3"/><head id="never" lexeme="NOD" start="{HIT}"/>')
     await pilot.advance(1)

@@ -1,5 +1,6 @@
 """Timings that leave a body too little time: something gives way, and a warning says what."""
 
+import numpy as np
 import pytest
 
 from reactive_realizer.testing.pilot import RealizerPilot
@@ -140,3 +141,14 @@ async def test_a_gesture_that_follows_another_one_at_once_starts_from_its_hand(p
     await pilot.advance(3)
     assert pilot.feedback.warnings == []
     assert pilot.feedback.time("b:h:stroke") == 1.25
+
+
+async def test_the_hand_is_there_at_a_stroke_whose_ready_is_unknown(pilot: RealizerPilot) -> None:
+    pilot.watch()
+    pilot.block("b", '<gesture id="g" lexeme="BEAT" mode="RIGHT_HAND" start="1" ready="anticipators:t:go" stroke="3"/>')
+    await pilot.advance(3)
+    path = pilot.path("r_wrist", "alice")
+    await pilot.advance(0.5)
+    assert pilot.feedback.warnings == []
+    assert pilot.feedback.time("b:g:ready") == pilot.feedback.time("b:g:stroke") == 3.0
+    assert np.linalg.norm(path[-1] - path[0]) > 0.3

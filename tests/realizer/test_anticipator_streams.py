@@ -5,6 +5,7 @@ from collections.abc import AsyncIterator, Callable
 from contextlib import AbstractAsyncContextManager, asynccontextmanager
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from reactive_realizer.assembly import scene
@@ -14,7 +15,7 @@ from reactive_realizer.clock.clock import ManualClock
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.pegboard.anticipator import Anticipator, Counted, Predictions
-from reactive_realizer.realizer.inputs import TickInputs
+from reactive_realizer.realizer.inputs import Prediction, TickInputs
 from reactive_realizer.realizer.session import replay, run_until_done
 from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
@@ -226,3 +227,55 @@ async def test_a_replay_without_a_forecast_that_it_needs_says_so(opened: Open) -
     async with opened(Fragile) as again:
         with pytest.raises(RealizerError, match="at 0 s: it needs the time of fragile:turn1"):
             await replay(again.realizer, session)
+
+
+class Canceled(Anticipator):
+    """Waits for something that is cancelled."""
+
+    kind = "canceled"
+    points = ("hit",)
+
+    async def predictions(self) -> Predictions:
+        yield "hit", 1.0
+        future = asyncio.get_running_loop().create_future()
+        future.cancel()
+        await future
+
+
+class Exiting(Anticipator):
+    """Ends as a program does."""
+
+    kind = "exiting"
+    points = ("hit",)
+
+    async def predictions(self) -> Predictions:
+        yield "hit", 1.0
+        raise SystemExit(3)
+
+
+@pytest.mark.parametrize("kind", [Canceled, Exiting])
+async def test_a_stream_that_ends_by_any_exception_is_reported(opened: Open, kind: type[Anticipator]) -> None:
+    async with opened(kind) as pilot:
+        pilot.block("b", NOD.format(f"{kind.kind}:hit"))
+        await pilot.advance(3)
+        assert pilot.feedback.warnings == [(f"anticipators:{kind.kind}", "EXECUTION_FAILURE")]
+        assert pilot.feedback.time("b:h:start") == 1.0
+
+
+class Exact(Anticipator):
+    """Yields a number of numpy."""
+
+    kind = "exact"
+    points = ("hit",)
+
+    async def predictions(self) -> Predictions:
+        yield "hit", np.float32(1.5)  # type: ignore[misc]  # a plug-in need not be typed
+
+
+async def test_any_kind_of_number_is_recorded_as_seconds(opened: Open) -> None:
+    async with opened(Exact) as pilot:
+        recorded: list[TickInputs] = []
+        pilot.realizer.record(recorded.append)
+        await pilot.advance(1)
+        (time,) = [each.time for inputs in recorded for each in inputs.predicted if isinstance(each, Prediction)]
+        assert type(time) is float
