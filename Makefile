@@ -9,7 +9,8 @@ AVATARS := reactive_realizer/assets/avatars
 AVATAR_VENV := web/avatars/.venv
 
 # Tests whose coverage is measured, and its floor in percent. Tracing all tests would double their time.
-MEASURED := $(addprefix tests/,bml pegboard planunit reactive realizer scheduler)
+MEASURED := $(addprefix tests/,bml pegboard planunit reactive realizer scheduler) \
+  $(addprefix tests/acceptance/,test_emitted_events.py test_late_ties.py test_waiting_for_events.py test_waits.py)
 COVERAGE := 95
 
 # One process more than there are processors, because tests of the server, the page and voices often wait. Without
