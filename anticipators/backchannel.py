@@ -96,7 +96,7 @@ class _User:
         self.low_since: Time = None
         self._voiced: Time = None
         self._heard = [0] * (_HIGHEST + 1)
-        """How often each pitch was heard, by Hz."""
+        """The number of times that each pitch was heard, by Hz."""
 
     def take(self, pitch: float, now: GlobalTime, level: float) -> None:
         """Take a value, Hz, 0 if there is no pitch; it is low if at most a share ``level`` of all is not higher."""

@@ -73,7 +73,7 @@ class Speech(Behavior):
 
     @property
     def open_points(self) -> bool:
-        """Whether its words may be sync points; only the voice knows how many there are."""
+        """Whether its words may be sync points, whose number depends on the voice."""
         return WORDS in self.extensions
 
 
