@@ -3,12 +3,18 @@
 import argparse
 import asyncio
 import logging
+import os
 import sys
 from pathlib import Path
 
 from reactive_realizer.assembly.assets import PACKAGE_ASSETS
 from reactive_realizer.cli.scene_options import add_scene_options, scene_options
 from reactive_realizer.server.serve import ServerOptions, serve
+
+_TOKEN = "REACTIVE_REALIZER_TOKEN"
+"""The environment variable with the token, which, unlike an option, other users of the machine cannot list."""
+
+_LARGEST_PORT = 65535
 
 _PERFORMANCE = PACKAGE_ASSETS / "demo" / "performance.xml"
 
@@ -24,16 +30,29 @@ def _add(
 ) -> None:
     parser = commands.add_parser(name, help=text, epilog=f"example: reactive-realizer {name} --port 8088")
     parser.add_argument("--host", default="127.0.0.1", help="the address to bind to")
-    parser.add_argument("--port", type=int, default=8088, help="0 chooses a free port")
-    parser.add_argument("--token", metavar="T", help="a token that every client must present")
+    parser.add_argument("--port", type=port, default=8088, help="0 chooses a free port")
+    token = parser.add_mutually_exclusive_group()
+    token.add_argument("--token", metavar="T", help=f"a token that every client must present (default: ${_TOKEN})")
+    token.add_argument("--token-file", type=Path, metavar="FILE", help="a file that contains the token")
     parser.add_argument("--allow-origin", action="append", default=[], metavar="O", help="accept pages of this origin")
     add_scene_options(parser)
     parser.add_argument("--record", type=Path, metavar="FILE", help="record the session for realize --replay")
     parser.set_defaults(run=run, performance=performance)
 
 
+def port(text: str) -> int:
+    """The number of a port.
+
+    Raises:
+        argparse.ArgumentTypeError: there is no such port.
+    """
+    if not (text.isascii() and text.isdigit() and len(text) < 6 and int(text) <= _LARGEST_PORT):
+        raise argparse.ArgumentTypeError(f"'{text}' is not a port: 0 to {_LARGEST_PORT}")
+    return int(text)
+
+
 def run(options: argparse.Namespace) -> int:
-    """The exit status: 2 if the human file does not exist, a file cannot be written, or the address is in use."""
+    """The exit status: 2 if a file does not exist or cannot be written, or the address is in use."""
     if not options.human.is_file():
         print(f"no such file: {options.human}", file=sys.stderr)
         return 2
@@ -50,9 +69,18 @@ def _server_options(options: argparse.Namespace) -> ServerOptions:
     return ServerOptions(
         host=options.host,
         port=options.port,
-        token=options.token,
+        token=_token(options),
         origins=tuple(options.allow_origin),
         scene=scene_options(options),
         performance=options.performance.read_text(encoding="utf-8") if options.performance else None,
         record=options.record,
     )
+
+
+def _token(options: argparse.Namespace) -> str | None:
+    """The token: that of the options, or of the environment."""
+    if options.token_file is not None:
+        text: str = options.token_file.read_text(encoding="utf-8", errors="surrogateescape")
+        return text.strip()
+    token: str | None = os.environ.get(_TOKEN) if options.token is None else options.token
+    return token

@@ -4,11 +4,12 @@ from aiohttp import web
 
 from reactive_realizer.server import routes_page, routes_requests, routes_state, routes_streams
 from reactive_realizer.server.intake import Intake
-from reactive_realizer.server.keys import INTAKE, LIVE, SECURITY, SHUTDOWN
+from reactive_realizer.server.keys import INTAKE, LIVE, SECURITY, SHUTDOWN, TOKEN
 from reactive_realizer.server.live_scene import LiveScene
 from reactive_realizer.server.middleware import add_headers, let_in, tell_refusals
 from reactive_realizer.server.security import Security
 from reactive_realizer.server.subscribers import Subscribers
+from reactive_realizer.server.token_check import TokenCheck
 
 
 def create_app(live: LiveScene, security: Security) -> web.Application:
@@ -23,6 +24,7 @@ def create_app(live: LiveScene, security: Security) -> web.Application:
     app[LIVE] = live
     app[INTAKE] = Intake(live)
     app[SECURITY] = security
+    app[TOKEN] = TokenCheck(security.token, live.clock)
     app[SHUTDOWN] = Subscribers()
     for routes in (routes_page.routes, routes_requests.routes, routes_state.routes, routes_streams.routes):
         app.add_routes(routes)

@@ -135,6 +135,24 @@ class NoToken(Fault):
     template = "the token of this server is required; it is missing or wrong"
 
 
+class EmptyToken(Fault):
+    """A token without characters, which anyone could present."""
+
+    code = "empty-token"
+    template = "the token is empty; give one that cannot be guessed, such as the output of `openssl rand -hex 16`"
+
+
+class TokenRequired(Fault):
+    """A server without a token that other machines can reach."""
+
+    code = "token-required"
+    template = (
+        "{host} can be reached from other machines, so a token is required: --token-file FILE, or the environment "
+        "variable REACTIVE_REALIZER_TOKEN"
+    )
+    host: str
+
+
 class ForeignHost(Fault):
     """A host name that is not this server's."""
 

@@ -6,9 +6,11 @@ from reactive_realizer.server.intake import Intake
 from reactive_realizer.server.live_scene import LiveScene
 from reactive_realizer.server.security import Security
 from reactive_realizer.server.subscribers import Subscribers
+from reactive_realizer.server.token_check import TokenCheck
 
 LIVE = web.AppKey("live", LiveScene)
 INTAKE = web.AppKey("intake", Intake)
 SECURITY = web.AppKey("security", Security)
+TOKEN = web.AppKey("token", TokenCheck)
 SHUTDOWN = web.AppKey("shutdown", Subscribers[None])
 """Called when the server shuts down, so that open connections end."""

@@ -8,7 +8,7 @@ from aiohttp.typedefs import Handler
 from reactive_realizer.bml.faults import TooManyBytes
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.server.faults import BadRequest, NothingThere, WrongMethod
-from reactive_realizer.server.keys import LIVE, SECURITY
+from reactive_realizer.server.keys import LIVE, SECURITY, TOKEN
 from reactive_realizer.server.security import HEADERS
 from reactive_realizer.server.statuses import status_of
 
@@ -39,8 +39,9 @@ async def tell_refusals(request: web.Request, handler: Handler) -> web.StreamRes
 async def let_in(request: web.Request, handler: Handler) -> web.StreamResponse:
     """Checks host, origin and token, and answers the preflight requests of browsers."""
     request.app[SECURITY].check(request)
-    if request.method == "OPTIONS":
+    if request.method == "OPTIONS":  # a preflight request carries no token
         return web.Response(status=204)
+    await request.app[TOKEN].check(request)
     return await handler(request)
 
 

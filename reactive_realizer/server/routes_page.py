@@ -9,9 +9,9 @@ from aiohttp.typedefs import Handler
 from reactive_realizer.binding.faults import NoAsset
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.server.faults import NoClip, NoPage
-from reactive_realizer.server.keys import LIVE, SECURITY
+from reactive_realizer.server.keys import LIVE, TOKEN
 from reactive_realizer.server.protocol import DOCUMENT
-from reactive_realizer.server.security import COOKIE
+from reactive_realizer.server.token_check import COOKIE
 
 STATIC = Path(__file__).parent / "static"
 """The folder of the built page."""
@@ -24,9 +24,9 @@ async def page(request: web.Request) -> web.StreamResponse:
     """The page. A token in the address is stored in a cookie, so that later addresses do not contain it."""
     if not (STATIC / "index.html").is_file():
         raise RealizerError(NoPage())
-    if "token" in request.query and request.app[SECURITY].token is not None:
+    if "token" in request.query and request.app[TOKEN].required:
         answer = web.HTTPSeeOther(request.rel_url.with_query(_without_token(request)))
-        answer.set_cookie(COOKIE, request.query["token"], httponly=True, samesite="Strict")
+        answer.set_cookie(COOKIE, request.query["token"], httponly=True, samesite="Strict", secure=_is_secure(request))
         raise answer
     return web.FileResponse(STATIC / "index.html", headers={"Cache-Control": "no-cache"})
 
@@ -68,6 +68,11 @@ def _sender(file: Path) -> Handler:
         return web.FileResponse(file)
 
     return send
+
+
+def _is_secure(request: web.Request) -> bool:
+    """Whether the browser reached the server by TLS, itself or through a proxy: only then it returns such a cookie."""
+    return request.secure or request.headers.get("X-Forwarded-Proto") == "https"
 
 
 def _without_token(request: web.Request) -> dict[str, str]:

@@ -1,6 +1,5 @@
 """Access control, and the security headers of every response."""
 
-import hmac
 from collections.abc import Collection
 from dataclasses import dataclass
 from ipaddress import ip_address
@@ -10,7 +9,7 @@ from urllib.parse import urlsplit
 from aiohttp import web
 
 from reactive_realizer.errors import RealizerError
-from reactive_realizer.server.faults import ForeignHost, ForeignOrigin, NoToken
+from reactive_realizer.server.faults import EmptyToken, ForeignHost, ForeignOrigin, TokenRequired
 
 HEADERS: Final = {
     "Content-Security-Policy": "; ".join(
@@ -30,8 +29,6 @@ HEADERS: Final = {
     "X-Content-Type-Options": "nosniff",
     "Referrer-Policy": "no-referrer",
 }
-COOKIE = "reactive-realizer-token"
-"""The cookie in which the page keeps its token."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,13 +37,22 @@ class Security:
 
     Attributes:
         host: the address that it is bound to.
-        token: required of every client; None for no token.
+        token: required of every client; None for no token, which only a server on the loopback interface may have.
         origins: origins of other pages that are accepted, ``http://localhost:3000``.
+
+    Raises:
+        RealizerError: "empty-token" or "token-required".
     """
 
     host: str = "127.0.0.1"
     token: str | None = None
     origins: Collection[str] = ()
+
+    def __post_init__(self) -> None:
+        if self.token is None and self.exposed:
+            raise RealizerError(TokenRequired(host=self.host))
+        if self.token is not None and not self.token.strip():
+            raise RealizerError(EmptyToken())
 
     @property
     def exposed(self) -> bool:
@@ -54,16 +60,13 @@ class Security:
         return not _is_loopback(self.host)
 
     def check(self, request: web.Request) -> None:
-        """Checks a request.
+        """Checks the host and the origin of a request.
 
         Raises:
-            RealizerError: "foreign-host", "foreign-origin" or "no-token".
+            RealizerError: "foreign-host" or "foreign-origin".
         """
         self._check_host(request)
         self._check_origin(request)
-        # A preflight request carries no token.
-        if self.token is not None and request.method != "OPTIONS":
-            self._check_token(request, self.token)
 
     def cross_origin_headers(self, request: web.BaseRequest) -> dict[str, str]:
         """The headers that let a page of an accepted origin read the response."""
@@ -92,16 +95,6 @@ class Security:
         own = (f"http://{request.host}", f"https://{request.host}")
         if origin is not None and origin not in own and origin not in self.origins:
             raise RealizerError(ForeignOrigin(origin=origin))
-
-    def _check_token(self, request: web.Request, token: str) -> None:
-        shown = _bearer(request) or request.query.get("token") or request.cookies.get(COOKIE, "")
-        if not hmac.compare_digest(shown.encode("utf-8", "surrogateescape"), token.encode()):
-            raise RealizerError(NoToken())
-
-
-def _bearer(request: web.Request) -> str:
-    scheme, _, token = request.headers.get("Authorization", "").partition(" ")
-    return token if scheme.lower() == "bearer" else ""
 
 
 def _host_of(url: str) -> str | None:

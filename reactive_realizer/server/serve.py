@@ -30,7 +30,7 @@ class ServerOptions:
     Attributes:
         host: address to bind to.
         port: 0 for any that is free.
-        token: required of every client; None for no token.
+        token: required of every client; None for no token, which only a server on the loopback interface may have.
         origins: origins of other pages that are accepted.
         scene: options of the scene.
         performance: BML of a demo; None for none.
@@ -50,12 +50,10 @@ async def serve(options: ServerOptions) -> None:
     """Serves a scene in real time until SIGTERM or cancellation.
 
     Raises:
-        RealizerError: the scene cannot be assembled.
+        RealizerError: the scene cannot be assembled, or the token is empty or missing.
         OSError: the address cannot be bound to, or the session cannot be recorded into its file.
     """
     security = Security(options.host, options.token, options.origins)
-    if security.exposed and options.token is None:
-        logger.warning("%s can be reached from other machines, and no token is required (--token)", options.host)
     async with AsyncExitStack() as stack:
         listening = stack.enter_context(_listen(options))
         record = stack.enter_context(recording_file(options.record)) if options.record else None

@@ -5,8 +5,10 @@ from pathlib import Path
 import aiohttp
 import pytest
 
+from reactive_realizer.errors import RealizerError
 from reactive_realizer.server import routes_page
-from reactive_realizer.server.security import COOKIE, Security
+from reactive_realizer.server.security import Security
+from reactive_realizer.server.token_check import COOKIE, PAUSE
 
 from .conftest import Open
 
@@ -58,10 +60,10 @@ async def test_the_names_of_the_loopback_interface_are_allowed(on_air: Open, hos
 
 
 async def test_an_exposed_server_allows_its_addresses_and_the_hosts_of_allowed_origins(on_air: Open) -> None:
-    exposed = Security("0.0.0.0", origins=("http://robot.local:8088",))
+    exposed = Security("0.0.0.0", "s3cret", origins=("http://robot.local:8088",))
     async with on_air(security=exposed) as air:
         for host, status in (("192.168.1.7:8088", 200), ("robot.local:8088", 200), ("elsewhere.example", 403)):
-            async with air.client.get("/status", headers={"Host": host}) as answer:
+            async with air.client.get("/status?token=s3cret", headers={"Host": host}) as answer:
                 assert answer.status == status
 
 
@@ -103,10 +105,53 @@ async def test_a_page_that_is_opened_with_the_token_keeps_it_as_a_cookie_and_not
             cookie = answer.cookies[COOKIE]
             assert cookie["httponly"]
             assert cookie["samesite"] == "Strict"
+            assert not cookie["secure"], "browsers return a secure cookie by TLS alone"
         shown = {"Cookie": f"{COOKIE}={cookie.value}"}
         for path in ("/", "/status"):
             async with air.client.get(path, headers=shown) as answer:
                 assert answer.status == 200
+
+
+async def test_behind_a_proxy_with_tls_the_cookie_is_secure(
+    on_air: Open, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "index.html").write_text("hello")
+    monkeypatch.setattr(routes_page, "STATIC", tmp_path)
+    async with on_air(security=Security(token="s3cret")) as air:
+        by_tls = {"X-Forwarded-Proto": "https"}
+        async with air.client.get("/?token=s3cret", headers=by_tls, allow_redirects=False) as answer:
+            assert answer.cookies[COOKIE]["secure"]
+
+
+async def test_after_a_wrong_token_the_next_one_from_the_address_is_examined_later(on_air: Open) -> None:
+    async with on_air(security=Security(token="s3cret")) as air:
+        for token, status, time in (("right?", 401, 0.0), ("s3cret", 200, PAUSE), ("s3cret", 200, PAUSE)):
+            async with air.client.get("/status", params={"token": token}) as answer:
+                assert answer.status == status
+            assert air.live.now == time
+
+
+async def test_a_request_without_a_token_is_no_attempt_to_guess_it(on_air: Open) -> None:
+    async with on_air(security=Security(token="s3cret")) as air:
+        for token, status in (("", 401), ("s3cret", 200)):
+            async with air.client.get("/status", params={"token": token}) as answer:
+                assert answer.status == status
+        assert air.live.now == 0.0
+
+
+@pytest.mark.parametrize("host", ["127.0.0.1", "0.0.0.0"])
+@pytest.mark.parametrize("token", ["", "  \n"])
+def test_an_empty_token_is_refused(host: str, token: str) -> None:
+    with pytest.raises(RealizerError) as refused:
+        Security(host, token)
+    assert refused.value.fault.code == "empty-token"
+
+
+@pytest.mark.parametrize("host", ["0.0.0.0", "::", "robot.local", ""])
+def test_a_server_that_other_machines_can_reach_requires_a_token(host: str) -> None:
+    with pytest.raises(RealizerError) as refused:
+        Security(host)
+    assert refused.value.fault.code == "token-required"
 
 
 @pytest.mark.parametrize(
@@ -114,4 +159,4 @@ async def test_a_page_that_is_opened_with_the_token_keeps_it_as_a_cookie_and_not
     [("127.0.0.1", False), ("::1", False), ("localhost", False), ("0.0.0.0", True), ("robot.local", True)],
 )
 def test_other_machines_can_connect_if_the_server_listens_on_all_interfaces(host: str, exposed: bool) -> None:
-    assert Security(host).exposed is exposed
+    assert Security(host, "s3cret").exposed is exposed

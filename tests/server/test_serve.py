@@ -52,17 +52,6 @@ async def test_the_server_prints_its_address_ticks_and_ends_on_sigterm(lines: Li
         await serving
 
 
-async def test_a_server_that_others_can_reach_without_a_token_prints_a_warning(
-    lines: Lines, caplog: pytest.LogCaptureFixture
-) -> None:
-    async with asyncio.TaskGroup() as group:
-        serving = group.create_task(serve(ServerOptions(host="0.0.0.0", port=0, scene=TEXT)))
-        assert "--token" in await lines.said.get()
-        assert next(record.levelname for record in caplog.records) == "WARNING"
-        await lines.said.get()
-        serving.cancel()
-
-
 async def test_a_port_that_is_in_use_is_an_error_and_nothing_keeps_running(lines: Lines) -> None:
     async with asyncio.TaskGroup() as group:
         serving = group.create_task(serve(ServerOptions(port=0, scene=TEXT)))
