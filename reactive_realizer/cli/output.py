@@ -2,6 +2,7 @@
 
 import json
 import os
+from collections.abc import Mapping
 from pathlib import Path
 from typing import IO
 
@@ -55,9 +56,10 @@ class FrameRecorder:
     def __init__(self) -> None:
         self._frames: dict[str, list[Frame]] = {}
 
-    def __call__(self, character: Character, frame: Frame) -> None:
-        """Keep a frame."""
-        self._frames.setdefault(character.id, []).append(frame)
+    def __call__(self, frames: Mapping[str, Frame]) -> None:
+        """Keep the frames of a tick."""
+        for id_, frame in frames.items():
+            self._frames.setdefault(id_, []).append(frame)
 
     def write(self, path: Path, realizer: Realizer) -> None:
         """Write one npz file; with several characters, every name has the prefix ``ID/``."""

@@ -14,7 +14,7 @@ from yarl import URL
 from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.testing.feedback_list import FeedbackList
 
-_PROTOCOL = 1
+_PROTOCOL = 2
 
 
 class NotReached(Fault):

@@ -39,7 +39,7 @@ from reactive_realizer.scheduler.strategy import SchedulingStrategy
 
 _MOST_ROUNDS = 100
 
-FrameListener = Callable[[Character, Frame], None]
+FramesListener = Callable[[Mapping[str, Frame]], None]
 AudioListener = Callable[[AudioChange], None]
 EntryListener = Callable[[TickInputs], None]
 
@@ -89,7 +89,7 @@ class Realizer:
         self._leading = EngineTasks(engine for engine in self._routing.engines if engine.leads)
         self._following = EngineTasks(engine for engine in self._routing.engines if not engine.leads)
         self._inbox = Inbox(self.board, self._streams, world, limits)
-        self._frame_listeners: list[FrameListener] = []
+        self._frame_listeners: list[FramesListener] = []
         self._audio_listeners: list[AudioListener] = []
         self._entry_listeners: list[EntryListener] = []
         self._stack = AsyncExitStack()
@@ -166,10 +166,10 @@ class Realizer:
             lambda name: any(blocks.has_ended(character, name) for character in self.characters),
         )
 
-    def watch(self, listener: FrameListener) -> Callable[[], None]:
-        """Call a listener with the frames of all characters, until the returned function is called.
+    def watch(self, listener: FramesListener) -> Callable[[], None]:
+        """Call a listener with the frames of each tick, by the ids of all characters in their order.
 
-        Without listeners, no frames are composed.
+        The returned function ends that. Without listeners, no frames are composed.
         """
         self._frame_listeners.append(listener)
         return lambda: self._frame_listeners.remove(listener)
@@ -317,7 +317,6 @@ class Realizer:
         for character, own in shown:
             character.move(time, own)
         # Eyes look at the positions that other characters, and the character's own hands, have in this frame.
-        for character, own in shown:
-            frame = character.look(own)
-            for listener in tuple(self._frame_listeners):
-                listener(character, frame)
+        frames = {character.id: character.look(own) for character, own in shown}
+        for listener in tuple(self._frame_listeners):
+            listener(frames)

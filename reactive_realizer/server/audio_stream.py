@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.audio import AudioChange, AudioGain, AudioMove, AudioStart, AudioStop
-from reactive_realizer.server.protocol import Message
+from reactive_realizer.server.protocol import Message, encode
 from reactive_realizer.server.subscribers import Subscribers
 
 _GRACE = 10.0
@@ -29,11 +29,11 @@ class AudioStream:
         most_bytes: size limit of the WAV files; the oldest are dropped first.
 
     Attributes:
-        subscribers: of the changes, as messages of the protocol.
+        subscribers: of the changes, as texts of the protocol.
     """
 
     def __init__(self, most_bytes: int) -> None:
-        self.subscribers: Subscribers[Message] = Subscribers()
+        self.subscribers: Subscribers[str] = Subscribers()
         self._most_bytes = most_bytes
         self._sounds: dict[str, _Sound] = {}
 
@@ -52,7 +52,7 @@ class AudioStream:
                 self._sounds[id_] = replace(self._sounds[id_], stop=change)
             case _:
                 pass
-        self.subscribers.publish(message_of(change))
+        self.subscribers.publish(encode(message_of(change)))
 
     def tidy(self, now: GlobalTime) -> None:
         """Drops sounds that have ended, and the oldest above the size limit."""

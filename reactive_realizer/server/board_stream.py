@@ -8,7 +8,7 @@ from reactive_realizer.clock.units import GlobalTime, Time, is_due
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.pegboard.time_peg import AnticipatorPeg, TimePeg
 from reactive_realizer.reactive.graph import Change, Commit
-from reactive_realizer.server.protocol import Message
+from reactive_realizer.server.protocol import Message, encode
 from reactive_realizer.server.subscribers import Subscribers
 
 _INTERVAL = 0.2
@@ -25,11 +25,11 @@ class BoardStream:
         now: returns the time of the current tick, for the commits.
 
     Attributes:
-        subscribers: of the snapshots, as messages of the protocol.
+        subscribers: of the snapshots, as texts of the protocol.
     """
 
     def __init__(self, board: PegBoard, now: Callable[[], GlobalTime]) -> None:
-        self.subscribers: Subscribers[Message] = Subscribers()
+        self.subscribers: Subscribers[str] = Subscribers()
         self._board = board
         self._now = now
         self._commits: deque[tuple[GlobalTime, Commit]] = deque(maxlen=_MOST_COMMITS)
@@ -49,7 +49,7 @@ class BoardStream:
         if not self._commits and pegs == self._sent:
             return
         commits = [_commit(time, commit) for time, commit in self._commits]
-        self.subscribers.publish(self._message(pegs, commits))
+        self.subscribers.publish(encode(self._message(pegs, commits)))
         self._commits.clear()
         self._sent = pegs
         self._next = GlobalTime(self._now() + _INTERVAL)

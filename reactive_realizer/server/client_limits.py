@@ -10,25 +10,20 @@ from reactive_realizer.errors import RealizerError
 from reactive_realizer.limits import Limits
 from reactive_realizer.server.faults import TooManyClients
 
-_FRAMES_WAITING = 10
-"""Frames for each character: a client a fifth of a second behind should skip to the newest."""
-
 
 class ClientQueue:
-    """The send queue of one client: all texts in order, and the newest frames. Adding never blocks.
+    """The texts that one client is to be sent, in order. Adding never blocks.
 
     Args:
         limits: of the queued text.
         first: texts that are sent first; they do not count towards the limit.
-        characters: number of characters that send frames.
     """
 
-    def __init__(self, limits: Limits, first: Sequence[str] = (), characters: int = 1) -> None:
+    def __init__(self, limits: Limits, first: Sequence[str] = ()) -> None:
         self._texts = deque(first)
         self._bytes = sum(map(len, first))
         self._most_texts = limits.queued_messages + len(first)
         self._most_bytes = limits.queued_bytes + self._bytes
-        self._frames: deque[bytes] = deque(maxlen=_FRAMES_WAITING * characters)
         self._ended = False
         self._overflown = False
         self._news = asyncio.Event()
@@ -44,22 +39,17 @@ class ClientQueue:
         if len(self._texts) > self._most_texts or self._bytes > self._most_bytes:
             self._give_up()
 
-    def put_frame(self, frame: bytes) -> None:
-        """Adds a frame, which is sent when no text is queued; newer frames may replace it."""
-        self._frames.append(frame)
-        self._news.set()
-
     def end(self) -> None:
         """Ends the queue after the texts in it."""
         self._ended = True
         self._news.set()
 
-    async def send_all(self, send: Callable[[str | bytes], Awaitable[None]]) -> bool:
-        """Sends entries until the end. Returns False if the queue exceeded its limit, even during a send."""
+    async def send_all(self, send: Callable[[str], Awaitable[None]]) -> bool:
+        """Sends texts until the end. Returns False if the queue exceeded its limit, even during a send."""
         try:
             async with asyncio.timeout(0 if self._overflown else None) as self._sending:
-                while (entry := await self._next()) is not None:
-                    await send(entry)
+                while (text := await self._next()) is not None:
+                    await send(text)
         except TimeoutError:
             if not self._overflown:
                 raise
@@ -68,19 +58,18 @@ class ClientQueue:
     def _give_up(self) -> None:
         self._overflown = True
         self._texts.clear()
-        self._frames.clear()
         if self._sending is not None:
             self._sending.reschedule(0)  # long ago
 
-    async def _next(self) -> str | bytes | None:
-        while not (self._texts or self._frames or self._ended):
+    async def _next(self) -> str | None:
+        while not (self._texts or self._ended):
             self._news.clear()
             await self._news.wait()
-        if self._texts:
-            text = self._texts.popleft()
-            self._bytes -= len(text)
-            return text
-        return None if self._ended else self._frames.popleft()
+        if not self._texts:
+            return None
+        text = self._texts.popleft()
+        self._bytes -= len(text)
+        return text
 
 
 class RateLimit:

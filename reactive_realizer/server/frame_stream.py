@@ -1,7 +1,7 @@
-"""Frames of all characters in their binary form, encoded once for all clients (docs/protocol.md, frames)."""
+"""Frames of all characters in their binary form, encoded once a tick for all viewers (docs/protocol.md, frames)."""
 
 import struct
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from itertools import count
 
 import numpy as np
@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.frame import Frame
-from reactive_realizer.realizer.character import Character
 from reactive_realizer.realizer.realizer import Realizer
+from reactive_realizer.server.socket_writer import binary_message
 from reactive_realizer.server.subscribers import Subscribers
 
 _HEADER = struct.Struct("<BBHIdHH3f")
@@ -50,7 +50,7 @@ def encode_frame(
 
 
 class FrameStream:
-    """Sends frames to subscribers. Without subscribers, the realizer composes no frames."""
+    """Sends frames to viewers. Without viewers, the realizer composes no frames."""
 
     def __init__(self, realizer: Realizer) -> None:
         self._realizer = realizer
@@ -60,7 +60,10 @@ class FrameStream:
         self._look_away: Callable[[], None] | None = None
 
     def subscribe(self, listener: Callable[[bytes], None]) -> Callable[[], None]:
-        """Sends the frames to a listener. The returned function ends that."""
+        """Gives a listener the frames of each tick, as one message ready to be written to its socket.
+
+        The returned function ends that.
+        """
         leave = self._subscribers.subscribe(listener)
         if self._look_away is None:
             self._look_away = self._realizer.watch(self._send)
@@ -73,7 +76,10 @@ class FrameStream:
 
         return leave_and_look_away
 
-    def _send(self, character: Character, frame: Frame) -> None:
-        index, sequence = self._indices[character.id], next(self._sequences[character.id])
-        rotations = character.humanoid.avatar.bone_rotations(frame.rotations)
-        self._subscribers.publish(encode_frame(index, sequence, frame.time, frame.root, rotations, frame.weights))
+    def _send(self, frames: Mapping[str, Frame]) -> None:
+        self._subscribers.publish(binary_message(b"".join(map(self._encode, frames, frames.values()))))
+
+    def _encode(self, id_: str, frame: Frame) -> bytes:
+        rotations = self._realizer.characters[id_].humanoid.avatar.bone_rotations(frame.rotations)
+        index, sequence = self._indices[id_], next(self._sequences[id_])
+        return encode_frame(index, sequence, frame.time, frame.root, rotations, frame.weights)

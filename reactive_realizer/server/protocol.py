@@ -11,7 +11,7 @@ from reactive_realizer.errors import RealizerError
 from reactive_realizer.server.faults import BadJson, UnknownMessage
 from reactive_realizer.server.schema import Schema, shown
 
-VERSION: Final = 1
+VERSION: Final = 2
 """Increases only with changes that break clients."""
 
 DOCUMENT: Final = Path(__file__).with_name("protocol.json").read_text(encoding="utf-8")

@@ -31,7 +31,9 @@ async def ws(request: web.Request) -> web.WebSocketResponse:
         )
         await answer.prepare(request)
         _keep_buffer_small(request)
-        client = SocketClient(live, intake, answer, streams, after)
+        if (transport := request.transport) is None:
+            return answer  # the client has disconnected
+        client = SocketClient(live, intake, answer, transport, streams, after)
         if Stream.FRAMES in streams:
             intake.demo.page_opened()
         with ExitStack() as stack:
@@ -52,8 +54,8 @@ async def feedback(request: web.Request) -> web.StreamResponse:
         _keep_buffer_small(request)
         queue = ClientQueue(live.limits, _missed(live.feedback, after))
 
-        async def write(text: str | bytes) -> None:
-            await answer.write(text if isinstance(text, bytes) else text.encode())
+        async def write(text: str) -> None:
+            await answer.write(text.encode())
 
         with ExitStack() as stack:
             stack.callback(live.feedback.subscribers.subscribe(lambda entry: queue.put(_event(entry))))

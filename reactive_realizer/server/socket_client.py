@@ -24,6 +24,7 @@ from reactive_realizer.server.protocol import (
     ref_of,
     refused,
 )
+from reactive_realizer.server.socket_writer import write_at_once
 from reactive_realizer.server.statuses import CLOSE_CODES
 
 
@@ -81,6 +82,7 @@ class SocketClient:
         live: the scene.
         intake: receives the requests.
         socket: of the client, prepared.
+        transport: of the socket.
         streams: those that the client requested.
         after: number of the last feedback that it has; None for new feedback only.
     """
@@ -90,15 +92,18 @@ class SocketClient:
         live: LiveScene,
         intake: Intake,
         socket: web.WebSocketResponse,
+        transport: asyncio.WriteTransport,
         streams: frozenset[Stream],
         after: int | None,
     ) -> None:
         self._live = live
         self._intake = intake
         self._socket = socket
+        self._transport = transport
         self._streams = streams
         self._rate = RateLimit(live.limits.messages_per_second, live.clock)
-        self._queue = ClientQueue(live.limits, self._first(after), len(live.realizer.characters))
+        self._queue = ClientQueue(live.limits, self._first(after))
+        self._greeted = False
         self._reason: type[Fault] = GoingAway
 
     async def serve(self) -> None:
@@ -136,11 +141,16 @@ class SocketClient:
         if Stream.FEEDBACK in self._streams:
             stack.callback(self._live.feedback.subscribers.subscribe(lambda entry: self._queue.put(entry.text)))
         if Stream.AUDIO in self._streams:
-            stack.callback(self._live.sounds.subscribers.subscribe(self._enqueue))
+            stack.callback(self._live.sounds.subscribers.subscribe(self._queue.put))
         if Stream.BOARD in self._streams:
-            stack.callback(self._live.board.subscribers.subscribe(self._enqueue))
+            stack.callback(self._live.board.subscribers.subscribe(self._queue.put))
         if Stream.FRAMES in self._streams:
-            stack.callback(self._live.frames.subscribe(self._queue.put_frame))
+            stack.callback(self._live.frames.subscribe(self._show))
+
+    def _show(self, frames: bytes) -> None:
+        """Writes the frames of a tick past the queue, but not before hello and not after the end."""
+        if self._greeted and not self._socket.closed:
+            write_at_once(self._transport, frames)
 
     def _enqueue(self, message: Message) -> None:
         self._queue.put(encode(message))
@@ -153,11 +163,9 @@ class SocketClient:
         if not kept_up:
             self._reason = TooSlow
 
-    async def _send_one(self, entry: str | bytes) -> None:
-        if isinstance(entry, str):
-            await self._socket.send_str(entry)
-        else:
-            await self._socket.send_bytes(entry)
+    async def _send_one(self, text: str) -> None:
+        self._greeted = True  # its first text is hello
+        await self._socket.send_str(text)
 
     async def _close(self) -> None:
         """Closes the socket; a client that still reads receives the reason."""

@@ -1,6 +1,6 @@
 """Drives a realizer in tests: gives BML, advances time, and records all output."""
 
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Mapping
 from contextlib import asynccontextmanager
 from textwrap import dedent
 
@@ -16,7 +16,6 @@ from reactive_realizer.embodiment.body import Body, Skeleton
 from reactive_realizer.embodiment.frame import Frame
 from reactive_realizer.embodiment.joints import ROOT
 from reactive_realizer.embodiment.vector import subtract
-from reactive_realizer.realizer.character import Character
 from reactive_realizer.realizer.inputs import BmlText, Event, Prediction, TargetMoved
 from reactive_realizer.realizer.realizer import Realizer
 from reactive_realizer.testing.feedback_list import FeedbackList
@@ -109,8 +108,9 @@ class RealizerPilot:
         await self.realizer.settle()
         self._number += 1
 
-    def _keep(self, character: Character, frame: Frame) -> None:
-        self.frames.setdefault(character.id, []).append(frame)
+    def _keep(self, frames: Mapping[str, Frame]) -> None:
+        for id_, frame in frames.items():
+            self.frames.setdefault(id_, []).append(frame)
 
 
 def _body(frame: Frame, skeleton: Skeleton) -> Body:

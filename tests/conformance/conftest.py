@@ -45,7 +45,7 @@ class WrongRealizer:
     """A fake that reports the end of a block before its start, its start twice, and nothing else."""
 
     def __init__(self, hello: dict[str, object] | None = None) -> None:
-        self._hello = hello or {"type": "hello", "protocol": 1}
+        self._hello = hello or {"type": "hello", "protocol": 2}
         self._seq = count(1)
 
     async def serve(self, request: web.Request) -> web.WebSocketResponse:

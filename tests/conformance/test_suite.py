@@ -115,16 +115,16 @@ async def test_the_exit_status_is_2_if_the_server_is_not_a_realizer(capsys: pyte
 
 
 async def test_the_exit_status_is_2_for_another_protocol_version(capsys: pytest.CaptureFixture[str]) -> None:
-    async with address_of(WrongRealizer({"type": "hello", "protocol": 2}).serve) as url:
+    async with address_of(WrongRealizer({"type": "hello", "protocol": 3}).serve) as url:
         assert await conformance(url) == 2
-    assert 'protocol": 2' in capsys.readouterr().err
+    assert 'protocol": 3' in capsys.readouterr().err
 
 
 async def test_the_exit_status_is_2_if_the_connection_is_lost(capsys: pytest.CaptureFixture[str]) -> None:
     async def leave(request: web.Request) -> web.WebSocketResponse:
         socket = web.WebSocketResponse()
         await socket.prepare(request)
-        await socket.send_json({"type": "hello", "protocol": 1})
+        await socket.send_json({"type": "hello", "protocol": 2})
         await socket.receive()
         return socket
 
@@ -142,7 +142,7 @@ async def test_the_exit_status_is_2_after_one_case_if_the_realizer_does_not_resp
     async def listen(request: web.Request) -> web.WebSocketResponse:
         socket = web.WebSocketResponse()
         await socket.prepare(request)
-        await socket.send_json({"type": "hello", "protocol": 1})
+        await socket.send_json({"type": "hello", "protocol": 2})
         listened.extend([message.data async for message in socket])
         return socket
 

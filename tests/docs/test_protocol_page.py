@@ -81,14 +81,16 @@ async def test_the_page_lists_every_route(client: Client) -> None:
     assert listed == routes_of(client)
 
 
-def test_the_program_on_the_page_reads_a_frame() -> None:
+def test_the_program_on_the_page_reads_the_frames_of_a_message() -> None:
     (program,) = fences("docs/protocol.md", "python")
     names: dict[str, Any] = {}
     exec(compile(program.text, str(program), "exec"), names)
     rotations = np.array([[1.0, 0.0, 0.0, 0.0], [0.5, -0.5, 0.5, 0.5]])
     weights = np.array([0.0, 0.25, 1.0])
+    other = encode_frame(0, 7, GlobalTime(2.5), np.zeros(3), rotations[:1], weights[:0])
     frame = encode_frame(1, 7, GlobalTime(2.5), np.array([0.5, 1.0, -1.0]), rotations, weights)
-    read = names["read_frame"](frame)
+    first, read = names["read_frames"](other + frame)
+    assert first["character"] == 0
     assert (read["character"], read["time"], read["root"]) == (1, 2.5, [0.5, 1.0, -1.0])
     assert read["rotations"] == pytest.approx(rotations, abs=1e-4)
     assert read["weights"] == pytest.approx(weights, abs=1e-4)

@@ -252,7 +252,7 @@ async def test_no_frame_is_composed_without_a_listener(pilot: RealizerPilot, mon
     monkeypatch.setattr(pilot.realizer.characters["alice"].engines[0], "layers", layers)
     await pilot.advance(0.05)
     assert asked == []
-    stop = pilot.realizer.watch(lambda character, frame: None)
+    stop = pilot.realizer.watch(lambda frames: None)
     await pilot.advance(0.05)
     assert asked == [6, 8]
     stop()

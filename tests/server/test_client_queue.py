@@ -12,10 +12,10 @@ from reactive_realizer.server.client_limits import ClientQueue, RateLimit
 FEW = Limits(queued_messages=3, queued_bytes=100)
 
 
-async def sent_of(queue: ClientQueue) -> list[str | bytes]:
-    sent: list[str | bytes] = []
+async def sent_of(queue: ClientQueue) -> list[str]:
+    sent: list[str] = []
 
-    async def send(entry: str | bytes) -> None:
+    async def send(entry: str) -> None:
         sent.append(entry)
 
     queue.end()
@@ -28,36 +28,6 @@ async def test_texts_are_sent_in_order_until_the_end() -> None:
     queue.put("a")
     queue.put("b")
     assert await sent_of(queue) == ["hello", "a", "b"]
-
-
-async def test_only_the_newest_waiting_frames_are_kept() -> None:
-    queue = ClientQueue(FEW)
-    for n in range(100):
-        queue.put_frame(bytes([n]))
-    sent: list[str | bytes] = []
-
-    async def send(entry: str | bytes) -> None:
-        sent.append(entry)
-        if entry == bytes([99]):
-            queue.end()
-
-    await queue.send_all(send)
-    assert sent == [bytes([n]) for n in range(90, 100)]
-
-
-async def test_texts_are_sent_before_frames() -> None:
-    queue = ClientQueue(FEW)
-    queue.put_frame(b"frame")
-    queue.put("text")
-    sent: list[str | bytes] = []
-
-    async def send(entry: str | bytes) -> None:
-        sent.append(entry)
-        if entry == b"frame":
-            queue.end()
-
-    await queue.send_all(send)
-    assert sent == ["text", b"frame"]
 
 
 @pytest.mark.parametrize("texts", [["a"] * 4, ["x" * 101], ["x" * 60] * 2])
@@ -86,7 +56,7 @@ async def test_initial_messages_do_not_count_as_waiting() -> None:
 
 
 async def test_a_timeout_error_of_the_send_itself_is_raised() -> None:
-    async def fail(_: str | bytes) -> None:
+    async def fail(_: str) -> None:
         raise TimeoutError
 
     queue = ClientQueue(FEW, ["a"])
@@ -94,7 +64,7 @@ async def test_a_timeout_error_of_the_send_itself_is_raised() -> None:
         await queue.send_all(fail)
 
 
-async def never(_: str | bytes) -> None:
+async def never(_: str) -> None:
     await asyncio.Event().wait()
 
 

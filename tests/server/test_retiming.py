@@ -2,13 +2,13 @@
 
 import json
 import struct
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 import pytest
 
 from reactive_realizer.embodiment.frame import Frame
-from reactive_realizer.realizer.character import Character
 
 from .conftest import BML, OnAir, Open, Socket
 
@@ -24,9 +24,10 @@ class Hand:
     def __init__(self, air: OnAir) -> None:
         self.places: list[Any] = []
         air.live.realizer.watch(self)
+        self._humanoid = air.live.realizer.characters["alice"].humanoid
 
-    def __call__(self, character: Character, _: Frame) -> None:
-        self.places.append(character.humanoid.locate("r_wrist"))
+    def __call__(self, _: Mapping[str, Frame]) -> None:
+        self.places.append(self._humanoid.locate("r_wrist"))
 
     @property
     def longest_step(self) -> float:

@@ -1,5 +1,5 @@
 import { Pings, type ServerClock } from "./clock";
-import { decodeFrame, type Frame } from "./frame";
+import { decodeFrames, type Frame } from "./frame";
 import type {
   Accepted,
   AudioGain,
@@ -128,7 +128,7 @@ export class Connection {
   }
 
   private receive(data: ArrayBuffer | string): void {
-    if (data instanceof ArrayBuffer) this.listener.onFrame(decodeFrame(data));
+    if (data instanceof ArrayBuffer) for (const frame of decodeFrames(data)) this.listener.onFrame(frame);
     else this.dispatch(JSON.parse(data) as ServerMessage);
   }
 

@@ -1,4 +1,4 @@
-/** The binary frame: one pose of one character. */
+/** The binary message: for each character, a frame with its pose. */
 
 const KIND = 1;
 const VERSION = 1;
@@ -32,9 +32,19 @@ export function emptyPose(joints: number, morphs: number): Pose {
   return { root: new Float32Array(3), rotations: new Float32Array(4 * joints), weights: new Float32Array(morphs) };
 }
 
-/** Reads a binary frame; throws a RangeError that says what is wrong with a malformed one. */
-export function decodeFrame(data: ArrayBuffer): Frame {
-  const view = new DataView(data);
+/** Reads a binary message: the frames of all characters. Throws a RangeError that says what is wrong with a malformed one. */
+export function decodeFrames(data: ArrayBuffer): Frame[] {
+  const frames: Frame[] = [];
+  for (let offset = 0; offset < data.byteLength;) {
+    const frame = decodeFrame(new DataView(data, offset));
+    frames.push(frame);
+    offset += frameBytes(frame.rotations.length / 4, frame.weights.length);
+  }
+  return frames;
+}
+
+/** Reads the frame at the beginning of a view. */
+function decodeFrame(view: DataView): Frame {
   const [joints, morphs] = checkedCounts(view);
   const frame: Frame = {
     character: view.getUint16(2, true),
@@ -48,6 +58,10 @@ export function decodeFrame(data: ArrayBuffer): Frame {
   return frame;
 }
 
+function frameBytes(joints: number, morphs: number): number {
+  return HEADER_BYTES + joints * QUATERNION_BYTES + morphs * WEIGHT_BYTES;
+}
+
 function checkedCounts(view: DataView): [joints: number, morphs: number] {
   if (view.byteLength < HEADER_BYTES)
     throw new RangeError(`a frame of ${view.byteLength} bytes has no complete header`);
@@ -56,8 +70,8 @@ function checkedCounts(view: DataView): [joints: number, morphs: number] {
   if (kind !== KIND || version !== VERSION) throw new RangeError(`unknown frame kind ${kind} version ${version}`);
   const joints = view.getUint16(16, true);
   const morphs = view.getUint16(18, true);
-  const expected = HEADER_BYTES + joints * QUATERNION_BYTES + morphs * WEIGHT_BYTES;
-  if (view.byteLength !== expected) throw new RangeError(`a frame has ${view.byteLength} bytes instead of ${expected}`);
+  const expected = frameBytes(joints, morphs);
+  if (view.byteLength < expected) throw new RangeError(`a frame has ${view.byteLength} bytes instead of ${expected}`);
   return [joints, morphs];
 }
 

@@ -4,7 +4,7 @@
  */
 
 /**
- * The text messages of the socket (GET /ws), protocol 1. Times are in seconds of realizer time, positions in meters in the world's frame: right-handed, y up. Unknown fields must be ignored.
+ * The text messages of the socket (GET /ws), protocol 2. Times are in seconds of realizer time, positions in meters in the world's frame: right-handed, y up. Unknown fields must be ignored.
  */
 export type Message = ClientMessage | ServerMessage;
 /**

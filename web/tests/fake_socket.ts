@@ -35,7 +35,7 @@ export class FakeSocket {
   }
 
   greet(session: string): void {
-    this.deliver({ type: "hello", protocol: 1, version: "0", session, time: 4, tick: 400, characters: [] });
+    this.deliver({ type: "hello", protocol: 2, version: "0", session, time: 4, tick: 400, characters: [] });
   }
 
   feedback(session: string, seq: number): void {

@@ -32,3 +32,9 @@ export function encodeFrame({
   });
   return data;
 }
+
+/** Joins frames to a message. */
+export function joined(frames: ArrayBuffer[]): ArrayBuffer {
+  const bytes = frames.flatMap((frame) => [...new Uint8Array(frame)]);
+  return new Uint8Array(bytes).buffer;
+}

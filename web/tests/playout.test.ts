@@ -1,12 +1,12 @@
 import { describe, expect, it } from "vitest";
 
-import { decodeFrame } from "../src/frame";
+import { decodeFrames } from "../src/frame";
 import { Playout } from "../src/playout";
 import { encodeFrame, type FrameFields } from "./frames";
 
 function playoutOf(...frames: FrameFields[]): Playout {
   const playout = new Playout();
-  for (const frame of frames) playout.push(decodeFrame(encodeFrame(frame)));
+  for (const frame of frames) for (const decoded of decodeFrames(encodeFrame(frame))) playout.push(decoded);
   return playout;
 }
 
@@ -56,7 +56,7 @@ describe("the playout buffer", () => {
   it("goes on from the held pose when frames come again", () => {
     const playout = playoutOf({ time: 0 });
     playout.sample(0.5);
-    playout.push(decodeFrame(encodeFrame({ time: 1, weights: [1] })));
+    for (const frame of decodeFrames(encodeFrame({ time: 1, weights: [1] }))) playout.push(frame);
     expect(playout.sample(0.75)?.weights[0]).toBeCloseTo(0.75, 4);
   });
 
