@@ -1,4 +1,4 @@
-"""``python -m benchmarks [NAME ...] [--json] [--history]``."""
+"""``python -m benchmarks [NAME ...] [--size SIZE] [--json] [--history]``."""
 
 import argparse
 import json
@@ -22,19 +22,21 @@ def main() -> None:
     names = sorted(module.name for module in pkgutil.iter_modules(benchmarks.__path__) if module.name != "__main__")
     parser = argparse.ArgumentParser(prog="python -m benchmarks", description="Measure how fast the realizer is.")
     parser.add_argument("names", nargs="*", metavar="NAME", help=f"what to measure (default all): {', '.join(names)}")
+    parser.add_argument("--size", type=float, help="how much to measure, in the unit of the benchmark's `measure`")
     parser.add_argument("--json", action="store_true", help="print one JSON object a benchmark, on a line of its own")
     parser.add_argument("--history", action="store_true", help=f"add the results to {HISTORY.name}")
     options = parser.parse_args()
     if unknown := sorted(set(options.names).difference(names)):
         parser.error(f"no benchmark {', '.join(unknown)}; there are {', '.join(names)}")
     for name in options.names or names:
-        run(name, as_json=options.json, keep=options.history)
+        run(name, options.size, as_json=options.json, keep=options.history)
 
 
-def run(name: str, *, as_json: bool, keep: bool) -> None:
-    """Runs one benchmark, prints its result, and optionally adds it to the history."""
+def run(name: str, size: float | None, *, as_json: bool, keep: bool) -> None:
+    """Runs one benchmark, by default in its own size, prints its result, and optionally adds it to the history."""
     module = import_module(f"benchmarks.{name}")
-    result: Result = {**module.measure(), "machine": machine(), "commit": commit()}
+    measured = module.measure() if size is None else module.measure(int(size) if size.is_integer() else size)
+    result: Result = {**measured, "machine": machine(), "commit": commit()}
     if as_json:
         print(json.dumps(result), flush=True)
     else:

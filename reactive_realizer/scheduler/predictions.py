@@ -36,8 +36,8 @@ class Predictions:
             self._publish(block, now)
 
     def close(self, block: BMLBlock, now: GlobalTime) -> None:
-        """Forget a block that ends; a prediction that was requested is reported if the block plays."""
-        if block in self._requested and block.state.plays:
+        """Forget a block that ends; of one that plays, report what was requested or has moved in this tick before."""
+        if block.state.plays:
             self._publish(block, now)
         self._requested.discard(block)
         self._published.pop(block, None)

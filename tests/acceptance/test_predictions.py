@@ -136,3 +136,13 @@ async def test_an_ended_block_is_not_predicted(pilot: RealizerPilot) -> None:
     pilot.predict("test", "hit", 5.0)
     await pilot.advance(1)
     assert len(pilot.feedback.messages) == said
+
+
+async def test_the_last_prediction_of_a_block_has_the_times_of_the_tick_in_which_it_ends(pilot: RealizerPilot) -> None:
+    pilot.predict("t", "hit", 2.0)
+    pilot.block("b", '<wait id="w" end="anticipators:t:hit"/>')
+    await pilot.advance(1.0)
+    pilot.predict("t", "hit", 0.5)
+    await pilot.tick()
+    assert pilot.feedback.time("b:end") == pilot.feedback.time("b:w:end") == 1.0
+    assert pilot.feedback.predicted("b:end") == pilot.feedback.predicted("b:w:end") == 1.0

@@ -11,6 +11,7 @@ ROOT = Path(__file__).parents[2]
 SIZES = ("10", "1000", "100000")
 SMALLEST: dict[str, dict[str, float]] = {
     "animation": {"most": 1},
+    "generated": {"blocks": 1},
     "idle": {"seconds": 0.05},
     "latency": {"runs": 2},
     "propagation": {"largest": 1000},
@@ -20,6 +21,14 @@ SMALLEST: dict[str, dict[str, float]] = {
 }
 KEYS: dict[str, set[str]] = {
     "animation": {*(f"us_per_character_frame.{n}" for n in ("1", "10", "50", "100")), "characters_at_50fps"},
+    "generated": {
+        *(f"{strategy}.blocks" for strategy in ("convex", "embr", "smartbody")),
+        *(
+            f"{strategy}.broken.{law}"
+            for strategy in ("convex", "embr", "smartbody")
+            for law in ("order", "before_block", "past", "prediction", "equation", "unnamed", "endless", "escape")
+        ),
+    },
     "idle": {"posts_per_s", *(f"cpu_ms_per_s.{n}" for n in ("0", "1", "100"))},
     "latency": {"tick_ms", *(f"{what}_ms.{part}" for what in ("predict", "activate") for part in ("p50", "p99"))},
     "propagation": {

@@ -1,0 +1,231 @@
+"""Random sessions: blocks that refer to each other, and wrong, late and withdrawn predictions."""
+
+from dataclasses import dataclass
+from random import Random
+
+from reactive_realizer.testing.pilot import RealizerPilot, block
+
+CHARACTERS = ("alice", "bob", "carol")
+HUMAN = (
+    "".join(f"[character.{name}]\nposition = [{x}, 0, 0]\n" for x, name in enumerate(CHARACTERS))
+    + """
+[target.bluebox]
+position = [-1.2, 1.2, 1.5]
+[anticipator.metronome]
+kind = "metronome"
+tempo = 90
+[anticipator.spacebar]
+kind = "spacebar"
+"""
+)
+"""The human file of the scene in which the sessions play."""
+
+_SPEECH = '<speech id="{id}"{ties}><text>Well <sync id="m"/>then, my friend.</text></speech>'
+_BEHAVIORS = {
+    _SPEECH: ("start", "end"),
+    '<head id="{id}" lexeme="NOD"{ties}/>': ("start", "stroke", "end"),
+    '<head id="{id}" lexeme="SHAKE" repetition="2"{ties}/>': ("start", "end"),
+    '<gesture id="{id}" lexeme="BEAT" mode="RIGHT_HAND"{ties}/>': ("start", "ready", "stroke", "relax", "end"),
+    '<gesture id="{id}" lexeme="OFFER" mode="LEFT_HAND"{ties}/>': ("start", "strokeStart", "stroke", "end"),
+    '<pointing id="{id}" target="bluebox"{ties}/>': ("start", "ready", "relax", "end"),
+    '<gaze id="{id}" target="bluebox"{ties}/>': ("start", "ready", "relax", "end"),
+    '<gazeShift id="{id}" target="bluebox"{ties}/>': ("start", "end"),
+    '<faceLexeme id="{id}" lexeme="RAISE_BROWS"{ties}/>': ("start", "attackPeak", "end"),
+    '<wait id="{id}" duration="0.4"{ties}/>': ("start", "end"),
+    '<wait id="{id}" max-wait="0.8"{ties}/>': ("start", "end"),
+    '<wait id="{id}" event="asked" max-wait="1.2"{ties}/>': ("start",),
+    '<wait id="{id}" event="told"{ties}/>': ("start",),
+    '<bmla:emit id="{id}" event="asked"{ties}/>': ("start",),
+    '<bmla:emit id="{id}" event="told"{ties}/>': ("start",),
+    '<bmla:activate id="{id}" target="{other}"{ties}/>': ("start",),
+    '<bmla:interrupt id="{id}" target="{other}"{ties}/>': ("start",),
+    '<bmla:interrupt id="{id}" target="{other}" include="p q"{ties}/>': ("start",),
+    '<bmla:interrupt id="{id}" target="{other}" exclude="p" speech="word"{ties}/>': ("start",),
+    '<bmla:parametervaluechange id="{id}" target="{other}:p" paramId="volume"{ties}>'
+    '<bmla:trajectory type="linear" targetValue="90"/></bmla:parametervaluechange>': ("start", "end"),
+    '<bmla:parametervaluechange id="{id}" target="q" paramId="amount"{ties}>'
+    '<bmla:trajectory type="instant" targetValue="0.5"/></bmla:parametervaluechange>': ("start", "end"),
+}
+"""The behaviors, each with the points of it that may be tied."""
+
+_IDS = ("p", "q", "r", "s")
+_REMOTE = ("hit", "go")
+_ANTICIPATED = (
+    *(f"anticipators:t:{sync}" for sync in _REMOTE * 2),
+    "anticipators:events:asked",
+    "anticipators:spacebar:press",
+    "anticipators:spacebar:release",
+    *(f"anticipators:metronome:tick{number}" for number in (2, 5, 9)),
+)
+_OFFSETS = ("", "", "", "+0.2", "-0.2", "+1", "-1")
+_TIMES = ("0", "0.3", "1", "-0.2")
+_PAUSES = (0.0, 0.0, 0.01, 0.03, 0.1, 0.25, 0.5)
+_AHEAD = (None, -0.5, -0.03, 0.0, 0.05, 0.2, 0.5, 1.0, 2.0)
+_COMPOSITIONS = ("MERGE",) * 6 + ("APPEND",) * 3 + ("REPLACE",)
+_JOINS = ("appendAfter", "chunkAfter", "prependBefore", "chunkBefore", "interrupt", "onStart")
+
+
+@dataclass(frozen=True, slots=True)
+class Block:
+    """A block, in parts that can be left out one by one.
+
+    Attributes:
+        attributes: of BML and of BMLA, by name.
+        parts: its behaviors and constraints.
+    """
+
+    id: str
+    attributes: dict[str, str]
+    parts: tuple[str, ...]
+
+    def send(self, pilot: RealizerPilot) -> None:
+        """Send it."""
+        pilot.perform(block(self.id, "".join(self.parts), **self.attributes))
+
+
+@dataclass(frozen=True, slots=True)
+class Prediction:
+    """A prediction of a point of the anticipator ``t``, s from now; None withdraws it."""
+
+    sync: str
+    ahead: float | None
+
+    def send(self, pilot: RealizerPilot) -> None:
+        """Send it."""
+        pilot.predict("t", self.sync, None if self.ahead is None else pilot.now + self.ahead)
+
+
+@dataclass(frozen=True, slots=True)
+class Event:
+    """An event of an anticipator of the scene."""
+
+    anticipator: str
+    name: str
+    value: float | None = None
+
+    def send(self, pilot: RealizerPilot) -> None:
+        """Send it."""
+        pilot.event(self.anticipator, self.name, self.value)
+
+
+_EVENTS = (
+    Event("spacebar", "press"),
+    Event("spacebar", "release"),
+    Event("events", "asked"),
+    Event("metronome", "tempo", 40),
+    Event("metronome", "tempo", 150),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """An input after a pause, s."""
+
+    pause: float
+    input: Block | Prediction | Event
+
+
+@dataclass(frozen=True, slots=True)
+class Session:
+    """The inputs of a session in order."""
+
+    steps: tuple[Step, ...]
+
+    @property
+    def blocks(self) -> int:
+        """Number of blocks."""
+        return sum(isinstance(step.input, Block) for step in self.steps)
+
+
+def random_session(random: Random, blocks: int = 25) -> Session:
+    """A session with a number of blocks, and about half as many predictions and events."""
+    steps: list[Step] = []
+    sent = 0
+    while sent < blocks:
+        drawn: Block | Prediction | Event
+        if random.random() < 0.3:
+            drawn = Prediction(random.choice(_REMOTE), random.choice(_AHEAD))
+        elif random.random() < 0.15:
+            drawn = random.choice(_EVENTS)
+        else:
+            drawn = _BlockDraw(random, sent).block()
+            sent += 1
+        steps.append(Step(random.choice(_PAUSES), drawn))
+    return Session(tuple(steps))
+
+
+class _BlockDraw:
+    """Draws one block; it refers to its own points, to those of the blocks sent just before or after it, and others."""
+
+    def __init__(self, random: Random, number: int) -> None:
+        self._random = random
+        again = number > 3 and random.random() < 0.1
+        self._id = f"b{random.randrange(number - 3, number) if again else number}"
+        self._others = [f"b{max(0, number - back)}" for back in (1, 1, 2, 3, -1)]
+        kinds = random.choices([*_BEHAVIORS], k=random.choice((0, 1, 1, 2, 2, 3, 4)))
+        self._kinds = dict(zip(_IDS, kinds, strict=False))
+
+    def block(self) -> Block:
+        """The block."""
+        parts = [self._behavior(id_, kind) for id_, kind in self._kinds.items()]
+        parts += [self._constraint() for _ in range(self._random.choice((0, 0, 0, 1, 2)) if parts else 0)]
+        if self._random.random() < 0.1:
+            parts = [f"<required>{part}</required>" for part in parts]
+        return Block(self._id, self._attributes(), tuple(parts))
+
+    def _attributes(self) -> dict[str, str]:
+        random = self._random
+        attributes = {"characterId": random.choice(CHARACTERS), "composition": random.choice(_COMPOSITIONS)}
+        if random.random() < 0.25:
+            attributes[f"bmla:{random.choice(_JOINS)}"] = ",".join(
+                random.sample(self._others, random.choice((1, 1, 2)))
+            )
+        if random.random() < 0.15:
+            attributes["bmla:preplan"] = "true"
+        if random.random() < 0.05:
+            attributes["start"] = self._outside()
+        return attributes
+
+    def _behavior(self, id_: str, kind: str) -> str:
+        count = self._random.choice((0, 1, 1, 2))
+        points = self._random.sample(_BEHAVIORS[kind], min(count, len(_BEHAVIORS[kind])))
+        ties = "".join(f' {point}="{self._reference(id_)}"' for point in points)
+        return kind.format(id=id_, ties=ties, other=self._random.choice(self._others))
+
+    def _constraint(self) -> str:
+        ref, sync = self._reference(), self._own() + self._random.choice(_OFFSETS)
+        match self._random.choice(("before", "after", "synchronize")):
+            case "synchronize":
+                inside = f'<synchronize><sync ref="{ref}"/><sync ref="{sync}"/></synchronize>'
+            case order:
+                inside = f'<{order} ref="{ref}"><sync ref="{sync}"/></{order}>'
+        return f"<constraint>{inside}</constraint>"
+
+    def _reference(self, besides: str = "") -> str:
+        """A time, or a point of any other behavior or of an anticipator, with or without an offset."""
+        random = self._random
+        own = len(self._kinds) > bool(besides) and random.random() < 0.5
+        if not own and random.random() < 0.15:
+            return random.choice(_TIMES)
+        point = self._own(besides) if own else self._outside()
+        return point + random.choice(_OFFSETS)
+
+    def _own(self, besides: str = "") -> str:
+        return self._point(self._random.choice([id_ for id_ in self._kinds if id_ != besides]))
+
+    def _point(self, id_: str) -> str:
+        return f"{id_}:{self._random.choice(_points(self._kinds.get(id_, _SPEECH)))}"
+
+    def _outside(self) -> str:
+        random = self._random
+        if random.random() < 0.5:
+            return random.choice(_ANTICIPATED)
+        other = random.choice(self._others)
+        if random.random() < 0.3:
+            return f"{other}:{random.choice(('start', 'relax', 'end'))}"
+        return f"{other}:{random.choice(_IDS[:2])}:{random.choice(('start', 'start', 'end', 'stroke', 'm'))}"
+
+
+def _points(kind: str) -> tuple[str, ...]:
+    """The points of a behavior that others may be tied to."""
+    return (*_BEHAVIORS[kind], "m") if kind is _SPEECH else _BEHAVIORS[kind]
