@@ -140,7 +140,7 @@ async def test_an_ended_block_is_not_predicted(pilot: RealizerPilot) -> None:
 
 async def test_the_last_prediction_of_a_block_has_the_times_of_the_tick_in_which_it_ends(pilot: RealizerPilot) -> None:
     pilot.predict("t", "hit", 2.0)
-    pilot.block("b", '<wait id="w" end="anticipators:t:hit"/>')
+    pilot.block("b", '<wait id="w" start="0" end="anticipators:t:hit"/>')
     await pilot.advance(1.0)
     pilot.predict("t", "hit", 0.5)
     await pilot.tick()
