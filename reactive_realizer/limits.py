@@ -25,6 +25,14 @@ class Limits:
     """Length of the content of an emitted event, as XML."""
     clients: int = 100
     """Open sockets and feedback streams."""
+    connections: int = 256
+    """Open connections. If no more fit, the one that has been unused for longest is closed for a new one."""
+    connections_per_address: int = 64
+    """Open connections from one other machine; those from this machine, also of a proxy on it, only count together."""
+    idle_seconds: float = 75.0
+    """Time within which a connection must send its next request, without the body, s."""
+    body_seconds: float = 30.0
+    """Time within which the body of a request must arrive, s."""
     messages_per_second: int = 500
     """Socket messages per second and client."""
     answered_warnings: int = 50

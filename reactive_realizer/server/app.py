@@ -3,8 +3,9 @@
 from aiohttp import web
 
 from reactive_realizer.server import routes_page, routes_requests, routes_state, routes_streams
+from reactive_realizer.server.connections import count_used
 from reactive_realizer.server.intake import Intake
-from reactive_realizer.server.keys import INTAKE, LIVE, SECURITY, SHUTDOWN, TOKEN
+from reactive_realizer.server.keys import INTAKE, LIVE, SECURITY, SHUTDOWN, TOKEN, USED
 from reactive_realizer.server.live_scene import LiveScene
 from reactive_realizer.server.middleware import add_headers, let_in, tell_refusals
 from reactive_realizer.server.security import Security
@@ -20,10 +21,11 @@ def create_app(live: LiveScene, security: Security) -> web.Application:
         security: the hosts, origins and token that are accepted.
     """
     # aiohttp also refuses a body of exactly the limit.
-    app = web.Application(middlewares=[tell_refusals, let_in], client_max_size=live.limits.bml_bytes + 1)
+    app = web.Application(middlewares=[count_used, tell_refusals, let_in], client_max_size=live.limits.bml_bytes + 1)
     app[LIVE] = live
     app[INTAKE] = Intake(live)
     app[SECURITY] = security
+    app[USED] = set()
     app[TOKEN] = TokenCheck(security.token, live.clock)
     app[SHUTDOWN] = Subscribers()
     for routes in (routes_page.routes, routes_requests.routes, routes_state.routes, routes_streams.routes):

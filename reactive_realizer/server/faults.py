@@ -45,6 +45,14 @@ class BadRequest(Fault):
     reason: str
 
 
+class SlowRequest(Fault):
+    """A request whose body does not arrive."""
+
+    code = "slow-request"
+    template = "the body of the request has not arrived within {limit:g} s"
+    limit: float
+
+
 class BadQuery(Fault):
     """A value in the query of an address."""
 

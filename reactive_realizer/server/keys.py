@@ -11,6 +11,8 @@ from reactive_realizer.server.token_check import TokenCheck
 LIVE = web.AppKey("live", LiveScene)
 INTAKE = web.AppKey("intake", Intake)
 SECURITY = web.AppKey("security", Security)
+USED = web.AppKey("used", set[web.RequestHandler])
+"""The connections on which a request is being answered."""
 TOKEN = web.AppKey("token", TokenCheck)
 SHUTDOWN = web.AppKey("shutdown", Subscribers[None])
 """Called when the server shuts down, so that open connections end."""

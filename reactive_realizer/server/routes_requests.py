@@ -1,5 +1,6 @@
 """Routes for planners without a socket: BML, predictions and stop."""
 
+import asyncio
 import codecs
 from typing import Final
 
@@ -7,7 +8,7 @@ from aiohttp import web
 
 from reactive_realizer.bml.faults import BadEncoding
 from reactive_realizer.errors import RealizerError
-from reactive_realizer.server.faults import WrongCharset, WrongMediaType
+from reactive_realizer.server.faults import SlowRequest, WrongCharset, WrongMediaType
 from reactive_realizer.server.keys import INTAKE, LIVE
 from reactive_realizer.server.protocol import bml_answer, check, decode
 
@@ -58,7 +59,7 @@ async def bml(request: web.Request) -> web.Response:
     """Accepts a document completely, or not at all."""
     if request.content_type not in _XML:
         raise RealizerError(WrongMediaType(type=request.content_type))
-    text = text_of(await request.read(), request.charset)
+    text = text_of(await _body(request), request.charset)
     blocks, warnings = await request.app[INTAKE].document(text)
     limit = request.app[LIVE].limits.answered_warnings
     return web.json_response(bml_answer(blocks, warnings, limit), status=202)
@@ -67,7 +68,7 @@ async def bml(request: web.Request) -> web.Response:
 @routes.post("/predict")
 async def predict(request: web.Request) -> web.Response:
     """Accepts a prediction, and returns its time."""
-    message = decode(await request.read())
+    message = decode(await _body(request))
     message = {**message, "type": "predict"} if isinstance(message, dict) else message
     check(message)
     return web.json_response({"time": request.app[INTAKE].predict(message)}, status=202)
@@ -77,3 +78,17 @@ async def predict(request: web.Request) -> web.Response:
 async def stop(request: web.Request) -> web.Response:
     """Ends all blocks."""
     return web.json_response({"blocks": request.app[INTAKE].stop()}, status=202)
+
+
+async def _body(request: web.Request) -> bytes:
+    """The body of a request.
+
+    Raises:
+        RealizerError: "slow-request": the client has not sent it in time.
+    """
+    limit = request.app[LIVE].limits.body_seconds
+    try:
+        async with asyncio.timeout(limit):
+            return await request.read()
+    except TimeoutError:
+        raise RealizerError(SlowRequest(limit=limit)) from None

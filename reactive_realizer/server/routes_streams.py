@@ -25,6 +25,7 @@ async def ws(request: web.Request) -> web.WebSocketResponse:
     with live.clients.one():
         answer = web.WebSocketResponse(
             heartbeat=_HEARTBEAT,
+            autoping=False,  # pings count as messages, so that their rate is limited
             compress=False,
             max_msg_size=live.limits.message_bytes,
             writer_limit=_SEND_BUFFER // 2,

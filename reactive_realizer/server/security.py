@@ -57,7 +57,7 @@ class Security:
     @property
     def exposed(self) -> bool:
         """Whether other machines can connect."""
-        return not _is_loopback(self.host)
+        return not is_loopback(self.host)
 
     def check(self, request: web.Request) -> None:
         """Checks the host and the origin of a request.
@@ -86,7 +86,7 @@ class Security:
         """
         name = _host_of(f"http://{request.host}")
         known = {self.host, *map(_host_of, self.origins)}
-        named = name is not None and (name in known or _is_loopback(name) or (self.exposed and _is_number(name)))
+        named = name is not None and (name in known or is_loopback(name) or (self.exposed and _is_number(name)))
         if not named:
             raise RealizerError(ForeignHost(host=request.host))
 
@@ -112,5 +112,6 @@ def _is_number(host: str) -> bool:
     return True
 
 
-def _is_loopback(host: str) -> bool:
+def is_loopback(host: str) -> bool:
+    """Whether a name or an address is that of this machine for itself."""
     return host == "localhost" or (_is_number(host) and ip_address(host).is_loopback)

@@ -3,16 +3,18 @@
 import asyncio
 import logging
 import signal
-from contextlib import AsyncExitStack
+from collections.abc import AsyncIterator
+from contextlib import AsyncExitStack, asynccontextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
-from socket import AF_INET, AF_INET6, create_server, socket
+from socket import socket
 
 from aiohttp import web
 
 from reactive_realizer.assembly.scene import SceneOptions, open_scene
 from reactive_realizer.clock.clock import SystemClock
 from reactive_realizer.server.app import create_app
+from reactive_realizer.server.connections import Connections, listen
 from reactive_realizer.server.live_scene import LiveScene
 from reactive_realizer.server.recorder import Recorder, recording_file
 from reactive_realizer.server.security import Security
@@ -55,7 +57,7 @@ async def serve(options: ServerOptions) -> None:
     """
     security = Security(options.host, options.token, options.origins)
     async with AsyncExitStack() as stack:
-        listening = stack.enter_context(_listen(options))
+        listening = stack.enter_context(listen(options.host, options.port))
         record = stack.enter_context(recording_file(options.record)) if options.record else None
         scene = await stack.enter_async_context(open_scene(options.scene))
         group = await stack.enter_async_context(asyncio.TaskGroup())
@@ -65,31 +67,37 @@ async def serve(options: ServerOptions) -> None:
             live.realizer.record(recorder, recorder.forecast)
         ticking = group.create_task(live.run())
         try:
-            await _serve_requests(live, security, listening)
+            async with serving(live, security, listening):
+                await _termination()
         finally:
             ticking.cancel()
 
 
-async def _serve_requests(live: LiveScene, security: Security, listening: socket) -> None:
-    """Serves HTTP and sockets until SIGTERM or cancellation."""
+@asynccontextmanager
+async def serving(live: LiveScene, security: Security, listening: socket) -> AsyncIterator[None]:
+    """Serves HTTP and sockets."""
+    app = create_app(live, security)
     runner = web.AppRunner(
-        create_app(live, security),
+        app,
         handler_cancellation=True,  # a client that disconnects ends its stream
         shutdown_timeout=_PATIENCE,
+        keepalive_timeout=live.limits.idle_seconds,
         access_log=None,  # addresses may contain tokens
     )
     await runner.setup()
     try:
-        await web.SockSite(runner, listening).start()
-        logger.info("serving on %s", ", ".join(f"http://{host}:{port}" for host, port, *_ in runner.addresses))
-        await _termination()
+        async with asyncio.TaskGroup() as group:
+            accepting = group.create_task(Connections(app, runner, live.limits).accept(listening))
+            logger.info("serving on %s", _address(listening))
+            yield
+            accepting.cancel()
     finally:
         await runner.cleanup()
 
 
-def _listen(options: ServerOptions) -> socket:
-    """Binds the address before anything starts, so that an address in use is reported at once."""
-    return create_server((options.host, options.port), family=AF_INET6 if ":" in options.host else AF_INET)
+def _address(listening: socket) -> str:
+    host, port, *_ = listening.getsockname()
+    return f"http://[{host}]:{port}" if ":" in host else f"http://{host}:{port}"
 
 
 async def _termination() -> None:

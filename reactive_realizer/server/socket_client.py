@@ -182,7 +182,10 @@ class SocketClient:
                 self._reason = TooManyMessages
                 self._enqueue(refused(RealizerError(TooManyMessages(limit=limit))))
                 break
-            await self._take(message)
+            if message.type is WSMsgType.PING:
+                await self._socket.pong(message.data)
+            elif message.type is not WSMsgType.PONG:
+                await self._take(message)
         self._queue.end()
 
     async def _take(self, received: WSMessage) -> None:

@@ -37,6 +37,7 @@ from reactive_realizer.server.faults import (
     NoPage,
     NothingThere,
     NoToken,
+    SlowRequest,
     TooManyClients,
     TooManyMessages,
     TooSlow,
@@ -61,6 +62,7 @@ STATUSES: Final[Mapping[HTTPStatus, tuple[type[Fault], ...]]] = {
         UnknownProcedure,
     ),
     HTTPStatus.METHOD_NOT_ALLOWED: (WrongMethod,),
+    HTTPStatus.REQUEST_TIMEOUT: (SlowRequest,),
     HTTPStatus.CONFLICT: (DuplicateBlock, PredictsItself, TwoAssets),
     HTTPStatus.GONE: (BlockEnded,),
     HTTPStatus.REQUEST_ENTITY_TOO_LARGE: (
