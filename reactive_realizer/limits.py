@@ -45,6 +45,10 @@ class Limits:
     """Messages queued for a slow client before its connection is closed."""
     predicted_points: int = 10_000
     """Points of anticipators on the peg board. Passed points that nothing uses make room for new ones."""
+    predictions_per_second: int = 10
+    """Reports per second and block of predictions that have moved; the last one is always reported."""
+    predicted_behaviors_per_second: int = 2_000
+    """Behaviors in the reports of predictions that have moved, per second and for all blocks together."""
     targets: int = 1_000
     """Objects in the world, including those added by clients."""
     sound_bytes: int = 64 * 1024 * 1024

@@ -3,6 +3,7 @@
 import logging
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 from reactive_realizer.clock.ticker import RATE
 from reactive_realizer.clock.units import GlobalTime
@@ -18,18 +19,21 @@ from reactive_realizer.feedback.xml import to_xml
 logger = logging.getLogger(__name__)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Report:
     """A message as it goes out.
 
     Attributes:
         time: of the tick that reported, s; the message carries the time of its peg.
-        xml: one line.
     """
 
     time: GlobalTime
     message: Feedback
-    xml: str
+
+    @cached_property
+    def xml(self) -> str:
+        """The message as one line of XML."""
+        return to_xml(self.message)
 
 
 @dataclass(frozen=True, slots=True, order=True)
@@ -49,7 +53,7 @@ class FeedbackManager:
     def __init__(self) -> None:
         self._listeners: list[Callable[[Report], None]] = []
         self._messages: list[Feedback] = []
-        self._progress: list[tuple[ProgressOrder, int, Feedback]] = []
+        self._progress: list[tuple[ProgressOrder, int, BlockProgress | SyncPointProgress]] = []
 
     def listen(self, listener: Callable[[Report], None]) -> Callable[[], None]:
         """Send a listener every report from now on, until the returned function is called."""
@@ -64,16 +68,22 @@ class FeedbackManager:
         """Send progress with this tick, sorted as progress is; its own time may be before the tick."""
         self._progress.append((order, len(self._progress), message))
 
+    @property
+    def progressing(self) -> set[tuple[str, str]]:
+        """Character and id of the blocks of which this tick reports progress."""
+        return {(message.character, message.block) for _, _, message in self._progress}
+
     def flush(self, time: GlobalTime) -> None:
         """Send the messages of the tick at ``time`` to every listener."""
         messages = [*self._messages, *(message for _, _, message in sorted(self._progress, key=lambda p: p[:2]))]
         self._messages, self._progress = [], []
         for message in messages:
-            self._send(Report(time, message, to_xml(message)))
+            self._send(Report(time, message))
 
     def _send(self, report: Report) -> None:
         level = logging.WARNING if isinstance(report.message, WarningFeedback) else logging.DEBUG
-        logger.log(level, "tick %d: %s", round(report.time * RATE), report.xml)
+        if logger.isEnabledFor(level):
+            logger.log(level, "tick %d: %s", round(report.time * RATE), report.xml)
         for listener in tuple(self._listeners):
             try:
                 listener(report)

@@ -1,7 +1,9 @@
 """Feedback as XML, in the forms of BML 1.0 (blockProgress, syncPointProgress, predictionFeedback, warningFeedback)."""
 
 import re
-from functools import singledispatch
+from functools import lru_cache, singledispatch
+from typing import NamedTuple
+from uuid import uuid4
 
 from lxml import etree
 
@@ -21,13 +23,45 @@ from reactive_realizer.feedback.messages import (
 _DECIMALS = 6
 _STATUS = f"{{{BMLA}}}status"
 _OWN_TIME = f"{{{OWN}}}time"
+_STAMPS = {"globalTime": "posixTime", "globalStart": "posixStartTime", "globalEnd": "posixEndTime"}
+"""Attribute with a global time (s) -> the attribute for the same moment as POSIX time (ms)."""
+_PREDICTION: dict[str | None, str] = {None: BML, "bmla": BMLA, "rr": OWN}
+"""Namespaces of predictionFeedback, by prefix."""
+_MARK = f"t{uuid4().hex}"
+"""Marks the places of times in a template; no input contains it."""
+_ATTRIBUTES: dict[type[Behavior], frozenset[str]] = {}
+_TEMPLATES = 4096
+"""Templates that are kept: a behavior is predicted again whenever its times move."""
 _NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 """Characters that XML does not allow; the reason of a failure or the name of a plug-in may contain any."""
 
 
-def to_xml(message: Feedback) -> str:
-    """The message as one line of XML."""
-    return etree.tostring(_element(message), encoding="unicode").replace("\n", " ")
+etree.register_namespace("bmla", BMLA)  # the prefix that lxml makes up if a message declares none
+
+
+def to_xml(message: Feedback, epoch: float | None = None) -> str:
+    """The message as one line of XML.
+
+    Args:
+        message: of feedback.
+        epoch: POSIX time (s) of global time 0; if it is given, every global time is also written as POSIX time.
+    """
+    element = _element(message)
+    if epoch is not None:
+        add_posix_times(element, epoch)
+    text = etree.tostring(element, encoding="unicode").replace("\n", " ")
+    if isinstance(message, PredictionFeedback):
+        end = text.rindex("</")
+        text = "".join((text[:end], *(_predicted(message.block, each) for each in message.behaviors), text[end:]))
+    return text
+
+
+def add_posix_times(element: etree._Element, epoch: float) -> None:
+    """Add the POSIX time to every global time of a message, where POSIX time ``epoch`` (s) is global time 0."""
+    for part in (element, *element.iterchildren(f"{{{BML}}}bml")):
+        for name, stamp in _STAMPS.items():
+            if (time := part.get(name)) is not None:
+                part.set(f"{{{BMLA}}}{stamp}", str(round(1000 * (epoch + float(time)))))
 
 
 def as_reported(time: float) -> float:
@@ -71,12 +105,11 @@ def _(message: SyncPointProgress) -> etree._Element:
 
 @_element.register
 def _(message: PredictionFeedback) -> etree._Element:
-    element = _root("predictionFeedback", message.character, {None: BML, "bmla": BMLA, "rr": OWN})
+    element = _root("predictionFeedback", message.character, _PREDICTION)
     block = etree.SubElement(element, f"{{{BML}}}bml", id=_legal(message.block))
     block.set("globalStart", seconds(message.start))
     block.set("globalEnd", seconds(message.end))
     block.set(_STATUS, message.status)
-    element.extend(_predicted(message.block, behavior) for behavior in message.behaviors)
     return element
 
 
@@ -107,25 +140,63 @@ def _root(name: str, character: str | None, namespaces: dict[str | None, str]) -
     return element
 
 
-def _predicted(block: str, prediction: BehaviorPrediction) -> etree._Element:
-    """The behavior's own element, with times for its sync points; an inline sync of a speech carries its time itself.
+class _Template(NamedTuple):
+    """An element in which times are left out: the text before, between and after them, and their sync points."""
+
+    texts: list[str]
+    syncs: list[str]
+
+
+def _predicted(block: str, prediction: BehaviorPrediction) -> str:
+    """The behavior's own element, with times for its sync points; an inline sync of a speech has its own."""
+    behavior, times = prediction.behavior, prediction.times
+    template = _template(
+        behavior.source,
+        _legal(f"{block}:{behavior.id}"),
+        frozenset(behavior.syncs),
+        frozenset({sync for sync in times if sync in behavior.sync_points or sync not in _attributes(type(behavior))}),
+        tuple(times),
+    )
+    text = template.texts[0]
+    for sync, following in zip(template.syncs, template.texts[1:], strict=True):
+        text += seconds(times[sync]) + following
+    return text
+
+
+@lru_cache(_TEMPLATES)
+def _template(source: str, id_: str, written: frozenset[str], own: frozenset[str], syncs: tuple[str, ...]) -> _Template:
+    """The element of a behavior with places for its times.
 
     A sync point is left out if its name cannot be an attribute, or is that of another attribute.
+
+    Args:
+        source: the element as it was written.
+        id_: its id in feedback.
+        written: the sync points that its attributes constrain.
+        own: those of ``syncs`` that are not names of other attributes.
+        syncs: the sync points that have times.
     """
-    behavior = prediction.behavior
-    element = etree.fromstring(behavior.source)
-    element.set("id", _legal(f"{block}:{behavior.id}"))
-    for sync in behavior.syncs:
+    element = etree.fromstring(source)
+    element.set("id", id_)
+    for sync in written:
         if sync in element.attrib:  # points that were not written get their times too
             del element.attrib[sync]
     inline = {sync.get("id"): sync for sync in element.iter(f"{{{BML}}}sync", "sync")} if len(element) else {}
-    for sync, time in prediction.times.items():
+    for number, sync in enumerate(syncs):
         if sync in inline:
-            inline[sync].set(_OWN_TIME, seconds(time))
-        elif is_sync_id(sync) and (sync in behavior.sync_points or sync not in _attributes(behavior)):
-            element.set(sync, seconds(time))
-    return element
+            inline[sync].set(_OWN_TIME, f"{_MARK}{number}.")
+        elif sync in own and is_sync_id(sync):
+            element.set(sync, f"{_MARK}{number}.")
+    parent = etree.Element(f"{{{BML}}}predictionFeedback", nsmap=_PREDICTION)  # type: ignore[arg-type]
+    parent.append(element)
+    text = etree.tostring(parent, encoding="unicode").replace("\n", " ")
+    texts = re.split(rf"{_MARK}([0-9]+)\.", text[text.index(">") + 1 : text.rindex("</")])
+    return _Template(texts[::2], [syncs[int(number)] for number in texts[1::2]])
 
 
-def _attributes(behavior: Behavior) -> set[str]:
-    return {each.name for each in attributes_of(type(behavior))}
+def _attributes(kind: type[Behavior]) -> frozenset[str]:
+    """The names of the attributes of an element, except for sync points."""
+    names = _ATTRIBUTES.get(kind)
+    if names is None:
+        names = _ATTRIBUTES[kind] = frozenset(each.name for each in attributes_of(kind))
+    return names

@@ -71,7 +71,7 @@ class BMLScheduler:
         self._routing = routing
         self._limits = limits
         self._feedback = BlockFeedback(feedback, self.blocks)
-        self._predictions = Predictions(feedback, self.blocks.watch)
+        self._predictions = Predictions(feedback, self.blocks.watch, limits)
         self._procedures = Procedures(routing, background)
         self._planning = Planning(board, self.blocks, strategy)
         self._planner = BlockPlanner(routing, self.blocks, self._planning, self._procedures, background, self._feedback)
@@ -187,8 +187,8 @@ class BMLScheduler:
     # --- the end of a session
 
     def stuck(self, now: GlobalTime) -> bool:
-        """Whether, after the tick at ``now``, no block can progress without further input."""
-        return not any(block.can_progress(now) for block in self.blocks.alive)
+        """Whether, after the tick at ``now``, no block can progress without further input, and all is reported."""
+        return not self._predictions.waiting and not any(block.can_progress(now) for block in self.blocks.alive)
 
     def warn_stuck(self) -> None:
         """Warn of every block that is alive, and of the points that it waits for."""

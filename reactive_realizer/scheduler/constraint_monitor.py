@@ -90,6 +90,8 @@ class ConstraintMonitor:
         """
         late = _late(constraint, block, units)
         outside = [node for node in constraint.nodes if not isinstance(node, Point | Origin)]
+        if late <= TOLERANCE and not any(node.value is None for node in outside):
+            return
         fired = bool(outside) and _fired(constraint, block, units)
         if not block.state.plays and not block.state.ended and _outer(constraint) is not None:
             return  # a late tie is reported when the block starts
@@ -136,9 +138,9 @@ def _late(constraint: Tie | Precedence, block: BMLBlock, units: Mapping[str, Pla
 
     A block may start after a time that its start is tied to.
     """
-    first, second = (_time(node, block, units) for node in constraint.nodes)
-    outer = _outer(constraint)
-    if outer is None or not isinstance(outer.node, Origin) or first is None or second is None:
+    first, second = [_time(node, block, units) for node in constraint.nodes]
+    outer = _outer(constraint) if Origin.BLOCK_START in constraint.nodes else None
+    if outer is None or first is None or second is None:
         return missed(constraint, first, second)
     late = second + constraint.offset - first
     return late if constraint.nodes[0] is outer.node else -late

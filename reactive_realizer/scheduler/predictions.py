@@ -2,9 +2,11 @@
 
 from collections.abc import Mapping
 
-from reactive_realizer.clock.units import BlockTime, GlobalTime, Time
+from reactive_realizer.clock.ticker import RATE
+from reactive_realizer.clock.units import BlockTime, GlobalTime, Time, is_due
 from reactive_realizer.feedback.feedback_manager import FeedbackManager
 from reactive_realizer.feedback.messages import BehaviorPrediction, PredictionFeedback
+from reactive_realizer.limits import Limits
 from reactive_realizer.scheduler.block_watch import BlockWatch, in_order
 from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.scheduler.problem import Point
@@ -17,22 +19,47 @@ _Times = Mapping[tuple[str, str], Time]
 
 
 class Predictions:
-    """Reports ``predictionFeedback``, at most once for each block and tick, with the times at the end of the tick."""
+    """Reports ``predictionFeedback`` with the times at the end of a tick (docs/semantics.md, predictions).
 
-    def __init__(self, feedback: FeedbackManager, watch: BlockWatch) -> None:
+    A prediction that is requested is reported in its tick. One that has moved is reported at a limited rate, the latest
+    one always: at most so often for a block, and only so many behaviors of all blocks together, in the order in which
+    the blocks have begun to wait. Before progress of its block is reported, it does not wait any more.
+    """
+
+    def __init__(self, feedback: FeedbackManager, watch: BlockWatch, limits: Limits) -> None:
         self._feedback = feedback
         self._moves = watch.moves()
+        self._interval = 1.0 / limits.predictions_per_second
+        self._behaviors_per_tick = limits.predicted_behaviors_per_second / RATE
+        self._allowance = 0.0
         self._published: dict[BMLBlock, _Times] = {}
+        self._next: dict[BMLBlock, GlobalTime] = {}
+        self._waiting: dict[BMLBlock, None] = {}
         self._requested: set[BMLBlock] = set()
+
+    @property
+    def waiting(self) -> bool:
+        """Whether the prediction of a block has moved, or may have, and is not reported yet."""
+        return bool(self._waiting)
 
     def request(self, block: BMLBlock) -> None:
         """Have this tick report the prediction of a block, even if no time has moved."""
         self._requested.add(block)
 
     def publish(self, now: GlobalTime) -> None:
-        """Report the predictions that were requested, and those of blocks of which a time has moved."""
+        """Report the predictions that were requested, and moved ones as far as the rates allow."""
         moved, _ = self._moves.take()
-        for block in in_order({*moved, *self._requested}):
+        self._waiting.update(dict.fromkeys(moved))
+        progressing = self._feedback.progressing if self._waiting else frozenset()
+        chosen = self._requested | {block for block in self._waiting if block.key in progressing}
+        self._allowance = min(self._allowance, 0.0) + self._behaviors_per_tick - sum(map(_cost, chosen))
+        for block in [block for block in self._waiting if is_due(self._next.get(block, now), now)]:
+            if self._allowance <= 0.0:
+                break
+            if block not in chosen:
+                chosen.add(block)
+                self._allowance -= _cost(block)
+        for block in in_order(chosen):
             self._publish(block, now)
 
     def close(self, block: BMLBlock, now: GlobalTime) -> None:
@@ -40,15 +67,23 @@ class Predictions:
         if block.state.plays:
             self._publish(block, now)
         self._requested.discard(block)
+        self._waiting.pop(block, None)
         self._published.pop(block, None)
+        self._next.pop(block, None)
 
     def _publish(self, block: BMLBlock, now: GlobalTime) -> None:
+        self._waiting.pop(block, None)
         times = {("", "start"): block.start.value, ("", "end"): block.end.value}
         times |= {(unit.behavior.id, point.id): point.peg.value for unit in block.units for point in unit.points}
         if block in self._requested or _moved(self._published.get(block, {}), times):
             self._requested.discard(block)
             self._published[block] = times
+            self._next[block] = GlobalTime(now + self._interval)
             self._feedback.add(_prediction(block, times, now))
+
+
+def _cost(block: BMLBlock) -> int:
+    return 1 + len(block.units)
 
 
 def _moved(old: _Times, new: _Times) -> bool:

@@ -3,36 +3,13 @@
 from collections import deque
 from dataclasses import dataclass
 
-from lxml import etree
-
-from reactive_realizer.bml.names import BML, BMLA
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.feedback.feedback_manager import Report
+from reactive_realizer.feedback.xml import to_xml
 from reactive_realizer.limits import Limits
 from reactive_realizer.server.faults import FeedbackGone
 from reactive_realizer.server.protocol import encode, refused
 from reactive_realizer.server.subscribers import Subscribers
-
-etree.register_namespace("bmla", BMLA)  # the prefix that lxml makes up if the document declares none
-
-_STAMPS = {"globalTime": "posixTime", "globalStart": "posixStartTime", "globalEnd": "posixEndTime"}
-"""Attribute with a global time (s) -> the attribute for the same moment as POSIX time (ms)."""
-
-
-def with_posix_times(report: Report, epoch: float) -> str:
-    """The XML of a report, with the POSIX time added to every global time.
-
-    Args:
-        report: a feedback message.
-        epoch: POSIX time (s) of global time 0.
-    """
-    element = etree.fromstring(report.xml)
-    for part in (element, *element.iterchildren(f"{{{BML}}}bml")):
-        for seconds, stamp in _STAMPS.items():
-            time = part.get(seconds)
-            if time is not None:
-                part.set(f"{{{BMLA}}}{stamp}", str(round(1000 * (epoch + float(time)))))
-    return etree.tostring(element, encoding="unicode")
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,7 +50,7 @@ class FeedbackLog:
             "session": self._session,
             "seq": self.seq,
             "time": round(report.time, 6),
-            "xml": with_posix_times(report, self._epoch),
+            "xml": to_xml(report.message, self._epoch),
         }
         entry = Entry(self.seq, encode(message))
         self._keep(entry)

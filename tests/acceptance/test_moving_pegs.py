@@ -43,7 +43,7 @@ async def test_the_stroke_follows_a_prediction_that_moves_while_the_arm_moves(pi
         assert len(told.predictions("b")) == said + 1
         assert told.predicted("b:g:stroke") == pytest.approx(moved)
         assert told.predicted("b:end") == told.predicted("next:start") == pytest.approx(moved + length)
-        await pilot.advance(0.05)
+        await pilot.advance(0.1)
 
     await pilot.advance(4)
     assert told.time("b:g:stroke") == pytest.approx(1.6)
@@ -150,6 +150,7 @@ async def test_ties_to_an_overtaken_point_move_with_it_in_its_own_block_and_in_o
     told = pilot.feedback
     assert told.predicted("a:n:stroke") == told.predicted("a:own:start") == 2.0
     assert told.predicted("b:other:start") == 2.5
+    await pilot.advance(0.1)
     pilot.predict("test", "end", 4.0)
     await pilot.tick()
     assert told.predicted("a:n:stroke") == told.predicted("a:own:start") == 3.0

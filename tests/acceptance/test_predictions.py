@@ -1,11 +1,13 @@
 """Predictions: when they are sent, and their content."""
 
+from pathlib import Path
 from typing import Any
 
 import pytest
 from lxml import etree
 
-from reactive_realizer.testing.pilot import RealizerPilot
+from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 HIT = "anticipators:test:hit"
 NOD = f'<head id="h" lexeme="NOD" end="{HIT}"/>'
@@ -70,10 +72,10 @@ async def test_a_prediction_is_repeated_when_a_time_moves_by_more_than_a_millise
 ) -> None:
     pilot.block("b", NOD)
     pilot.block("next", composition="APPEND")
-    await pilot.tick()
+    await pilot.advance(0.1)
     for time, said in [(3.0, 2), (3.0005, 2), (3.0009, 2), (3.0015, 3), (2.0, 4), (None, 5), (2.5, 6)]:
         pilot.predict("test", "hit", time)
-        await pilot.tick()
+        await pilot.advance(0.1)
         assert len(pilot.feedback.predictions("b")) == said
         assert len(pilot.feedback.predictions("next")) == said
         if time is not None:
@@ -83,12 +85,57 @@ async def test_a_prediction_is_repeated_when_a_time_moves_by_more_than_a_millise
 
 async def test_several_moves_in_a_tick_cause_one_prediction(pilot: RealizerPilot) -> None:
     pilot.block("b", NOD)
-    await pilot.tick()
+    await pilot.advance(0.1)
     for time in (3.0, 4.0, 5.0):
         pilot.predict("test", "hit", time)
     await pilot.tick()
     assert len(pilot.feedback.predictions("b")) == 2
     assert pilot.feedback.predicted("b:end") == 5.0
+
+
+async def test_the_prediction_of_a_block_that_moves_all_the_time_is_reported_ten_times_a_second_and_the_last_one_too(
+    pilot: RealizerPilot,
+) -> None:
+    pilot.block("b", NOD)
+    for each in range(1, 96):
+        pilot.predict("test", "hit", 3.0 + each / 100)
+        await pilot.tick()
+    assert said_at(pilot, "b") == pytest.approx([each / 10 for each in range(10)])
+    await pilot.advance(0.2)
+    assert said_at(pilot, "b")[10:] == [1.0]
+    assert pilot.feedback.predicted("b:end") == 3.95
+
+
+async def test_before_a_block_progresses_it_is_predicted_as_it_has_moved(pilot: RealizerPilot) -> None:
+    pilot.predict("test", "hit", 3.0)
+    pilot.block("b", '<wait id="w" start="0.5" end="3"/><wait id="v" start="1" end="anticipators:test:hit"/>')
+    await pilot.advance(0.48)
+    for time in (4.0, 5.0):
+        pilot.predict("test", "hit", time)
+        await pilot.tick()
+    await pilot.advance(0.05)
+    about = [(line.kind, line.time) for line in pilot.feedback.messages if line.time > 0.0]
+    assert about == [("predictionFeedback", 0.48), ("predictionFeedback", 0.5), ("syncPointProgress", 0.5)]
+    assert pilot.feedback.predicted("b:end") == 5.0
+
+
+async def test_moving_predictions_of_many_behaviors_share_a_rate_and_each_is_reported_in_the_end(
+    tmp_path: Path,
+) -> None:
+    human = tmp_path / "human.toml"
+    human.write_text("[character.alice]\n[limits]\npredicted_behaviors_per_second = 100\n")
+    async with open_pilot(SceneOptions(human, voice="text")) as pilot:
+        for name in "abcdef":
+            pilot.block(name, NOD)
+        await pilot.advance(1)
+        for each in range(50):
+            pilot.predict("test", "hit", 3.0 + each / 100)
+            await pilot.tick()
+        moved = [line for line in pilot.feedback.messages if line.kind == "predictionFeedback" and line.time > 1]
+        assert len(moved) == pytest.approx(25, abs=2), "each counts as its behavior and itself"
+        assert {line.id for line in moved} == set("abcdef")
+        await pilot.advance(1)
+        assert [pilot.feedback.predicted(f"{name}:end") for name in "abcdef"] == [3.49] * 6
 
 
 async def test_changes_in_the_tick_in_which_a_block_starts_are_in_its_prediction(pilot: RealizerPilot) -> None:

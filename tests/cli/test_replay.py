@@ -5,20 +5,19 @@ import json
 import logging
 import struct
 from pathlib import Path
-from typing import Any
 
 import aiohttp
 import numpy as np
 import pytest
+from lxml import etree
 
 from reactive_realizer.__main__ import main
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.clock.clock import SystemClock
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.audio import AudioHeard
-from reactive_realizer.feedback.feedback_manager import Report
+from reactive_realizer.feedback.xml import add_posix_times
 from reactive_realizer.server import serve as serving
-from reactive_realizer.server.feedback_log import with_posix_times
 from reactive_realizer.server.recording import read_recording
 from reactive_realizer.server.serve import ServerOptions, serve
 from reactive_realizer.testing.pilot import block
@@ -106,6 +105,12 @@ async def talk(http: aiohttp.ClientSession) -> list[tuple[float, str]]:
     return told
 
 
+def stamped(xml: str, epoch: float) -> str:
+    element = etree.fromstring(xml)
+    add_posix_times(element, epoch)
+    return etree.tostring(element, encoding="unicode")
+
+
 def replayed(recording: Path, folder: Path, name: str) -> tuple[list[tuple[float, str]], dict[str, bytes]]:
     feedback, frames = folder / f"{name}.jsonl", folder / f"{name}.npz"
     # The exit status is 1, because a block of the session was refused.
@@ -128,13 +133,10 @@ def test_a_recorded_session_with_late_ticks_is_replayed_with_identical_bytes(
     assert ticks[-1] > 1.5 * len(ticks), "ticks were left out"
     assert any(entered.work for entered in recording.ticks) == (voice == "espeak")
     heard = [entry for entered in recording.ticks for entry in entered.inputs if isinstance(entry, AudioHeard)]
-    assert (len(heard) > 2) == (voice == "espeak")
+    assert bool(heard) == (voice == "espeak")
 
     feedback, frames = replayed(file, tmp_path, "one")
-    message: Any = None  # only the XML is read
-    reports = [Report(GlobalTime(time), message, xml) for time, xml in feedback]
-    stamped = [(report.time, with_posix_times(report, recording.started)) for report in reports]
-    assert stamped == told
+    assert [(time, stamped(xml, recording.started)) for time, xml in feedback] == told
     assert len(told) > 30
     assert replayed(file, tmp_path, "two") == (feedback, frames)
     main(["realize", "--replay", str(file), "--feedback", str(tmp_path / "unseen.jsonl")])

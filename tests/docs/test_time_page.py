@@ -39,7 +39,7 @@ async def test_the_nod_happens_at_the_later_of_the_word_and_the_hit() -> None:
         await pilot.tick()
         assert pilot.feedback.predicted("order:nod:start") == pilot.feedback.predicted("order:words:end")
         pilot.predict("partner", "hit", 1.5)
-        await pilot.tick()
+        await pilot.advance(0.1)
         assert pilot.feedback.predicted("order:nod:start") == 1.5
         pilot.predict("partner", "hit", 0.4)
         await pilot.advance(3)

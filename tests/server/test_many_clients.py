@@ -8,14 +8,13 @@ from reactive_realizer.embodiment.audio import AudioClip, AudioGain, AudioMove, 
 from reactive_realizer.errors import WarningType
 from reactive_realizer.feedback.feedback_manager import Report
 from reactive_realizer.feedback.messages import WarningFeedback
-from reactive_realizer.feedback.xml import to_xml
 
 from .conftest import ALICE, OnAir, Open, wait
 
 
 def report(text: str) -> Report:
     message = WarningFeedback(None, "bml", WarningType.PARSING_FAILURE, text)
-    return Report(GlobalTime(0.0), message, to_xml(message))
+    return Report(GlobalTime(0.0), message)
 
 
 def clip(id_: str, start: float) -> AudioStart:
