@@ -6,13 +6,14 @@ import sys
 
 from reactive_realizer import __version__
 from reactive_realizer.cli import check, conformance, lexicon, realize, serve
+from reactive_realizer.cli.log import log_to_stderr
 from reactive_realizer.errors import RealizerError
 
 
 def main(arguments: list[str] | None = None) -> int:
     """Run a command; the exit status."""
     options = _parser().parse_args(arguments)
-    logging.basicConfig(level=logging.INFO if options.verbose else logging.ERROR, stream=sys.stderr, format=_FORMAT)
+    log_to_stderr(logging.INFO if options.verbose else logging.ERROR)
     try:
         status: int = options.run(options)
     except RealizerError as problem:
@@ -24,9 +25,6 @@ def main(arguments: list[str] | None = None) -> int:
     except KeyboardInterrupt:
         return 130
     return status
-
-
-_FORMAT = "%(levelname)s %(name)s: %(message)s"
 
 
 def _parser() -> argparse.ArgumentParser:

@@ -1,5 +1,7 @@
 """The application: every route over one live scene."""
 
+import logging
+
 from aiohttp import web
 
 from reactive_realizer.server import routes_page, routes_requests, routes_state, routes_streams
@@ -7,7 +9,7 @@ from reactive_realizer.server.connections import count_used
 from reactive_realizer.server.intake import Intake
 from reactive_realizer.server.keys import INTAKE, LIVE, SECURITY, SHUTDOWN, TOKEN, USED
 from reactive_realizer.server.live_scene import LiveScene
-from reactive_realizer.server.middleware import add_headers, let_in, tell_refusals
+from reactive_realizer.server.middleware import add_headers, let_in, shorten, tell_refusals
 from reactive_realizer.server.security import Security
 from reactive_realizer.server.subscribers import Subscribers
 from reactive_realizer.server.token_check import TokenCheck
@@ -32,6 +34,7 @@ def create_app(live: LiveScene, security: Security) -> web.Application:
         app.add_routes(routes)
     app.add_routes(routes_page.built_files())
     app.on_response_prepare.append(add_headers)
+    logging.getLogger("aiohttp.server").addFilter(shorten)
     app.on_shutdown.append(_say_farewell)
     return app
 

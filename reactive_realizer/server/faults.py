@@ -177,6 +177,14 @@ class ForeignOrigin(Fault):
     origin: str
 
 
+class ForeignPage(Fault):
+    """Something that a page of another site embeds."""
+
+    code = "foreign-page"
+    template = "a page of another site may not embed {path}; pages that --allow-origin allows can fetch it with CORS"
+    path: str
+
+
 class TooManyClients(Fault):
     """A client over the limit."""
 

@@ -3,6 +3,7 @@
 import logging
 
 from aiohttp import web
+from aiohttp.http_exceptions import HttpProcessingError
 from aiohttp.typedefs import Handler
 
 from reactive_realizer.bml.faults import TooManyBytes
@@ -33,6 +34,8 @@ async def tell_refusals(request: web.Request, handler: Handler) -> web.StreamRes
         return answer_to(RealizerError(NothingThere(path=request.path)))
     except web.HTTPBadRequest as refusal:
         return answer_to(RealizerError(BadRequest(reason=refusal.text or refusal.reason)))
+    except web.RequestPayloadError as problem:
+        return answer_to(RealizerError(BadRequest(reason=_on_one_line(problem))))
 
 
 @web.middleware
@@ -43,6 +46,19 @@ async def let_in(request: web.Request, handler: Handler) -> web.StreamResponse:
         return web.Response(status=204)
     await request.app[TOKEN].check(request)
     return await handler(request)
+
+
+def shorten(record: logging.LogRecord) -> bool:
+    """Makes one line of the traceback that aiohttp logs for a request that cannot be read: it is no fault of ours."""
+    problem = record.exc_info[1] if record.exc_info else None
+    if isinstance(problem, (HttpProcessingError, web.RequestPayloadError)):
+        record.msg, record.args = "a request cannot be read: %s", (_on_one_line(problem),)
+        record.levelno, record.levelname, record.exc_info = logging.INFO, "INFO", None
+    return True
+
+
+def _on_one_line(problem: Exception) -> str:
+    return " ".join(str(problem).split())
 
 
 async def add_headers(request: web.Request, response: web.StreamResponse) -> None:

@@ -9,7 +9,7 @@ from urllib.parse import urlsplit
 from aiohttp import web
 
 from reactive_realizer.errors import RealizerError
-from reactive_realizer.server.faults import EmptyToken, ForeignHost, ForeignOrigin, TokenRequired
+from reactive_realizer.server.faults import EmptyToken, ForeignHost, ForeignOrigin, ForeignPage, TokenRequired
 
 HEADERS: Final = {
     "Content-Security-Policy": "; ".join(
@@ -26,6 +26,7 @@ HEADERS: Final = {
             "frame-ancestors 'none'",
         )
     ),
+    "Cross-Origin-Resource-Policy": "same-origin",
     "X-Content-Type-Options": "nosniff",
     "Referrer-Policy": "no-referrer",
 }
@@ -60,13 +61,14 @@ class Security:
         return not is_loopback(self.host)
 
     def check(self, request: web.Request) -> None:
-        """Checks the host and the origin of a request.
+        """Checks the host of a request, and the page that caused it.
 
         Raises:
-            RealizerError: "foreign-host" or "foreign-origin".
+            RealizerError: "foreign-host", "foreign-origin" or "foreign-page".
         """
         self._check_host(request)
         self._check_origin(request)
+        _check_page(request)
 
     def cross_origin_headers(self, request: web.BaseRequest) -> dict[str, str]:
         """The headers that let a page of an accepted origin read the response."""
@@ -95,6 +97,18 @@ class Security:
         own = (f"http://{request.host}", f"https://{request.host}")
         if origin is not None and origin not in own and origin not in self.origins:
             raise RealizerError(ForeignOrigin(origin=origin))
+
+
+def _check_page(request: web.Request) -> None:
+    """Refuse what a page of another site embeds, such as a sound: browsers send no Origin then, but Sec-Fetch-Site.
+
+    A link to the viewer may be followed from anywhere.
+    """
+    headers = request.headers
+    own = headers.get("Sec-Fetch-Site", "none") in ("same-origin", "none") or "Origin" in headers
+    followed = request.path == "/" and headers.get("Sec-Fetch-Dest") == "document"
+    if not (own or followed):
+        raise RealizerError(ForeignPage(path=request.path))
 
 
 def _host_of(url: str) -> str | None:

@@ -31,6 +31,7 @@ from reactive_realizer.scheduler.blocks import BlockEnded, NoSuchBlock
 from reactive_realizer.server.faults import (
     ForeignHost,
     ForeignOrigin,
+    ForeignPage,
     GoingAway,
     NoClip,
     NoDemo,
@@ -49,7 +50,7 @@ from reactive_realizer.server.faults import (
 
 STATUSES: Final[Mapping[HTTPStatus, tuple[type[Fault], ...]]] = {
     HTTPStatus.UNAUTHORIZED: (NoToken,),
-    HTTPStatus.FORBIDDEN: (ForeignHost, ForeignOrigin),
+    HTTPStatus.FORBIDDEN: (ForeignHost, ForeignOrigin, ForeignPage),
     HTTPStatus.NOT_FOUND: (
         NothingThere,
         NoAsset,

@@ -1,5 +1,6 @@
 """HTTP: requests of planners without a socket, and the files of the page."""
 
+import asyncio
 import json
 from typing import Any
 
@@ -9,7 +10,7 @@ from jsonschema import Draft202012Validator
 from reactive_realizer.limits import Limits
 from reactive_realizer.server import routes_page
 
-from .conftest import ALICE, Open, post, wait
+from .conftest import ALICE, XML, Open, post, wait
 
 
 async def test_stop_ends_the_blocks_of_all_characters(on_air: Open) -> None:
@@ -215,3 +216,24 @@ async def test_the_points_of_a_live_block_are_explained(on_air: Open) -> None:
             async with air.client.get(f"/explain/{block}") as answer:
                 assert answer.status == status
                 assert (await answer.json())["error"]["code"] == code
+
+
+@pytest.mark.parametrize("request_line", ["GET / HTTP/9.9", "GET /\x01 HTTP/1.1", "\x16\x03\x01\x02"])
+async def test_a_request_that_is_not_http_is_refused_without_a_traceback_in_the_log(
+    on_air: Open, request_line: str, caplog: pytest.LogCaptureFixture
+) -> None:
+    async with on_air() as air:
+        reader, writer = await asyncio.open_connection(air.client.host, air.client.port)
+        writer.write(f"{request_line}\r\nHost: localhost\r\n\r\n".encode())
+        assert b"400" in await reader.readline()
+        writer.close()
+    assert not any(record.exc_info for record in caplog.records)
+
+
+async def test_a_body_that_cannot_be_decompressed_is_a_bad_request(
+    on_air: Open, caplog: pytest.LogCaptureFixture
+) -> None:
+    async with on_air() as air:
+        status, answer = await post(air, "/bml", b"not gzip", XML | {"Content-Encoding": "gzip"})
+        assert (status, answer["error"]["code"]) == (400, "bad-request")
+    assert not any(record.exc_info for record in caplog.records)

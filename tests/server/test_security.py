@@ -35,7 +35,7 @@ async def test_requests_without_an_origin_and_from_the_page_itself_are_allowed(o
 async def test_a_page_of_an_allowed_origin_may_send_requests_and_read_answers(on_air: Open) -> None:
     async with on_air(security=Security(origins=(ELSEWHERE,))) as air:
         assert (await air.connect(origin=ELSEWHERE)).hello
-        async with air.client.get("/status", headers={"Origin": ELSEWHERE}) as answer:
+        async with air.client.get("/status", headers={"Origin": ELSEWHERE, "Sec-Fetch-Site": "cross-site"}) as answer:
             assert answer.status == 200
             assert answer.headers["Access-Control-Allow-Origin"] == ELSEWHERE
         async with air.client.options("/bml", headers={"Origin": ELSEWHERE}) as answer:
@@ -44,6 +44,38 @@ async def test_a_page_of_an_allowed_origin_may_send_requests_and_read_answers(on
         async with air.client.get("/status", headers={"Origin": "null"}) as answer:
             assert answer.status == 403
             assert "Access-Control-Allow-Origin" not in answer.headers
+
+
+@pytest.mark.parametrize("site", ["cross-site", "same-site"])
+@pytest.mark.parametrize("path", ["/audio/alice-1.wav", "/avatars/female.glb", "/status"])
+async def test_a_page_of_another_site_cannot_embed_anything(on_air: Open, site: str, path: str) -> None:
+    embedded = {"Sec-Fetch-Site": site, "Sec-Fetch-Mode": "no-cors", "Sec-Fetch-Dest": "audio"}
+    async with on_air() as air, air.client.get(path, headers=embedded) as answer:
+        assert answer.status == 403
+        assert (await answer.json())["error"]["code"] == "foreign-page"
+
+
+async def test_other_sites_can_link_to_the_viewer_but_to_no_sound(on_air: Open) -> None:
+    followed = {"Sec-Fetch-Site": "cross-site", "Sec-Fetch-Mode": "navigate", "Sec-Fetch-Dest": "document"}
+    async with on_air() as air:
+        for path, refused in (("/", False), ("/audio/alice-1.wav", True)):
+            async with air.client.get(path, headers=followed) as answer:
+                assert (answer.status == 403) is refused
+
+
+@pytest.mark.parametrize("site", ["same-origin", "none"])
+async def test_the_viewer_and_the_address_bar_can_load_everything(on_air: Open, site: str) -> None:
+    async with on_air() as air:
+        for path in ("/status", "/avatars/female.glb"):
+            async with air.client.get(path, headers={"Sec-Fetch-Site": site}) as answer:
+                assert answer.status == 200
+
+
+async def test_browsers_are_told_that_other_sites_may_embed_nothing(on_air: Open) -> None:
+    async with on_air() as air:
+        for path in ("/audio/alice-1.wav", "/avatars/female.glb", "/status"):
+            async with air.client.get(path) as answer:
+                assert answer.headers["Cross-Origin-Resource-Policy"] == "same-origin"
 
 
 @pytest.mark.parametrize("host", ["elsewhere.example", "elsewhere.example:8088", "192.168.1.7", "[::"])
