@@ -34,15 +34,15 @@ class Limits:
     body_seconds: float = 30.0
     """Time within which the body of a request must arrive, s."""
     messages_per_second: int = 500
-    """Socket messages per second and client."""
+    """Socket messages that are read per second and client; further ones wait."""
     answered_warnings: int = 50
     """Warnings in the answer to a BML document; the others are counted."""
     message_bytes: int = 1_200_000
     """Size of a socket message, bytes: a BML document in JSON."""
     queued_bytes: int = 8 * 1024 * 1024
-    """Bytes queued for a slow client before its connection is closed."""
+    """Bytes queued for a slow client; its connection is closed if there are more for half a second."""
     queued_messages: int = 10_000
-    """Messages queued for a slow client before its connection is closed."""
+    """Messages queued for a slow client; its connection is closed if there are more for half a second."""
     predicted_points: int = 10_000
     """Points of anticipators on the peg board. Passed points that nothing uses make room for new ones."""
     predictions_per_second: int = 10

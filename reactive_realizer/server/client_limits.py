@@ -5,10 +5,14 @@ from collections import deque
 from collections.abc import Awaitable, Callable, Iterator, Sequence
 from contextlib import contextmanager
 
-from reactive_realizer.clock.clock import Clock
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.limits import Limits
 from reactive_realizer.server.faults import TooManyClients
+
+_TURN = 0.01
+"""Time between two looks at a queue above its limit, s."""
+_PATIENCE = 50
+"""Looks after which its client is too slow. While the server itself is held up, no time passes for its clients."""
 
 
 class ClientQueue:
@@ -28,16 +32,17 @@ class ClientQueue:
         self._overflown = False
         self._news = asyncio.Event()
         self._sending: asyncio.Timeout | None = None
+        self._watching: asyncio.TimerHandle | None = None
 
     def put(self, text: str) -> None:
-        """Adds a text. A client over the limit is disconnected."""
+        """Adds a text. A client that stays above the limit is disconnected."""
         if self._overflown:
             return
         self._texts.append(text)
         self._bytes += len(text)
         self._news.set()
-        if len(self._texts) > self._most_texts or self._bytes > self._most_bytes:
-            self._give_up()
+        if self._watching is None:
+            self._watch(_PATIENCE)
 
     def end(self) -> None:
         """Ends the queue after the texts in it."""
@@ -53,7 +58,19 @@ class ClientQueue:
         except TimeoutError:
             if not self._overflown:
                 raise
+        finally:
+            self._sending = None
         return not self._overflown
+
+    def _watch(self, looks: int) -> None:
+        """Looks again for a number of times as long as the queue is above its limit, and then gives up."""
+        self._watching = None
+        if len(self._texts) <= self._most_texts and self._bytes <= self._most_bytes:
+            return
+        if looks:
+            self._watching = asyncio.get_running_loop().call_later(_TURN, self._watch, looks - 1)
+        else:
+            self._give_up()
 
     def _give_up(self) -> None:
         self._overflown = True
@@ -77,24 +94,20 @@ class RateLimit:
 
     Args:
         per_second: average rate.
-        clock: refills the bucket.
     """
 
-    def __init__(self, per_second: int, clock: Clock) -> None:
+    def __init__(self, per_second: int) -> None:
         self._rate = per_second
-        self._clock = clock
         self._tokens = float(per_second)
-        self._filled = clock.now()
+        self._filled = asyncio.get_running_loop().time()
 
-    def allows(self) -> bool:
-        """Takes a token; returns whether there was one."""
-        now = self._clock.now()
-        self._tokens = min(float(self._rate), self._tokens + (now - self._filled) * self._rate)
+    async def take(self) -> None:
+        """Takes a token; waits for it if there is none."""
+        now = asyncio.get_running_loop().time()
+        self._tokens = min(float(self._rate), self._tokens + (now - self._filled) * self._rate) - 1
         self._filled = now
-        if self._tokens < 1:
-            return False
-        self._tokens -= 1
-        return True
+        if self._tokens < 0:
+            await asyncio.sleep(-self._tokens / self._rate)
 
 
 class ClientCount:

@@ -193,14 +193,6 @@ class TooManyClients(Fault):
     limit: int
 
 
-class TooManyMessages(Fault):
-    """A client that sends messages faster than the limit."""
-
-    code = "too-many-messages"
-    template = "more than {limit} messages in one second"
-    limit: int
-
-
 class TooSlow(Fault):
     """A client that does not read fast enough."""
 

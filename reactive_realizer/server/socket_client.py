@@ -10,7 +10,7 @@ from aiohttp import WSMessage, WSMsgType, web
 
 from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.server.client_limits import ClientQueue, RateLimit
-from reactive_realizer.server.faults import BadQuery, BinaryMessage, GoingAway, TooManyMessages, TooSlow
+from reactive_realizer.server.faults import BadQuery, BinaryMessage, GoingAway, TooSlow
 from reactive_realizer.server.intake import Answer, BlocksRefused, Intake
 from reactive_realizer.server.live_scene import LiveScene
 from reactive_realizer.server.protocol import (
@@ -101,7 +101,7 @@ class SocketClient:
         self._socket = socket
         self._transport = transport
         self._streams = streams
-        self._rate = RateLimit(live.limits.messages_per_second, live.clock)
+        self._rate = RateLimit(live.limits.messages_per_second)
         self._queue = ClientQueue(live.limits, self._first(after))
         self._greeted = False
         self._reason: type[Fault] = GoingAway
@@ -177,11 +177,7 @@ class SocketClient:
 
     async def _read(self) -> None:
         async for message in self._socket:
-            if not self._rate.allows():
-                limit = self._live.limits.messages_per_second
-                self._reason = TooManyMessages
-                self._enqueue(refused(RealizerError(TooManyMessages(limit=limit))))
-                break
+            await self._rate.take()
             if message.type is WSMsgType.PING:
                 await self._socket.pong(message.data)
             elif message.type is not WSMsgType.PONG:

@@ -40,7 +40,6 @@ from reactive_realizer.server.faults import (
     NoToken,
     SlowRequest,
     TooManyClients,
-    TooManyMessages,
     TooSlow,
     UnknownAnticipator,
     WrongCharset,
@@ -75,14 +74,13 @@ STATUSES: Final[Mapping[HTTPStatus, tuple[type[Fault], ...]]] = {
         UtteranceTooLong,
     ),
     HTTPStatus.UNSUPPORTED_MEDIA_TYPE: (WrongMediaType, WrongCharset),
-    HTTPStatus.TOO_MANY_REQUESTS: (TooManyBlocks, TooManyMessages, TooManyNames, TooManyProcedures),
+    HTTPStatus.TOO_MANY_REQUESTS: (TooManyBlocks, TooManyNames, TooManyProcedures),
     HTTPStatus.SERVICE_UNAVAILABLE: (NoPage, TooManyClients),
 }
 """The kinds of fault by the status that answers a request; for all others, it is 400."""
 
 CLOSE_CODES: Final[Mapping[type[Fault], WSCloseCode]] = {
     GoingAway: WSCloseCode.GOING_AWAY,
-    TooManyMessages: WSCloseCode.POLICY_VIOLATION,
     TooSlow: WSCloseCode.TRY_AGAIN_LATER,
 }
 """The close codes of the faults that end the connection of a socket."""

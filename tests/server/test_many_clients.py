@@ -8,8 +8,15 @@ from reactive_realizer.embodiment.audio import AudioClip, AudioGain, AudioMove, 
 from reactive_realizer.errors import WarningType
 from reactive_realizer.feedback.feedback_manager import Report
 from reactive_realizer.feedback.messages import WarningFeedback
+from reactive_realizer.server import client_limits
 
 from .conftest import ALICE, OnAir, Open, wait
+
+
+@pytest.fixture
+def impatient(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Clients that do not read are dropped sooner than usual."""
+    monkeypatch.setattr(client_limits, "_PATIENCE", 2)
 
 
 def report(text: str) -> Report:
@@ -151,20 +158,22 @@ async def slow_reader(air: OnAir, text: str) -> tuple[int, int | None]:
     return len(got), slow.raw.close_code
 
 
-async def test_a_client_that_does_not_read_is_closed_and_the_others_get_everything(on_air: Open) -> None:
+async def test_a_client_that_does_not_read_is_closed_and_the_others_get_everything(
+    on_air: Open, impatient: None
+) -> None:
     async with on_air(ALICE + "[limits]\nqueued_bytes = 1000000\n") as air:
         got, code = await slow_reader(air, "x" * 100_000)
         assert got > 0
         assert code == 1013
 
 
-async def test_a_client_with_too_many_messages_waiting_is_closed(on_air: Open) -> None:
+async def test_a_client_with_too_many_messages_waiting_is_closed(on_air: Open, impatient: None) -> None:
     async with on_air(ALICE + "[limits]\nqueued_messages = 20\n") as air:
         _, code = await slow_reader(air, "x" * 100_000)
         assert code == 1013
 
 
-async def test_a_closed_client_can_resume_where_it_stopped(on_air: Open) -> None:
+async def test_a_closed_client_can_resume_where_it_stopped(on_air: Open, impatient: None) -> None:
     async with on_air(ALICE + "[limits]\nqueued_messages = 20\n") as air:
         got, _ = await slow_reader(air, "x" * 100_000)
         back = await air.connect(f"?after={got}")
