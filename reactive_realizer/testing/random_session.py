@@ -1,5 +1,6 @@
 """Random sessions: blocks that refer to each other, and wrong, late and withdrawn predictions."""
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from random import Random
 
@@ -49,6 +50,7 @@ _BEHAVIORS = {
 """The behaviors, each with the points of it that may be tied."""
 
 _IDS = ("p", "q", "r", "s")
+_SIZES = (0, 1, 1, 2, 2, 3, 4)
 _REMOTE = ("hit", "go")
 _ANTICIPATED = (
     *(f"anticipators:t:{sync}" for sync in _REMOTE * 2),
@@ -140,46 +142,51 @@ class Session:
 def random_session(random: Random, blocks: int = 25) -> Session:
     """A session with a number of blocks, and about half as many predictions and events."""
     steps: list[Step] = []
-    sent = 0
-    while sent < blocks:
-        drawn: Block | Prediction | Event
-        if random.random() < 0.3:
-            drawn = Prediction(random.choice(_REMOTE), random.choice(_AHEAD))
-        elif random.random() < 0.15:
-            drawn = random.choice(_EVENTS)
-        else:
-            drawn = _BlockDraw(random, sent).block()
-            sent += 1
-        steps.append(Step(random.choice(_PAUSES), drawn))
+    kinds: list[dict[str, str]] = []
+    for _ in range(blocks):
+        while random.random() < 0.35:
+            drawn = _prediction(random) if random.random() < 0.75 else random.choice(_EVENTS)
+            steps.append(Step(random.choice(_PAUSES), drawn))
+        kinds.append(dict(zip(_IDS, random.choices([*_BEHAVIORS], k=random.choice(_SIZES)), strict=False)))
+        steps.append(Step(random.choice(_PAUSES), _BlockDraw(random, kinds).block()))
     return Session(tuple(steps))
 
 
-class _BlockDraw:
-    """Draws one block; it refers to its own points, to those of the blocks sent just before or after it, and others."""
+def _prediction(random: Random) -> Prediction:
+    return Prediction(random.choice(_REMOTE), random.choice(_AHEAD))
 
-    def __init__(self, random: Random, number: int) -> None:
+
+class _BlockDraw:
+    """Draws one block, which refers to its own points, to those of the blocks before it, and to anticipators.
+
+    Args:
+        random: that draws.
+        kinds: behaviors of the blocks so far, by id; the last ones are those of this block.
+    """
+
+    def __init__(self, random: Random, kinds: Sequence[Mapping[str, str]]) -> None:
         self._random = random
-        again = number > 3 and random.random() < 0.1
-        self._id = f"b{random.randrange(number - 3, number) if again else number}"
-        self._others = [f"b{max(0, number - back)}" for back in (1, 1, 2, 3, -1)]
-        kinds = random.choices([*_BEHAVIORS], k=random.choice((0, 1, 1, 2, 2, 3, 4)))
-        self._kinds = dict(zip(_IDS, kinds, strict=False))
+        self._number = len(kinds) - 1
+        self._kinds = kinds
 
     def block(self) -> Block:
         """The block."""
-        parts = [self._behavior(id_, kind) for id_, kind in self._kinds.items()]
-        parts += [self._constraint() for _ in range(self._random.choice((0, 0, 0, 1, 2)) if parts else 0)]
-        if self._random.random() < 0.1:
+        random = self._random
+        # An id can be used again once its block has ended.
+        number = self._number if random.random() < 0.9 else max(0, self._number - random.choice((1, 3, 6)))
+        own = self._kinds[-1]
+        parts = [self._behavior(id_, kind) for id_, kind in own.items()]
+        parts += [self._constraint() for _ in range(random.choice((0, 0, 0, 1, 2)) if own else 0)]
+        if random.random() < 0.1:
             parts = [f"<required>{part}</required>" for part in parts]
-        return Block(self._id, self._attributes(), tuple(parts))
+        return Block(f"b{number}", self._attributes(), tuple(parts))
 
     def _attributes(self) -> dict[str, str]:
         random = self._random
         attributes = {"characterId": random.choice(CHARACTERS), "composition": random.choice(_COMPOSITIONS)}
         if random.random() < 0.25:
-            attributes[f"bmla:{random.choice(_JOINS)}"] = ",".join(
-                random.sample(self._others, random.choice((1, 1, 2)))
-            )
+            names = dict.fromkeys(self._other() for _ in range(random.choice((1, 1, 2))))
+            attributes[f"bmla:{random.choice(_JOINS)}"] = ",".join(names)
         if random.random() < 0.15:
             attributes["bmla:preplan"] = "true"
         if random.random() < 0.05:
@@ -187,45 +194,46 @@ class _BlockDraw:
         return attributes
 
     def _behavior(self, id_: str, kind: str) -> str:
-        count = self._random.choice((0, 1, 1, 2))
-        points = self._random.sample(_BEHAVIORS[kind], min(count, len(_BEHAVIORS[kind])))
+        points = self._random.sample(_BEHAVIORS[kind], min(len(_BEHAVIORS[kind]), self._random.choice((0, 1, 1, 2))))
         ties = "".join(f' {point}="{self._reference(id_)}"' for point in points)
-        return kind.format(id=id_, ties=ties, other=self._random.choice(self._others))
+        return kind.format(id=id_, ties=ties, other=self._other())
 
     def _constraint(self) -> str:
-        ref, sync = self._reference(), self._own() + self._random.choice(_OFFSETS)
-        match self._random.choice(("before", "after", "synchronize")):
-            case "synchronize":
-                inside = f'<synchronize><sync ref="{ref}"/><sync ref="{sync}"/></synchronize>'
-            case order:
-                inside = f'<{order} ref="{ref}"><sync ref="{sync}"/></{order}>'
-        return f"<constraint>{inside}</constraint>"
-
-    def _reference(self, besides: str = "") -> str:
-        """A time, or a point of any other behavior or of an anticipator, with or without an offset."""
         random = self._random
-        own = len(self._kinds) > bool(besides) and random.random() < 0.5
-        if not own and random.random() < 0.15:
-            return random.choice(_TIMES)
-        point = self._own(besides) if own else self._outside()
-        return point + random.choice(_OFFSETS)
+        behavior = random.choice([*self._kinds[-1]])
+        ref, sync = self._reference(behavior), self._point(self._kinds[-1], behavior) + random.choice(_OFFSETS)
+        order = random.choice(("before", "after", "synchronize"))
+        if order == "synchronize":
+            return f'<constraint><synchronize><sync ref="{ref}"/><sync ref="{sync}"/></synchronize></constraint>'
+        return f'<constraint><{order} ref="{ref}"><sync ref="{sync}"/></{order}></constraint>'
 
-    def _own(self, besides: str = "") -> str:
-        return self._point(self._random.choice([id_ for id_ in self._kinds if id_ != besides]))
-
-    def _point(self, id_: str) -> str:
-        return f"{id_}:{self._random.choice(_points(self._kinds.get(id_, _SPEECH)))}"
+    def _reference(self, besides: str) -> str:
+        """A time, or a point of another behavior or of an anticipator, with or without an offset."""
+        random = self._random
+        others = [id_ for id_ in self._kinds[-1] if id_ != besides]
+        if others and random.random() < 0.5:
+            return self._point(self._kinds[-1], random.choice(others)) + random.choice(_OFFSETS)
+        return random.choice(_TIMES) if random.random() < 0.15 else self._outside() + random.choice(_OFFSETS)
 
     def _outside(self) -> str:
+        """A point of an anticipator, or of another block or its behavior."""
         random = self._random
         if random.random() < 0.5:
             return random.choice(_ANTICIPATED)
-        other = random.choice(self._others)
-        if random.random() < 0.3:
-            return f"{other}:{random.choice(('start', 'relax', 'end'))}"
-        return f"{other}:{random.choice(_IDS[:2])}:{random.choice(('start', 'start', 'end', 'stroke', 'm'))}"
+        number = self._other_number()
+        kinds = self._kinds[number] if number < len(self._kinds) else {}
+        if not kinds or random.random() < 0.3:
+            return f"b{number}:{random.choice(('start', 'relax', 'end'))}"
+        return f"b{number}:{self._point(kinds, random.choice([*kinds]))}"
 
+    def _other(self) -> str:
+        return f"b{self._other_number()}"
 
-def _points(kind: str) -> tuple[str, ...]:
-    """The points of a behavior that others may be tied to."""
-    return (*_BEHAVIORS[kind], "m") if kind is _SPEECH else _BEHAVIORS[kind]
+    def _other_number(self) -> int:
+        """The number of a block that was sent shortly before this one, or comes next."""
+        return max(0, self._number - self._random.choice((1, 1, 1, 2, 2, 3, 4, -1)))
+
+    def _point(self, kinds: Mapping[str, str], id_: str) -> str:
+        kind = kinds[id_]
+        points = (*_BEHAVIORS[kind], "m") if kind is _SPEECH else _BEHAVIORS[kind]
+        return f"{id_}:{self._random.choice(points)}"
