@@ -3,6 +3,7 @@
 from collections import defaultdict
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import replace
+from typing import TypeVar
 
 from reactive_realizer.bml.block import BehaviorBlock, OrderKind, Synchronize
 from reactive_realizer.bml.block import Order as OrderConstraint
@@ -20,6 +21,8 @@ from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.scheduler.problem import Node, Origin, Point, Precedence, Tie
 from reactive_realizer.scheduler.solution import Loss, lost_behavior
+
+C = TypeVar("C", Tie, Precedence)
 
 
 class CyclicReference(SchedulingFault):
@@ -97,6 +100,19 @@ class ReferenceResolver:
             raise RealizerError(UnknownReference(behavior=ref.behavior, reference=str(ref), known=known))
         _check_sync(unit, ref.sync, ref)
         return unit.open.get(ref.sync) or Point(ref.behavior, ref.sync)
+
+    def startable(self, constraints: list[C]) -> list[C]:
+        """The constraints.
+
+        Raises:
+            RealizerError: the block would start with, or after, a point that follows from its own start.
+        """
+        own = {peg: f"{id_}:{sync}" for id_, unit in self.units.items() for sync, peg in unit.open.items()}
+        for each in constraints:
+            bound = bound_on_start(each)
+            if bound is not None and bound[0] in own:
+                raise RealizerError(CyclicReference(block=self._block.key.block, reference=own[bound[0]]))
+        return constraints
 
     def _unplaceable(self) -> Iterator[tuple[PlanUnit, Fault]]:
         for unit in self.units.values():
@@ -177,9 +193,9 @@ def constraints_of(block: BehaviorBlock, resolver: ReferenceResolver) -> tuple[l
     for each in sorted(block.constraints, key=lambda each: isinstance(each, OrderConstraint)):
         try:
             if isinstance(each, Synchronize):
-                ties += _synchronized(each, resolver)
+                ties += resolver.startable(_synchronized(each, resolver))
             else:
-                orders += _ordered(each, resolver)
+                orders += resolver.startable(_ordered(each, resolver))
         except RealizerError as problem:
             fault = problem.fault.located(each.location.line, each.location.column)
             losses.append(Loss(None, fault, dropped=False, required=each.required))

@@ -103,7 +103,6 @@ class SessionLaws:
                 self._check_prediction(now, progress, expected, name)
         if progress.sync == "end":
             self._playing.pop(key, None)
-            self._predicted.pop(key, None)
             self.ended += 1
 
     def _check_point(self, now: GlobalTime, progress: SyncPointProgress) -> None:

@@ -144,6 +144,20 @@ async def test_a_wait_whose_start_depends_on_its_end_is_dropped_with_what_depend
     assert pilot.feedback.status("b") == "DONE"
 
 
+@pytest.mark.parametrize("kind", ["synchronize", "after"])
+async def test_a_block_cannot_start_with_the_end_of_its_own_wait(pilot: RealizerPilot, kind: str) -> None:
+    tie = {
+        "synchronize": '<synchronize><sync ref="0.3"/><sync ref="w:end"/></synchronize>',
+        "after": '<after ref="w:end"><sync ref="0.3"/></after>',
+    }
+    pilot.block("b", f'<wait id="w" event="done" max-wait="0.8"/><constraint>{tie[kind]}</constraint>')
+    await pilot.advance(1)
+    (warning,) = pilot.feedback.of("warningFeedback")
+    assert warning.text.endswith("w:end depends on the block 'b' itself")
+    assert pilot.feedback.time("b:start") == 0
+    assert pilot.feedback.time("b:end") == 0.8
+
+
 async def test_two_waits_in_a_row_each_take_an_event_of_their_own(pilot: RealizerPilot) -> None:
     second = '<wait id="v" event="on" start="w:end" max-wait="1"/><head id="n" lexeme="NOD" start="v:end"/>'
     pilot.block("b", WAIT.format('max-wait="1"') + second)
