@@ -4,12 +4,14 @@ import logging
 from collections.abc import Callable
 from functools import partial
 from math import inf
+from operator import itemgetter
 from typing import TypeVar
 
 from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.clock.units import GlobalTime, Time, is_due
 from reactive_realizer.engine.effects import Dropped, EndUnit, Reached
 from reactive_realizer.engine.faults import ResourceTaken, UnitFailed
+from reactive_realizer.engine.owners import Owners
 from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.pegboard.agenda import Agenda
 from reactive_realizer.planunit.plan_unit import PlanUnit, UnitState, sleep
@@ -31,7 +33,9 @@ class Player:
     """
 
     def __init__(self) -> None:
-        self._units: list[PlanUnit] = []
+        self._units: dict[PlanUnit, int] = {}
+        self._begun: dict[PlanUnit, int] = {}
+        self._added = 0
         self._agenda: Agenda[PlanUnit] = Agenda(lambda unit: unit.next_due(), lambda unit: unit.awaited())
         self._ended: list[PlanUnit] = []
         self._dropped: list[Dropped] = []
@@ -45,7 +49,8 @@ class Player:
     @property
     def playing(self) -> tuple[PlanUnit, ...]:
         """The units that play now."""
-        return tuple(unit for unit in self._units if unit.state is UnitState.IN_EXEC)
+        playing = ((rank, unit) for unit, rank in self._begun.items() if unit.state is UnitState.IN_EXEC)
+        return tuple(unit for _, unit in sorted(playing, key=itemgetter(0)))
 
     def listen(self, wake: Callable[[], None]) -> None:
         """Call ``wake()`` when units enter, leave or change."""
@@ -58,18 +63,20 @@ class Player:
 
     def add(self, unit: PlanUnit) -> None:
         """Plan a unit."""
-        self._units.append(unit)
+        self._added += 1
+        self._units[unit] = self._added
         unit.wake = partial(self.note, unit)
         self._agenda.add(unit)
 
     def note(self, unit: PlanUnit) -> None:
         """Note that a unit has changed."""
+        if unit in self._units and unit.state is UnitState.IN_EXEC:
+            self._begun[unit] = self._units[unit]
         self._agenda.note(unit)
 
     def remove(self, unit: PlanUnit) -> None:
         """Remove a unit from the plan, if it is in the plan."""
         if unit in self._units:
-            self._units.remove(unit)
             self._forget(unit)
             self._note_end(unit)
             self._agenda.wake()
@@ -78,9 +85,14 @@ class Player:
         """Begin the units and fire the sync points that are due; forget units that have ended."""
         self._ended = [unit for unit in self._ended if not is_due(unit.points[-1].peg.value, tick.previous)]
         reached: list[Reached] = []
-        for unit in self._in_turn(tick.time):
-            if not self._held(unit, tick):
+        due, starting = self._due(tick.time)
+        for unit in due:
+            self._fire(unit, tick.time, reached)
+        owners = Owners((*self.playing, *self._ended)) if starting else Owners(())
+        for unit in starting:
+            if not self._held(unit, owners, tick):
                 self._fire(unit, tick.time, reached)
+                owners.add(unit)
         self._forget_ended()
         return tuple(reached)
 
@@ -117,15 +129,15 @@ class Player:
         self._forget_ended()
         return dropped
 
-    def _in_turn(self, now: GlobalTime) -> list[PlanUnit]:
-        """The playing units with due points, then those that begin: by start, then by id, so the order is unique."""
+    def _due(self, now: GlobalTime) -> tuple[list[PlanUnit], list[PlanUnit]]:
+        """The playing units with due points, and those that begin: by start, then by id, so the order is unique."""
         due = dict.fromkeys(self._agenda.take_due(now))
         if not due:
-            return []
+            return [], []
         starting = sorted((unit for unit in due if unit.due(now)), key=lambda u: (u.points[0].peg.value, u.behavior.id))
-        return [*(unit for unit in self.playing if unit in due), *starting]
+        return [unit for unit in self.playing if unit in due], starting
 
-    def _held(self, unit: PlanUnit, tick: Tick) -> bool:
+    def _held(self, unit: PlanUnit, owners: Owners, tick: Tick) -> bool:
         """Whether a due unit cannot begin now: it is dropped, or others have to end first in this round."""
         start = unit.points[0].peg.value
         if start is None or not unit.due(tick.time):
@@ -134,28 +146,18 @@ class Player:
             self._drop(unit, fault, tick.time)
             return True
         begin = tick.time if is_due(start, tick.previous) else start  # a unit that joins late begins now
-        keeping, giving = self._owners(begin)
-        unit.settle(frozenset().union(*(other.resources for other in keeping)))
-        staying = [owner for owner in keeping if unit.excludes(owner)]
-        leaving = [owner for owner in giving if unit.excludes(owner)]
+        unit.settle(owners.kept(begin))
+        staying, leaving = owners.excluded_by(unit, begin)
         if staying:
             self._drop(unit, _taken(unit, staying[0]), tick.time)
         else:
             self._ending += [EndUnit(owner, begin) for owner in leaving]
         return bool(staying or leaving)
 
-    def _owners(self, time: GlobalTime) -> tuple[list[PlanUnit], list[PlanUnit]]:
-        """The units that keep their resources at a time, and the playing ones that release theirs.
-
-        In a late tick, units that were playing at that time may have ended since.
-        """
-        ended = [unit for unit in self._ended if not is_due(unit.points[-1].peg.value, time)]
-        keeping = [unit for unit in (*self.playing, *ended) if not unit.subsiding(time)]
-        return keeping, [unit for unit in self.playing if unit.subsiding(time)]
-
     def _fire(self, unit: PlanUnit, now: GlobalTime, reached: list[Reached]) -> None:
         if unit.due(now):
             unit.begin()
+            self._begun[unit] = self._units[unit]
         due = unit.due_points(now)
         try:
             unit.fire(due, now)
@@ -166,10 +168,11 @@ class Player:
 
     def _forget_ended(self) -> None:
         for unit in [unit for unit in self._units if not unit.live]:
-            self._units.remove(unit)
             self._forget(unit)
 
     def _forget(self, unit: PlanUnit) -> None:
+        del self._units[unit]
+        self._begun.pop(unit, None)
         self._agenda.remove(unit)
         unit.wake = sleep
 

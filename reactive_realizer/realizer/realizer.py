@@ -163,7 +163,7 @@ class Realizer:
             self._routing,
             self.board,
             alive,
-            lambda name: any(blocks.has_ended(character, name) for character in self.characters),
+            blocks.has_ended,
         )
 
     def watch(self, listener: FramesListener) -> Callable[[], None]:

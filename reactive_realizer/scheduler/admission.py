@@ -1,12 +1,13 @@
 """Admission control: whether blocks and procedures may enter."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Sequence
 
 from reactive_realizer.bml.block import BehaviorBlock, DefineProc, Parsed
 from reactive_realizer.bml.vocabulary import Composition
 from reactive_realizer.errors import Fault, ParsingFault, TargetFault
 from reactive_realizer.limits import Limits
 from reactive_realizer.pegboard.peg_key import BlockKey
+from reactive_realizer.scheduler.blocks import Blocks
 
 
 class DuplicateBlock(ParsingFault):
@@ -62,17 +63,19 @@ class Admission:
     Args:
         characters: the first one takes blocks that name none.
         limits: how many blocks may be alive at once, and procedures defined.
-        alive: the blocks that are alive.
+        blocks: those that are alive.
         procedures: ids of the procedures that are defined.
     """
 
-    def __init__(
-        self, characters: Sequence[str], limits: Limits, alive: Iterable[BlockKey], procedures: Iterable[str]
-    ) -> None:
+    def __init__(self, characters: Sequence[str], limits: Limits, blocks: Blocks, procedures: Collection[str]) -> None:
         self._characters = characters
         self._limits = limits
-        self._alive = set(alive)
-        self._procedures = dict.fromkeys(procedures)
+        self._blocks = blocks
+        self._procedures = procedures
+        self._added: set[BlockKey] = set()
+        self._replaced: set[str] = set()
+        self._defined: dict[str, None] = {}
+        self._number = len(blocks)
 
     def refusal(self, parsed: Parsed) -> Fault | None:
         """Admit what was read, or return why not."""
@@ -84,10 +87,12 @@ class Admission:
 
     def admit_procedure(self, procedure: DefineProc) -> Fault | None:
         """Admit a procedure, or return why not."""
-        if procedure.id not in self._procedures and len(self._procedures) >= self._limits.procedures:
+        if procedure.id in self._procedures or procedure.id in self._defined:
+            return None
+        if len(self._procedures) + len(self._defined) >= self._limits.procedures:
             fault = TooManyProcedures(limit=self._limits.procedures)
             return fault.located(procedure.location.line, procedure.location.column)
-        self._procedures[procedure.id] = None
+        self._defined[procedure.id] = None
         return None
 
     def admit(self, block: BehaviorBlock, failed: bool = False) -> Fault | None:
@@ -102,18 +107,32 @@ class Admission:
         if fault is not None:
             return fault.located(block.location.line, block.location.column)
         if block.composition is Composition.REPLACE:
-            self._alive = {other for other in self._alive if other.character != key.character}
-        if not failed:
-            self._alive.add(key)
+            self._replace(key.character)
+        if not failed and not self._is_alive(key):
+            self._added.add(key)
+            self._number += 1
         return None
+
+    def _replace(self, character: str) -> None:
+        """Count all blocks of a character as ended."""
+        if character not in self._replaced:
+            self._number -= len(self._blocks.of(character))
+            self._replaced.add(character)
+        for key in [key for key in self._added if key.character == character]:
+            self._added.remove(key)
+            self._number -= 1
+
+    def _is_alive(self, key: BlockKey) -> bool:
+        alive = key.character not in self._replaced and self._blocks.get(key) is not None
+        return alive or key in self._added
 
     def _rejection(self, key: BlockKey, block: BehaviorBlock) -> Fault | None:
         if key.character not in self._characters:
             return UnknownCharacter(character=key.character, known=tuple(self._characters))
-        if key in self._alive and key.block not in block.interrupts:
+        if self._is_alive(key) and key.block not in block.interrupts:
             return DuplicateBlock(block=key.block)
-        if block.procedure is not None and block.procedure not in self._procedures:
-            return UnknownProcedure(procedure=block.procedure, known=tuple(self._procedures))
-        if block.composition is not Composition.REPLACE and len(self._alive) >= self._limits.blocks_alive:
+        if block.procedure is not None and block.procedure not in (*self._procedures, *self._defined):
+            return UnknownProcedure(procedure=block.procedure, known=(*self._procedures, *self._defined))
+        if block.composition is not Composition.REPLACE and self._number >= self._limits.blocks_alive:
             return TooManyBlocks(limit=self._limits.blocks_alive)
         return None

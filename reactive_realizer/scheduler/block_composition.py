@@ -96,7 +96,7 @@ class BlockComposition:
     def _known(self, attribute: str, names: Sequence[str]) -> list[BMLBlock]:
         found = {name: self._blocks.find(self.character, name) for name in names}
         for name, block in found.items():
-            if block is None and not self._blocks.has_ended(self.character, name):
+            if block is None and not self._blocks.has_ended(name):
                 place = self.description.location
                 fault = UnknownTargetBlock(attribute=attribute, block=name, known=self._blocks.names(self.character))
                 self.unknown.append(fault.located(place.line, place.column))

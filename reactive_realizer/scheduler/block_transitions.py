@@ -81,9 +81,7 @@ class BlockTransitions:
         for unit in block.units:
             self._routing.unassign(unit)
         with self._board.graph.transaction(f"after {block.key.block}"):
-            for other in self._blocks.alive:
-                other.take_over_predecessors(block)
-        block.predecessors = ()
+            block.leave()
         self._ties.release_from(block.key, cut, time, CutTie, began=block.started_at is not None)
         self._board.remove_block(block.key)
         logger.info("%s/%s %s at %.2f s, %d behaviors", *block.key, block.state.value, time, len(block.units))

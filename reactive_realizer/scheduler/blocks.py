@@ -1,6 +1,6 @@
 """The blocks of all characters: those alive, and a record of those that ended last."""
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 
 from reactive_realizer.clock.units import GlobalTime, Time
@@ -8,7 +8,7 @@ from reactive_realizer.errors import Fault, SchedulingFault, TargetFault
 from reactive_realizer.pegboard.agenda import Agenda
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.scheduler.block_state import BlockState
-from reactive_realizer.scheduler.block_watch import BlockWatch
+from reactive_realizer.scheduler.block_watch import BlockWatch, in_order
 from reactive_realizer.scheduler.bml_block import BMLBlock
 
 
@@ -39,6 +39,25 @@ class EndedBlock:
     time: GlobalTime
 
 
+class _BlocksByName:
+    """Blocks, in order of addition, by a name that several may have."""
+
+    def __init__(self) -> None:
+        self._blocks: dict[str, dict[BMLBlock, None]] = {}
+
+    def of(self, name: str) -> Collection[BMLBlock]:
+        return self._blocks.get(name, {})
+
+    def add(self, name: str, block: BMLBlock) -> None:
+        self._blocks.setdefault(name, {})[block] = None
+
+    def remove(self, name: str, block: BMLBlock) -> None:
+        named = self._blocks.get(name, {})
+        named.pop(block, None)
+        if not named:
+            self._blocks.pop(name, None)
+
+
 class Blocks:
     """Blocks by name, in order of arrival.
 
@@ -55,7 +74,11 @@ class Blocks:
         self.watch = BlockWatch()
         self._remembered = remembered
         self._alive: dict[BlockKey, BMLBlock] = {}
+        self._own = _BlocksByName()
+        self._last = _BlocksByName()
+        self._named = _BlocksByName()
         self._ended: dict[BlockKey, EndedBlock] = {}
+        self._ended_names: dict[str, int] = {}
 
     @property
     def alive(self) -> tuple[BMLBlock, ...]:
@@ -69,7 +92,11 @@ class Blocks:
 
     def of(self, character: str) -> list[BMLBlock]:
         """The blocks of one character that are alive."""
-        return [block for block in self._alive.values() if block.key.character == character]
+        return list(self._own.of(character))
+
+    def __len__(self) -> int:
+        """How many blocks are alive."""
+        return len(self._alive)
 
     def get(self, key: BlockKey) -> BMLBlock | None:
         """The block alive of exactly that name."""
@@ -77,13 +104,13 @@ class Blocks:
 
     def last_of(self, character: str) -> list[BMLBlock]:
         """The blocks of a character, except for preplanned ones, that no other block waits for."""
-        own = [block for block in self.of(character) if not block.awaits_activation]
-        awaited = {each.block for block in own for each in block.predecessors if not each.chunk}
-        return [block for block in own if block not in awaited]
+        for block in [block for block in self._last.of(character) if _is_awaited(block)]:
+            self._last.remove(character, block)
+        return in_order(block for block in self._last.of(character) if not block.awaits_activation)
 
-    def has_ended(self, character: str, block: str) -> bool:
-        """Whether a name is remembered as that of an ended block, of the character or of any other."""
-        return BlockKey(character, block) in self._ended or any(key.block == block for key in self._ended)
+    def has_ended(self, block: str) -> bool:
+        """Whether a name is remembered as that of an ended block, of any character."""
+        return block in self._ended_names
 
     def find(self, character: str, block: str) -> BMLBlock | None:
         """The block alive that a reference names: the character's own, else the first of any other character.
@@ -93,11 +120,11 @@ class Blocks:
         key = BlockKey(character, block)
         if key in self._alive or key in self._ended:
             return self._alive.get(key)
-        return next((other for other in self._alive.values() if other.key.block == block), None)
+        return next(iter(self._named.of(block)), None)
 
     def missing(self, character: str, name: str) -> Fault:
         """The fault of naming a block that is not alive: "block-ended" or "no-such-block"."""
-        if self.has_ended(character, name):
+        if self.has_ended(name):
             return BlockEnded(block=name)
         return NoSuchBlock(block=name, known=self.names(character))
 
@@ -114,18 +141,38 @@ class Blocks:
     def add(self, block: BMLBlock) -> None:
         """Add an accepted block."""
         self._alive[block.key] = block
+        self._own.add(block.key.character, block)
+        self._last.add(block.key.character, block)
+        self._named.add(block.key.block, block)
         self.starting.add(block)
         self.watch.follow(block)
 
     def end(self, block: BMLBlock, time: GlobalTime) -> None:
         """Move a block from those alive to those ended."""
         self._alive.pop(block.key, None)
+        self._own.remove(block.key.character, block)
+        self._last.remove(block.key.character, block)
+        self._named.remove(block.key.block, block)
+        for each in block.predecessors:
+            if not each.block.state.ended:
+                self._last.add(each.block.key.character, each.block)
         self.starting.remove(block)
         self.watch.forget(block)
-        self._ended.pop(block.key, None)
-        self._ended[block.key] = EndedBlock(block.key, block.state, time)
+        self._remember(EndedBlock(block.key, block.state, time))
+
+    def _remember(self, ended: EndedBlock) -> None:
+        self._forget(ended.key)
+        self._ended[ended.key] = ended
+        self._ended_names[ended.key.block] = self._ended_names.get(ended.key.block, 0) + 1
         while len(self._ended) > self._remembered:
-            self._ended.pop(next(iter(self._ended)))
+            self._forget(next(iter(self._ended)))
+
+    def _forget(self, key: BlockKey) -> None:
+        if self._ended.pop(key, None) is None:
+            return
+        self._ended_names[key.block] -= 1
+        if not self._ended_names[key.block]:
+            del self._ended_names[key.block]
 
     def _preparing(self, block: BMLBlock, ids: Iterable[str]) -> list[BMLBlock]:
         """The blocks in preparation among those that a block names."""
@@ -135,3 +182,11 @@ class Blocks:
 
 def _start(block: BMLBlock) -> Time:
     return block.start.value if block.state is BlockState.LURKING else None
+
+
+def _is_awaited(block: BMLBlock) -> bool:
+    """Whether another block of its character, except for a preplanned one, waits for its end."""
+    return any(
+        for_end and not other.awaits_activation and other.key.character == block.key.character
+        for other, for_end in block.successors.items()
+    )

@@ -67,6 +67,7 @@ class BMLBlock:
         relax: the time at which it subsides: the latest relax of its behaviors, or end of those without a relax.
         end: the latest end of its behaviors; persistent ones count with their last known point.
         predecessors: the blocks that it starts after.
+        successors: the blocks that have it as a predecessor, and whether they wait for its end.
         holds: pegs before which its constraints do not let it start.
         units: its behaviors that are planned and not dropped, in document order.
         cancelled: ids of behaviors that were interrupted before the block started.
@@ -91,7 +92,9 @@ class BMLBlock:
         self.description = description
         self.named_blocks = named_blocks(description)
         self.arrival = arrival
-        self.predecessors = tuple(predecessors)
+        self.predecessors: tuple[Predecessor, ...] = ()
+        self.successors: dict[BMLBlock, bool] = {}
+        self._link(predecessors)
         self.holds: tuple[TimeCell, ...] = ()
         self.started_at: Time = None
         self.units: list[PlanUnit] = []
@@ -169,11 +172,12 @@ class BMLBlock:
 
     @property
     def pegs(self) -> Iterator[TimeCell]:
-        """The pegs of its points, and those from outside that its constraints name."""
+        """The pegs of its points, those from outside that its constraints name, and those that hold its start."""
         yield from (self.start, self.relax, self.end)
         for unit in self.units:
             yield from (point.peg for point in unit.points)
         yield from self.outside
+        yield from self.holds
 
     def peg(self, sync: str) -> LatestPeg:
         """The peg of its own ``start``, ``relax`` or ``end``."""
@@ -256,8 +260,14 @@ class BMLBlock:
 
     def set_predecessors(self, predecessors: Iterable[Predecessor]) -> None:
         """Wait for other blocks."""
-        self.predecessors = tuple(predecessors)
+        self._link(predecessors)
         self.start.wait_for(self.start.floor, self._awaited())
+
+    def leave(self) -> None:
+        """Leave the predecessors of an ended block to those that come after it."""
+        for other in sorted(self.successors, key=lambda block: block.arrival):
+            other.take_over_predecessors(self)
+        self._link(())
 
     def take_over_predecessors(self, ended: "BMLBlock") -> None:
         """Wait for the blocks that an ended block still waited for, if that stood for them too."""
@@ -270,6 +280,13 @@ class BMLBlock:
         floor = self.end.floor if floor is None else floor
         self.relax.wait_for(floor, (self.start, *(_subsiding(unit).peg for unit in self.units)))
         self.end.wait_for(floor, (self.start, *(unit.last_known.peg for unit in self.units)))
+
+    def _link(self, predecessors: Iterable[Predecessor]) -> None:
+        for each in self.predecessors:
+            each.block.successors.pop(self, None)
+        self.predecessors = tuple(predecessors)
+        for each in self.predecessors:
+            each.block.successors[self] = not each.chunk or each.block.successors.get(self, False)
 
     def _name(self, board: PegBoard, anticipator: str, sync: str, peg: AnticipatorPeg) -> None:
         """Name an occurrence of a point."""

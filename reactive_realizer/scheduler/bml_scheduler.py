@@ -125,8 +125,7 @@ class BMLScheduler:
 
     def admission(self, defined: Iterable[str] = ()) -> Admission:
         """Admission control for further blocks and procedures, after those with the ids ``defined``."""
-        alive = (block.key for block in self.blocks.alive)
-        return Admission(self._routing.characters, self._limits, alive, (*self._procedures.names, *defined))
+        return Admission(self._routing.characters, self._limits, self.blocks, (*self._procedures.names, *defined))
 
     # --- a tick
 

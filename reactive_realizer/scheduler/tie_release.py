@@ -107,10 +107,10 @@ class TieRelease:
         warned = set()
         gone = frozenset(cut)
         followed = {follower: peg for peg in cut for follower in (peg, *followers_of(peg))}
-        alive = self._blocks.alive if followed else ()
-        for block in alive:
+        following = self._blocks.watch.following(followed)
+        for block in following:
             self._release_start(block, followed, now)
-        for block, unit in [(each, unit) for each in alive for unit in each.live_units]:
+        for block, unit in [(each, unit) for each in following for unit in each.live_units]:
             tied = [point.peg for point in unit.ahead() if point.peg in followed]
             if not tied:
                 continue

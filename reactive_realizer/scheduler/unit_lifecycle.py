@@ -71,12 +71,14 @@ class UnitLifecycle:
         if not unit.due(now):
             return []
         unit.begin()
+        unit.wake()
         return _fire(unit, unit.due_points(now), now)
 
     def cut(self, unit: PlanUnit, now: GlobalTime) -> bool:
         """End a planned behavior now, after its due points have fired; whether anything of it was cut."""
         if unit.due(now) and unit.refusal() is None:
             unit.begin()
+            unit.wake()
         if unit.state is not UnitState.IN_EXEC:
             self.remove([unit], now)
             return True

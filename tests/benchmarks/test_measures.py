@@ -14,6 +14,7 @@ SMALLEST: dict[str, dict[str, float]] = {
     "generated": {"blocks": 1},
     "idle": {"seconds": 0.05},
     "latency": {"runs": 2},
+    "load": {"seconds": 0.05, "behaviors": 20},
     "propagation": {"largest": 1000},
     "punctuality": {"seconds": 0.5},
     "scheduling": {"most": 2},
@@ -31,6 +32,12 @@ KEYS: dict[str, set[str]] = {
     },
     "idle": {"posts_per_s", *(f"cpu_ms_per_s.{n}" for n in ("0", "1", "100"))},
     "latency": {"tick_ms", *(f"{what}_ms.{part}" for what in ("predict", "activate") for part in ("p50", "p99"))},
+    "load": {
+        *(
+            f"tick_p99_ms.{load}"
+            for load in ("nothing", "chain_1000", "burst_50_blocks", "parallel_1000", "predict_1000")
+        ),
+    },
     "propagation": {
         *(f"{whose}_ns.{shape}.{n}" for whose in ("cell", "reactivex") for shape in ("fanout", "chain") for n in SIZES),
         "block_move_1000_ms",

@@ -1,0 +1,99 @@
+"""Measures load: how long ticks of a live scene are delayed while much arrives, starts or moves at once."""
+
+import asyncio
+from collections.abc import Awaitable, Callable
+from statistics import quantiles
+
+from benchmarks.scheduling import chain, spread
+from reactive_realizer.assembly.scene import SceneOptions, open_scene
+from reactive_realizer.clock.clock import SystemClock
+from reactive_realizer.clock.ticker import RATE, tick_time
+from reactive_realizer.server.intake import Intake
+from reactive_realizer.server.live_scene import LiveScene, keep_from_ticks
+from reactive_realizer.testing.pilot import block
+
+AIMS = {
+    **{f"tick_p99_ms.{load}": 10 for load in ("chain_1000", "burst_50_blocks", "parallel_1000", "predict_1000")},
+}
+
+_SETTLING = 0.3
+"""Time until a scene has started, s."""
+
+_AHEAD = 10.0
+"""Time from now to the predicted point, s: it is always ahead."""
+
+Load = Callable[[Intake, int, float], Awaitable[object]]
+
+
+def measure(seconds: float = 4.0, behaviors: int = 1000) -> dict[str, object]:
+    """The 99th percentile of the delay from the time of a tick until it has been played, ms, for each load.
+
+    A skipped tick is played with the late one that covers it. ``nothing`` is the delay without a load, which is due to
+    the machine.
+
+    Args:
+        seconds: time for which each load is observed from its arrival, s.
+        behaviors: their number in a load.
+    """
+    return {"tick_p99_ms": {name: asyncio.run(_p99_ms(load, behaviors, seconds)) for name, load in _LOADS.items()}}
+
+
+async def _nothing(intake: Intake, behaviors: int, seconds: float) -> None:
+    await asyncio.sleep(seconds)
+
+
+async def _chain(intake: Intake, behaviors: int, seconds: float) -> None:
+    await intake.blocks(block("b", chain(behaviors)))
+    await asyncio.sleep(seconds)
+
+
+async def _burst(intake: Intake, behaviors: int, seconds: float) -> None:
+    """Blocks of 20 behaviors that arrive at once."""
+    await asyncio.gather(*(intake.blocks(block(f"b{i}", spread(20))) for i in range(behaviors // 20)))
+    await asyncio.sleep(seconds)
+
+
+async def _parallel(intake: Intake, behaviors: int, seconds: float) -> None:
+    """Behaviors that begin together, and end together."""
+    waits = (f'<wait id="w{i}" duration="1"/>' for i in range(behaviors))
+    await intake.blocks(block("b", "".join(waits)))
+    await asyncio.sleep(seconds)
+
+
+async def _predict(intake: Intake, behaviors: int, seconds: float) -> None:
+    """Behaviors that wait for a point, which is predicted again for every tick."""
+    intake.predict({"anticipator": "partner", "sync": "hit", "in": _AHEAD})
+    starts = (f'start="anticipators:partner:hit + {i / behaviors}"' for i in range(behaviors))
+    waits = (f'<wait id="w{i}" duration="1" {start}/>' for i, start in enumerate(starts))
+    await intake.blocks(block("b", "".join(waits)))
+    for i in range(round(seconds * RATE)):
+        intake.predict({"anticipator": "partner", "sync": "hit", "in": _AHEAD + i % 2})
+        await asyncio.sleep(1 / RATE)
+
+
+_LOADS: dict[str, Load] = {
+    "nothing": _nothing,
+    "chain_1000": _chain,
+    "burst_50_blocks": _burst,
+    "parallel_1000": _parallel,
+    "predict_1000": _predict,
+}
+
+
+async def _p99_ms(load: Load, behaviors: int, seconds: float) -> float:
+    delays: list[float] = []
+
+    async def run(live: LiveScene) -> None:
+        keep_from_ticks()
+        async for tick in live.ticker.ticks():
+            await live.step(tick)
+            delays.extend(live.now - tick_time(number) for number in (*tick.left_out, tick.number))
+
+    async with open_scene(SceneOptions(voice="text")) as scene, asyncio.TaskGroup() as group:
+        live = LiveScene(scene, SystemClock())
+        ticking = group.create_task(run(live))
+        await asyncio.sleep(_SETTLING)
+        delays.clear()
+        await load(Intake(live), behaviors, seconds)
+        ticking.cancel()
+    return round(1000 * quantiles(delays, n=100)[98], 1)

@@ -1,0 +1,57 @@
+"""The units that own resources while others begin."""
+
+from collections.abc import Iterable
+
+from reactive_realizer.clock.units import GlobalTime, is_due
+from reactive_realizer.planunit.plan_unit import PlanUnit, UnitState
+
+
+class Owners:
+    """The units that others may exclude, by their resources and groups.
+
+    Args:
+        units: those that play, and those that ended since the last tick: in a late tick, they may have been playing
+            when another unit was to begin.
+    """
+
+    def __init__(self, units: Iterable[PlanUnit]) -> None:
+        self._order: dict[PlanUnit, int] = {}
+        self._by_resource: dict[str, list[PlanUnit]] = {}
+        self._by_group: dict[str, list[PlanUnit]] = {}
+        for unit in units:
+            self.add(unit)
+
+    def add(self, unit: PlanUnit) -> None:
+        """Add a unit that has begun."""
+        self._order[unit] = len(self._order)
+        for resource in unit.resources:
+            self._by_resource.setdefault(resource, []).append(unit)
+        if unit.group is not None:
+            self._by_group.setdefault(unit.group, []).append(unit)
+
+    def kept(self, time: GlobalTime) -> frozenset[str]:
+        """The resources that units keep at a time."""
+        owned = self._by_resource.items()
+        return frozenset(resource for resource, units in owned if any(_keeps(unit, time) for unit in units))
+
+    def excluded_by(self, unit: PlanUnit, time: GlobalTime) -> tuple[list[PlanUnit], list[PlanUnit]]:
+        """The units that cannot play together with one that begins at a time: those that stay, and those that leave.
+
+        Both are in the order in which they were added. A unit leaves if it only returns to rest.
+        """
+        rivals = {other for resource in unit.resources for other in self._by_resource.get(resource, ())}
+        rivals.update(self._by_group.get(unit.group or "", ()))
+        excluded = sorted((other for other in rivals if unit.excludes(other)), key=self._order.__getitem__)
+        leaving = [each for each in excluded if each.state is UnitState.IN_EXEC and each.subsiding(time)]
+        return [each for each in excluded if _keeps(each, time)], leaving
+
+
+def _keeps(unit: PlanUnit, time: GlobalTime) -> bool:
+    """Whether a unit keeps its resources at a time."""
+    match unit.state:
+        case UnitState.IN_EXEC:
+            return not unit.subsiding(time)
+        case UnitState.DONE:
+            return not is_due(unit.points[-1].peg.value, time) and not unit.subsiding(time)
+        case _:
+            return False
