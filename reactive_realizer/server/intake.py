@@ -13,6 +13,7 @@ from reactive_realizer.clock.ticker import tick_time
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.audio import AudioHeard
 from reactive_realizer.errors import Fault, RealizerError
+from reactive_realizer.realizer.document_checker import DocumentChecker
 from reactive_realizer.realizer.inbox import TooManyNames
 from reactive_realizer.realizer.inputs import BmlText, Event, Prediction, TargetMoved, WorldPosition
 from reactive_realizer.server.faults import NoDemo, NotMovable, UnknownAnticipator
@@ -120,11 +121,12 @@ class Intake:
         """Accepts a document if every block can be accepted.
 
         Raises:
-            RealizerError: the fault of the first block that cannot be accepted; none has entered.
+            BlocksRefused: with the fault of the first block that cannot be accepted; none has entered.
         """
         judged = await self._judge(text)
         if judged.first_refusal is not None:
-            raise RealizerError(judged.first_refusal)
+            warnings = await self._warnings(judged, self._realizer.checker())
+            raise BlocksRefused(judged.first_refusal, Answer([], warnings))
         return await self._enter(judged)
 
     async def blocks(self, text: str) -> Answer:
@@ -206,14 +208,18 @@ class Intake:
 
     async def _enter(self, judged: _Judged) -> Answer:
         """Has a document enter, and only then looks for its mistakes."""
-        checker, document = self._realizer.checker(), judged.entry.parsed or ()
+        checker = self._realizer.checker()
         self._realizer.put(judged.entry)
+        return Answer(judged.blocks, await self._warnings(judged, checker))
+
+    async def _warnings(self, judged: _Judged, checker: DocumentChecker) -> list[Problem]:
+        document = judged.entry.parsed or ()
         warnings: list[Problem] = []
         checker.begin(document)
         for parsed, refusal in zip(document, judged.refusals, strict=True):
             mistakes, notes = await checker.check(parsed, refusal)
             warnings += (each for each in (*mistakes, *notes) if each.fault.warning is not None)
-        return Answer(judged.blocks, sorted(dict.fromkeys(warnings), key=_place))
+        return sorted(dict.fromkeys(warnings), key=_place)
 
     def _event(self, event: Event) -> None:
         known = self._realizer.anticipators

@@ -1,6 +1,8 @@
 """Middleware for every request: access control, and faults as JSON."""
 
 import logging
+from collections.abc import Mapping
+from types import MappingProxyType
 
 from aiohttp import web
 from aiohttp.http_exceptions import HttpProcessingError
@@ -67,10 +69,10 @@ async def add_headers(request: web.Request, response: web.StreamResponse) -> Non
     response.headers.update(request.app[SECURITY].cross_origin_headers(request))
 
 
-def answer_to(refusal: RealizerError) -> web.Response:
-    """The HTTP response for a fault."""
+def answer_to(refusal: RealizerError, more: Mapping[str, object] = MappingProxyType({})) -> web.Response:
+    """The HTTP response for a fault; ``more`` stands beside it."""
     fault = refusal.fault
     logger.info("%s: %s", fault.code, fault)
     place = {"line": fault.line, "column": fault.column}
     body = {"code": fault.code, "message": fault.sentence, **place}
-    return web.json_response({"error": body}, status=status_of(fault))
+    return web.json_response({"error": body, **more}, status=status_of(fault))

@@ -9,7 +9,9 @@ from aiohttp import web
 from reactive_realizer.bml.faults import BadEncoding
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.server.faults import SlowRequest, WrongCharset, WrongMediaType
+from reactive_realizer.server.intake import BlocksRefused
 from reactive_realizer.server.keys import INTAKE, LIVE
+from reactive_realizer.server.middleware import answer_to
 from reactive_realizer.server.protocol import bml_answer, check, decode
 
 _MARKS: Final = (codecs.BOM_UTF8, codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
@@ -60,9 +62,12 @@ async def bml(request: web.Request) -> web.Response:
     if request.content_type not in _XML:
         raise RealizerError(WrongMediaType(type=request.content_type))
     text = text_of(await _body(request), request.charset)
-    blocks, warnings = await request.app[INTAKE].document(text)
     limit = request.app[LIVE].limits.answered_warnings
-    return web.json_response(bml_answer(blocks, warnings, limit), status=202)
+    try:
+        answer = await request.app[INTAKE].document(text)
+    except BlocksRefused as refusal:
+        return answer_to(refusal, bml_answer(*refusal.answer, limit))
+    return web.json_response(bml_answer(*answer, limit), status=202)
 
 
 @routes.post("/predict")

@@ -142,6 +142,17 @@ async def test_mistakes_of_a_refused_block_and_of_accepted_ones_are_answered_tog
         ]
 
 
+async def test_a_refused_document_is_answered_with_the_mistakes_of_all_its_blocks(on_air: Open) -> None:
+    async with on_air(SCENE) as air:
+        document = wait("b1") + "\n" + wait("b1") + "\n" + block('<speach id="s"/>', "b2")
+        status, answer = await post(air, "/bml", document)
+        assert (status, answer["error"]["code"], answer["blocks"]) == (409, "duplicate-block", [])
+        assert [(each["id"], each["code"], each["line"]) for each in answer["warnings"]] == [
+            ("b1", "duplicate-block", 2),
+            ("b2:s", "unknown-behavior", 4),
+        ]
+
+
 async def test_warnings_above_the_limit_are_counted(on_air: Open) -> None:
     inside = "".join(f'<gaze id="g{n}" target="nobody{n}"/>' for n in range(7))
     async with on_air(ALICE + "[limits]\nanswered_warnings = 3\n") as air:
