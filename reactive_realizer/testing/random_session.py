@@ -3,6 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from random import Random
+from typing import TypeVar
 
 from reactive_realizer.testing.pilot import RealizerPilot, block
 
@@ -20,6 +21,8 @@ kind = "spacebar"
 """
 )
 """The human file of the scene in which the sessions play."""
+
+T = TypeVar("T")
 
 _SPEECH = '<speech id="{id}"{ties}><text>Well <sync id="m"/>then, my friend.</text></speech>'
 _BEHAVIORS = {
@@ -64,6 +67,8 @@ _TIMES = ("0", "0.3", "1", "-0.2")
 _PAUSES = (0.0, 0.0, 0.01, 0.03, 0.1, 0.25, 0.5)
 _AHEAD = (None, -0.5, -0.03, 0.0, 0.05, 0.2, 0.5, 1.0, 2.0)
 _COMPOSITIONS = ("MERGE",) * 6 + ("APPEND",) * 3 + ("REPLACE",)
+_DISTANCES = (1, 1, 1, 2, 2, 3, 4, -1, -2)
+"""How many blocks ago the other block of a reference was sent."""
 _JOINS = ("appendAfter", "chunkAfter", "prependBefore", "chunkBefore", "interrupt", "onStart")
 
 
@@ -139,21 +144,46 @@ class Session:
         return sum(isinstance(step.input, Block) for step in self.steps)
 
 
+class _Mix:
+    """What a session is made of: only some kinds of behaviors, events, pauses and so on.
+
+    Sessions that leave features out find more than sessions that mix all of them (A. Groce et al., "Swarm testing",
+    2012).
+    """
+
+    def __init__(self, random: Random) -> None:
+        def some(each: Sequence[T]) -> list[T]:
+            return random.sample(each, random.randint(1, len(each)))
+
+        self.kinds = some([*_BEHAVIORS])
+        self.anticipated = some(_ANTICIPATED)
+        self.characters = some(CHARACTERS)
+        self.compositions = some(_COMPOSITIONS)
+        self.joins = some(_JOINS)
+        self.offsets = some(_OFFSETS)
+        self.distances = some(_DISTANCES)
+        self.orders = some(("before", "after", "synchronize"))
+        self.pauses = some(_PAUSES)
+        self.events = some(_EVENTS)
+        self.ahead = some(_AHEAD)
+        self.joined, self.preplanned, self.required = (random.choice((0.0, 0.15, 0.4)) for _ in range(3))
+
+
 def random_session(random: Random, blocks: int = 25) -> Session:
     """A session with a number of blocks, and about half as many predictions and events."""
+    mix = _Mix(random)
     steps: list[Step] = []
     kinds: list[dict[str, str]] = []
     for _ in range(blocks):
         while random.random() < 0.35:
-            drawn = _prediction(random) if random.random() < 0.75 else random.choice(_EVENTS)
-            steps.append(Step(random.choice(_PAUSES), drawn))
-        kinds.append(dict(zip(_IDS, random.choices([*_BEHAVIORS], k=random.choice(_SIZES)), strict=False)))
-        steps.append(Step(random.choice(_PAUSES), _BlockDraw(random, kinds).block()))
+            predicts = random.random() < 0.75
+            drawn = (
+                Prediction(random.choice(_REMOTE), random.choice(mix.ahead)) if predicts else random.choice(mix.events)
+            )
+            steps.append(Step(random.choice(mix.pauses), drawn))
+        kinds.append(dict(zip(_IDS, random.choices(mix.kinds, k=random.choice(_SIZES)), strict=False)))
+        steps.append(Step(random.choice(mix.pauses), _BlockDraw(random, mix, kinds).block()))
     return Session(tuple(steps))
-
-
-def _prediction(random: Random) -> Prediction:
-    return Prediction(random.choice(_REMOTE), random.choice(_AHEAD))
 
 
 class _BlockDraw:
@@ -161,11 +191,13 @@ class _BlockDraw:
 
     Args:
         random: that draws.
+        mix: of the session.
         kinds: behaviors of the blocks so far, by id; the last ones are those of this block.
     """
 
-    def __init__(self, random: Random, kinds: Sequence[Mapping[str, str]]) -> None:
+    def __init__(self, random: Random, mix: _Mix, kinds: Sequence[Mapping[str, str]]) -> None:
         self._random = random
+        self._mix = mix
         self._number = len(kinds) - 1
         self._kinds = kinds
 
@@ -177,17 +209,20 @@ class _BlockDraw:
         own = self._kinds[-1]
         parts = [self._behavior(id_, kind) for id_, kind in own.items()]
         parts += [self._constraint() for _ in range(random.choice((0, 0, 0, 1, 2)) if own else 0)]
-        if random.random() < 0.1:
+        if random.random() < self._mix.required:
             parts = [f"<required>{part}</required>" for part in parts]
         return Block(f"b{number}", self._attributes(), tuple(parts))
 
     def _attributes(self) -> dict[str, str]:
         random = self._random
-        attributes = {"characterId": random.choice(CHARACTERS), "composition": random.choice(_COMPOSITIONS)}
-        if random.random() < 0.25:
+        attributes = {
+            "characterId": random.choice(self._mix.characters),
+            "composition": random.choice(self._mix.compositions),
+        }
+        if random.random() < self._mix.joined:
             names = dict.fromkeys(self._other() for _ in range(random.choice((1, 1, 2))))
-            attributes[f"bmla:{random.choice(_JOINS)}"] = ",".join(names)
-        if random.random() < 0.15:
+            attributes[f"bmla:{random.choice(self._mix.joins)}"] = ",".join(names)
+        if random.random() < self._mix.preplanned:
             attributes["bmla:preplan"] = "true"
         if random.random() < 0.05:
             attributes["start"] = self._outside()
@@ -201,8 +236,8 @@ class _BlockDraw:
     def _constraint(self) -> str:
         random = self._random
         behavior = random.choice([*self._kinds[-1]])
-        ref, sync = self._reference(behavior), self._point(self._kinds[-1], behavior) + random.choice(_OFFSETS)
-        order = random.choice(("before", "after", "synchronize"))
+        ref, sync = self._reference(behavior), self._point(self._kinds[-1], behavior) + random.choice(self._mix.offsets)
+        order = random.choice(self._mix.orders)
         if order == "synchronize":
             return f'<constraint><synchronize><sync ref="{ref}"/><sync ref="{sync}"/></synchronize></constraint>'
         return f'<constraint><{order} ref="{ref}"><sync ref="{sync}"/></{order}></constraint>'
@@ -212,14 +247,14 @@ class _BlockDraw:
         random = self._random
         others = [id_ for id_ in self._kinds[-1] if id_ != besides]
         if others and random.random() < 0.5:
-            return self._point(self._kinds[-1], random.choice(others)) + random.choice(_OFFSETS)
-        return random.choice(_TIMES) if random.random() < 0.15 else self._outside() + random.choice(_OFFSETS)
+            return self._point(self._kinds[-1], random.choice(others)) + random.choice(self._mix.offsets)
+        return random.choice(_TIMES) if random.random() < 0.15 else self._outside() + random.choice(self._mix.offsets)
 
     def _outside(self) -> str:
         """A point of an anticipator, or of another block or its behavior."""
         random = self._random
         if random.random() < 0.5:
-            return random.choice(_ANTICIPATED)
+            return random.choice(self._mix.anticipated)
         number = self._other_number()
         kinds = self._kinds[number] if number < len(self._kinds) else {}
         if not kinds or random.random() < 0.3:
@@ -231,7 +266,7 @@ class _BlockDraw:
 
     def _other_number(self) -> int:
         """The number of a block that was sent shortly before this one, or comes next."""
-        return max(0, self._number - self._random.choice((1, 1, 1, 2, 2, 3, 4, -1)))
+        return max(0, self._number - self._random.choice(self._mix.distances))
 
     def _point(self, kinds: Mapping[str, str], id_: str) -> str:
         kind = kinds[id_]

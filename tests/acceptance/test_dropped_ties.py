@@ -41,6 +41,15 @@ async def test_all_behaviors_of_a_chain_are_dropped_and_each_warning_names_the_f
     assert pilot.feedback.time("b:end") == 1.0
 
 
+@pytest.mark.parametrize("lost", [nod("g", start="1", end="1"), '<wait id="g" start="1" end="0.5"/>'])
+async def test_behaviors_that_depend_on_one_without_time_are_dropped_too(pilot: RealizerPilot, lost: str) -> None:
+    pilot.block("b", wait("w", 1) + nod("m", start="n:end") + nod("n", start="g:end") + lost)
+    await pilot.advance(2)
+    assert told(pilot, "b:n") == ["g:end has no time because 'g' is dropped; what depends on it is dropped too"]
+    assert told(pilot, "b:m") == ["n:end has no time because 'g' is dropped; what depends on it is dropped too"]
+    assert pilot.feedback.progress == ["b:start", "b:w:start", "b:w:end", "b:end"]
+
+
 async def test_the_warning_of_a_dropped_constraint_names_the_dropped_behavior(pilot: RealizerPilot) -> None:
     pilot.block("b", SAMBA + nod("n", start="g:end") + nod("o") + after("n:end", "o:start"))
     await pilot.advance(2)

@@ -122,3 +122,13 @@ async def test_a_change_may_wait_for_a_prediction(pilot: RealizerPilot) -> None:
     pilot.predict("user", "starts", 1.5)
     await pilot.advance(4)
     assert pilot.feedback.time("b:p:start") == 1.5
+
+
+async def test_a_change_that_ends_with_a_speech_of_unknown_time_is_not_dropped(pilot: RealizerPilot) -> None:
+    speech = '<speech id="s" start="anticipators:t:hit"><text>one two three</text></speech>'
+    pilot.block("b", speech + change("p", 'end="s:end"'))
+    await pilot.advance(0.5)
+    pilot.predict("t", "hit", 1.0)
+    await pilot.advance(3)
+    assert pilot.feedback.warnings == []
+    assert pilot.feedback.time("b:p:end") == pilot.feedback.time("b:s:end")

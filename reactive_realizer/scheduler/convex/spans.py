@@ -23,7 +23,8 @@ class Span:
         start: node at which it begins.
         end: node at which it ends.
         rigid: duration (s) of the rigid phases that also lie between start and end.
-        minimum: the shortest duration or, if that is longer, the authored limit, s.
+        minimum: the shortest duration or, if that is longer, the authored limit, s; a behavior without preferences
+            takes time (thesis 7.14).
         maximum: authored limit, s.
         shortest: the sum of the shortest durations of its phases, s.
         guide: the span whose stretch it takes over; None if it has its own.
@@ -128,6 +129,7 @@ class BehaviorSpans:
         self._knots = knots
         self._named = named
         self._lifted = lifted
+        self._takes_time = timing.free and not timing.instant and Requirement(Rank.LIMIT, index, 0) not in lifted
         self._limited = {k for k in timing.limited if Requirement(Rank.LIMIT, index, k) not in lifted}
         self._node = node
         self.spans: list[Span] = []
@@ -183,7 +185,7 @@ class BehaviorSpans:
             kind = PhaseKind.HOLD  # its duration may become 0
         low, high = (phase.minimum, phase.maximum) if first in self._limited else (0.0, inf)
         shortest = sum(self._phases[k].shortest for k in group)
-        low = max(low, shortest)
+        low = max(low, shortest, LEAST if self._takes_time and first == 0 else 0.0)
         return Span(self._index, tuple(group), kind, preferred, start, end, rigid, low, high, shortest, goal=preferred)
 
     def _follow(self, first: int, last: int) -> None:
