@@ -5,8 +5,11 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from enum import IntEnum
 from functools import reduce
+from itertools import chain
 from operator import attrgetter
 from typing import NamedTuple
+
+import numpy as np
 
 from reactive_realizer.embodiment.body import Body, Skeleton
 from reactive_realizer.embodiment.joints import ROOT
@@ -154,3 +157,33 @@ def checked(layer: Layer) -> Layer:
     if layer.root is not None and not length(layer.root) <= FARTHEST:
         raise RealizerError(BadPose(what="HumanoidRoot's place", value=layer.root))
     return layer
+
+
+def check_layers(layers: Iterable[Layer]) -> None:
+    """Check that layers of any origin can be composed, faster than `checked` for each.
+
+    Raises:
+        TypeError, ValueError: something is not a layer, a rotation is not a unit quaternion, a weight is not finite, or
+            the root is further away than `FARTHEST`.
+    """
+    for layer in layers:
+        if not (isinstance(layer, Layer) and isinstance(layer.kind, LayerKind)):
+            raise TypeError(f"{layer!r} is not a layer")
+        check_rotations(layer.rotations)
+        if not math.isfinite(layer.weight + layer.priority + sum((layer.weights or {}).values())):
+            raise ValueError("a weight of a layer is not a finite number")
+        if layer.root is not None and not length(layer.root) <= FARTHEST:
+            raise ValueError(f"a layer puts HumanoidRoot at {layer.root}")
+
+
+def check_rotations(rotations: Mapping[str, Quat]) -> None:
+    """Check that all rotations are unit quaternions.
+
+    Raises:
+        TypeError, ValueError: one is not.
+    """
+    if not rotations:
+        return
+    parts = np.fromiter(chain.from_iterable(rotations.values()), float).reshape(-1, 4)
+    if not np.all(np.abs(np.einsum("ij,ij->i", parts, parts) - 1.0) < _NEARLY_ZERO):
+        raise ValueError("a rotation is not a unit quaternion")

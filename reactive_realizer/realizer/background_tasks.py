@@ -3,6 +3,7 @@
 import asyncio
 from collections.abc import Awaitable, Callable, Sequence
 from dataclasses import dataclass
+from inspect import CORO_CREATED, getcoroutinestate, iscoroutine
 
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.errors import Fault, RealizerError
@@ -27,8 +28,14 @@ class ReplayDiffers(Fault):
 
 @dataclass(slots=True, eq=False)
 class _Job:
+    work: Awaitable[object]
     task: "asyncio.Task[Result]"
     done: Done
+
+    def cancel(self) -> None:
+        self.task.cancel()
+        if iscoroutine(self.work) and getcoroutinestate(self.work) == CORO_CREATED:
+            self.work.close()  # the task has not begun to wait for it, and never will
 
 
 class BackgroundTasks:
@@ -48,12 +55,10 @@ class BackgroundTasks:
         """See `BackgroundWork`."""
         self._requests += 1
         number = self._requests
-        working = asyncio.ensure_future(work)
-        job = self._jobs[number] = _Job(self._group.create_task(_guarded(working), name=name), done)
+        job = self._jobs[number] = _Job(work, self._group.create_task(_guarded(work), name=name), done)
 
         def cancel() -> None:
-            working.cancel()  # the task may not have begun to wait for it
-            job.task.cancel()
+            job.cancel()
             self._jobs.pop(number, None)
 
         return cancel
@@ -61,7 +66,7 @@ class BackgroundTasks:
     def close(self) -> None:
         """Cancel the work that is not done."""
         for job in self._jobs.values():
-            job.task.cancel()
+            job.cancel()
         self._jobs = {}
 
     async def settle(self) -> None:
@@ -100,7 +105,13 @@ def _fault(result: Result) -> Fault | None:
 
 
 async def _guarded(work: Awaitable[object]) -> Result:
+    """The result of work, whatever it raises; only the task itself can be canceled."""
     try:
         return await work
     except Exception as failure:
         return failure
+    except (SystemExit, asyncio.CancelledError) as failure:
+        task = asyncio.current_task()
+        if task is not None and task.cancelling():
+            raise
+        return RuntimeError(type(failure).__name__)

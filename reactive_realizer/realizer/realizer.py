@@ -15,6 +15,7 @@ from reactive_realizer.embodiment.frame import Frame
 from reactive_realizer.embodiment.world import World
 from reactive_realizer.engine.effects import Output
 from reactive_realizer.engine.engine_task import EngineTasks
+from reactive_realizer.engine.guarded_engine import GuardedEngine
 from reactive_realizer.errors import WarningType
 from reactive_realizer.feedback.feedback_manager import FeedbackManager
 from reactive_realizer.feedback.messages import WarningFeedback
@@ -85,7 +86,8 @@ class Realizer:
         self._time = time
         self._strategy = strategy
         self._verify = verify
-        self._routing = EngineRouting({character.id: character.engines for character in characters})
+        self._engines = {each.id: tuple(map(GuardedEngine, each.engines)) for each in characters}
+        self._routing = EngineRouting(self._engines)
         self._leading = EngineTasks(engine for engine in self._routing.engines if engine.leads)
         self._following = EngineTasks(engine for engine in self._routing.engines if not engine.leads)
         self._inbox = Inbox(self.board, self._streams, world, limits)
@@ -311,7 +313,7 @@ class Realizer:
     def _publish_frames(self, time: GlobalTime, outputs: Sequence[Output]) -> None:
         by_engine = dict(zip((task.engine for task in self._following.tasks), outputs, strict=True))
         shown = [
-            (character, [by_engine[engine] for engine in character.engines if engine in by_engine])
+            (character, [by_engine[engine] for engine in self._engines[character.id] if engine in by_engine])
             for character in self.characters.values()
         ]
         for character, own in shown:

@@ -14,6 +14,7 @@ from reactive_realizer.embodiment.audio import AudioChange
 from reactive_realizer.engine.effects import Play
 from reactive_realizer.engine.engine import DefaultEngine, Engine
 from reactive_realizer.engine.engine_task import EngineTasks
+from reactive_realizer.engine.guarded_engine import GuardedEngine
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.time_peg import AnticipatorPeg, OffsetPeg
 from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
@@ -56,7 +57,7 @@ async def play() -> AsyncIterator[PlayEngines]:
     running: list[asyncio.Future[None]] = []
 
     async def play_engines(number: int, *engines: Engine) -> list[Play]:
-        tasks = EngineTasks(engines)
+        tasks = EngineTasks(map(GuardedEngine, engines))
         running.extend(asyncio.ensure_future(task.run()) for task in tasks.tasks)
         return await tasks.play(Tick(number, GlobalTime(0.0)))
 

@@ -1,0 +1,98 @@
+"""Checks of what engines return: plug-ins can return anything, and a type checker may not have seen them."""
+
+from collections.abc import Mapping
+from math import isfinite
+from typing import Final, TypeVar, cast, get_args
+
+from reactive_realizer.embodiment.audio import AudioChange
+from reactive_realizer.embodiment.humanoid import EyePose
+from reactive_realizer.embodiment.pose import check_rotations
+from reactive_realizer.engine.effects import ActivateBlock, Dropped, EndUnit, InterruptBlock, Play, Reached, Request
+from reactive_realizer.engine.hearing import Drift
+from reactive_realizer.errors import Fault
+from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
+
+T = TypeVar("T")
+
+_AUDIO: Final = get_args(AudioChange)
+_REQUESTS: Final = get_args(Request)
+
+
+def expected(kind: type[T] | tuple[type, ...], value: object) -> T:
+    """A value, if it is of a kind.
+
+    Raises:
+        TypeError: it is not, or it is a text instead of a collection of texts.
+    """
+    if not isinstance(value, kind) or (isinstance(value, str) and kind is not str):
+        raise TypeError(f"it returned {value!r}")
+    return cast("T", value)
+
+
+def number(value: object) -> float:
+    """A finite number.
+
+    Raises:
+        TypeError: it is something else.
+    """
+    if not (isinstance(value, (float, int)) and isfinite(value)):
+        raise TypeError(f"it returned {value!r} for a time")
+    return value
+
+
+def check_play(play: Play) -> Play:
+    """Effects that can be applied.
+
+    Raises:
+        TypeError: they cannot.
+    """
+    expected(Play, play)
+    for effects in (play.reached, play.dropped, play.audio, play.requests):
+        expected((tuple, list), effects)
+    for reached in play.reached:
+        expected(SyncPoint, expected(Reached, reached).point)
+        expected(PlanUnit, reached.unit)
+        number(reached.time)
+    for dropped in play.dropped:
+        expected(PlanUnit, expected(Dropped, dropped).unit)
+        expected(Fault, dropped.fault)
+    for change in play.audio:
+        expected(_AUDIO, change)
+    for request in play.requests:
+        expected(_REQUESTS, request)
+        expected(PlanUnit, request.unit)
+        if isinstance(request, ActivateBlock | InterruptBlock | EndUnit):
+            number(request.time)
+    return play
+
+
+def check_weights(weights: Mapping[str, float]) -> None:
+    """Check the weights of morphs.
+
+    Raises:
+        TypeError, ValueError: they are not finite numbers by name.
+    """
+    if not isfinite(sum(expected(Mapping, weights).values())):
+        raise ValueError("a weight of its face is not a finite number")
+
+
+def check_eyes(pose: EyePose) -> EyePose:
+    """A pose of the eyes that can be shown.
+
+    Raises:
+        TypeError, ValueError: it cannot.
+    """
+    check_rotations(expected(EyePose, pose).turns)
+    check_weights(pose.lids)
+    return pose
+
+
+def check_drift(drift: Drift | None) -> Drift | None:
+    """A drift that can be made up for, or None.
+
+    Raises:
+        TypeError: it is something else.
+    """
+    if drift is not None:
+        number(expected(Drift, drift).seconds)
+    return drift
