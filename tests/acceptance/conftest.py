@@ -19,6 +19,13 @@ async def pilot() -> AsyncIterator[RealizerPilot]:
         yield pilot
 
 
+@pytest.fixture(params=["convex", "embr", "smartbody"])
+async def any_strategy(request: pytest.FixtureRequest) -> AsyncIterator[RealizerPilot]:
+    """As `pilot`, with each strategy in turn."""
+    async with open_pilot(SceneOptions(voice="text", strategy=request.param, verify=True)) as pilot:
+        yield pilot
+
+
 @pytest.fixture
 def open_still(tmp_path: Path) -> OpenStill:
     """Opens a pilot of Alice without idle animation, and keeps her frames."""

@@ -1,12 +1,9 @@
 """Sync points of blocks that points of their behaviors define (thesis 12.1.3, examples 33 and 35)."""
 
-from collections.abc import AsyncIterator
-
 import pytest
 
-from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.testing.assertions import assert_linked
-from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
+from reactive_realizer.testing.pilot import RealizerPilot
 
 from .living_time import texts
 
@@ -17,10 +14,9 @@ EXAMPLE_35 = """
 NOD = '<head id="n" lexeme="NOD" start="{}"/>'
 
 
-@pytest.fixture(params=["convex", "embr", "smartbody"])
-async def pilot(request: pytest.FixtureRequest) -> AsyncIterator[RealizerPilot]:
-    async with open_pilot(SceneOptions(voice="text", strategy=request.param, verify=True)) as pilot:
-        yield pilot
+@pytest.fixture
+def pilot(any_strategy: RealizerPilot) -> RealizerPilot:
+    return any_strategy
 
 
 async def test_example_35_the_stroke_of_a_block_is_that_of_its_behavior(pilot: RealizerPilot) -> None:

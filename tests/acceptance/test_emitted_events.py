@@ -1,6 +1,5 @@
 """Events that behaviors emit: to planners, and to other behaviors of any block."""
 
-from collections.abc import AsyncIterator
 from pathlib import Path
 
 import pytest
@@ -13,12 +12,6 @@ TWO_CHARACTERS = Path(__file__).resolve().parents[2] / "examples/two_characters.
 GESTURE = '<gesture id="g" lexeme="BEAT"/>'
 EMIT = '<bmla:emit id="e" event="go" start="{}"/>'
 NOD = '<head id="n" lexeme="NOD" start="anticipators:events:go{}"/>'
-
-
-@pytest.fixture(params=["convex", "embr", "smartbody"])
-async def any_strategy(request: pytest.FixtureRequest) -> AsyncIterator[RealizerPilot]:
-    async with open_pilot(SceneOptions(voice="text", strategy=request.param, verify=True)) as pilot:
-        yield pilot
 
 
 def event(pilot: RealizerPilot, point: str) -> tuple[str | None, str]:

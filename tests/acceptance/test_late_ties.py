@@ -1,7 +1,5 @@
 """Behaviors tied to times before the start of their block are played whole (docs/semantics.md, late ties)."""
 
-from collections.abc import AsyncIterator
-
 import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
@@ -15,10 +13,9 @@ LENGTH = 1.34
 """Duration of `WELL` with the text voice, s."""
 
 
-@pytest.fixture(params=["convex", "embr", "smartbody"])
-async def pilot(request: pytest.FixtureRequest) -> AsyncIterator[RealizerPilot]:
-    async with open_pilot(SceneOptions(voice="text", strategy=request.param, verify=True)) as pilot:
-        yield pilot
+@pytest.fixture
+def pilot(any_strategy: RealizerPilot) -> RealizerPilot:
+    return any_strategy
 
 
 async def stop_before_start(pilot: RealizerPilot, behaviors: str, *, stop: float = 1.1, start: float = 2.0) -> None:

@@ -1,12 +1,9 @@
 """An event counts for a block from its arrival on, or from its activation if it is preplanned (docs/semantics.md)."""
 
-from collections.abc import AsyncIterator
-
 import pytest
 
-from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.testing.assertions import assert_ended, assert_linked, assert_not_played, assert_time
-from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
+from reactive_realizer.testing.pilot import RealizerPilot
 
 from .living_time import HIT, moves, nod, synchronize, texts, wait
 
@@ -17,10 +14,9 @@ LENGTH = 0.78
 PREPLAN = {"bmla:preplan": "true"}
 
 
-@pytest.fixture(params=["convex", "embr", "smartbody"])
-async def pilot(request: pytest.FixtureRequest) -> AsyncIterator[RealizerPilot]:
-    async with open_pilot(SceneOptions(voice="text", strategy=request.param, verify=True)) as pilot:
-        yield pilot
+@pytest.fixture
+def pilot(any_strategy: RealizerPilot) -> RealizerPilot:
+    return any_strategy
 
 
 async def release(pilot: RealizerPilot, after: float) -> None:
