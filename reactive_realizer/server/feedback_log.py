@@ -3,21 +3,36 @@
 from collections import deque
 from dataclasses import dataclass
 
+from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.feedback.feedback_manager import Report
+from reactive_realizer.feedback.messages import PredictionFeedback, WarningFeedback
 from reactive_realizer.feedback.xml import to_xml
 from reactive_realizer.limits import Limits
 from reactive_realizer.server.faults import FeedbackGone
 from reactive_realizer.server.protocol import encode, refused
 from reactive_realizer.server.subscribers import Subscribers
 
+BlockName = tuple[str, str]
+"""Character and id of a block."""
+
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """A feedback message with its number; ``text`` is the message of the protocol."""
+    """A feedback message with its number.
+
+    Attributes:
+        text: the message of the protocol.
+        time: of the tick that reported.
+        block: that it is about; None for a warning.
+        predicts: whether it is a prediction.
+    """
 
     seq: int
     text: str
+    time: GlobalTime
+    block: BlockName | None
+    predicts: bool
 
 
 class FeedbackLog:
@@ -31,11 +46,13 @@ class FeedbackLog:
     Attributes:
         seq: number of the last message.
         subscribers: of the messages.
+        ticks: subscribers of the times of ticks, after their messages.
     """
 
     def __init__(self, session: str, epoch: float, limits: Limits) -> None:
         self.seq = 0
         self.subscribers: Subscribers[Entry] = Subscribers()
+        self.ticks: Subscribers[GlobalTime] = Subscribers()
         self._session = session
         self._epoch = epoch
         self._limits = limits
@@ -52,7 +69,9 @@ class FeedbackLog:
             "time": round(report.time, 6),
             "xml": to_xml(report.message, self._epoch),
         }
-        entry = Entry(self.seq, encode(message))
+        about = report.message
+        block = None if isinstance(about, WarningFeedback) else (about.character, about.block)
+        entry = Entry(self.seq, encode(message), report.time, block, isinstance(about, PredictionFeedback))
         self._keep(entry)
         self.subscribers.publish(entry)
 

@@ -8,7 +8,9 @@ from aiohttp import web
 from reactive_realizer.server.client_limits import ClientQueue
 from reactive_realizer.server.feedback_log import Entry, FeedbackLog
 from reactive_realizer.server.keys import INTAKE, LIVE, SHUTDOWN
-from reactive_realizer.server.socket_client import SocketClient, Stream, after_of, streams_of
+from reactive_realizer.server.prediction_rate import follow_feedback
+from reactive_realizer.server.socket_client import SocketClient
+from reactive_realizer.server.stream_query import Stream, after_of, predictions_of, streams_of
 
 _HEARTBEAT = 30.0
 _SEND_BUFFER = 128 * 1024
@@ -21,7 +23,8 @@ routes = web.RouteTableDef()
 async def ws(request: web.Request) -> web.WebSocketResponse:
     """The socket."""
     live, intake = request.app[LIVE], request.app[INTAKE]
-    streams, after = streams_of(request.query), after_of(request.query)
+    query = request.query
+    streams, after, predictions = streams_of(query), after_of(query), predictions_of(query)
     with live.clients.one():
         answer = web.WebSocketResponse(
             heartbeat=_HEARTBEAT,
@@ -34,7 +37,7 @@ async def ws(request: web.Request) -> web.WebSocketResponse:
         _keep_buffer_small(request)
         if (transport := request.transport) is None:
             return answer  # the client has disconnected
-        client = SocketClient(live, intake, answer, transport, streams, after)
+        client = SocketClient(live, intake, answer, transport, streams, after, predictions)
         if Stream.FRAMES in streams:
             intake.demo.page_opened()
         with ExitStack() as stack:
@@ -49,6 +52,7 @@ async def feedback(request: web.Request) -> web.StreamResponse:
     """Server-sent events; the id of each is its number."""
     live = request.app[LIVE]
     after = after_of(request.query, request.headers.get("Last-Event-ID"))
+    predictions = predictions_of(request.query)
     with live.clients.one():
         answer = web.StreamResponse(headers={"Content-Type": "text/event-stream", "Cache-Control": "no-store"})
         await answer.prepare(request)
@@ -59,7 +63,7 @@ async def feedback(request: web.Request) -> web.StreamResponse:
             await answer.write(text.encode())
 
         with ExitStack() as stack:
-            stack.callback(live.feedback.subscribers.subscribe(lambda entry: queue.put(_event(entry))))
+            follow_feedback(live.feedback, predictions, lambda entry: queue.put(_event(entry)), stack)
             stack.callback(request.app[SHUTDOWN].subscribe(lambda _: queue.end()))
             kept_up = await queue.send_all(write)
         if not kept_up:

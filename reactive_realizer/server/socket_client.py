@@ -2,17 +2,16 @@
 
 import asyncio
 import logging
-from collections.abc import Mapping
 from contextlib import ExitStack
-from enum import StrEnum
 
 from aiohttp import WSMessage, WSMsgType, web
 
 from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.server.client_limits import ClientQueue, RateLimit
-from reactive_realizer.server.faults import BadQuery, BinaryMessage, GoingAway, TooSlow
+from reactive_realizer.server.faults import BinaryMessage, GoingAway, TooSlow
 from reactive_realizer.server.intake import Answer, BlocksRefused, Intake
 from reactive_realizer.server.live_scene import LiveScene
+from reactive_realizer.server.prediction_rate import follow_feedback
 from reactive_realizer.server.protocol import (
     Message,
     NoNumber,
@@ -26,51 +25,7 @@ from reactive_realizer.server.protocol import (
 )
 from reactive_realizer.server.socket_writer import write_at_once
 from reactive_realizer.server.statuses import CLOSE_CODES
-
-
-class Stream(StrEnum):
-    """The streams of a socket."""
-
-    FEEDBACK = "feedback"
-    AUDIO = "audio"
-    FRAMES = "frames"
-    BOARD = "board"
-
-
-_DEFAULT = frozenset({Stream.FEEDBACK, Stream.AUDIO, Stream.FRAMES})
-
-
-def streams_of(query: Mapping[str, str]) -> frozenset[Stream]:
-    """The streams in a query such as ``streams=feedback,frames``; by default all but the board.
-
-    Raises:
-        RealizerError: "bad-query".
-    """
-    if "streams" not in query:
-        return _DEFAULT
-    names = [name for name in query["streams"].split(",") if name]
-    if any(name not in list(Stream) for name in names):
-        raise RealizerError(BadQuery(name="streams", value=query["streams"], wanted="some of " + ", ".join(Stream)))
-    return frozenset(map(Stream, names))
-
-
-def after_of(query: Mapping[str, str], last_event: str | None = None) -> int | None:
-    """The number in ``after=SEQ``, the last feedback that the client has; None for new feedback only.
-
-    Args:
-        query: of the address.
-        last_event: the Last-Event-ID of a reconnecting client, which overrides the query.
-
-    Raises:
-        RealizerError: "bad-query".
-    """
-    text = query.get("after") if last_event is None else last_event
-    if text is None:
-        return None
-    if not (text.isascii() and text.isdigit() and len(text) < 16):
-        raise RealizerError(BadQuery(name="after", value=text, wanted="the number of a feedback message"))
-    return int(text)
-
+from reactive_realizer.server.stream_query import Stream
 
 logger = logging.getLogger(__name__)
 
@@ -85,6 +40,7 @@ class SocketClient:
         transport: of the socket.
         streams: those that the client requested.
         after: number of the last feedback that it has; None for new feedback only.
+        predictions: how many a second it wants of each block, at most; None for all.
     """
 
     def __init__(
@@ -95,12 +51,14 @@ class SocketClient:
         transport: asyncio.WriteTransport,
         streams: frozenset[Stream],
         after: int | None,
+        predictions: float | None,
     ) -> None:
         self._live = live
         self._intake = intake
         self._socket = socket
         self._transport = transport
         self._streams = streams
+        self._predictions = predictions
         self._rate = RateLimit(live.limits.messages_per_second)
         self._queue = ClientQueue(live.limits, self._first(after))
         self._greeted = False
@@ -139,7 +97,7 @@ class SocketClient:
 
     def _follow(self, stack: ExitStack) -> None:
         if Stream.FEEDBACK in self._streams:
-            stack.callback(self._live.feedback.subscribers.subscribe(lambda entry: self._queue.put(entry.text)))
+            follow_feedback(self._live.feedback, self._predictions, lambda entry: self._queue.put(entry.text), stack)
         if Stream.AUDIO in self._streams:
             stack.callback(self._live.sounds.subscribers.subscribe(self._queue.put))
         if Stream.BOARD in self._streams:
