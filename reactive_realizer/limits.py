@@ -44,7 +44,7 @@ class Limits:
     queued_messages: int = 10_000
     """Messages queued for a slow client; its connection is closed if there are more for half a second."""
     predicted_points: int = 10_000
-    """Points of anticipators on the peg board. Passed points that nothing uses make room for new ones."""
+    """Points of anticipators on the peg board. Those that no behavior is tied to make room for new ones."""
     predictions_per_second: int = 10
     """Reports per second and block of predictions that have moved; the last one is always reported."""
     predicted_behaviors_per_second: int = 2_000

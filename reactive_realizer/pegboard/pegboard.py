@@ -1,12 +1,12 @@
 """The peg board: the pegs of all characters, by name."""
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from itertools import islice
 
 from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.clock.units import GlobalTime, Time, has_passed, is_due
 from reactive_realizer.errors import Fault, RealizerError
-from reactive_realizer.pegboard.anticipator import Anticipator
+from reactive_realizer.pegboard.anticipator import Anticipator, Remote
 from reactive_realizer.pegboard.peg_key import ANTICIPATORS, BlockKey, PegKey, anticipator_key
 from reactive_realizer.pegboard.peg_view import Explanation, PegView, explain, view_of
 from reactive_realizer.pegboard.time_peg import AnticipatorPeg, TimeCell, TimePeg, time_of
@@ -116,10 +116,7 @@ class PegBoard:
                     peg.dispose()
         for peg in self._unnamed.pop(block, ()):
             peg.dispose()
-        predicted = self._blocks.get(_PREDICTED, [])
-        self._blocks[_PREDICTED] = [key for key in predicted if not self._forgettable(key)]
-        for key in set(predicted).difference(self._blocks[_PREDICTED]):
-            self._forget(key)
+        self.forget_points({key for key in self.predicted_points if self._forgettable(key)})
 
     def predicted(self, anticipator: str, sync: str) -> AnticipatorPeg:
         """The peg of a predicted point, made when the point is first named."""
@@ -182,15 +179,22 @@ class PegBoard:
         """The predicted points that were named, in order of naming."""
         return self._blocks.get(_PREDICTED, ())
 
-    def spent_points(self, now: GlobalTime) -> list[PegKey]:
-        """The predicted points that no peg depends on and that are unknown or have passed, in order of naming."""
-        pegs = ((key, self._pegs[key]) for key in self.predicted_points)
-        return [key for key, peg in pegs if not peg.dependents and (peg.value is None or is_due(peg.value, now))]
+    def unneeded_points(self, now: GlobalTime) -> list[PegKey]:
+        """The predicted points that no peg depends on, in the order in which they may be forgotten.
 
-    def forget_point(self, key: PegKey) -> None:
-        """Forget a predicted point that no peg depends on; if it is named again, it is a new one."""
-        self._blocks[_PREDICTED].remove(key)
-        self._forget(key)
+        Those that are unknown or have passed come first, then those that clients have predicted for later; each in
+        order of naming.
+        """
+        free = [(key, self._pegs[key].value) for key in self.predicted_points if not self._pegs[key].dependents]
+        spent = [key for key, time in free if time is None or is_due(time, now)]
+        later = [key for key, time in free if not (time is None or is_due(time, now))]
+        return spent + [key for key in later if isinstance(self.anticipators.get(key.behavior or ""), Remote | None)]
+
+    def forget_points(self, keys: Collection[PegKey]) -> None:
+        """Forget predicted points that no peg depends on; if one is named again, it is a new one."""
+        self._blocks[_PREDICTED] = [key for key in self.predicted_points if key not in keys]
+        for key in keys:
+            self._forget(key)
 
     def snapshot(self, newest: int | None = None) -> tuple[PegView, ...]:
         """The named pegs, in order of naming; only the newest, if a number is given."""

@@ -8,13 +8,16 @@ from reactive_realizer.pegboard.peg_key import PegKey, anticipator_key
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.pegboard.time_peg import AnticipatorPeg
 
+_SHARE = 10
+"""The part of the points, a tenth, that is forgotten at once."""
+
 
 class PredictedPoints:
     """The points of all anticipators; its methods are called within a transaction.
 
     Args:
         board: of the points.
-        limit: number of points on the board; beyond it, points that have passed make room for new ones.
+        limit: number of points on the board; beyond it, points that nobody needs make room for new ones.
     """
 
     def __init__(self, board: PegBoard, limit: int) -> None:
@@ -75,10 +78,12 @@ class PredictedPoints:
             self._board.renew(key.behavior or "", key.sync)
 
     def _make_room(self, key: PegKey, now: GlobalTime) -> None:
-        """Make the board forget spent points, if a new one would exceed the limit."""
+        """Make the board forget points that nobody needs, if a new one would exceed the limit.
+
+        It forgets many at a time, because it takes a look at all of them.
+        """
         if self._board.get(key) is not None:
             return
         excess = len(self._board.predicted_points) + 1 - self._limit
         if excess > 0:
-            for spent in self._board.spent_points(now)[:excess]:
-                self._board.forget_point(spent)
+            self._board.forget_points(set(self._board.unneeded_points(now)[: max(excess, self._limit // _SHARE)]))

@@ -6,6 +6,7 @@ from collections import deque
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import aclosing
 from functools import partial
+from itertools import count
 from math import isfinite
 
 from reactive_realizer.clock.tick_clock import TickClock
@@ -68,6 +69,7 @@ class AnticipatorStreams:
         self._board = board
         self._points = points
         self._new: list[Anticipator] = []
+        self._ranks = count()
         self._tasks: dict[str, asyncio.Task[None]] = {}
         self._predicted: dict[int, list[Predicted]] = {}
         """What streams have predicted since the last tick, by the rank of the stream."""
@@ -82,6 +84,13 @@ class AnticipatorStreams:
         """Add an anticipator; its stream starts in the next tick."""
         self._board.anticipators[anticipator.id] = anticipator
         self._new.append(anticipator)
+
+    def remove(self, id_: str) -> None:
+        """End the stream of an anticipator, and forget it."""
+        self._new = [each for each in self._new if each is not self._board.anticipators[id_]]
+        del self._board.anticipators[id_]
+        if (task := self._tasks.pop(id_, None)) is not None:
+            task.cancel()
 
     def open(self, group: asyncio.TaskGroup | asyncio.AbstractEventLoop) -> None:
         """Have the streams run as tasks of a group, from the next tick on."""
@@ -147,7 +156,7 @@ class AnticipatorStreams:
         self._board.forecast = forecast
 
     def _start(self, anticipator: Anticipator) -> None:
-        take = partial(self._take, len(self._tasks))
+        take = partial(self._take, next(self._ranks))
         name = f"anticipators:{anticipator.id}"
         self._tasks[anticipator.id] = self._group.create_task(_run(anticipator, take), name=name)
 

@@ -1,11 +1,10 @@
 """The inbox: inputs wait for their tick, where events go to anticipators, and targets are moved."""
 
 import logging
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from math import isfinite
 from typing import ParamSpec, TypeVar
 
-from reactive_realizer.bml.names import EVENTS
 from reactive_realizer.clock.units import GlobalTime, is_due
 from reactive_realizer.embodiment.audio import AudioHeard
 from reactive_realizer.embodiment.world import World
@@ -49,6 +48,8 @@ class Inbox:
         self._limits = limits
         self._waiting: list[tuple[GlobalTime, int, Input]] = []
         self._put = 0
+        self._remotes: set[str] = set()
+        """The anticipators that clients have named."""
 
     def __bool__(self) -> bool:
         return bool(self._waiting)
@@ -67,7 +68,7 @@ class Inbox:
         """Check whether a prediction of a point can enter after all waiting inputs.
 
         Raises:
-            RealizerError: "predicts-itself", or "too-many-names" if there would be too many points or anticipators.
+            RealizerError: "predicts-itself", or "too-many-names" if there would be too many points that are needed.
         """
         if anticipator in self._board.anticipators:
             self._board.anticipators[anticipator].check_prediction()
@@ -79,11 +80,8 @@ class Inbox:
         }
         new = {each for each in (key, *waiting) if self._board.get(each) is None}
         points = len(self._board.predicted_points) + len(new)
-        if points > limit and points - len(set(self._board.spent_points(now)) - waiting) > limit:
+        if points > limit and points - len(set(self._board.unneeded_points(now)) - waiting) > limit:
             raise RealizerError(TooManyNames(limit=limit, things="predicted points"))
-        anticipators = self._board.anticipators.keys() - {EVENTS}
-        if len(anticipators | {each.behavior for each in new}) > max(limit, len(anticipators)):
-            raise RealizerError(TooManyNames(limit=limit, things="anticipators"))
 
     def take(self, now: GlobalTime) -> tuple[Input, ...]:
         """Remove and return the inputs whose time has come, in order."""
@@ -93,6 +91,8 @@ class Inbox:
 
     def deliver(self, entries: Sequence[Input], now: GlobalTime) -> list[tuple[str, AnticipatorEvent]]:
         """The events and predictions of clients as events for anticipators, by id; invalid ones are skipped."""
+        if len(self._remotes) >= self._limits.predicted_points:
+            self._give_back({each.anticipator for each in entries if isinstance(each, Prediction)})
         events = (_try(entry, self._event, entry, now) for entry in entries)
         return [event for event in events if event is not None]
 
@@ -120,8 +120,16 @@ class Inbox:
 
     def _anticipator(self, id_: str) -> Anticipator:
         if id_ not in self._board.anticipators:
+            self._remotes.add(id_)
             self._streams.add(Remote(self._streams.context(id_)))
         return self._board.anticipators[id_]
+
+    def _give_back(self, predicted: Collection[str]) -> None:
+        """Remove the anticipators of clients that have no points any more, except those that are predicted now."""
+        kept = {*predicted, *(key.behavior for key in self._board.predicted_points)}
+        for id_ in self._remotes - kept:
+            self._streams.remove(id_)
+        self._remotes &= kept
 
 
 def _try(what: object, act: Callable[P, T], *arguments: P.args, **named: P.kwargs) -> T | None:

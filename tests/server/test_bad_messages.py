@@ -183,13 +183,17 @@ async def test_bml_above_the_limit_of_bytes_is_refused(on_air: Open) -> None:
         assert await still_listens(socket)
 
 
-async def test_more_predicted_points_than_the_limit_are_refused_and_known_ones_may_still_move(on_air: Open) -> None:
-    async with on_air(ALICE + "[limits]\npredicted_points = 2\n") as air:
+async def test_points_that_no_behavior_is_tied_to_make_room_for_new_ones_the_oldest_first(on_air: Open) -> None:
+    async with on_air(ALICE + "[limits]\npredicted_points = 3\n") as air:
         socket = await air.connect()
-        for sync in ("a", "b"):
-            assert (await socket.ask(type="predict", anticipator="t", sync=sync, time=1))["type"] == "accepted"
-        assert (await socket.ask(type="predict", anticipator="t", sync="c", time=1))["code"] == "too-many-names"
-        assert (await socket.ask(type="predict", anticipator="t", sync="a", time=2))["type"] == "accepted"
+        await socket.say(
+            type="bml", xml=f'<bml {BML} id="b"><wait id="w" start="anticipators:t:p1" duration="1"/></bml>'
+        )
+        for number in range(10):
+            answer = await socket.ask(type="predict", anticipator="t", sync=f"p{number}", time=1000 + number)
+            assert answer["type"] == "accepted"
+            await air.tick()
+        assert list(air.live.realizer.board.predictions("t")) == ["p1", "p8", "p9"]
 
 
 async def test_points_that_have_passed_do_not_count(on_air: Open) -> None:
@@ -227,15 +231,18 @@ async def test_withdrawn_points_that_a_block_waits_for_count(on_air: Open) -> No
         assert (await socket.ask(type="predict", anticipator="user", sync="a", time=0.1))["type"] == "accepted"
 
 
-async def test_too_many_anticipators_are_refused(on_air: Open) -> None:
-    async with on_air(ALICE + "[limits]\npredicted_points = 2\n") as air:
+async def test_anticipators_of_clients_without_points_make_room_for_new_ones(on_air: Open) -> None:
+    async with on_air(ALICE + "[limits]\npredicted_points = 3\n") as air:
         socket = await air.connect()
-        answers = []
-        for name in ("user", "partner"):
-            answers.append(await socket.ask(type="predict", anticipator=name, sync="a", time=None))
+        for number in range(20):
+            answer = await socket.ask(type="predict", anticipator=f"user{number}", sync="a", time=1000)
+            assert answer["type"] == "accepted"
             await air.tick()
-        assert [answer["type"] for answer in answers] == ["accepted", "error"], "the metronome is one of two"
-        assert "anticipators" in answers[1]["message"]
+        assert {"metronome", "user17", "user18", "user19"} <= air.live.realizer.anticipators.keys()
+        assert len(air.live.realizer.anticipators) < 10
+        await socket.ask(type="predict", anticipator="user0", sync="a", time=air.live.realizer.time + 0.05)
+        await air.tick()
+        assert air.live.realizer.board.predictions("user0")
 
 
 async def test_more_targets_than_the_limit_are_refused_and_known_ones_may_still_move(on_air: Open) -> None:
