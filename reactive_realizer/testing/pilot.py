@@ -38,6 +38,7 @@ class RealizerPilot:
         self.sounds: list[AudioChange] = []
         self._bodies: dict[str, tuple[list[Frame], list[Body]]] = {}
         self._number = 0
+        self._left_out = 0
         scene.realizer.feedback.listen(self.feedback)
         scene.realizer.hear(self.sounds.append)
 
@@ -101,9 +102,15 @@ class RealizerPilot:
         for _ in range(round(seconds * RATE)):
             await self.tick()
 
+    def skip(self, ticks: int) -> None:
+        """Leaves some ticks out: the next one is late, and covers them."""
+        self._number += ticks
+        self._left_out += ticks
+
     async def tick(self) -> None:
         """Plays one tick, and waits for the slow work that it started."""
-        previous = tick_time(self._number - 1)
+        previous = tick_time(self._number - 1 - self._left_out)
+        self._left_out = 0
         await self.realizer.step(Tick(self._number, previous, self._number % FRAME_EVERY == 0))
         await self.realizer.settle()
         self._number += 1

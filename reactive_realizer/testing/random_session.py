@@ -126,9 +126,10 @@ _EVENTS = (
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """An input after a pause, s."""
+    """An input after a pause, s, and before a tick that leaves out some others because it is late."""
 
     pause: float
+    left_out: int
     input: Block | Prediction | Event
 
 
@@ -164,6 +165,7 @@ class _Mix:
         self.distances = some(_DISTANCES)
         self.orders = some(("before", "after", "synchronize"))
         self.pauses = some(_PAUSES)
+        self.left_out = random.choice(((0,), (0,), (0, 0, 0, 3, 20)))
         self.events = some(_EVENTS)
         self.ahead = some(_AHEAD)
         self.joined, self.preplanned, self.required = (random.choice((0.0, 0.15, 0.4)) for _ in range(3))
@@ -180,9 +182,11 @@ def random_session(random: Random, blocks: int = 25) -> Session:
             drawn = (
                 Prediction(random.choice(_REMOTE), random.choice(mix.ahead)) if predicts else random.choice(mix.events)
             )
-            steps.append(Step(random.choice(mix.pauses), drawn))
+            steps.append(Step(random.choice(mix.pauses), random.choice(mix.left_out), drawn))
         kinds.append(dict(zip(_IDS, random.choices(mix.kinds, k=random.choice(_SIZES)), strict=False)))
-        steps.append(Step(random.choice(mix.pauses), _BlockDraw(random, mix, kinds).block()))
+        steps.append(
+            Step(random.choice(mix.pauses), random.choice(mix.left_out), _BlockDraw(random, mix, kinds).block())
+        )
     return Session(tuple(steps))
 
 

@@ -19,7 +19,7 @@ from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 from reactive_realizer.testing.random_session import HUMAN, Session
 
 LAWS = {
-    "order": "a block reports its start, then its sync points, then its end, each once",
+    "order": "a block reports its start, its sync points, each once and in order, and its end",
     "before_block": "no sync point comes before its block",
     "past": "nothing is reported more than a tick late, or early",
     "prediction": "each point comes where it was last predicted; a behavior or block that is cut ends earlier",
@@ -44,10 +44,11 @@ class Breach(NamedTuple):
 
 
 class _Told(NamedTuple):
-    """What a block has told since it started."""
+    """What a block has told since it started: its points, and the last time of each behavior."""
 
     start: float
     points: set[tuple[str, str]]
+    last: dict[str, float]
 
 
 class SessionLaws:
@@ -56,11 +57,13 @@ class SessionLaws:
     Attributes:
         breaches: in order.
         ended: number of blocks that ended.
+        tick: time that the present tick covers, s.
     """
 
     def __init__(self) -> None:
         self.breaches: list[Breach] = []
         self.ended = 0
+        self.tick = _TICK
         self._playing: dict[BlockKey, _Told] = {}
         self._predicted: dict[BlockKey, PredictionFeedback] = {}
 
@@ -83,7 +86,7 @@ class SessionLaws:
         self.breaches.append(Breach(law, time, text))
 
     def _check_time(self, now: GlobalTime, progress: BlockProgress | SyncPointProgress, name: str) -> None:
-        if not now - _TICK - _ROUNDING <= progress.time <= now + _ROUNDING:
+        if not now - self.tick - _ROUNDING <= progress.time <= now + _ROUNDING:
             self.note("past", now, f"{name} is told at {now:g} to have come at {progress.time:g}")
 
     def _check_block(self, now: GlobalTime, progress: BlockProgress) -> None:
@@ -94,7 +97,7 @@ class SessionLaws:
         if (told is None) is not (progress.sync == "start") and not (told is None and never):
             self.note("order", now, f"{name} of a block that plays, or does not")
         if progress.sync == "start":
-            told = self._playing[key] = _Told(progress.time, set())
+            told = self._playing[key] = _Told(progress.time, set(), {})
         if told is not None:
             self._check_once(now, told, "", progress.sync, name)
             predicted = self._predicted.get(key)
@@ -113,6 +116,9 @@ class SessionLaws:
             self.note("order", now, f"{name} outside of its block")
             return
         self._check_once(now, told, progress.behavior, progress.sync, name)
+        if progress.time < told.last.get(progress.behavior, progress.time) - _ROUNDING:
+            self.note("order", now, f"{name} at {progress.time:g} before the point that was reported before it")
+        told.last[progress.behavior] = progress.time
         if progress.time < told.start - _ROUNDING:
             self.note("before_block", now, f"{name} at {progress.time:g} before {told.start:g}")
         predicted = self._predicted.get(key)
@@ -148,6 +154,11 @@ async def examine(session: Session, strategy: str) -> SessionLaws:
                 for step in session.steps:
                     await pilot.advance(step.pause)
                     step.input.send(pilot)
+                    if step.left_out:
+                        laws.tick = (step.left_out + 1) * _TICK
+                        pilot.skip(step.left_out)
+                        await pilot.tick()
+                        laws.tick = _TICK
                 await _rest(pilot, laws)
             except Exception as escaped:
                 logging.getLogger(__name__).exception("escaped")
