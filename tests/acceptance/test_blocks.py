@@ -92,7 +92,7 @@ async def test_a_block_with_the_id_of_a_live_block_is_refused(pilot: RealizerPil
 
 
 async def test_a_block_whose_behaviors_were_all_dropped_still_starts_and_ends(pilot: RealizerPilot) -> None:
-    pilot.block("b", '<gesture id="g" lexeme="NO-SUCH"/><head id="h" lexeme="NOD" start="3" end="3"/>')
+    pilot.block("b", '<gesture id="g" lexeme="NO-SUCH"/><faceLexeme id="h" lexeme="RAISE_BROWS" start="3" end="3"/>')
     await pilot.tick()
     assert pilot.feedback.progress == ["b:start", "b:end"]
     assert pilot.feedback.warnings == [("b:g", "CANNOT_CREATE_BEHAVIOR"), ("b:h", "IMPOSSIBLE_TO_SCHEDULE")]

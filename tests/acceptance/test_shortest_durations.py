@@ -152,3 +152,32 @@ async def test_the_hand_is_there_at_a_stroke_whose_ready_is_unknown(pilot: Reali
     assert pilot.feedback.warnings == []
     assert pilot.feedback.time("b:g:ready") == pilot.feedback.time("b:g:stroke") == 3.0
     assert np.linalg.norm(path[-1] - path[0]) > 0.3
+
+
+# --- heads
+
+
+async def test_a_head_needs_time_for_a_nod(pilot: RealizerPilot) -> None:
+    pilot.block("b", '<head id="n" lexeme="NOD" start="0.5" end="0.52"/>')
+    await pilot.advance(3)
+    (text,) = texts(pilot, "b:n")
+    assert "n:end = 0.52 is dropped" in text
+    assert "n from strokeStart to strokeEnd: needs 0.10 s, has 0.02 s" in text
+    assert pilot.feedback.time("b:n:start") == 0.5
+    assert pilot.feedback.time("b:n:end") > 0.6
+
+
+async def test_a_block_fails_if_a_required_nod_has_no_time(pilot: RealizerPilot) -> None:
+    pilot.block("b", '<required><head id="n" lexeme="NOD" start="0.5" end="0.52"/></required>')
+    await pilot.advance(2)
+    assert TOLD in texts(pilot, "b:n")[0]
+    assert pilot.feedback.status("b") == "FAILED"
+
+
+async def test_a_prediction_that_comes_early_hurries_a_nod_at_most_to_its_limit(pilot: RealizerPilot) -> None:
+    pilot.predict("t", "hit", 2.0)
+    pilot.block("b", '<head id="n" lexeme="NOD" amount="1" start="1" stroke="anticipators:t:hit"/>')
+    await pilot.advance(1)
+    pilot.predict("t", "hit", 1.01)
+    await pilot.advance(2)
+    assert 1.05 < pilot.feedback.time("b:n:stroke") < 1.1

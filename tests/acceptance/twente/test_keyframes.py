@@ -33,6 +33,26 @@ async def test_keys_are_played_in_the_time_that_bml_gives_them(pilot: RealizerPi
     assert angles(pilot, "r_shoulder")[2.0] == pytest.approx(-0.8, abs=0.01)
 
 
+async def test_keys_are_not_played_faster_than_the_body_can_move(pilot: RealizerPilot) -> None:
+    pilot.block("b", '<bmlt:keyframe id="k" name="wave" start="0" up="0.1"/>')
+    await pilot.advance(3)
+    assert "k:up = 0.1 is dropped: there is too little time for k from start to up: needs 0." in told(pilot)
+    assert pilot.feedback.time("b:k:up") - pilot.feedback.time("b:k:start") > 0.2
+
+
+async def test_a_body_that_has_just_enough_time_is_there_at_a_key(pilot: RealizerPilot) -> None:
+    pilot.block("b", '<bmlt:keyframe id="k" name="wave" start="0" up="0.32"/>')
+    await pilot.advance(3)
+    assert not pilot.feedback.warnings
+    assert angles(pilot, "r_shoulder")[0.32] == pytest.approx(-0.8, abs=0.03)
+
+
+async def test_a_capture_is_not_played_faster_than_the_body_can_move(pilot: RealizerPilot) -> None:
+    pilot.block("b", '<bmlt:keyframe id="k" name="bow" start="1" end="1.05"/>')
+    await pilot.advance(3)
+    assert "too little time for k from start to end: needs 0.29 s, has 0.05 s" in told(pilot)
+
+
 async def test_a_capture_is_played_by_its_name(pilot: RealizerPilot) -> None:
     pilot.block("b", '<bmlt:keyframe id="k" name="bow" start="1"/>')
     await pilot.advance(3)

@@ -114,7 +114,7 @@ def test_a_figure_that_starts_in_a_crouch_has_its_feet_on_the_ground(
     crouch |= {f"{side}Leg": (0.0, 140.0, 0.0) for side in ("Left", "Right")}
     crouch |= {f"{side}Foot": (0.0, -70.0, 0.0) for side in ("Left", "Right")}
     clip = retargeted(capture(bvh(crouch, crouch, places=[(0.0, 50.0, 0.0)] * 2)), skeleton)
-    posed = KeyframeMotionUnit(clip, skeleton).pose(Moment(0.5, GlobalTime(0.0), Body(skeleton)))
+    posed = KeyframeMotionUnit(clip, Body(skeleton)).pose(Moment(0.5, GlobalTime(0.0), Body(skeleton)))
     body = Body(skeleton).posed(posed.rotations, posed.root)
     assert body.transform("l_ankle").position[1] == pytest.approx(
         Body(skeleton).transform("l_ankle").position[1], abs=0.01

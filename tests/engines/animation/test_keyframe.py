@@ -145,7 +145,7 @@ def test_a_file_names_sync_points_and_exits() -> None:
 
 def test_points_of_a_file_are_sync_points_of_its_motion(skeleton: Skeleton) -> None:
     named = clip('<KeyPosition id="late" time="3"/><KeyPosition id="out" time="2" leave="true"/>1 0 1 0 0  5 0 1 0 1')
-    unit = KeyframeMotionUnit(named, skeleton)
+    unit = KeyframeMotionUnit(named, Body(skeleton))
     assert list(unit.key_positions.items()) == [("start", 0.0), ("out", 0.25), ("late", 0.5), ("end", 1.0)]
     assert unit.exits == ("out",)
     assert unit.preferred_duration == 4.0
@@ -153,7 +153,7 @@ def test_points_of_a_file_are_sync_points_of_its_motion(skeleton: Skeleton) -> N
 
 def test_a_keyframe_motion_starts_from_the_current_body_without_a_jump(skeleton: Skeleton) -> None:
     begin = from_axis_angle(X, 0.5)
-    unit = KeyframeMotionUnit(arm_clip(), skeleton)
+    unit = KeyframeMotionUnit(arm_clip(), Body(skeleton))
     body = Body(skeleton, {"r_shoulder": begin})
     unit.start(body)
     shown = [unit.pose(Moment(step / 300, GlobalTime(0.0), body)).rotations["r_shoulder"] for step in range(301)]
@@ -165,7 +165,7 @@ def test_a_keyframe_motion_starts_from_the_current_body_without_a_jump(skeleton:
 
 
 def test_a_keyframe_motion_that_starts_at_the_current_body_is_not_changed(skeleton: Skeleton) -> None:
-    unit = KeyframeMotionUnit(arm_clip(), skeleton)
+    unit = KeyframeMotionUnit(arm_clip(), Body(skeleton))
     body = Body(skeleton, {})
     unit.start(body)
     for phase in (0.0, 0.02, 0.05, 0.5):
@@ -174,7 +174,7 @@ def test_a_keyframe_motion_that_starts_at_the_current_body_is_not_changed(skelet
 
 
 def test_a_keyframe_motion_that_joins_late_starts_from_the_current_body(skeleton: Skeleton) -> None:
-    unit = KeyframeMotionUnit(arm_clip(), skeleton)
+    unit = KeyframeMotionUnit(arm_clip(), Body(skeleton))
     body = Body(skeleton, {})
     unit.start(body)
     assert unit.pose(Moment(0.4, GlobalTime(0.0), body)).rotations["r_shoulder"] == pytest.approx(IDENTITY)
@@ -184,9 +184,9 @@ def test_a_keyframe_motion_that_joins_late_starts_from_the_current_body(skeleton
 
 def test_a_motion_owns_the_arms_that_it_moves_and_with_a_leg_the_stance(skeleton: Skeleton) -> None:
     legs = clip("0 1 0 0 0  1 1 0 0 0", 'parts="l_knee" encoding="R"')
-    assert KeyframeMotionUnit(arm_clip(), skeleton).resources == {Resource.RIGHT_ARM}
-    assert KeyframeMotionUnit(legs, skeleton).resources == {Resource.STANCE}
-    assert KeyframeMotionUnit(clip("0 0 1 0 0  1 0 1 0 0"), skeleton).resources == frozenset()
+    assert KeyframeMotionUnit(arm_clip(), Body(skeleton)).resources == {Resource.RIGHT_ARM}
+    assert KeyframeMotionUnit(legs, Body(skeleton)).resources == {Resource.STANCE}
+    assert KeyframeMotionUnit(clip("0 0 1 0 0  1 0 1 0 0"), Body(skeleton)).resources == frozenset()
 
 
 def test_a_crouch_made_for_another_body_stands_on_the_ground(skeleton: Skeleton) -> None:
@@ -196,7 +196,7 @@ def test_a_crouch_made_for_another_body_stands_on_the_ground(skeleton: Skeleton)
         f"0 {bend} 1 {bend}",
         'parts="HumanoidRoot l_hip r_hip l_knee r_knee l_ankle r_ankle" encoding="T1R" rotationEncoding="axisangles"',
     )
-    posed = KeyframeMotionUnit(crouch, skeleton).pose(Moment(0.5, GlobalTime(0.0), Body(skeleton)))
+    posed = KeyframeMotionUnit(crouch, Body(skeleton)).pose(Moment(0.5, GlobalTime(0.0), Body(skeleton)))
     body = Body(skeleton).posed(posed.rotations, posed.root)
     for ankle in ("l_ankle", "r_ankle"):
         height = Body(skeleton).transform(ankle).position[1]
@@ -246,7 +246,7 @@ def test_errors_name_the_position(rows: str, attributes: str, message: str) -> N
 
 def test_start_and_end_may_be_named_at_their_positions(skeleton: Skeleton) -> None:
     rows = '<KeyPosition id="end" time="2"/><KeyPosition id="zoom" time="2"/><KeyPosition id="start" time="1"/>'
-    motion = KeyframeMotionUnit(clip(f"1 1 0 0 0 2 0 1 0 0{rows}", 'parts="vl5" encoding="R"'), skeleton)
+    motion = KeyframeMotionUnit(clip(f"1 1 0 0 0 2 0 1 0 0{rows}", 'parts="vl5" encoding="R"'), Body(skeleton))
     assert list(motion.key_positions.items()) == [("start", 0.0), ("zoom", 1.0), ("end", 1.0)]
 
 

@@ -15,6 +15,7 @@ from reactive_realizer.engines.animation.inertialization import InertializedStar
 from reactive_realizer.engines.animation.keyframe.bvh_reader import read_capture
 from reactive_realizer.engines.animation.keyframe.capture import Capture
 from reactive_realizer.engines.animation.keyframe.clip import Clip
+from reactive_realizer.engines.animation.keyframe.clip_durations import shortest_clip_parts
 from reactive_realizer.engines.animation.keyframe.keyframe_files import read_interpolator_file, read_interpolator_text
 from reactive_realizer.engines.animation.keyframe.retarget import retargeted
 from reactive_realizer.engines.animation.motion_maker import MakerContext, MotionRequest
@@ -94,12 +95,12 @@ class KeyframeMotionUnit(MotionUnit):
     fixed = FILE_PARAMETERS | {FILTER}
     predictability = Predictability.ALWAYS
 
-    def __init__(self, clip: Clip, skeleton: Skeleton, lacking: frozenset[str] = frozenset()) -> None:
+    def __init__(self, clip: Clip, rest: Body, lacking: frozenset[str] = frozenset()) -> None:
         """Prepare a motion.
 
         Args:
             clip: of joints that the figure has.
-            skeleton: of the figure.
+            rest: the figure at rest.
             lacking: requested joints that the clip or the figure lacks.
         """
         self.parameters = {}
@@ -109,9 +110,10 @@ class KeyframeMotionUnit(MotionUnit):
         self.preferred_duration = clip.duration
         self._clip = clip
         self.key_positions = self._keys()
+        self.shortest = shortest_clip_parts(clip, rest, self.key_positions)
         self.exits = tuple(sync for sync in self.key_positions if sync in clip.points and clip.points[sync].leave)
         first = clip.rotations_at(clip.times[0])
-        self._stand = None if clip.roots is None else grounded(Body(skeleton, first)).root
+        self._stand = None if clip.roots is None else grounded(Body(rest.skeleton, first)).root
         self._arrival: InertializedStart | None = None
 
     def _keys(self) -> Mapping[str, float]:
@@ -163,7 +165,7 @@ class KeyframeMaker:
             raise RealizerError(NoJoints(joints=tuple(sorted(lacking)), element=request.behavior.name))
         if lacking:
             _log_once(clip.name, ", ".join(sorted(lacking)))
-        return KeyframeMotionUnit(clip.only(there), self._skeleton, lacking)
+        return KeyframeMotionUnit(clip.only(there), self._context.rest.body, lacking)
 
     def preload(self, request: MotionRequest) -> Callable[[], object] | None:
         """Return the loading work; None for keyframes in BML, which are short."""

@@ -106,7 +106,7 @@ class ProceduralMotionUnit(MotionUnit):
             animation: to play.
             parameters: values of some parameters; unknown names have no effect.
             kind: of its layer; an additive motion owns nothing, a full-body one also owns the stance.
-            rest: the body that it is planned for; without one, or if it is additive, it has no shortest durations.
+            rest: the body that it is planned for; without one, it has no shortest durations.
 
         Raises:
             RealizerError: "no-motion", "bad-keys": durations or key positions are invalid for these values;
@@ -124,7 +124,7 @@ class ProceduralMotionUnit(MotionUnit):
         self.preferred_duration, self.limits = timing.duration, timing.limits
         self.key_positions = _with_repeats(timing, round(self.parameters.get(REPEATS, 1.0)))
         self._arrival: InertializedStart | None = None
-        if rest is not None and kind is not LayerKind.ADDITIVE:
+        if rest is not None:
             self.shortest = self._shortest(rest)
 
     def _shortest(self, rest: Body) -> Mapping[str, float]:
