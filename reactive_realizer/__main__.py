@@ -3,11 +3,36 @@
 import argparse
 import logging
 import sys
+from collections.abc import Sequence
+from importlib import import_module
+from types import MappingProxyType
+from typing import Any
 
 from reactive_realizer import __version__
-from reactive_realizer.cli import check, conformance, lexicon, realize, serve
 from reactive_realizer.cli.log import log_to_stderr
 from reactive_realizer.errors import RealizerError
+
+_COMMANDS = MappingProxyType(
+    {
+        "serve": "serve a scene to browsers and planners",
+        "demo": "serve a scene that performs when the first page opens",
+        "realize": "play BML files and write feedback and frames",
+        "check": "check BML files for mistakes",
+        "lexicon": "list the available lexemes with their sync points and parameters",
+        "conformance": "test a realizer over the protocol",
+    }
+)
+"""The commands, each a module of `reactive_realizer.cli`, with a line of help."""
+
+
+class _Command(argparse.ArgumentParser):
+    """The parser of a command. Its module is imported when the command is used, because some need seconds for that."""
+
+    def parse_known_args(self, args: Sequence[str] | None = None, namespace: Any = None) -> Any:  # type: ignore[override]
+        """Parse the arguments after the command."""
+        name = self.prog.rpartition(" ")[2]
+        import_module(f"reactive_realizer.cli.{name}").add_options(self)
+        return super().parse_known_args(args, namespace)
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -35,9 +60,9 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action="version", version=__version__)
     parser.add_argument("--verbose", action="store_true", help="write a log to stderr")
-    commands = parser.add_subparsers(required=True, metavar="COMMAND")
-    for command in (serve, realize, check, lexicon, conformance):
-        command.add_parser(commands)
+    commands = parser.add_subparsers(required=True, metavar="COMMAND", parser_class=_Command)
+    for name, text in _COMMANDS.items():
+        commands.add_parser(name, help=text)
     return parser
 
 

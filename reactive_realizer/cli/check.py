@@ -15,15 +15,13 @@ from reactive_realizer.realizer.document_checker import Findings
 from reactive_realizer.realizer.realizer import Realizer
 
 
-def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
-    """The options of ``check``."""
-    parser = commands.add_parser(
-        "check",
-        help="check BML files for mistakes",
-        description="Reports mistakes in BML files. Valid BML that this scene cannot play, such as a lexeme without an "
-        "entry in a binding, is reported on stderr.",
-        epilog="example: reactive-realizer check hello.xml",
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Give a parser the options of ``check``."""
+    parser.description = (
+        "Reports mistakes in BML files. Valid BML that this scene cannot play, such as a lexeme without an entry in a "
+        "binding, is reported on stderr."
     )
+    parser.epilog = "example: reactive-realizer check hello.xml"
     parser.add_argument("files", nargs="+", type=Path, metavar="FILE")
     add_file_options(parser)
     parser.set_defaults(run=run)

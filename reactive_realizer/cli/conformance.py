@@ -10,16 +10,14 @@ from reactive_realizer.conformance.case import read_suite
 from reactive_realizer.conformance.suite import Outcome, Verdict, run_suite
 
 
-def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
-    """The options of ``conformance``."""
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Give a parser the options of ``conformance``."""
     names = [case.name for case in read_suite()]
-    parser = commands.add_parser(
-        "conformance",
-        help="test a realizer over the protocol",
-        description="Runs a suite of BML scripts against a server and reports every failed assertion. "
-        "Everything that plays on the server is stopped.",
-        epilog="example: reactive-realizer conformance http://127.0.0.1:8088 --case append --case replace",
+    parser.description = (
+        "Runs a suite of BML scripts against a server and reports every failed assertion. Everything that plays on the "
+        "server is stopped."
     )
+    parser.epilog = "example: reactive-realizer conformance http://127.0.0.1:8088 --case append --case replace"
     parser.add_argument("url", metavar="URL", help="the address of the server, http://127.0.0.1:8088")
     parser.add_argument("--json", action="store_true", help="print a JSON object instead of a table")
     parser.add_argument(

@@ -13,15 +13,13 @@ from reactive_realizer.cli.scene_options import add_file_options
 from reactive_realizer.engine.lexicon import Changeable, LexiconEntry, lexicon_of
 
 
-def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
-    """The options of ``lexicon``."""
-    parser = commands.add_parser(
-        "lexicon",
-        help="list the available lexemes with their sync points and parameters",
-        description="Lists the lexemes for which the characters of a scene have a motion or a facial expression. "
-        "Lexemes that are in a binding but cannot be played are listed on stderr.",
-        epilog="example: reactive-realizer lexicon --assets my_assets",
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Give a parser the options of ``lexicon``."""
+    parser.description = (
+        "Lists the lexemes for which the characters of a scene have a motion or a facial expression. Lexemes that are "
+        "in a binding but cannot be played are listed on stderr."
     )
+    parser.epilog = "example: reactive-realizer lexicon --assets my_assets"
     add_file_options(parser)
     parser.add_argument("--json", action="store_true", help="print one JSON object with a list for each character")
     parser.set_defaults(run=run)

@@ -73,12 +73,10 @@ class NeverEnters(Fault):
     time: float
 
 
-def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
-    """The options of ``realize``."""
-    parser = commands.add_parser(
-        "realize",
-        help="play BML files and write feedback and frames",
-        epilog="example: reactive-realizer realize hello.xml more.xml@2.5 --voice text --feedback - --frames out.npz",
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Give a parser the options of ``realize``."""
+    parser.epilog = (
+        "example: reactive-realizer realize hello.xml more.xml@2.5 --voice text --feedback - --frames out.npz"
     )
     parser.add_argument("items", nargs="*", type=input_file, metavar="ITEM", help="a file, or file@seconds")
     parser.add_argument(

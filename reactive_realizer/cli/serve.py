@@ -1,4 +1,4 @@
-"""The commands ``serve`` and ``demo``: serve a scene to browsers and planners."""
+"""The command ``serve``: serves a scene to browsers and planners."""
 
 import argparse
 import asyncio
@@ -7,7 +7,6 @@ import os
 import sys
 from pathlib import Path
 
-from reactive_realizer.assembly.assets import PACKAGE_ASSETS
 from reactive_realizer.cli.scene_options import add_scene_options, scene_options
 from reactive_realizer.server.serve import ServerOptions, serve
 
@@ -16,19 +15,10 @@ _TOKEN = "REACTIVE_REALIZER_TOKEN"
 
 _LARGEST_PORT = 65535
 
-_PERFORMANCE = PACKAGE_ASSETS / "demo" / "performance.xml"
 
-
-def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
-    """The options of ``serve`` and of ``demo``."""
-    _add(commands, "serve", "serve a scene to browsers and planners", None)
-    _add(commands, "demo", "serve a scene that performs when the first page opens", _PERFORMANCE)
-
-
-def _add(
-    commands: "argparse._SubParsersAction[argparse.ArgumentParser]", name: str, text: str, performance: Path | None
-) -> None:
-    parser = commands.add_parser(name, help=text, epilog=f"example: reactive-realizer {name} --port 8088")
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Give a parser the options of ``serve``."""
+    parser.epilog = "example: reactive-realizer serve --port 8088"
     parser.add_argument("--host", default="127.0.0.1", help="the address to bind to")
     parser.add_argument("--port", type=port, default=8088, help="0 chooses a free port")
     token = parser.add_mutually_exclusive_group()
@@ -37,7 +27,7 @@ def _add(
     parser.add_argument("--allow-origin", action="append", default=[], metavar="O", help="accept pages of this origin")
     add_scene_options(parser)
     parser.add_argument("--record", type=Path, metavar="FILE", help="record the session for realize --replay")
-    parser.set_defaults(run=run, performance=performance)
+    parser.set_defaults(run=run, performance=None)
 
 
 def port(text: str) -> int:

@@ -1,5 +1,7 @@
 """The common properties of all commands."""
 
+import subprocess
+import sys
 from collections.abc import Callable
 
 import pytest
@@ -8,12 +10,24 @@ from reactive_realizer.__main__ import main
 from reactive_realizer.testing.pilot import block
 
 
-@pytest.mark.parametrize("command", ["realize", "check"])
+@pytest.mark.parametrize("command", ["serve", "demo", "realize", "check", "lexicon", "conformance"])
 def test_every_command_has_help_with_an_example(command: str, capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as ended:
         main([command, "--help"])
     assert ended.value.code == 0
     assert f"example: reactive-realizer {command}" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(("arguments", "unneeded"), [("--help", "numpy lxml aiohttp"), ("realize --help", "aiohttp")])
+def test_a_command_imports_only_what_it_needs(arguments: str, unneeded: str) -> None:
+    program = f"""import sys
+from reactive_realizer.__main__ import main
+try:
+    main({arguments.split()!r})
+except SystemExit:
+    assert not set({unneeded.split()!r}) & set(sys.modules)
+"""
+    subprocess.run([sys.executable, "-c", program], check=True, stdout=subprocess.DEVNULL)
 
 
 @pytest.mark.parametrize("command", ["realize", "check"])
