@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.clock.units import GlobalTime, Time
 
 
 @dataclass(frozen=True, slots=True)
@@ -16,11 +16,11 @@ class AudioClip:
 
 @dataclass(frozen=True, slots=True)
 class AudioStart:
-    """A clip starts at a time; ``gain`` 1 is as recorded."""
+    """A clip starts at a time, which may be unknown until it moves; ``gain`` 1 is as recorded."""
 
     character: str
     clip: AudioClip
-    start: GlobalTime
+    start: Time
     gain: float = 1.0
 
 

@@ -1,11 +1,18 @@
-"""Sounds that can still be played, for clients that fetch them and for clients that connect late."""
+"""Sounds that can still be played, for clients that take or fetch them and for clients that connect late."""
 
+import struct
 from dataclasses import dataclass, replace
+from math import inf
 
 from reactive_realizer.clock.units import GlobalTime
-from reactive_realizer.embodiment.audio import AudioChange, AudioGain, AudioMove, AudioStart, AudioStop
+from reactive_realizer.embodiment.audio import AudioChange, AudioClip, AudioGain, AudioMove, AudioStart, AudioStop
 from reactive_realizer.server.protocol import Message, encode
 from reactive_realizer.server.subscribers import Subscribers
+
+_KIND, _VERSION = 2, 1
+
+_MOST_AHEAD = 1024 * 1024
+"""Size above which a sound is not sent ahead, bytes: it would hold up the frames behind it."""
 
 _GRACE = 10.0
 """Time after the end of a sound during which it can be fetched, s: pages play a little later than the realizer."""
@@ -18,7 +25,8 @@ class _Sound:
 
     @property
     def end(self) -> float:
-        natural = self.start.start + self.start.clip.duration
+        start = inf if self.start.start is None else self.start.start
+        natural = start + self.start.clip.duration
         return natural if self.stop is None else min(natural, self.stop.time + self.stop.fade)
 
 
@@ -30,10 +38,12 @@ class AudioStream:
 
     Attributes:
         subscribers: of the changes, as texts of the protocol.
+        takers: of the sounds themselves, as binary messages, each before the text that announces it.
     """
 
     def __init__(self, most_bytes: int) -> None:
         self.subscribers: Subscribers[str] = Subscribers()
+        self.takers: Subscribers[bytes] = Subscribers()
         self._most_bytes = most_bytes
         self._sounds: dict[str, _Sound] = {}
 
@@ -42,6 +52,7 @@ class AudioStream:
         match change:
             case AudioStart():
                 self._sounds[change.clip.id] = _Sound(change)
+                self._send_ahead(change.clip)
             case AudioMove(id_, start) if id_ in self._sounds:
                 sound = self._sounds[id_]
                 self._sounds[id_] = replace(sound, start=replace(sound.start, start=start))
@@ -53,6 +64,10 @@ class AudioStream:
             case _:
                 pass
         self.subscribers.publish(encode(message_of(change)))
+
+    def _send_ahead(self, clip: AudioClip) -> None:
+        if self.takers and len(clip.wav) <= _MOST_AHEAD:
+            self.takers.publish(encode_sound(clip))
 
     def tidy(self, now: GlobalTime) -> None:
         """Drops sounds that have ended, and the oldest above the size limit."""
@@ -73,12 +88,18 @@ class AudioStream:
         return None if sound is None else sound.start.clip.wav
 
 
+def encode_sound(clip: AudioClip) -> bytes:
+    """Encodes a sound (docs/protocol.md, sounds): u8 kind, u8 version, u16 length of its id, the id, and a WAV file."""
+    id_ = clip.id.encode()
+    return struct.pack("<BBH", _KIND, _VERSION, len(id_)) + id_ + clip.wav
+
+
 def message_of(change: AudioChange) -> Message:
     """A change as a message of the protocol."""
     match change:
         case AudioStart(character, clip, start, gain):
             url = f"/audio/{clip.id}.wav"
-            times = {"start": round(start, 6), "duration": round(clip.duration, 6)}
+            times = {"start": None if start is None else round(start, 6), "duration": round(clip.duration, 6)}
             volume = {"gain": round(gain, 6)}
             return {"type": "audio", "character": character, "id": clip.id, "url": url, **times, **volume}
         case AudioMove(id_, start):

@@ -4,10 +4,13 @@ import asyncio
 from collections import deque
 from collections.abc import Awaitable, Callable, Iterator, Sequence
 from contextlib import contextmanager
+from typing import Generic, TypeVar
 
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.limits import Limits
 from reactive_realizer.server.faults import TooManyClients
+
+M = TypeVar("M", bound=str | bytes)
 
 _TURN = 0.01
 """Time between two looks at a queue above its limit, s."""
@@ -15,18 +18,18 @@ _PATIENCE = 50
 """Looks after which its client is too slow. While the server itself is held up, no time passes for its clients."""
 
 
-class ClientQueue:
-    """The texts that one client is to be sent, in order. Adding never blocks.
+class ClientQueue(Generic[M]):
+    """The messages that one client is to be sent, in order. Adding never blocks.
 
     Args:
-        limits: of the queued text.
-        first: texts that are sent first; they do not count towards the limit.
+        limits: of the queued messages.
+        first: messages that are sent first; they do not count towards the limit.
     """
 
-    def __init__(self, limits: Limits, first: Sequence[str] = ()) -> None:
-        self._texts = deque(first)
+    def __init__(self, limits: Limits, first: Sequence[M] = ()) -> None:
+        self._messages = deque(first)
         self._bytes = sum(map(len, first))
-        self._most_texts = limits.queued_messages + len(first)
+        self._most = limits.queued_messages + len(first)
         self._most_bytes = limits.queued_bytes + self._bytes
         self._ended = False
         self._overflown = False
@@ -34,27 +37,27 @@ class ClientQueue:
         self._sending: asyncio.Timeout | None = None
         self._watching: asyncio.TimerHandle | None = None
 
-    def put(self, text: str) -> None:
-        """Adds a text. A client that stays above the limit is disconnected."""
+    def put(self, message: M) -> None:
+        """Adds a message. A client that stays above the limit is disconnected."""
         if self._overflown:
             return
-        self._texts.append(text)
-        self._bytes += len(text)
+        self._messages.append(message)
+        self._bytes += len(message)
         self._news.set()
         if self._watching is None:
             self._watch(_PATIENCE)
 
     def end(self) -> None:
-        """Ends the queue after the texts in it."""
+        """Ends the queue after the messages in it."""
         self._ended = True
         self._news.set()
 
-    async def send_all(self, send: Callable[[str], Awaitable[None]]) -> bool:
-        """Sends texts until the end. Returns False if the queue exceeded its limit, even during a send."""
+    async def send_all(self, send: Callable[[M], Awaitable[None]]) -> bool:
+        """Sends messages until the end. Returns False if the queue exceeded its limit, even during a send."""
         try:
             async with asyncio.timeout(0 if self._overflown else None) as self._sending:
-                while (text := await self._next()) is not None:
-                    await send(text)
+                while (message := await self._next()) is not None:
+                    await send(message)
         except TimeoutError:
             if not self._overflown:
                 raise
@@ -65,7 +68,7 @@ class ClientQueue:
     def _watch(self, looks: int) -> None:
         """Looks again for a number of times as long as the queue is above its limit, and then gives up."""
         self._watching = None
-        if len(self._texts) <= self._most_texts and self._bytes <= self._most_bytes:
+        if len(self._messages) <= self._most and self._bytes <= self._most_bytes:
             return
         if looks:
             self._watching = asyncio.get_running_loop().call_later(_TURN, self._watch, looks - 1)
@@ -74,19 +77,19 @@ class ClientQueue:
 
     def _give_up(self) -> None:
         self._overflown = True
-        self._texts.clear()
+        self._messages.clear()
         if self._sending is not None:
             self._sending.reschedule(0)  # long ago
 
-    async def _next(self) -> str | None:
-        while not (self._texts or self._ended):
+    async def _next(self) -> M | None:
+        while not (self._messages or self._ended):
             self._news.clear()
             await self._news.wait()
-        if not self._texts:
+        if not self._messages:
             return None
-        text = self._texts.popleft()
-        self._bytes -= len(text)
-        return text
+        message = self._messages.popleft()
+        self._bytes -= len(message)
+        return message
 
 
 class RateLimit:

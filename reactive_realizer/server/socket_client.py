@@ -60,7 +60,7 @@ class SocketClient:
         self._streams = streams
         self._predictions = predictions
         self._rate = RateLimit(live.limits.messages_per_second)
-        self._queue = ClientQueue(live.limits, self._first(after))
+        self._queue: ClientQueue[str | bytes] = ClientQueue(live.limits, self._first(after))
         self._greeted = False
         self._reason: type[Fault] = GoingAway
 
@@ -100,6 +100,8 @@ class SocketClient:
             follow_feedback(self._live.feedback, self._predictions, lambda entry: self._queue.put(entry.text), stack)
         if Stream.AUDIO in self._streams:
             stack.callback(self._live.sounds.subscribers.subscribe(self._queue.put))
+        if Stream.SOUND in self._streams:
+            stack.callback(self._live.sounds.takers.subscribe(self._queue.put))
         if Stream.BOARD in self._streams:
             stack.callback(self._live.board.subscribers.subscribe(self._queue.put))
         if Stream.FRAMES in self._streams:
@@ -121,9 +123,12 @@ class SocketClient:
         if not kept_up:
             self._reason = TooSlow
 
-    async def _send_one(self, text: str) -> None:
-        self._greeted = True  # its first text is hello
-        await self._socket.send_str(text)
+    async def _send_one(self, message: str | bytes) -> None:
+        self._greeted = True  # the first message is hello
+        if isinstance(message, str):
+            await self._socket.send_str(message)
+        else:
+            await self._socket.send_bytes(message)
 
     async def _close(self) -> None:
         """Closes the socket; a client that still reads receives the reason."""

@@ -13,6 +13,7 @@ class Stream(StrEnum):
 
     FEEDBACK = "feedback"
     AUDIO = "audio"
+    SOUND = "sound"
     FRAMES = "frames"
     BOARD = "board"
 
@@ -21,7 +22,7 @@ _DEFAULT = frozenset({Stream.FEEDBACK, Stream.AUDIO, Stream.FRAMES})
 
 
 def streams_of(query: Mapping[str, str]) -> frozenset[Stream]:
-    """The streams in a query such as ``streams=feedback,frames``; by default all but the board.
+    """The streams in a query such as ``streams=feedback,frames``; by default all but sound and board.
 
     Raises:
         RealizerError: "bad-query".

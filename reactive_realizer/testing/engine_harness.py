@@ -282,7 +282,7 @@ class EngineHarness:
             match change:
                 case AudioStart(clip=clip, start=start):
                     durations[clip.id] = clip.duration
-                    ends[clip.id] = start + clip.duration
+                    ends[clip.id] = inf if start is None else start + clip.duration
                 case AudioMove(id=id_, start=start):
                     ends[id_] = start + durations[id_]
                 case AudioStop(id=id_):

@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from reactive_realizer.assembly.scene import SceneOptions
-from reactive_realizer.embodiment.audio import AudioStart
+from reactive_realizer.embodiment.audio import AudioMove, AudioStart
 from reactive_realizer.testing.feedback_list import FeedbackList
 from reactive_realizer.testing.pilot import open_pilot
 
@@ -107,6 +107,6 @@ async def test_every_word_of_a_prepared_utterance_is_heard(release: float) -> No
         await pilot.advance(release)
         pilot.event("spacebar", "release")
         await pilot.advance(4)
-        *_, start = (sound.start for sound in pilot.sounds if isinstance(sound, AudioStart))
+        *_, start = (sound.start for sound in pilot.sounds if isinstance(sound, AudioStart | AudioMove))
         assert start == pytest.approx(max(pilot.feedback.time("second:start"), release))
         assert pilot.feedback.time("second:s:start") == pytest.approx(start)

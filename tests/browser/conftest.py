@@ -2,9 +2,10 @@
 
 import asyncio
 from collections.abc import AsyncIterator, Callable
-from contextlib import AbstractAsyncContextManager, asynccontextmanager
+from contextlib import AbstractAsyncContextManager, asynccontextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
+from urllib.parse import urlsplit
 
 import pytest
 import pytest_asyncio
@@ -33,13 +34,13 @@ class ServedScene:
     pages: list[Page] = field(default_factory=list)
     errors: list[str] = field(default_factory=list)
 
-    async def open(self, query: str = "?quality=low") -> Page:
-        """A page that shows every character; errors of the page are kept."""
+    async def open(self, query: str = "?quality=low", address: str | None = None) -> Page:
+        """A page that shows every character, by default from the server's own address; errors of the page are kept."""
         page = await self.browser.new_page(viewport=SMALL)
         self.pages.append(page)
         page.on("pageerror", lambda error: self.errors.append(str(error)))
         page.on("console", lambda message: self.errors.append(message.text) if message.type == "error" else None)
-        await page.goto(self.address + query)
+        await page.goto((address or self.address) + query)
         everybody = [(id_, "Hips") for id_ in self.live.realizer.characters]
         await page.wait_for_function(
             "who => viewer.connected && viewer.framesPlayed > 0 && who.every(([id, bone]) => viewer.bone(id, bone))",
@@ -92,3 +93,30 @@ async def served(live: LiveScene) -> AsyncIterator[tuple[LiveScene, str]]:
         yield live, f"http://{host}:{port}/"
         await runner.cleanup()
         ticking.cancel()
+
+
+@asynccontextmanager
+async def far_away(address: str, latency: float) -> AsyncIterator[str]:
+    """Another address of a server, to and from which everything takes some time, s."""
+    near = urlsplit(address)
+    loop = asyncio.get_running_loop()
+    ends: list[asyncio.StreamWriter] = []
+
+    async def carry(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        ends.append(writer)
+        with suppress(ConnectionError):
+            while data := await reader.read(65536):
+                loop.call_later(latency, writer.write, data)
+        loop.call_later(latency, writer.close)
+
+    async def connect(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        there, back = await asyncio.open_connection(near.hostname, near.port)
+        await asyncio.gather(carry(reader, back), carry(there, writer))
+
+    async with await asyncio.start_server(connect, "127.0.0.1", 0) as server:
+        host, port = server.sockets[0].getsockname()
+        yield f"http://{host}:{port}/"
+    for end in ends:
+        end.close()
+        with suppress(ConnectionError):
+            await end.wait_closed()

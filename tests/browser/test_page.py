@@ -9,7 +9,7 @@ from anticipators.metronome import Metronome
 from reactive_realizer.embodiment.audio import AudioChange, AudioHeard, AudioMove, AudioStart
 from reactive_realizer.realizer.inputs import TickInputs
 
-from .conftest import Serve
+from .conftest import Serve, far_away
 
 pytestmark = [pytest.mark.browser, pytest.mark.timeout(120), pytest.mark.asyncio(loop_scope="module")]
 
@@ -105,6 +105,29 @@ async def test_a_page_that_is_opened_late_plays_the_speech_from_its_current_posi
         await late.wait_for_function("() => viewer.morph('alice', 'jawOpen') > 0.05")
 
 
+@pytest.mark.speech
+async def test_a_page_far_away_plays_speech_from_its_first_word_without_fetching_it(serve: Serve) -> None:
+    async with serve(ALICE, voice="espeak") as scene, far_away(scene.address, 0.3) as address:
+        page = await scene.open(address=address)
+        await page.evaluate(NOTE_STARTS)
+        fetched: list[str] = []
+        page.on("request", lambda request: fetched.append(request.url))
+        for number in range(2):
+            await send(page, f'<bml {BML} id="b{number}"><speech id="s"><text>one two three four</text></speech></bml>')
+            await expect(page.locator("#feedback")).to_contain_text(f"b{number}:s:end", timeout=20_000)
+        assert not any(url.endswith(".wav") for url in fetched)
+        # A machine that is so slow that the sound comes a second late leaves out that.
+        assert 0 in await page.evaluate("offsets")
+        await page.close()
+
+
+NOTE_STARTS = """
+window.offsets = [];
+const {start} = AudioBufferSourceNode.prototype;
+AudioBufferSourceNode.prototype.start = function(at, offset) { offsets.push(offset); start.call(this, at, offset); };
+null
+"""
+
 DELAY = """
 window.delay = 0;
 const {get} = Object.getOwnPropertyDescriptor(AudioContext.prototype, 'outputLatency');
@@ -134,6 +157,7 @@ async def test_a_speech_whose_sound_is_delayed_moves_to_what_is_heard(serve: Ser
         await page.wait_for_function("() => viewer.speech.some(clip => clip.begin !== null)")
         await asyncio.wait_for(several.wait(), 20)
         (start,) = [each.start for each in sounds if isinstance(each, AudioStart)]
+        assert start is not None
         before, moved = len(sounds), await page.evaluate("[viewer.speech[0].start, viewer.speech[0].begin]")
         await page.evaluate("delay = 0.3")
         await page.wait_for_function("start => viewer.speech[0].start > start + 0.2", arg=moved[0])

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from reactive_realizer.bml.names import OWN
-from reactive_realizer.embodiment.audio import AudioGain, AudioStart
+from reactive_realizer.embodiment.audio import AudioGain, AudioStart, AudioStop
 from reactive_realizer.testing.pilot import RealizerPilot
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
@@ -144,7 +144,8 @@ async def test_a_path_of_the_plan_is_spoken_without_a_gap_and_the_others_are_giv
         assert scene.feedback.time(f"{after}:words:start") == scene.feedback.time(f"{piece}:words:end")
     others = [piece for piece in speech_plan["PIECES"] if piece not in path]
     assert {piece: scene.feedback.status(piece) for piece in others} == dict.fromkeys(others, "REVOKED")
-    assert len([each for each in scene.sounds if isinstance(each, AudioStart)]) == len(path)
+    stopped = [each.id for each in scene.sounds if isinstance(each, AudioStop)]
+    assert len([each for each in scene.sounds if isinstance(each, AudioStart)]) == len(path) + len(stopped)
 
 
 async def test_each_utterance_starts_with_the_release_at_the_end_of_the_response_before_it(example: Play) -> None:

@@ -17,7 +17,7 @@ def impatient(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(client_limits, "_PATIENCE", 2)
 
 
-async def sent_of(queue: ClientQueue) -> list[str]:
+async def sent_of(queue: ClientQueue[str]) -> list[str]:
     sent: list[str] = []
 
     async def send(entry: str) -> None:
@@ -29,7 +29,7 @@ async def sent_of(queue: ClientQueue) -> list[str]:
 
 
 async def test_texts_are_sent_in_order_until_the_end() -> None:
-    queue = ClientQueue(FEW, ["hello"])
+    queue: ClientQueue[str] = ClientQueue(FEW, ["hello"])
     queue.put("a")
     queue.put("b")
     assert await sent_of(queue) == ["hello", "a", "b"]
@@ -39,7 +39,7 @@ async def test_texts_are_sent_in_order_until_the_end() -> None:
 async def test_a_client_is_dropped_if_too_many_texts_wait_while_a_send_does_not_complete(
     texts: list[str], impatient: None
 ) -> None:
-    queue = ClientQueue(FEW)
+    queue: ClientQueue[str] = ClientQueue(FEW)
     queue.put("stuck")
     async with asyncio.TaskGroup() as group:
         sending = group.create_task(queue.send_all(never))
@@ -50,7 +50,7 @@ async def test_a_client_is_dropped_if_too_many_texts_wait_while_a_send_does_not_
 
 
 async def test_a_client_that_reads_is_not_dropped_for_what_piled_up_while_the_server_was_held_up() -> None:
-    queue = ClientQueue(FEW)
+    queue: ClientQueue[str] = ClientQueue(FEW)
     sent: list[str] = []
 
     async def read(text: str) -> None:
@@ -68,7 +68,7 @@ async def test_a_client_that_reads_is_not_dropped_for_what_piled_up_while_the_se
 
 
 async def test_initial_messages_do_not_count_as_waiting() -> None:
-    queue = ClientQueue(FEW, ["x" * 1000] * 10)
+    queue: ClientQueue[str] = ClientQueue(FEW, ["x" * 1000] * 10)
     queue.put("a")
     assert len(await sent_of(queue)) == 11
 
@@ -77,7 +77,7 @@ async def test_a_timeout_error_of_the_send_itself_is_raised() -> None:
     async def fail(_: str) -> None:
         raise TimeoutError
 
-    queue = ClientQueue(FEW, ["a"])
+    queue: ClientQueue[str] = ClientQueue(FEW, ["a"])
     with pytest.raises(TimeoutError):
         await queue.send_all(fail)
 

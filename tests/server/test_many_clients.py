@@ -79,6 +79,24 @@ async def test_a_late_client_gets_the_current_state_of_sounds_that_have_not_ende
         assert [message["gain"] for message in told[:2]] == [0.5, 1.0]
 
 
+async def test_a_sound_is_sent_ahead_of_its_announcement_to_clients_that_request_it(on_air: Open) -> None:
+    async with on_air() as air:
+        listener, planner = await air.connect("?streams=audio,sound"), await air.connect("?streams=audio")
+        air.live.sounds.take(clip("c1", 1.0))
+        first, second = await listener.raw.receive(), await listener.raw.receive()
+        assert first.data == b"\x02\x01\x02\x00c1" + b"RIFFc1"
+        assert '"type":"audio"' in second.data
+        assert (await planner.hear())["type"] == "audio"
+
+
+async def test_a_long_sound_is_only_announced(on_air: Open) -> None:
+    async with on_air() as air:
+        listener = await air.connect("?streams=audio,sound")
+        air.live.sounds.take(AudioStart("alice", AudioClip("long", bytes(2_000_000), 60.0), None))
+        message = await listener.hear()
+        assert (message["type"], message["start"]) == ("audio", None)
+
+
 async def test_a_sound_is_kept_for_a_short_time_after_its_end(on_air: Open) -> None:
     async with on_air() as air:
         air.live.sounds.take(clip("c1", 0.0))

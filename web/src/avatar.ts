@@ -10,7 +10,7 @@ import {
 } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 
-import type { Pose } from "./frame";
+import type { Pose } from "./binary";
 import type { Character, Position } from "./protocol";
 import type { Quality } from "./viewport";
 

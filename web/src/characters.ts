@@ -1,7 +1,7 @@
 import type { Object3D } from "three";
 
 import { Avatar } from "./avatar";
-import type { Frame } from "./frame";
+import type { Frame } from "./binary";
 import { Playout } from "./playout";
 import type { Character, Position } from "./protocol";
 import type { Quality } from "./viewport";

@@ -1,14 +1,12 @@
-import type { Ping, Pong } from "./protocol";
-
 /**
- * Three clocks: the realizer's (s, estimated from pongs), the page's (`performance.now()`, here in s) and the sound
+ * Three clocks: the realizer's (s, estimated from its frames), the page's (`performance.now()`, here in s) and the sound
  * card's. A clock is stored as an offset to the page's time, so a reading is always `page + offset`.
  */
 
-/** Number of recent pongs from which the fastest is used. */
-const SAMPLES = 16;
+/** Number of recent frames of which the one that was delayed least is used: those of two seconds. */
+const SAMPLES = 100;
 
-/** Delay of the page behind the realizer, s: the network jitter that it absorbs before a pose is late. */
+/** Delay of the page behind the frames, s: the network jitter that it absorbs before a pose is late. */
 export const PLAYOUT_DELAY = 0.05;
 
 /** Greatest deviation from the rate of real time while the playout clock closes a gap. */
@@ -17,85 +15,34 @@ const GLIDE = 0.05;
 /** Gap above which the playout clock jumps, because gliding would take too long, s. */
 const JUMP = 0.25;
 
-/** Number of pings sent in quick succession after the greeting, to estimate realizer time soon. */
-const BURST = 5;
+/**
+ * Realizer time as a page sees it: that of a frame that has just arrived, undelayed as few are. It lags by the latency
+ * of the network, so that on a remote page frames and sounds are as punctual as on a near one.
+ */
+export class FrameClock {
+  private offsets: number[] = [];
 
-/** Time between two pings, in the burst and later, ms. */
-const BURST_INTERVAL = 100;
-const STEADY_INTERVAL = 2000;
-
-interface Sample {
-  roundTrip: number;
-  offset: number;
-}
-
-/** Estimates realizer time: the offset of the fastest recent pong, which the network delayed least. */
-export class ServerClock {
-  private samples: Sample[] = [];
-
-  /** Takes a first, rough reading: a message with realizer time `server` arrived at page time `page`. */
-  reset(page: number, server: number): void {
-    this.samples = [{ roundTrip: Infinity, offset: server - page }];
+  /** Begins anew: a message with realizer time `time` arrived at page time `page`, both s. */
+  reset(page: number, time: number): void {
+    this.offsets = [time - page];
   }
 
-  /** Takes a pong with realizer time `server`: it was on its way back for half of the round trip. */
-  sample(sent: number, received: number, server: number): void {
-    const roundTrip = received - sent;
-    this.samples.push({ roundTrip, offset: server + roundTrip / 2 - received });
-    if (this.samples.length > SAMPLES) this.samples.shift();
+  /** Takes a frame of realizer time `time` that arrived at page time `page`, both s. */
+  take(page: number, time: number): void {
+    this.offsets.push(time - page);
+    if (this.offsets.length > SAMPLES) this.offsets.shift();
   }
 
-  /** Realizer time at a page time, s; null before the first reading. */
+  /** Realizer time at a page time, s; null before the first message. */
   at(page: number): number | null {
-    if (this.samples.length === 0) return null;
-    const fastest = this.samples.reduce((best, next) => (next.roundTrip < best.roundTrip ? next : best));
-    return page + fastest.offset;
-  }
-}
-
-/** Pings the realizer while the connection is open, and passes the pongs to the server clock. */
-export class Pings {
-  private timer: ReturnType<typeof setTimeout> | null = null;
-  private sent = 0;
-
-  constructor(
-    private readonly clock: ServerClock,
-    private readonly send: (message: Ping) => void,
-  ) {}
-
-  get running(): boolean {
-    return this.timer !== null;
-  }
-
-  /** Starts from the realizer time (s) in the greeting. */
-  start(serverTime: number): void {
-    this.clock.reset(performance.now() / 1000, serverTime);
-    this.sent = 0;
-    this.schedule(0);
-  }
-
-  stop(): void {
-    if (this.timer !== null) clearTimeout(this.timer);
-    this.timer = null;
-  }
-
-  answered(pong: Pong): void {
-    this.clock.sample(pong.t, performance.now() / 1000, pong.time);
-  }
-
-  private schedule(delay: number): void {
-    this.timer = setTimeout(() => {
-      this.send({ type: "ping", t: performance.now() / 1000 });
-      this.sent++;
-      this.schedule(this.sent < BURST ? BURST_INTERVAL : STEADY_INTERVAL);
-    }, delay);
+    return this.offsets.length === 0 ? null : page + Math.max(...this.offsets);
   }
 }
 
 /**
  * The realizer time that is shown now.
  *
- * It follows the server's clock less the playout delay, and glides towards it, so that corrections do not make motion
+ * It follows the frames less the playout delay, and glides towards it, so that corrections do not make motion
  * jerk.
  */
 export class PlayoutClock {

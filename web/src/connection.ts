@@ -1,5 +1,4 @@
-import { Pings, type ServerClock } from "./clock";
-import { decodeFrames, type Frame } from "./frame";
+import { type BinaryMessage, decode, type Frame, type Sound } from "./binary";
 import type {
   Accepted,
   AudioGain,
@@ -15,7 +14,6 @@ import type {
   Feedback,
   Heard,
   Hello,
-  Ping,
   Predict,
   Ref,
   Refused,
@@ -33,14 +31,17 @@ export type AudioMessage = AudioStart | AudioMove | AudioGain | AudioStop;
 export type Request = Bml | Predict | Event | Demo;
 
 /** A message without an answer. */
-export type Notice = Ping | Camera | Heard;
+export type Notice = Camera | Heard;
 
 /** Receives what arrives on the connection. */
 export interface ConnectionListener {
   /** The realizer greeted; `renewed` when this is a new session, so that all earlier state is void. */
   onHello(hello: Hello, renewed: boolean): void;
   onLost(): void;
-  onFrame(frame: Frame): void;
+  /** The frames of all characters at one time. */
+  onFrames(frames: Frame[]): void;
+  /** A sound, before its announcement. */
+  onSound(sound: Sound): void;
   onFeedback(feedback: Feedback): void;
   onAudio(message: AudioMessage): void;
   onBoard(board: Board): void;
@@ -73,21 +74,16 @@ export class Connection {
   private retryDelay = FIRST_RETRY;
   private requests = 0;
   private readonly pending = new Map<Ref, Pending>();
-  private readonly pings: Pings;
+  private greeted = false;
 
   constructor(
     private readonly url: URL,
-    clock: ServerClock,
     private readonly listener: ConnectionListener,
-  ) {
-    this.pings = new Pings(clock, (message) => {
-      this.notify(message);
-    });
-  }
+  ) {}
 
   /** Whether the realizer has greeted on the current socket. */
   get connected(): boolean {
-    return this.pings.running;
+    return this.greeted;
   }
 
   open(): void {
@@ -128,8 +124,13 @@ export class Connection {
   }
 
   private receive(data: ArrayBuffer | string): void {
-    if (data instanceof ArrayBuffer) for (const frame of decodeFrames(data)) this.listener.onFrame(frame);
+    if (data instanceof ArrayBuffer) this.passOn(decode(data));
     else this.dispatch(JSON.parse(data) as ServerMessage);
+  }
+
+  private passOn(message: BinaryMessage): void {
+    if (message.kind === "frames") this.listener.onFrames(message.frames);
+    else this.listener.onSound(message);
   }
 
   private dispatch(message: ServerMessage): void {
@@ -139,9 +140,6 @@ export class Connection {
         break;
       case "feedback":
         this.takeFeedback(message);
-        break;
-      case "pong":
-        this.pings.answered(message);
         break;
       case "accepted":
         this.settle(message.ref)?.resolve(message);
@@ -173,7 +171,7 @@ export class Connection {
       return;
     }
     this.retryDelay = FIRST_RETRY;
-    this.pings.start(hello.time);
+    this.greeted = true;
     this.listener.onHello(hello, renewed);
   }
 
@@ -197,7 +195,7 @@ export class Connection {
   }
 
   private lost(): void {
-    this.pings.stop();
+    this.greeted = false;
     for (const ref of [...this.pending.keys()]) {
       this.settle(ref)?.reject(new RequestError("connection_lost", "The connection was lost before the answer came."));
     }

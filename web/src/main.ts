@@ -5,7 +5,7 @@ import type { SpeechRecord } from "./speech";
 import { Viewer } from "./viewer";
 import { type Quality, qualityOf } from "./viewport";
 
-const STREAMS = "feedback,audio,frames,board";
+const STREAMS = "feedback,audio,sound,frames,board";
 
 /** The state of the page as browser tests read it, from `window.viewer`; nothing in it can be changed. */
 export interface ViewerState {

@@ -1,6 +1,6 @@
 import { MathUtils, Quaternion } from "three";
 
-import { emptyPose, type Frame, type Pose } from "./frame";
+import { emptyPose, type Frame, type Pose } from "./binary";
 
 /** Most frames kept: two seconds at 50 frames a second, far more than the playout delay needs. */
 const CAPACITY = 100;

@@ -185,7 +185,7 @@ export interface ClockAnswer {
   time: Seconds;
 }
 /**
- * A sound that starts to play at start, announced before that or later.
+ * A sound that starts to play at start, announced before that or later; null while the start is unknown.
  */
 export interface AudioStart {
   type: "audio";
@@ -195,7 +195,7 @@ export interface AudioStart {
    * URL of a WAV file.
    */
   url: string;
-  start: Seconds;
+  start: Seconds | null;
   duration: number;
   /**
    * 1 is as recorded.

@@ -1,3 +1,4 @@
+import type { Sound } from "./binary";
 import { heardTime, type PlayoutClock } from "./clock";
 import type { AudioMessage } from "./connection";
 import type { AudioStart, Heard } from "./protocol";
@@ -11,6 +12,9 @@ const REPORT_INTERVAL = 0.25;
 
 /** Drift from the plan above which a sound is heard to be off, s: that at which Elckerlyc skips (thesis 8.17). */
 const OFF = 0.07;
+
+/** Delay up to which a sound that comes late is played from its first word, s: that up to which the realizer follows. */
+const FOLLOWED = 1;
 
 /** Number of reports for which a sound may be off, before it skips: the realizer follows another page. */
 const PATIENCE = 8;
@@ -32,6 +36,8 @@ export interface SpeechRecord {
  */
 export class SpeechPlayer {
   private utterances = new Map<string, Utterance>();
+  /** Sounds that have been sent, by the id under which they are announced next. */
+  private readonly sent = new Map<string, ArrayBuffer>();
   private nextReport = 0;
 
   constructor(
@@ -49,6 +55,11 @@ export class SpeechPlayer {
     return [...this.utterances.values()].map(({ announced, start, end, begin }) => {
       return { id: announced.id, character: announced.character, start, end, begin };
     });
+  }
+
+  /** Takes a sound that is announced next. */
+  take({ id, wav }: Sound): void {
+    this.sent.set(id, wav);
   }
 
   handle(message: AudioMessage): void {
@@ -93,6 +104,7 @@ export class SpeechPlayer {
   clear(): void {
     for (const utterance of this.utterances.values()) utterance.silence();
     this.utterances.clear();
+    this.sent.clear();
   }
 
   private announce(message: AudioStart): void {
@@ -100,9 +112,22 @@ export class SpeechPlayer {
     const utterance = new Utterance(message, this.context);
     this.utterances.set(message.id, utterance);
     this.forgetOldest();
-    utterance.load().then(() => {
-      if (this.utterances.get(message.id) === utterance) this.schedule(utterance);
+    const sent = this.sent.get(message.id);
+    this.sent.delete(message.id);
+    utterance.load(sent).then(() => {
+      if (this.utterances.get(message.id) === utterance) this.begin(utterance);
     }, this.onFailure);
+  }
+
+  /**
+   * Schedules a sound that has just come. If it comes late, it is played from its first word nevertheless: reports say
+   * so, and the speech follows. A sound that comes later than that is joined in the middle.
+   */
+  private begin(utterance: Utterance): void {
+    const planned = this.beginOf(utterance);
+    if (planned === null) return;
+    const now = this.context.currentTime;
+    utterance.schedule(now - planned <= FOLLOWED ? Math.max(planned, now) : planned);
   }
 
   /** Whether a sound is heard now, in its place. */
@@ -115,9 +140,15 @@ export class SpeechPlayer {
   private schedule(utterance: Utterance): void {
     utterance.silence();
     utterance.strayed = 0;
+    const begin = this.beginOf(utterance);
+    if (begin !== null) utterance.schedule(begin);
+  }
+
+  /** The audio time at which the first sample is to be played, as planned; null if it is not to be played now. */
+  private beginOf({ start, end }: Utterance): number | null {
     const shown = this.clock.at(performance.now() / 1000);
-    if (shown === null || shown >= utterance.end || this.context.state !== "running") return;
-    utterance.schedule(heardTime(this.context) + utterance.start - shown);
+    if (shown === null || shown >= end || start === Infinity || this.context.state !== "running") return null;
+    return heardTime(this.context) + start - shown;
   }
 
   /** Schedules all utterances again, because the audio clock has stopped or resumed. */

@@ -25,7 +25,7 @@ export function entry(begin: number, now: number): Entry {
 
 /** One utterance: its samples, and the audio nodes that play them once it is scheduled. */
 export class Utterance {
-  /** Realizer time of its first sample, s; `audio_move` changes it. */
+  /** Realizer time of its first sample, s; `audio_move` changes it. Infinity while it is unknown. */
   start: number;
   /** How many times in a row it was heard far off its plan. */
   strayed = 0;
@@ -43,7 +43,7 @@ export class Utterance {
     readonly announced: AudioStart,
     private readonly context: AudioContext,
   ) {
-    this.start = announced.start;
+    this.start = announced.start ?? Infinity;
   }
 
   /** Realizer time after which it is silent, s. */
@@ -56,12 +56,16 @@ export class Utterance {
     return this.source !== null;
   }
 
-  /** Fetches and decodes the samples; rejects when that fails. */
-  async load(): Promise<void> {
+  /** Decodes the samples, and fetches them unless they have been sent; rejects when that fails. */
+  async load(sent: ArrayBuffer | undefined): Promise<void> {
+    this.buffer = await this.context.decodeAudioData(sent ?? (await this.fetched()));
+  }
+
+  private async fetched(): Promise<ArrayBuffer> {
     const response = await fetch(this.announced.url);
     if (!response.ok)
       throw new Error(`The audio of ${this.announced.id} could not be loaded (HTTP ${response.status}).`);
-    this.buffer = await this.context.decodeAudioData(await response.arrayBuffer());
+    return response.arrayBuffer();
   }
 
   /**

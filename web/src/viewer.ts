@@ -1,8 +1,8 @@
 import { Characters } from "./characters";
-import { PLAYOUT_DELAY, PlayoutClock, ServerClock } from "./clock";
+import type { Frame, Sound } from "./binary";
+import { FrameClock, PLAYOUT_DELAY, PlayoutClock } from "./clock";
 import { type AudioMessage, Connection, type ConnectionListener } from "./connection";
 import { element } from "./dom";
-import type { Frame } from "./frame";
 import { AnticipatorsPanel } from "./panels/anticipators";
 import { BmlPanel } from "./panels/bml";
 import { FeedbackPanel } from "./panels/feedback";
@@ -19,7 +19,7 @@ export class Viewer implements ConnectionListener {
   readonly characters: Characters;
   readonly speech: SpeechPlayer;
   readonly feedback = new FeedbackPanel();
-  private readonly serverClock = new ServerClock();
+  private readonly frameClock = new FrameClock();
   private readonly clock = new PlayoutClock();
   private readonly audio = new AudioContext();
   private readonly viewport: Viewport;
@@ -38,7 +38,7 @@ export class Viewer implements ConnectionListener {
     this.world = new World(this.viewport.scene);
     this.characters = new Characters(this.viewport.scene, quality, status.report);
     this.speech = new SpeechPlayer(this.audio, this.clock, status.report);
-    this.connection = new Connection(socket, this.serverClock, this);
+    this.connection = new Connection(socket, this);
     this.cameraReport = new CameraReport((position) => {
       this.connection.notify({ type: "camera", position });
     });
@@ -62,7 +62,8 @@ export class Viewer implements ConnectionListener {
     this.demoButton.hidden = hello.demo !== true;
     this.cameraReport.reset();
     if (renewed) this.renew(hello);
-    this.followServer();
+    this.frameClock.reset(performance.now() / 1000, hello.time);
+    this.followFrames();
     void this.loadWorld();
   }
 
@@ -70,8 +71,14 @@ export class Viewer implements ConnectionListener {
     this.status.lost();
   }
 
-  onFrame(frame: Frame): void {
-    this.characters.push(frame);
+  onFrames(frames: Frame[]): void {
+    const page = performance.now() / 1000;
+    for (const { time } of frames.slice(0, 1)) this.frameClock.take(page, time);
+    for (const frame of frames) this.characters.push(frame);
+  }
+
+  onSound(sound: Sound): void {
+    this.speech.take(sound);
   }
 
   onFeedback(feedback: Feedback): void {
@@ -94,7 +101,7 @@ export class Viewer implements ConnectionListener {
   }
 
   private play(page: number): void {
-    const time = this.followServer();
+    const time = this.followFrames();
     for (const report of this.speech.report()) this.connection.notify(report);
     if (time !== null) this.characters.show(time);
     if (this.characters.complete) this.viewport.frame(this.characters.roots());
@@ -102,12 +109,12 @@ export class Viewer implements ConnectionListener {
     this.cameraReport.update(page, this.viewport.eye);
   }
 
-  /** Moves the playout clock towards the realizer's; returns the time to show, s. */
-  private followServer(): number | null {
+  /** Moves the playout clock towards the frames'; returns the time to show, s. */
+  private followFrames(): number | null {
     const page = performance.now() / 1000;
-    const server = this.serverClock.at(page);
-    if (server === null) return null;
-    this.clock.follow(page, server - PLAYOUT_DELAY);
+    const time = this.frameClock.at(page);
+    if (time === null) return null;
+    this.clock.follow(page, time - PLAYOUT_DELAY);
     return this.clock.at(page);
   }
 

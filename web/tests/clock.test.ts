@@ -1,45 +1,38 @@
 import { describe, expect, it } from "vitest";
 
-import { heardTime, PlayoutClock, ServerClock } from "../src/clock";
+import { FrameClock, heardTime, PlayoutClock } from "../src/clock";
 
-describe("the server clock", () => {
-  it("knows nothing before the first reading", () => {
-    expect(new ServerClock().at(1)).toBeNull();
+describe("the frame clock", () => {
+  it("knows nothing before the first message", () => {
+    expect(new FrameClock().at(1)).toBeNull();
   });
 
-  it("begins with the rough reading of the greeting", () => {
-    const clock = new ServerClock();
+  it("begins with the reading of the greeting", () => {
+    const clock = new FrameClock();
     clock.reset(10, 3);
     expect(clock.at(12)).toBeCloseTo(5, 9);
   });
 
-  it("takes the way back as half of the round trip", () => {
-    const clock = new ServerClock();
-    clock.sample(100, 100.2, 7);
-    expect(clock.at(100.2)).toBeCloseTo(7.1, 9);
+  it("follows the frame that was delayed least", () => {
+    const clock = new FrameClock();
+    clock.reset(10, 3);
+    clock.take(10.1, 3.2);
+    clock.take(10.5, 3.3);
+    expect(clock.at(11)).toBeCloseTo(4.1, 9);
   });
 
-  it("believes the quickest pong, which was delayed least", () => {
-    const clock = new ServerClock();
-    clock.reset(0, 40);
-    clock.sample(1, 1.4, 51.3);
-    clock.sample(2, 2.002, 52.001);
-    clock.sample(3, 3.3, 53.2);
-    expect(clock.at(4)).toBeCloseTo(54, 9);
-  });
-
-  it("forgets old pongs, so that a drift is followed", () => {
-    const clock = new ServerClock();
-    clock.sample(0, 0.001, 50);
-    for (let i = 1; i <= 16; i++) clock.sample(i, i + 0.01, i + 60.005);
-    expect(clock.at(20)).toBeCloseTo(80, 9);
+  it("forgets old frames, so that a latency that grows is followed", () => {
+    const clock = new FrameClock();
+    clock.take(0, 5);
+    for (let i = 1; i <= 100; i++) clock.take(0.02 * i, 4.7 + 0.02 * i);
+    expect(clock.at(3)).toBeCloseTo(7.7, 9);
   });
 
   it("begins anew with a new greeting", () => {
-    const clock = new ServerClock();
-    clock.sample(0, 0.001, 50);
-    clock.reset(10, 0);
-    expect(clock.at(11)).toBeCloseTo(1, 9);
+    const clock = new FrameClock();
+    clock.take(100, 50);
+    clock.reset(110, 0);
+    expect(clock.at(111)).toBeCloseTo(1, 9);
   });
 });
 

@@ -1,6 +1,5 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 
-import { ServerClock } from "../src/clock";
 import { Connection, RequestError } from "../src/connection";
 import type { Refused, ServerMessage } from "../src/protocol";
 import { FakeSocket } from "./fake_socket";
@@ -9,14 +8,15 @@ import { encodeFrame } from "./frames";
 const listener = {
   onHello: vi.fn(),
   onLost: vi.fn(),
-  onFrame: vi.fn(),
+  onFrames: vi.fn(),
+  onSound: vi.fn(),
   onFeedback: vi.fn(),
   onAudio: vi.fn(),
   onBoard: vi.fn(),
 };
 
-function opened(clock = new ServerClock()): Connection {
-  const connection = new Connection(new URL("ws://host/ws?streams=feedback"), clock, listener);
+function opened(): Connection {
+  const connection = new Connection(new URL("ws://host/ws?streams=feedback"), listener);
   connection.open();
   return connection;
 }
@@ -55,25 +55,14 @@ describe("a connection", () => {
   it("hands on frames, sound and the board", () => {
     opened();
     FakeSocket.last.greet("a");
-    FakeSocket.last.deliverFrame(encodeFrame({ time: 2 }));
+    FakeSocket.last.deliverBinary(encodeFrame({ time: 2 }));
+    FakeSocket.last.deliverBinary(new Uint8Array([2, 1, 1, 0, 115, 82, 73]).buffer);
     FakeSocket.last.deliver({ type: "audio_move", id: "s", start: 3 });
     FakeSocket.last.deliver({ type: "board", time: 1, pegs: [], commits: [] });
-    expect(listener.onFrame).toHaveBeenCalledWith(expect.objectContaining({ time: 2 }));
+    expect(listener.onFrames).toHaveBeenCalledWith([expect.objectContaining({ time: 2 })]);
+    expect(listener.onSound).toHaveBeenCalledWith(expect.objectContaining({ id: "s" }));
     expect(listener.onAudio).toHaveBeenCalledWith({ type: "audio_move", id: "s", start: 3 });
     expect(listener.onBoard).toHaveBeenCalledOnce();
-  });
-
-  it("learns the realizer's time from pings", () => {
-    const clock = new ServerClock();
-    opened(clock);
-    FakeSocket.last.greet("a");
-    vi.advanceTimersByTime(0);
-    const [ping] = FakeSocket.last.sent;
-    expect(ping?.type).toBe("ping");
-    const sent = ping?.t as number;
-    vi.advanceTimersByTime(20);
-    FakeSocket.last.deliver({ type: "pong", t: sent, time: 100 });
-    expect(clock.at(performance.now() / 1000)).toBeCloseTo(100.01, 6);
   });
 });
 
@@ -134,14 +123,12 @@ describe("a lost connection", () => {
     expect(FakeSocket.opened).toHaveLength(3);
   });
 
-  it("is said, and no more pings are sent", () => {
-    opened();
-    const first = FakeSocket.last;
-    first.greet("a");
-    first.close();
-    vi.advanceTimersByTime(60_000);
+  it("is said", () => {
+    const connection = opened();
+    FakeSocket.last.greet("a");
+    FakeSocket.last.close();
     expect(listener.onLost).toHaveBeenCalled();
-    expect(first.sent).toEqual([]);
+    expect(connection.connected).toBe(false);
   });
 
   it("resumes after the last feedback seen, and keeps the session", () => {

@@ -30,7 +30,7 @@ export class FakeSocket {
     this.onmessage?.({ data: JSON.stringify(message) });
   }
 
-  deliverFrame(data: ArrayBuffer): void {
+  deliverBinary(data: ArrayBuffer): void {
     this.onmessage?.({ data });
   }
 

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 
-import { decodeFrames } from "../src/frame";
+import { decodeFrames } from "../src/binary";
 import { Playout } from "../src/playout";
 import { encodeFrame, type FrameFields } from "./frames";
 

@@ -50,12 +50,43 @@ describe("speech", () => {
     expect(player.records[0]).toMatchObject({ id: "s1", start: 10.5, end: 12.5 });
   });
 
-  it("is joined in the middle when its start has passed", async () => {
-    const { player } = playerAt(11, 3);
+  it("is not fetched when it was sent before its announcement", async () => {
+    const fetched = vi.fn();
+    vi.stubGlobal("fetch", fetched);
+    const { player } = playerAt(10, 3);
+    player.take({ id: "s1", wav: new ArrayBuffer(4) });
+    player.handle(announced(10.5));
+    await played.settled();
+    expect(played.last.at).toBeCloseTo(3.5 - LATENCY, 9);
+    expect(fetched).not.toHaveBeenCalled();
+  });
+
+  it("waits for a start that is not known yet", async () => {
+    const { player } = playerAt(10, 3);
+    player.handle({ ...announced(0), start: null });
+    await played.settled();
+    expect(played.sources).toEqual([]);
+    player.handle({ type: "audio_move", id: "s1", start: 10.5 });
+    expect(played.last.at).toBeCloseTo(3.5 - LATENCY, 9);
+  });
+
+  it("is played from its first word when it comes late, which is reported", async () => {
+    const { player, audio } = playerAt(10, 3);
+    player.handle(announced(10.2));
+    audio.currentTime = 3.7;
+    vi.advanceTimersByTime(700);
+    await played.settled();
+    expect(played.last).toMatchObject({ at: 3.7, offset: 0 });
+    audio.currentTime = 4;
+    expect(reported(player)).toBeCloseTo(0.3 - LATENCY, 9);
+  });
+
+  it("is joined in the middle when it comes too late for the realizer to follow", async () => {
+    const { player } = playerAt(12, 3);
     player.handle(announced(10.5));
     await played.settled();
     expect(played.last.at).toBe(3);
-    expect(played.last.offset).toBeCloseTo(0.5 + LATENCY, 9);
+    expect(played.last.offset).toBeCloseTo(1.5 + LATENCY, 9);
   });
 
   it("is not played any more when its end has passed", async () => {
@@ -96,7 +127,7 @@ describe("speech", () => {
       return player.report();
     }).flat();
     expect(reports).toHaveLength(4);
-    expect(reports[0]).toMatchObject({ type: "heard", id: "s1", position: expect.closeTo(0.1, 9) as number });
+    expect(reports[0]).toMatchObject({ type: "heard", id: "s1", position: expect.closeTo(0.1 - LATENCY, 9) as number });
     expect((reports[1]?.time ?? 0) - (reports[0]?.time ?? 0)).toBeCloseTo(0.25, 1);
   });
 
@@ -119,7 +150,7 @@ describe("speech", () => {
     expect(played.sources).toHaveLength(1);
     expect(player.records[0]).toMatchObject({ start: 10.2, end: 12.2 });
     player.handle({ type: "audio_stop", id: "s1", time: 11.2, fade: 0 });
-    expect(played.last.stoppedAt).toBeCloseTo(4 - LATENCY, 9);
+    expect(played.last.stoppedAt).toBeCloseTo(4, 9);
   });
 
   it("skips when the plan moves away from what is heard", async () => {
@@ -209,10 +240,10 @@ describe("speech", () => {
   });
 
   it("goes through the gains that were told before its sound had come", async () => {
-    const { player } = playerAt(11, 3);
+    const { player } = playerAt(12, 3);
     player.handle(announced(10.5));
-    player.handle({ type: "audio_gain", id: "s1", gain: 0.4, time: 10.9 });
-    player.handle({ type: "audio_gain", id: "s1", gain: 0.2, time: 11.5 });
+    player.handle({ type: "audio_gain", id: "s1", gain: 0.4, time: 11.9 });
+    player.handle({ type: "audio_gain", id: "s1", gain: 0.2, time: 12.3 });
     await played.settled();
     expect(played.gains.at(-1)?.initial).toBe(0.4);
     expect(played.gains.at(-1)?.told.map(({ gain }) => gain)).toEqual([0.2]);

@@ -1,4 +1,4 @@
-"""Audio of planned speeches. Sounds are announced ahead of time, so that the page can start them in time."""
+"""Audio of planned speeches. Sounds are announced when they are planned, so that they are there when they start."""
 
 import io
 import wave
@@ -23,7 +23,7 @@ class _Announced:
     """The last announcement of a sound, and the tick of the last one of its gain, which is sent once a tick at most."""
 
     clip: str
-    start: GlobalTime
+    start: Time
     gain: float
     gain_tick: Time = None
 
@@ -48,16 +48,16 @@ class SpeechAudio:
                 out += _differences(unit, announced, now)
             else:
                 del self._announced[unit]
-                out += _silence(unit, announced)
-        out += [self._announce(unit, time) for unit in units if (time := self._new(unit)) is not None]
+                out += _silence(unit, announced, now)
+        out += [self._announce(unit) for unit in units if self._is_new(unit)]
         return tuple(out)
 
-    def _new(self, unit: SpeechUnit) -> GlobalTime | None:
-        new = unit.live and unit.utterance.audio and unit not in self._announced
-        return unit.origin if new else None
+    def _is_new(self, unit: SpeechUnit) -> bool:
+        return unit.live and bool(unit.utterance.audio) and unit not in self._announced
 
-    def _announce(self, unit: SpeechUnit, start: GlobalTime) -> AudioStart:
+    def _announce(self, unit: SpeechUnit) -> AudioStart:
         self._count += 1
+        start = unit.origin
         clip = AudioClip(f"{self._character}-{self._count}", wav_bytes(unit.utterance), unit.utterance.duration)
         self._announced[unit] = _Announced(clip.id, start, unit.gain)
         return AudioStart(self._character, clip, start, unit.gain)
@@ -77,7 +77,7 @@ def wav_bytes(utterance: Utterance) -> bytes:
 def _differences(unit: SpeechUnit, announced: _Announced, now: GlobalTime) -> Iterator[AudioChange]:
     """The changes of a live speech since its last announcement, which they update."""
     time = unit.origin
-    if time is not None and abs(time - announced.start) > _WORTH_MOVING:
+    if time is not None and (announced.start is None or abs(time - announced.start) > _WORTH_MOVING):
         announced.start = time
         yield AudioMove(announced.clip, time)
     if unit.gain != announced.gain and announced.gain_tick != now:
@@ -85,8 +85,9 @@ def _differences(unit: SpeechUnit, announced: _Announced, now: GlobalTime) -> It
         yield AudioGain(announced.clip, unit.gain, now)
 
 
-def _silence(unit: SpeechUnit, announced: _Announced) -> list[AudioChange]:
+def _silence(unit: SpeechUnit, announced: _Announced, now: GlobalTime) -> list[AudioChange]:
     """The stop of a speech that was cut or never started; the sound of one that ended by itself has ended too."""
     if unit.state is UnitState.DONE and unit.cut is None:
         return []
-    return [AudioStop(announced.clip, unit.cut if unit.cut is not None else announced.start, _FADE)]
+    time = next((time for time in (unit.cut, announced.start) if time is not None), now)
+    return [AudioStop(announced.clip, time, _FADE)]

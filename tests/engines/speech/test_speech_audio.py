@@ -84,6 +84,25 @@ def test_a_moved_start_is_announced(scene: Scene) -> None:
     assert scene.changes(0.01) == (AudioMove("alice-1", GlobalTime(2.5)),)
 
 
+def test_a_sound_is_announced_before_its_start_is_known(scene: Scene) -> None:
+    with scene.graph.transaction("unknown"):
+        scene.start.set(None)
+    (start,) = scene.changes(0.0)
+    assert isinstance(start, AudioStart)
+    assert start.start is None
+    with scene.graph.transaction("known"):
+        scene.start.set(GlobalTime(2.5))
+    assert scene.changes(0.01) == (AudioMove("alice-1", GlobalTime(2.5)),)
+
+
+def test_a_sound_whose_start_never_became_known_is_stopped_with_its_speech(scene: Scene) -> None:
+    with scene.graph.transaction("unknown"):
+        scene.start.set(None)
+    scene.changes(0.0)
+    scene.unit.drop(GlobalTime(1.0))
+    assert scene.changes(1.0) == (AudioStop("alice-1", GlobalTime(1.0), 0.03),)
+
+
 def test_the_sound_of_an_interrupted_speech_is_stopped_and_that_of_a_whole_one_is_not(scene: Scene) -> None:
     scene.changes(0.0)
     scene.play(2.0)

@@ -1,6 +1,8 @@
-/** The binary message: for each character, a frame with its pose. */
+/** Binary messages: frames with the poses of characters, and sounds. */
 
-const KIND = 1;
+const FRAME = 1;
+const SOUND = 2;
+const SOUND_HEADER_BYTES = 4;
 const VERSION = 1;
 const HEADER_BYTES = 32;
 const QUATERNION_BYTES = 8;
@@ -32,7 +34,31 @@ export function emptyPose(joints: number, morphs: number): Pose {
   return { root: new Float32Array(3), rotations: new Float32Array(4 * joints), weights: new Float32Array(morphs) };
 }
 
-/** Reads a binary message: the frames of all characters. Throws a RangeError that says what is wrong with a malformed one. */
+/** A sound ahead of its announcement. */
+export interface Sound {
+  /** The id of its announcement. */
+  id: string;
+  /** A WAV file. */
+  wav: ArrayBuffer;
+}
+
+/** A binary message: the frames of all characters at one time, or a sound. */
+export type BinaryMessage = { kind: "frames"; frames: Frame[] } | ({ kind: "sound" } & Sound);
+
+/** Reads a binary message; throws a RangeError that says what is wrong with a malformed one. */
+export function decode(data: ArrayBuffer): BinaryMessage {
+  if (data.byteLength > 0 && new DataView(data).getUint8(0) === SOUND) return { kind: "sound", ...decodeSound(data) };
+  return { kind: "frames", frames: decodeFrames(data) };
+}
+
+function decodeSound(data: ArrayBuffer): Sound {
+  const length = data.byteLength < SOUND_HEADER_BYTES ? Infinity : new DataView(data).getUint16(2, true);
+  const end = SOUND_HEADER_BYTES + length;
+  if (data.byteLength < end) throw new RangeError(`a sound of ${data.byteLength} bytes has no complete header`);
+  return { id: new TextDecoder().decode(data.slice(SOUND_HEADER_BYTES, end)), wav: data.slice(end) };
+}
+
+/** Reads the frames of all characters. */
 export function decodeFrames(data: ArrayBuffer): Frame[] {
   const frames: Frame[] = [];
   for (let offset = 0; offset < data.byteLength;) {
@@ -67,7 +93,7 @@ function checkedCounts(view: DataView): [joints: number, morphs: number] {
     throw new RangeError(`a frame of ${view.byteLength} bytes has no complete header`);
   const kind = view.getUint8(0);
   const version = view.getUint8(1);
-  if (kind !== KIND || version !== VERSION) throw new RangeError(`unknown frame kind ${kind} version ${version}`);
+  if (kind !== FRAME || version !== VERSION) throw new RangeError(`unknown frame kind ${kind} version ${version}`);
   const joints = view.getUint16(16, true);
   const morphs = view.getUint16(18, true);
   const expected = frameBytes(joints, morphs);

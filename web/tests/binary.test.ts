@@ -1,7 +1,19 @@
 import { describe, expect, it } from "vitest";
 
-import { decodeFrames } from "../src/frame";
+import { decode, decodeFrames } from "../src/binary";
 import { encodeFrame, joined } from "./frames";
+
+describe("a binary message", () => {
+  it("with a sound has its id and a WAV file", () => {
+    const message = decode(new Uint8Array([2, 1, 2, 0, 0xc3, 0xa9, 82, 73]).buffer);
+    expect(message).toMatchObject({ kind: "sound", id: "é" });
+    expect(message.kind === "sound" && [...new Uint8Array(message.wav)]).toEqual([82, 73]);
+  });
+
+  it("with a sound is refused when its id is not whole", () => {
+    expect(() => decode(new Uint8Array([2, 1, 2, 0, 65]).buffer)).toThrow("5 bytes");
+  });
+});
 
 describe("a binary frame", () => {
   it("is read field by field, little-endian, with w first on the wire and last in the pose", () => {
