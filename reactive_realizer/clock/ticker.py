@@ -3,11 +3,11 @@
 from collections import deque
 from collections.abc import AsyncIterator
 from dataclasses import dataclass
-from math import floor
+from math import ceil, floor
 from typing import Self
 
 from reactive_realizer.clock.clock import Clock
-from reactive_realizer.clock.units import RESOLUTION, GlobalTime
+from reactive_realizer.clock.units import RESOLUTION, GlobalTime, is_due
 
 RATE = 100
 """Ticks per second."""
@@ -56,6 +56,12 @@ class Tick:
 def tick_time(number: int) -> GlobalTime:
     """The time of tick ``number``, s."""
     return GlobalTime(number / RATE)
+
+
+def first_tick(time: GlobalTime) -> int:
+    """The number of the first tick at which a time is due."""
+    number = ceil((time - RESOLUTION) * RATE)
+    return number if is_due(time, tick_time(number)) else number + 1
 
 
 class Ticker:

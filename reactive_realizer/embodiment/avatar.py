@@ -20,6 +20,9 @@ from reactive_realizer.errors import Fault, RealizerError
 
 _HEADER = struct.Struct("<4sII")
 _CHUNK = struct.Struct("<I4s")
+_MOST_BONES = 1_000
+_LONGEST_SCENE = 16 * 1024 * 1024
+"""Size limit of the JSON chunk, bytes. That of a detailed avatar has less than one MiB."""
 
 
 def read_glb(path: Path) -> dict[str, Any]:
@@ -38,10 +41,12 @@ def read_glb(path: Path) -> dict[str, Any]:
         length, kind = _CHUNK.unpack_from(header, _HEADER.size)
         if magic != b"glTF" or version != 2 or kind != b"JSON" or length > size:
             raise RealizerError(BadAvatar(file=path.name, reason="not a binary glTF 2 file"))
+        if length > _LONGEST_SCENE:
+            raise RealizerError(BadAvatar(file=path.name, reason=f"its JSON chunk is over {_LONGEST_SCENE} bytes"))
         text = file.read(length)
     try:
         scene = json.loads(text)
-    except ValueError as problem:
+    except (ValueError, RecursionError) as problem:
         raise RealizerError(BadAvatar(file=path.name, reason=f"its JSON chunk cannot be read: {problem}")) from problem
     if not isinstance(scene, dict):
         raise RealizerError(BadAvatar(file=path.name, reason="its JSON chunk is not an object"))
@@ -106,8 +111,10 @@ class Avatar:
         scene = read_glb(path)
         try:
             bones, morphs = tuple(_bones(scene, path.name)), _morphs(scene)
-        except (KeyError, IndexError, TypeError, ValueError) as problem:
+        except (LookupError, TypeError, ValueError, AttributeError) as problem:
             raise RealizerError(BadAvatar(file=path.name, reason=f"unusable skin or mesh ({problem!r})")) from problem
+        if len(bones) > _MOST_BONES:
+            raise RealizerError(BadAvatar(file=path.name, reason=f"it has more than {_MOST_BONES} bones"))
         return cls.of_bones(bones, morphs, path.name)
 
     @classmethod

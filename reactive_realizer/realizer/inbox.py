@@ -11,7 +11,7 @@ from reactive_realizer.embodiment.world import World
 from reactive_realizer.errors import Fault, NotANumber, RealizerError
 from reactive_realizer.limits import Limits
 from reactive_realizer.pegboard.anticipator import Anticipator, AnticipatorEvent, Remote
-from reactive_realizer.pegboard.peg_key import anticipator_key
+from reactive_realizer.pegboard.peg_key import PegKey, anticipator_key
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.realizer.anticipator_streams import AnticipatorStreams
 from reactive_realizer.realizer.inputs import BmlText, Event, Input, Prediction, TargetMoved
@@ -50,6 +50,7 @@ class Inbox:
         self._put = 0
         self._remotes: set[str] = set()
         """The anticipators that clients have named."""
+        self._unneeded: tuple[GlobalTime, frozenset[PegKey]] = (GlobalTime(-1.0), frozenset())
 
     def __bool__(self) -> bool:
         return bool(self._waiting)
@@ -80,7 +81,7 @@ class Inbox:
         }
         new = {each for each in (key, *waiting) if self._board.get(each) is None}
         points = len(self._board.predicted_points) + len(new)
-        if points > limit and points - len(set(self._board.unneeded_points(now)) - waiting) > limit:
+        if points > limit and points - len(self._unneeded_points(now) - waiting) > limit:
             raise RealizerError(TooManyNames(limit=limit, things="predicted points"))
 
     def take(self, now: GlobalTime) -> tuple[Input, ...]:
@@ -123,6 +124,12 @@ class Inbox:
             self._remotes.add(id_)
             self._streams.add(Remote(self._streams.context(id_)))
         return self._board.anticipators[id_]
+
+    def _unneeded_points(self, now: GlobalTime) -> frozenset[PegKey]:
+        """The points that may be forgotten; there are many to look at, and they change only in ticks."""
+        if self._unneeded[0] != now:
+            self._unneeded = (now, frozenset(self._board.unneeded_points(now)))
+        return self._unneeded[1]
 
     def _give_back(self, predicted: Collection[str]) -> None:
         """Remove the anticipators of clients that have no points any more, except those that are predicted now."""

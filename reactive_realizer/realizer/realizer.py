@@ -8,8 +8,8 @@ from typing import Self
 
 from reactive_realizer.bml.document import parse
 from reactive_realizer.bml.names import EVENTS
-from reactive_realizer.clock.ticker import Tick, tick_time
-from reactive_realizer.clock.units import GlobalTime, is_due
+from reactive_realizer.clock.ticker import Tick, first_tick
+from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.audio import AudioChange, AudioHeard
 from reactive_realizer.embodiment.frame import Frame
 from reactive_realizer.embodiment.world import World
@@ -250,13 +250,14 @@ class Realizer:
     async def _catch_up(self, tick: Tick) -> None:
         """Play the skipped ticks in which something was due, in order and without output."""
         due = self.scheduler.next_due(tick.previous) if tick.left_out else None
-        for number in tick.left_out:
-            if is_due(due, tick_time(number)):
-                missed = Tick.on_time(number)
-                self.board.begin(missed)
-                await self._play(missed)
-                self._check(missed.time)
-                due = self.scheduler.next_due(missed.time)
+        number = tick.left_out.start
+        while due is not None and (number := max(number, first_tick(due))) in tick.left_out:
+            missed = Tick.on_time(number)
+            self.board.begin(missed)
+            await self._play(missed)
+            self._check(missed.time)
+            due = self.scheduler.next_due(missed.time)
+            number += 1
 
     def _take_blocks(self, entered: TickInputs, now: GlobalTime) -> None:
         """Deliver the results of slow work, then accept new blocks."""

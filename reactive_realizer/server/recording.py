@@ -187,13 +187,13 @@ class _Reader:
         self._seq += 1
         if line["seq"] != self._seq:
             raise RealizerError(LostInput(seq=line["seq"], wanted=self._seq))
-        self._tick = self._later(line["tick"])
+        self._tick = self._later(int(line["tick"]))
         self._inputs.append(input_of(line["input"]))
 
     def _take_tick(self, line: Message) -> None:
         work = tuple(map(_delivery, line.get("work", ())))
         predicted = tuple(map(_predicted, line.get("predicted", ())))
-        self.ticks.append(TickInputs(self._later(line["tick"]), tuple(self._inputs), work, predicted))
+        self.ticks.append(TickInputs(self._later(int(line["tick"])), tuple(self._inputs), work, predicted))
         self._inputs, self._tick = [], None
 
     def _take_forecast(self, line: Message) -> None:

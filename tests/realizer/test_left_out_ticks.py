@@ -51,6 +51,16 @@ async def test_no_tick_of_a_long_pause_is_played_if_nothing_was_due(pilot: Reali
     assert played == []
 
 
+async def test_a_pause_of_a_month_takes_no_longer_than_what_was_due_in_it(
+    pilot: RealizerPilot, played: list[Tick]
+) -> None:
+    pilot.block("b", '<wait id="v" start="0.5" duration="1"/><wait id="w" start="80000" duration="1"/>')
+    await pilot.tick()
+    played.clear()
+    await pilot.realizer.step(Tick(300_000_000, GlobalTime(0.01), frame=False))
+    assert {tick.number for tick in played} == {51, 151, 8_000_001, 8_000_101}
+
+
 async def test_only_the_late_tick_itself_makes_a_frame(pilot: RealizerPilot) -> None:
     pilot.watch()
     pilot.block("b", '<gesture id="g" lexeme="BEAT"/>')

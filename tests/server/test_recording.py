@@ -150,6 +150,7 @@ FORECAST = '{"tick": 9, "forecast": {"anticipator": "m", "sync": "tick1", "time"
         ([GOOD[0].replace('"seed"', '"sead"')], 1, "scene"),
         ([GOOD[0], "[]"], 2, "Tick: []"),
         ([GOOD[0], '{"tick": -1}'], 2, "minimum 0"),
+        ([GOOD[0], '{"tick": 1e308}'], 2, "maximum 10000000000"),
         ([GOOD[0], '{"tick": 3}', '{"tick": 3}'], 3, "tick 3 follows tick 3"),
         ([GOOD[0], EVENT.replace("13", "2")], 2, "input 2 follows where input 1"),
         ([*GOOD, EVENT.replace("10", "9")], len(GOOD) + 1, "tick 9 follows tick 9"),

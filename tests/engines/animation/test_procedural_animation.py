@@ -218,6 +218,11 @@ def test_a_mirrored_animation_exchanges_the_arms(skeleton: Skeleton, animations:
         ('\n<Parameter sid="a" value="much"/>', r"line 3, <Parameter>: value='much' is not a number"),
         ('<Parameter sid="a" value="nan"/>', r"<Parameter>: value='nan' is not a number"),
         ('<Parameter sid="t" value="1"/>', r"a parameter may not be called t"),
+        (
+            '<Rotation target="vc4" rotation="0;0;0"/>'
+            + "".join(f'<Parameter sid="p{n}" value="1"/>' for n in range(1001)),
+            r"line 1, <ProcAnimation>: more than 1000 parameters in one file",
+        ),
         ('<KeyPosition id="a:b" time="0"/>', r"line 2, <KeyPosition>: id='a:b' cannot name a sync point"),
         (
             '<KeyPosition id="stroke" time="0"/>\n<KeyPosition id="stroke" time="1"/>',

@@ -41,6 +41,9 @@ _log = logging.getLogger(__name__)
 LONGEST = 100_000
 """Limit of the characters of all formulas of a file. Reading that many takes half a second, while figures move."""
 
+MOST_PARAMETERS = 1_000
+"""Limit of the parameters of a file; each becomes a cell for every behavior that plays it."""
+
 _ELEMENTS = ("SkeletonInterpolator", "Rotation", "EndEffector", "Keyframes", "KeyPosition", "Parameter")
 _ROOTS = ("root", ROOT)
 
@@ -183,10 +186,11 @@ def _parameters(document: XmlElement, times: Iterable[Formula], motion: Iterable
     if ProceduralAnimation.TIME in in_times:
         raise asset_error(document, "a duration or key time depends on t")
     used = [*in_times, *(name for formula in motion for name in variables(formula))]
-    return {
-        **declared,
-        **dict.fromkeys((name for name in used if name not in declared | {ProceduralAnimation.TIME: 0}), 0.0),
-    }
+    given = {*declared, ProceduralAnimation.TIME}
+    parameters = declared | dict.fromkeys((name for name in used if name not in given), 0.0)
+    if len(parameters) > MOST_PARAMETERS:
+        raise asset_error(document, f"more than {MOST_PARAMETERS} parameters in one file")
+    return parameters
 
 
 NO_FUNCTIONS: Mapping[str, Function] = MappingProxyType({})
