@@ -1,5 +1,6 @@
 """The engine of ``speech`` (thesis 8.10)."""
 
+from collections import OrderedDict
 from collections.abc import Awaitable, Collection, Mapping
 from types import MappingProxyType
 
@@ -28,6 +29,37 @@ class NothingToSay(CreationFault):
     template = "its text contains no words"
 
 
+_Text = tuple[str, tuple[tuple[str, int], ...]]
+"""What a voice is given: a text, and its marks with the indices of their characters."""
+
+_REMEMBERED_BYTES = 16 * 1024 * 1024
+"""Audio of the utterances that are remembered for repetition: six minutes of speech at 22 kHz."""
+
+
+class _Spoken:
+    """The utterances that were planned last; what is said again need not be synthesized again.
+
+    They are remembered when they are planned, not when they are synthesized: so a replay remembers the same ones at the
+    same ticks.
+    """
+
+    def __init__(self) -> None:
+        self._utterances: OrderedDict[_Text, Utterance] = OrderedDict()
+        self._bytes = 0
+
+    def get(self, text: _Text) -> Utterance | None:
+        if text in self._utterances:
+            self._utterances.move_to_end(text)
+        return self._utterances.get(text)
+
+    def add(self, text: _Text, utterance: Utterance) -> None:
+        if text not in self._utterances:
+            self._utterances[text] = utterance
+            self._bytes += len(utterance.audio)
+        while self._bytes > _REMEMBERED_BYTES:
+            self._bytes -= len(self._utterances.popitem(last=False)[1].audio)
+
+
 class SpeechEngine(DefaultEngine):
     """Speaks with the voice of its character, and provides its lip sync (`LipSyncProvider`)."""
 
@@ -41,6 +73,7 @@ class SpeechEngine(DefaultEngine):
         self._voice = context.voice
         self._graph = context.graph
         self._audio = SpeechAudio(context.character)
+        self._spoken = _Spoken()
         self._tracks: dict[SpeechUnit, VisemeTrack] = {}
 
     def check(self, behavior: Behavior) -> Collection[str] | None:
@@ -52,7 +85,7 @@ class SpeechEngine(DefaultEngine):
         return None if wants_words(behavior) else behavior.sync_points
 
     def prepare(self, behavior: Behavior) -> Awaitable[object] | None:
-        """The synthesis, unless the voice answers at once."""
+        """The synthesis, unless the voice answers at once or the same text was spoken before."""
         spoken = self._speak(behavior)
         return None if isinstance(spoken, Utterance) else spoken
 
@@ -67,6 +100,8 @@ class SpeechEngine(DefaultEngine):
             raise TypeError(behavior, utterance)
         if not utterance.words:
             raise RealizerError(NothingToSay())
+        if prepared is not None:
+            self._spoken.add(_text(behavior), utterance)
         return SpeechUnit(block, behavior, utterance, self._graph)
 
     def add(self, unit: PlanUnit) -> None:
@@ -112,12 +147,16 @@ class SpeechEngine(DefaultEngine):
         return Drift(unit, change) if change else None
 
     def _speak(self, behavior: Behavior) -> Utterance | Awaitable[Utterance]:
-        if not isinstance(behavior, Speech):
-            raise TypeError(behavior)
-        marks = tuple((mark.id, mark.char_index) for mark in behavior.marks)
-        return self._tts.synthesize(behavior.text, marks, self._voice)
+        text = _text(behavior)
+        return self._spoken.get(text) or self._tts.synthesize(*text, self._voice)
 
     def _track(self, unit: SpeechUnit) -> VisemeTrack:
         if unit not in self._tracks:
             self._tracks = {unit: VisemeTrack(unit.utterance)}
         return self._tracks[unit]
+
+
+def _text(behavior: Behavior) -> _Text:
+    if not isinstance(behavior, Speech):
+        raise TypeError(behavior)
+    return behavior.text, tuple((mark.id, mark.char_index) for mark in behavior.marks)
