@@ -200,10 +200,12 @@ class UnitLifecycle:
         block = self._blocks.get(unit.block)
         if block is None:
             return
-        others = (other for other in block.units if other is not unit and other.timing.rigid)
+        timings = ((other, other.timing) for other in block.units if other is not unit)
+        others = (other for other, timing in timings if timing.rigid and not timing.instant)
         if any(each.peg is point.peg for other in others for each in other.points):
             point.peg = OffsetPeg(self._board.graph, str(unit.key(point.id)), point.peg, 0.0)
             self._board.add(unit.key(point.id), point.peg)
+            block.update_end()
             self._blocks.watch.follow(block)
             unit.wake()
 

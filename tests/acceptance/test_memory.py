@@ -2,6 +2,7 @@
 
 import gc
 import weakref
+from collections import Counter
 from collections.abc import Iterable
 from typing import TypeVar
 
@@ -12,6 +13,7 @@ from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.testing.pilot import RealizerPilot
 
 T = TypeVar("T")
+OURS, TESTING = "reactive_realizer", "reactive_realizer.testing"
 
 
 def tracked(kind: type[T], besides: Iterable[T] = ()) -> list[T]:
@@ -70,6 +72,32 @@ async def test_only_the_latest_ended_blocks_are_remembered(pilot: RealizerPilot)
         pilot.block(f"b{number}")
     await pilot.tick()
     assert [ended.key.block for ended in blocks.ended] == [f"b{n}" for n in range(5, 10)]
+
+
+async def test_blocks_that_are_sent_again_and_again_leave_nothing_new_behind(pilot: RealizerPilot) -> None:
+    async def play() -> Counter[str]:
+        for number in range(10):
+            pilot.predict("t", f"hit{number % 4}", pilot.now + 0.1)
+            pilot.block(
+                f"b{number}",
+                f"""
+                <speech id="s"><text>one <sync id="m"/>two</text></speech>
+                <gesture id="g" lexeme="BEAT" stroke="s:m"/>
+                <head id="h" lexeme="NOD" start="anticipators:t:hit{number % 4}"/>
+                <wait id="w" event="asked" max-wait="0.5"/><bmla:emit id="e" event="asked" start="s:end"/>
+                """,
+                composition="REPLACE" if number % 5 == 0 else "MERGE",
+            )
+            await pilot.advance(0.1 if number % 5 == 4 else 1.5)
+        await pilot.advance(2.0)
+        assert pilot.feedback.messages  # parsed; the reports are freed
+        gc.collect()
+        modules = ((type(each).__name__, str(type(each).__module__)) for each in gc.get_objects())
+        return Counter(name for name, module in modules if module.startswith(OURS) and not module.startswith(TESTING))
+
+    await play()
+    before = await play()
+    assert await play() - before == Counter()
 
 
 async def test_fading_motions_are_not_kept_if_no_frames_are_made(pilot: RealizerPilot) -> None:

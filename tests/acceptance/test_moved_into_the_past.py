@@ -46,3 +46,20 @@ async def test_two_consecutive_speeches_are_both_played(pilot: RealizerPilot, tu
     assert_time(pilot.feedback, "b:a:start", 1.0)
     assert_time(pilot.feedback, "b:c:start", 1.0 + LONG)
     assert_time(pilot.feedback, "b:c:end", 1.0 + 2 * LONG)
+
+
+async def test_a_block_does_not_end_before_a_behavior_that_a_rigid_one_does_not_wait_for(pilot: RealizerPilot) -> None:
+    shift = f'<gazeShift id="g" target="bluebox" start="{HIT}-1"/>'
+    pilot.block("b", shift + '<wait id="w" start="g:end" duration="0.01"/>')
+    await moves(pilot, 0.5, ("hit", 0.5), 1)
+    assert_time(pilot.feedback, "b:w:end", 0.51)
+    assert pilot.feedback.time("b:end") == pilot.feedback.time("b:g:end") > 0.51
+    assert pilot.feedback.progress[-1] == "b:end"
+
+
+async def test_an_interruption_at_a_point_that_comes_later_than_it_should_waits_for_it(pilot: RealizerPilot) -> None:
+    pilot.block("a", '<wait id="w" duration="5"/>')
+    shift = f'<gazeShift id="g" target="bluebox" start="{HIT}-1"/>'
+    pilot.block("b", shift + '<bmla:interrupt id="i" target="a" start="g:end"/>')
+    await moves(pilot, 0.5, ("hit", 0.5), 1)
+    assert pilot.feedback.time("a:end") == pilot.feedback.time("b:i:start") == pilot.feedback.time("b:g:end") > 0.5
