@@ -10,8 +10,8 @@ from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.avatar import Avatar
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.frame import Frame, rotation_array
-from reactive_realizer.embodiment.joints import EYES, ROOT
-from reactive_realizer.embodiment.pose import Layer, compose
+from reactive_realizer.embodiment.joints import EYES, LEFT_ARM, RIGHT_ARM, ROOT
+from reactive_realizer.embodiment.pose import ComposedBody, Layer, compose
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, conjugate, from_axis_angle, multiply, rotate
 from reactive_realizer.embodiment.speed_limit import SpeedLimit, slowed
 from reactive_realizer.embodiment.vector import UP, ZERO, Vec3, add, scale, subtract
@@ -47,13 +47,14 @@ class Humanoid:
         self._position = position
         self._turn = from_axis_angle(UP, heading)
         self._morphs = {morph: i for i, morph in enumerate(avatar.morphs)}
+        self._arms = [joint for joint in avatar.skeleton.joints if joint in LEFT_ARM | RIGHT_ARM]
         self._limit: SpeedLimit | None = None
         self._shown = Body(avatar.skeleton)
         self._time = GlobalTime(0.0)
         self._passed = 0.0
         self._before: Body | None = None
         self.body = Body(avatar.skeleton)
-        """The figure without additive motion, in its own frame; motions start from here."""
+        """The figure without additive motion, its arms as shown, in its own frame; motions start from here."""
 
     def rest(self, body: Body) -> None:
         """Set the body until the first frame."""
@@ -72,7 +73,13 @@ class Humanoid:
         else:
             self._before = self._shown
             self._shown = self._limit(composed.shown, self._passed)
-        self.body = composed.steady
+        self.body = self._steady(composed)
+
+    def _steady(self, composed: ComposedBody) -> Body:
+        """Return the body without additive motion, with arms that are slowed where they are shown."""
+        shown, wanted = self._shown.pose, composed.shown.pose
+        slower = {joint: shown[joint] for joint in self._arms if shown[joint] is not wanted[joint]}
+        return composed.steady.posed(slower) if slower else composed.steady
 
     def look(self, eyes: Eyes | None, faces: Iterable[Mapping[str, float]]) -> Frame:
         """Return the frame at the time of the last move. The eyes look from the head as shown.

@@ -1,22 +1,28 @@
-"""Random blocks with tight timings, and where the hands are when their sync points are reported.
+"""Random sessions with tight timings, and where the hands are when their sync points are reported.
 
-``python -m tests.acceptance.reached_points COUNT [FIRST]`` examines many blocks, and prints the points that are missed.
+``python -m tests.acceptance.reached_points COUNT [FIRST]`` examines many sessions, and prints what they miss.
 """
 
 import asyncio
 import logging
 import math
 import sys
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
 from random import Random
 from typing import NamedTuple
 
+import pytest
+
 from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.bml.behaviors import Gesture, Pointing
+from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.joints import SIDES
 from reactive_realizer.embodiment.speed_limit import SpeedLimit
 from reactive_realizer.embodiment.vector import Vec3, distance, dot, subtract, unit
+from reactive_realizer.engines.animation.animation_unit import AnimationUnit
 from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 NEAR, AIMED = 0.02, 2.0
@@ -24,9 +30,10 @@ NEAR, AIMED = 0.02, 2.0
 
 GESTURES = ("BEAT", "OFFER", "WAVE", "CONDUCT", "SELF", "CONDUIT", "CHOP", "FLICK", "ONE")
 TARGETS = ("bluebox", "greensphere")
-SIDES = {"LEFT_HAND": "l", "RIGHT_HAND": "r", "BOTH_HANDS": "lr"}
+MODES = ("", ' mode="LEFT_HAND"', ' mode="RIGHT_HAND"', ' mode="BOTH_HANDS"')
 POINTS = ("start", "ready", "strokeStart", "stroke", "strokeEnd", "relax", "end")
 SPEECH = '<speech id="s"{}><text>One <sync id="w"/>two three <sync id="x"/>four.</text></speech>'
+INTERRUPT = '<bmla:interrupt id="i" target="{}"/>'
 STARTS = ("", "", ' start="0"', ' start="0.3"', ' start="anticipators:t:hit"')
 OTHERS = (
     '<head id="o" lexeme="NOD"/>',
@@ -49,40 +56,67 @@ class Shown(NamedTuple):
     shown: Body
 
 
-class Miss(NamedTuple):
-    """A point at which a hand is not where its motion wants it, by m and degrees."""
+class Record(NamedTuple):
+    """What is recorded of a single figure.
+
+    Attributes:
+        frames: in order of time.
+        hands: that a gesture or pointing moves, by ``block:behavior``: "l", "r" or both.
+    """
+
+    frames: list[Shown]
+    hands: dict[str, str]
+
+
+class Reached(NamedTuple):
+    """A ready or stroke that is reported, and how far a hand is from where its motion wants it.
+
+    Attributes:
+        point: with the hand and the time.
+        distance: of the wrist, m.
+        angle: of a pointing finger, degrees; 0 for a gesture.
+    """
 
     point: str
     distance: float
-    angle: float
+    angle: float = 0.0
+
+    @property
+    def missed(self) -> bool:
+        """Whether the hand is too far away."""
+        return self.distance > NEAR or self.angle > AIMED
 
 
 class Case(NamedTuple):
     """A session.
 
     Attributes:
+        strategy: that plans its blocks.
         sent: times (s), in order, each with the input that the pilot gives then.
-        sides: of the gestures and pointings, by ``block:behavior``.
     """
 
+    strategy: str
     sent: Sequence[tuple[float, Callable[[RealizerPilot], None]]]
-    sides: Mapping[str, str]
 
 
 def random_case(seed: int) -> Case:
-    """One or two blocks with gestures, pointings and other behaviors, and predictions that are often late."""
-    random, sides = Random(seed), dict[str, str]()
-    sent = [(random.uniform(0.0, 0.3), partial(_send, "b0", _block(random, "b0", sides), "MERGE"))]
-    if random.random() < 0.4:
-        how = random.choice(("MERGE", "APPEND"))
-        sent.append((random.uniform(0.4, 2.0), partial(_send, "b1", _block(random, "b1", sides), how)))
+    """One or two blocks with gestures, pointings and other behaviors, interruptions, and predictions often late."""
+    random = Random(seed)
+    strategy = random.choice(("convex", "convex", "embr", "smartbody"))
+    sent = [(random.uniform(0.0, 0.3), partial(_send, "b0", _block(random), "MERGE"))]
+    if random.random() < 0.5:
+        how = random.choice(("MERGE", "APPEND", "REPLACE"))
+        sent.append((random.uniform(0.4, 2.0), partial(_send, "b1", _block(random), how)))
+    if random.random() < 0.2:
+        target = random.choice(("b0", "b1"))
+        sent.append((random.uniform(0.4, 2.0), partial(_send, "i", INTERRUPT.format(target), "MERGE")))
     if random.random() < 0.8:
         sent.append((0.0, partial(_predict, random.uniform(0.2, 2.0))))
     for _ in range(random.choice((0, 1, 1, 2, 3))):
         time = random.uniform(0.2, 2.0)
         sent.append((time, partial(_predict, time + random.uniform(-0.2, 1.2))))
     sent.append((2.01, partial(_predict, random.uniform(2.1, 3.1))))  # so that nothing waits for ever
-    return Case(sorted(sent, key=lambda each: each[0]), sides)
+    return Case(strategy, sorted(sent, key=lambda each: each[0]))
 
 
 def _send(name: str, text: str, composition: str, pilot: RealizerPilot) -> None:
@@ -93,49 +127,70 @@ def _predict(time: float, pilot: RealizerPilot) -> None:
     pilot.predict("t", "hit", time)
 
 
-def _block(random: Random, name: str, sides: dict[str, str]) -> str:
-    parts = [SPEECH.format(random.choice(STARTS))]
+def _block(random: Random) -> str:
+    parts, first = [SPEECH.format(random.choice(STARTS))], ""
     for number in range(random.choice((1, 1, 2))):
         points = sorted(random.sample(range(7), random.choice((0, 1, 1, 1, 2, 2, 3))))
         times = sorted(round(random.uniform(0.0, 1.6), 2) for _ in points)
         places = (time if random.random() < 0.3 else random.choice(REFERENCES) for time in times)
-        ties = "".join(f' {POINTS[k]}="{place}"' for k, place in zip(points, places, strict=True))
-        mode = random.choice(sorted(SIDES))
+        named = {POINTS[k]: place for k, place in zip(points, places, strict=True)}
+        if number and random.random() < 0.4:
+            named["start"] = f"{first}:{random.choice(('strokeEnd', 'relax', 'relax', 'end'))}"
+        ties = "".join(f' {point}="{place}"' for point, place in named.items())
+        mode = random.choice(MODES)
         if random.random() < 0.7:
             id_ = f"g{number}"
-            parts.append(f'<gesture id="{id_}" lexeme="{random.choice(GESTURES)}" mode="{mode}"{ties}/>')
+            parts.append(f'<gesture id="{id_}" lexeme="{random.choice(GESTURES)}"{mode}{ties}/>')
         else:
             id_ = f"p{number}"
-            parts.append(f'<pointing id="{id_}" target="{random.choice(TARGETS)}" mode="{mode}"{ties}/>')
-        sides[f"{name}:{id_}"] = SIDES[mode]
+            parts.append(f'<pointing id="{id_}" target="{random.choice(TARGETS)}"{mode}{ties}/>')
+        first = first or id_
     if random.random() < 0.4:
         parts.append(random.choice(OTHERS))
     return "".join(parts)
 
 
 async def perform(case: Case, pilot: RealizerPilot) -> None:
-    """Plays a case for 6 s."""
+    """Plays a case until its blocks have ended, for at most 8 s."""
     for time, give in case.sent:
         await pilot.advance(max(0.0, time - pilot.now))
         give(pilot)
-    await pilot.advance(6.0 - pilot.now)
+    await pilot.advance(0.1)
+    while pilot.now < 8.0 and pilot.realizer.scheduler.blocks.alive:
+        await pilot.advance(0.1)
+    await pilot.advance(0.02)  # a frame after the last point
 
 
-def misses(case: Case, pilot: RealizerPilot, frames: Sequence[Shown]) -> Iterator[Miss]:
-    """The reported ready and stroke points at which a hand is elsewhere, although no warning names the point."""
+def reached(pilot: RealizerPilot, record: Record) -> Iterator[Reached]:
+    """The reported ready and stroke points that no warning names, once for each hand."""
     warned = " ".join(message.text for message in pilot.feedback.of("warningFeedback"))
     for message in pilot.feedback.of("syncPointProgress"):
         behavior, _, sync = message.id.rpartition(":")
-        if sync not in ("ready", "stroke") or f"{behavior.partition(':')[2]}:{sync}" in warned:
-            continue
-        frame = next((frame for frame in frames if frame.time >= message.global_time - 1e-6), None)
-        for side in case.sides.get(behavior, "") if frame else "":
-            assert frame is not None
-            off = distance(*(body.transform(f"{side}_wrist").position for body in frame[1:]))
-            cosine = dot(*(_finger(body, side) for body in frame[1:]))
-            turned = math.degrees(math.acos(min(1.0, cosine))) if ":p" in behavior else 0.0
-            if off > NEAR or turned > AIMED:
-                yield Miss(f"{message.id} ({side}) at {message.global_time:.3f}", off, turned)
+        if sync in ("ready", "stroke") and f"{behavior.partition(':')[2]}:{sync}" not in warned:
+            for side in record.hands.get(behavior, ""):
+                shown = _shown_at(message.global_time, side, record.frames)
+                offs = [_off(each, side, ":p" in behavior) for each in shown]
+                yield Reached(f"{message.id} ({side}) at {message.global_time:.3f}", *min(offs))
+
+
+def _shown_at(time: float, side: str, frames: Sequence[Shown]) -> Iterator[Shown]:
+    """The frame after a point, and the one before, if the motion has come near the point by then.
+
+    A hand that is there in the frame before may have left in the one after.
+    """
+    after = next(index for index, frame in enumerate(frames) if frame.time >= time - 1e-6)
+    yield frames[after]
+    if after >= 2:
+        earlier, before = (frame.wanted.transform(f"{side}_wrist").position for frame in frames[after - 2 : after])
+        if distance(earlier, before) < NEAR:
+            yield frames[after - 1]
+
+
+def _off(frame: Shown, side: str, points: bool) -> tuple[float, float]:
+    """How far a wrist is from where it should be, m, and a pointing finger, degrees."""
+    off = distance(*(body.transform(f"{side}_wrist").position for body in (frame.wanted, frame.shown)))
+    cosine = dot(*(_finger(body, side) for body in (frame.wanted, frame.shown))) if points else 1.0
+    return off, math.degrees(math.acos(min(1.0, cosine)))
 
 
 def _finger(body: Body, side: str) -> Vec3:
@@ -145,44 +200,52 @@ def _finger(body: Body, side: str) -> Vec3:
 
 
 @contextmanager
-def recorded() -> Iterator[list[Shown]]:
-    """Records the wanted and the shown bodies of a single figure."""
-    frames: list[Shown] = []
-    limited = SpeedLimit.__call__
+def recorded() -> Iterator[Record]:
+    """Records a single figure."""
+    record = Record([], {})
+    limited, start = SpeedLimit.__call__, AnimationUnit.on_start
 
     def call(self: SpeedLimit, wanted: Body, duration: float) -> Body:
         shown = limited(self, wanted, duration)
-        frames.append(Shown((frames[-1].time if frames else 0.0) + duration, wanted, shown))
+        time = record.frames[-1].time if record.frames else 0.0
+        record.frames.append(Shown(time + duration, wanted, shown))
         return shown
 
-    SpeedLimit.__call__ = call  # type: ignore[method-assign]
-    try:
-        yield frames
-    finally:
-        SpeedLimit.__call__ = limited  # type: ignore[method-assign]
+    def on_start(self: AnimationUnit, time: GlobalTime) -> None:
+        if isinstance(self.behavior, Gesture | Pointing):
+            hands = (side for side in SIDES if f"{side}_shoulder" in self.motion.joints)
+            record.hands[f"{self.block.block}:{self.behavior.id}"] = "".join(hands)
+        start(self, time)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(SpeedLimit, "__call__", call)
+        patch.setattr(AnimationUnit, "on_start", on_start)
+        yield record
 
 
-async def examine(seed: int) -> list[Miss]:
-    """The misses of a random case."""
+async def examine(seed: int) -> list[Reached]:
+    """The points that are reached in a random case."""
     case = random_case(seed)
-    with recorded() as frames:
-        async with open_pilot(SceneOptions(voice="text", verify=True)) as pilot:
+    with recorded() as record:
+        async with open_pilot(SceneOptions(voice="text", strategy=case.strategy, verify=True)) as pilot:
             pilot.watch()
             await perform(case, pilot)
-            return [*misses(case, pilot, frames)]
+            return [*reached(pilot, record)]
 
 
 def main(count: int, first: int = 0) -> None:
     """Prints the misses of some cases."""
     logging.disable()
-    missed = 0
+    points = missed = 0
     for seed in range(first, first + count):
         found = asyncio.run(examine(seed))
-        missed += bool(found)
-        for miss in found:
+        points += len(found)
+        misses = [each for each in found if each.missed]
+        missed += bool(misses)
+        for miss in misses:
             sys.stdout.write(f"{seed} {miss.point}: {100 * miss.distance:.1f} cm, {miss.angle:.1f} degrees\n")
             sys.stdout.flush()
-    sys.stdout.write(f"{missed} of {count} blocks miss\n")
+    sys.stdout.write(f"{missed} of {count} sessions miss; {points} points\n")
 
 
 if __name__ == "__main__":

@@ -154,6 +154,20 @@ async def test_the_hand_is_there_at_a_stroke_whose_ready_is_unknown(pilot: Reali
     assert np.linalg.norm(path[-1] - path[0]) > 0.3
 
 
+async def test_a_hand_that_is_late_on_its_way_back_is_in_time_for_the_next_gesture(pilot: RealizerPilot) -> None:
+    pilot.block(
+        "b",
+        '<pointing id="a" target="bluebox" mode="LEFT_HAND" relax="1" end="1.2"/>'
+        '<pointing id="p" target="greensphere" mode="LEFT_HAND" start="a:end" ready="1.52"/>',
+    )
+    pilot.watch()
+    await pilot.advance(2.5)
+    assert pilot.feedback.warnings == []
+    path = pilot.path("l_wrist")
+    ready, held = path[76], path[90]  # at 1.52 and 1.8 s
+    assert np.linalg.norm(held - ready) < 0.01
+
+
 # --- heads
 
 
