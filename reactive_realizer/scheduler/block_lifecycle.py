@@ -120,7 +120,9 @@ class BlockLifecycle:
         """Start the blocks whose start is due, in order of time; whether there were any."""
         due = [block for block in self._blocks.starting.take_due(now) if block.may_start]
         for block in sorted(due, key=lambda b: (b.start.value, b.arrival)):
-            self._start(block, now)
+            # A block that has just started may have put off those that refer to it, or ended them.
+            if block.may_start and is_due(block.start.value, now):
+                self._start(block, now)
         return bool(due)
 
     # --- sync points and behaviors

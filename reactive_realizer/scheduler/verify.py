@@ -135,7 +135,10 @@ def _shortest_phases(plan: PlanView) -> Iterator[Violation]:
 
 
 def _early_clusters(plan: PlanView) -> Iterator[Violation]:
-    """7.24, 7.37: a cluster without times from outside starts as early as the block, now and its `after`s allow."""
+    """7.24, 7.37: a cluster without times from outside starts as early as the block, now and its `after`s allow.
+
+    One that other constraints put before something too may have to stay where it was planned (docs/semantics.md, pegs).
+    """
     for behaviors, ties in _clusters(plan, [id_ for id_, timing in plan.timings.items() if not timing.free]):
         ids = sorted(behaviors)
         points = [Point(id_, sync) for id_ in ids for sync in plan.timings[id_].points]
@@ -152,10 +155,16 @@ def _earliness(plan: PlanView, cluster: Collection[str]) -> float:
     known = [time for time in times if time is not None]
     if plan.earliest is None or len(known) < len(times):
         return 0.0
+    inside = {
+        order: tuple(isinstance(node, Point) and node.behavior in cluster for node in order.nodes)
+        for order in plan.kept
+        if isinstance(order, Precedence)
+    }
+    if (False, True) in inside.values() and (True, False) in inside.values():
+        return 0.0
     room = min(known) - plan.earliest
-    for order in plan.kept:
-        inside = [isinstance(node, Point) and node.behavior in cluster for node in order.nodes]
-        if isinstance(order, Precedence) and inside == [True, False]:
+    for order, (later, earlier) in inside.items():
+        if later and not earlier:
             gap = missed(order, *map(plan.time, order.nodes))
             room = min(room, 0.0 if gap == -inf else -gap)
     return room

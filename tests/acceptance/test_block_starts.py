@@ -74,3 +74,18 @@ async def test_a_block_does_not_wait_for_a_point_that_will_never_come(pilot: Rea
     else:
         assert pilot.feedback.time("b:start") > 1.0
         assert pilot.feedback.warnings == []
+
+
+async def test_a_block_waits_for_a_point_that_moves_when_the_block_of_that_point_starts(pilot: RealizerPilot) -> None:
+    pilot.block("a", '<bmla:emit id="e" event="asked"/>')
+    pilot.block(
+        "b",
+        """
+        <wait id="w" event="asked" max-wait="1.2" start="a:e:start-1"/><head id="h" lexeme="NOD"/>
+        <constraint><synchronize><sync ref="h:end"/><sync ref="w:start+1"/></synchronize></constraint>
+        """,
+    )
+    pilot.block("c", '<wait id="w" duration="0.1"/>', start="b:h:end")
+    await pilot.advance(2)
+    assert pilot.feedback.time("c:start") == pilot.feedback.time("b:h:end") == 1.0
+    assert next(line.time for line in pilot.feedback.messages if line.id == "c:start") == 1.0
