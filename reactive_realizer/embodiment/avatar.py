@@ -113,8 +113,8 @@ class Avatar:
             bones, morphs = tuple(_bones(scene, path.name)), _morphs(scene)
         except (LookupError, TypeError, ValueError, AttributeError) as problem:
             raise RealizerError(BadAvatar(file=path.name, reason=f"unusable skin or mesh ({problem!r})")) from problem
-        if len(bones) > _MOST_BONES:
-            raise RealizerError(BadAvatar(file=path.name, reason=f"it has more than {_MOST_BONES} bones"))
+        if any(_is_in_a_circle(bones, index) for index in range(len(bones))):
+            raise RealizerError(BadAvatar(file=path.name, reason="a bone is its own ancestor"))
         return cls.of_bones(bones, morphs, path.name)
 
     @classmethod
@@ -170,6 +170,8 @@ class Avatar:
 def _bones(scene: dict[str, Any], file: str) -> Iterator[Bone]:
     nodes = scene["nodes"]
     joints: list[int] = scene["skins"][0]["joints"]
+    if len(joints) > _MOST_BONES:
+        raise RealizerError(BadAvatar(file=file, reason=f"it has more than {_MOST_BONES} bones"))
     above = {child: i for i, node in enumerate(nodes) for child in node.get("children", ())}
     for joint in joints:
         node = nodes[joint]
@@ -183,6 +185,15 @@ def _bones(scene: dict[str, Any], file: str) -> Iterator[Bone]:
             )
         parent = above.get(joint)
         yield Bone(node["name"].removeprefix("mixamorig:"), joints.index(parent) if parent in joints else -1, (x, y, z))
+
+
+def _is_in_a_circle(bones: Sequence[Bone], index: int) -> bool:
+    above = bones[index].parent
+    for _ in bones:
+        if above < 0:
+            return False
+        above = bones[above].parent
+    return True
 
 
 def _morphs(scene: dict[str, Any]) -> tuple[str, ...]:

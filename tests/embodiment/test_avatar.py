@@ -138,6 +138,9 @@ def glb(scene: dict[str, object] | bytes) -> bytes:
     return struct.pack("<4sIII4s", b"glTF", 2, 20 + len(text), len(text), b"JSON") + text
 
 
+TWO_BONES: dict[str, object] = {"skins": [{"joints": [0, 1]}], "meshes": []}
+
+
 @pytest.mark.parametrize(
     ("content", "reason"),
     [
@@ -149,6 +152,10 @@ def glb(scene: dict[str, object] | bytes) -> bytes:
         (glb(b"[]"), "not an object"),
         (glb({"nodes": []}), "unusable skin"),
         (glb({"nodes": [{"name": "Hips"}], "skins": [{"joints": [0]}], "meshes": [None]}), "unusable skin or mesh"),
+        (
+            glb({"nodes": [{"name": n, "children": [1 - i]} for i, n in enumerate("ab")], **TWO_BONES}),
+            "own ancestor",
+        ),
         (glb({"nodes": [{"name": "Hips"}], "skins": [{"joints": [0] * 1001}]}), "more than 1000 bones"),
         (glb({"nodes": [{"name": "Hips", "rotation": [0, 0, 1, 0]}], "skins": [{"joints": [0]}]}), "rotation at rest"),
         (glb({"nodes": [{"name": "Hips"}], "skins": [{"joints": [0]}], "meshes": []}), "no bone for skullbase"),
