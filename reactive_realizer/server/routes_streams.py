@@ -42,8 +42,11 @@ async def ws(request: web.Request) -> web.WebSocketResponse:
             intake.demo.page_opened()
         with ExitStack() as stack:
             stack.callback(request.app[SHUTDOWN].subscribe(lambda _: client.leave()))
-            await client.serve()
-        _hang_up(request)
+            try:
+                await client.serve()
+            finally:
+                _hang_up(request)
+                await answer.close()  # else, its heartbeat keeps the memory of a client that has vanished for a while
     return answer
 
 

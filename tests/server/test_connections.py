@@ -2,8 +2,10 @@
 
 import asyncio
 import errno
+import gc
 import resource
 import socket
+import weakref
 from collections.abc import AsyncIterator, Callable
 from contextlib import AbstractAsyncContextManager, AsyncExitStack, asynccontextmanager
 from dataclasses import dataclass
@@ -12,6 +14,7 @@ from typing import Any
 
 import aiohttp
 import pytest
+from aiohttp import web
 
 from reactive_realizer.assembly.scene import SceneOptions, open_scene
 from reactive_realizer.clock.clock import ManualClock
@@ -23,6 +26,10 @@ from reactive_realizer.server.serve import serving
 
 from .conftest import ALICE, Open
 
+HANDSHAKE = (
+    b"GET /ws?streams=feedback HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+    b"Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n\r\n"
+)
 GET = b"GET /status HTTP/1.1\r\nHost: localhost\r\n\r\n"
 
 
@@ -171,3 +178,17 @@ async def test_a_ping_is_answered_with_its_text(on_air: Open) -> None:
         await socket.raw.ping(b"are you there")
         answer = await socket.raw.receive()
         assert (answer.type, answer.data) == (aiohttp.WSMsgType.PONG, b"are you there")
+
+
+async def test_the_memory_of_a_client_that_vanishes_is_given_back_at_once(door: Doors) -> None:
+    async with door("clients = 1") as served:
+        reader, writer = await asyncio.open_connection("127.0.0.1", served.port)
+        writer.write(HANDSHAKE)
+        assert b"101" in await reader.readline()
+        sockets = [each for each in gc.get_objects() if isinstance(each, web.WebSocketResponse) and not each.closed]
+        served_socket = weakref.ref(sockets.pop())
+        writer.transport.abort()
+        async with asyncio.timeout(10):  # the heartbeat would come after 30 s
+            while served_socket() is not None:
+                await asyncio.sleep(0)
+                gc.collect()
