@@ -82,6 +82,12 @@ class FeedbackList:
         self._unread.clear()
         return self._messages
 
+    def clear(self) -> None:
+        """Forgets all messages, so that a long session takes no memory for them."""
+        self.raw.clear()
+        self._messages.clear()
+        self._unread.clear()
+
     def add(self, time: float, xml: str) -> None:
         """Adds a message that was sent at a time, s.
 

@@ -11,6 +11,7 @@ ROOT = Path(__file__).parents[2]
 SIZES = ("10", "1000", "100000")
 SMALLEST: dict[str, dict[str, float]] = {
     "animation": {"most": 1},
+    "endurance": {"hours": 0.004},
     "generated": {"blocks": 1},
     "idle": {"seconds": 0.05},
     "latency": {"runs": 2},
@@ -22,6 +23,7 @@ SMALLEST: dict[str, dict[str, float]] = {
 }
 KEYS: dict[str, set[str]] = {
     "animation": {*(f"us_per_character_frame.{n}" for n in ("1", "10", "50", "100")), "characters_at_50fps"},
+    "endurance": {"blocks", "objects.1", "drift_s"},
     "generated": {
         *(f"{strategy}.blocks" for strategy in ("convex", "embr", "smartbody")),
         *(
