@@ -108,6 +108,7 @@ $(NODE_MODULES): web/package.json web/package-lock.json | $(NODE)
 	$(NPM) ci --no-audit --no-fund
 	touch $@
 
-$(PAGE): $(PAGE_SOURCES) $(NODE_MODULES)
+$(PAGE): $(PAGE_SOURCES) $(wildcard $(AVATARS)/*.glb) $(NODE_MODULES)
 	$(NPM) run build -- --outDir $(CURDIR)/$(STATIC) --emptyOutDir
+	$(BIN)/python web/compress.py $(STATIC) $(AVATARS)
 	touch $@

@@ -3,6 +3,7 @@
 import os
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -33,3 +34,5 @@ class PageBuildHook(BuildHookInterface):
         web = Path(self.root, "web")
         subprocess.run(["npm", "ci", "--no-audit", "--no-fund"], cwd=web, check=True)
         subprocess.run(["npm", "run", "build", "--", "--outDir", str(static), "--emptyOutDir"], cwd=web, check=True)
+        avatars = Path(self.root, "reactive_realizer", "assets", "avatars")
+        subprocess.run([sys.executable, web / "compress.py", static, avatars], check=True)

@@ -2,6 +2,7 @@
 
 import asyncio
 from pathlib import Path
+from typing import Final
 
 from aiohttp import web
 from aiohttp.typedefs import Handler
@@ -16,6 +17,11 @@ from reactive_realizer.server.token_check import COOKIE
 STATIC = Path(__file__).parent / "static"
 """The folder of the built page."""
 
+_IMMUTABLE: Final = {"Cache-Control": "max-age=31536000, immutable"}
+"""Of files whose names contain a hash of their content."""
+_CHECKED: Final = {"Cache-Control": "no-cache"}
+"""Of files that browsers store, but ask for again: unchanged ones are answered with 304."""
+
 routes = web.RouteTableDef()
 
 
@@ -28,7 +34,7 @@ async def page(request: web.Request) -> web.StreamResponse:
         answer = web.HTTPSeeOther(request.rel_url.with_query(_without_token(request)))
         answer.set_cookie(COOKIE, request.query["token"], httponly=True, samesite="Strict", secure=_is_secure(request))
         raise answer
-    return web.FileResponse(STATIC / "index.html", headers={"Cache-Control": "no-cache"})
+    return web.FileResponse(STATIC / "index.html", headers=_CHECKED)
 
 
 @routes.get("/protocol.json")
@@ -44,7 +50,7 @@ async def avatar(request: web.Request) -> web.StreamResponse:
     path = await asyncio.to_thread(request.app[LIVE].scene.assets, name)
     if path.suffix != ".glb":
         raise RealizerError(NoAsset(name=name))
-    return web.FileResponse(path, headers={"Content-Type": "model/gltf-binary"})
+    return web.FileResponse(path, headers={"Content-Type": "model/gltf-binary", **_CHECKED})
 
 
 @routes.get("/audio/{clip}.wav")
@@ -58,14 +64,16 @@ async def audio(request: web.Request) -> web.Response:
 
 
 def built_files() -> list[web.RouteDef]:
-    """A route for each file of the built page."""
-    files = [file for file in STATIC.rglob("*") if file.is_file()]
+    """A route for each file of the built page. Browsers that accept it get the compressed copy beside the file."""
+    files = [file for file in STATIC.rglob("*") if file.is_file() and file.suffix != ".gz"]
     return [web.get(f"/{file.relative_to(STATIC).as_posix()}", _sender(file)) for file in files]
 
 
 def _sender(file: Path) -> Handler:
+    caching = _IMMUTABLE if file.parent == STATIC / "assets" else _CHECKED
+
     async def send(_: web.Request) -> web.StreamResponse:
-        return web.FileResponse(file)
+        return web.FileResponse(file, headers=caching)
 
     return send
 

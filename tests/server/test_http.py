@@ -1,7 +1,9 @@
 """HTTP: requests of planners without a socket, and the files of the page."""
 
 import asyncio
+import gzip
 import json
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -188,6 +190,26 @@ async def test_the_page_is_served_with_a_content_security_policy(
         async with air.client.get("/page.js") as answer:
             assert answer.status == 200
             assert answer.headers["X-Content-Type-Options"] == "nosniff"
+
+
+async def test_files_of_the_page_are_sent_compressed_and_those_with_a_hash_in_their_name_are_kept_by_browsers(
+    on_air: Open, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "assets").mkdir()
+    (tmp_path / "index.html").write_text("<!doctype html>hello")
+    (tmp_path / "assets" / "page-1a2b.js").write_text("1")
+    for file in ("index.html", "assets/page-1a2b.js"):
+        (tmp_path / f"{file}.gz").write_bytes(gzip.compress(b"small"))
+    monkeypatch.setattr(routes_page, "STATIC", tmp_path)
+    async with on_air() as air:
+        for path, caching in (("/", "no-cache"), ("/assets/page-1a2b.js", "max-age=31536000, immutable")):
+            async with air.client.get(path, headers={"Accept-Encoding": "gzip"}) as answer:
+                assert await answer.text() == "small"
+                assert (answer.headers["Content-Encoding"], answer.headers["Cache-Control"]) == ("gzip", caching)
+        async with air.client.get("/", headers={"Accept-Encoding": "identity"}) as answer:
+            assert await answer.text() == "<!doctype html>hello"
+        async with air.client.get("/assets/page-1a2b.js.gz") as answer:
+            assert answer.status == 404
 
 
 async def test_a_missing_page_is_reported_as_not_built(

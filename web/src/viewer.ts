@@ -90,7 +90,7 @@ export class Viewer implements ConnectionListener {
   }
 
   onBoard(board: Board): void {
-    this.pegs.show(board);
+    this.pegs.take(board);
   }
 
   private renew(hello: Hello): void {
@@ -106,6 +106,8 @@ export class Viewer implements ConnectionListener {
     if (time !== null) this.characters.show(time);
     if (this.characters.complete) this.viewport.frame(this.characters.roots());
     this.viewport.draw(page);
+    this.feedback.draw();
+    this.pegs.draw();
     this.cameraReport.update(page, this.viewport.eye);
   }
 

@@ -23,10 +23,12 @@ interface Summary {
   detail: string;
 }
 
-/** The log of feedback: one row per message, which opens to the message's XML. */
+/** The log of feedback: one row per message, which opens to the message's XML. It is laid out when it is drawn. */
 export class FeedbackPanel {
   /** Number of messages so far. */
   count = 0;
+  /** What has come since the log was drawn: messages, and sentences between them. */
+  private waiting: (Feedback | string)[] = [];
   private readonly log = element("feedback", HTMLElement);
   /** Whether the log scrolls along with new rows; false while the user has scrolled back. */
   private following = true;
@@ -44,24 +46,37 @@ export class FeedbackPanel {
 
   add(feedback: Feedback): void {
     this.count++;
-    this.append(row(feedback, summarize(feedback)));
+    this.keep(feedback);
   }
 
   /** Marks the beginning of a new session of the realizer. */
   mark(sentence: string): void {
-    this.append(create("p", "mark", sentence));
+    this.keep(sentence);
   }
 
-  private append(line: HTMLElement): void {
+  /** Draws what has come since the last call; called once an animation frame. */
+  draw(): void {
+    if (this.waiting.length === 0) return;
     this.log.querySelector(".empty")?.remove();
-    this.log.append(line);
-    if (this.log.childElementCount > ROWS) this.log.firstElementChild?.remove();
+    this.log.append(...this.waiting.map(lineOf));
+    this.waiting = [];
+    while (this.log.childElementCount > ROWS) this.log.firstElementChild?.remove();
     this.follow();
+  }
+
+  /** Keeps as much as there are rows: a page in the background is not drawn. */
+  private keep(entry: Feedback | string): void {
+    this.waiting.push(entry);
+    if (this.waiting.length > ROWS) this.waiting.shift();
   }
 
   private follow(): void {
     if (this.following) this.log.scrollTop = this.log.scrollHeight;
   }
+}
+
+function lineOf(entry: Feedback | string): HTMLElement {
+  return typeof entry === "string" ? create("p", "mark", entry) : row(entry, summarize(entry));
 }
 
 function row(feedback: Feedback, { kind, about, detail }: Summary): HTMLElement {

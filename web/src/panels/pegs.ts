@@ -6,27 +6,44 @@ const PEGS = 200;
 const COMMITS = 50;
 const CHANGES = 6;
 
-/** The pegs of the board as a list, and the last commits: which pegs moved, from when to when, and why. */
+/**
+ * The pegs of the board as a list, and the last commits: which pegs moved, from when to when, and why. It is laid out
+ * when it is drawn, and only while it is visible.
+ */
 export class PegsPanel {
+  private readonly panel = element("pegs", HTMLElement);
   private readonly rows = element("pegs-rows", HTMLTableSectionElement);
   private readonly more = element("pegs-more", HTMLElement);
   private readonly commits = element("commits", HTMLOListElement);
 
-  show(board: Board): void {
-    const moved = new Set(board.commits.flatMap((commit) => commit.changes.map(([key]) => key)));
-    const shown = board.pegs.slice(0, PEGS);
-    this.rows.replaceChildren(...shown.map((peg) => pegRow(peg, moved.has(peg.key))));
-    const hidden = board.pegs.length - shown.length;
-    this.more.textContent = board.pegs.length === 0 ? "No pegs." : hidden > 0 ? `and ${hidden} more` : "";
-    this.commits.prepend(...board.commits.map(commitItem).reverse());
-    while (this.commits.childElementCount > COMMITS) this.commits.lastElementChild?.remove();
+  private pegs: Peg[] = [];
+  /** The last commits, oldest first. */
+  private recent: Commit[] = [];
+  private moved = new Set<string>();
+  private changed = false;
+
+  take({ pegs, commits }: Board): void {
+    this.pegs = pegs;
+    this.recent = [...this.recent, ...commits].slice(-COMMITS);
+    this.moved = new Set(commits.flatMap(({ changes }) => changes.map(([key]) => key)));
+    this.changed = true;
   }
 
   /** Removes all pegs and commits: the realizer is new. */
   clear(): void {
-    this.rows.replaceChildren();
-    this.commits.replaceChildren();
-    this.more.textContent = "No pegs.";
+    this.pegs = this.recent = [];
+    this.changed = true;
+  }
+
+  /** Draws what has changed since the last call; called once an animation frame. */
+  draw(): void {
+    if (!this.changed || this.panel.hidden) return;
+    this.changed = false;
+    const shown = this.pegs.slice(0, PEGS);
+    this.rows.replaceChildren(...shown.map((peg) => pegRow(peg, this.moved.has(peg.key))));
+    const hidden = this.pegs.length - shown.length;
+    this.more.textContent = this.pegs.length === 0 ? "No pegs." : hidden > 0 ? `and ${hidden} more` : "";
+    this.commits.replaceChildren(...this.recent.map(commitItem).reverse());
   }
 }
 
