@@ -65,13 +65,15 @@ class SessionLaws:
         self.ended = 0
         self.tick = _TICK
         self._playing: dict[BlockKey, _Told] = {}
-        self._predicted: dict[BlockKey, PredictionFeedback] = {}
+        self._predicted: dict[BlockKey, list[tuple[GlobalTime, PredictionFeedback]]] = {}
+        """The last prediction of each block, and those before it in the same tick: an id may be used again in it."""
 
     def __call__(self, report: Report) -> None:
         """Check a report."""
         message, now = report.message, report.time
         if isinstance(message, PredictionFeedback):
-            self._predicted[BlockKey(message.character, message.block)] = message
+            key = BlockKey(message.character, message.block)
+            self._predicted[key] = [*(each for each in self._predicted.get(key, ()) if each[0] == now), (now, message)]
         elif isinstance(message, BlockProgress):
             self._check_time(now, message, f"{message.block}:{message.sync}")
             self._check_block(now, message)
@@ -100,10 +102,8 @@ class SessionLaws:
             told = self._playing[key] = _Told(progress.time, set(), {})
         if told is not None:
             self._check_once(now, told, "", progress.sync, name)
-            predicted = self._predicted.get(key)
-            if predicted is not None and (progress.sync == "start" or progress.status == "DONE"):
-                expected = predicted.start if progress.sync == "start" else predicted.end
-                self._check_prediction(now, progress, expected, name)
+            if progress.sync == "start" or (progress.sync == "end" and progress.status == "DONE"):
+                self._check_prediction(now, progress, name)
         if progress.sync == "end":
             self._playing.pop(key, None)
             self.ended += 1
@@ -121,27 +121,32 @@ class SessionLaws:
         told.last[progress.behavior] = progress.time
         if progress.time < told.start - _ROUNDING:
             self.note("before_block", now, f"{name} at {progress.time:g} before {told.start:g}")
-        predicted = self._predicted.get(key)
-        behaviors = predicted.behaviors if predicted is not None else ()
-        own = next((each.times for each in behaviors if each.behavior.id == progress.behavior), {})
-        local = own.get(progress.sync)
-        expected = None if local is None or predicted is None else predicted.start + local
-        self._check_prediction(now, progress, expected, name)
+        self._check_prediction(now, progress, name)
 
     def _check_once(self, now: GlobalTime, told: _Told, behavior: str, sync: str, name: str) -> None:
         if (behavior, sync) in told.points:
             self.note("order", now, f"{name} twice")
         told.points.add((behavior, sync))
 
-    def _check_prediction(
-        self, now: GlobalTime, progress: BlockProgress | SyncPointProgress, expected: float | None, name: str
-    ) -> None:
+    def _check_prediction(self, now: GlobalTime, progress: BlockProgress | SyncPointProgress, name: str) -> None:
+        predictions = self._predicted.get(BlockKey(progress.character, progress.block), ())
+        times = [time for _, each in predictions if (time := _predicted_time(each, progress)) is not None]
         may_be_cut = progress.sync in OPEN
-        if expected is None:
-            if not may_be_cut:
-                self.note("prediction", now, f"{name} was not predicted")
-        elif abs(progress.time - expected) > _TICK + _ROUNDING and not (may_be_cut and progress.time < expected):
-            self.note("prediction", now, f"{name} at {progress.time:g} was predicted at {expected:g}")
+        if not times and not may_be_cut:
+            self.note("prediction", now, f"{name} was not predicted")
+        elif times and not any(
+            abs(progress.time - time) <= _TICK + _ROUNDING or (may_be_cut and progress.time < time) for time in times
+        ):
+            self.note("prediction", now, f"{name} at {progress.time:g} was predicted at {times[-1]:g}")
+
+
+def _predicted_time(prediction: PredictionFeedback, progress: BlockProgress | SyncPointProgress) -> float | None:
+    """The global time (s) that a prediction has for a point; None if it has none, or for a block's own points."""
+    if isinstance(progress, BlockProgress):
+        return {"start": prediction.start, "end": prediction.end}.get(progress.sync)
+    behaviors = (each for each in prediction.behaviors if each.behavior.id == progress.behavior)
+    local = next((each.times.get(progress.sync) for each in behaviors), None)
+    return None if local is None else prediction.start + local
 
 
 async def examine(session: Session, strategy: str) -> SessionLaws:

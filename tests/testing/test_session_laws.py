@@ -1,0 +1,73 @@
+"""The laws of any session: feedback that keeps them passes, and each breach is noted with its law."""
+
+import pytest
+
+from reactive_realizer.bml.document import parse
+from reactive_realizer.clock.units import BlockTime, GlobalTime
+from reactive_realizer.errors import WarningType
+from reactive_realizer.feedback.feedback_manager import Report
+from reactive_realizer.feedback.messages import (
+    BehaviorPrediction,
+    BlockProgress,
+    Feedback,
+    PredictionFeedback,
+    SyncPointProgress,
+    WarningFeedback,
+)
+from reactive_realizer.limits import Limits
+from reactive_realizer.testing.pilot import block
+from reactive_realizer.testing.session_laws import SessionLaws
+
+(_PARSED,) = parse(block("b", '<wait id="w" duration="1"/>'), Limits())
+assert _PARSED.block is not None
+(WAIT,) = _PARSED.block.behaviors
+
+
+def predicted(end: float) -> Feedback:
+    times = {"start": BlockTime(0.0), "end": BlockTime(end)}
+    return PredictionFeedback("c", "b", GlobalTime(0.0), GlobalTime(end), "LURKING", (BehaviorPrediction(WAIT, times),))
+
+
+def of_block(sync: str, time: float, status: str = "DONE") -> Feedback:
+    return BlockProgress("c", "b", sync, GlobalTime(time), status)
+
+
+def point(sync: str, time: float) -> Feedback:
+    return SyncPointProgress("c", "b", "w", sync, BlockTime(time), GlobalTime(time))
+
+
+def broken(*told: tuple[float, Feedback]) -> list[str]:
+    laws = SessionLaws()
+    for now, message in told:
+        laws(Report(GlobalTime(now), message))
+    return [breach.law for breach in laws.breaches]
+
+
+BEGUN = ((0.0, predicted(1.0)), (0.0, of_block("start", 0.0)), (0.0, point("start", 0.0)))
+
+
+def test_feedback_as_it_should_be_breaks_no_law() -> None:
+    assert broken(*BEGUN, (1.0, point("end", 1.0)), (1.0, of_block("end", 1.0))) == []
+
+
+def test_a_behavior_that_is_cut_may_end_earlier_than_predicted() -> None:
+    assert broken(*BEGUN, (0.5, point("end", 0.5)), (0.5, of_block("end", 0.5, "INTERRUPTED"))) == []
+
+
+@pytest.mark.parametrize(
+    ("law", "told"),
+    [
+        ("order", [(1.0, point("start", 1.0))]),
+        ("order", [*BEGUN, (0.0, point("start", 0.0))]),
+        ("order", [*BEGUN, (0.3, of_block("start", 0.0))]),
+        ("order", [(0.0, of_block("end", 0.0))]),
+        ("before_block", [(0.0, predicted(1.0)), (0.0, of_block("start", 0.0)), (0.0, point("start", -0.005))]),
+        ("past", [*BEGUN, (1.02, point("end", 1.0))]),
+        ("past", [*BEGUN, (0.9, point("end", 1.0))]),
+        ("prediction", [*BEGUN, (1.2, point("end", 1.2))]),
+        ("prediction", [(0.0, of_block("start", 0.0))]),
+        ("equation", [(0.0, WarningFeedback("c", "b", WarningType.IMPOSSIBLE_TO_SCHEDULE, "(w:end; thesis 7.14)"))]),
+    ],
+)
+def test_a_breach_is_noted_with_its_law(law: str, told: list[tuple[float, Feedback]]) -> None:
+    assert law in broken(*told)
