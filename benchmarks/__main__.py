@@ -19,7 +19,9 @@ Result = dict[str, object]
 
 def main() -> None:
     """Runs the named benchmarks, by default all, and prints their results."""
-    names = sorted(module.name for module in pkgutil.iter_modules(benchmarks.__path__) if module.name != "__main__")
+    names = sorted(
+        module.name for module in pkgutil.iter_modules(benchmarks.__path__) if not module.name.startswith("_")
+    )
     parser = argparse.ArgumentParser(prog="python -m benchmarks", description="Measure how fast the realizer is.")
     parser.add_argument("names", nargs="*", metavar="NAME", help=f"what to measure (default all): {', '.join(names)}")
     parser.add_argument("--size", type=float, help="how much to measure, in the unit of the benchmark's `measure`")

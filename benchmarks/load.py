@@ -4,6 +4,7 @@ import asyncio
 from collections.abc import Awaitable, Callable
 from statistics import quantiles
 
+from benchmarks import _viewers
 from benchmarks.scheduling import chain, spread
 from reactive_realizer.assembly.scene import SceneOptions, open_scene
 from reactive_realizer.clock.clock import SystemClock
@@ -14,6 +15,7 @@ from reactive_realizer.testing.pilot import block
 
 AIMS = {
     **{f"tick_p99_ms.{load}": 10 for load in ("chain_1000", "burst_50_blocks", "parallel_1000", "predict_1000")},
+    "viewers_200.cpu_share": 0.2,
 }
 
 _SETTLING = 0.3
@@ -25,7 +27,7 @@ _AHEAD = 10.0
 Load = Callable[[Intake, int, float], Awaitable[object]]
 
 
-def measure(seconds: float = 4.0, behaviors: int = 1000) -> dict[str, object]:
+def measure(seconds: float = 4.0, behaviors: int = 1000, viewers: int = 200) -> dict[str, object]:
     """The 99th percentile of the delay from the time of a tick until it has been played, ms, for each load.
 
     A skipped tick is played with the late one that covers it. ``nothing`` is the delay without a load, which is due to
@@ -34,8 +36,10 @@ def measure(seconds: float = 4.0, behaviors: int = 1000) -> dict[str, object]:
     Args:
         seconds: time for which each load is observed from its arrival, s.
         behaviors: their number in a load.
+        viewers: number of sockets that receive frames from a server, in ``viewers_200``.
     """
-    return {"tick_p99_ms": {name: asyncio.run(_p99_ms(load, behaviors, seconds)) for name, load in _LOADS.items()}}
+    ticks = {name: asyncio.run(_p99_ms(load, behaviors, seconds)) for name, load in _LOADS.items()}
+    return {"tick_p99_ms": ticks, "viewers_200": _viewers.measure(viewers, 2 * seconds)}
 
 
 async def _nothing(intake: Intake, behaviors: int, seconds: float) -> None:

@@ -15,7 +15,7 @@ SMALLEST: dict[str, dict[str, float]] = {
     "generated": {"blocks": 1},
     "idle": {"seconds": 0.05},
     "latency": {"runs": 2},
-    "load": {"seconds": 0.05, "behaviors": 20},
+    "load": {"seconds": 0.05, "behaviors": 20, "viewers": 2},
     "propagation": {"largest": 1000},
     "punctuality": {"seconds": 0.5},
     "scheduling": {"most": 2},
@@ -39,6 +39,7 @@ KEYS: dict[str, set[str]] = {
             f"tick_p99_ms.{load}"
             for load in ("nothing", "chain_1000", "burst_50_blocks", "parallel_1000", "predict_1000")
         ),
+        *(f"viewers_200.{share}" for share in ("cpu_share", "frames_arrived")),
     },
     "propagation": {
         *(f"{whose}_ns.{shape}.{n}" for whose in ("cell", "reactivex") for shape in ("fanout", "chain") for n in SIZES),
@@ -71,7 +72,7 @@ def test_a_benchmark_has_all_its_numbers_and_aims_only_for_these(name: str, monk
 
 
 def test_every_benchmark_is_tested() -> None:
-    modules = {path.stem for path in (ROOT / "benchmarks").glob("*.py") if not path.stem.startswith("__")}
+    modules = {path.stem for path in (ROOT / "benchmarks").glob("*.py") if not path.stem.startswith("_")}
     assert modules == set(SMALLEST)
 
 

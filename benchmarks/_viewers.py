@@ -1,0 +1,120 @@
+"""Measures what viewers cost: a server in its own process, and sockets that receive the frames of one character."""
+
+import asyncio
+import os
+import sys
+from asyncio.subprocess import PIPE
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from yarl import URL
+
+from reactive_realizer.clock.ticker import FRAME_EVERY, RATE
+
+_SETTLING = 1.0
+"""Time after which the last viewer receives frames, s."""
+
+
+def measure(viewers: int, seconds: float) -> dict[str, float]:
+    """The share of a core that the server takes, and the share of the frames that arrive.
+
+    Args:
+        viewers: number of sockets.
+        seconds: duration of the run, after all have connected.
+    """
+    with TemporaryDirectory() as folder:
+        human = Path(folder, "human.toml")
+        limits = f"clients = {viewers}\nconnections = {viewers + 10}\n"
+        human.write_text(f"[character.alice]\n[limits]\n{limits}", encoding="utf-8")
+        return asyncio.run(_measure(human, viewers, seconds))
+
+
+async def _measure(human: Path, viewers: int, seconds: float) -> dict[str, float]:
+    async with _server(human) as (address, pid):
+        loop = asyncio.get_running_loop()
+        connecting = (
+            loop.create_connection(lambda: _Viewer(address), str(address.host), int(address.port or 0))
+            for _ in range(viewers)
+        )
+        watching = [viewer for _, viewer in [await each for each in connecting]]
+        await asyncio.sleep(_SETTLING)
+        used, seen, begin = _cpu_seconds(pid), sum(each.messages for each in watching), loop.time()
+        await asyncio.sleep(seconds)
+        used, seen = _cpu_seconds(pid) - used, sum(each.messages for each in watching) - seen
+        elapsed = loop.time() - begin
+        for each in watching:
+            each.leave()
+    sent = viewers * elapsed * RATE / FRAME_EVERY
+    return {"cpu_share": round(used / elapsed, 4), "frames_arrived": round(min(1.0, seen / sent), 4)}
+
+
+@asynccontextmanager
+async def _server(human: Path) -> AsyncIterator[tuple[URL, int]]:
+    command = ("-m", "reactive_realizer", "serve", "--voice", "text", "--port", "0", "--human", str(human))
+    process = await asyncio.create_subprocess_exec(sys.executable, *command, stderr=PIPE)
+    assert process.stderr is not None
+    try:
+        async for line in process.stderr:
+            if b"serving on" in line:
+                break
+        yield URL(line.decode().split()[-1]), process.pid
+    finally:
+        process.terminate()
+        await process.communicate()
+
+
+def _cpu_seconds(pid: int) -> float:
+    """The processor time of a process, s (proc(5))."""
+    fields = Path(f"/proc/{pid}/stat").read_text(encoding="utf-8").rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+class _Viewer(asyncio.Protocol):
+    """A socket that receives frames, and counts them; it does as little as it can, because it runs beside the server.
+
+    Attributes:
+        messages: number of binary messages.
+    """
+
+    def __init__(self, address: URL) -> None:
+        self.messages = 0
+        self._address = address
+        self._data = bytearray()
+        self._open = False
+
+    def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        assert isinstance(transport, asyncio.WriteTransport)
+        self._transport = transport
+        transport.write(
+            f"GET /ws?streams=frames HTTP/1.1\r\nHost: {self._address.authority}\r\nUpgrade: websocket\r\n"
+            "Connection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+            "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n".encode()
+        )
+
+    def data_received(self, data: bytes) -> None:
+        self._data += data
+        if not self._open:
+            _, end, rest = self._data.partition(b"\r\n\r\n")
+            if not end:
+                return
+            self._open, self._data = True, rest
+        while (size := _message_size(self._data)) is not None and len(self._data) >= size:
+            self.messages += self._data[0] == 0x82
+            del self._data[:size]
+
+    def leave(self) -> None:
+        self._transport.abort()
+
+
+def _message_size(data: bytearray) -> int | None:
+    """The size of the first message with its header (RFC 6455, 5.2), None if its header has not arrived."""
+    if len(data) < 4:
+        return None
+    length = data[1] & 0x7F
+    if length < 126:
+        return 2 + length
+    if length == 126:
+        return 4 + int.from_bytes(data[2:4])
+    return None if len(data) < 10 else 10 + int.from_bytes(data[2:10])
