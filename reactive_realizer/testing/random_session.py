@@ -168,16 +168,17 @@ class _Mix:
         self.left_out = random.choice(((0,), (0,), (0, 0, 0, 3, 20)))
         self.events = some(_EVENTS)
         self.ahead = some(_AHEAD)
+        self.moving = random.choice((0.2, 0.35, 0.75))
         self.joined, self.preplanned, self.required = (random.choice((0.0, 0.15, 0.4)) for _ in range(3))
 
 
 def random_session(random: Random, blocks: int = 25) -> Session:
-    """A session with a number of blocks, and about half as many predictions and events."""
+    """A session with a number of blocks, and with predictions and events between them."""
     mix = _Mix(random)
     steps: list[Step] = []
     kinds: list[dict[str, str]] = []
     for _ in range(blocks):
-        while random.random() < 0.35:
+        while random.random() < mix.moving:
             predicts = random.random() < 0.75
             drawn = (
                 Prediction(random.choice(_REMOTE), random.choice(mix.ahead)) if predicts else random.choice(mix.events)

@@ -20,7 +20,7 @@ from reactive_realizer.testing.random_session import HUMAN, Session
 
 LAWS = {
     "order": "a block reports its start, its sync points, each once and in order, and its end",
-    "before_block": "no sync point comes before its block",
+    "before_block": "no sync point comes before its block, nor is it predicted to",
     "past": "nothing is reported more than a tick late, or early",
     "prediction": "each point comes where it was last predicted; a behavior or block that is cut ends earlier",
     "equation": "the equations of the thesis hold",
@@ -72,6 +72,9 @@ class SessionLaws:
         """Check a report."""
         message, now = report.message, report.time
         if isinstance(message, PredictionFeedback):
+            for each in message.behaviors:
+                if early := [sync for sync, time in each.times.items() if time < 0.0]:
+                    self.note("before_block", now, f"{message.block}:{each.behavior.id}:{early[0]} is predicted")
             key = BlockKey(message.character, message.block)
             self._predicted[key] = [*(each for each in self._predicted.get(key, ()) if each[0] == now), (now, message)]
         elif isinstance(message, BlockProgress):

@@ -8,7 +8,7 @@ from reactive_realizer.testing.random_session import random_session
 from reactive_realizer.testing.session_laws import examine
 
 
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", range(4))
 @pytest.mark.parametrize("strategy", ["convex", "embr", "smartbody"])
 async def test_a_random_session_breaks_no_law(strategy: str, seed: int) -> None:
     assert (await examine(random_session(Random(seed)), strategy)).breaches == []
