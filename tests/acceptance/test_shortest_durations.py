@@ -1,5 +1,7 @@
 """Timings that leave a body too little time: something gives way, and a warning says what."""
 
+import math
+
 import numpy as np
 import pytest
 
@@ -166,6 +168,23 @@ async def test_a_hand_that_is_late_on_its_way_back_is_in_time_for_the_next_gestu
     path = pilot.path("l_wrist")
     ready, held = path[76], path[90]  # at 1.52 and 1.8 s
     assert np.linalg.norm(held - ready) < 0.01
+
+
+async def test_a_gesture_after_a_retraction_that_was_too_short_is_ready_when_its_hand_is_there(
+    pilot: RealizerPilot,
+) -> None:
+    pilot.block(
+        "b",
+        '<gesture id="a" lexeme="WAVE" mode="LEFT_HAND" relax="1" end="1.02"/>'
+        '<gesture id="g" lexeme="CONDUIT" mode="LEFT_HAND" start="a:end" ready="1.203" strokeStart="1.4"/>',
+    )
+    pilot.watch()
+    await pilot.advance(2)
+    assert pilot.feedback.warnings == []
+    ready = pilot.feedback.time("b:g:ready")
+    assert 1.22 < ready < 1.3
+    path = pilot.path("l_wrist")
+    assert np.linalg.norm(path[70] - path[math.ceil(ready * 50)]) < 0.01
 
 
 # --- heads

@@ -247,8 +247,15 @@ class AnimationUnit(PlanUnit):
 
         It depends on the times of its points alone.
         """
+        return self._relaxing_layer(self._returned(now), now, rest)
+
+    def _returned(self, now: GlobalTime) -> float:
+        """Return the share of its way back that a unit past its relax has covered: no more than its hands can."""
         relax, end = self.time("relax"), self.time("end")
-        return self._relaxing_layer(0.0 if relax is None or end is None else share(now, relax, end), now, rest)
+        if relax is None or end is None:
+            return 0.0
+        needed = max(end, relax + self.motion.retraction)
+        return share(min(now, end), relax, needed) if needed > relax else 0.0
 
     def final_layer(self, now: GlobalTime, rest: Body) -> Layer:
         """Return the layer of a unit that has ended or was cut, at that moment; without weight if it was at rest.
@@ -258,10 +265,8 @@ class AnimationUnit(PlanUnit):
         if not self.motion.key_positions.keys() >= {"ready", "relax"}:
             return Layer(self.motion.kind, {}, 0.0)
         fired = [point for point in self.points if point.fired and not point.cut]
-        relax = next((point for point in fired if point.id == "relax"), None)
-        if relax is not None:
-            returned = not self.was_cut("end") and relax.peg.value != self.points[-1].peg.value
-            return self._relaxing_layer(float(returned), now, rest)
+        if any(point.id == "relax" for point in fired):
+            return self._relaxing_layer(0.0 if self.was_cut("end") else self._returned(now), now, rest)
         last = max((self.motion.key_positions.get(point.id, 0.0) for point in fired), default=0.0)
         ready = self.motion.key_positions["ready"]
         layer = layer_of(self.motion, Moment(max(last, ready), now, rest))

@@ -127,6 +127,7 @@ class MotionUnit(ABC):
         exits: sync ids of points at which it may be left gracefully, in order.
         preferred_duration: s.
         shortest: sync id -> shortest duration of the phase that ends there, s, where the limits of the body matter.
+        retraction: shortest duration of the way back from relax to end, s; it may be cut short.
         limits: shortest and longest duration, s, if the author set any; these are relaxed before any constraint.
         predictability: when its poses can be predicted.
         entrance: duration of its fade-in if it joins late, s; None if it appears at once or handles this itself.
@@ -147,6 +148,7 @@ class MotionUnit(ABC):
     exits: tuple[str, ...] = ()
     preferred_duration: float
     shortest: Mapping[str, float] = MappingProxyType({})
+    retraction: float = 0.0
     limits: tuple[float, float] | None = None
     predictability: Predictability = Predictability.NEVER
     fade_in: float | None = None

@@ -82,7 +82,7 @@ class GestureMotionUnit(MotionUnit):
         durations = self._durations(timing.duration, parameters.get(HOLD, 0.0))
         self.preferred_duration = sum(each.preferred for each in durations)
         self.key_positions = gesture_key_positions([each.preferred for each in durations])
-        self.shortest = shortest_phases(durations)
+        self.shortest, self.retraction = shortest_phases(durations), durations[-1].shortest
 
     def _durations(self, whole: float, hold: float) -> list[PhaseDuration]:
         """Return the durations of the six phases between the seven points."""

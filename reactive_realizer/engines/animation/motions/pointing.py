@@ -82,7 +82,7 @@ class PointingMotionUnit(MotionUnit):
         durations = [way, still, still, hold, still, way]
         self.preferred_duration = sum(each.preferred for each in durations)
         self.key_positions = gesture_key_positions([each.preferred for each in durations])
-        self.shortest = shortest_phases(durations)
+        self.shortest, self.retraction = shortest_phases(durations), way.shortest
 
     def preparation(self, body: Body) -> PhaseDuration:
         """Return the duration of the preparation from a body."""
