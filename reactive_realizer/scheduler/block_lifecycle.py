@@ -122,6 +122,7 @@ class BlockLifecycle:
         for block in sorted(due, key=lambda b: (b.start.value, b.arrival)):
             # A block that has just started may have put off those that refer to it, or ended them.
             if block.may_start and is_due(block.start.value, now):
+                self._keep_from_past(block, now)
                 self._start(block, now)
         return bool(due)
 
@@ -232,6 +233,12 @@ class BlockLifecycle:
         if fails:
             self._transitions.end(block, BlockEvent.FAIL, now)
         return fails
+
+    def _keep_from_past(self, block: BMLBlock, now: GlobalTime) -> None:
+        """Have a block start now if times from outside have moved its start to before the last tick."""
+        if block.start.value is not None and block.start.value < self._board.previous:
+            with self._board.graph.transaction(f"put off {block.key.block}"):
+                block.release_start((), now)
 
     def _start(self, block: BMLBlock, now: GlobalTime) -> None:
         time = block.start.value or GlobalTime(0.0)

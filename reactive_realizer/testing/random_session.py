@@ -230,7 +230,7 @@ class _BlockDraw:
         if random.random() < self._mix.preplanned:
             attributes["bmla:preplan"] = "true"
         if random.random() < 0.05:
-            attributes["start"] = self._outside()
+            attributes["start"] = self._outside() + random.choice(self._mix.offsets)
         return attributes
 
     def _behavior(self, id_: str, kind: str) -> str:
@@ -242,6 +242,8 @@ class _BlockDraw:
         random = self._random
         behavior = random.choice([*self._kinds[-1]])
         ref, sync = self._reference(behavior), self._point(self._kinds[-1], behavior) + random.choice(self._mix.offsets)
+        if random.random() < 0.15:
+            sync = random.choice(_TIMES)  # of the block: it may have to start later
         order = random.choice(self._mix.orders)
         if order == "synchronize":
             return f'<constraint><synchronize><sync ref="{ref}"/><sync ref="{sync}"/></synchronize></constraint>'

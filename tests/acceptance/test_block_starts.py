@@ -89,3 +89,15 @@ async def test_a_block_waits_for_a_point_that_moves_when_the_block_of_that_point
     await pilot.advance(2)
     assert pilot.feedback.time("c:start") == pilot.feedback.time("b:h:end") == 1.0
     assert next(line.time for line in pilot.feedback.messages if line.id == "c:start") == 1.0
+
+
+@pytest.mark.parametrize("attribute", [True, False])
+async def test_a_block_whose_start_is_predicted_into_the_past_starts_now(pilot: RealizerPilot, attribute: bool) -> None:
+    if attribute:
+        pilot.block("b", nod("n"), start=f"{HIT}-1")
+    else:
+        pilot.block("b", nod("n") + before("0", f"{HIT}-1"))
+    await moves(pilot, 3, ("hit", 3.0), 2)
+    assert texts(pilot) == []
+    assert_time(pilot.feedback, "b:start", 3.0)
+    assert_linked(pilot.feedback, "b:n:end", "b:start", 0.7)
