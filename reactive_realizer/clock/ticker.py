@@ -77,6 +77,11 @@ class Ticker:
         self.overruns = 0
         self.lateness: deque[float] = deque(maxlen=1000)
 
+    def late(self, *shares: float) -> dict[float, float]:
+        """The lateness (s) that shares of the last ticks, such as 0.99, have not exceeded; empty before the second."""
+        late = sorted(self.lateness)
+        return {share: late[min(len(late) - 1, int(share * len(late)))] for share in shares} if len(late) > 1 else {}
+
     async def ticks(self) -> AsyncIterator[Tick]:
         """Ticks forever, each at its time."""
         last: Tick | None = None

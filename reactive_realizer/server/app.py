@@ -4,7 +4,7 @@ import logging
 
 from aiohttp import web
 
-from reactive_realizer.server import routes_page, routes_requests, routes_state, routes_streams
+from reactive_realizer.server import routes_page, routes_requests, routes_state, routes_streams, routes_watch
 from reactive_realizer.server.connections import count_used
 from reactive_realizer.server.intake import Intake
 from reactive_realizer.server.keys import INTAKE, LIVE, SECURITY, SHUTDOWN, TOKEN, USED
@@ -30,8 +30,8 @@ def create_app(live: LiveScene, security: Security) -> web.Application:
     app[USED] = set()
     app[TOKEN] = TokenCheck(security.token, live.clock)
     app[SHUTDOWN] = Subscribers()
-    for routes in (routes_page.routes, routes_requests.routes, routes_state.routes, routes_streams.routes):
-        app.add_routes(routes)
+    for module in (routes_page, routes_requests, routes_state, routes_streams, routes_watch):
+        app.add_routes(module.routes)
     app.add_routes(routes_page.built_files())
     app.on_response_prepare.append(add_headers)
     logging.getLogger("aiohttp.server").addFilter(shorten)

@@ -215,6 +215,14 @@ class GoingAway(Fault):
     template = "the server is shutting down"
 
 
+class StandsStill(Fault):
+    """A session whose ticks have stopped."""
+
+    code = "stands-still"
+    template = "the session stands still: the last tick was {seconds:.1f} s ago"
+    seconds: float
+
+
 class BadRecording(Fault):
     """A line of a recording that cannot be read."""
 

@@ -16,7 +16,7 @@ from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.realizer.document_checker import DocumentChecker
 from reactive_realizer.realizer.inbox import TooManyNames
 from reactive_realizer.realizer.inputs import BmlText, Event, Prediction, TargetMoved, WorldPosition
-from reactive_realizer.server.faults import NoDemo, NotMovable, UnknownAnticipator
+from reactive_realizer.server.faults import GoingAway, NoDemo, NotMovable, UnknownAnticipator
 from reactive_realizer.server.heard_reports import HeardReports
 from reactive_realizer.server.live_scene import LiveScene
 from reactive_realizer.server.protocol import Message
@@ -108,12 +108,14 @@ class Intake:
 
     Attributes:
         demo: the performance of the scene.
+        closed: whether new documents are refused, because the server is about to shut down.
     """
 
     def __init__(self, live: LiveScene) -> None:
         self._live = live
         self._realizer = live.realizer
         self._stops = 0
+        self.closed = False
         self._heard = HeardReports(live)
         self.demo = Demo(live, self.stop)
 
@@ -194,6 +196,8 @@ class Intake:
                 self.demo.perform()
 
     async def _judge(self, text: str | bytes) -> _Judged:
+        if self.closed:
+            raise RealizerError(GoingAway())
         if len(text) < _SMALL:
             read = parse(text, self._live.limits)
         else:

@@ -13,7 +13,7 @@ from reactive_realizer.limits import Limits
 from reactive_realizer.realizer.realizer import Realizer
 from reactive_realizer.server.audio_stream import AudioStream
 from reactive_realizer.server.board_stream import BoardStream
-from reactive_realizer.server.capabilities import found_for
+from reactive_realizer.server.capabilities import Found, found_for
 from reactive_realizer.server.client_limits import ClientCount
 from reactive_realizer.server.feedback_log import FeedbackLog
 from reactive_realizer.server.frame_stream import FrameStream
@@ -41,6 +41,7 @@ class LiveScene:
         scene: assembled and started.
         clock: of the session. With a `ManualClock`, the caller calls `step`; otherwise `run` does.
         performance: BML that the demo plays; None for no demo.
+        found: files found at the start; None to look for them now.
 
     Attributes:
         session: id of this run.
@@ -51,7 +52,7 @@ class LiveScene:
         found: files found at the start, for `capabilities_of`.
     """
 
-    def __init__(self, scene: Scene, clock: Clock, performance: str | None = None) -> None:
+    def __init__(self, scene: Scene, clock: Clock, performance: str | None = None, found: Found | None = None) -> None:
         self.scene = scene
         self.clock = clock
         self.performance = performance
@@ -63,7 +64,7 @@ class LiveScene:
         self.frames = FrameStream(self.realizer)
         self.board = BoardStream(self.realizer.board, lambda: self.realizer.time)
         self.clients = ClientCount(self.limits.clients)
-        self.found = found_for(scene)
+        self.found = found_for(scene) if found is None else found
         self.realizer.feedback.listen(self.feedback.append)
         self.realizer.hear(self.sounds.take)
 

@@ -15,6 +15,9 @@ from reactive_realizer.server.keys import LIVE, SECURITY, TOKEN
 from reactive_realizer.server.security import HEADERS
 from reactive_realizer.server.statuses import status_of
 
+_OPEN = ("/health", "/ready")
+"""Paths without a token: a supervisor has none, and they tell nothing else."""
+
 logger = logging.getLogger(__name__)
 
 
@@ -46,7 +49,8 @@ async def let_in(request: web.Request, handler: Handler) -> web.StreamResponse:
     request.app[SECURITY].check(request)
     if request.method == "OPTIONS":  # a preflight request carries no token
         return web.Response(status=204)
-    await request.app[TOKEN].check(request)
+    if request.path not in _OPEN:
+        await request.app[TOKEN].check(request)
     return await handler(request)
 
 

@@ -4,7 +4,7 @@ import asyncio
 import logging
 import signal
 from collections.abc import AsyncIterator
-from contextlib import AsyncExitStack, asynccontextmanager
+from contextlib import AsyncExitStack, asynccontextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from socket import socket
@@ -13,8 +13,12 @@ from aiohttp import web
 
 from reactive_realizer.assembly.scene import SceneOptions, open_scene
 from reactive_realizer.clock.clock import SystemClock
+from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.server.app import create_app
+from reactive_realizer.server.capabilities import found_for
 from reactive_realizer.server.connections import Connections, listen
+from reactive_realizer.server.intake import Intake
+from reactive_realizer.server.keys import INTAKE
 from reactive_realizer.server.live_scene import LiveScene
 from reactive_realizer.server.recorder import Recorder, recording_file
 from reactive_realizer.server.security import Security
@@ -22,7 +26,9 @@ from reactive_realizer.server.security import Security
 logger = logging.getLogger(__name__)
 
 _PATIENCE = 2.0
-"""Time for clients to disconnect, s."""
+"""Time for blocks to end, and for clients to disconnect, s."""
+_FADE = 0.3
+"""Time for interrupted motions and sounds to fade out, s."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,7 +55,7 @@ class ServerOptions:
 
 
 async def serve(options: ServerOptions) -> None:
-    """Serves a scene in real time until SIGTERM or cancellation.
+    """Serves a scene in real time until cancellation, or until what plays has ended after SIGTERM.
 
     Raises:
         RealizerError: the scene cannot be assembled, or the token is empty or missing.
@@ -61,20 +67,22 @@ async def serve(options: ServerOptions) -> None:
         record = stack.enter_context(recording_file(options.record)) if options.record else None
         scene = await stack.enter_async_context(open_scene(options.scene))
         group = await stack.enter_async_context(asyncio.TaskGroup())
-        live = LiveScene(scene, SystemClock(), options.performance)
+        found = found_for(scene)  # reading files takes long, so the clock starts after that
+        live = LiveScene(scene, SystemClock(), options.performance, found)
         if record is not None:
             recorder = Recorder(record, options.scene, live.clock.epoch)
             live.realizer.record(recorder, recorder.forecast)
         ticking = group.create_task(live.run())
         try:
-            async with serving(live, security, listening):
+            async with serving(live, security, listening) as app:
                 await _termination()
+                await drain(live, app[INTAKE])
         finally:
             ticking.cancel()
 
 
 @asynccontextmanager
-async def serving(live: LiveScene, security: Security, listening: socket) -> AsyncIterator[None]:
+async def serving(live: LiveScene, security: Security, listening: socket) -> AsyncIterator[web.Application]:
     """Serves HTTP and sockets."""
     app = create_app(live, security)
     runner = web.AppRunner(
@@ -89,10 +97,30 @@ async def serving(live: LiveScene, security: Security, listening: socket) -> Asy
         async with asyncio.TaskGroup() as group:
             accepting = group.create_task(Connections(app, runner, live.limits).accept(listening))
             logger.info("serving on %s", _address(listening))
-            yield
+            yield app
             accepting.cancel()
     finally:
         await runner.cleanup()
+
+
+async def drain(live: LiveScene, intake: Intake) -> None:
+    """Refuses new documents, and ends what plays: motions fade out, and feedback reports every end."""
+    intake.closed = True
+    intake.stop()
+    done, latest = asyncio.Event(), live.now + _PATIENCE
+    ended: GlobalTime | None = None
+
+    def look(now: GlobalTime) -> None:
+        nonlocal ended
+        if ended is None and not (live.realizer.busy or live.realizer.scheduler.blocks.alive):
+            ended = now
+        if now >= latest or (ended is not None and now >= ended + _FADE):
+            done.set()
+
+    unsubscribe = live.feedback.ticks.subscribe(look)
+    with suppress(TimeoutError):  # it may stand still
+        await asyncio.wait_for(done.wait(), 2 * _PATIENCE)
+    unsubscribe()
 
 
 def _address(listening: socket) -> str:

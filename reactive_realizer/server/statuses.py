@@ -39,6 +39,7 @@ from reactive_realizer.server.faults import (
     NothingThere,
     NoToken,
     SlowRequest,
+    StandsStill,
     TooManyClients,
     TooSlow,
     UnknownAnticipator,
@@ -75,7 +76,7 @@ STATUSES: Final[Mapping[HTTPStatus, tuple[type[Fault], ...]]] = {
     ),
     HTTPStatus.UNSUPPORTED_MEDIA_TYPE: (WrongMediaType, WrongCharset),
     HTTPStatus.TOO_MANY_REQUESTS: (TooManyBlocks, TooManyNames, TooManyProcedures),
-    HTTPStatus.SERVICE_UNAVAILABLE: (NoPage, TooManyClients),
+    HTTPStatus.SERVICE_UNAVAILABLE: (GoingAway, NoPage, StandsStill, TooManyClients),
 }
 """The kinds of fault by the status that answers a request; for all others, it is 400."""
 
