@@ -1,5 +1,7 @@
 """The engine of ``wait`` and ``emit``: waiting for time and events, and making events (thesis 6.2.2, 8.12)."""
 
+from math import inf
+
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.behaviors import Wait
 from reactive_realizer.bml.extensions import Emit
@@ -44,5 +46,5 @@ def _phase(wait: Wait) -> Phase:
     if wait.duration is not None:
         return Phase(wait.duration, PhaseKind.RIGID)
     if {"start", "end"} <= wait.syncs.keys():
-        return Phase(0.0, PhaseKind.FREE)
+        return Phase(0.0, PhaseKind.FREE, maximum=inf if wait.max_wait is None else wait.max_wait)
     return Phase(0.0) if wait.max_wait is None else Phase(wait.max_wait, maximum=wait.max_wait)

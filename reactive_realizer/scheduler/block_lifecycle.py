@@ -89,7 +89,7 @@ class BlockLifecycle:
 
     def plan(self, block: BMLBlock, plan: Plan, now: GlobalTime) -> None:
         """Commit the plan of a block, or fail the block if something required is lost."""
-        if self._fails_by(block, plan.losses, now):
+        if self._fails_by_plan(block, plan, now):
             return
         with self._board.graph.transaction(f"plan {block.key.block}"):
             holds = self._planning.lay_out(block, plan)
@@ -240,10 +240,16 @@ class BlockLifecycle:
             with self._board.graph.transaction(f"put off {block.key.block}"):
                 block.release_start((), now)
 
+    def _fails_by_plan(self, block: BMLBlock, plan: Plan, now: GlobalTime) -> bool:
+        """Warn of the losses of a plan, and once of each behavior beyond its limits; whether the block fails by it."""
+        beyond = [loss for loss in plan.beyond_limits if loss.behavior not in block.beyond_limits]
+        block.beyond_limits.update(loss.behavior for loss in beyond if loss.behavior is not None)
+        return self._fails_by(block, (*plan.losses, *beyond), now)
+
     def _start(self, block: BMLBlock, now: GlobalTime) -> None:
         time = block.start.value or GlobalTime(0.0)
         plan = self._planning.at_start(block, time, now)
-        if plan is not None and self._fails_by(block, plan.losses, time):
+        if plan is not None and self._fails_by_plan(block, plan, time):
             return
         with self._board.graph.transaction(f"start {block.key.block}"):
             self._transitions.take(block, BlockEvent.START, time)
@@ -269,7 +275,7 @@ class BlockLifecycle:
         with self._board.graph.transaction(f"wait for the next of {block.key.block}"):
             block.rename_pegs(renewed)
         plan = self._planning.again(block, now)
-        if not self._fails_by(block, plan.losses, now):
+        if not self._fails_by_plan(block, plan, now):
             with self._board.graph.transaction(f"plan {block.key.block} again"):
                 self._replace_plan(block, plan, now)
 

@@ -75,6 +75,7 @@ class BMLBlock:
         planned_times: of the points of its plan, s after its start; None for unknown ones.
         kept: the constraints of its plan.
         outside: the pegs of other blocks and of anticipators that these name.
+        beyond_limits: ids of behaviors of which a warning has said that they do not keep the limits of their authors.
         settled: the constraints that are not checked any more: they were missed, or are met and past.
         failing: whether something required was lost, so that the block is to end FAILED.
     """
@@ -103,6 +104,7 @@ class BMLBlock:
         self.planned_times: Mapping[Point, float | None] = {}
         self.kept: tuple[Tie | Precedence, ...] = ()
         self.outside: frozenset[TimeCell] = frozenset()
+        self.beyond_limits: set[str] = set()
         self.settled: set[Tie | Precedence] = set()
         self.failing = False
         self._state = BlockState.IN_PREP

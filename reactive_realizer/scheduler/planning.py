@@ -15,6 +15,7 @@ from reactive_realizer.planunit.wait_unit import WaitUnit
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.scheduler.constraints import ReferenceResolver, bound_on_start, constraints_of
+from reactive_realizer.scheduler.duration_limits import limits_not_kept
 from reactive_realizer.scheduler.faults import WorkFailed
 from reactive_realizer.scheduler.free_points import through_free
 from reactive_realizer.scheduler.late_ties import LateTies, least_times
@@ -61,6 +62,7 @@ class Plan:
         layout: how the points depend on each other.
         units: the behaviors that have times.
         losses: those of the problem and of the strategy.
+        beyond_limits: the behaviors that do not keep the limits of their authors.
         kept: the constraints that are kept.
         times: of the planned points, s after the start of the block; None for those that depend on an unknown time.
     """
@@ -72,6 +74,7 @@ class Plan:
         planned = {item.behavior.id for item in self.layout.kept.items}
         self.units = [unit for unit in posed.units if unit.behavior.id in planned]
         self.losses = (*posed.losses, *solution.losses)
+        self.beyond_limits = tuple(limits_not_kept(posed.problem, solution))
         self.kept = (*self.layout.kept.constraints, *posed.holds)
         waiting = {Point(unit.behavior.id, sync) for unit in self.units for sync in unit.open}
         self.times = {point: time for point, time in self.layout.times.items() if point not in waiting}

@@ -18,6 +18,7 @@ from reactive_realizer.reactive.graph import Cell
 from reactive_realizer.scheduler.block_feedback import BlockFeedback
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock
+from reactive_realizer.scheduler.duration_limits import limit_not_kept
 from reactive_realizer.scheduler.engine_routing import EngineRouting
 from reactive_realizer.scheduler.rigid_points import shift_ahead
 
@@ -65,6 +66,8 @@ class UnitLifecycle:
         for each in reached:
             self.touch(each.unit.block)
             self._feedback.sync_point_reached(each)
+            if each.unit.timing.limited:
+                self._check_limits(each)
 
     def begin(self, unit: PlanUnit, now: GlobalTime) -> list[Reached]:
         """Begin a behavior, if it is due, before its engine plays; the points that it reaches are not reported yet."""
@@ -164,6 +167,15 @@ class UnitLifecycle:
             unit.drop(now)
             self.touch(unit.block)
             self._routing.unassign(unit)
+
+    def _check_limits(self, reached: Reached) -> None:
+        """Warn once of a behavior of which a phase has moved, and exceeded the limits of its author."""
+        unit = reached.unit
+        block = self._blocks.get(unit.block)
+        fault = limit_not_kept(unit, reached.point)
+        if fault is not None and block is not None and unit.behavior.id not in block.beyond_limits:
+            block.beyond_limits.add(unit.behavior.id)
+            self._feedback.warn_behavior(unit, fault)
 
     def _correct_points(self, changed: Collection[Cell[Any]]) -> None:
         """Correct points that a transaction has moved, before it commits (docs/semantics.md, pegs).

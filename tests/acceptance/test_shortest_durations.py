@@ -5,7 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from reactive_realizer.testing.pilot import RealizerPilot
+from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 NOD = '<head id="n" lexeme="NOD" stroke="g:stroke"/>'
 TOLD = "there is too little time for"
@@ -207,6 +208,26 @@ async def test_a_block_fails_if_a_required_nod_has_no_time(pilot: RealizerPilot)
     assert pilot.feedback.status("b") == "FAILED"
 
 
+@pytest.mark.parametrize(("lexeme", "axis"), [("NOD", 1), ("SHAKE", 2)])
+@pytest.mark.parametrize("amount", [0.2, 0.5, 1.0])
+async def test_a_head_that_has_just_enough_time_is_there_at_its_stroke(
+    pilot: RealizerPilot, lexeme: str, axis: int, amount: float
+) -> None:
+    head = f'<head id="n" lexeme="{lexeme}" amount="{amount}" {{}}/>'
+    pilot.watch()
+    pilot.block("impossible", head.format('start="0" stroke="0"'))
+    await pilot.advance(1)
+    (text,) = texts(pilot, "impossible:n")
+    needed = float(text.rpartition("needs ")[2].partition(" s")[0])
+    pilot.block("slow", head.format('start="0"'))
+    pilot.block("hurried", head.format(f'start="1" stroke="{1 + 0.02 * math.ceil(50 * needed + 0.5)}"'))
+    await pilot.advance(3)
+    assert len(pilot.feedback.warnings) == 1
+    turns = [body.rotation("skullbase")[axis] for body in pilot.bodies()]
+    slow, hurried = (turns[round(50 * pilot.feedback.time(f"{block}:n:stroke"))] for block in ("slow", "hurried"))
+    assert hurried == pytest.approx(slow, abs=math.sin(0.5 * math.radians(2)))
+
+
 async def test_a_prediction_that_comes_early_hurries_a_nod_at_most_to_its_limit(pilot: RealizerPilot) -> None:
     pilot.predict("t", "hit", 2.0)
     pilot.block("b", '<head id="n" lexeme="NOD" amount="1" start="1" stroke="anticipators:t:hit"/>')
@@ -214,3 +235,55 @@ async def test_a_prediction_that_comes_early_hurries_a_nod_at_most_to_its_limit(
     pilot.predict("t", "hit", 1.01)
     await pilot.advance(2)
     assert 1.05 < pilot.feedback.time("b:n:stroke") < 1.1
+
+
+# --- limits that the author of a motion has set
+
+
+BREATH = '<bmlt:procanimation id="p" name="breathe_clavicular" {}/>'
+
+
+@pytest.mark.parametrize("strategy", ["convex", "embr", "smartbody"])
+@pytest.mark.parametrize(
+    ("end", "told"),
+    [(1.0, "p from start to end is to last at least 1.20 s, lasts 1.00 s"),
+     (9.0, "p from start to end is to last at most 8.00 s, lasts 9.00 s")],
+)  # fmt: skip
+async def test_a_constraint_that_exceeds_the_limits_of_an_author_holds_with_one_warning(
+    strategy: str, end: float, told: str
+) -> None:
+    async with open_pilot(SceneOptions(voice="text", strategy=strategy)) as pilot:
+        pilot.block("b", BREATH.format(f'start="0" end="{end}"'))
+        await pilot.advance(10)
+        (text,) = texts(pilot, "b:p")
+        assert text.endswith(told)
+        assert pilot.feedback.time("b:p:end") == end
+        assert pilot.feedback.status("b") == "DONE"
+
+
+async def test_a_prediction_that_moves_a_playing_motion_beyond_its_limits_is_reported_once(
+    pilot: RealizerPilot,
+) -> None:
+    pilot.predict("t", "hit", 3.0)
+    pilot.block("b", BREATH.format('start="0" end="anticipators:t:hit"'))
+    await pilot.advance(2)
+    pilot.predict("t", "hit", 9.5)
+    await pilot.advance(2)
+    assert texts(pilot, "b:p") == []
+    await pilot.advance(6)
+    (text,) = texts(pilot, "b:p")
+    assert "p from stroke to strokeEnd is to last at most 1.60 s, lasts 5.15 s" in text
+
+
+async def test_an_interrupted_motion_is_not_said_to_be_too_short(pilot: RealizerPilot) -> None:
+    pilot.block("b", BREATH.format('start="0"'))
+    await pilot.advance(0.5)
+    pilot.block("c", composition="REPLACE")
+    await pilot.advance(1)
+    assert pilot.feedback.warnings == []
+
+
+async def test_a_head_of_the_built_in_lexicon_may_nod_slowly(pilot: RealizerPilot) -> None:
+    pilot.block("b", '<head id="n" lexeme="NOD" start="0" end="4"/>')
+    await pilot.advance(5)
+    assert pilot.feedback.warnings == []

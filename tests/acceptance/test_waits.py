@@ -226,3 +226,12 @@ async def test_an_event_has_no_effect_on_a_wait_with_a_duration(pilot: RealizerP
     await pilot.advance(3)
     assert pilot.feedback.time("b:w:end") == 2
     assert ended(pilot) is None
+
+
+@pytest.mark.parametrize("times", ['start="1" end="4"', 'start="s:end" end="s:end+3"'])
+async def test_a_wait_whose_ties_exceed_its_limit_says_so_once(pilot: RealizerPilot, times: str) -> None:
+    pilot.block("b", SPEECH + f'<wait id="w" max-wait="2" {times}/>')
+    await pilot.advance(6)
+    (warning,) = pilot.feedback.of("warningFeedback")
+    assert warning.text.endswith("w from start to end is to last at most 2.00 s, lasts 3.00 s")
+    assert pilot.feedback.status("b") == "DONE"
