@@ -280,3 +280,13 @@ def test_the_peers_files_are_read(shared_cases: Path) -> None:
     assert angle(fists.rotations_at(1.0)["r_index1"]) == pytest.approx(1.57)
     rotations = read_skeleton_pose(shared_cases / "asap" / "restposes" / "looselyhangingarms.xml")
     assert angle(rotations["l_shoulder"]) == pytest.approx(0.2)
+
+
+def test_the_shortest_duration_of_a_turn_does_not_depend_on_its_number_of_keys(skeleton: Skeleton) -> None:
+    def shortest(count: int) -> float:
+        rows = " ".join(f"{k / count} 1 0 0 {-1.2 * k / count}" for k in range(count + 1))
+        arm = clip(rows, 'parts="r_shoulder" encoding="R" rotationEncoding="axisangles"')
+        return KeyframeMotionUnit(arm, Body(skeleton)).shortest["end"]
+
+    assert shortest(2) == pytest.approx(shortest(200), rel=0.05)
+    assert 0.1 < shortest(200) < 1.0

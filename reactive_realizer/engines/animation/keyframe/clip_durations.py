@@ -1,6 +1,7 @@
 """The shortest durations of the parts of a clip: how fast the limits of the body let it be played."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -13,8 +14,8 @@ from reactive_realizer.engines.animation.keyframe.capture import Array, inverse,
 from reactive_realizer.engines.animation.keyframe.clip import Clip
 from reactive_realizer.engines.animation.shortest import from_rest
 
-_LAST = 0.08
-"""The part of the end in which the body may fall behind for a moment, s, such as by the noise of a capture."""
+_STEP = 0.08
+"""Shortest time between the keys at which the speed of a clip is measured, s; below that, it would be noise."""
 
 
 def shortest_clip_parts(clip: Clip, rest: Body, key_positions: Mapping[str, float]) -> dict[str, float]:
@@ -28,6 +29,7 @@ def shortest_clip_parts(clip: Clip, rest: Body, key_positions: Mapping[str, floa
         rest: the pose of the other joints.
         key_positions: of the points, in order.
     """
+    clip = _thinned(clip)
     times = np.asarray(clip.times) - clip.times[0]
     needed = np.concatenate([[0.0], np.cumsum(_step_times(clip, rest))])
     parts = ((point, begin, end) for (_, begin), (point, end) in pairwise(key_positions.items()) if begin < end)
@@ -43,9 +45,17 @@ def _shortest(times: Array, needed: Array, begin: float, end: float) -> float:
         begin: s.
         end: s.
     """
-    since = np.append(times[(times > begin) & (times < end - _LAST)], begin)
+    since = np.append(times[(times > begin) & (times < end - _STEP)], begin)
     left = np.interp(end, times, needed) - np.interp(since, times, needed)
     return min(end - begin, from_rest((end - begin) * float(np.max(left / (end - since)))))
+
+
+def _thinned(clip: Clip) -> Clip:
+    """Return a clip with the keys at which its speed is measured, the first and the last included."""
+    times = np.asarray(clip.times)
+    keys = np.unique(np.searchsorted(times, np.append(np.arange(times[0], times[-1], _STEP), times[-1])))
+    roots = None if clip.roots is None else clip.roots[keys]
+    return replace(clip, times=tuple(times[keys].tolist()), rotations=clip.rotations[keys], roots=roots)
 
 
 def _step_times(clip: Clip, rest: Body) -> Array:
