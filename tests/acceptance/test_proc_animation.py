@@ -290,13 +290,13 @@ def texts(folder: Path) -> dict[str, str]:
 
 
 async def all_play(opened: Open, names: dict[str, str], avatar: str) -> None:
-    """Plays animations one after the other and checks all frames."""
+    """Plays animations one after the other, in a time that the limits of all of them allow, and checks all frames."""
     gestures = "".join(
-        f'<gesture id="g{i}" lexeme="{name}" start="{1.2 * i}" end="{1.2 * i + 1}"/>' for i, name in enumerate(names)
+        f'<gesture id="g{i}" lexeme="{name}" start="{1.4 * i}" end="{1.4 * i + 1.2}"/>' for i, name in enumerate(names)
     )
     async with opened(*(entry(name, f"{name}.xml") for name in names), avatar=avatar, **names) as pilot:
         pilot.block("b", gestures)
-        await pilot.advance(1.2 * len(names) + 1)
+        await pilot.advance(1.4 * len(names) + 1)
         assert pilot.feedback.warnings == []
         assert pilot.feedback.status("b") == "DONE"
         rotations = np.array([frame.rotations for frame in pilot.frames["alice"]])
