@@ -64,7 +64,7 @@ class _Check:
         document = parse(text, self._realizer.limits)
         self._checker.begin(document)
         for parsed in document:
-            mistakes, notes = await self._checker.check(parsed, admission.refusal(parsed), slowly=True)
+            mistakes, notes = await self._checker.check(parsed, admission.refusal(parsed))
             found.mistakes.extend(mistakes)
             found.notes.extend(notes)
             if parsed.procedure is not None:

@@ -22,7 +22,7 @@ from reactive_realizer.errors import Fault, RealizerError, WarningType
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.scheduler.block_composition import UnknownTargetBlock
 from reactive_realizer.scheduler.engine_routing import EngineRouting
-from reactive_realizer.scheduler.rehearsal import Rehearsal, rehearse, rehearse_slowly
+from reactive_realizer.scheduler.rehearsal import Rehearsal, Turns, rehearse, rehearse_slowly
 from reactive_realizer.scheduler.requests import NoSuchBehavior
 
 _UNPLAYABLE = frozenset(
@@ -89,20 +89,21 @@ class DocumentChecker:
         # The behaviors of a procedure are not known here.
         self._written = {block.id: block for block in blocks if block.procedure is None}
 
-    async def check(self, parsed: Parsed, refused: Fault | None, *, slowly: bool = False) -> Findings:
+    async def check(self, parsed: Parsed, refused: Fault | None, turns: Turns | None = None) -> Findings:
         """The findings in the next block or procedure of the document.
 
         Args:
             parsed: the block or procedure, with what could not be read of it.
             refused: why it may not enter; None if it may.
-            slowly: whether to plan the behaviors, with slow work, which only a scene that does not play allows.
+            turns: to check some behaviors in each; None to plan them with slow work, in a scene that does not play.
         """
         found, block = Findings(list(parsed.problems), []), parsed.written
         if block is None:
             return found
         if refused is not None:
             found.mistakes.append(_problem(refused, block))
-        rehearsal = await (rehearse_slowly if slowly else rehearse)(block, self._routing)
+        rehearsing = rehearse_slowly(block, self._routing) if turns is None else rehearse(block, self._routing, turns)
+        rehearsal = await rehearsing
         found.mistakes.extend(self._mistakes(block, rehearsal))
         found.notes.extend(_foreign_attributes(block, rehearsal))
         found.notes.extend(self._remote(block))

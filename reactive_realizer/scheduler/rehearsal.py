@@ -1,8 +1,9 @@
 """Rehearsal of a block: which of its behaviors can be played, and with which sync points."""
 
-import asyncio
 from collections.abc import Callable, Collection, Mapping, Sequence
+from contextlib import AbstractAsyncContextManager
 from dataclasses import dataclass
+from itertools import islice
 
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.block import BehaviorBlock, DefineProc, Problem
@@ -32,16 +33,21 @@ class Rehearsal:
 
 
 _AT_ONCE = 20
-"""Behaviors that are checked before other tasks get their turn."""
+"""Behaviors that are checked in one turn."""
 
 
-async def rehearse(block: BehaviorBlock | DefineProc, routing: EngineRouting) -> Rehearsal:
-    """Asks the engines about the behaviors of a block, without slow work and without effects."""
+Turns = AbstractAsyncContextManager[object]
+"""A lock for short work on the event loop; other tasks go on when it is released."""
+
+
+async def rehearse(block: BehaviorBlock | DefineProc, routing: EngineRouting, turns: Turns) -> Rehearsal:
+    """Asks the engines about the behaviors of a block, some in each turn, without slow work and without effects."""
     rehearsing = _Rehearsing(block, routing)
-    for number, each in enumerate(rehearsing.routed.values(), 1):
-        rehearsing.note(each, each.check)
-        if number % _AT_ONCE == 0:
-            await asyncio.sleep(0)
+    routed = iter(rehearsing.routed.values())
+    while some := list(islice(routed, _AT_ONCE)):
+        async with turns:
+            for each in some:
+                rehearsing.note(each, each.check)
     return rehearsing.result()
 
 

@@ -20,6 +20,7 @@ from reactive_realizer.server.faults import GoingAway, NoDemo, NotMovable, Unkno
 from reactive_realizer.server.heard_reports import HeardReports
 from reactive_realizer.server.live_scene import LiveScene
 from reactive_realizer.server.protocol import Message
+from reactive_realizer.server.turns import Turns
 
 _LEAD_IN = 150
 """Ticks until the performance begins: by then, a page that has just opened shows its avatars."""
@@ -116,6 +117,7 @@ class Intake:
         self._realizer = live.realizer
         self._stops = 0
         self.closed = False
+        self._turns = Turns()
         self._heard = HeardReports(live)
         self.demo = Demo(live, self.stop)
 
@@ -199,7 +201,8 @@ class Intake:
         if self.closed:
             raise RealizerError(GoingAway())
         if len(text) < _SMALL:
-            read = parse(text, self._live.limits)
+            async with self._turns:
+                read = parse(text, self._live.limits)
         else:
             read = await asyncio.to_thread(parse, text, self._live.limits)
         admission = self._realizer.admission()
@@ -221,7 +224,7 @@ class Intake:
         warnings: list[Problem] = []
         checker.begin(document)
         for parsed, refusal in zip(document, judged.refusals, strict=True):
-            mistakes, notes = await checker.check(parsed, refusal)
+            mistakes, notes = await checker.check(parsed, refusal, self._turns)
             warnings += (each for each in (*mistakes, *notes) if each.fault.warning is not None)
         return sorted(dict.fromkeys(warnings), key=_place)
 

@@ -1,6 +1,7 @@
 """A running scene: its clock, its ticks and the streams that clients follow."""
 
 import gc
+import sys
 import uuid
 from collections.abc import Mapping
 
@@ -23,8 +24,14 @@ _YOUNG = 50_000
 """Number of new objects that trigger a collection: more than a plan of a few hundred behaviors needs."""
 
 
+_SWITCH = 0.0005
+"""Time after which a thread that parses or solves lets a tick begin, s; Python's default is 5 ms."""
+
+
 def keep_from_ticks() -> None:
-    """Freezes existing objects, so that the garbage collector does not scan them in the middle of a tick.
+    """Keeps the garbage collector and other threads from delaying ticks.
+
+    Existing objects are frozen, so that they are not scanned in the middle of a tick.
 
     Ended behaviors are freed by reference counting, because they leave no cycles. Only failures, by their tracebacks,
     and behaviors that are dropped during planning leave garbage to collect.
@@ -32,6 +39,7 @@ def keep_from_ticks() -> None:
     gc.collect()
     gc.freeze()
     gc.set_threshold(_YOUNG)
+    sys.setswitchinterval(_SWITCH)
 
 
 class LiveScene:

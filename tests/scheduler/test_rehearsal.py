@@ -11,11 +11,17 @@ from reactive_realizer.engines.wait_engine import WaitEngine
 from reactive_realizer.limits import Limits
 from reactive_realizer.scheduler.engine_routing import EngineRouting
 from reactive_realizer.scheduler.rehearsal import Rehearsal, rehearse, rehearse_slowly
+from reactive_realizer.server.turns import Turns
 from reactive_realizer.testing.pilot import block, open_pilot
 
 Rehearse = Callable[[BehaviorBlock | DefineProc, EngineRouting], Awaitable[Rehearsal]]
 
-BOTH = pytest.mark.parametrize("how", [rehearse, rehearse_slowly])
+
+async def rehearse_quickly(block: BehaviorBlock | DefineProc, routing: EngineRouting) -> Rehearsal:
+    return await rehearse(block, routing, Turns())
+
+
+BOTH = pytest.mark.parametrize("how", [rehearse_quickly, rehearse_slowly])
 
 
 async def rehearsed(how: Rehearse, inside: str, **attributes: str) -> Rehearsal:
@@ -67,12 +73,12 @@ async def test_nothing_is_known_of_the_behaviors_of_an_unknown_character(how: Re
 
 async def test_only_slow_work_tells_whether_a_text_can_be_spoken() -> None:
     inside = '<speech id="s"><text>...</text></speech>'
-    assert codes(await rehearsed(rehearse, inside)) == []
+    assert codes(await rehearsed(rehearse_quickly, inside)) == []
     assert codes(await rehearsed(rehearse_slowly, inside)) == [("b:s", "nothing-to-say", 1)]
 
 
 @pytest.mark.parametrize(
-    ("how", "method"), [(rehearse, "check"), (rehearse_slowly, "plan"), (rehearse_slowly, "prepare")]
+    ("how", "method"), [(rehearse_quickly, "check"), (rehearse_slowly, "plan"), (rehearse_slowly, "prepare")]
 )
 async def test_an_engine_that_fails_costs_the_behavior_alone(
     how: Rehearse, method: str, monkeypatch: pytest.MonkeyPatch
@@ -95,7 +101,7 @@ async def test_other_tasks_run_while_a_big_block_is_rehearsed() -> None:
     async def rehearse_it(block: BehaviorBlock | DefineProc, routing: EngineRouting) -> Rehearsal:
         async with asyncio.TaskGroup() as group:
             group.create_task(note("other", 3))
-            found = await rehearse(block, routing)
+            found = await rehearse_quickly(block, routing)
             turns.append("rehearsed")
         return found
 
