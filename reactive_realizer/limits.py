@@ -17,6 +17,10 @@ class Limits:
     """Behaviors in a block."""
     blocks_alive: int = 1_000
     """Accepted blocks that have not ended, for all characters together."""
+    sync_points_per_block: int = 10_000
+    """Sync points of a block, which fails if it has more; a nod has one for each repetition."""
+    planning_per_tick: int = 1_000
+    """Work of planning in a tick, counted in sync points that are made, placed or put on pegs. The rest waits."""
     procedures: int = 1_000
     """Defined procedures; a redefinition does not count again."""
     utterance_characters: int = 5_000

@@ -1,11 +1,12 @@
 """The realizer: takes inputs, plays ticks, and gives feedback, frames and sounds."""
 
 import asyncio
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AsyncExitStack
 from types import TracebackType
 from typing import Self
 
+from reactive_realizer.bml.block import Parsed
 from reactive_realizer.bml.document import parse
 from reactive_realizer.bml.names import EVENTS
 from reactive_realizer.clock.ticker import Tick, first_tick
@@ -149,17 +150,15 @@ class Realizer:
     def admission(self) -> Admission:
         """Checks for blocks and procedures that would enter after all earlier inputs."""
         admission = self.scheduler.admission()
-        for entry in self._inbox.waiting:
-            for parsed in (isinstance(entry, BmlText) and entry.parsed) or ():
-                if parsed.procedure is not None:
-                    admission.admit_procedure(parsed.procedure)
+        for parsed in self._waiting:
+            if parsed.procedure is not None:
+                admission.admit_procedure(parsed.procedure)
         return admission
 
     def checker(self) -> DocumentChecker:
         """Finds the mistakes in a document that would enter after all earlier inputs."""
         blocks = self.scheduler.blocks
-        entries = (entry.parsed or () for entry in self._inbox.waiting if isinstance(entry, BmlText))
-        waiting = (parsed.block.id for entry in entries for parsed in entry if parsed.block is not None)
+        waiting = (parsed.block.id for parsed in self._waiting if parsed.block is not None)
         alive = (*(block.key.block for block in blocks.alive), *waiting)
         return DocumentChecker(
             self._routing,
@@ -167,6 +166,13 @@ class Realizer:
             alive,
             blocks.has_ended,
         )
+
+    @property
+    def _waiting(self) -> Iterator[Parsed]:
+        """The blocks and procedures that have arrived and have not entered yet, as far as they are parsed."""
+        yield from self.scheduler.entering
+        for entry in self._inbox.waiting:
+            yield from (isinstance(entry, BmlText) and entry.parsed) or ()
 
     def watch(self, listener: FramesListener) -> Callable[[], None]:
         """Call a listener with the frames of each tick, by the ids of all characters in their order.
@@ -188,7 +194,7 @@ class Realizer:
     @property
     def busy(self) -> bool:
         """Whether inputs or results of slow work are outstanding."""
-        return bool(self._inbox) or self._background.busy
+        return bool(self._inbox) or self._background.busy or bool(self.scheduler.entering)
 
     @property
     def expectant(self) -> bool:
@@ -260,15 +266,12 @@ class Realizer:
             number += 1
 
     def _take_blocks(self, entered: TickInputs, now: GlobalTime) -> None:
-        """Deliver the results of slow work, then accept new blocks."""
+        """Deliver the results of slow work, then have new blocks enter."""
+        self.scheduler.begin_planning()
         self._background.deliver(entered.work, now)
         for entry in entered.inputs:
             if isinstance(entry, BmlText):
-                self._read(entry, now)
-
-    def _read(self, entry: BmlText, now: GlobalTime) -> None:
-        for parsed in parse(entry.text, self.limits) if entry.parsed is None else entry.parsed:
-            self.scheduler.accept(parsed, now)
+                self.scheduler.take(parse(entry.text, self.limits) if entry.parsed is None else entry.parsed)
 
     async def _play(self, tick: Tick) -> list[Output]:
         """Play rounds of the tick until nothing changes, then show its frame, if one is due; the outputs."""

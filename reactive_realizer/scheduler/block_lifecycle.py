@@ -87,9 +87,17 @@ class BlockLifecycle:
         """
         self._transitions.end(self._new_block(composition, (), now), BlockEvent.FAIL, now)
 
-    def plan(self, block: BMLBlock, plan: Plan, now: GlobalTime) -> None:
+    def plan(self, block: BMLBlock, outcome: Plan | Loss, now: GlobalTime) -> None:
         """Commit the plan of a block, or fail the block if something required is lost."""
+        if isinstance(outcome, Loss):
+            self._fails_by(block, [outcome], now)
+        else:
+            self._commit(block, outcome, now)
+        self._planner.leave(block)
+
+    def _commit(self, block: BMLBlock, plan: Plan, now: GlobalTime) -> None:
         if self._fails_by_plan(block, plan, now):
+            plan.discard()
             return
         with self._board.graph.transaction(f"plan {block.key.block}"):
             holds = self._planning.lay_out(block, plan)
@@ -287,6 +295,7 @@ class BlockLifecycle:
         for other in self._blocks.watch.following(replaced):
             other.rename_pegs(replaced)
             self._blocks.watch.follow(other)
+        self._planner.rename_pegs(replaced)
         block.set_plan(block.end.floor, plan.units, plan.times, plan.kept, holds)
         self._blocks.watch.follow(block)
         self._units.remove(lost, now)
@@ -305,7 +314,7 @@ class BlockLifecycle:
         units = [unit for unit in block.units if unit.behavior.id in gone]
         self._units.remove(units, time)
         if gone == names:
-            self._planner.cancel(block)
+            self._planner.leave(block)
             self._transitions.end(block, BlockEvent.REVOKE, time)
             return
         with self._board.graph.transaction(f"revoke a part of {block.key.block}"):

@@ -1,29 +1,34 @@
 """Plans accepted blocks: engines prepare and make the units of their behaviors, and the strategy times them."""
 
 import asyncio
-from collections.abc import Callable, Container, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Container, Generator, Iterable, Mapping, Sequence
+from functools import partial
+from itertools import count
+from typing import NamedTuple
 
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.names import BML, BML_EXT
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.engine.faults import UnknownParameter
-from reactive_realizer.errors import CreationFault, Fault, WarningType
+from reactive_realizer.errors import CreationFault, Fault, SchedulingFault, WarningType
+from reactive_realizer.pegboard.time_peg import TimeCell
 from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.planunit.timing import Timing
 from reactive_realizer.scheduler.block_feedback import BlockFeedback
-from reactive_realizer.scheduler.block_state import BlockState
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.scheduler.engine_routing import EngineRouting, Result, RoutedBehavior
 from reactive_realizer.scheduler.planning import BlockProblem, Plan, Planning
-from reactive_realizer.scheduler.planning_order import dependency_order
+from reactive_realizer.scheduler.planning_queue import PlanningQueue
 from reactive_realizer.scheduler.preparation import BackgroundWork, Preparation
 from reactive_realizer.scheduler.procedures import Procedures
 from reactive_realizer.scheduler.solution import Loss, lost_behavior
 
 _MOST_AT_ONCE = 50
 """Behaviors of a block that is solved on the event loop; a bigger block is solved in a thread."""
+
+_UNIT = 8
+"""Work of making a unit, beside that for its sync points."""
 
 _MOST_OFTEN = 3
 """Solutions of one block. If times still move then, the last one is committed: its pegs follow them."""
@@ -56,28 +61,50 @@ class DescriptionLeftOut(CreationFault):
     reason: str
 
 
-@dataclass(slots=True, eq=False)
+class TooManyPoints(SchedulingFault):
+    """A block with more sync points than the limit allows."""
+
+    code = "too-many-points"
+    template = "it has more than {limit} sync points, so it fails"
+    limit: int
+
+
+class Planned(NamedTuple):
+    """A block that is planned, with its plan, or the loss for which it fails."""
+
+    block: BMLBlock
+    outcome: Plan | Loss
+
+
 class _Draft:
-    """A block while it is solved.
+    """A block while it is planned.
 
     Attributes:
-        timings: its behaviors, with their preferences.
-        refused: the behaviors that engines could not make.
-        plan: None until it is solved.
-        times: how often it has been solved.
-        cancel: cancels the work of a thread.
+        steps: what is left to do; each step gives the work that it took.
+        posed: its problem; None until it is posed.
+        outcome: its plan, or the loss for which it fails; None until it is planned.
+        renamed: whether pegs that the problem names were replaced.
+        cancel: cancels the work of a thread; None while there is none.
     """
 
-    timings: Mapping[PlanUnit, Timing]
-    refused: Sequence[Loss]
-    posed: BlockProblem
-    plan: Plan | None = None
-    times: int = 0
-    cancel: Callable[[], None] = lambda: None
+    def __init__(self, steps: Generator[int]) -> None:
+        self.steps = steps
+        self.posed: BlockProblem | None = None
+        self.outcome: Plan | Loss | None = None
+        self.renamed = False
+        self.cancel: Callable[[], None] | None = None
 
 
 class BlockPlanner:
-    """Prepares blocks in parallel, and plans them in order of arrival."""
+    """Prepares blocks in parallel, and plans them in order of arrival, in steps.
+
+    The work of a step is counted in sync points that are made, placed or put on pegs: it takes about 7 us each on the
+    machine of docs/benchmarks.md.
+
+    Args:
+        expected: ids of blocks that have arrived and not entered yet.
+        most_points: how many sync points a block may have.
+    """
 
     def __init__(
         self,
@@ -87,15 +114,19 @@ class BlockPlanner:
         procedures: Procedures,
         background: BackgroundWork,
         feedback: BlockFeedback,
+        expected: Container[str],
+        most_points: int,
     ) -> None:
         self._routing = routing
         self._procedures = procedures
-        self._blocks = blocks
         self._planning = planning
         self._background = background
         self._feedback = feedback
+        self._most_points = most_points
+        self._queue = PlanningQueue(blocks, expected)
         self._preparations: dict[BMLBlock, Preparation] = {}
         self._drafts: dict[BMLBlock, _Draft] = {}
+        self._now = GlobalTime(0.0)
 
     def prepare(self, block: BMLBlock) -> list[Loss]:
         """Start the engines' background work for a block; the losses are the behaviors that no engine plays."""
@@ -111,81 +142,119 @@ class BlockPlanner:
                 self._feedback.warn_element(block.key, behavior, fault)
         if not any(loss.required for loss in losses):
             self._preparations[block] = prepared or Preparation(routed, self._background)
+            self._queue.add(block, self._preparations[block])
         return losses
 
-    def cancel(self, block: BMLBlock) -> None:
-        """Cancel the preparation of a block, if there is one; that of a procedure goes on."""
+    def entered(self, name: str) -> None:
+        """Note that an expected block has entered, or was refused."""
+        self._queue.entered(name)
+
+    def leave(self, block: BMLBlock) -> None:
+        """Forget a block that is planned or ends; its slow work is cancelled, except for that of a procedure."""
         preparation = self._preparations.pop(block, None)
         if preparation is not None and block.description.procedure is None:
             preparation.cancel()
-        if block in self._drafts:
-            self._drafts.pop(block).cancel()
+        draft = self._drafts.pop(block, None)
+        if draft is not None:
+            if draft.cancel is not None:
+                draft.cancel()
+            draft.steps.close()
+        self._queue.leave(block)
 
-    def plans(self, now: GlobalTime) -> Iterator[tuple[BMLBlock, Plan]]:
-        """Plans of the blocks that are ready, as if they were to start now, in order of arrival.
+    def waiting(self, character: str) -> int:
+        """How many blocks of a character can be planned."""
+        return self._queue.length(character)
 
-        A block waits until the blocks that it names are planned; in a circle of blocks, one is first.
+    def step(self, character: str, now: GlobalTime) -> tuple[int, Planned | None]:
+        """Do one step for a character: the work that it took, and the block that is planned by it.
+
+        A block is planned as if it were to start now. The caller puts its plan on the board, and has it `leave`.
         """
-        late: set[BMLBlock] = set()
-        for block in self._in_order():
-            if block in self._preparations and self._may_plan(block, late):
-                self._begin(block, self._preparations.pop(block), now)
-            if block in self._drafts and (plan := self._finished(block, self._drafts[block], now)) is not None:
-                yield block, plan
-            if block.state is BlockState.IN_PREP:
-                late.add(block)
+        block = self._queue.first(character)
+        if block is None:
+            return 0, None
+        self._now = now
+        draft = self._drafts.get(block)
+        if draft is None:
+            draft = self._drafts[block] = _Draft(self._steps(block))
+        work = next(draft.steps)
+        return work, None if draft.outcome is None else Planned(block, draft.outcome)
 
-    def _begin(self, block: BMLBlock, preparation: Preparation, now: GlobalTime) -> None:
-        """Have the engines make the units of a block, and solve it."""
+    def rename_pegs(self, replaced: Container[TimeCell]) -> None:
+        """Pose the problems again that name pegs which were replaced."""
+        for draft in self._drafts.values():
+            cells = () if draft.posed is None else draft.posed.problem.times
+            draft.renamed |= any(cell in replaced for cell in cells)
 
-        def left_out(routed: RoutedBehavior, fault: Fault) -> None:
-            self._feedback.warn_element(block.key, routed.behavior, DescriptionLeftOut(reason=fault.sentence))
+    def _steps(self, block: BMLBlock) -> Generator[int]:
+        """Have the engines make the units of a block, solve it, and make its pegs."""
+        units: list[PlanUnit] = []
+        refused: list[Loss] = []
+        size = 0
+        for made in self._preparations[block].units(block.key, block.cancelled, partial(self._left_out, block)):
+            if isinstance(made, Loss):
+                refused.append(made)
+                yield _UNIT
+                continue
+            units.append(made)
+            size += len(made.timing.points)
+            if size > self._most_points:
+                fault = TooManyPoints(limit=self._most_points)
+                place = block.description.location
+                loss = Loss(None, fault.located(place.line, place.column), dropped=False, required=True)
+                self._drafts[block].outcome = loss
+            yield _UNIT + len(made.timing.points)
+        yield from self._solve_until_settled(block, {unit: unit.timing for unit in units}, refused)
 
-        units, refused = preparation.units(block.key, block.cancelled, left_out)
-        timings = {unit: unit.timing for unit in units}
-        posed = self._planning.build_problem(block, timings, now, refused)
-        self._drafts[block] = _Draft(timings, refused, posed)
-        self._solve(block, self._drafts[block])
+    def _solve_until_settled(
+        self, block: BMLBlock, timings: Mapping[PlanUnit, Timing], refused: Sequence[Loss]
+    ) -> Generator[int]:
+        """Solve a block, again if times from outside have moved since, and make its pegs."""
+        draft = self._drafts[block]
+        for times in count(1):
+            left = {unit: timing for unit, timing in timings.items() if unit.behavior.id not in block.cancelled}
+            draft.posed, draft.renamed = self._planning.build_problem(block, left, self._now, refused), False
+            yield sum(len(timing.points) for timing in left.values())
+            plan = yield from self._solve(block, draft, draft.posed)
+            stale = times < _MOST_OFTEN and self._planning.is_stale(draft.posed)
+            if stale or not self._holds(block, draft, left):
+                continue
+            yield from self._planning.make_pegs(block, plan)
+            if self._holds(block, draft, left):
+                draft.outcome = plan
+                yield 2 * plan.size  # to put it on the board
+            plan.discard()
 
-    def _solve(self, block: BMLBlock, draft: _Draft) -> None:
+    def _holds(self, block: BMLBlock, draft: _Draft, units: Iterable[PlanUnit]) -> bool:
+        """Whether the problem that was posed can still be put on the board."""
+        cancelled = any(unit.behavior.id in block.cancelled for unit in units)
+        cyclic = draft.posed is None or self._planning.is_cyclic(block, draft.posed)
+        return not (cancelled or cyclic or draft.renamed)
+
+    def _solve(self, block: BMLBlock, draft: _Draft, posed: BlockProblem) -> Generator[int, None, Plan]:
         """Solve at once, or in a thread if that would hold up the event loop."""
-        draft.times += 1
-        if len(draft.posed.units) <= _MOST_AT_ONCE:
-            draft.plan = self._planning.solve(draft.posed)
-            return
+        if len(posed.units) <= _MOST_AT_ONCE:
+            plan = self._planning.solve(posed)
+            yield 3 * plan.size
+            return plan
+        received: list[Result] = []
 
         def receive(result: Result, now: GlobalTime) -> None:
-            draft.cancel = lambda: None  # it leads back here: only the garbage collector would find them
-            if isinstance(result, Plan):
-                draft.plan = result
+            draft.cancel = None  # it leads back here: only the garbage collector would find them
+            received.append(result)
+            self._queue.put_back(block)
 
-        work = asyncio.to_thread(self._planning.solve, draft.posed)
-        draft.plan = None
+        work = asyncio.to_thread(self._planning.solve, posed)
         draft.cancel = self._background.request(f"solve {block.key.block}", work, receive)
+        self._queue.put_off(block)
+        yield 1
+        (solved,) = received
+        if isinstance(solved, Plan):
+            return solved
+        raise TypeError(solved)
 
-    def _finished(self, block: BMLBlock, draft: _Draft, now: GlobalTime) -> Plan | None:
-        """The plan of a block that is solved; it is solved again if times from outside have moved since."""
-        while (plan := draft.plan) is not None:
-            stale = draft.times < _MOST_OFTEN and self._planning.is_stale(draft.posed)
-            if not stale and not self._planning.is_cyclic(block, draft.posed):
-                del self._drafts[block]
-                return plan
-            draft.posed = self._planning.build_problem(block, draft.timings, now, draft.refused)
-            self._solve(block, draft)
-        return None
-
-    def _in_order(self) -> list[BMLBlock]:
-        """The blocks in preparation, each after those that it names; none while none can be planned."""
-        if not self._drafts and not any(preparation.complete for preparation in self._preparations.values()):
-            return []
-        preparing = [block for block in self._blocks.alive if block.state is BlockState.IN_PREP]
-        return dependency_order(preparing, self._awaited)
-
-    def _awaited(self, block: BMLBlock) -> list[BMLBlock]:
-        return self._blocks.planned_before(block) if block in self._preparations else []
-
-    def _may_plan(self, block: BMLBlock, late: Container[BMLBlock]) -> bool:
-        return self._preparations[block].complete and not any(other in late for other in self._awaited(block))
+    def _left_out(self, block: BMLBlock, routed: RoutedBehavior, fault: Fault) -> None:
+        self._feedback.warn_element(block.key, routed.behavior, DescriptionLeftOut(reason=fault.sentence))
 
 
 def unsupported(behavior: Behavior) -> Fault:

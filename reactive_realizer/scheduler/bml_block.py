@@ -14,7 +14,7 @@ from reactive_realizer.pegboard.time_peg import AnticipatorPeg, BMLBlockPeg, Lat
 from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
 from reactive_realizer.planunit.wait_unit import WaitUnit
 from reactive_realizer.scheduler.block_state import BlockEvent, BlockState, BlockTransition, transition
-from reactive_realizer.scheduler.planning_order import named_blocks
+from reactive_realizer.scheduler.named_blocks import named_blocks
 from reactive_realizer.scheduler.problem import Origin, Point, Precedence, Tie
 
 

@@ -1,5 +1,6 @@
 """The scheduler: takes blocks in, and has them planned, started, played and ended tick by tick (thesis 7.3.4)."""
 
+from collections import deque
 from collections.abc import Callable, Iterable, Sequence
 
 from reactive_realizer.bml.block import BehaviorBlock, Parsed
@@ -22,6 +23,7 @@ from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.scheduler.constraint_monitor import ConstraintMonitor
 from reactive_realizer.scheduler.engine_routing import EngineRouting
+from reactive_realizer.scheduler.entry_queue import Entry, EntryQueue
 from reactive_realizer.scheduler.planned_events import PlannedEvents
 from reactive_realizer.scheduler.planning import PlanListener, Planning
 from reactive_realizer.scheduler.predictions import Predictions
@@ -29,6 +31,12 @@ from reactive_realizer.scheduler.preparation import BackgroundWork
 from reactive_realizer.scheduler.procedures import Procedures
 from reactive_realizer.scheduler.requests import EngineRequests
 from reactive_realizer.scheduler.strategy import SchedulingStrategy
+
+_ENTRY = 60
+"""Work of an entry without behaviors, and of planning it, as the planner counts work."""
+
+_MOST_WAITING = 10
+"""Blocks of a character that can be planned while further ones enter."""
 
 
 class NeverMoves(SchedulingFault):
@@ -74,7 +82,19 @@ class BMLScheduler:
         self._predictions = Predictions(feedback, self.blocks.watch, limits)
         self._procedures = Procedures(routing, background)
         self._planning = Planning(board, self.blocks, strategy)
-        self._planner = BlockPlanner(routing, self.blocks, self._planning, self._procedures, background, self._feedback)
+        self._entries = EntryQueue(routing.characters)
+        self._planner = BlockPlanner(
+            routing,
+            self.blocks,
+            self._planning,
+            self._procedures,
+            background,
+            self._feedback,
+            self._entries,
+            limits.sync_points_per_block,
+        )
+        self._turns = deque(routing.characters)
+        self._left = 0
         self._lifecycle = BlockLifecycle(
             board, routing, self.blocks, self._planner, self._planning, self._feedback, self._predictions
         )
@@ -105,9 +125,54 @@ class BMLScheduler:
 
     # --- blocks and procedures that enter
 
-    def accept(self, parsed: Parsed, now: GlobalTime) -> None:
+    @property
+    def entering(self) -> tuple[Parsed, ...]:
+        """What has arrived and has not entered yet, in order of arrival."""
+        return self._entries.waiting
+
+    def take(self, document: Iterable[Parsed]) -> None:
+        """Have the blocks and procedures of a document enter, in this tick as far as there is time."""
+        for parsed in document:
+            self._entries.add(parsed)
+
+    def begin_planning(self) -> None:
+        """Begin a tick: there is time for planning again."""
+        self._left = self._limits.planning_per_tick
+
+    def _work(self, now: GlobalTime) -> None:
+        """Have blocks enter and plan them, one step for each character in turn, until the work of a tick is done.
+
+        Blocks that enter come first, but not too many of them, because each plan moves those that come after.
+        """
+        while self._left > 0 and (character := self._next_character()) is not None:
+            entry = self._entries.first(character)
+            if entry is not None and self._planner.waiting(character) < _MOST_WAITING:
+                self._entries.remove(entry)
+                self._accept(entry, now)
+                written = entry.parsed.block or entry.parsed.procedure
+                self._left -= _ENTRY + (0 if written is None else len(written.behaviors))
+            else:
+                self._plan(character, now)
+
+    def _next_character(self) -> str | None:
+        """The next character that has something to enter or to be planned."""
+        for _ in range(len(self._turns)):
+            self._turns.rotate(-1)
+            character = self._turns[-1]
+            if self._planner.waiting(character) or self._entries.first(character) is not None:
+                return character
+        return None
+
+    def _plan(self, character: str, now: GlobalTime) -> None:
+        work, planned = self._planner.step(character, now)
+        self._left -= work
+        if planned is not None:
+            self._lifecycle.plan(*planned, now)
+            self._events.add(planned.block.units)
+
+    def _accept(self, entry: Entry, now: GlobalTime) -> None:
         """Accept a block or a procedure, or refuse it, and report the problems of its document."""
-        character = (parsed.block and parsed.block.character) or self._routing.characters[0]
+        parsed, character = entry.parsed, entry.character
         for problem in parsed.problems:
             self._feedback.warn(character, problem.id, problem.fault)
         fault = None
@@ -122,6 +187,8 @@ class BMLScheduler:
             self.refused += 1
         if fault is not None and written is not None:
             self._feedback.warn(character, written.id, fault, written.location)
+        if parsed.block is not None:
+            self._planner.entered(parsed.block.id)
 
     def admission(self, defined: Iterable[str] = ()) -> Admission:
         """Admission control for further blocks and procedures, after those with the ids ``defined``."""
@@ -130,10 +197,8 @@ class BMLScheduler:
     # --- a tick
 
     def advance(self, now: GlobalTime) -> bool:
-        """Plan prepared blocks, then end and start those that are due; whether anything started or ended."""
-        for block, plan in self._planner.plans(now):
-            self._lifecycle.plan(block, plan, now)
-            self._events.add(block.units)
+        """Have blocks enter and plan them, then end and start those that are due; whether anything started or ended."""
+        self._work(now)
         ended = self._lifecycle.end_due(now)
         self._events.predict(now)
         return self._lifecycle.start_due(now) or ended

@@ -1,9 +1,11 @@
 """Turns a prepared block into a scheduling problem, and its solution into pegs on the board."""
 
 import logging
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections import deque
+from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, field, replace
+from itertools import islice
 
 from reactive_realizer.clock.units import RESOLUTION, GlobalTime, Time, has_passed, is_due
 from reactive_realizer.pegboard.peg_key import PegKey
@@ -20,12 +22,15 @@ from reactive_realizer.scheduler.faults import WorkFailed
 from reactive_realizer.scheduler.free_points import through_free
 from reactive_realizer.scheduler.late_ties import LateTies, least_times
 from reactive_realizer.scheduler.passed_moments import without_passed
-from reactive_realizer.scheduler.peg_layout.peg_layout import PegLayout
+from reactive_realizer.scheduler.peg_layout.peg_layout import BuiltPegs, PegLayout
 from reactive_realizer.scheduler.problem import Item, Node, Origin, Point, Precedence, SchedulingProblem, Tie
 from reactive_realizer.scheduler.solution import Loss, Solution
 from reactive_realizer.scheduler.strategy import SchedulingStrategy, solve
 
 logger = logging.getLogger(__name__)
+
+_PEGS_AT_ONCE = 50
+"""Pegs that are made in one step."""
 
 PlanListener = Callable[[BMLBlock, SchedulingProblem, Solution], None]
 
@@ -65,6 +70,7 @@ class Plan:
         beyond_limits: the behaviors that do not keep the limits of their authors.
         kept: the constraints that are kept.
         times: of the planned points, s after the start of the block; None for those that depend on an unknown time.
+        built: its pegs; None until they are made.
     """
 
     def __init__(self, posed: BlockProblem, solution: Solution) -> None:
@@ -78,6 +84,17 @@ class Plan:
         self.kept = (*self.layout.kept.constraints, *posed.holds)
         waiting = {Point(unit.behavior.id, sync) for unit in self.units for sync in unit.open}
         self.times = {point: time for point, time in self.layout.times.items() if point not in waiting}
+        self.built: BuiltPegs | None = None
+
+    @property
+    def size(self) -> int:
+        """The number of its points."""
+        return len(self.times)
+
+    def discard(self) -> None:
+        """Dispose of its pegs, if they are made."""
+        if self.built is not None:
+            self.built.dispose()
 
 
 class Planning:
@@ -160,6 +177,28 @@ class Planning:
         plan = self.solve(_posed_again(block, timings, start, starts=True))
         return plan if early or not plan.losses else None
 
+    def make_pegs(self, block: BMLBlock, plan: Plan) -> Generator[int]:
+        """Make the pegs of a plan, in steps that give their numbers; none is on the board yet.
+
+        If it is closed before the plan is put on the board, it disposes of them.
+        """
+        graph = self._board.graph
+        outside = {} if self._starts(block, plan) else self._not_before(block, plan)
+        steps = plan.layout.steps(graph, block.key.block, block.start, outside)
+        try:
+            while plan.built is None:
+                with graph.transaction(f"plan {block.key.block}"):
+                    *made, last = islice(steps, _PEGS_AT_ONCE)
+                if last is not None:
+                    plan.built = BuiltPegs(last.pegs, (*outside.values(), *last.unnamed))
+                yield len(made)
+        except GeneratorExit:
+            steps.close()
+            for peg in outside.values():
+                peg.dispose()
+            plan.discard()
+            raise
+
     def lay_out(self, block: BMLBlock, plan: Plan) -> list[TimePeg]:
         """Within a transaction, put the pegs of a plan on the board; returns those that the block's start waits for."""
         self._board.add_block(block.key, self._build(block, plan))
@@ -215,10 +254,11 @@ class Planning:
             listener(block, plan.posed.problem, plan.solution)
 
     def _build(self, block: BMLBlock, plan: Plan) -> dict[PegKey, TimePeg]:
-        """Make the pegs of a plan, and give them to the points of its units."""
-        outside = {} if self._starts(block, plan) else self._not_before(block, plan)
-        pegs, unnamed = plan.layout.build(self._board.graph, block.key.block, block.start, outside)
-        self._board.add_unnamed(block.key, [*outside.values(), *unnamed])
+        """Give the pegs of a plan to the points of its units."""
+        if plan.built is None:
+            deque(self.make_pegs(block, plan), maxlen=0)
+        pegs, unnamed = plan.built or BuiltPegs({}, ())
+        self._board.add_unnamed(block.key, unnamed)
         reasons: dict[Point, list[str]] = {}
         for each in plan.kept:
             for node in each.nodes:
@@ -239,8 +279,9 @@ class Planning:
         for unit in plan.units:
             unit.points += [SyncPoint(sync, peg) for sync, peg in unit.open.items()]
             unit.wake()
+        planned = set(plan.units)
         for unit, node in plan.posed.awaited.items():
-            if unit in plan.units:
+            if unit in planned:
                 unit.follow(_cell_of(node, block, pegs))
         return known | {unit.key(sync): peg for unit in plan.units for sync, peg in unit.open.items()}
 

@@ -1,6 +1,6 @@
 """Preparation of a block: the background work of engines, and the units that they make with its results."""
 
-from collections.abc import Awaitable, Callable, Container, Mapping
+from collections.abc import Awaitable, Callable, Container, Iterator, Mapping
 from functools import partial
 from typing import Protocol
 
@@ -33,6 +33,7 @@ class Preparation:
         self._routed = routed
         self._results: dict[str, Result] = {}
         self._cancels: list[Callable[[], None]] = []
+        self._listeners: list[Callable[[], None]] = []
         for id_, each in routed.items():
             try:
                 work = each.prepare()
@@ -50,25 +51,29 @@ class Preparation:
         """Whether all results are there."""
         return len(self._results) == len(self._routed)
 
+    def when_complete(self, listener: Callable[[], None]) -> None:
+        """Call a listener when all results are there, at once if they are."""
+        if self.complete:
+            listener()
+        else:
+            self._listeners.append(listener)
+
     def units(
         self, block: BlockKey, without: Container[str], left_out: Callable[[RoutedBehavior, Fault], None]
-    ) -> tuple[list[PlanUnit], list[Loss]]:
-        """A unit for each behavior, and losses for the behaviors that their engines cannot make.
+    ) -> Iterator[PlanUnit | Loss]:
+        """A unit for each behavior, or the loss of a behavior that its engine cannot make.
 
         Args:
             block: in which they are played.
             without: ids of behaviors that are not played.
             left_out: called with the fault of each description that is replaced by the next form.
         """
-        units: list[PlanUnit] = []
-        losses: list[Loss] = []
         for id_, each in self._routed.items():
             if id_ not in without:
                 try:
-                    units.append(each.plan(block, self._results[id_], partial(left_out, each)))
+                    yield each.plan(block, self._results[id_], partial(left_out, each))
                 except RealizerError as problem:
-                    losses.append(lost_behavior(each.behavior, problem.fault))
-        return units, losses
+                    yield lost_behavior(each.behavior, problem.fault)
 
     def cancel(self) -> None:
         """Cancel the work."""
@@ -77,3 +82,7 @@ class Preparation:
 
     def _receive(self, id_: str, result: Result, now: GlobalTime) -> None:
         self._results[id_] = result
+        if self.complete:
+            listeners, self._listeners = self._listeners, []
+            for listener in listeners:
+                listener()

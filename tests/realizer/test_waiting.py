@@ -61,7 +61,7 @@ async def test_a_character_that_only_waits_is_not_asked_for_anything(
         pilot.block(f"b{number}", WAITING)
         pilot.block(f"c{number}", '<head id="h" lexeme="NOD"/>', composition="APPEND")
     pilot.block("preplanned", '<head id="h" lexeme="NOD"/>', **{"bmla:preplan": "true"})
-    await pilot.advance(0.1)
+    await pilot.advance(1)
     calls.clear()
     await pilot.advance(10)
     assert calls == {}

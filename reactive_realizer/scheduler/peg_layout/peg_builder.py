@@ -1,6 +1,6 @@
 """Makes the pegs of a layout."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from reactive_realizer.pegboard.time_peg import AfterPeg, BeforePeg, Bound, OffsetPeg, RatioPeg, TimeCell, TimePeg
 from reactive_realizer.reactive.graph import Graph
@@ -23,6 +23,7 @@ class PegBuilder:
 
     Attributes:
         made: all pegs that were made.
+        pegs: of the points.
     """
 
     def __init__(
@@ -49,22 +50,23 @@ class PegBuilder:
             if isinstance(rule, AtPosition) and (key := _key(rule.positions[0])) not in self._names:
                 self._names[key] = self._name_of(point)
         self.made: list[TimePeg] = []
+        self.pegs: dict[Point, TimePeg] = {}
         self._roots: dict[Step, TimeCell] = {}
         self._shared: dict[tuple[int, float], TimePeg] = {}
 
-    def build(self) -> dict[Point, TimePeg]:
-        """The pegs of all points; those of roots are made first, each after those that it depends on."""
+    def steps(self) -> Iterator[None]:
+        """Make the pegs of all points one by one; those of roots are made first, each after those it depends on."""
         for step in self._section.rules.steps:
             self._roots[step] = self._bounded(step.root) if step.bounded else self._natural(step.root)
+            yield
         made: dict[int, TimePeg] = {}
-        pegs: dict[Point, TimePeg] = {}
         for point in self._points:
             rule = self._section.points[point]
             peg = made.get(id(rule))
             if peg is None:
                 peg = made[id(rule)] = self._peg(rule, point)
-            pegs[point] = peg
-        return pegs
+            self.pegs[point] = peg
+            yield
 
     def _peg(self, rule: PointRule, point: Point) -> TimePeg:
         if isinstance(rule, AtPosition):

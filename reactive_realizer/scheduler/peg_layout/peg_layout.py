@@ -1,6 +1,6 @@
 """From the times of a plan to its pegs."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Generator, Mapping, Sequence
 from types import MappingProxyType
 from typing import NamedTuple
 
@@ -22,6 +22,11 @@ class BuiltPegs(NamedTuple):
 
     pegs: Mapping[Point, TimePeg]
     unnamed: Sequence[TimePeg]
+
+    def dispose(self) -> None:
+        """Have none of them follow others any more."""
+        for peg in dict.fromkeys((*self.pegs.values(), *self.unnamed)):
+            peg.dispose()
 
 
 class PegLayout:
@@ -75,13 +80,26 @@ class PegLayout:
             start: the peg of the block's start.
             outside: pegs to depend on instead of some pegs from outside.
         """
+        *_, built = self.steps(graph, block, start, outside)
+        return built or BuiltPegs({}, ())
+
+    def steps(
+        self, graph: Graph, block: str, start: TimeCell, outside: Mapping[TimeCell, TimePeg]
+    ) -> Generator[BuiltPegs | None]:
+        """As `build`, in small steps, of which the last one gives the pegs; closed before, it disposes of them."""
         named: dict[Point, TimePeg] = {}
         made: list[TimePeg] = []
         for section in self._sections:
             points = [point for point in self._points if point in section.points]
             builder = PegBuilder(graph, block, section, points, start, named, outside)
-            named |= builder.build()
+            try:
+                yield from builder.steps()
+            except GeneratorExit:
+                for peg in (*made, *builder.made):
+                    peg.dispose()
+                raise
+            named |= builder.pegs
             made += builder.made
         named = {point: named[point] for point in self._points}
         shown = set(named.values())
-        return BuiltPegs(named, [peg for peg in made if peg not in shown])
+        yield BuiltPegs(named, [peg for peg in made if peg not in shown])

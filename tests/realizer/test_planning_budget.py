@@ -1,0 +1,172 @@
+"""Planning has a budget for each tick: what is left waits for the next tick, and no character waits for another one."""
+
+from collections.abc import AsyncIterator
+from pathlib import Path
+
+import pytest
+
+from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.realizer.inputs import TickInputs
+from reactive_realizer.realizer.session import replay
+from reactive_realizer.testing.pilot import RealizerPilot, block, open_pilot
+
+TWO = SceneOptions(Path(__file__).parents[1] / "data" / "humans" / "two.toml", "text")
+NOD = '<head id="h" lexeme="NOD"/>'
+
+
+@pytest.fixture
+async def pilot() -> AsyncIterator[RealizerPilot]:
+    async with open_pilot(TWO) as pilot:
+        yield pilot
+
+
+@pytest.fixture
+async def slow(tmp_path: Path) -> AsyncIterator[RealizerPilot]:
+    """A realizer that plans a behavior a tick."""
+    human = tmp_path / "slow.toml"
+    human.write_text(TWO.human.read_text() + "[limits]\nplanning_per_tick = 20\n")
+    async with open_pilot(SceneOptions(human, "text", verify=True)) as pilot:
+        yield pilot
+
+
+def chain(number: int, first: str = "") -> str:
+    """Waits, each of which starts at the end of the previous one."""
+    starts = (f'start="w{i - 1}:end"' if i else first for i in range(number))
+    return "".join(f'<wait id="w{i}" duration="0.1" {start}/>' for i, start in enumerate(starts))
+
+
+def loose(number: int) -> str:
+    """Waits that begin together."""
+    return "".join(f'<wait id="w{i}" duration="0.1"/>' for i in range(number))
+
+
+async def test_a_small_block_starts_in_the_tick_in_which_it_arrives(pilot: RealizerPilot) -> None:
+    pilot.block("b", NOD)
+    await pilot.tick()
+    assert pilot.feedback.time("b:start") == 0.0
+
+
+async def test_a_big_block_is_planned_over_several_ticks_and_then_played_whole(pilot: RealizerPilot) -> None:
+    pilot.block("big", chain(45))
+    await pilot.tick()
+    assert pilot.feedback.progress == []
+    await pilot.advance(6)
+    start = pilot.feedback.time("big:start")
+    assert 0.0 < start < 0.1
+    assert pilot.feedback.time("big:end") == pytest.approx(start + 4.5)
+    assert pilot.feedback.warnings == []
+
+
+async def test_a_small_block_of_another_character_does_not_wait_for_a_big_one(pilot: RealizerPilot) -> None:
+    pilot.block("big", chain(200), characterId="alice")
+    await pilot.tick()
+    pilot.block("small", NOD, characterId="bob")
+    await pilot.tick()
+    assert pilot.feedback.time("small:start") == 0.01
+    assert not pilot.feedback.reached("big:start")
+
+
+async def test_a_small_block_of_another_character_does_not_wait_for_many_blocks(pilot: RealizerPilot) -> None:
+    for i in range(100):
+        pilot.block(f"b{i}", NOD, characterId="alice", composition="APPEND")
+    pilot.block("small", NOD, characterId="bob")
+    await pilot.tick()
+    assert pilot.feedback.time("small:start") == 0.0
+
+
+async def test_blocks_of_a_character_play_in_order_although_they_are_planned_in_several_ticks(
+    pilot: RealizerPilot,
+) -> None:
+    for i in range(60):
+        pilot.block(f"b{i}", '<wait id="w" duration="0.05"/>', composition="APPEND")
+    await pilot.advance(3.5)
+    starts = [pilot.feedback.time(f"b{i}:start") for i in range(60)]
+    assert starts == pytest.approx([0.05 * i for i in range(60)])
+
+
+async def test_a_block_waits_for_a_later_one_of_its_document_that_it_names(pilot: RealizerPilot) -> None:
+    first = block("first", '<wait id="w" start="last:w:end" duration="0.1"/>')
+    between = "".join(block(f"b{i}", NOD, composition="APPEND") for i in range(60))
+    pilot.perform(first + between + block("last", '<wait id="w" duration="0.5"/>'))
+    await pilot.advance(2)
+    assert pilot.feedback.time("first:w:start") == pytest.approx(pilot.feedback.time("last:w:end"))
+    assert pilot.feedback.warnings == []
+
+
+async def test_a_block_that_names_another_enters_after_all_that_arrived_before(pilot: RealizerPilot) -> None:
+    for i in range(60):
+        pilot.block(f"b{i}", '<wait id="w" duration="0.1"/>', characterId="alice")
+    pilot.block("after", NOD, **{"characterId": "bob", "bmla:appendAfter": "b59"})
+    await pilot.advance(1)
+    assert pilot.feedback.time("after:start") == pytest.approx(pilot.feedback.time("b59:end"))
+    assert pilot.feedback.warnings == []
+
+
+@pytest.mark.parametrize("number", [6, 52])
+@pytest.mark.parametrize("share", [0.2, 0.4, 0.6, 0.8, 0.9, 0.95, 1.0])
+async def test_a_block_that_is_replaced_while_it_is_planned_leaves_nothing(
+    slow: RealizerPilot, number: int, share: float
+) -> None:
+    slow.predict("partner", "hit", 9.0)
+    await slow.tick()
+    (hit,) = slow.realizer.board.predictions("partner").values()
+    slow.block("big", chain(number, first='start="anticipators:partner:hit"'), **{"bmla:preplan": "true"})
+    await slow.advance(share * number / 100)
+    slow.block("next", NOD, composition="REPLACE")
+    await slow.advance(2)
+    assert slow.feedback.status("next") == "DONE"
+    assert not hit.dependents
+    assert slow.feedback.warnings == []
+
+
+@pytest.mark.parametrize("ticks", range(1, 12))
+async def test_a_behavior_that_is_interrupted_while_its_block_is_planned_is_not_played(
+    slow: RealizerPilot, ticks: int
+) -> None:
+    slow.block("first", '<wait id="w" duration="0.3"/>')
+    slow.block(
+        "go", '<bmla:interrupt id="i" target="big" include="w0"/>', characterId="bob", **{"bmla:preplan": "true"}
+    )
+    await slow.advance(0.2)
+    slow.block("big", loose(5), composition="APPEND")
+    await slow.advance(ticks / 100)
+    slow.block("cut", characterId="bob", **{"bmla:onStart": "go"})
+    await slow.advance(1)
+    begun = [i for i in range(5) if slow.feedback.reached(f"big:w{i}:start")]
+    assert begun == [1, 2, 3, 4]
+    assert slow.feedback.warnings == []
+
+
+async def test_a_prediction_that_moves_while_a_block_is_planned_is_followed(pilot: RealizerPilot) -> None:
+    pilot.predict("partner", "hit", 1.0)
+    pilot.block("big", chain(45, first='start="anticipators:partner:hit"'))
+    for tick in range(10):
+        pilot.predict("partner", "hit", 1.0 + tick / 100)
+        await pilot.tick()
+    await pilot.advance(2)
+    assert pilot.feedback.time("big:w0:start") == pytest.approx(1.09)
+
+
+async def test_a_block_with_too_many_sync_points_fails_with_the_limit(pilot: RealizerPilot) -> None:
+    nods = "".join(f'<head id="h{i}" lexeme="NOD" repetition="100"/>' for i in range(120))
+    pilot.block("many", nods)
+    await pilot.advance(0.5)
+    assert pilot.feedback.warnings == [("many", "IMPOSSIBLE_TO_SCHEDULE")]
+    assert "more than 10000 sync points" in pilot.feedback.raw[-2]
+    assert pilot.feedback.status("many") == "FAILED"
+
+
+async def test_a_session_in_which_planning_is_spread_over_ticks_is_replayed_byte_by_byte() -> None:
+    session: list[TickInputs] = []
+    async with open_pilot(TWO) as pilot:
+        pilot.realizer.record(session.append)
+        pilot.block("big", chain(120), characterId="alice")
+        for i in range(30):
+            pilot.block(f"b{i}", NOD, characterId="bob", composition="APPEND")
+            await pilot.tick()
+        pilot.block("stop", NOD, composition="REPLACE")
+        await pilot.advance(2)
+        recorded = pilot.feedback.raw
+    async with open_pilot(TWO) as pilot:
+        await replay(pilot.realizer, session)
+        assert pilot.feedback.raw == recorded
