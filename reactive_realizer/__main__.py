@@ -9,7 +9,7 @@ from types import MappingProxyType
 from typing import Any
 
 from reactive_realizer import __version__
-from reactive_realizer.cli.log import log_to_stderr
+from reactive_realizer.cli.log import FORMATTERS, log_to_stderr
 from reactive_realizer.errors import RealizerError
 
 _COMMANDS = MappingProxyType(
@@ -38,7 +38,7 @@ class _Command(argparse.ArgumentParser):
 def main(arguments: list[str] | None = None) -> int:
     """Run a command; the exit status."""
     options = _parser().parse_args(arguments)
-    log_to_stderr(logging.INFO if options.verbose else logging.ERROR)
+    log_to_stderr(logging.INFO if options.verbose else logging.ERROR, options.log_format)
     try:
         status: int = options.run(options)
     except RealizerError as problem:
@@ -60,6 +60,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action="version", version=__version__)
     parser.add_argument("--verbose", action="store_true", help="write a log to stderr")
+    parser.add_argument("--log-format", choices=tuple(FORMATTERS), default="text", help="the format of the log")
     commands = parser.add_subparsers(required=True, metavar="COMMAND", parser_class=_Command)
     for name, text in _COMMANDS.items():
         commands.add_parser(name, help=text)

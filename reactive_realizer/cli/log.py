@@ -1,7 +1,9 @@
 """The log on stderr: one line for each record, whatever clients have put into it, and not too many of them."""
 
+import json
 import logging
 import sys
+from datetime import UTC, datetime
 
 _FORMAT = "%(levelname)s %(name)s: %(message)s"
 
@@ -19,12 +21,33 @@ class LineFormatter(logging.Formatter):
         super().__init__(_FORMAT)
 
     def formatMessage(self, record: logging.LogRecord) -> str:
-        """The line of a record."""
-        return _printable(super().formatMessage(record))
+        """The line of a record, with the address of the client that it is about, if any."""
+        address = getattr(record, "address", None)
+        return _printable(super().formatMessage(record) + ("" if address is None else f" ({address})"))
 
     def formatException(self, ei: "logging._SysExcInfoType") -> str:
         """The lines of a traceback."""
         return "\n".join(f"  {_printable(line)}" for line in super().formatException(ei).split("\n"))
+
+
+class JsonFormatter(logging.Formatter):
+    """Writes a record as a JSON object: time (ISO 8601, UTC), level, logger, message; address and traceback, if any."""
+
+    def format(self, record: logging.LogRecord) -> str:
+        """The object on one line."""
+        written = {
+            "time": datetime.fromtimestamp(record.created, UTC).isoformat(timespec="milliseconds"),
+            "level": record.levelname,
+            "logger": record.name,
+            "message": record.getMessage(),
+            "address": getattr(record, "address", None),
+            "traceback": self.formatException(record.exc_info) if record.exc_info else None,
+        }
+        return json.dumps({name: value for name, value in written.items() if value is not None})
+
+
+FORMATTERS = {"text": LineFormatter, "json": JsonFormatter}
+"""The formats of the log by name."""
 
 
 class LogLimit(logging.Filter):
@@ -51,10 +74,10 @@ class LogLimit(logging.Filter):
         return True
 
 
-def log_to_stderr(level: int) -> None:
-    """Writes the records from a level on to stderr."""
+def log_to_stderr(level: int, form: str = "text") -> None:
+    """Writes the records from a level on to stderr, in one of the `FORMATTERS`."""
     handler = logging.StreamHandler(sys.stderr)
-    handler.setFormatter(LineFormatter())
+    handler.setFormatter(FORMATTERS[form]())
     handler.addFilter(LogLimit())
     logging.basicConfig(level=level, handlers=[handler])
 

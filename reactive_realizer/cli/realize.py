@@ -59,7 +59,7 @@ def input_file(text: str) -> InputFile:
 
 
 _UNTIL = 600.0
-_WITH_REPLAY = ("replay", "feedback", "frames", "explain", "verbose", "run")
+_WITH_REPLAY = ("replay", "feedback", "frames", "explain", "verbose", "log_format", "run")
 """The options that ``--replay`` allows; all others are in the recording."""
 
 

@@ -27,20 +27,22 @@ async def tell_refusals(request: web.Request, handler: Handler) -> web.StreamRes
     try:
         return await handler(request)
     except RealizerError as refusal:
-        return answer_to(refusal)
+        return answer_to(request, refusal)
     except web.HTTPRequestEntityTooLarge:
         limit = request.app[LIVE].limits.bml_bytes
-        return answer_to(RealizerError(TooManyBytes(size=request.content_length or f"more than {limit}", limit=limit)))
+        return answer_to(
+            request, RealizerError(TooManyBytes(size=request.content_length or f"more than {limit}", limit=limit))
+        )
     except web.HTTPMethodNotAllowed as refusal:
-        answer = answer_to(RealizerError(WrongMethod(path=request.path, method=request.method)))
+        answer = answer_to(request, RealizerError(WrongMethod(path=request.path, method=request.method)))
         answer.headers["Allow"] = refusal.headers["Allow"]
         return answer
     except (web.HTTPNotFound, web.HTTPForbidden):
-        return answer_to(RealizerError(NothingThere(path=request.path)))
+        return answer_to(request, RealizerError(NothingThere(path=request.path)))
     except web.HTTPBadRequest as refusal:
-        return answer_to(RealizerError(BadRequest(reason=refusal.text or refusal.reason)))
+        return answer_to(request, RealizerError(BadRequest(reason=refusal.text or refusal.reason)))
     except web.RequestPayloadError as problem:
-        return answer_to(RealizerError(BadRequest(reason=_on_one_line(problem))))
+        return answer_to(request, RealizerError(BadRequest(reason=_on_one_line(problem))))
 
 
 @web.middleware
@@ -73,10 +75,12 @@ async def add_headers(request: web.Request, response: web.StreamResponse) -> Non
     response.headers.update(request.app[SECURITY].cross_origin_headers(request))
 
 
-def answer_to(refusal: RealizerError, more: Mapping[str, object] = MappingProxyType({})) -> web.Response:
-    """The HTTP response for a fault; ``more`` stands beside it."""
+def answer_to(
+    request: web.Request, refusal: RealizerError, more: Mapping[str, object] = MappingProxyType({})
+) -> web.Response:
+    """The HTTP response to a request for a fault; ``more`` stands beside it."""
     fault = refusal.fault
-    logger.info("%s: %s", fault.code, fault)
+    logger.info("%s: %s", fault.code, fault, extra={"address": request.remote})
     place = {"line": fault.line, "column": fault.column}
     body = {"code": fault.code, "message": fault.sentence, **place}
     return web.json_response({"error": body, **more}, status=status_of(fault))

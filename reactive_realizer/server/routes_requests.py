@@ -66,7 +66,7 @@ async def bml(request: web.Request) -> web.Response:
     try:
         answer = await request.app[INTAKE].document(text)
     except BlocksRefused as refusal:
-        return answer_to(refusal, bml_answer(*refusal.answer, limit))
+        return answer_to(request, refusal, bml_answer(*refusal.answer, limit))
     return web.json_response(bml_answer(*answer, limit), status=202)
 
 

@@ -134,7 +134,8 @@ class SocketClient:
         """Closes the socket; a client that still reads receives the reason."""
         code, reason = CLOSE_CODES[self._reason], self._reason.code
         if await self._socket.close(code=code, message=reason.encode(), drain=False):
-            logger.info("the connection of a client was closed: %s", reason)
+            address = self._socket.get_extra_info("peername", ("unknown",))[0]
+            logger.info("the connection of a client was closed: %s", reason, extra={"address": address})
 
     # --- from the client
 

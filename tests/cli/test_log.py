@@ -1,11 +1,12 @@
 """The log on stderr."""
 
+import json
 import logging
 from collections.abc import Callable
 
 import pytest
 
-from reactive_realizer.cli.log import LineFormatter, LogLimit
+from reactive_realizer.cli.log import JsonFormatter, LineFormatter, LogLimit
 
 
 def record(text: str, created: float = 0.0) -> logging.LogRecord:
@@ -55,3 +56,28 @@ def test_a_flood_of_records_is_cut_and_counted(written: Callable[[int, float], l
 
 def test_quiet_logs_are_complete(written: Callable[[int, float], list[str]]) -> None:
     assert [line for second in range(1000) for line in written(5, float(second))] == ["0", "1", "2", "3", "4"] * 1000
+
+
+def test_a_record_names_the_address_of_its_client() -> None:
+    refused = record("refused")
+    refused.address = "192.0.2.7"
+    assert LineFormatter().format(refused) == "INFO server: refused (192.0.2.7)"
+    assert json.loads(JsonFormatter().format(refused))["address"] == "192.0.2.7"
+
+
+def test_a_record_is_a_json_object_on_one_line() -> None:
+    try:
+        raise ValueError("/\nproblem")
+    except ValueError as problem:
+        failed = logging.LogRecord(
+            "server", logging.ERROR, "file", 1, "failed\n%s", ("x",), (ValueError, problem, None)
+        )
+    failed.created = 0.25
+    (line,) = JsonFormatter().format(failed).splitlines()
+    assert json.loads(line) == {
+        "time": "1970-01-01T00:00:00.250+00:00",
+        "level": "ERROR",
+        "logger": "server",
+        "message": "failed\nx",
+        "traceback": "ValueError: /\nproblem",
+    }
