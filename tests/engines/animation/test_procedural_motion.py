@@ -206,7 +206,6 @@ def test_more_repeats_take_longer(head: HeadMotion, name: str) -> None:
     once, _ = head(name)
     thrice, _ = head(name, r=3)
     assert thrice.preferred_duration > 2.0 * once.preferred_duration
-    assert sum(thrice.shortest.values()) > 2.0 * sum(once.shortest.values())
 
 
 def test_an_unknown_parameter_has_no_effect(
