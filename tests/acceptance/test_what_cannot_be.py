@@ -48,7 +48,11 @@ async def test_other_behaviors_stretch_before_a_wait_exceeds_its_maximum(pilot: 
     assert_time(pilot.feedback, "b:w:end", pilot.feedback.time("b:w:start") + 1)
     assert_time(pilot.feedback, "b:m:end", 3.4)
     assert_time(pilot.feedback, "c:w:end", 3.0)
-    assert pilot.feedback.warnings == []
+    (warning,) = pilot.feedback.of("warningFeedback")
+    assert (warning.id, warning.text.partition(": ")[2]) == (
+        "c:w",
+        "w from start to end is to last at most 1.00 s, lasts 3.00 s",
+    )
 
 
 async def test_a_self_contradictory_constraint_is_reported(pilot: RealizerPilot) -> None:

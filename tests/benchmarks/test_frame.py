@@ -30,7 +30,7 @@ def frame(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> ModuleType:
 def test_the_json_output_has_the_numbers_the_machine_and_the_commit(
     frame: ModuleType, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    frame.run("quick", as_json=True, keep=False)
+    frame.run("quick", None, as_json=True, keep=False)
     said = json.loads(capsys.readouterr().out.splitlines()[-1])
     assert said == {"a": {"b": 2.0}, "c": None, "machine": {"cpu": "abacus", "load": 0.5}, "commit": "1234567"}
     assert not frame.HISTORY.exists()
@@ -39,9 +39,9 @@ def test_the_json_output_has_the_numbers_the_machine_and_the_commit(
 def test_the_table_shows_aims_and_ratios_to_the_last_result(
     frame: ModuleType, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    frame.run("other", as_json=True, keep=True)
-    frame.run("quick", as_json=True, keep=True)
-    frame.run("quick", as_json=False, keep=True)
+    frame.run("other", None, as_json=True, keep=True)
+    frame.run("quick", None, as_json=True, keep=True)
+    frame.run("quick", None, as_json=False, keep=True)
     rows = capsys.readouterr().out.splitlines()[2:]
     assert [row.split() for row in rows] == [
         ["quick,", "commit", "1234567,", "load", "0.5,", "abacus"],

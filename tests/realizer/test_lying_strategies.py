@@ -81,11 +81,24 @@ def seen(pilot: RealizerPilot) -> list[tuple[str, str, object]]:
 
 AT_START, AT_HIT = ("7.8", "w:start, block start"), ("7.32", f"m:stroke, {HIT}")
 NO_TIME = [("7.14", f"{id_}:start, {id_}:end", SHORTEST) for id_ in "wnm"]
+HALF_A_NOD = 0.0484946
+"""Time that the head needs for each half of a stroke, s."""
+HURRIED = [
+    ("7.2.1", f"{id_}:{first}, {id_}:{last}", HALF_A_NOD)
+    for id_ in "nm"
+    for first, last in (("strokeStart", "stroke"), ("stroke", "strokeEnd"))
+]
 LIES = [
     (untied, [(*AT_START, 0.5), ("7.11", "n:start, w:end", 1.0), (*AT_HIT, 2.65)]),
     (early, [(*AT_START, 0.6), (*AT_HIT, 0.6), ("7.13", "w:start", 0.1)]),
-    (pressed, [("7.11", "n:start, w:end", 1.0), (*AT_HIT, 0.35), *NO_TIME, ("7.1.4", "w:start, w:end", 1.0)]),
-    (swapped, [(*AT_HIT, 0.35), ("7.15", "n:strokeEnd, n:relax", 0.35), ("7.15", "m:strokeEnd, m:relax", 0.35)]),
+    (
+        pressed,
+        [("7.11", "n:start, w:end", 1.0), (*AT_HIT, 0.35), *NO_TIME, ("7.1.4", "w:start, w:end", 1.0), *HURRIED],
+    ),
+    (
+        swapped,
+        [(*AT_HIT, 0.35), *(("7.15", f"{id_}:strokeEnd, {id_}:relax", 0.35) for id_ in "nm"), *HURRIED[1::2]],
+    ),
 ]
 
 
