@@ -314,8 +314,8 @@ class BlockLifecycle:
         units = [unit for unit in block.units if unit.behavior.id in gone]
         self._units.remove(units, time)
         if gone == names:
-            self._planner.leave(block)
             self._transitions.end(block, BlockEvent.REVOKE, time)
+            self._planner.leave(block)
             return
         with self._board.graph.transaction(f"revoke a part of {block.key.block}"):
             block.units = [unit for unit in block.units if unit not in units]
