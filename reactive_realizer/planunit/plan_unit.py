@@ -297,11 +297,11 @@ class PlanUnit:
         start, ahead = self.points[0].peg.value, self.ahead()
         if not any(self.shortest) or len(self.points) <= len(self.shortest) or not ahead or not is_due(start, now):
             return
-        time, first = now, len(self.points) - len(ahead)
+        time, first, needs = now, len(self.points) - len(ahead), self._needs()
         for index, point in enumerate(ahead, first):
             if index > 0:
                 left = 1.0 - self.progress(now) if index == first else 1.0
-                time = GlobalTime(time + left * self.shortest[index - 1])
+                time = GlobalTime(time + left * needs[index - 1])
             # Another behavior may hold a point that both share.
             time = max(time, point.peg.earliest or time)
             pinned = [each.peg.value for each in ahead[index - first :] if each.peg.pinned]
@@ -326,11 +326,11 @@ class PlanUnit:
         Args:
             part: called with each point before its peg is changed.
         """
-        moved = False
+        moved, needs = False, self._needs()
         later: list[_Later] = []
         soonest = inf  # of all of these: a speech may have hundreds of points
         for index in range(len(self.points) - 1, -1, -1):
-            point, need = self.points[index], self._need(index)
+            point, need = self.points[index], needs[index]
             if point.fired:
                 break
             if need > 0.0:
@@ -351,9 +351,14 @@ class PlanUnit:
             soonest = min(soonest, time)
         return moved
 
-    def _need(self, index: int) -> float:
-        """The shortest duration (s) of the phase after a point."""
-        return self.shortest[index] if index < len(self.shortest) else 0.0
+    def _needs(self) -> list[float]:
+        """The shortest duration (s) of the phase after each point; no time can pass between points that share a peg."""
+        last = {point.peg: index for index, point in enumerate(self.points)}
+        needs, together = [0.0] * len(self.points), 0
+        for index, (point, shortest) in enumerate(zip(self.points, self.shortest, strict=False)):
+            together = max(together, last[point.peg])
+            needs[index] = 0.0 if index < together else shortest
+        return needs
 
     def due_points(self, now: GlobalTime, *, end: bool = True) -> list[DuePoint]:
         """The points that are due, and unknown points before them, which have the time of the next known point."""
@@ -372,7 +377,7 @@ class PlanUnit:
             self._fire(point, time)
         if due and (ahead := self.ahead()):
             late = now - due[-1].time > LATE
-            since, need = now if late else due[-1].time, self._need(len(self.points) - len(ahead) - 1)
+            since, need = now if late else due[-1].time, self._needs()[-len(ahead) - 1]
             self._pace = Pace(since, ahead[0].peg.value, need)
 
     def interrupt(self, time: GlobalTime) -> list[SyncPoint]:

@@ -99,6 +99,17 @@ async def test_a_prediction_that_comes_early_hurries_a_stroke_at_most_to_its_lim
     assert heights[round(50 * stroke)] < heights[first:last].min() + 0.02
 
 
+async def test_a_gesture_whose_points_are_all_tied_to_an_event_is_ready_as_soon_as_it_can_be_after_that() -> None:
+    async with open_pilot(SceneOptions(voice="text", strategy="smartbody")) as pilot:
+        press = "anticipators:events:press"
+        pilot.block("b", f'<gesture id="g" lexeme="BEAT" mode="RIGHT_HAND" ready="{press}" end="{press}"/>')
+        await pilot.advance(1)
+        pilot.event("events", "press")
+        await pilot.advance(3)
+        assert pilot.feedback.time("b:g:start") == 1.0
+        assert 1.2 < pilot.feedback.time("b:g:ready") == pilot.feedback.time("b:g:end") < 1.25
+
+
 async def test_a_prediction_that_comes_a_little_early_is_no_loss(pilot: RealizerPilot) -> None:
     pilot.predict("t", "hit", 2.0)
     pilot.block("b", '<gesture id="g" lexeme="BEAT" stroke="anticipators:t:hit"/>')
