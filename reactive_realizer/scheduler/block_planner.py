@@ -219,6 +219,9 @@ class BlockPlanner:
             stale = times < _MOST_OFTEN and self._planning.is_stale(draft.posed)
             if stale or not self._holds(block, draft, left):
                 continue
+            if any(loss.required for loss in plan.losses):
+                draft.outcome = plan  # the block fails, and needs no pegs
+                yield 1
             yield from self._planning.make_pegs(block, plan)
             if self._holds(block, draft, left):
                 draft.outcome = plan

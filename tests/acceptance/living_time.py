@@ -20,6 +20,11 @@ def nod(id_: str, **points: str) -> str:
     return f'<head id="{id_}" lexeme="NOD"{syncs(points)}/>'
 
 
+def brows(id_: str, **points: str) -> str:
+    """A behavior without shortest durations."""
+    return f'<faceLexeme id="{id_}" lexeme="RAISE_BROWS" amount="1"{syncs(points)}/>'
+
+
 def after(ref: str, *points: str) -> str:
     return order("after", ref, points)
 

@@ -103,7 +103,7 @@ async def test_an_invalid_input_is_skipped_and_the_others_enter(pilot: RealizerP
 async def test_blocks_above_the_limit_are_refused_and_may_be_sent_again_later(pilot: RealizerPilot) -> None:
     limit = pilot.realizer.limits.blocks_alive
     pilot.block("first", FINE)
-    for number in range(limit):
+    for number in range(limit + 2):
         pilot.block(f"b{number}", '<head id="h" lexeme="NOD" start="anticipators:test:go"/>' if number else "")
-    await pilot.tick()
-    assert pilot.feedback.warnings == [(f"b{limit - 1}", "PARSING_FAILURE")]
+    await pilot.advance(3)
+    assert pilot.feedback.warnings == [(f"b{limit + 1}", "PARSING_FAILURE")]

@@ -8,7 +8,7 @@ from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.testing.assertions import assert_linked, assert_not_played, assert_order, assert_time
 from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
-from .living_time import BEAT, GO, HIT, LOST, WELL, after, before, moves, nod, texts, wait
+from .living_time import BEAT, GO, HIT, LOST, WELL, after, before, brows, moves, nod, texts, wait
 
 # --- chains, clusters, blocks
 
@@ -150,12 +150,12 @@ async def test_an_elastic_behavior_between_two_outer_times_is_shortened(
 async def test_a_point_that_its_successor_overtakes_is_predicted_and_happens_with_it(pilot: RealizerPilot) -> None:
     pilot.predict("t", "go", 1.5)
     pilot.predict("t", "hit", 1.0)
-    pilot.block("b", nod("n", start="0", stroke=HIT, end=GO))
+    pilot.block("b", brows("n", start="0", attackPeak=HIT, end=GO))
     await moves(pilot, 0.5, ("hit", 3.0), 0.1)
-    assert pilot.feedback.predicted("b:n:stroke") == pytest.approx(1.5)
+    assert pilot.feedback.predicted("b:n:attackPeak") == pytest.approx(1.5)
     await pilot.advance(3)
-    assert_time(pilot.feedback, "b:n:stroke", 1.5)
-    assert [f"n:stroke = {HIT} {LOST}" in said for said in texts(pilot)] == [True]
+    assert_time(pilot.feedback, "b:n:attackPeak", 1.5)
+    assert [f"n:attackPeak = {HIT} {LOST}" in said for said in texts(pilot)] == [True]
 
 
 @pytest.mark.parametrize(("moved", "why"), [(0.8, ": start is at 1 s, end at 0.8 s"), (1.0, "no time is left")])

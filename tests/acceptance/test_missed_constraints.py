@@ -8,7 +8,7 @@ import pytest
 from reactive_realizer.testing.assertions import assert_time
 from reactive_realizer.testing.pilot import RealizerPilot
 
-from .living_time import GO, HIT, LOST, after, moves, nod, wait
+from .living_time import GO, HIT, LOST, after, brows, moves, nod, wait
 
 AHEAD = nod("n", start=f"{HIT}-0.5")
 
@@ -48,7 +48,7 @@ async def test_the_last_behavior_of_a_block_that_ends_late_is_reported_before_th
     pilot: RealizerPilot,
 ) -> None:
     pilot.predict("t", "hit", 4.0)
-    pilot.block("b", nod("n", end=f"{HIT}-0.5"))
+    pilot.block("b", brows("n", end=f"{HIT}-0.5"))
     await moves(pilot, 3, ("hit", 1.0), 1)
     assert_time(pilot.feedback, "b:end", 3.0)
     assert missed(pilot) == pytest.approx({("b:n", f"n:end = {HIT}-0.5"): 0.5})
@@ -99,9 +99,9 @@ async def test_ties_within_a_block_and_after_constraints_are_reported_for_small_
 async def test_ties_of_future_points_are_reported_for_small_violations_too(pilot: RealizerPilot) -> None:
     pilot.predict("t", "go", 1.5)
     pilot.predict("t", "hit", 1.0)
-    pilot.block("b", nod("n", start="0", stroke=HIT, end=GO))
+    pilot.block("b", brows("n", start="0", attackPeak=HIT, end=GO))
     await moves(pilot, 0.5, ("hit", 1.55), 2)
-    assert missed(pilot) == pytest.approx({("b:n", f"n:stroke = {HIT}"): 0.05})
+    assert missed(pilot) == pytest.approx({("b:n", f"n:attackPeak = {HIT}"): 0.05})
 
 
 async def test_a_rigid_behavior_that_cannot_follow_a_new_prediction_is_reported(pilot: RealizerPilot) -> None:
