@@ -107,6 +107,8 @@ class TieRelease:
         warned = set()
         gone = frozenset(cut)
         followed = {follower: peg for peg in cut for follower in (peg, *followers_of(peg))}
+        # Another point may be unknown for another reason, such as the end of a wait for an event.
+        lost = {follower for peg in cut if peg.value is None for follower in (peg, *followers_of(peg))}
         following = self._blocks.watch.following(followed)
         for block in following:
             self._release_start(block, followed, now)
@@ -114,8 +116,9 @@ class TieRelease:
             tied = [point.peg for point in unit.ahead() if point.peg in followed]
             if not tied:
                 continue
-            point = self._as_written(unit, owner, followed[tied[0]])
-            if any(peg.value is None for peg in tied) or not (began or unit.begun):
+            never = [peg for peg in tied if peg in lost and peg.value is None]
+            point = self._as_written(unit, owner, followed[(never or tied)[0]])
+            if never or not (began or unit.begun):
                 self._units.drop(unit, NeverComes(point=point), now)
                 warned.add(unit)
             elif block.key != owner and _tied_point(unit.behavior.id, gone, block.kept) is not None:

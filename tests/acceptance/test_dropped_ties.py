@@ -102,6 +102,18 @@ async def test_a_behavior_tied_to_one_dropped_in_a_conflict_keeps_its_time_with_
     assert pilot.feedback.status("b") == "DONE"
 
 
+@pytest.mark.parametrize("start", ["g:start", "g:stroke"])
+async def test_a_wait_for_an_event_keeps_its_start_too(pilot: RealizerPilot, start: str) -> None:
+    waits = f'<wait id="w" event="told" start="{start}"/>'
+    pilot.block("b", HOLDS + LATER.format("1.5") + waits)
+    await pilot.advance(2)
+    point = start.replace("g", "b:g")
+    (text,) = told(pilot, "b:w")
+    assert text == f"the behavior of {point} is dropped; this behavior keeps the last predicted time"
+    assert pilot.feedback.time("b:w:start") == pilot.feedback.predicted("b:w:start")
+    assert not pilot.feedback.reached("b:w:end")
+
+
 async def test_a_behavior_of_another_block_keeps_its_time_too(pilot: RealizerPilot) -> None:
     pilot.block("b", HOLDS + LATER.format("1.5"))
     pilot.block("c", nod("n", start="b:g:end"))
