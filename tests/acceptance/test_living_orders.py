@@ -30,6 +30,18 @@ async def test_a_point_that_may_be_earlier_than_now_happens_now(pilot: RealizerP
     assert pilot.feedback.warnings == []
 
 
+@pytest.mark.parametrize("strategy", ["convex", "embr"])
+async def test_a_behavior_after_an_unknown_time_comes_with_it_even_if_that_is_earlier_than_constrained(
+    strategy: str,
+) -> None:
+    async with open_pilot(SceneOptions(voice="text", strategy=strategy, verify=True)) as pilot:
+        pilot.block("b", wait("w", 3, start="0.4") + nod("n") + before(HIT, "w:start") + after(HIT, "n:start"))
+        await moves(pilot, 0.3, ("hit", 0.3), 3)
+        assert_time(pilot.feedback, "b:n:start", 0.3)
+        (said,) = texts(pilot)
+        assert f"w:start before {HIT} {LOST}: it is off by 0.1 s" in said
+
+
 async def test_an_after_constraint_that_moves_past_a_reached_point_is_reported_once(
     pilot: RealizerPilot,
 ) -> None:

@@ -76,8 +76,14 @@ class RootRules:
                     self.rules[first].after.append(Position(order.earlier, order.distance + ahead))
         for first, start in starts.items():
             planned = self._network.first_times[first]
-            earliest = max([start, *map(self._network.at, self.rules[first].after)])
+            earliest = max([start, *map(self._least, self.rules[first].after)])
             self.rules[first].natural = AfterStart(planned if abs(planned - earliest) > TIE_TOLERANCE else start)
+
+    def _least(self, position: Position) -> float:
+        """The time of a position, s after the block's start; of an unknown one the least that constraints allow."""
+        orders = (order for order in self._orders if order.later == position.root < self._network.fixed)
+        least = [self._network.times[order.earlier] + order.distance + position.offset for order in orders]
+        return max([self._network.at(position), *least])
 
     def _within_cluster(self, order: RootPrecedence) -> bool:
         return self._network.clusters[order.later] == self._network.clusters[order.earlier]
