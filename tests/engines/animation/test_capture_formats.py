@@ -141,7 +141,8 @@ def test_a_file_with_z_up_is_turned(
     assert found.root_at(0.01) == pytest.approx((0.0, 0.0, 20.0 * LENGTH), abs=0.002)
 
 
-turns = st.tuples(*(st.floats(-1.0, 1.0) for _ in range(4))).filter(lambda q: sum(x * x for x in q) > 0.1)
+# Not by nearly 180 degrees: several such axes in a chain are ambiguous, and arms are then read reversed.
+turns = st.tuples(st.floats(0.3, 1.0), *(st.floats(-1.0, 1.0) for _ in range(3)))
 axes = st.fixed_dictionaries({name: turns.map(normalize) for name, _, _ in T_POSE})
 
 
