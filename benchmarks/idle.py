@@ -29,15 +29,16 @@ _INSIDE = (
 )
 
 
-def measure(seconds: float = 10.0) -> dict[str, object]:
+def measure(seconds: float = 10.0, most: int = 100) -> dict[str, object]:
     """Posts a second with one waiting character, and the processor time, ms a second, with numbers of them.
 
     With 0, one character has nothing to do.
 
     Args:
         seconds: duration of each run.
+        most: greatest number of characters; the results of greater ones are None.
     """
-    runs = {size: _wait(size, seconds) for size in _CROWDS}
+    runs = {size: _wait(size, seconds) if size <= most else (None, None) for size in _CROWDS}
     return {
         "posts_per_s": runs[1][0],
         "cpu_ms_per_s": {str(size): cpu for size, (_, cpu) in runs.items()},

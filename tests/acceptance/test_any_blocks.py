@@ -148,7 +148,7 @@ def told_revoked(line: FeedbackMessage) -> bool:
     return any(value in ("REVOKED", "FAILED") for value in line.element.attrib.values())
 
 
-@settings(max_examples=40)
+@settings(max_examples=20)
 @given(st.lists(STEPS, min_size=1, max_size=8))
 def test_any_session_comes_to_rest_with_feedback_in_order(script: Any) -> None:
     asyncio.run(play(script))

@@ -13,7 +13,7 @@ SMALLEST: dict[str, dict[str, float]] = {
     "animation": {"most": 1},
     "endurance": {"hours": 0.004},
     "generated": {"blocks": 1},
-    "idle": {"seconds": 0.05},
+    "idle": {"seconds": 0.05, "most": 1},
     "latency": {"runs": 2},
     "load": {"seconds": 0.05, "behaviors": 20, "viewers": 2},
     "propagation": {"largest": 1000},
