@@ -60,7 +60,7 @@ class LogLimit(logging.Filter):
         self._dropped = 0
 
     def filter(self, record: logging.LogRecord) -> bool:
-        """Whether a record is written."""
+        """Return False for a record that comes too soon after many others, so that it is not written."""
         self._left = min(float(_BURST), self._left + (record.created - self._last) * _PER_SECOND)
         self._last = record.created
         if self._left < 1:

@@ -34,7 +34,10 @@ logger = logging.getLogger(__name__)
 T = TypeVar("T")
 
 FAILURES: Final = (Exception, SystemExit, CancelledError, GeneratorExit)
-"""What a plug-in may raise: all but the interrupt of the keyboard. In a call without await, nothing can be canceled."""
+"""The exceptions of a plug-in that cost only its own behaviors: all but KeyboardInterrupt.
+
+A CancelledError cannot come from the event loop, because the guarded calls do not await.
+"""
 
 
 class GuardedEngine:
@@ -53,13 +56,13 @@ class GuardedEngine:
         self.parameters = engine.parameters
         self._units: dict[PlanUnit, None] = {}
         self._failure: BaseException | None = None
-        """What has failed since it last played."""
+        """The exception of a call since the engine last played."""
         self._told = ""
         """The failure that was logged last."""
         self._wake: Callable[[], None] = lambda: None
 
     def supports(self, behavior: Behavior) -> bool:
-        """Whether it plays a behavior; an engine that cannot tell does not."""
+        """Return whether the engine plays a behavior: False if it raises."""
         try:
             return bool(self.engine.supports(behavior))
         except FAILURES:

@@ -47,7 +47,7 @@ class Owners:
 
 
 def _keeps(unit: PlanUnit, time: GlobalTime) -> bool:
-    """Whether a unit keeps its resources at a time."""
+    """Return whether a unit still holds its resources at a time, rather than releasing them."""
     match unit.state:
         case UnitState.IN_EXEC:
             return not unit.subsiding(time)

@@ -97,7 +97,6 @@ class BlockLifecycle:
 
     def _commit(self, block: BMLBlock, plan: Plan, now: GlobalTime) -> None:
         if self._fails_by_plan(block, plan, now):
-            plan.discard()
             return
         with self._board.graph.transaction(f"plan {block.key.block}"):
             holds = self._planning.lay_out(block, plan)

@@ -39,7 +39,7 @@ class FinishedUnits(DefaultEngine):
     """Plays units that were made elsewhere."""
 
     def plan(self, block: BlockKey, behavior: Behavior, prepared: object) -> PlanUnit:
-        raise NotImplementedError
+        raise AssertionError("its units are made elsewhere")
 
 
 PlayEngines = Callable[..., Awaitable[list[Play]]]

@@ -30,7 +30,7 @@ class NothingToSay(CreationFault):
 
 
 _Text = tuple[str, tuple[tuple[str, int], ...]]
-"""What a voice is given: a text, and its marks with the indices of their characters."""
+"""A text to be synthesized, and its marks: the id of each, and the index of the character that it precedes."""
 
 _REMEMBERED_BYTES = 16 * 1024 * 1024
 """Audio of the utterances that are remembered for repetition: six minutes of speech at 22 kHz."""
