@@ -134,6 +134,12 @@ class StrategyContract:
         assert times[Point("g", "start")] is times[Point("g", "stroke")] is times[Point("g", "end")] is None
         assert times[Point("n", "start")] == 0.0
 
+    def test_what_ends_with_the_start_of_a_waiting_behavior_starts_with_its_block(self) -> None:
+        change, hit = TIMINGS["change"], outer("hit", None)
+        asked = problem([item("c", change), item("d", change)], at("c:start", hit, -1.0), at("d:end", "c:start"))
+        times = PlanView.of_solution(asked, solve(self.strategy, asked)).times
+        assert times[Point("d", "start")] == 0.0
+
     def test_many_behaviors_each_after_the_one_before_it_are_planned_in_any_order(self) -> None:
         items = [item(f"n{i}", TIMINGS["nod"]) for i in range(_MANY)]
         ties = [at(f"n{i}:start", f"n{i - 1}:end") for i in range(1, _MANY)]

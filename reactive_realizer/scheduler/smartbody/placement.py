@@ -3,7 +3,6 @@
 import itertools
 from bisect import bisect
 from collections.abc import Iterable, Mapping, Sequence
-from enum import Enum
 from typing import NamedTuple
 
 from reactive_realizer.errors import RealizerError, SchedulingFault
@@ -22,15 +21,11 @@ class OutOfOrder(SchedulingFault):
     gap: float
 
 
-class Fixed(Enum):
-    """The clusters that are never moved: those tied to the start of the block, and to times from outside."""
+Cluster = str | Node
+"""Behaviors that are moved together, by the id of the first of them or by the unknown time from outside that it names.
 
-    BLOCK_START = "block start"
-    OUTSIDE = "outside"
-
-
-Cluster = str | Fixed
-"""Behaviors that are moved together, by the id of the first of them."""
+That of the block's start is never moved; it includes all that is tied to known times from outside.
+"""
 
 
 class Placement(NamedTuple):
@@ -41,17 +36,15 @@ class Placement(NamedTuple):
             that suits the first behavior that depends on it.
         known: whether the time is known.
         cluster: with which it is moved.
-        outer: the nodes with given times on which it depends, directly or not.
     """
 
     time: float
     known: bool
     cluster: Cluster
-    outer: frozenset[Node] = frozenset()
 
     def moved(self, distance: float) -> "Placement":
         """The placement at a distance (s)."""
-        return Placement(self.time + distance, self.known, self.cluster, self.outer) if distance else self
+        return self._replace(time=self.time + distance) if distance else self
 
 
 class Squeeze(NamedTuple):
@@ -127,7 +120,7 @@ def _place(
     high = indices[after]
     one, other = given[low], given[high]
     time = one.time + sum(stretched(phases[low:high], other.time - one.time)[: i - low])
-    return Placement(time, one.known and other.known, one.cluster, one.outer | other.outer)
+    return Placement(time, one.known and other.known, one.cluster)
 
 
 def _durations(phases: Sequence[Phase], stretch: float) -> list[float]:

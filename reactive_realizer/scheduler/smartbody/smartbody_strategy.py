@@ -18,7 +18,6 @@ from reactive_realizer.scheduler.offset_union_find import TIE_TOLERANCE, OffsetU
 from reactive_realizer.scheduler.problem import Item, Node, Origin, Point, SchedulingProblem, Tie
 from reactive_realizer.scheduler.smartbody.placement import (
     Cluster,
-    Fixed,
     Placement,
     check_given,
     check_playable,
@@ -57,9 +56,9 @@ class _Run:
         self._given = problem.given
         self._ties = OffsetUnionFind[Node](self._given)
         self._tied: set[Node] = set()
-        self._start = Placement(0.0, known=True, cluster=Fixed.BLOCK_START)
+        self._start = Placement(0.0, known=True, cluster=Origin.BLOCK_START)
         self._roots: dict[Node, tuple[Placement, float]] = {Origin.BLOCK_START: (self._start, 0.0)}
-        self._clusters = OffsetUnionFind[Cluster](Fixed)
+        self._clusters = OffsetUnionFind[Cluster]([Origin.BLOCK_START])
         self._placed: dict[str, list[Placement]] = {}
         self._losses: list[Loss] = []
 
@@ -131,7 +130,7 @@ class _Run:
             root, distance = self._ties.find(point)
             if i not in known and root in self._given:
                 suits = fill(item, known)[i].time if known else item.timing.offsets[i]
-                self._roots[root] = Placement(suits, False, Fixed.OUTSIDE, frozenset([root])), distance
+                self._roots[root] = Placement(suits, known=False, cluster=root), distance
                 known = self._all_at(points)
         return known
 
@@ -142,7 +141,7 @@ class _Run:
         """The placement of a point by the root of its ties; None while that has none."""
         root, distance = self._ties.find(point)
         if root not in self._roots and (time := self._given.get(root)) is not None:
-            self._roots[root] = Placement(time, True, Fixed.OUTSIDE, frozenset([root])), 0.0
+            self._roots[root] = Placement(time, known=True, cluster=Origin.BLOCK_START), 0.0
         if root not in self._roots:
             return None
         placed, at = self._roots[root]
@@ -220,8 +219,8 @@ class _Run:
         return self._clusters.find(placed.cluster)[0]
 
     def _is_free(self, placed: Placement) -> bool:
-        """Whether its cluster is tied to nothing fixed, and will be moved."""
-        return isinstance(self._cluster(placed), str)
+        """Whether its cluster is tied to no known time, and will be moved."""
+        return self._cluster(placed) is not Origin.BLOCK_START
 
     def _earliest(self) -> dict[Cluster, float]:
         """By how much (s) each free cluster is moved so that it starts with the block (thesis 7.24)."""
