@@ -49,6 +49,25 @@ async def test_a_gesture_ends_when_the_next_chunk_takes_its_arm_and_both_points_
     assert told.status("one") == "DONE"
 
 
+async def test_chunks_may_be_tied_at_the_last_and_the_first_word(pilot: RealizerPilot) -> None:
+    first = (
+        '<speech id="s" start="2"><text>that was one<sync id="last"/></text></speech>'
+        '<gesture id="g" lexeme="BEAT" mode="LEFT_HAND" stroke="s:last"/>'
+    )
+    second = (
+        '<speech id="s"><text><sync id="first"/>and two</text></speech>'
+        '<gesture id="g" stroke="s:first" mode="RIGHT_HAND" lexeme="BEAT"/>'
+    )
+    pilot.block("one", first)
+    pilot.block("two", second, **{"bmla:chunkAfter": "one"})
+    await pilot.advance(8)
+    told = pilot.feedback
+    assert told.warnings == []
+    assert told.time("one:s:start") == 2.0
+    assert told.time("one:g:stroke") == told.time("one:s:last") == told.time("one:s:end")
+    assert told.time("two:g:stroke") == told.time("two:s:first") == told.time("two:s:start") > told.time("one:s:end")
+
+
 async def test_an_arm_that_the_next_chunk_does_not_use_retracts_completely(pilot: RealizerPilot) -> None:
     chunk(pilot, "one", mode="LEFT_HAND")
     chunk(pilot, "two", mode="RIGHT_HAND", chunkAfter="one")

@@ -140,6 +140,27 @@ async def test_a_speech_is_interrupted_with_a_prepared_continuation_in_the_same_
     assert pilot.feedback.warnings == []
 
 
+async def test_the_rest_of_a_block_is_interrupted_before_its_speech_which_continues_in_another_block(
+    pilot: RealizerPilot,
+) -> None:
+    send(pilot, "talk", TALK + '<head id="n" lexeme="NOD" start="s:m" end="s:m+1"/>')
+    send(pilot, "trail", '<speech id="s"><text>never mind</text></speech>', 'bmla:preplan="true"')
+    await pilot.advance(0.2)
+    send(
+        pilot,
+        "stop",
+        '<bmla:interrupt id="i" target="talk" exclude="s"/>'
+        '<bmla:interrupt id="j" target="talk" include="s" start="talk:s:m"/>'
+        '<bmla:activate id="a" target="trail" start="talk:s:m"/>',
+    )
+    await pilot.advance(4)
+    told = pilot.feedback
+    assert not told.reached("talk:n:start")
+    assert told.time("trail:s:start") == told.time("talk:s:end") == told.time("talk:s:m") == told.time("talk:end")
+    assert told.status("trail") == "DONE"
+    assert told.warnings == []
+
+
 async def test_a_late_tick_interrupts_at_the_exact_time(pilot: RealizerPilot) -> None:
     send(pilot, "talk", TALK)
     send(pilot, "stop", '<bmla:interrupt id="i" target="talk" start="0.5"/>')

@@ -89,7 +89,7 @@ async def test_every_lexicon_entry_of_a_published_binding_plays(
 ) -> None:
     copy(DATA / "bindings" / "published.xml", tmp_path / "gesturebinding.xml")
     asked = asked_of(tmp_path / "gesturebinding.xml", ["PhysicalController"])
-    assert len(asked) == 9
+    assert len(asked) == 10
     await play([*asked, NOISE], tmp_path)
 
 

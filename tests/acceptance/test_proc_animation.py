@@ -304,6 +304,11 @@ async def all_play(opened: Open, names: dict[str, str], avatar: str) -> None:
 
 
 @pytest.mark.parametrize("avatar", ["female", "male"])
+async def test_animations_in_the_style_of_published_ones_play(opened: Open, avatar: str, tests_data: Path) -> None:
+    await all_play(opened, texts(tests_data / "procanimation"), avatar)
+
+
+@pytest.mark.parametrize("avatar", ["female", "male"])
 async def test_all_animations_of_asaprealizer_play(opened: Open, avatar: str, shared_cases: Path) -> None:
     peers = texts(shared_cases / "asap" / "procanimation")
     assert len(peers) == 11

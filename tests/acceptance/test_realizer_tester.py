@@ -100,7 +100,12 @@ PAIRS = [
     ),
     (
         Script("core/testbeatgesture.xml", order=("g1:start", "g1:stroke", "g1:end")),
-        Script("beats.xml", "beats", times={"right:start": 0.5}, order=("right:end", "left:start", "left:end")),
+        Script(
+            "beats.xml",
+            "beats",
+            times={"right:start": 0.5},
+            order=("right:end", "left:start", "left:end", "both:start", "any:start", "between:start", "again:end"),
+        ),
     ),
     (
         Script(
@@ -112,7 +117,7 @@ PAIRS = [
     ),
     (
         Script("asap/interruptbehavior/testlongspeechandnod.xml", links=(("speech1:s1", "nod1:start"),)),
-        Script("speech_nod_at_mark.xml", "agree"),
+        Script("nod_between_marks.xml", "between", links=(("news:sure", "nod:start"),)),
     ),
 ]
 
@@ -146,7 +151,7 @@ async def test_a_script_of_the_suite_plays_as_its_comments_require(
     await assert_comes_out(pilot, script)
 
 
-@pytest.mark.parametrize("script", [own for _, own in PAIRS[:-1]], ids=name)
+@pytest.mark.parametrize("script", [own for _, own in PAIRS], ids=name)
 async def test_our_version_of_a_script_plays_as_it_requires(pilot: RealizerPilot, script: Script) -> None:
     pilot.perform((OWN_SCRIPTS / script.file).read_bytes())
     await assert_comes_out(pilot, script)

@@ -218,6 +218,16 @@ def test_an_invalid_binding_is_refused_with_file_line_element_and_reason(
     assert caught.value.fault.code == "bad-asset"
 
 
+def test_a_binding_as_they_are_published_is_read_and_finds_its_entries(tests_data: Path) -> None:
+    binding = GestureBinding.read(tests_data / "bindings" / "published.xml")
+    assert len(binding.specs) == 13
+    assert binding.rest_poses.keys() == {"CROUCHING"}
+    (spec,) = binding.match("head", BML, {"lexeme": "OVER_THERE", "repetition": "2", "amount": "0.8"})
+    assert spec.file is not None
+    assert spec.file.endswith("headpolar.xml")
+    assert spec.parameters({"repetition": "2", "amount": "0.8"}) == {"r": "2", "a": "0.8", "dy": "1"}
+
+
 def test_asaprealizers_binding_is_read_and_finds_its_nod(shared_cases: Path) -> None:
     binding = GestureBinding.read(shared_cases / "asap" / "gesturebinding" / "gesturebinding.xml")
     assert len(binding.specs) == 79

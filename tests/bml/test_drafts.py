@@ -294,9 +294,10 @@ DRAFTED = {
     "interrupts": "Interrupt Interrupt Activate",
     "neck_gaze": "Gaze",
     "nod_on_a_word": "Speech Head",
-    "speech_and_gestures": "Speech Gesture Gesture",
+    "speech_and_gestures": "Speech Gesture Gesture Gesture",
     "stance": "Posture",
     "vienna_action_unit": "FaceFacs",
+    "vienna_gaze": "Gaze",
     "vienna_speech": "Speech Head",
 }
 

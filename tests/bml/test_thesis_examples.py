@@ -332,6 +332,45 @@ async def test_a_behavior_that_is_not_realized_yet_gets_one_warning(text: str) -
         assert [warning for warning in pilot.feedback.warnings if warning[1] in LATER.values()] == expected
 
 
+SLIPS: dict[str, tuple[str, tuple[str, int]]] = {
+    "an undeclared prefix": (
+        '<bml id="b">\n<bmlt:noise id="n" type="perlin" joint="vl5"/></bml>',
+        ("malformed-xml", 2),
+    ),
+    "an undeclared prefix of an attribute": ('<bml id="b" bmlt:preplan="true"/>', UNBOUND),
+    "a fragment": ('<speech id="s"><text>Hi</text></speech>', FRAGMENT),
+    "a start tag without an end": (
+        '<bml id="b">\n<speech id="s"><text>so <sync id="m"> far\n</text></speech></bml>',
+        ("malformed-xml", 3),
+    ),
+    "an attribute without quotes": ('<bml id="b">\n\n<gesture id="g" type=BEAT/></bml>', ("malformed-xml", 3)),
+    "attributes without a space between": ('<bml id="b">\n<gaze id="g"target="box"/></bml>', ("malformed-xml", 2)),
+    "an ellipsis": ('<bml id="b">\n...\n</bml>', ("stray-text", 1)),
+    "no id": ('<bml>\n<head id="h" rotation="NOD"/></bml>', ("no-block-id", 1)),
+    "an offset that is no number": (
+        '<bml id="b">\n<speech id="s" start="b:start+y"><text>Hi</text></speech></bml>',
+        ("bad-attribute", 2),
+    ),
+    "an id twice": (
+        '<bml id="b">\n<head id="h" rotation="NOD"/>\n<head id="h" rotation="SHAKE"/></bml>',
+        ("duplicate-id", 3),
+    ),
+    "another name than that of the speech": (
+        '<bml id="b">\n<speech id="s"><text>Hi</text></speech>\n<gesture id="g" type="BEAT" start="t:go"/></bml>',
+        ("unknown-reference", 3),
+    ),
+}
+"""Slips like those of the printed examples, with the first problem and its line."""
+
+
+def test_slips_like_those_in_print_are_found_at_the_right_line(subtests: pytest.Subtests) -> None:
+    printed = {part.printed[0] for part in PARTS.values() if part.printed}
+    assert {code for _, (code, _) in SLIPS.values()} >= printed
+    for name, (text, problem) in SLIPS.items():
+        with subtests.test(name):
+            assert faults(text)[0] == problem
+
+
 def test_the_examples_of_the_thesis_are_read_after_their_repairs(thesis: list[str], subtests: pytest.Subtests) -> None:
     for name, part in PARTS.items():
         with subtests.test(name):

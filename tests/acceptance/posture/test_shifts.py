@@ -136,6 +136,7 @@ def reach(shown: Body) -> tuple[float, float]:
 async def test_arms_go_forward_and_then_apart(pilot: RealizerPilot) -> None:
     pilot.block("b", SWITCH)
     await pilot.advance(8)
+    assert pilot.feedback.warnings == []
     forward, spread = reach(body(pilot, 3.9)), reach(body(pilot, 7.9))
     assert forward[1] > 0.35 > 0.1 > abs(forward[0])
     assert spread[0] > 0.35 > 0.1 > abs(spread[1])

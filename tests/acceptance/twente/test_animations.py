@@ -89,6 +89,15 @@ async def test_an_animation_played_as_a_gesture_has_a_preparation_and_a_retracti
     assert times[3] > times[2] + 0.2
 
 
+async def test_a_block_may_have_keys_animations_and_noise_together(pilot: RealizerPilot, tests_data: Path) -> None:
+    pilot.perform((tests_data / "bml" / "twente.xml").read_bytes())
+    await pilot.advance(4)
+    assert not pilot.feedback.warnings
+    assert angles(pilot, "l_wrist", 2)[2.0] == pytest.approx(0.6, abs=0.02)
+    assert np.ptp(list(angles(pilot, "skullbase").values())) > 0.05
+    assert np.ptp(list(angles(pilot, "vl5").values())) > 0.015
+
+
 async def test_asaprealizers_examples_play(shared_cases: Path) -> None:
     for path, joint in {
         "bmlt-internalkeyframe.xml": "skullbase",

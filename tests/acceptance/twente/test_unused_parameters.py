@@ -192,6 +192,18 @@ async def test_a_published_binding_logs_no_unused_parameters(
     assert await said_of_entries(caplog, tmp_path) == []
 
 
+async def test_an_entry_of_a_published_binding_may_name_a_parameter_that_a_file_of_the_user_lacks(
+    tmp_path: Path, tests_data: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    copy(tests_data / "bindings" / "published.xml", tmp_path / "gesturebinding.xml")
+    file = tmp_path / "procanimation" / "enterface" / "headpolar.xml"
+    file.parent.mkdir(parents=True)
+    file.write_text('<ProcAnimation prefDuration="1"><Rotation target="vc4" rotation="dy*r*t;0;0"/></ProcAnimation>')
+    # Entries of the package use this file too, with one more parameter.
+    (line,) = (line for line in await said_of_entries(caplog, tmp_path) if "dx" not in line)
+    assert "no parameter a; it has dy, file, joints, mirror, name, r" in line
+
+
 async def test_asaprealizers_binding_logs_one_unused_parameter(
     tmp_path: Path, shared_cases: Path, caplog: pytest.LogCaptureFixture
 ) -> None:

@@ -274,6 +274,24 @@ def test_a_pose_file_with_several_rows_is_refused(tmp_path: Path) -> None:
         read_skeleton_pose(path)
 
 
+def test_a_file_has_rows_of_the_rotations_of_several_joints(tmp_path: Path) -> None:
+    path = tmp_path / "grip.xml"
+    path.write_text(
+        """<?xml version="1.0" encoding="UTF-8"?>
+        <SkeletonInterpolator rotationEncoding="axisangles" parts="r_thumb1 r_index1 l_index1" encoding="R">
+          0 1 0 0 0.0 0 0 1 0 0 0 1 0
+          2 1 0 0 0.5 0 0 1 1.4 0 0 1 -1.4
+        </SkeletonInterpolator>"""
+    )
+    grip = read_interpolator_file(path)
+    assert (grip.duration, grip.joints) == (2.0, ("r_thumb1", "r_index1", "l_index1"))
+    assert grip.rotations_at(2.0) == {
+        "r_thumb1": pytest.approx(from_axis_angle(X, 0.5)),
+        "r_index1": pytest.approx(from_axis_angle(Z, 1.4)),
+        "l_index1": pytest.approx(from_axis_angle(Z, -1.4)),
+    }
+
+
 def test_the_peers_files_are_read(shared_cases: Path) -> None:
     fists = read_interpolator_file(shared_cases / "asap" / "keyframe" / "clench_fists.xml")
     assert (fists.duration, len(fists.joints)) == (1.0, 22)

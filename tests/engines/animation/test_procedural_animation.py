@@ -371,6 +371,15 @@ def missed(track: EffectorTrack, goal: Vec3, body: Body) -> float:
     return distance(goal, end) if 0.6 * reach < distance(first, goal) < reach else 0.0
 
 
+def test_every_animation_in_the_style_of_published_ones_has_a_pose_at_every_phase_and_reaches_its_goals(
+    tests_data: Path, skeleton: Skeleton
+) -> None:
+    files = sorted((tests_data / "procanimation").glob("*.xml"))
+    assert len(files) == 6
+    for path in files:
+        look_through(path, skeleton)
+
+
 def test_every_published_animation_has_a_pose_at_every_phase_and_reaches_its_goals(
     shared_cases: Path, skeleton: Skeleton
 ) -> None:
