@@ -5,6 +5,8 @@ import asyncio
 import logging
 import os
 import sys
+from functools import partial
+from math import inf
 from pathlib import Path
 
 from reactive_realizer.cli.scene_options import add_scene_options, scene_options
@@ -14,6 +16,7 @@ _TOKEN = "REACTIVE_REALIZER_TOKEN"
 """The environment variable with the token, which, unlike an option, other users of the machine cannot list."""
 
 _LARGEST_PORT = 65535
+_MEGABYTE = 1_000_000
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -27,7 +30,14 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--allow-origin", action="append", default=[], metavar="O", help="accept pages of this origin")
     add_scene_options(parser)
     parser.add_argument("--record", type=Path, metavar="FILE", help="record the session for realize --replay")
-    parser.set_defaults(run=run, performance=None)
+    parser.add_argument(
+        "--record-size",
+        type=megabytes,
+        default=inf,
+        metavar="MB",
+        help="begin another file at this size (default: never)",
+    )
+    parser.set_defaults(run=partial(run, parser), performance=None)
 
 
 def port(text: str) -> int:
@@ -41,8 +51,22 @@ def port(text: str) -> int:
     return int(text)
 
 
-def run(options: argparse.Namespace) -> int:
+def megabytes(text: str) -> float:
+    """A size.
+
+    Raises:
+        ValueError: not a positive number.
+    """
+    size = float(text)
+    if not size > 0:
+        raise ValueError(text)
+    return size
+
+
+def run(parser: argparse.ArgumentParser, options: argparse.Namespace) -> int:
     """The exit status: 2 if a file does not exist or cannot be written, or the address is in use."""
+    if options.record_size < inf and options.record is None:
+        parser.error("--record-size requires --record")
     if not options.human.is_file():
         print(f"no such file: {options.human}", file=sys.stderr)
         return 2
@@ -64,6 +88,7 @@ def _server_options(options: argparse.Namespace) -> ServerOptions:
         scene=scene_options(options),
         performance=options.performance.read_text(encoding="utf-8") if options.performance else None,
         record=options.record,
+        record_bytes=options.record_size * _MEGABYTE,
     )
 
 

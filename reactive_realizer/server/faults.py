@@ -243,6 +243,22 @@ class OldRecording(Fault):
     version: str
 
 
+class ForeignPart(Fault):
+    """A file in the place of a part of a recording that is part of another one."""
+
+    code = "foreign-part"
+    template = "this file is part of another recording than the one before it"
+
+
+class PartsOutOfOrder(Fault):
+    """Parts of a recording in the wrong order."""
+
+    code = "parts-out-of-order"
+    template = "part {part} follows part {last}"
+    part: int
+    last: int
+
+
 class NotRecorded(Fault):
     """A message that is not an input of a session."""
 

@@ -2,11 +2,9 @@
 
 import json
 import logging
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Mapping
 from dataclasses import asdict, fields
-from pathlib import Path
-from typing import IO, assert_never
+from typing import assert_never
 
 from reactive_realizer import __version__
 from reactive_realizer.assembly.scene import SceneOptions
@@ -26,35 +24,20 @@ from reactive_realizer.server.recording import FORMAT, message_of
 logger = logging.getLogger(__name__)
 
 
-@contextmanager
-def recording_file(path: Path) -> Iterator[IO[str]]:
-    """Opens a file to record into, and empties it.
-
-    Raises:
-        OSError: it cannot be written.
-    """
-    stream = path.open("w", encoding="ascii")
-    try:
-        yield stream
-    finally:
-        with suppress(OSError):  # the recorder has logged it
-            stream.close()
-
-
 class Recorder:
     """Records the inputs of a realizer, tick by tick, before they have any effect.
 
-    So even a killed session can be replayed up to its last tick. If the file cannot be written any
-    more, recording ends, and the session continues.
+    So even a killed session can be replayed up to its last tick. If a line cannot be written, recording ends, and the
+    session continues.
 
     Args:
-        stream: the open file.
+        write: writes lines, and raises OSError if it cannot.
         options: of the scene.
         started: POSIX time (s) of realizer time 0.
     """
 
-    def __init__(self, stream: IO[str], options: SceneOptions, started: float) -> None:
-        self._stream: IO[str] | None = stream
+    def __init__(self, write: Callable[[str], None], options: SceneOptions, started: float) -> None:
+        self._write_lines: Callable[[str], None] | None = write
         self._inputs = 0
         self._tick = 0
         scene = _scene(options)
@@ -77,14 +60,13 @@ class Recorder:
         self._write([{"tick": self._tick, "forecast": asdict(answer)}])
 
     def _write(self, lines: list[Mapping[str, object]]) -> None:
-        if self._stream is None:
+        if self._write_lines is None:
             return
         try:
-            self._stream.write("".join(json.dumps(line, default=str) + "\n" for line in lines))
-            self._stream.flush()
+            self._write_lines("".join(json.dumps(line, default=str) + "\n" for line in lines))
         except OSError as problem:
             logger.error("recording has stopped: %s", problem)
-            self._stream = None
+            self._write_lines = None
 
 
 def _scene(options: SceneOptions) -> Message:

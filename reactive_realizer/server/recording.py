@@ -28,12 +28,15 @@ from reactive_realizer.realizer.inputs import (
 from reactive_realizer.server.faults import (
     BadMessage,
     BadRecording,
+    ForeignPart,
     LostInput,
     NotRecorded,
     OldRecording,
+    PartsOutOfOrder,
     TicksOutOfOrder,
 )
 from reactive_realizer.server.protocol import Message, check, decode
+from reactive_realizer.server.recording_parts import part_path
 from reactive_realizer.server.schema import Schema, shown
 
 FORMAT: Final = 2
@@ -141,47 +144,71 @@ class Recording:
 
 
 def read_recording(path: Path) -> Recording:
-    """Reads a recorded session from a file.
+    """Reads a recorded session from a file, and from the parts that follow it.
 
     Lines after the last complete tick are ignored: the recording ended in the middle of a tick.
 
     Raises:
-        RealizerError: "bad-recording", with the line.
-        OSError: the file cannot be read.
+        RealizerError: "bad-recording", with the file and the line.
+        OSError: the file or a part cannot be read.
     """
-    reader = _Reader()
-    for row, line in enumerate(path.read_bytes().split(b"\n")[:-1] or [b""], 1):
-        try:
-            reader.read(decode(line))
-        except RealizerError as problem:
-            raise RealizerError(BadRecording(file=path.name, row=row, reason=problem.fault.sentence)) from problem
+    reader, read = _Reader(), 0
+    while read < reader.parts:
+        read += 1
+        _read_part(reader, path, read)
     return Recording(reader.header["version"], reader.header["started"], reader.header["scene"], tuple(reader.ticks))
 
 
+def _read_part(reader: "_Reader", path: Path, number: int) -> None:
+    part = part_path(path, number)
+    for row, line in enumerate(part.read_bytes().split(b"\n")[:-1] or [b""], 1):
+        try:
+            reader.read(decode(line), begins=row == 1)
+        except RealizerError as problem:
+            raise RealizerError(BadRecording(file=part.name, row=row, reason=problem.fault.sentence)) from problem
+
+
 class _Reader:
-    """Collects the inputs of each tick until the line of the tick, which follows them."""
+    """Collects the inputs of each tick until the line of the tick, which follows them.
+
+    Attributes:
+        parts: how many there are, as far as is known.
+    """
 
     def __init__(self) -> None:
         self.header: Message = {}
         self.ticks: list[TickInputs] = []
+        self.parts = 1
         self._inputs: list[Input] = []
         self._tick: int | None = None
         self._seq = 0
 
-    def read(self, line: Any) -> None:
-        """Reads the next line.
+    def read(self, line: Any, *, begins: bool) -> None:
+        """Reads the next line, which begins a part or not.
 
         Raises:
             RealizerError: the line is invalid.
         """
-        if not self.header:
-            self.header = _header(line)
+        if begins:
+            self._take_header(_header(line))
+        elif isinstance(line, dict) and "part" in line:
+            self._take_part(_checked(line, "Part"))
         elif isinstance(line, dict) and "input" in line:
             self._take_input(_checked(line, "Input"))
         elif isinstance(line, dict) and "forecast" in line:
             self._take_forecast(_checked(line, "Answer"))
         else:
             self._take_tick(_checked(line, "Tick"))
+
+    def _take_header(self, header: Message) -> None:
+        if header != (self.header or header):
+            raise RealizerError(ForeignPart())
+        self.header = header
+
+    def _take_part(self, line: Message) -> None:
+        if line["part"] != self.parts + 1:
+            raise RealizerError(PartsOutOfOrder(part=line["part"], last=self.parts))
+        self.parts += 1
 
     def _take_input(self, line: Message) -> None:
         self._seq += 1

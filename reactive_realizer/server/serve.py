@@ -4,8 +4,9 @@ import asyncio
 import logging
 import signal
 from collections.abc import AsyncIterator
-from contextlib import AsyncExitStack, asynccontextmanager, suppress
+from contextlib import AsyncExitStack, asynccontextmanager, closing, suppress
 from dataclasses import dataclass, field
+from math import inf
 from pathlib import Path
 from socket import socket
 
@@ -20,7 +21,8 @@ from reactive_realizer.server.connections import Connections, listen
 from reactive_realizer.server.intake import Intake
 from reactive_realizer.server.keys import INTAKE
 from reactive_realizer.server.live_scene import LiveScene
-from reactive_realizer.server.recorder import Recorder, recording_file
+from reactive_realizer.server.recorder import Recorder
+from reactive_realizer.server.recording_parts import RecordingParts
 from reactive_realizer.server.security import Security
 
 logger = logging.getLogger(__name__)
@@ -43,6 +45,7 @@ class ServerOptions:
         scene: options of the scene.
         performance: BML of a demo; None for none.
         record: the file that the session is recorded into; None for none.
+        record_bytes: the size from which the recording goes on in another file.
     """
 
     host: str = "127.0.0.1"
@@ -52,6 +55,7 @@ class ServerOptions:
     scene: SceneOptions = field(default_factory=SceneOptions)
     performance: str | None = None
     record: Path | None = None
+    record_bytes: float = inf
 
 
 async def serve(options: ServerOptions) -> None:
@@ -64,13 +68,15 @@ async def serve(options: ServerOptions) -> None:
     security = Security(options.host, options.token, options.origins)
     async with AsyncExitStack() as stack:
         listening = stack.enter_context(listen(options.host, options.port))
-        record = stack.enter_context(recording_file(options.record)) if options.record else None
+        parts = None
+        if options.record:
+            parts = stack.enter_context(closing(RecordingParts(options.record, options.record_bytes)))
         scene = await stack.enter_async_context(open_scene(options.scene))
         group = await stack.enter_async_context(asyncio.TaskGroup())
         found = found_for(scene)  # reading files takes long, so the clock starts after that
         live = LiveScene(scene, SystemClock(), options.performance, found)
-        if record is not None:
-            recorder = Recorder(record, options.scene, live.clock.epoch)
+        if parts is not None:
+            recorder = Recorder(parts.write, options.scene, live.clock.epoch)
             live.realizer.record(recorder, recorder.forecast)
         ticking = group.create_task(live.run())
         try:

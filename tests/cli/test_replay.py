@@ -127,7 +127,9 @@ def test_a_recorded_session_with_late_ticks_is_replayed_with_identical_bytes(
     monkeypatch.setattr(serving, "SystemClock", HastyClock)
     caplog.set_level(logging.INFO, serving.__name__)
     file = tmp_path / "session.jsonl"
-    told = asyncio.run(live_session(ServerOptions(port=0, scene=SceneOptions(voice=voice), record=file)))
+    options = ServerOptions(port=0, scene=SceneOptions(voice=voice), record=file, record_bytes=2_000)
+    told = asyncio.run(live_session(options))
+    assert list(tmp_path.glob("session.*.jsonl"))
     recording = read_recording(file)
     ticks = [entered.tick for entered in recording.ticks]
     assert ticks[-1] > 1.5 * len(ticks), "ticks were left out"

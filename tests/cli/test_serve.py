@@ -67,3 +67,18 @@ def test_a_port_that_does_not_exist_is_refused(port: str, capsys: pytest.Capture
         main(["serve", f"--port={port}"])
     assert ended.value.code == 2
     assert "is not a port: 0 to 65535" in capsys.readouterr().err
+
+
+def test_the_size_of_the_files_of_a_recording_is_set_in_megabytes(served: list[ServerOptions]) -> None:
+    main(["serve", "--record", "session.jsonl", "--record-size", "2.5"])
+    assert served[0].record_bytes == 2_500_000
+
+
+@pytest.mark.parametrize("options", [["--record-size", "5"], ["--record", "a", "--record-size", "0"]])
+def test_a_size_of_recordings_without_a_recording_or_of_nothing_is_refused(
+    options: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit) as ended:
+        main(["serve", *options])
+    assert ended.value.code == 2
+    assert "--record-size" in capsys.readouterr().err

@@ -1,8 +1,8 @@
 """The file of a recorded session, line by line."""
 
-import io
 import json
 from collections.abc import Callable
+from contextlib import closing
 from dataclasses import fields
 from pathlib import Path
 from typing import Any, get_args
@@ -29,9 +29,10 @@ from reactive_realizer.realizer.inputs import (
     TargetMoved,
     TickInputs,
 )
-from reactive_realizer.server import recording as room
+from reactive_realizer.server import recording as recording_module
 from reactive_realizer.server.recorder import Recorder
 from reactive_realizer.server.recording import Recording, read_recording
+from reactive_realizer.server.recording_parts import RecordingParts
 
 INPUTS: list[Input] = [
     BmlText('<bml id="ü"/>'),
@@ -62,13 +63,17 @@ SESSION = [
 
 
 def recorded(session: list[TickInputs], options: SceneOptions | None = None) -> str:
-    stream = io.StringIO()
-    recorder = Recorder(stream, options or SceneOptions(), 1234.5)
+    lines: list[str] = []
+    record(session, lines.append, options)
+    return "".join(lines)
+
+
+def record(session: list[TickInputs], write: Callable[[str], None], options: SceneOptions | None = None) -> None:
+    recorder = Recorder(write, options or SceneOptions(), 1234.5)
     for entered in session:
         recorder(entered)
         for forecast in entered.forecasts:
             recorder.forecast(forecast)
-    return stream.getvalue()
 
 
 @pytest.fixture
@@ -115,7 +120,7 @@ def test_an_input_precedes_its_tick_with_its_number_and_time() -> None:
 
 
 def test_every_line_satisfies_the_schema() -> None:
-    schema = json.loads(Path(room.__file__).with_name("recording.json").read_text("utf-8"))
+    schema = json.loads(Path(recording_module.__file__).with_name("recording.json").read_text("utf-8"))
     for number, line in enumerate(map(json.loads, recorded(SESSION).splitlines())):
         kind = "Header" if number == 0 else "Input" if "input" in line else "Answer" if "forecast" in line else "Tick"
         Draft202012Validator({"$ref": f"#/$defs/{kind}", "$defs": schema["$defs"]}).validate(line)
@@ -185,17 +190,61 @@ def test_invalid_utf_8_is_refused_with_its_line(read: Callable[[str | bytes], Re
         read(GOOD[0].encode() + b"\n\xff\xff\n")
 
 
-class FullDisk(io.StringIO):
-    def flush(self) -> None:
-        if self.tell() > 2_000:
-            raise OSError("no space left")
+@pytest.fixture
+def parts(tmp_path: Path) -> list[Path]:
+    """The session, recorded into parts, of which each is followed by another one after a tick or an answer."""
+    with closing(RecordingParts(tmp_path / "session.jsonl", 300)) as parts:
+        record(SESSION, parts.write)
+    return [tmp_path / "session.jsonl", *(tmp_path / f"session.{number}.jsonl" for number in range(2, 8))]
+
+
+def test_a_recording_in_parts_is_read_as_one_session(parts: list[Path]) -> None:
+    assert list(read_recording(parts[0]).ticks) == SESSION
+
+
+def test_parts_of_a_longer_session_before_are_not_read(parts: list[Path]) -> None:
+    with closing(RecordingParts(parts[0], 300)) as shorter:
+        record(SESSION[:1], shorter.write)
+    assert list(read_recording(parts[0]).ticks) == SESSION[:1]
+
+
+def test_a_session_that_ends_while_a_part_begins_is_read_to_there(parts: list[Path]) -> None:
+    *_, before, last = parts
+    text = last.read_bytes()
+    for size in range(text.index(b"\n") + 1, len(text)):
+        last.write_bytes(text[:size])
+        assert list(read_recording(parts[0]).ticks) == SESSION[:-1]
+    last.unlink()
+    before.write_bytes(before.read_bytes()[:-1])  # without the end of the line that names the last part
+    assert list(read_recording(parts[0]).ticks) == SESSION[:-1]
+
+
+def test_a_missing_part_is_named(parts: list[Path]) -> None:
+    parts[2].unlink()
+    with pytest.raises(FileNotFoundError, match="session"):
+        read_recording(parts[0])
+
+
+def test_parts_that_do_not_belong_together_are_refused(parts: list[Path]) -> None:
+    text = parts[2].read_text()
+    parts[2].write_text(text.replace("1234.5", "1234.6"))
+    with pytest.raises(RealizerError, match="line 1: this file is part of another recording"):
+        read_recording(parts[0])
+    parts[2].write_text(text.replace('"part": 4', '"part": 5'))
+    with pytest.raises(RealizerError, match="line 3: part 5 follows part 3"):
+        read_recording(parts[0])
 
 
 async def test_a_full_disk_ends_the_recording_and_not_the_session(caplog: pytest.LogCaptureFixture) -> None:
-    options = SceneOptions(voice="text")
+    options, room = SceneOptions(voice="text"), [True] * 50
+
+    def write(_: str) -> None:
+        if not room:
+            raise OSError("no space left")
+        room.pop()
+
     async with open_scene(options) as scene:
-        stream = FullDisk()
-        scene.realizer.record(Recorder(stream, options, 0.0))
+        scene.realizer.record(Recorder(write, options, 0.0))
         tick = None
         for number in range(200):
             tick = Tick.following(tick, number)

@@ -1,6 +1,7 @@
 """A session with all anticipators is replayed to the byte, without running them."""
 
 import json
+from contextlib import closing
 from pathlib import Path
 from random import Random
 
@@ -13,8 +14,9 @@ from anticipators.speech_stop import SpeechStop
 from anticipators.tap import Tap
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.realizer.session import replay
-from reactive_realizer.server.recorder import Recorder, recording_file
+from reactive_realizer.server.recorder import Recorder
 from reactive_realizer.server.recording import read_recording
+from reactive_realizer.server.recording_parts import RecordingParts
 from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 HUMAN = """
@@ -69,9 +71,9 @@ async def test_a_session_with_all_anticipators_is_replayed_to_the_byte_without_t
     human, file, random = tmp_path / "human.toml", tmp_path / "session.jsonl", Random(seed)
     human.write_text(HUMAN)
     options = SceneOptions(human, "text")
-    with recording_file(file) as stream:
+    with closing(RecordingParts(file)) as parts:
         async with open_pilot(options) as pilot:
-            recorder = Recorder(stream, options, 0.0)
+            recorder = Recorder(parts.write, options, 0.0)
             pilot.realizer.record(recorder, recorder.forecast)
             for tick in range(800):
                 act(pilot, random, tick)
