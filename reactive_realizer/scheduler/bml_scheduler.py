@@ -130,6 +130,11 @@ class BMLScheduler:
         """What has arrived and has not entered yet, in order of arrival."""
         return self._entries.waiting
 
+    @property
+    def unplanned(self) -> int:
+        """How many blocks and procedures wait because the work of a tick is limited: to enter, or to be planned."""
+        return len(self.entering) + sum(map(self._planner.waiting, self._turns))
+
     def take(self, document: Iterable[Parsed]) -> None:
         """Have the blocks and procedures of a document enter, in this tick as far as there is time."""
         for parsed in document:

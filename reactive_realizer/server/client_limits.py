@@ -4,7 +4,7 @@ import asyncio
 from collections import deque
 from collections.abc import Awaitable, Callable, Iterator, Sequence
 from contextlib import contextmanager
-from typing import Generic, TypeVar
+from typing import Any, Generic, TypeVar
 
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.limits import Limits
@@ -36,6 +36,16 @@ class ClientQueue(Generic[M]):
         self._news = asyncio.Event()
         self._sending: asyncio.Timeout | None = None
         self._watching: asyncio.TimerHandle | None = None
+
+    @property
+    def messages(self) -> int:
+        """How many messages wait."""
+        return len(self._messages)
+
+    @property
+    def bytes(self) -> int:
+        """Their length: bytes, and characters of text."""
+        return self._bytes
 
     def put(self, message: M) -> None:
         """Adds a message. A client that stays above the limit is disconnected."""
@@ -78,6 +88,7 @@ class ClientQueue(Generic[M]):
     def _give_up(self) -> None:
         self._overflown = True
         self._messages.clear()
+        self._bytes = 0
         if self._sending is not None:
             self._sending.reschedule(0)  # long ago
 
@@ -113,15 +124,17 @@ class RateLimit:
             await asyncio.sleep(-self._tokens / self._rate)
 
 
-class ClientCount:
-    """Counts connected clients up to a limit.
+class Clients:
+    """The connected clients, up to a limit.
 
     Attributes:
         number: of clients that are connected now.
+        queues: of those that are served.
     """
 
     def __init__(self, limit: int) -> None:
         self.number = 0
+        self.queues: set[ClientQueue[Any]] = set()
         self._limit = limit
 
     @contextmanager
@@ -138,3 +151,12 @@ class ClientCount:
             yield
         finally:
             self.number -= 1
+
+    @contextmanager
+    def served(self, queue: ClientQueue[Any]) -> Iterator[None]:
+        """Includes the queue of a client for the duration of the context."""
+        self.queues.add(queue)
+        try:
+            yield
+        finally:
+            self.queues.discard(queue)

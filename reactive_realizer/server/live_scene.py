@@ -15,7 +15,7 @@ from reactive_realizer.realizer.realizer import Realizer
 from reactive_realizer.server.audio_stream import AudioStream
 from reactive_realizer.server.board_stream import BoardStream
 from reactive_realizer.server.capabilities import Found, found_for
-from reactive_realizer.server.client_limits import ClientCount
+from reactive_realizer.server.client_limits import Clients
 from reactive_realizer.server.feedback_log import FeedbackLog
 from reactive_realizer.server.frame_stream import FrameStream
 from reactive_realizer.server.protocol import VERSION, Message
@@ -56,7 +56,7 @@ class LiveScene:
         ticker: source of the ticks.
         tick: number of the last tick.
         feedback, sounds, frames, board: the streams.
-        clients: counts the connected clients.
+        clients: the connected clients.
         found: files found at the start, for `capabilities_of`.
     """
 
@@ -71,7 +71,7 @@ class LiveScene:
         self.sounds = AudioStream(self.limits.sound_bytes)
         self.frames = FrameStream(self.realizer)
         self.board = BoardStream(self.realizer.board, lambda: self.realizer.time)
-        self.clients = ClientCount(self.limits.clients)
+        self.clients = Clients(self.limits.clients)
         self.found = found_for(scene) if found is None else found
         self.realizer.feedback.listen(self.feedback.append)
         self.realizer.hear(self.sounds.take)

@@ -66,6 +66,7 @@ async def feedback(request: web.Request) -> web.StreamResponse:
             await answer.write(text.encode())
 
         with ExitStack() as stack:
+            stack.enter_context(live.clients.served(queue))
             follow_feedback(live.feedback, predictions, lambda entry: queue.put(_event(entry)), stack)
             stack.callback(request.app[SHUTDOWN].subscribe(lambda _: queue.end()))
             kept_up = await queue.send_all(write)

@@ -7,6 +7,7 @@ from aiohttp import web
 
 from reactive_realizer.clock.ticker import tick_time
 from reactive_realizer.errors import RealizerError
+from reactive_realizer.server.client_limits import Clients
 from reactive_realizer.server.faults import GoingAway, StandsStill
 from reactive_realizer.server.keys import INTAKE, LIVE
 from reactive_realizer.server.live_scene import LiveScene
@@ -52,15 +53,31 @@ def _exposition(live: LiveScene) -> Iterator[str]:
         f'{{quantile="{quantile}"}}': late for quantile, late in ticks.late(0.5, 0.99).items()
     })  # fmt: skip
     yield from _metric("clients", "gauge", "Open sockets and feedback streams.", {"": live.clients.number})
+    yield from _queues(live.clients)
     yield from _metric("feedback_messages_total", "counter", "Feedback messages.", {"": live.feedback.seq})
     blocks = live.realizer.scheduler.blocks
     states = Counter(block.state.value for block in blocks.alive)
     yield from _metric("blocks", "gauge", "Blocks that have not ended, by state.", {
         f'{{state="{state}"}}': number for state, number in sorted(states.items())
     })  # fmt: skip
+    yield from _metric("unplanned_blocks", "gauge", "Blocks and procedures that wait for the work of a tick.", {
+        "": live.realizer.scheduler.unplanned
+    })  # fmt: skip
     restarts = getattr(tts, "restarts", None)
     if restarts is not None:
         yield from _metric("voice_restarts_total", "counter", "Restarts of the speech process.", {"": restarts})
+
+
+def _queues(clients: Clients) -> Iterator[str]:
+    """What waits to be sent, because clients read slowly."""
+    sizes = [queue.bytes for queue in clients.queues]
+    yield from _metric("queued_bytes", "gauge", "Bytes that wait to be sent to clients.", {"": sum(sizes)})
+    yield from _metric("longest_queue_bytes", "gauge", "Bytes that wait to be sent to one client, at most.", {
+        "": max(sizes, default=0)
+    })  # fmt: skip
+    yield from _metric("longest_queue_messages", "gauge", "Messages that wait to be sent to one client, at most.", {
+        "": max((queue.messages for queue in clients.queues), default=0)
+    })  # fmt: skip
 
 
 def _metric(name: str, kind: str, text: str, samples: Mapping[str, float]) -> Iterator[str]:

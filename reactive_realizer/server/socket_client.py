@@ -67,6 +67,7 @@ class SocketClient:
     async def serve(self) -> None:
         """Serves the client until it disconnects or is disconnected."""
         with ExitStack() as stack:
+            stack.enter_context(self._live.clients.served(self._queue))
             self._follow(stack)
             async with asyncio.TaskGroup() as group:
                 reading = group.create_task(self._read())

@@ -15,6 +15,10 @@ from jsonschema import Draft202012Validator
 from reactive_realizer.assembly.scene import SceneOptions, open_scene
 from reactive_realizer.clock.clock import ManualClock
 from reactive_realizer.clock.ticker import Tick
+from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.errors import WarningType
+from reactive_realizer.feedback.feedback_manager import Report
+from reactive_realizer.feedback.messages import WarningFeedback
 from reactive_realizer.server.app import create_app
 from reactive_realizer.server.live_scene import LiveScene
 from reactive_realizer.server.protocol import DOCUMENT
@@ -38,6 +42,12 @@ _VALIDATORS = {
 def wait(id_: str = "b1", duration: float = 0.1) -> str:
     """A block with one wait."""
     return WAIT.format(id=id_, duration=duration)
+
+
+def report(text: str) -> Report:
+    """Feedback with a text."""
+    message = WarningFeedback(None, "bml", WarningType.PARSING_FAILURE, text)
+    return Report(GlobalTime(0.0), message)
 
 
 @dataclass

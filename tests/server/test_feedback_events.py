@@ -5,8 +5,7 @@ from collections.abc import AsyncIterator
 
 from aiohttp import ClientResponse
 
-from .conftest import ALICE, Open, wait
-from .test_many_clients import report
+from .conftest import ALICE, Open, report, wait
 
 
 async def events(answer: ClientResponse) -> AsyncIterator[tuple[int, dict[str, object]]]:

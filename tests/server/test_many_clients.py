@@ -5,23 +5,15 @@ import pytest
 
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.audio import AudioClip, AudioGain, AudioMove, AudioStart, AudioStop
-from reactive_realizer.errors import WarningType
-from reactive_realizer.feedback.feedback_manager import Report
-from reactive_realizer.feedback.messages import WarningFeedback
 from reactive_realizer.server import client_limits
 
-from .conftest import ALICE, OnAir, Open, wait
+from .conftest import ALICE, OnAir, Open, report, wait
 
 
 @pytest.fixture
 def impatient(monkeypatch: pytest.MonkeyPatch) -> None:
     """Clients that do not read are dropped sooner than usual."""
     monkeypatch.setattr(client_limits, "_PATIENCE", 2)
-
-
-def report(text: str) -> Report:
-    message = WarningFeedback(None, "bml", WarningType.PARSING_FAILURE, text)
-    return Report(GlobalTime(0.0), message)
 
 
 def clip(id_: str, start: float) -> AudioStart:

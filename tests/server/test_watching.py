@@ -11,7 +11,7 @@ from reactive_realizer.server.keys import INTAKE
 from reactive_realizer.server.security import Security
 from reactive_realizer.server.serve import drain
 
-from .conftest import OnAir, Open, post, wait
+from .conftest import ALICE, OnAir, Open, post, report, wait
 
 LOCKED = Security(token="s3cret")
 
@@ -51,6 +51,42 @@ async def test_metrics_are_in_the_text_format_of_prometheus(on_air: Open) -> Non
     assert float(samples['realizer_tick_lateness_seconds{quantile="0.99"}']) == pytest.approx(0.0, abs=1e-9)
     described = {line.split()[2] for line in lines if line.startswith("# TYPE")}
     assert {name.partition("{")[0] for name in samples} <= described
+
+
+async def samples_of(air: OnAir) -> dict[str, float]:
+    async with air.client.get("/metrics") as answer:
+        lines = (await answer.text()).splitlines()
+    return {name: float(value) for name, value in (line.rsplit(" ", 1) for line in lines if not line.startswith("#"))}
+
+
+async def test_metrics_count_the_blocks_that_wait_for_the_work_of_a_tick(on_air: Open) -> None:
+    async with on_air(ALICE + "[limits]\nplanning_per_tick = 1\n") as air:
+        for number in range(5):
+            await post(air, "/bml", wait(f"b{number}", 9))
+        counts = []
+        for _ in range(40):
+            await air.tick()
+            counts.append((await samples_of(air))["realizer_unplanned_blocks"])
+        assert counts[0] > 0
+        assert counts == sorted(counts, reverse=True)
+        assert counts[-1] == 0
+
+
+async def test_metrics_tell_what_waits_to_be_sent_to_all_clients_and_to_the_slowest(on_air: Open) -> None:
+    async with on_air() as air:
+        slow, quick = [await air.connect("?streams=feedback") for _ in range(2)]
+        sent, samples = 0, await samples_of(air)
+        assert samples["realizer_queued_bytes"] == 0
+        while samples["realizer_longest_queue_messages"] < 3:
+            air.live.feedback.append(report("x" * 100_000))
+            sent += 1
+            await quick.hear("feedback")
+            samples = await samples_of(air)
+        assert samples["realizer_longest_queue_bytes"] > 300_000
+        assert samples["realizer_queued_bytes"] == samples["realizer_longest_queue_bytes"]
+        for _ in range(sent):
+            await slow.hear("feedback")
+        assert (await samples_of(air))["realizer_queued_bytes"] == 0
 
 
 async def test_a_server_that_shuts_down_refuses_new_blocks_and_reports_the_end_of_those_that_play(on_air: Open) -> None:
