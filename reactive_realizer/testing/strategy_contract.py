@@ -140,6 +140,11 @@ class StrategyContract:
         times = PlanView.of_solution(asked, solve(self.strategy, asked)).times
         assert times[Point("d", "start")] == 0.0
 
+    def test_a_phase_from_a_waiting_behavior_to_a_known_time_is_as_long_as_the_body_needs(self) -> None:
+        ties = at("n:end", outer("hit", None)), at("r:start", "n:start"), at("r:ready", Origin.BLOCK_START)
+        asked = problem([item("n", TIMINGS["nod"]), item("r", TIMINGS["reach"])], *ties)
+        assert violations(asked, solve(self.strategy, asked)) == []
+
     def test_many_behaviors_each_after_the_one_before_it_are_planned_in_any_order(self) -> None:
         items = [item(f"n{i}", TIMINGS["nod"]) for i in range(_MANY)]
         ties = [at(f"n{i}:start", f"n{i - 1}:end") for i in range(1, _MANY)]

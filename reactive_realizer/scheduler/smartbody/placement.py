@@ -34,7 +34,7 @@ class Placement(NamedTuple):
     Attributes:
         time: s after the predicted start of the block. A point that depends on an unknown time from outside has one
             that suits the first behavior that depends on it.
-        known: whether the time is known.
+        known: whether the time is known; those of earlier behaviors count as known.
         cluster: with which it is moved.
     """
 

@@ -121,7 +121,8 @@ class _Run:
             root, distance = self._ties.find(point)
             if isinstance(root, Point):
                 # The first one counts: a rigid behavior may have missed its place, which is no measure for others.
-                self._roots.setdefault(root, (placement, distance))
+                # It counts as known, so that what is also tied to known times has the time that it needs.
+                self._roots.setdefault(root, (placement._replace(known=True), distance))
 
     def _known(self, item: Item, points: Sequence[Point]) -> dict[int, Placement]:
         """The points that are tied to placed or given ones, by index."""
