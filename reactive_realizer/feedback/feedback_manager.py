@@ -4,6 +4,8 @@ import logging
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from operator import itemgetter
+from typing import NamedTuple
 
 from reactive_realizer.clock.ticker import RATE
 from reactive_realizer.clock.units import GlobalTime
@@ -36,8 +38,7 @@ class Report:
         return to_xml(self.message)
 
 
-@dataclass(frozen=True, slots=True, order=True)
-class ProgressOrder:
+class ProgressOrder(NamedTuple):
     """The order of progress within a tick: by time, then by block, behavior and sync point."""
 
     time: float
@@ -53,7 +54,7 @@ class FeedbackManager:
     def __init__(self) -> None:
         self._listeners: list[Callable[[Report], None]] = []
         self._messages: list[Feedback] = []
-        self._progress: list[tuple[ProgressOrder, int, BlockProgress | SyncPointProgress]] = []
+        self._progress: list[tuple[ProgressOrder, BlockProgress | SyncPointProgress]] = []
 
     def listen(self, listener: Callable[[Report], None]) -> Callable[[], None]:
         """Send a listener every report from now on, until the returned function is called."""
@@ -66,16 +67,16 @@ class FeedbackManager:
 
     def add_progress(self, message: BlockProgress | SyncPointProgress, order: ProgressOrder) -> None:
         """Send progress with this tick, sorted as progress is; its own time may be before the tick."""
-        self._progress.append((order, len(self._progress), message))
+        self._progress.append((order, message))
 
     @property
     def progressing(self) -> set[tuple[str, str]]:
         """Character and id of the blocks of which this tick reports progress."""
-        return {(message.character, message.block) for _, _, message in self._progress}
+        return {(message.character, message.block) for _, message in self._progress}
 
     def flush(self, time: GlobalTime) -> None:
         """Send the messages of the tick at ``time`` to every listener."""
-        messages = [*self._messages, *(message for _, _, message in sorted(self._progress, key=lambda p: p[:2]))]
+        messages = [*self._messages, *(message for _, message in sorted(self._progress, key=itemgetter(0)))]
         self._messages, self._progress = [], []
         for message in messages:
             self._send(Report(time, message))

@@ -1,9 +1,11 @@
 """Feedback as XML, in the forms of BML 1.0 (blockProgress, syncPointProgress, predictionFeedback, warningFeedback)."""
 
 import re
+from collections.abc import Iterator
 from functools import lru_cache, singledispatch
 from typing import NamedTuple
 from uuid import uuid4
+from xml.sax.saxutils import escape
 
 from lxml import etree
 
@@ -32,6 +34,10 @@ _MARK = f"t{uuid4().hex}"
 _ATTRIBUTES: dict[type[Behavior], frozenset[str]] = {}
 _TEMPLATES = 4096
 """Templates that are kept: a behavior is predicted again whenever its times move."""
+_BMLA, _RR = f' xmlns:bmla="{BMLA}"', f' xmlns:rr="{OWN}"'
+_ESCAPES = {'"': "&quot;", "\t": "&#9;", "\n": "&#10;", "\r": "&#13;"}
+_PLAIN = re.compile(r"[\w:.+-]*").fullmatch
+"""Matches values of attributes that are written as they are."""
 _NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 """Characters that XML does not allow; the reason of a failure or the name of a plug-in may contain any."""
 
@@ -46,14 +52,28 @@ def to_xml(message: Feedback, epoch: float | None = None) -> str:
         message: of feedback.
         epoch: POSIX time (s) of global time 0; if it is given, every global time is also written as POSIX time.
     """
+    return "".join(xml_parts(message, epoch))
+
+
+def xml_parts(message: Feedback, epoch: float | None = None) -> Iterator[str]:
+    """As `to_xml`, in parts, one for each behavior of a prediction; each takes a short time to make."""
+    if isinstance(message, SyncPointProgress):
+        yield _sync_point_progress(message, epoch)
+        return
+    if isinstance(message, BlockProgress):
+        yield _block_progress(message, epoch)
+        return
     element = _element(message)
     if epoch is not None:
         add_posix_times(element, epoch)
-    text = etree.tostring(element, encoding="unicode").replace("\n", " ")
+    text = _line(element)
     if isinstance(message, PredictionFeedback):
         end = text.rindex("</")
-        text = "".join((text[:end], *(_predicted(message.block, each) for each in message.behaviors), text[end:]))
-    return text
+        yield text[:end]
+        for behavior in message.behaviors:
+            yield _predicted(message.block, behavior)
+        text = text[end:]
+    yield text
 
 
 def add_posix_times(element: etree._Element, epoch: float) -> None:
@@ -61,7 +81,12 @@ def add_posix_times(element: etree._Element, epoch: float) -> None:
     for part in (element, *element.iterchildren(f"{{{BML}}}bml")):
         for name, stamp in _STAMPS.items():
             if (time := part.get(name)) is not None:
-                part.set(f"{{{BMLA}}}{stamp}", str(round(1000 * (epoch + float(time)))))
+                part.set(f"{{{BMLA}}}{stamp}", _posix(time, epoch))
+
+
+def _posix(time: str, epoch: float) -> str:
+    """A written global time as POSIX time, ms."""
+    return str(round(1000 * (epoch + float(time))))
 
 
 def as_reported(time: float) -> float:
@@ -75,32 +100,54 @@ def seconds(time: float) -> str:
     return "0" if text == "-0" else text
 
 
+def _block_progress(message: BlockProgress, epoch: float | None) -> str:
+    time = seconds(message.time)
+    id_ = _value(f"{message.block}:{message.sync}")
+    own = f' globalTime="{time}" bmla:status="{message.status}"{_posix_time(time, epoch)}'
+    return f'<blockProgress xmlns="{BML}"{_BMLA}{_character(message.character)} id="{id_}"{own}/>'
+
+
+def _sync_point_progress(message: SyncPointProgress, epoch: float | None) -> str:
+    """The message, written as text: in a fraction of the time, and there are many of these."""
+    time, details, event = seconds(message.time), message.details, message.event
+    spaces = (_RR if details or event else "") + ("" if epoch is None else _BMLA)
+    id_ = _value(f"{message.block}:{message.behavior}:{message.sync}")
+    own = f' time="{seconds(message.block_time)}" globalTime="{time}"'
+    if details:
+        own += "".join([f' rr:{name}="{_value(value)}"' for name, value in details.items()])
+    own += _posix_time(time, epoch)
+    text = f'<syncPointProgress xmlns="{BML}"{spaces}{_character(message.character)} id="{id_}"{own}/>'
+    return text if event is None else _with_event(text, event)
+
+
+def _character(id_: str) -> str:
+    return f' characterId="{_value(id_)}"'
+
+
+def _posix_time(time: str, epoch: float | None) -> str:
+    return "" if epoch is None else f' bmla:posixTime="{_posix(time, epoch)}"'
+
+
+def _value(text: str) -> str:
+    """A text as the value of an attribute."""
+    return text if _PLAIN(text) else escape(_legal(text), _ESCAPES)
+
+
+def _with_event(text: str, event: EmittedEvent) -> str:
+    element = etree.fromstring(text)
+    child = etree.fromstring(f'<rr:event xmlns:rr="{OWN}">{event.content}</rr:event>')
+    child.set("name", event.name)
+    element.append(child)
+    return _line(element)
+
+
+def _line(element: etree._Element) -> str:
+    return etree.tostring(element, encoding="unicode").replace("\n", " ")
+
+
 @singledispatch
 def _element(message: object) -> etree._Element:
     raise TypeError(f"no feedback: {message!r}")
-
-
-@_element.register
-def _(message: BlockProgress) -> etree._Element:
-    element = _root("blockProgress", message.character, {None: BML, "bmla": BMLA})
-    element.set("id", _legal(f"{message.block}:{message.sync}"))
-    element.set("globalTime", seconds(message.time))
-    element.set(_STATUS, message.status)
-    return element
-
-
-@_element.register
-def _(message: SyncPointProgress) -> etree._Element:
-    own = bool(message.details or message.event)
-    element = _root("syncPointProgress", message.character, {None: BML, **({"rr": OWN} if own else {})})
-    element.set("id", _legal(f"{message.block}:{message.behavior}:{message.sync}"))
-    element.set("time", seconds(message.block_time))
-    element.set("globalTime", seconds(message.time))
-    for name, value in message.details.items():
-        element.set(f"{{{OWN}}}{name}", _legal(value))
-    if message.event is not None:
-        element.append(_event(message.event))
-    return element
 
 
 @_element.register
@@ -119,12 +166,6 @@ def _(message: WarningFeedback) -> etree._Element:
     element.set("id", _legal(message.id))
     element.set("type", message.type)
     element.text = _legal(message.text)
-    return element
-
-
-def _event(event: EmittedEvent) -> etree._Element:
-    element = etree.fromstring(f'<rr:event xmlns:rr="{OWN}">{event.content}</rr:event>')
-    element.set("name", event.name)
     return element
 
 

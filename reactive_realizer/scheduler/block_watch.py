@@ -1,11 +1,11 @@
 """Observes blocks: which of them have moved, and from which times."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from typing import Any
 
 from reactive_realizer.pegboard.time_peg import TimeCell
-from reactive_realizer.pegboard.watch import Watch
-from reactive_realizer.reactive.graph import Cell, Change
+from reactive_realizer.pegboard.watch import PegIndex
+from reactive_realizer.reactive.graph import Cell, Change, Commit, Graph
 from reactive_realizer.scheduler.bml_block import BMLBlock
 
 
@@ -16,10 +16,12 @@ class BlockMoves:
         self._blocks: set[BMLBlock] = set()
         self._old: dict[Cell[Any], Any] = {}
 
-    def note(self, block: BMLBlock, change: Change) -> None:
-        """Note that a peg of a block has moved."""
-        self._blocks.add(block)
-        self._old.setdefault(change.cell, change.old)
+    def note(self, blocks: Collection[BMLBlock], changes: Iterable[Change]) -> None:
+        """Note that pegs of blocks have moved."""
+        self._blocks.update(blocks)
+        old = self._old
+        for cell, before, _ in changes:
+            old.setdefault(cell, before)
 
     def take(self) -> tuple[list[BMLBlock], Mapping[Cell[Any], Any]]:
         """The blocks that are alive, and the values that the pegs had before they moved."""
@@ -31,11 +33,15 @@ class BlockMoves:
 
 
 class BlockWatch:
-    """Observes the pegs of the blocks that are alive, and those of others that their constraints name."""
+    """Follows the pegs of the blocks that are alive, and those of others that their constraints name.
 
-    def __init__(self) -> None:
-        self._watch: Watch[BMLBlock] = Watch(self._note)
+    Many pegs move at once, so it listens to commits instead of observing each peg.
+    """
+
+    def __init__(self, graph: Graph) -> None:
+        self._index: PegIndex[BMLBlock] = PegIndex()
         self._moves: list[BlockMoves] = []
+        graph.listen(self._note)
 
     def moves(self) -> BlockMoves:
         """The moves from now on."""
@@ -44,20 +50,28 @@ class BlockWatch:
         return moves
 
     def follow(self, block: BMLBlock) -> None:
-        """Observe the present pegs of a block."""
-        self._watch.follow(block, block.pegs)
+        """Follow the present pegs of a block."""
+        self._index.follow(block, block.pegs)
 
     def forget(self, block: BMLBlock) -> None:
-        """Observe a block no more."""
-        self._watch.forget(block)
+        """Follow a block no more."""
+        self._index.forget(block)
 
     def following(self, pegs: Iterable[TimeCell]) -> list[BMLBlock]:
         """The blocks that have any of some pegs, or whose constraints name one."""
-        return in_order(self._watch.following(pegs))
+        return in_order(self._index.following(pegs))
 
-    def _note(self, block: BMLBlock, change: Change) -> None:
-        for moves in self._moves:
-            moves.note(block, change)
+    def _note(self, commit: Commit) -> None:
+        blocks: set[BMLBlock] = set()
+        changes = []
+        of = self._index.of
+        for change in commit.changes:
+            if found := of(change[0]):
+                blocks.update(found)
+                changes.append(change)
+        if changes:
+            for moves in self._moves:
+                moves.note(blocks, changes)
 
 
 def in_order(blocks: Iterable[BMLBlock]) -> list[BMLBlock]:

@@ -7,6 +7,7 @@ from reactive_realizer.clock.units import GlobalTime, Time
 from reactive_realizer.errors import Fault, SchedulingFault, TargetFault
 from reactive_realizer.pegboard.agenda import Agenda
 from reactive_realizer.pegboard.peg_key import BlockKey
+from reactive_realizer.reactive.graph import Graph
 from reactive_realizer.scheduler.block_state import BlockState
 from reactive_realizer.scheduler.block_watch import BlockWatch, in_order
 from reactive_realizer.scheduler.bml_block import BMLBlock
@@ -62,6 +63,7 @@ class Blocks:
     """Blocks by name, in order of arrival.
 
     Args:
+        graph: of their pegs.
         remembered: how many ended blocks are kept.
 
     Attributes:
@@ -69,9 +71,9 @@ class Blocks:
         watch: observes those that are alive.
     """
 
-    def __init__(self, remembered: int) -> None:
+    def __init__(self, graph: Graph, remembered: int) -> None:
         self.starting: Agenda[BMLBlock] = Agenda(_start, lambda block: (block.start,))
-        self.watch = BlockWatch()
+        self.watch = BlockWatch(graph)
         self._remembered = remembered
         self._alive: dict[BlockKey, BMLBlock] = {}
         self._own = _BlocksByName()

@@ -63,7 +63,7 @@ class ConstraintMonitor:
         for block in (*ended, *blocks):
             units = {unit.behavior.id: unit for unit in block.units}
             for each in block.kept:
-                if each not in block.settled and not _cut(each, units):
+                if not (_holds(each, block, units) or each in block.settled or _cut(each, units)):
                     self._check(each, block, units, moved, now)
 
     def _note_end(self, block: BMLBlock) -> None:
@@ -131,6 +131,24 @@ def _time(node: Node, block: BMLBlock, units: Mapping[str, PlanUnit]) -> Time:
     if isinstance(node, Point):
         return units[node.behavior].time(node.sync)
     return block.start.value if isinstance(node, Origin) else node.value
+
+
+def _holds(constraint: Tie | Precedence, block: BMLBlock, units: Mapping[str, PlanUnit]) -> bool:
+    """Whether the times of a constraint are known and satisfy it: most do, so this is tried first."""
+    one, other = constraint.nodes
+    first, second = _known_time(one, block, units), _known_time(other, block, units)
+    return first is not None and second is not None and missed(constraint, first, second) <= TOLERANCE
+
+
+def _known_time(node: Node, block: BMLBlock, units: Mapping[str, PlanUnit]) -> Time:
+    """The time of a node; None also for a point that was dropped."""
+    if isinstance(node, Point):
+        unit = units.get(node[0])
+        for point in () if unit is None else unit.points:
+            if point.id == node[1]:
+                return point.peg.value
+        return None
+    return _time(node, block, units)
 
 
 def _late(constraint: Tie | Precedence, block: BMLBlock, units: Mapping[str, PlanUnit]) -> float:

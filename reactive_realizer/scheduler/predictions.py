@@ -14,7 +14,7 @@ from reactive_realizer.scheduler.problem import Point
 _NOTICEABLE = 1e-3
 """Seconds by which a reported time must have moved to be reported again."""
 
-_Times = Mapping[tuple[str, str], Time]
+_Times = dict[str, dict[str, Time]]
 """By behavior and sync id; the points of the block have no behavior."""
 
 
@@ -73,8 +73,8 @@ class Predictions:
 
     def _publish(self, block: BMLBlock, now: GlobalTime) -> None:
         self._waiting.pop(block, None)
-        times = {("", "start"): block.start.value, ("", "end"): block.end.value}
-        times |= {(unit.behavior.id, point.id): point.peg.value for unit in block.units for point in unit.points}
+        times: _Times = {unit.behavior.id: {point.id: point.peg.value for point in unit.points} for unit in block.units}
+        times[""] = {"start": block.start.value, "end": block.end.value}
         if block in self._requested or _moved(self._published.get(block, {}), times):
             self._requested.discard(block)
             self._published[block] = times
@@ -87,11 +87,18 @@ def _cost(block: BMLBlock) -> int:
 
 
 def _moved(old: _Times, new: _Times) -> bool:
-    """Whether a time has moved noticeably, or become known or unknown; points that were cut do not count."""
+    """Whether a time has moved noticeably, or become known or unknown."""
     if old == new:
         return False
-    pairs = [(time, new.get(key)) for key, time in old.items()]
-    return not old.keys() >= new.keys() or any(
+    changed = [(own, old.get(id_, {})) for id_, own in new.items() if own != old.get(id_)]
+    lost: list[tuple[dict[str, Time], dict[str, Time]]] = [({}, own) for id_, own in old.items() if id_ not in new]
+    return any(_differ(before, after) for after, before in (*changed, *lost))
+
+
+def _differ(before: Mapping[str, Time], after: Mapping[str, Time]) -> bool:
+    """Whether the times of a behavior differ noticeably."""
+    pairs = [(time, after.get(sync)) for sync, time in before.items()]
+    return not before.keys() >= after.keys() or any(
         one is not other if one is None or other is None else abs(one - other) > _NOTICEABLE for one, other in pairs
     )
 
@@ -99,23 +106,22 @@ def _moved(old: _Times, new: _Times) -> bool:
 def _prediction(block: BMLBlock, times: _Times, now: GlobalTime) -> PredictionFeedback:
     """The known times of a block; if its start is unknown, the times that were planned, as if it started now."""
     start = now if block.start.value is None else block.start.value
-    if block.start.value is None:
-        times = {key: _planned(block, key, start) if time is None else time for key, time in times.items()}
-    known = {
-        unit: {p.id: time for p in unit.points if (time := times[unit.behavior.id, p.id]) is not None}
-        for unit in block.units
-    }
+    known = [(unit.behavior, _known(block, unit.behavior.id, times[unit.behavior.id], start)) for unit in block.units]
     end = block.end.value
     if end is None:
-        end = max([start, *(time for own in known.values() for time in own.values())])
+        end = max([start, *(time for _, own in known for time in own.values())])
     behaviors = tuple(
         # A waiting block is planned again at its start, so that no point comes before that.
-        BehaviorPrediction(unit.behavior, {sync: BlockTime(max(time - start, 0.0)) for sync, time in own.items()})
-        for unit, own in known.items()
+        BehaviorPrediction(behavior, {sync: BlockTime(max(time - start, 0.0)) for sync, time in own.items()})
+        for behavior, own in known
     )
     return PredictionFeedback(*block.key, start, end, block.state.value, behaviors)
 
 
-def _planned(block: BMLBlock, key: tuple[str, str], start: GlobalTime) -> Time:
-    planned = block.planned_times.get(Point(*key))
-    return None if planned is None else GlobalTime(start + planned)
+def _known(block: BMLBlock, id_: str, times: Mapping[str, Time], start: GlobalTime) -> dict[str, GlobalTime]:
+    """The known times of a behavior; those that were planned if the start of its block is unknown."""
+    if block.start.value is None:
+        planned = {sync: block.planned_times.get(Point(id_, sync)) for sync in times}
+        after = {sync: None if time is None else GlobalTime(start + time) for sync, time in planned.items()}
+        times = {sync: after[sync] if time is None else time for sync, time in times.items()}
+    return {sync: time for sync, time in times.items() if time is not None}

@@ -1,17 +1,32 @@
 """Feedback as clients receive it: numbered, with POSIX times, and kept for clients that resume."""
 
+import asyncio
+import logging
 from collections import deque
+from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import islice
 
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.feedback.feedback_manager import Report
-from reactive_realizer.feedback.messages import PredictionFeedback, WarningFeedback
-from reactive_realizer.feedback.xml import to_xml
+from reactive_realizer.feedback.messages import Feedback, PredictionFeedback, WarningFeedback
+from reactive_realizer.feedback.xml import xml_parts
 from reactive_realizer.limits import Limits
 from reactive_realizer.server.faults import FeedbackGone
 from reactive_realizer.server.protocol import encode, refused
 from reactive_realizer.server.subscribers import Subscribers
+
+logger = logging.getLogger(__name__)
+
+_AT_ONCE = 50
+"""Parts of messages that are written within a tick; the rest is written after it, a few at a time."""
+
+_TURN = 10
+"""Parts that are written in a turn of the event loop, at least."""
+
+_TURNS = 50
+"""Turns in which everything that waits is written, if it needs more parts: a backlog does not grow for long."""
 
 BlockName = tuple[str, str]
 """Character and id of a block."""
@@ -38,6 +53,8 @@ class Entry:
 class FeedbackLog:
     """Numbers feedback messages from 1 and keeps the newest.
 
+    A tick writes only so much of its feedback. The rest is written between ticks, in the same order.
+
     Args:
         session: id of this run.
         epoch: POSIX time (s) of realizer time 0.
@@ -58,16 +75,65 @@ class FeedbackLog:
         self._limits = limits
         self._kept: deque[Entry] = deque()
         self._bytes = 0
+        self._left = _AT_ONCE
+        self._waiting: deque[Report | GlobalTime] = deque()
+        self._parts = 0
 
     def append(self, report: Report) -> None:
-        """Numbers a message, keeps it and publishes it."""
+        """Numbers a message, keeps it and publishes it, after all earlier ones."""
+        parts = _parts_of(report.message)
+        if self._waiting or parts > self._left:
+            self._wait(report, parts)
+        else:
+            self._left -= parts
+            self._publish(report, "".join(xml_parts(report.message, self._epoch)))
+
+    def end_tick(self, time: GlobalTime) -> None:
+        """Publishes the time of a tick, after all of its messages."""
+        self._left = _AT_ONCE
+        if self._waiting:
+            self._wait(time, 1)
+        else:
+            self.ticks.publish(time)
+
+    def _wait(self, item: Report | GlobalTime, parts: int) -> None:
+        self._waiting.append(item)
+        self._parts += parts
+        if len(self._waiting) == 1:
+            asyncio.get_running_loop().call_soon(self._take_turn, self._write_waiting())
+
+    def _take_turn(self, steps: Iterator[None]) -> None:
+        self._parts -= sum(1 for _ in islice(steps, max(_TURN, self._parts // _TURNS)))
+        if self._waiting:
+            asyncio.get_running_loop().call_soon(self._take_turn, steps)
+
+    def _write_waiting(self) -> Iterator[None]:
+        """Writes and publishes what waits, a part of a message in each step."""
+        while self._waiting:
+            item = self._waiting[0]
+            try:
+                if isinstance(item, Report):
+                    parts = []
+                    for part in xml_parts(item.message, self._epoch):
+                        parts.append(part)
+                        yield
+                    self._publish(item, "".join(parts))
+                else:
+                    self.ticks.publish(item)
+                    yield
+            except Exception:
+                logger.exception("feedback could not be published")
+            self._waiting.popleft()
+        self._parts = 0
+
+    def _publish(self, report: Report, xml: str) -> None:
         self.seq += 1
         message = {
             "type": "feedback",
             "session": self._session,
             "seq": self.seq,
             "time": round(report.time, 6),
-            "xml": to_xml(report.message, self._epoch),
+            "xml": xml,
         }
         about = report.message
         block = None if isinstance(about, WarningFeedback) else (about.character, about.block)
@@ -95,3 +161,8 @@ class FeedbackLog:
         most, most_bytes = self._limits.remembered_feedback, self._limits.remembered_feedback_bytes
         while len(self._kept) > most or self._bytes > most_bytes:
             self._bytes -= len(self._kept.popleft().text)
+
+
+def _parts_of(message: Feedback) -> int:
+    """The number of parts of a message."""
+    return len(message.behaviors) + 2 if isinstance(message, PredictionFeedback) else 1

@@ -101,7 +101,7 @@ class LiveScene:
         """Plays one tick and publishes its results."""
         await self.realizer.step(tick)
         self.tick = tick.number
-        self.feedback.ticks.publish(tick.time)
+        self.feedback.end_tick(tick.time)
         self.sounds.tidy(tick.time)
         self.board.publish()
 

@@ -1,0 +1,92 @@
+"""The log of feedback writes long messages between ticks, and keeps the order of all of them."""
+
+import asyncio
+
+from reactive_realizer.bml.document import parse
+from reactive_realizer.clock.units import BlockTime, GlobalTime
+from reactive_realizer.errors import WarningType
+from reactive_realizer.feedback.feedback_manager import Report
+from reactive_realizer.feedback.messages import BehaviorPrediction, Feedback, PredictionFeedback, WarningFeedback
+from reactive_realizer.limits import Limits
+from reactive_realizer.server.feedback_log import Entry, FeedbackLog
+from reactive_realizer.testing.pilot import block
+
+TICK = GlobalTime(1.0)
+
+
+def report(message: Feedback) -> Report:
+    return Report(TICK, message)
+
+
+def warning(text: str) -> Report:
+    return report(WarningFeedback(None, "bml", WarningType.PARSING_FAILURE, text))
+
+
+def prediction(behaviors: int) -> Report:
+    """The prediction of a block of some waits."""
+    (parsed,) = parse(block("b", "".join(f'<wait id="w{i}" duration="1"/>' for i in range(behaviors))), Limits())
+    assert parsed.block is not None
+    times = tuple(BehaviorPrediction(each, {"start": BlockTime(0.0)}) for each in parsed.block.behaviors)
+    return report(PredictionFeedback("alice", "b", TICK, TICK, "LURKING", times))
+
+
+def opened() -> tuple[FeedbackLog, list[str]]:
+    """A log, and what it has published: the kinds of messages, and ``tick``."""
+    log, told = FeedbackLog("session", 0.0, Limits()), list[str]()
+
+    def take(entry: Entry) -> None:
+        told.append("prediction" if entry.predicts else "warning")
+
+    log.subscribers.subscribe(take)
+    log.ticks.subscribe(lambda _: told.append("tick"))
+    return log, told
+
+
+async def turns_until(told: list[str], number: int) -> int:
+    """The turns of the event loop until some messages are published."""
+    for turns in range(1000):
+        if len(told) >= number:
+            return turns
+        await asyncio.sleep(0)
+    raise AssertionError(told)
+
+
+async def test_short_feedback_is_published_within_its_tick() -> None:
+    log, told = opened()
+    for each in (warning("one"), prediction(20), warning("two")):
+        log.append(each)
+    log.end_tick(TICK)
+    assert told == ["warning", "prediction", "warning", "tick"]
+
+
+async def test_a_long_prediction_is_written_in_turns_after_its_tick_and_all_messages_keep_their_order() -> None:
+    log, told = opened()
+    for each in (warning("one"), prediction(1000), warning("two")):
+        log.append(each)
+    log.end_tick(TICK)
+    log.append(warning("of the next tick"))
+    assert told == ["warning"]
+    assert await turns_until(told, 5) > 50
+    assert told == ["warning", "prediction", "warning", "tick", "warning"]
+
+
+async def test_many_messages_of_a_tick_are_written_in_turns() -> None:
+    log, told = opened()
+    for number in range(1000):
+        log.append(warning(str(number)))
+    assert len(told) < 100
+    await turns_until(told, 1000)
+    assert [entry.seq for entry in log.after(0)] == list(range(1, 1001))
+
+
+async def test_a_listener_that_fails_does_not_end_the_feedback() -> None:
+    log, told = opened()
+
+    def fail(entry: Entry) -> None:
+        raise RuntimeError
+
+    log.subscribers.subscribe(fail)
+    log.append(prediction(100))
+    log.append(warning("after it"))
+    await turns_until(told, 2)
+    assert told == ["prediction", "warning"]
