@@ -9,7 +9,7 @@ from time import perf_counter
 
 from reactive_realizer.assembly.scene import SceneOptions, open_scene
 from reactive_realizer.clock.ticker import FRAME_EVERY, RATE, Tick, tick_time
-from reactive_realizer.engine.engine import Engine
+from reactive_realizer.engine.guarded_engine import GuardedEngine
 from reactive_realizer.realizer.character import Character
 from reactive_realizer.server.live_scene import keep_from_ticks
 from reactive_realizer.testing.pilot import RealizerPilot, block
@@ -78,5 +78,6 @@ async def _frame(pilot: RealizerPilot, crowd: Sequence[Character]) -> float:
     return 1e6 * (perf_counter() - begin) / len(crowd)
 
 
-def _animation(character: Character) -> Engine:
-    return next(engine for engine in character.engines if engine.name.endswith("/animation"))
+def _animation(character: Character) -> GuardedEngine:
+    """The animation engine, guarded as in a realizer: its output is checked."""
+    return GuardedEngine(next(engine for engine in character.engines if engine.name.endswith("/animation")))

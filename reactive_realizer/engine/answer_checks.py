@@ -80,7 +80,7 @@ def check_eyes(pose: EyePose) -> EyePose:
     """A pose of the eyes that can be shown.
 
     Raises:
-        TypeError, ValueError: it cannot.
+        RealizerError, TypeError, ValueError: it cannot.
     """
     check_rotations(expected(EyePose, pose).turns)
     check_weights(pose.lids)
