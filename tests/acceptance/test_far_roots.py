@@ -30,7 +30,7 @@ async def walked(pilot: RealizerPilot, far: float, seconds: float, after: float)
 @pytest.mark.parametrize(("far", "seconds"), [(2.0, 2.0), (5.0, 5.0), (5.0, 1.0)])
 async def test_a_figure_that_moved_away_steps_back_upright(far: float, seconds: float) -> None:
     async with open_pilot() as pilot:
-        bodies = await walked(pilot, far, seconds, 14.0)
+        bodies = await walked(pilot, far, seconds, 8.0)
     pelvis = [body.transform("HumanoidRoot").position for body in bodies]
     assert pelvis[-1] == pytest.approx((0.0, STANDING, 0.0), abs=0.05)
     assert min(y for _, y, _ in pelvis) > LOWEST

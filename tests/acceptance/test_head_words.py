@@ -17,7 +17,9 @@ PITCH, YAW, ROLL = 0, 1, 2
 async def nod(pilot: RealizerPilot, behavior: str) -> tuple[np.ndarray, np.ndarray]:
     """Times and turns of the whole head against the chest while a head movement plays, (F, 3), rad."""
     pilot.block("b", behavior)
-    await pilot.advance(12)
+    while not pilot.feedback.reached("b:end"):
+        await pilot.advance(0.1)
+    await pilot.advance(1.0)
     assert pilot.feedback.status("b") == "DONE"
     assert pilot.feedback.warnings == []
     joints = pilot.realizer.characters["alice"].humanoid.avatar.skeleton.joints

@@ -30,8 +30,7 @@ class TestAnimation(EngineContract):
     elements = (
         '<gesture id="g" lexeme="BEAT" mode="RIGHT_HAND"/>',
         '<gesture id="g" lexeme="OFFER" mode="BOTH_HANDS" stroke="2"/>',
-        '<head id="h" lexeme="NOD" repetition="3"/>',
-        '<head id="h" lexeme="SHAKE" amount="1"/>',
+        '<head id="h" lexeme="NOD" repetition="3" amount="1"/>',
         '<gaze id="z" target="viewer"/>',
     )
     refused = ('<gesture id="g" lexeme="NO_SUCH"/>', '<gaze id="z" target="nobody"/>')

@@ -24,8 +24,8 @@ POSES = ["", LEANING.format("LEANING_FORWARD"), LEANING.format("LEANING_BACKWARD
 @pytest.mark.parametrize("stance", ["SITTING", "CROUCHING"])
 @pytest.mark.parametrize("poses", POSES)
 async def test_no_hand_passes_through_a_thigh(alternating: RealizerPilot, stance: str, poses: Any) -> None:
-    alternating.block("b", f'<posture id="p" start="0"><stance type="{stance}"/>{poses}</posture>')
-    await alternating.advance(9)
+    alternating.block("b", f'<posture id="p" start="0" end="5"><stance type="{stance}"/>{poses}</posture>')
+    await alternating.advance(6)
     assert alternating.feedback.reached("b:p:end")
     assert deepest_in_legs(alternating.bodies()[::2]) < SOFT
 
@@ -59,7 +59,7 @@ async def test_crossed_arms_lie_before_the_trunk(either: RealizerPilot) -> None:
 @pytest.mark.parametrize("stance", ["STANDING", "SITTING"])
 async def test_no_leg_passes_through_the_other_when_legs_are_crossed(either: RealizerPilot, stance: str) -> None:
     crossed = '<pose part="LEGS" lexeme="LEGS_CROSSED"/>'
-    either.block("b", f'<posture id="p" start="0"><stance type="{stance}"/>{crossed}</posture>')
-    await either.advance(9)
+    either.block("b", f'<posture id="p" start="0" end="5"><stance type="{stance}"/>{crossed}</posture>')
+    await either.advance(6)
     assert either.feedback.reached("b:p:end")
     assert deepest_in_each_other(either.bodies()[::2]) < SOFT

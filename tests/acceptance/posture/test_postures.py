@@ -18,7 +18,7 @@ async def test_a_posture_comes_holds_and_goes_back(pilot: RealizerPilot) -> None
 
 async def test_a_posture_without_times_takes_its_own(pilot: RealizerPilot) -> None:
     pilot.block("b", f'<posture id="p">{CROSSED}</posture>')
-    await pilot.advance(8)
+    await pilot.advance(5)
     start, ready, relax, end = (pilot.feedback.time(f"b:p:{sync}") for sync in ("start", "ready", "relax", "end"))
     assert 0.6 < ready - start < 1.1
     assert relax - ready == pytest.approx(2 * (ready - start))
@@ -37,13 +37,13 @@ async def test_one_stance_has_one_owner(pilot: RealizerPilot) -> None:
 
 async def test_a_posture_of_a_draft_without_an_end_continues_until_the_next(pilot: RealizerPilot) -> None:
     pilot.perform(f'<bml id="a"><posture id="p">{SIT}</posture></bml>')
-    await pilot.advance(20)
+    await pilot.advance(8)
     assert not pilot.feedback.reached("a:p:end")
-    assert sits(body(pilot, 19.9))
+    assert sits(body(pilot, 7.9))
     pilot.block("b", f'<posture id="p" start="0" end="4">{STAND}</posture>')
     await pilot.advance(7)
-    assert body(pilot, 22.0).root[1] == pytest.approx(0.0, abs=0.03)
-    assert sits(body(pilot, 26.9))
+    assert body(pilot, 10.0).root[1] == pytest.approx(0.0, abs=0.03)
+    assert sits(body(pilot, 14.9))
 
 
 @pytest.mark.parametrize(
@@ -68,7 +68,7 @@ DRAFT = '<bml id="a"><posture id="p" stance="sitting" shape="crossed" part="arms
 
 async def test_a_posture_of_a_draft_says_its_shape_and_part(pilot: RealizerPilot) -> None:
     pilot.perform(DRAFT)
-    await pilot.advance(6)
+    await pilot.advance(4)
     assert pilot.feedback.warnings == []
     assert any(crossed(shown) and sits(shown) for shown in pilot.bodies())
 

@@ -14,9 +14,9 @@ from .standing import CROSSED, SIT, STAND, apart, body, crossed, sits
 
 async def test_a_shift_stays_and_a_posture_returns_to_it(pilot: RealizerPilot) -> None:
     pilot.block("b", f'<postureShift id="s">{SIT}</postureShift><posture id="p" start="3" end="7">{CROSSED}</posture>')
-    await pilot.advance(20)
+    await pilot.advance(11)
     assert pilot.feedback.progress[-1] == "b:end"
-    for time in (2.9, 5.0, 8.0, 19.9):
+    for time in (2.9, 5.0, 8.0, 10.9):
         assert sits(body(pilot, time)), time
     assert crossed(body(pilot, 5.0))
     assert not crossed(body(pilot, 8.0))

@@ -184,18 +184,18 @@ BINDING = """
 """
 
 
-async def perform(folder: Path, sequence: str) -> RealizerPilot:
+async def perform(folder: Path, sequence: str, seconds: float) -> RealizerPilot:
     for name, text in {"gesturebinding.xml": BINDING, "lift.xml": LIFT, "two.xml": sequence}.items():
         (folder / name).write_text(text, encoding="utf-8")
     async with open_pilot(SceneOptions(voice="text", assets=(folder,))) as pilot:
         pilot.watch()
         pilot.block("b", '<gesture id="g" lexeme="TWO"/>')
-        await pilot.advance(8)
+        await pilot.advance(seconds)
         return pilot
 
 
 async def test_a_sequence_of_a_file_plays_as_one_behavior_with_its_parts_points(tmp_path: Path) -> None:
-    pilot = await perform(tmp_path, TWO)
+    pilot = await perform(tmp_path, TWO, 8)
     assert pilot.feedback.warnings == []
     assert pilot.feedback.time("b:g:lifted") == 2.0
     assert pilot.feedback.time("b:g:stroke") > 1.8
@@ -225,7 +225,7 @@ async def test_a_sequence_of_a_file_plays_as_one_behavior_with_its_parts_points(
     ],
 )
 async def test_an_invalid_sequence_file_is_refused_with_the_reason(sequence: str, said: str, tmp_path: Path) -> None:
-    pilot = await perform(tmp_path, sequence)
+    pilot = await perform(tmp_path, sequence, 0.2)
     assert [warning for _, warning in pilot.feedback.warnings] == ["CANNOT_CREATE_BEHAVIOR"]
     assert said in pilot.feedback.of("warningFeedback")[0].text
 
@@ -243,7 +243,7 @@ async def test_a_capture_in_a_sequence_is_read_in_another_thread(
     (tmp_path / "step.bvh").write_text(bvh({}, {"LeftArm": (0.0, 0.0, 60.0)}, step=1.0))
     inner = '<Sequence><Motion type="Keyframe" file="step.bvh" start="0"/></Sequence>'
     (tmp_path / "inner.xml").write_text(inner)
-    pilot = await perform(tmp_path, '<Sequence><Motion type="Sequence" file="inner.xml" start="0.5"/></Sequence>')
+    pilot = await perform(tmp_path, '<Sequence><Motion type="Sequence" file="inner.xml" start="0.5"/></Sequence>', 5)
     assert pilot.feedback.time("b:g:end") - pilot.feedback.time("b:g:start") == pytest.approx(1.5)
     assert [thread is threading.main_thread() for thread in reads] == [False]
 
@@ -254,5 +254,5 @@ async def test_exponentially_nested_files_are_refused(tmp_path: Path) -> None:
         part = f'<Motion {inner} start="0"/>'
         (tmp_path / f"s{i}.xml").write_text(f"<Sequence>{part}{part}</Sequence>")
     outer = '<Sequence><Motion type="Sequence" file="s0.xml" start="0"/></Sequence>'
-    pilot = await perform(tmp_path, outer)
+    pilot = await perform(tmp_path, outer, 0.2)
     assert "a sequence, with nested ones, has more than 100 parts" in str(pilot.feedback.of("warningFeedback")[0].text)
