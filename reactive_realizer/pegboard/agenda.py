@@ -44,7 +44,8 @@ class Agenda(Generic[T]):
 
     def add(self, item: T) -> None:
         """Add an item."""
-        self._renumber(item)
+        self._items.pop(self._numbers.get(item, 0), None)
+        self._numbers[item] = 0
         self.note(item)
 
     def remove(self, item: T) -> None:

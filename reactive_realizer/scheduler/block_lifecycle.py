@@ -103,7 +103,7 @@ class BlockLifecycle:
             block.set_plan(now, plan.units, plan.times, plan.kept, holds)
         self._blocks.watch.follow(block)
         for unit in plan.units:
-            self._routing.assign(unit)
+            self._routing.assign(unit, self._planner.engine_of(block, unit))
         self._transitions.take(block, BlockEvent.PREPLAN if block.awaits_activation else BlockEvent.PLAN, now)
 
     # --- start

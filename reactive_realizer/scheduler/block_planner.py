@@ -9,18 +9,19 @@ from typing import NamedTuple
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.names import BML, BML_EXT
 from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.engine.engine import Engine
 from reactive_realizer.engine.faults import UnknownParameter
 from reactive_realizer.errors import CreationFault, Fault, SchedulingFault, WarningType
 from reactive_realizer.pegboard.time_peg import TimeCell
 from reactive_realizer.planunit.plan_unit import PlanUnit
-from reactive_realizer.planunit.timing import Timing
 from reactive_realizer.scheduler.block_feedback import BlockFeedback
 from reactive_realizer.scheduler.blocks import Blocks
-from reactive_realizer.scheduler.bml_block import BMLBlock
+from reactive_realizer.scheduler.bml_block import BMLBlock, Meant
 from reactive_realizer.scheduler.engine_routing import EngineRouting, Result, RoutedBehavior
-from reactive_realizer.scheduler.planning import BlockProblem, Plan, Planning
+from reactive_realizer.scheduler.planning import BlockProblem, Plan, Planning, item_of
 from reactive_realizer.scheduler.planning_queue import PlanningQueue
 from reactive_realizer.scheduler.preparation import BackgroundWork, Preparation
+from reactive_realizer.scheduler.problem import Item
 from reactive_realizer.scheduler.procedures import Procedures
 from reactive_realizer.scheduler.solution import Loss, lost_behavior
 
@@ -82,6 +83,7 @@ class _Draft:
     Attributes:
         steps: what is left to do; each step gives the work that it took.
         posed: its problem; None until it is posed.
+        meant: when it was meant before it was posed.
         outcome: its plan, or the loss for which it fails; None until it is planned.
         renamed: whether pegs that the problem names were replaced.
         cancel: cancels the work of a thread; None while there is none.
@@ -91,6 +93,7 @@ class _Draft:
         self.steps = steps
         self.posed: BlockProblem | None = None
         self.outcome: Plan | Loss | None = None
+        self.meant: Meant | None = None
         self.renamed = False
         self.cancel: Callable[[], None] | None = None
 
@@ -126,7 +129,6 @@ class BlockPlanner:
         self._queue = PlanningQueue(blocks, expected)
         self._preparations: dict[BMLBlock, Preparation] = {}
         self._drafts: dict[BMLBlock, _Draft] = {}
-        self._now = GlobalTime(0.0)
 
     def prepare(self, block: BMLBlock) -> list[Loss]:
         """Start the engines' background work for a block; the losses are the behaviors that no engine plays."""
@@ -161,11 +163,15 @@ class BlockPlanner:
             draft.steps.close()
         self._queue.leave(block)
 
+    def engine_of(self, block: BMLBlock, unit: PlanUnit) -> Engine:
+        """The engine that has made a unit of a block that is being planned."""
+        return self._preparations[block].engine_of(unit)
+
     def waiting(self, character: str) -> int:
         """How many blocks of a character can be planned."""
         return self._queue.length(character)
 
-    def step(self, character: str, now: GlobalTime) -> tuple[int, Planned | None]:
+    def step(self, character: str) -> tuple[int, Planned | None]:
         """Do one step for a character: the work that it took, and the block that is planned by it.
 
         A block is planned as if it were to start now. The caller puts its plan on the board, and has it `leave`.
@@ -173,7 +179,6 @@ class BlockPlanner:
         block = self._queue.first(character)
         if block is None:
             return 0, None
-        self._now = now
         draft = self._drafts.get(block)
         if draft is None:
             draft = self._drafts[block] = _Draft(self._steps(block))
@@ -183,12 +188,11 @@ class BlockPlanner:
     def rename_pegs(self, replaced: Container[TimeCell]) -> None:
         """Pose the problems again that name pegs which were replaced."""
         for draft in self._drafts.values():
-            cells = () if draft.posed is None else draft.posed.problem.times
-            draft.renamed |= any(cell in replaced for cell in cells)
+            draft.renamed |= draft.posed is None or any(cell in replaced for cell in draft.posed.problem.times)
 
     def _steps(self, block: BMLBlock) -> Generator[int]:
         """Have the engines make the units of a block, solve it, and make its pegs."""
-        units: list[PlanUnit] = []
+        items: dict[PlanUnit, Item] = {}
         refused: list[Loss] = []
         size = 0
         for made in self._preparations[block].units(block.key, block.cancelled, partial(self._left_out, block)):
@@ -196,7 +200,7 @@ class BlockPlanner:
                 refused.append(made)
                 yield _UNIT
                 continue
-            units.append(made)
+            items[made] = item_of(made)
             size += len(made.timing.points)
             if size > self._most_points:
                 fault = TooManyPoints(limit=self._most_points)
@@ -204,17 +208,18 @@ class BlockPlanner:
                 loss = Loss(None, fault.located(place.line, place.column), dropped=False, required=True)
                 self._drafts[block].outcome = loss
             yield _UNIT + len(made.timing.points)
-        yield from self._solve_until_settled(block, {unit: unit.timing for unit in units}, refused)
+        yield from self._solve_until_settled(block, items, refused)
 
     def _solve_until_settled(
-        self, block: BMLBlock, timings: Mapping[PlanUnit, Timing], refused: Sequence[Loss]
+        self, block: BMLBlock, items: Mapping[PlanUnit, Item], refused: Sequence[Loss]
     ) -> Generator[int]:
         """Solve a block, again if times from outside have moved since, and make its pegs."""
         draft = self._drafts[block]
         for times in count(1):
-            left = {unit: timing for unit, timing in timings.items() if unit.behavior.id not in block.cancelled}
-            draft.posed, draft.renamed = self._planning.build_problem(block, left, self._now, refused), False
-            yield sum(len(timing.points) for timing in left.values())
+            left = {unit: item for unit, item in items.items() if unit.behavior.id not in block.cancelled}
+            draft.posed, draft.renamed, draft.meant = None, False, block.meant
+            draft.posed = yield from self._planning.build_problem(block, left, refused)
+            yield sum(len(item.points) for item in left.values())
             plan = yield from self._solve(block, draft, draft.posed)
             stale = times < _MOST_OFTEN and self._planning.is_stale(draft.posed)
             if stale or not self._holds(block, draft, left):
@@ -232,7 +237,7 @@ class BlockPlanner:
         """Whether the problem that was posed can still be put on the board."""
         cancelled = any(unit.behavior.id in block.cancelled for unit in units)
         cyclic = draft.posed is None or self._planning.is_cyclic(block, draft.posed)
-        return not (cancelled or cyclic or draft.renamed)
+        return not (cancelled or cyclic or draft.renamed or draft.meant != block.meant)
 
     def _solve(self, block: BMLBlock, draft: _Draft, posed: BlockProblem) -> Generator[int, None, Plan]:
         """Solve at once, or in a thread if that would hold up the event loop."""

@@ -169,7 +169,7 @@ class BMLScheduler:
         return None
 
     def _plan(self, character: str, now: GlobalTime) -> None:
-        work, planned = self._planner.step(character, now)
+        work, planned = self._planner.step(character)
         self._left -= work
         if planned is not None:
             self._lifecycle.plan(*planned, now)

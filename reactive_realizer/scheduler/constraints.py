@@ -1,9 +1,11 @@
 """Resolves the references of a block, and turns its constraints into ties and precedences (thesis 7.1.1)."""
 
 from collections import defaultdict
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Container, Generator, Iterable, Iterator, Mapping
 from dataclasses import replace
-from typing import TypeVar
+from functools import cached_property
+from heapq import heappop, heappush
+from typing import NamedTuple, TypeVar
 
 from reactive_realizer.bml.block import BehaviorBlock, OrderKind, Synchronize
 from reactive_realizer.bml.block import Order as OrderConstraint
@@ -68,15 +70,23 @@ class ReferenceResolver:
         self._blocks = blocks
         self._causes: dict[str, str] = {}
 
-    def drop_unplaceable(self) -> list[Loss]:
-        """Drop the behaviors with invalid references, those that depend on them, and so on."""
+    def drop_unplaceable(self) -> Generator[None, None, list[Loss]]:
+        """Drop the behaviors with invalid references, those that depend on them, and so on; a behavior in each step."""
         losses: list[Loss] = []
-        while (lost := next(self._unplaceable(), None)) is not None:
-            unit, fault = lost
-            if isinstance(fault, LostWith):
-                self._causes[unit.behavior.id] = fault.behavior
-            losses.append(lost_behavior(unit.behavior, fault))
-            del self.units[unit.behavior.id]
+        order = list(self.units)
+        unchecked = list(range(len(order)))  # a heap
+        naming = self._naming()
+        while unchecked:
+            unit = self.units.get(order[heappop(unchecked)])
+            fault = None if unit is None else self._fault(unit)
+            if unit is not None and fault is not None:
+                if isinstance(fault, LostWith):
+                    self._causes[unit.behavior.id] = fault.behavior
+                losses.append(lost_behavior(unit.behavior, fault))
+                del self.units[unit.behavior.id]
+                for number in naming.get(unit.behavior.id, ()):
+                    heappush(unchecked, number)
+            yield
         return losses
 
     def locate(self, ref: SyncRef) -> Node:
@@ -114,32 +124,49 @@ class ReferenceResolver:
                 raise RealizerError(CyclicReference(block=self._block.key.block, reference=own[bound[0]]))
         return constraints
 
-    def _unplaceable(self) -> Iterator[tuple[PlanUnit, Fault]]:
-        for unit in self.units.values():
-            for sync, ref in unit.behavior.syncs.items():
-                try:
-                    self.locate(ref)
-                    _check_sync(unit, sync, ref)
-                except RealizerError as problem:
-                    yield unit, problem.fault
-            if unit.timing.waits and self._waits_for_itself(unit):
-                yield unit, WaitsForItself()
+    def _naming(self) -> dict[str, list[int]]:
+        """The numbers of the behaviors that name each behavior of the block."""
+        naming: defaultdict[str, list[int]] = defaultdict(list)
+        for number, unit in enumerate(self.units.values()):
+            for ref in self._own(unit.behavior.syncs.values()):
+                naming[ref.behavior or ""].append(number)
+        return naming
+
+    def _own(self, refs: Iterable[SyncRef]) -> Iterator[SyncRef]:
+        """The references to the block itself."""
+        return (ref for ref in refs if ref.block in (None, self._block.key.block))
+
+    def _fault(self, unit: PlanUnit) -> Fault | None:
+        """The first fault that keeps a behavior from being placed."""
+        for sync, ref in unit.behavior.syncs.items():
+            try:
+                self.locate(ref)
+                _check_sync(unit, sync, ref)
+            except RealizerError as problem:
+                return problem.fault
+        return WaitsForItself() if unit.timing.waits and self._waits_for_itself(unit) else None
 
     def _waits_for_itself(self, waiting: PlanUnit) -> bool:
         """Whether the start of a wait depends on its end, through behaviors that are tied to both."""
+        id_, (tied, after) = waiting.behavior.id, self._links
+        reachable = _reachable(id_, tied, self.units)
+        return any(own in reachable for own in after[id_] if own in self.units)
+
+    @cached_property
+    def _links(self) -> tuple[Mapping[str, Collection[str]], Mapping[str, Collection[str]]]:
+        """By id, the behaviors that are tied to each behavior, and those that come after the end of each wait."""
         tied: defaultdict[str, set[str]] = defaultdict(set)
-        after: set[str] = set()
-        for unit in self.units.values():
-            own, planned = unit.behavior.id, [ref for sync, ref in unit.behavior.syncs.items() if sync not in unit.open]
-            for name, sync in (
-                (ref.behavior, ref.sync) for ref in planned if ref.block in (None, self._block.key.block)
-            ):
-                if name == waiting.behavior.id and sync in waiting.open:
-                    after.add(own)
-                elif name in self.units and sync not in self.units[name].open:
-                    tied[own].add(name)
-                    tied[name].add(own)
-        return not after.isdisjoint(_reachable(waiting.behavior.id, tied))
+        after: defaultdict[str, set[str]] = defaultdict(set)
+        units = dict(self.units)
+        for own, unit in units.items():
+            for ref in self._own(ref for sync, ref in unit.behavior.syncs.items() if sync not in unit.open):
+                other = units.get(ref.behavior or "")
+                if other is not None and ref.sync in other.open:
+                    after[other.behavior.id].add(own)
+                elif other is not None:
+                    tied[own].add(other.behavior.id)
+                    tied[other.behavior.id].add(own)
+        return tied, after
 
     def _outside(self, ref: SyncRef) -> TimeCell:
         """A peg of another block."""
@@ -185,27 +212,43 @@ class ReferenceResolver:
         raise RealizerError(unknown or LostWith(behavior=f"{other.key.block}:ready", reference=str(ref)))
 
 
-def constraints_of(block: BehaviorBlock, resolver: ReferenceResolver) -> tuple[list[Tie], list[Precedence], list[Loss]]:
-    """All `at` and before/after constraints of the units of a block, and losses for invalid references of the block."""
-    ties = [tie for unit in resolver.units.values() for tie in _own_ties(unit, resolver)]
-    orders: list[Precedence] = []
-    losses: list[Loss] = []
+class Constraints(NamedTuple):
+    """The constraints of a block.
+
+    Attributes:
+        ties: its `at` constraints.
+        orders: its before/after constraints.
+        losses: for invalid references of the block.
+    """
+
+    ties: list[Tie]
+    orders: list[Precedence]
+    losses: list[Loss]
+
+
+def constraints_of(block: BehaviorBlock, resolver: ReferenceResolver) -> Generator[None, None, Constraints]:
+    """All constraints of the units of a block; those of a unit, or a constraint of the block, in each step."""
+    found = Constraints([], [], [])
+    for unit in resolver.units.values():
+        found.ties.extend(_own_ties(unit, resolver))
+        yield
     for each in sorted(block.constraints, key=lambda each: isinstance(each, OrderConstraint)):
         try:
             if isinstance(each, Synchronize):
-                ties += resolver.startable(_synchronized(each, resolver))
+                found.ties.extend(resolver.startable(_synchronized(each, resolver)))
             else:
-                orders += resolver.startable(_ordered(each, resolver))
+                found.orders.extend(resolver.startable(_ordered(each, resolver)))
         except RealizerError as problem:
             fault = problem.fault.located(each.location.line, each.location.column)
-            losses.append(Loss(None, fault, dropped=False, required=each.required))
+            found.losses.append(Loss(None, fault, dropped=False, required=each.required))
+        yield
     for ref in block.points.values():
         try:
             resolver.locate(ref)
         except RealizerError as problem:
             fault = problem.fault.located(block.location.line, block.location.column)
-            losses.append(Loss(None, fault, dropped=False, required=False))
-    return ties, orders, losses
+            found.losses.append(Loss(None, fault, dropped=False, required=False))
+    return found
 
 
 def bound_on_start(constraint: Tie | Precedence) -> Bound | None:
@@ -254,10 +297,10 @@ def _ordered(constraint: OrderConstraint, resolver: ReferenceResolver) -> list[P
     return orders
 
 
-def _reachable(first: str, links: Mapping[str, Collection[str]]) -> set[str]:
+def _reachable(first: str, links: Mapping[str, Collection[str]], among: Container[str]) -> set[str]:
     found, waiting = {first}, [first]
     while waiting:
-        new = set(links.get(waiting.pop(), ())) - found
+        new = {each for each in links.get(waiting.pop(), ()) if each not in found and each in among}
         found |= new
         waiting += new
     return found

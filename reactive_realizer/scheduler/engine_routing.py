@@ -107,9 +107,8 @@ class EngineRouting:
         found = (self._routed(character, behavior) for behavior in behaviors)
         return {routed.behavior.id: routed for routed in found if routed is not None}
 
-    def assign(self, unit: PlanUnit) -> None:
-        """Have the engine of its behavior play a unit that has its pegs."""
-        engine = self.route(unit.block.character, [unit.behavior])[unit.behavior.id].engine
+    def assign(self, unit: PlanUnit, engine: Engine) -> None:
+        """Have an engine play a unit that has its pegs."""
         self._engine_of[unit] = engine
         engine.add(unit)
 

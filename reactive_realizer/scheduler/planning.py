@@ -2,17 +2,18 @@
 
 import logging
 from collections import deque
-from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
+from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, field, replace
 from itertools import islice
+from typing import TypeVar
 
 from reactive_realizer.clock.units import RESOLUTION, GlobalTime, Time, has_passed, is_due
 from reactive_realizer.pegboard.peg_key import PegKey
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.pegboard.time_peg import AfterPeg, Bound, OffsetPeg, OpenPeg, TimeCell, TimePeg
 from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
-from reactive_realizer.planunit.timing import OPEN, Timing
+from reactive_realizer.planunit.timing import OPEN
 from reactive_realizer.planunit.wait_unit import WaitUnit
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock
@@ -31,6 +32,14 @@ logger = logging.getLogger(__name__)
 
 _PEGS_AT_ONCE = 50
 """Pegs that are made in one step."""
+
+_STEPS_AT_ONCE = 50
+"""Behaviors whose references are resolved in one step."""
+
+_NAMED_AT_ONCE = 100
+"""Pegs that are named in one step; this takes half as long as making them."""
+
+T = TypeVar("T")
 
 PlanListener = Callable[[BMLBlock, SchedulingProblem, Solution], None]
 
@@ -71,6 +80,8 @@ class Plan:
         kept: the constraints that are kept.
         times: of the planned points, s after the start of the block; None for those that depend on an unknown time.
         built: its pegs; None until they are made.
+        points: the sync points of its behaviors, on these pegs.
+        named: these pegs by name.
     """
 
     def __init__(self, posed: BlockProblem, solution: Solution) -> None:
@@ -85,6 +96,13 @@ class Plan:
         waiting = {Point(unit.behavior.id, sync) for unit in self.units for sync in unit.open}
         self.times = {point: time for point, time in self.layout.times.items() if point not in waiting}
         self.built: BuiltPegs | None = None
+        self.points: dict[PlanUnit, list[SyncPoint]] = {unit: [] for unit in self.units}
+        self.named: dict[PegKey, TimePeg] = {}
+        self._reasons: dict[Point, list[str]] = {}
+        for each in self.kept:
+            for node in each.nodes:
+                if isinstance(node, Point):
+                    self._reasons.setdefault(node, []).append(each.text)
 
     @property
     def size(self) -> int:
@@ -95,6 +113,42 @@ class Plan:
         """Dispose of its pegs, if they are made."""
         if self.built is not None:
             self.built.dispose()
+
+    def name_pegs(self) -> Iterator[None]:
+        """Make the sync points of its behaviors and the names of their pegs, in small steps."""
+        units = {unit.behavior.id: unit for unit in self.units}
+        for point, peg in self._pegs.items():
+            unit = units[point.behavior]
+            if point.sync not in unit.open:
+                self.points[unit].append(SyncPoint(point.sync, peg, tied=point in self._reasons))
+                self.named[unit.key(point.sync)] = peg
+            yield
+        for unit, points in self.points.items():
+            for sync, peg in unit.open.items():
+                points.append(SyncPoint(sync, peg))
+                self.named[unit.key(sync)] = peg
+            yield
+
+    def give_points(self, start: TimeCell) -> None:
+        """Within a transaction, give the behaviors their points, and the pegs the texts of their constraints.
+
+        Args:
+            start: the peg of the start of the block.
+        """
+        for unit, points in self.points.items():
+            unit.points = points
+            for point in points:
+                if point.tied:
+                    point.peg.why = "; ".join(self._reasons[Point(unit.behavior.id, point.id)])
+            unit.wake()
+        for unit, node in self.posed.awaited.items():
+            if unit in self.points:
+                awaited = self._pegs.get(node) if isinstance(node, Point) else node
+                unit.follow(start if isinstance(awaited, Origin) else awaited)
+
+    @property
+    def _pegs(self) -> Mapping[Point, TimePeg]:
+        return {} if self.built is None else self.built.pegs
 
 
 class Planning:
@@ -111,23 +165,24 @@ class Planning:
         self._listeners.append(listener)
 
     def build_problem(
-        self, block: BMLBlock, timings: Mapping[PlanUnit, Timing], now: GlobalTime, losses: Iterable[Loss] = ()
-    ) -> BlockProblem:
-        """The problem of a block that is ready to start; the board stays as it is.
+        self, block: BMLBlock, items: Mapping[PlanUnit, Item], losses: Iterable[Loss] = ()
+    ) -> Generator[int, None, BlockProblem]:
+        """The problem of a block that is ready to start, in steps; each gives the work that it took.
+
+        The board stays as it is. The times from outside are those of the last step.
 
         Args:
             block: in preparation.
-            timings: its behaviors, with their preferences.
-            now: the earliest start.
+            items: its behaviors, with their preferences.
             losses: behaviors that were lost before.
         """
-        for unit in timings:
+        for unit in items:
             self._open(unit)
-        resolver = ReferenceResolver(block, {unit.behavior.id: unit for unit in timings}, self._board, self._blocks)
-        dropped = resolver.drop_unplaceable()
-        ties, orders, lost = constraints_of(block.description, resolver)
-        kept = {unit: timings[unit] for unit in resolver.units.values()}
-        posed = _pose(block, kept, ties, orders, now, starts=False)
+        resolver = ReferenceResolver(block, {unit.behavior.id: unit for unit in items}, self._board, self._blocks)
+        dropped = yield from _in_steps(resolver.drop_unplaceable())
+        ties, orders, lost = yield from _in_steps(constraints_of(block.description, resolver))
+        kept = {unit: items[unit] for unit in resolver.units.values()}
+        posed = _pose(block, kept, ties, orders, self._board.time, starts=False)
         awaited = {unit: resolver.locate(unit.until) for unit in kept if isinstance(unit, WaitUnit)}
         return replace(posed, losses=(*losses, *dropped, *lost, *posed.losses), awaited=awaited)
 
@@ -158,7 +213,7 @@ class Planning:
 
     def again(self, block: BMLBlock, now: GlobalTime) -> Plan:
         """A new plan of a block that waits, from the constraints of its present one."""
-        return self.solve(_posed_again(block, {unit: unit.timing for unit in block.units}, now, starts=False))
+        return self.solve(_posed_again(block, {unit: item_of(unit) for unit in block.units}, now, starts=False))
 
     def at_start(self, block: BMLBlock, start: GlobalTime, now: GlobalTime) -> Plan | None:
         """A new plan of a block that starts at ``start``, with the preferences of its engines ``now`` (thesis 12.1.4).
@@ -173,12 +228,12 @@ class Planning:
         early = any(has_passed(time, start) for time in times) or _has_late_ties(block, start)
         if not early and not any(each.chunk for each in block.predecessors):
             return None
-        timings = {unit: unit.preference(now) for unit in block.units}
-        plan = self.solve(_posed_again(block, timings, start, starts=True))
+        items = {unit: Item(unit.behavior, unit.preference(now).closed) for unit in block.units}
+        plan = self.solve(_posed_again(block, items, start, starts=True))
         return plan if early or not plan.losses else None
 
     def make_pegs(self, block: BMLBlock, plan: Plan) -> Generator[int]:
-        """Make the pegs of a plan, in steps that give their numbers; none is on the board yet.
+        """Make the pegs of a plan, in steps that give the work that they took; none is on the board yet.
 
         If it is closed before the plan is put on the board, it disposes of them.
         """
@@ -192,6 +247,9 @@ class Planning:
                 if last is not None:
                     plan.built = BuiltPegs(last.pegs, (*outside.values(), *last.unnamed))
                 yield len(made)
+            names = plan.name_pegs()
+            while named := sum(1 for _ in islice(names, _NAMED_AT_ONCE)):
+                yield named // 2
         except GeneratorExit:
             steps.close()
             for peg in outside.values():
@@ -253,49 +311,40 @@ class Planning:
         for listener in self._listeners:
             listener(block, plan.posed.problem, plan.solution)
 
-    def _build(self, block: BMLBlock, plan: Plan) -> dict[PegKey, TimePeg]:
-        """Give the pegs of a plan to the points of its units."""
+    def _build(self, block: BMLBlock, plan: Plan) -> Mapping[PegKey, TimePeg]:
+        """Give the pegs of a plan to the points of its units; the pegs by name."""
         if plan.built is None:
             deque(self.make_pegs(block, plan), maxlen=0)
-        pegs, unnamed = plan.built or BuiltPegs({}, ())
-        self._board.add_unnamed(block.key, unnamed)
-        reasons: dict[Point, list[str]] = {}
-        for each in plan.kept:
-            for node in each.nodes:
-                if isinstance(node, Point):
-                    reasons.setdefault(node, []).append(each.text)
-        units = {unit.behavior.id: unit for unit in plan.units}
-        known: dict[PegKey, TimePeg] = {}
-        for unit in plan.units:
-            unit.points = []
-        for point, peg in pegs.items():
-            unit, texts = units[point.behavior], reasons.get(point)
-            if point.sync in unit.open:
-                continue
-            if texts:
-                peg.why = "; ".join(texts)
-            unit.points.append(SyncPoint(point.sync, peg, tied=bool(texts)))
-            known[unit.key(point.sync)] = peg
-        for unit in plan.units:
-            unit.points += [SyncPoint(sync, peg) for sync, peg in unit.open.items()]
-            unit.wake()
-        planned = set(plan.units)
-        for unit, node in plan.posed.awaited.items():
-            if unit in planned:
-                unit.follow(_cell_of(node, block, pegs))
-        return known | {unit.key(sync): peg for unit in plan.units for sync, peg in unit.open.items()}
+        self._board.add_unnamed(block.key, () if plan.built is None else plan.built.unnamed)
+        plan.give_points(block.start)
+        return plan.named
 
 
-def _cell_of(node: Node, block: BMLBlock, pegs: Mapping[Point, TimePeg]) -> TimeCell | None:
-    if isinstance(node, Point):
-        return pegs.get(node)
-    return block.start if isinstance(node, Origin) else node
+def item_of(unit: PlanUnit) -> Item:
+    """A behavior with its preferences, as it is to be timed."""
+    return Item(unit.behavior, unit.timing.closed)
+
+
+def _in_steps(small: Generator[None, None, T]) -> Generator[int, None, T]:
+    """Do some small steps at once; each gives their number, and the result of the last one is returned."""
+    steps = 0
+    try:
+        while True:
+            next(small)
+            steps += 1
+            if steps == _STEPS_AT_ONCE:
+                yield steps
+                steps = 0
+    except StopIteration as end:
+        yield steps
+        result: T = end.value
+        return result
 
 
 def _has_late_ties(block: BMLBlock, start: GlobalTime) -> bool:
     if not block.outside:
         return False
-    items = (Item(unit.behavior, unit.timing.closed) for unit in block.units)
+    items = map(item_of, block.units)
     ties = (each for each in _left(block) if isinstance(each, Tie))
     return any(has_passed(cell.value, start + time) for cell, time in least_times(items, ties).items())
 
@@ -306,17 +355,17 @@ def _left(block: BMLBlock) -> list[Tie | Precedence]:
     return [each for each in block.kept if not each.names(gone)]
 
 
-def _posed_again(block: BMLBlock, timings: Mapping[PlanUnit, Timing], now: GlobalTime, *, starts: bool) -> BlockProblem:
+def _posed_again(block: BMLBlock, items: Mapping[PlanUnit, Item], now: GlobalTime, *, starts: bool) -> BlockProblem:
     """The problem of a planned block, with the constraints of its present plan on the behaviors that are left."""
     left = _left(block)
     ties = [each for each in left if isinstance(each, Tie)]
     orders = [each for each in left if isinstance(each, Precedence)]
-    return _pose(block, timings, ties, orders, now, starts=starts)
+    return _pose(block, items, ties, orders, now, starts=starts)
 
 
 def _pose(
     block: BMLBlock,
-    timings: Mapping[PlanUnit, Timing],
+    items: Mapping[PlanUnit, Item],
     ties: Sequence[Tie],
     orders: Sequence[Precedence],
     now: GlobalTime,
@@ -327,23 +376,23 @@ def _pose(
 
     If the block ``starts``, late ties are moved. Until then, they are planned as if their times were unknown.
     """
-    behaviors = {unit.behavior.id: unit.behavior for unit in timings}
+    behaviors = {unit.behavior.id: unit.behavior for unit in items}
     ties, orders, lost, gone = without_passed(behaviors, ties, orders, block.meant)
-    units = tuple(unit for unit in timings if unit.behavior.id not in gone)
-    items, ties, orders = through_free([Item(unit.behavior, timings[unit].closed) for unit in units], ties, orders)
+    units = tuple(unit for unit in items if unit.behavior.id not in gone)
+    timed, ties, orders = through_free([items[unit] for unit in units], ties, orders)
     start = max(now, block.start.value or now)
     constraints: list[Tie | Precedence] = [*ties, *orders]
     holds = {each: bound for each in constraints if (bound := bound_on_start(each)) is not None}
     if holds:
         ties, orders = [tie for tie in ties if tie not in holds], [order for order in orders if order not in holds]
     start = max([start, *(time for bound in holds.values() for time in _known(bound))])
-    late = LateTies(items, ties, start)
+    late = LateTies(timed, ties, start)
     unknown: AbstractSet[TimeCell] = late.cells
     if starts and late.cells:
         unknown = frozenset()
         ties, moved = late.moved()
         lost = (*lost, *moved)
-    problem = SchedulingProblem(items, tuple(ties), _outer_times([*ties, *orders], start, unknown), tuple(orders))
+    problem = SchedulingProblem(timed, tuple(ties), _outer_times([*ties, *orders], start, unknown), tuple(orders))
     return BlockProblem(units, problem, tuple(lost), start, holds, unknown)
 
 

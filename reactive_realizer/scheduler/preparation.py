@@ -5,6 +5,7 @@ from functools import partial
 from typing import Protocol
 
 from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.engine.engine import Engine
 from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.plan_unit import PlanUnit
@@ -74,6 +75,10 @@ class Preparation:
                     yield each.plan(block, self._results[id_], partial(left_out, each))
                 except RealizerError as problem:
                     yield lost_behavior(each.behavior, problem.fault)
+
+    def engine_of(self, unit: PlanUnit) -> Engine:
+        """The engine that has made a unit."""
+        return self._routed[unit.behavior.id].engine
 
     def cancel(self) -> None:
         """Cancel the work."""
