@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from functools import partial
 
 from reactive_realizer.clock.ticker import Tick
-from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.clock.units import GlobalTime, Time
 from reactive_realizer.engine.effects import Output, Play
 from reactive_realizer.engine.engine import Engine
 from reactive_realizer.pegboard.agenda import Agenda
@@ -48,6 +48,13 @@ class EngineTasks:
         for task in self.tasks:
             self._agenda.add(task)
             task.engine.listen(partial(self._woken.add, task))
+
+    @property
+    def next_due(self) -> Time:
+        """The time at which an engine next has something to play, as far as it is known; None if there is none."""
+        for task in self._woken:
+            self._agenda.note(task)
+        return self._agenda.next_due
 
     async def play(self, tick: Tick) -> list[Play]:
         """One round of a tick: the engines that are due or woken play; their effects are in rank order."""

@@ -1,6 +1,6 @@
 """The peg board: the pegs of all characters, by name."""
 
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping
 from itertools import islice
 
 from reactive_realizer.clock.ticker import Tick
@@ -38,7 +38,7 @@ class PegBoard:
         self.graph = graph
         self.previous = GlobalTime(-1.0)
         self._pegs: dict[PegKey, TimeCell] = {}
-        self._blocks: dict[BlockKey, list[PegKey]] = {}
+        self._blocks: dict[BlockKey, dict[PegKey, None]] = {}
         self._owners: dict[TimeCell, BlockKey] = {}
         self._last: dict[PegKey, AnticipatorPeg] = {}
         self._unnamed: dict[BlockKey, list[TimePeg]] = {}
@@ -61,7 +61,7 @@ class PegBoard:
     def add_block(self, block: BlockKey, pegs: Mapping[PegKey, TimeCell]) -> None:
         """Name the pegs of a block."""
         self._pegs.update(pegs)
-        self._blocks.setdefault(block, []).extend(pegs)
+        self._blocks.setdefault(block, {}).update(dict.fromkeys(pegs))
         for peg in pegs.values():
             self._owners.setdefault(peg, block)
 
@@ -103,12 +103,16 @@ class PegBoard:
             peg.pin(time_of(peg))
         return cut
 
-    def remove_block(self, block: BlockKey) -> None:
-        """Remove the names of a block, and the predicted points without dependents that can be predicted again.
+    def remove_block(self, block: BlockKey, points: Iterable[PegKey] = ()) -> None:
+        """Remove the names of a block; and of predicted points, those without dependents that can be predicted again.
 
         A peg that others depend on stays alive with them, and keeps its time.
+
+        Args:
+            block: that has ended.
+            points: the predicted points that it named.
         """
-        for key in dict.fromkeys(self._blocks.pop(block, ())):
+        for key in self._blocks.pop(block, ()):
             peg = self._pegs.pop(key)
             if self._owners.get(peg) == block:
                 del self._owners[peg]
@@ -116,7 +120,7 @@ class PegBoard:
                     peg.dispose()
         for peg in self._unnamed.pop(block, ()):
             peg.dispose()
-        self.forget_points({key for key in self.predicted_points if self._forgettable(key)})
+        self.forget_points([key for key in points if key in self._pegs and self._forgettable(key)])
 
     def predicted(self, anticipator: str, sync: str) -> AnticipatorPeg:
         """The peg of a predicted point, made when the point is first named."""
@@ -175,7 +179,7 @@ class PegBoard:
         return {sync: peg for sync, peg in pegs if isinstance(peg, AnticipatorPeg)}
 
     @property
-    def predicted_points(self) -> Sequence[PegKey]:
+    def predicted_points(self) -> Collection[PegKey]:
         """The predicted points that were named, in order of naming."""
         return self._blocks.get(_PREDICTED, ())
 
@@ -190,11 +194,12 @@ class PegBoard:
         later = [key for key, time in free if not (time is None or is_due(time, now))]
         return spent + [key for key in later if isinstance(self.anticipators.get(key.behavior or ""), Remote | None)]
 
-    def forget_points(self, keys: Collection[PegKey]) -> None:
+    def forget_points(self, keys: Iterable[PegKey]) -> None:
         """Forget predicted points that no peg depends on; if one is named again, it is a new one."""
-        self._blocks[_PREDICTED] = [key for key in self.predicted_points if key not in keys]
         for key in keys:
-            self._forget(key)
+            del self._blocks[_PREDICTED][key]
+            self._owners.pop(self._pegs.pop(key), None)
+            self._last.pop(key, None)
 
     def snapshot(self, newest: int | None = None) -> tuple[PegView, ...]:
         """The named pegs, in order of naming; only the newest, if a number is given."""
@@ -206,10 +211,6 @@ class PegBoard:
         if key not in self._pegs:
             raise RealizerError(NoPoint(point=str(key)))
         return self._pegs[key]
-
-    def _forget(self, key: PegKey) -> None:
-        self._owners.pop(self._pegs.pop(key), None)
-        self._last.pop(key, None)
 
     def _forgettable(self, key: PegKey) -> bool:
         peg, anticipator = self._pegs[key], self.anticipators.get(key.behavior or "")

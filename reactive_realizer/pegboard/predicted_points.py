@@ -86,4 +86,4 @@ class PredictedPoints:
             return
         excess = len(self._board.predicted_points) + 1 - self._limit
         if excess > 0:
-            self._board.forget_points(set(self._board.unneeded_points(now)[: max(excess, self._limit // _SHARE)]))
+            self._board.forget_points(self._board.unneeded_points(now)[: max(excess, self._limit // _SHARE)])

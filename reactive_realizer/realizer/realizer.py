@@ -10,7 +10,7 @@ from reactive_realizer.bml.block import Parsed
 from reactive_realizer.bml.document import parse
 from reactive_realizer.bml.names import EVENTS
 from reactive_realizer.clock.ticker import Tick, first_tick
-from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.clock.units import GlobalTime, Time, is_due
 from reactive_realizer.embodiment.audio import AudioChange, AudioHeard
 from reactive_realizer.embodiment.frame import Frame
 from reactive_realizer.embodiment.world import World
@@ -255,15 +255,22 @@ class Realizer:
 
     async def _catch_up(self, tick: Tick) -> None:
         """Play the skipped ticks in which something was due, in order and without output."""
-        due = self.scheduler.next_due(tick.previous) if tick.left_out else None
+        due = self._next_due(tick.previous) if tick.left_out else None
         number = tick.left_out.start
         while due is not None and (number := max(number, first_tick(due))) in tick.left_out:
             missed = Tick.on_time(number)
             self.board.begin(missed)
             await self._play(missed)
             self._check(missed.time)
-            due = self.scheduler.next_due(missed.time)
+            due = self._next_due(missed.time)
             number += 1
+
+    def _next_due(self, after: GlobalTime) -> Time:
+        """The earliest known time after ``after`` at which a block or an engine has something to do."""
+        times = (self.scheduler.next_start, self._leading.next_due, self._following.next_due)
+        if any(is_due(time, after) for time in times):  # it hides later ones
+            return self.scheduler.next_due(after)
+        return min((time for time in times if time is not None), default=None)
 
     def _take_blocks(self, entered: TickInputs, now: GlobalTime) -> None:
         """Deliver the results of slow work, then have new blocks enter."""

@@ -219,7 +219,7 @@ class BlockPlanner:
             left = {unit: item for unit, item in items.items() if unit.behavior.id not in block.cancelled}
             draft.posed, draft.renamed, draft.meant = None, False, block.meant
             draft.posed = yield from self._planning.build_problem(block, left, refused)
-            yield sum(len(item.points) for item in left.values())
+            yield sum(len(item.points) - 2 for item in left.values())
             plan = yield from self._solve(block, draft, draft.posed)
             stale = times < _MOST_OFTEN and self._planning.is_stale(draft.posed)
             if stale or not self._holds(block, draft, left):
@@ -230,7 +230,7 @@ class BlockPlanner:
             yield from self._planning.make_pegs(block, plan)
             if self._holds(block, draft, left):
                 draft.outcome = plan
-                yield 2 * plan.size  # to put it on the board
+                yield 3 * plan.size // 2  # to put it on the board
             plan.discard()
 
     def _holds(self, block: BMLBlock, draft: _Draft, units: Iterable[PlanUnit]) -> bool:

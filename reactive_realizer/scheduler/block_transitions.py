@@ -4,7 +4,7 @@ import logging
 from collections.abc import Callable
 
 from reactive_realizer.clock.units import GlobalTime
-from reactive_realizer.pegboard.peg_key import BlockKey
+from reactive_realizer.pegboard.peg_key import BlockKey, anticipator_key
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.pegboard.time_peg import TimePeg
 from reactive_realizer.scheduler.block_feedback import BlockFeedback
@@ -83,5 +83,5 @@ class BlockTransitions:
         with self._board.graph.transaction(f"after {block.key.block}"):
             block.leave()
         self._ties.release_from(block.key, cut, time, CutTie, began=block.started_at is not None)
-        self._board.remove_block(block.key)
+        self._board.remove_block(block.key, [anticipator_key(*point) for point in block.predicted])
         logger.info("%s/%s %s at %.2f s, %d behaviors", *block.key, block.state.value, time, len(block.units))

@@ -222,8 +222,16 @@ class BMLScheduler:
             if (drift := engine.hear(heard)) is not None:
                 self._lifecycle.shift_behavior(drift.unit, drift.seconds)
 
+    @property
+    def next_start(self) -> Time:
+        """The earliest known time at which a block starts; None if there is none."""
+        return self.blocks.starting.next_due
+
     def next_due(self, after: GlobalTime) -> Time:
-        """The earliest known time after ``after`` at which a block has something to do; None if there is none."""
+        """The earliest known time after ``after`` at which a block has something to do; None if there is none.
+
+        It looks at all blocks.
+        """
         times = (time for block in self.blocks.alive for time in block.times_ahead)
         return min((time for time in times if not is_due(time, after)), default=None)
 

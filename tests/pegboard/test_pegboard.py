@@ -10,7 +10,7 @@ from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.pegboard.anticipator import Anticipator, AnticipatorContext, Counted, Predictions, Remote
-from reactive_realizer.pegboard.peg_key import BlockKey, PegKey
+from reactive_realizer.pegboard.peg_key import BlockKey, PegKey, anticipator_key
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.pegboard.time_peg import (
     AfterPeg,
@@ -163,18 +163,19 @@ def test_a_pinned_block_has_no_dependencies_and_reports_the_pegs_that_had(board:
 @pytest.mark.usefixtures("clock")
 def test_a_removed_block_leaves_nothing_that_can_be_predicted_again(board: PegBoard) -> None:
     predict(board, "told", "hit", 3.0)
-    for peg in (board.predicted("clock", "tick7"), board.predicted("told", "other"), board.predicted("told", "hit")):
-        hang(board, "start", peg)
+    points = (("clock", "tick7"), ("told", "other"), ("told", "hit"))
+    for point in points:
+        hang(board, "start", board.predicted(*point))
         with board.graph.transaction("test"):
             board.pin_block(BLOCK)
-    board.remove_block(BLOCK)
+    board.remove_block(BLOCK, [anticipator_key(*point) for point in points])
     assert [str(view.key) for view in board.snapshot()] == ["anticipators:told:hit"]
     assert board.predicted("clock", "tick7").value == 7.0
 
 
 def test_a_predicted_point_with_dependents_stays(board: PegBoard) -> None:
     hang(board, "start", board.predicted("a", "hit"))
-    board.remove_block(BlockKey("alice", "another"))
+    board.remove_block(BlockKey("alice", "another"), [anticipator_key("a", "hit")])
     assert len(board.snapshot()) == 2
 
 

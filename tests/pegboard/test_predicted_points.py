@@ -8,7 +8,7 @@ from reactive_realizer.clock.tick_clock import TickClock
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.pegboard.anticipator import Anticipator, AnticipatorContext, Counted, Predictions
-from reactive_realizer.pegboard.peg_key import BlockKey, PegKey
+from reactive_realizer.pegboard.peg_key import BlockKey, PegKey, anticipator_key
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.pegboard.predicted_points import PredictedPoints
 from reactive_realizer.pegboard.time_peg import OffsetPeg
@@ -164,7 +164,7 @@ def test_renewing_leaves_nothing_behind(stage: Stage) -> None:
     board.add(PegKey(*block, "h", "start"), OffsetPeg(board.graph, "h", board.predicted("key", "press"), 0.0))
     with board.graph.transaction("test"):
         board.pin_block(block)
-    board.remove_block(block)
+    board.remove_block(block, [anticipator_key("key", "press")])
     assert board.snapshot() == ()
 
 
