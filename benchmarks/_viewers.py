@@ -1,6 +1,7 @@
-"""Measures what viewers cost: a server in its own process, and sockets that receive the frames of one character."""
+"""Measures what viewers cost: a server in its own process, and sockets that receive its frames."""
 
 import asyncio
+import json
 import os
 import sys
 from asyncio.subprocess import PIPE
@@ -8,26 +9,37 @@ from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from urllib.request import urlopen
 
 from yarl import URL
 
 from reactive_realizer.clock.ticker import FRAME_EVERY, RATE
 
+_BINARY, _PING = 0x82, 0x89
+"""First bytes of messages in one piece (RFC 6455, 5.2)."""
+_PONG = bytes((0x8A, 0x80, 0, 0, 0, 0))
+"""A message of a client, masked by zeros."""
+
+NUMBERS = ("cpu_share", "frames_arrived", "late_p99_ms")
+"""What `measure` returns."""
+
 _SETTLING = 1.0
 """Time after which the last viewer receives frames, s."""
 
 
-def measure(viewers: int, seconds: float) -> dict[str, float]:
-    """The share of a core that the server takes, and the share of the frames that arrive.
+def measure(viewers: int, seconds: float, characters: int = 1) -> dict[str, float]:
+    """The share of a core that the server takes, the share of the frames that arrive, and the lateness of ticks.
 
     Args:
         viewers: number of sockets.
         seconds: duration of the run, after all have connected.
+        characters: their number; all breathe and blink, and do nothing else.
     """
     with TemporaryDirectory() as folder:
         human = Path(folder, "human.toml")
         limits = f"clients = {viewers}\nconnections = {viewers + 10}\n"
-        human.write_text(f"[character.alice]\n[limits]\n{limits}", encoding="utf-8")
+        cast = "".join(f"[character.c{n}]\nposition = [{n}, 0, 0]\n" for n in range(characters))
+        human.write_text(f"{cast}[limits]\n{limits}", encoding="utf-8")
         return asyncio.run(_measure(human, viewers, seconds))
 
 
@@ -44,10 +56,12 @@ async def _measure(human: Path, viewers: int, seconds: float) -> dict[str, float
         await asyncio.sleep(seconds)
         used, seen = _cpu_seconds(pid) - used, sum(each.messages for each in watching) - seen
         elapsed = loop.time() - begin
+        late = await asyncio.to_thread(_late_p99_ms, address)
         for each in watching:
             each.leave()
     sent = viewers * elapsed * RATE / FRAME_EVERY
-    return {"cpu_share": round(used / elapsed, 4), "frames_arrived": round(min(1.0, seen / sent), 4)}
+    arrived = round(min(1.0, seen / sent), 4)
+    return dict(zip(NUMBERS, (round(used / elapsed, 4), arrived, late), strict=True))
 
 
 @asynccontextmanager
@@ -63,6 +77,13 @@ async def _server(human: Path) -> AsyncIterator[tuple[URL, int]]:
     finally:
         process.terminate()
         await process.communicate()
+
+
+def _late_p99_ms(address: URL) -> float:
+    """The lateness of the last thousand ticks, ms."""
+    with urlopen(str(address / "status")) as answer:
+        late: float = json.load(answer)["ticks"]["late_p99_ms"]
+        return late
 
 
 def _cpu_seconds(pid: int) -> float:
@@ -101,7 +122,9 @@ class _Viewer(asyncio.Protocol):
                 return
             self._open, self._data = True, rest
         while (size := _message_size(self._data)) is not None and len(self._data) >= size:
-            self.messages += self._data[0] == 0x82
+            self.messages += self._data[0] == _BINARY
+            if self._data[0] == _PING:  # it has no contents, nor needs its answer any
+                self._transport.write(_PONG)
             del self._data[:size]
 
     def leave(self) -> None:

@@ -39,7 +39,11 @@ KEYS: dict[str, set[str]] = {
             f"tick_p99_ms.{load}"
             for load in ("nothing", "chain_1000", "burst_50_blocks", "parallel_1000", "predict_1000")
         ),
-        *(f"viewers_200.{share}" for share in ("cpu_share", "frames_arrived")),
+        *(
+            f"{audience}.{what}"
+            for audience in ("viewers_200", "viewers_500", "characters_10")
+            for what in ("cpu_share", "frames_arrived", "late_p99_ms")
+        ),
     },
     "propagation": {
         *(f"{whose}_ns.{shape}.{n}" for whose in ("cell", "reactivex") for shape in ("fanout", "chain") for n in SIZES),
