@@ -113,7 +113,7 @@ class SpeedLimit:
             reach = self._speed(wrist, scale(way, 1.0 / moved), duration) * duration
             if moved > reach:
                 # A little less than in proportion: the path is an arc. This converges after a step or two.
-                return wrist, 0.98 * reach / moved
+                return wrist, 0.995 * reach / moved
         return None
 
     def _speed(self, wrist: str, direction: Vec3, duration: float) -> float:

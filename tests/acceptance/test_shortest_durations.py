@@ -26,7 +26,7 @@ async def test_a_stroke_that_cannot_meet_the_first_word_loses_its_tie(pilot: Rea
     await pilot.advance(3)
     (text,) = texts(pilot, "b:g")
     assert "g:stroke = s:w is dropped" in text
-    assert "g from start to stroke: needs 0.39 s, has 0.00 s" in text
+    assert "g from start to stroke: needs 0.40 s, has 0.00 s" in text
     assert pilot.feedback.time("b:s:start") == 2.0
     assert pilot.feedback.time("b:g:stroke") - pilot.feedback.time("b:g:start") > 0.36
 

@@ -3,6 +3,7 @@
 Each variant occurs in a published file; the figures here are made for the tests.
 """
 
+import math
 from collections.abc import Callable
 from pathlib import Path
 
@@ -141,8 +142,8 @@ def test_a_file_with_z_up_is_turned(
     assert found.root_at(0.01) == pytest.approx((0.0, 0.0, 20.0 * LENGTH), abs=0.002)
 
 
-# Not by nearly 180 degrees: several such axes in a chain are ambiguous, and arms are then read reversed.
-turns = st.tuples(st.floats(0.3, 1.0), *(st.floats(-1.0, 1.0) for _ in range(3)))
+# By less than 90 degrees: beyond, a figure without rotations may by chance look like one that stands the other way.
+turns = st.tuples(st.just(1.0), *(st.floats(-0.55, 0.55) for _ in range(3)))
 axes = st.fixed_dictionaries({name: turns.map(normalize) for name, _, _ in T_POSE})
 
 
@@ -158,6 +159,14 @@ def test_joints_with_axes_of_their_own_are_read_relative_to_the_first_frame(
     found = retargeted(read_capture(path), SKELETON)
     assert_same_directions(found, 0.0, SKELETON, {})
     assert_same_directions(found, 0.01, SKELETON, POSE)
+
+
+def test_a_figure_without_rotations_whose_left_and_right_hips_are_swapped_is_no_reference(
+    clip: Callable[[str], Clip],
+) -> None:
+    own = {"Hips": from_axis_angle((0.0, 0.0, 1.0), math.radians(120))}
+    bones, frames = with_axes(T_POSE, [{}, POSE], from_axis_angle(UP, 0.0), own)
+    assert_same_directions(clip(bvh(*frames, bones=bones)), 0.01, SKELETON, POSE)
 
 
 def test_the_error_names_the_missing_joints(

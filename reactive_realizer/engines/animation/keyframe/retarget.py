@@ -8,7 +8,7 @@ from math import atan2, cos, pi, radians
 import numpy as np
 
 from reactive_realizer.embodiment.body import Body, Skeleton
-from reactive_realizer.embodiment.joints import FINGERS, ROOT
+from reactive_realizer.embodiment.joints import FINGERS, ROOT, SIDES, TRUNK
 from reactive_realizer.embodiment.pose import FARTHEST
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, between, from_axis_angle, multiply, rotate
 from reactive_realizer.embodiment.vector import UP, Vec3, distance, dot, length, subtract, unit
@@ -53,7 +53,7 @@ def reference_pose(capture: Capture, joints: Mapping[str, int], rotations: Array
     """
     for positions, pose in _poses(capture, joints, rotations):
         for up in _UPS:
-            standing = {joint: rotate(up, place) for joint, place in positions.items()}
+            standing = _turned(up, positions)
             if _upright(standing):
                 turn = _ahead(standing)
                 return ReferencePose(_turned(turn, standing), pose, multiply(turn, up))
@@ -63,7 +63,9 @@ def reference_pose(capture: Capture, joints: Mapping[str, int], rotations: Array
 def _poses(capture: Capture, joints: Mapping[str, int], rotations: Array) -> Iterator[tuple[Positions, Array]]:
     unturned = np.zeros_like(rotations[0])
     unturned[:, 0] = 1.0
-    yield {joint: capture.rest_position(index) for joint, index in joints.items()}, unturned
+    resting = {joint: capture.rest_position(index) for joint, index in joints.items()}
+    if _is_a_pose(resting):
+        yield resting, unturned
     first = {joint: capture.positions(index, rotations[:1])[0].tolist() for joint, index in joints.items()}
     yield {joint: (x, y, z) for joint, (x, y, z) in first.items()}, rotations[0]
 
@@ -72,6 +74,19 @@ def _upright(positions: Positions) -> bool:
     spine = subtract(positions["skullbase"], positions[ROOT])
     below = all(positions[f"{side}_knee"][1] < positions[f"{side}_hip"][1] for side in "lr")
     return below and dot(spine, UP) > _UPRIGHT * length(spine)
+
+
+def _is_a_pose(positions: Positions) -> bool:
+    """Return whether left joints are to the left of right ones, and the spine rises from the hips toward the head."""
+    hips = [positions[f"{side}_hip"] for side in SIDES]
+    across, up = subtract(*hips), subtract(positions["skullbase"], hips[0])
+    pairs = [(positions.get(f"l_{joint}"), positions.get(f"r_{joint}")) for joint in _PAIRED]
+    ways = [subtract(left, right) for left, right in pairs if left is not None and right is not None]
+    spine = [subtract(positions[joint], hips[0]) for joint in TRUNK[1:] if joint in positions]
+    return all(dot(way, across) > 0.0 for way in ways) and all(dot(way, up) > 0.0 for way in spine)
+
+
+_PAIRED = ("shoulder", "elbow", "wrist", "knee", "ankle")
 
 
 def _ahead(positions: Positions) -> Quat:

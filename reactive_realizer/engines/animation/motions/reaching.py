@@ -13,6 +13,9 @@ from reactive_realizer.engines.animation.kinematics import path_length
 from reactive_realizer.engines.animation.motion_unit import GESTURE_POINTS, PhaseDuration
 from reactive_realizer.engines.animation.shortest import Profile, from_rest, lag, moving_time
 
+_SHARES = (0.25, 0.5, 0.75)
+"""Shares of a way at which a hand is sought: hands move on arcs, which are longer than their chords."""
+
 
 def reach(start: Body, goal: Body, joints: frozenset[str], profile: Profile = minimum_jerk) -> PhaseDuration:
     """Return the duration of a movement of the hands between two poses.
@@ -26,12 +29,17 @@ def reach(start: Body, goal: Body, joints: frozenset[str], profile: Profile = mi
         joints: that turn, each along its shortest arc; only hands of arms that turn at the shoulder count.
         profile: of their speed.
     """
-    between = {joint: slerp(start.rotation(joint), goal.rotation(joint), 0.5) for joint in joints}
-    bodies = (start, start.posed(between), goal)
+    bodies = [start, *(_between(start, goal, joints, share) for share in _SHARES), goal]
     sides = [side for side in SIDES if f"{side}_shoulder" in joints]
-    preferred = max(0.25 + 0.75 * path_length("wrist", sides, bodies), 0.84 * path_length("middle3", sides, bodies))
+    halves = bodies[::2]
+    preferred = max(0.25 + 0.75 * path_length("wrist", sides, halves), 0.84 * path_length("middle3", sides, halves))
     shortest = from_rest(lag(profile) * moving_time(bodies, joints))
     return PhaseDuration(max(preferred, shortest), shortest)
+
+
+def _between(start: Body, goal: Body, joints: frozenset[str], share: float) -> Body:
+    """Return the body after a share of its way."""
+    return start.posed({joint: slerp(start.rotation(joint), goal.rotation(joint), share) for joint in joints})
 
 
 def gesture_key_positions(durations: Sequence[float]) -> dict[str, float]:
