@@ -95,14 +95,24 @@ async def test_the_engine_warns_of_behaviors_that_it_cannot_play() -> None:
         assert FAULTS["wink-no-such-eye"].warning == "CANNOT_CREATE_BEHAVIOR"
 
 
+FEW = """
+from hypothesis import settings
+
+settings.register_profile("few", derandomize=True, max_examples=20)
+settings.load_profile("few")
+"""
+"""Keeps the property tests of the examples short, and the same in every run."""
+
+
 @pytest.mark.timeout(300)
 def test_the_contract_tests_on_the_page_pass_in_a_separate_pytest(tmp_path: Path) -> None:
     for folder in ("plugin", "anticipator"):
         shutil.copytree(EXAMPLES / folder, tmp_path / "examples" / folder)
-    plain = ["-p", "no:asyncio", "-p", "no:cacheprovider", "-q"]
+    (tmp_path / "few.py").write_text(FEW)
+    plain = ["-p", "few", "-p", "no:asyncio", "-p", "no:cacheprovider", "-q"]
     (session,) = fences(PAGE, "console")
     command = session.text.splitlines()[-1].removeprefix("$ python ").split()
-    environment = os.environ | {"PYTHONPATH": str(REPOSITORY), "PYTHONDONTWRITEBYTECODE": "1"}
+    environment = os.environ | {"PYTHONPATH": f"{REPOSITORY}:{tmp_path}", "PYTHONDONTWRITEBYTECODE": "1"}
     done = subprocess.run(
         [sys.executable, *command, *plain], cwd=tmp_path, env=environment, capture_output=True, text=True, check=False
     )
