@@ -130,6 +130,10 @@ class BlockPlanner:
         self._preparations: dict[BMLBlock, Preparation] = {}
         self._drafts: dict[BMLBlock, _Draft] = {}
 
+    def __bool__(self) -> bool:
+        """Whether any block is not planned yet."""
+        return bool(self._preparations)
+
     def prepare(self, block: BMLBlock) -> list[Loss]:
         """Start the engines' background work for a block; the losses are the behaviors that no engine plays."""
         description = block.description

@@ -161,6 +161,8 @@ class BMLScheduler:
 
     def _next_character(self) -> str | None:
         """The next character that has something to enter or to be planned."""
+        if not self._entries and not self._planner:
+            return None
         for _ in range(len(self._turns)):
             self._turns.rotate(-1)
             character = self._turns[-1]

@@ -41,6 +41,10 @@ class EntryQueue:
         self._lanes: dict[str, deque[Entry]] = {character: deque() for character in characters}
         self._names: Counter[str] = Counter()
 
+    def __bool__(self) -> bool:
+        """Whether anything has not entered yet."""
+        return bool(self._entries)
+
     def __contains__(self, name: object) -> bool:
         """Whether a block with an id has not entered yet."""
         return name in self._names

@@ -4,11 +4,13 @@ import gc
 import sys
 from collections import Counter
 from collections.abc import AsyncIterator, Callable
+from pathlib import Path
 from types import FrameType
 from typing import Any
 
 import pytest
 
+from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.engine.effects import Output
 from reactive_realizer.engine.engine_task import EngineTask
@@ -67,7 +69,7 @@ async def test_a_character_that_only_waits_is_not_asked_for_anything(
     assert calls == {}
 
 
-async def calls_in_a_second(blocks: int) -> int:
+async def calls_in_a_second(blocks: int, options: SceneOptions | None = None) -> int:
     """The number of all function calls of a second in which blocks wait."""
     calls = 0
 
@@ -75,7 +77,7 @@ async def calls_in_a_second(blocks: int) -> int:
         nonlocal calls
         calls += event == "call"
 
-    async with open_pilot() as pilot:
+    async with open_pilot(options) as pilot:
         for number in range(blocks):
             pilot.block(f"b{number}", WAITING)
         await pilot.advance(0.1)
@@ -89,6 +91,16 @@ async def calls_in_a_second(blocks: int) -> int:
 
 async def test_blocks_that_wait_cost_as_much_as_none() -> None:
     assert await calls_in_a_second(30) == await calls_in_a_second(0)
+
+
+async def test_further_characters_are_not_asked_whether_they_have_blocks_to_plan(tmp_path: Path) -> None:
+    async def calls(characters: int) -> int:
+        human = tmp_path / f"{characters}.toml"
+        human.write_text("".join(f'[character.c{n}]\navatar = "avatars/female.glb"\n' for n in range(characters)))
+        return await calls_in_a_second(0, SceneOptions(human, "text"))
+
+    one, two, three = [await calls(number) for number in (1, 2, 3)]
+    assert one == two == three
 
 
 async def test_a_prediction_wakes_the_engines_that_wait_for_it_once_each(
