@@ -1,8 +1,8 @@
 """The default strategy: least stretching, all kinds of constraints, the same plan for any order of elements."""
 
-from reactive_realizer.scheduler.convex.model import Model, RelaxedProblem
+from reactive_realizer.scheduler.convex.model import Model
 from reactive_realizer.scheduler.convex.relaxation import Relaxation
-from reactive_realizer.scheduler.convex.timetable import Timetable, find_times
+from reactive_realizer.scheduler.convex.timetable import find_times
 from reactive_realizer.scheduler.problem import SchedulingProblem
 from reactive_realizer.scheduler.solution import Solution
 
@@ -20,16 +20,7 @@ class ConvexStrategy:
         """See `SchedulingStrategy`."""
         problem = problem.canonical
         relaxation = Relaxation(problem)
-        while True:
-            relaxed = RelaxedProblem.of(problem, relaxation.dropped)
-            found = find_times(Model(relaxed, relaxation.dropped))
-            if isinstance(found, Timetable):
-                break
-            relaxation.resolve(relaxed, found)
+        while isinstance(found := find_times(Model(problem, relaxation.dropped)), list):
+            relaxation.resolve(found)
         relaxation.report_orphans()
-        times = {
-            point: time
-            for index, item in relaxed.items.items()
-            for point, time in zip(item.points, found.points[index], strict=True)
-        }
-        return Solution(times, tuple(relaxation.losses))
+        return Solution(found, tuple(relaxation.losses))

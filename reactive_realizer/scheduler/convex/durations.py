@@ -1,58 +1,50 @@
 """The durations of least cost, for each group of variables that depend on each other."""
 
 from collections import defaultdict
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Sequence
 
 from reactive_realizer.scheduler.convex.circles import solve_circles
 from reactive_realizer.scheduler.convex.least_cost import least_cost
-from reactive_realizer.scheduler.convex.longest_path import Arc, components, longest_path
 from reactive_realizer.scheduler.convex.model import START, BoundArc, Model
 from reactive_realizer.scheduler.convex.spans import Span
-
-_SHARES = (0.3, 0.03, 0.003, 0.0)
-"""Shares of the preferred durations, as shortest durations for the first step."""
+from reactive_realizer.scheduler.offset_union_find import OffsetUnionFind
 
 
-class Durations:
-    """Durations of least cost, under some of the bounds.
+def least_cost_times(model: Model, clusters: Sequence[int], bounds: Sequence[BoundArc]) -> list[float]:
+    """A time (s) for every variable, with durations of least cost under some of the bounds of a model.
 
-    Bounds are lazy: the plan is first made without them, and only those that it breaks are added. A plan of least cost
-    under some bounds that meets all of them is the plan, so it does not depend on which were added. A group in which
-    nothing has changed is not solved again.
+    Of each group of clusters that depend on each other, without the block's start, the first variable is at 0; the
+    spans get their durations.
+
+    Args:
+        model: with the spans.
+        clusters: of the variables, which the spans connect.
+        bounds: to be met.
     """
+    spans = [span for span in model.spans if span.costs and span.tail != span.head]
+    groups = OffsetUnionFind[int]()
+    for one, other in _dependent(spans, bounds):
+        groups.union(clusters[one], clusters[other])
+    parts: defaultdict[int, tuple[list[Span], list[BoundArc]]] = defaultdict(lambda: ([], []))
+    for span in spans:
+        parts[groups.find(clusters[span.head or span.tail])[0]][0].append(span)
+    for bound in bounds:
+        parts[groups.find(clusters[bound.head or bound.tail])[0]][1].append(bound)
+    times = [0.0] * model.size
+    for own, active in parts.values():
+        for variable, time in _solve(own, active).items():
+            times[variable] = time
+    return times
 
-    def __init__(self, model: Model) -> None:
-        self._size = model.size
-        self._spans = [span for span in model.spans if span.costs and span.tail != span.head]
-        self._solved: dict[tuple[int, int, int], dict[int, float]] = {}
 
-    def times(self, bounds: Sequence[BoundArc]) -> list[float]:
-        """A time for every variable; the first one of each group without the start is at 0."""
-        group = components(self._size, self._pairs(bounds))
-        spans: defaultdict[int, list[Span]] = defaultdict(list)
-        for span in self._spans:
-            spans[group[span.head or span.tail]].append(span)
-        active: defaultdict[int, list[BoundArc]] = defaultdict(list)
-        for bound in bounds:
-            active[group[bound.head or bound.tail]].append(bound)
-        times = [0.0] * self._size
-        for first in sorted(spans.keys() | active.keys()):
-            for variable, time in self._group(first, spans[first], active[first]).items():
-                times[variable] = time
-        return times
-
-    def _pairs(self, bounds: Sequence[BoundArc]) -> list[tuple[int, int]]:
-        """The variables that depend on each other: not by the block's start, which is known; also by a stretch."""
-        pairs = [(span.tail, span.head) for span in self._spans if span.tail and span.head]
-        pairs += [(bound.tail, bound.head) for bound in bounds if bound.tail and bound.head]
-        guided = [(span, span.guide) for span in self._spans if span.guide is not None]
-        return pairs + [(span.head or span.tail, guide.head or guide.tail) for span, guide in guided]
-
-    def _group(self, first: int, spans: Sequence[Span], bounds: Sequence[BoundArc]) -> dict[int, float]:
-        key = (first, len(spans), len(bounds))  # groups only grow, and bounds are only added
-        if key not in self._solved:
-            self._solved[key] = _solve(spans, bounds)
-        return self._solved[key]
+def _dependent(spans: Sequence[Span], bounds: Sequence[BoundArc]) -> Iterator[tuple[int, int]]:
+    """The variables that depend on each other by bounds, except on the known start of the block, or by stretches."""
+    for bound in bounds:
+        if bound.tail and bound.head:
+            yield bound.tail, bound.head
+    for span in spans:
+        if span.guide is not None:
+            yield span.head or span.tail, span.guide.head or span.guide.tail
 
 
 def _solve(spans: Sequence[Span], bounds: Sequence[BoundArc]) -> dict[int, float]:
@@ -103,27 +95,4 @@ def _peel(spans: Sequence[Span], bounds: Sequence[BoundArc]) -> tuple[list[Span]
 
 def _solve_core(spans: Sequence[Span], bounds: Sequence[BoundArc]) -> dict[int, float]:
     times = solve_circles(spans, bounds)
-    if times is None:
-        ends = {variable for span in spans for variable in (span.tail, span.head)}
-        variables = sorted(ends | {variable for bound in bounds for variable in (bound.head, bound.tail)})
-        numbers = {variable: number for number, variable in enumerate(variables)}
-        floors, inside = _inside(spans, bounds, numbers)
-        times = dict(zip(variables, least_cost(spans, bounds, numbers, floors, inside), strict=True))
-    return times
-
-
-def _inside(
-    spans: Sequence[Span], bounds: Sequence[BoundArc], numbers: Mapping[int, int]
-) -> tuple[list[float], list[float]]:
-    """Shortest durations, as far from 0 as is possible together, and times that have them."""
-    rows = [Arc(numbers[b.tail], numbers[b.head], b.length, None) for b in bounds]
-    floors: list[float] = []
-    times: list[float] = []
-    for share in _SHARES:
-        floors = [max(span.least, share * span.goal) if span.elastic else 0.0 for span in spans]
-        lengths = [floor - span.shift for span, floor in zip(spans, floors, strict=True)]
-        arcs = [Arc(numbers[s.tail], numbers[s.head], n, None) for s, n in zip(spans, lengths, strict=True)]
-        times, circle = longest_path(len(numbers), rows + arcs)
-        if not circle:
-            break
-    return floors, times
+    return least_cost(spans, bounds) if times is None else times

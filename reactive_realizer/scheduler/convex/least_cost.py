@@ -7,6 +7,7 @@ import daqp
 import numpy as np
 
 from reactive_realizer.scheduler.convex.costs import Array, Costs
+from reactive_realizer.scheduler.convex.longest_path import Arc, longest_path
 from reactive_realizer.scheduler.convex.model import BoundArc
 from reactive_realizer.scheduler.convex.spans import Span
 
@@ -32,35 +33,35 @@ _PROXIMAL = 1e-7
 """Added to the curvature: parts that are connected by inequalities only have none against each other."""
 
 
-def least_cost(
-    spans: Sequence[Span],
-    bounds: Sequence[BoundArc],
-    numbers: Mapping[int, int],
-    floors: Sequence[float],
-    inside: Sequence[float],
-) -> list[float]:
-    """The times (s) of least cost under all bounds; the first variable stays at 0.
+def least_cost(spans: Sequence[Span], bounds: Sequence[BoundArc]) -> dict[int, float]:
+    """The times (s) of least cost under bounds that can be met, by variable; the first one is at 0.
 
-    Args:
-        spans: with their costs.
-        bounds: to be met.
-        numbers: of the variables.
-        floors: durations (s) that are possible together, for the first step.
-        inside: times (s) that have them; the result if no better ones are found.
+    If daqp fails, they meet the bounds at a higher cost.
     """
+    edges: list[Span | BoundArc] = [*spans, *bounds]
+    variables = sorted({variable for edge in edges for variable in (edge.tail, edge.head)})
+    numbers = {variable: number for number, variable in enumerate(variables)}
     problem = _Problem(spans, bounds, numbers)
-    times = problem.begin(np.array(floors))
+    times = problem.begin()
     if times is None:
-        return [time - inside[0] for time in inside]
+        return dict(zip(variables, _earliest(spans, bounds, numbers), strict=True))
     for _ in range(_STEPS):
-        step = problem.step(times)
-        if step is None:
+        found = problem.step(times)
+        if found is None:
             break
-        size = problem.relative(times, step)
-        times = times + (problem.part(times, step) if size > _CLOSE else 1.0) * step
+        step, size = found
+        times = times + step
         if size <= _ENOUGH:
             break
-    return [0.0, *times.tolist()]
+    return dict(zip(variables, [0.0, *times.tolist()], strict=True))
+
+
+def _earliest(spans: Sequence[Span], bounds: Sequence[BoundArc], numbers: Mapping[int, int]) -> list[float]:
+    """Times (s) that meet the bounds with the shortest durations."""
+    arcs = [Arc(numbers[b.tail], numbers[b.head], b.length, None) for b in bounds]
+    arcs += [Arc(numbers[s.tail], numbers[s.head], s.least - s.shift, None) for s in spans]
+    times, _ = longest_path(len(numbers), arcs)
+    return [time - times[0] for time in times]
 
 
 class _Problem:
@@ -68,46 +69,40 @@ class _Problem:
 
     def __init__(self, spans: Sequence[Span], bounds: Sequence[BoundArc], numbers: Mapping[int, int]) -> None:
         self._costs = Costs(spans)
-        heads, tails = [numbers[s.head] for s in spans], [numbers[s.tail] for s in spans]
-        self._spans = _differences(heads, tails, len(numbers))
+        self._spans = _differences(spans, numbers)
         self._shifts = np.array([span.shift for span in spans])
-        laters, earliers = [numbers[b.head] for b in bounds], [numbers[b.tail] for b in bounds]
-        self._rows = _differences(laters, earliers, len(numbers))
+        self._least = np.array([span.least for span in spans])
+        self._rows = _differences(bounds, numbers)
         self._distances = np.array([bound.length for bound in bounds])
         self._quadratic = _Quadratic(self._rows, self._spans)
 
-    def begin(self, floors: Array) -> Array | None:
+    def begin(self) -> Array | None:
         """The optimum of the quadratic around the goals."""
         goals, curvature = self._costs.rough()
         gradient = self._spans.T @ (curvature * (self._shifts - goals))
         hessian = (self._spans.T * curvature) @ self._spans
-        return self._quadratic.solve(hessian, gradient, self._distances, floors - self._shifts)
+        return self._quadratic.solve(hessian, gradient, self._distances, self._least - self._shifts)
 
-    def step(self, times: Array) -> Array | None:
-        """Newton's step."""
-        durations = self._durations(times)
+    def step(self, times: Array) -> tuple[Array, float] | None:
+        """Newton's step, or the part of it that lowers the cost, and its whole size relative to the durations."""
+        durations = self._spans @ times + self._shifts
         gradient, hessian = self._costs.derivatives(durations)
-        low = (_LEAST_SHARE - 1) * (durations + self._costs.slack)
+        gradient, hessian = self._spans.T @ gradient, self._spans.T @ hessian @ self._spans
+        reach = durations + self._costs.slack
         right = self._distances - self._rows @ times
-        return self._quadratic.solve(self._spans.T @ hessian @ self._spans, self._spans.T @ gradient, right, low)
+        step = self._quadratic.solve(hessian, gradient, right, (_LEAST_SHARE - 1) * reach)
+        if step is None:
+            return None
+        change = self._spans @ step
+        size = float(np.max(np.abs(change) / (reach + 1e-3), initial=0.0))
+        return (self._part(durations, change, float(gradient @ step)) if size > _CLOSE else 1.0) * step, size
 
-    def relative(self, times: Array, step: Array) -> float:
-        """The size of a step relative to the durations."""
-        scale = self._durations(times) + self._costs.slack + 1e-3
-        return float(np.max(np.abs(self._spans @ step) / scale, initial=0.0))
-
-    def part(self, times: Array, step: Array) -> float:
-        """The part of a step that lowers the cost as much as its slope promises (Armijo)."""
-        durations, change = self._durations(times), self._spans @ step
-        cost = self._costs.value(durations)
-        slope = float(self._costs.derivatives(durations)[0] @ change)
-        part = 1.0
+    def _part(self, durations: Array, change: Array, slope: float) -> float:
+        """The part of a change of durations that lowers the cost as much as its slope promises (Armijo)."""
+        cost, part = self._costs.value(durations), 1.0
         while self._costs.value(durations + part * change) > cost + 0.1 * part * slope and part > 1e-9:
             part /= 2
         return part
-
-    def _durations(self, times: Array) -> Array:
-        return np.asarray(self._spans @ times + self._shifts, dtype=np.float64)
 
 
 class _Quadratic:
@@ -166,10 +161,10 @@ class _Quadratic:
         return np.asarray(step * scale, dtype=np.float64)
 
 
-def _differences(plus: Sequence[int], minus: Sequence[int], size: int) -> Array:
-    """A row for each ``x[plus] - x[minus]``, without the column of the first variable."""
-    matrix = np.zeros((len(plus), size))
-    lines = np.arange(len(plus))
-    matrix[lines, list(plus)] = 1.0
-    matrix[lines, list(minus)] = -1.0
+def _differences(edges: Sequence[Span | BoundArc], numbers: Mapping[int, int]) -> Array:
+    """A row for the difference between head and tail of each edge, without the column of the first variable."""
+    matrix = np.zeros((len(edges), len(numbers)))
+    lines = np.arange(len(edges))
+    matrix[lines, [numbers[edge.head] for edge in edges]] = 1.0
+    matrix[lines, [numbers[edge.tail] for edge in edges]] = -1.0
     return matrix[:, 1:]

@@ -1,6 +1,6 @@
-"""Graphs of points in time: their earliest times, and their connected components."""
+"""The earliest times of points in a graph of inequalities."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Generic, NamedTuple, TypeVar
 
 TOLERANCE = 1e-9
@@ -38,21 +38,6 @@ def longest_path(size: int, arcs: Sequence[Arc[L]]) -> tuple[list[float], list[A
             return times, circle
 
 
-def components(size: int, pairs: Iterable[tuple[int, int]]) -> list[int]:
-    """For each of ``size`` nodes the least node that it is connected with."""
-    parents = list(range(size))
-
-    def least(node: int) -> int:
-        while parents[node] != node:
-            parents[node] = node = parents[parents[node]]
-        return node
-
-    for one, other in pairs:
-        low, high = sorted((least(one), least(other)))
-        parents[high] = low
-    return [least(node) for node in range(size)]
-
-
 def _in_turn(size: int, arcs: Sequence[Arc[L]]) -> list[Arc[L]]:
     """The arcs into a node before those out of it, except arcs of negative length."""
     heads: list[list[int]] = [[] for _ in range(size)]
@@ -61,15 +46,14 @@ def _in_turn(size: int, arcs: Sequence[Arc[L]]) -> list[Arc[L]]:
             heads[arc.tail].append(arc.head)
     order, seen = list[int](), [False] * size
     for start in range(size):
-        order += _reached(start, heads, seen)
+        if not seen[start]:
+            order += _reached(start, heads, seen)
     places = {node: -place for place, node in enumerate(order)}
     return sorted(arcs, key=lambda arc: places[arc.tail])
 
 
 def _reached(start: int, heads: Sequence[Sequence[int]], seen: list[bool]) -> Iterator[int]:
-    """The nodes that can be reached from a node and were not seen, each after all that it leads to, itself included."""
-    if seen[start]:
-        return
+    """A node and those not seen yet that can be reached from it, each after all that it leads to."""
     seen[start], path = True, [(start, iter(heads[start]))]
     while path:
         following = path[-1][1]

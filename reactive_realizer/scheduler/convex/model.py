@@ -36,11 +36,11 @@ class RelaxedProblem:
     fixed: Mapping[Node, float | None]
 
     @classmethod
-    def of(cls, problem: SchedulingProblem, relaxed: AbstractSet[Requirement]) -> "RelaxedProblem":
+    def of(cls, problem: SchedulingProblem, dropped: AbstractSet[Requirement]) -> "RelaxedProblem":
         """A problem in canonical order without some requirements."""
-        items = {k: item for k, item in enumerate(problem.items) if Requirement(Rank.BEHAVIOR, k) not in relaxed}
+        items = {k: item for k, item in enumerate(problem.items) if Requirement(Rank.BEHAVIOR, k) not in dropped}
         lost = {item.behavior.id for k, item in enumerate(problem.items) if k not in items}
-        ties, orders = _left(problem.ties, Rank.TIE, lost, relaxed), _left(problem.orders, Rank.ORDER, lost, relaxed)
+        ties, orders = _left(problem.ties, Rank.TIE, lost, dropped), _left(problem.orders, Rank.ORDER, lost, dropped)
         given, fixed = problem.given, dict[Node, float | None]({Origin.BLOCK_START: 0.0})
         pairs = [*(tie.nodes for tie in ties.values()), *(order.nodes for order in orders.values())]
         fixed.update({node: given[node] for pair in pairs for node in pair if node in given})
@@ -48,11 +48,11 @@ class RelaxedProblem:
 
 
 def _left(
-    constraints: Sequence[C], rank: Rank, lost: Collection[str], relaxed: AbstractSet[Requirement]
+    constraints: Sequence[C], rank: Rank, lost: Collection[str], dropped: AbstractSet[Requirement]
 ) -> dict[Requirement, C]:
     left = {Requirement(rank, index): each for index, each in enumerate(constraints)}
-    if relaxed:
-        left = {key: each for key, each in left.items() if key not in relaxed and not each.names(lost)}
+    if dropped:
+        left = {key: each for key, each in left.items() if key not in dropped and not each.names(lost)}
     return left
 
 
@@ -81,9 +81,11 @@ class Model:
     from each other, s after the block's start.
 
     Args:
-        lifted: lengths and limits that were given up.
+        problem: in canonical order.
+        dropped: requirements that were given up.
 
     Attributes:
+        relaxed: the problem without these.
         nodes: number of each knot; the given ones come first.
         knots: nodes of each behavior, by index of the point, in order.
         parts: spans of each behavior.
@@ -94,14 +96,14 @@ class Model:
         places: the variable of each node, and the offset (s) from it.
     """
 
-    def __init__(self, relaxed: RelaxedProblem, lifted: AbstractSet[Requirement]) -> None:
-        self.relaxed = relaxed
+    def __init__(self, problem: SchedulingProblem, dropped: AbstractSet[Requirement]) -> None:
+        self.relaxed = relaxed = RelaxedProblem.of(problem, dropped)
         self.nodes: dict[Node, int] = {node: number for number, node in enumerate(relaxed.fixed)}
         self.groups = ExplainedGroups(len(relaxed.fixed))
         self.knots: dict[int, dict[int, int]] = {}
         self.parts: dict[int, BehaviorSpans] = {}
         self.conflicts: list[Conflict] = []
-        self._add_behaviors(lifted)
+        self._add_behaviors(dropped)
         self._link()
         self._found = [self.groups.find(node) for node in range(len(self.groups))]
         self.spans = [span for part in self.parts.values() for span in part.spans]
@@ -115,7 +117,7 @@ class Model:
 
     # --- nodes
 
-    def _add_behaviors(self, lifted: AbstractSet[Requirement]) -> None:
+    def _add_behaviors(self, dropped: AbstractSet[Requirement]) -> None:
         tied, ordered = self._named(self.relaxed.ties.values()), self._named(self.relaxed.orders.values())
         for index, item in self.relaxed.items.items():
             id_, points = item.behavior.id, item.timing.points
@@ -124,7 +126,7 @@ class Model:
             knots = {k: self.groups.add_node() for k in sorted({0, *named})}
             self.nodes.update({item.points[k]: node for k, node in knots.items()})
             self.knots[index] = knots
-            self.parts[index] = BehaviorSpans(index, item.timing, knots, named, at, lifted, self.groups.add_node)
+            self.parts[index] = BehaviorSpans(index, item.timing, knots, named, at, dropped, self.groups.add_node)
 
     def _named(self, constraints: Iterable[Tie | Precedence]) -> dict[str, set[str]]:
         named: defaultdict[str, set[str]] = defaultdict(set)

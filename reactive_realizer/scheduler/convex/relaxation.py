@@ -4,10 +4,8 @@ from collections.abc import Iterable
 
 from reactive_realizer.errors import Fault
 from reactive_realizer.planunit.timing import TooShort
-from reactive_realizer.scheduler.convex.conflicts import GIVEN, Conflict, Rank, Requirement
-from reactive_realizer.scheduler.convex.model import RelaxedProblem
+from reactive_realizer.scheduler.convex.conflicts import Conflict, Rank, Requirement
 from reactive_realizer.scheduler.faults import (
-    BeforeBlock,
     Conflicting,
     ContradictoryTie,
     NamesDropped,
@@ -35,11 +33,11 @@ class Relaxation:
         self.dropped: set[Requirement] = set()
         self.losses: list[Loss] = []
 
-    def resolve(self, relaxed: RelaxedProblem, conflicts: Iterable[Conflict]) -> None:
+    def resolve(self, conflicts: Iterable[Conflict]) -> None:
         """Give up one requirement of each conflict."""
         for conflict in conflicts:
             if not conflict.requirements & self.dropped:
-                self._resolve(relaxed, conflict)
+                self._resolve(conflict)
 
     def report_orphans(self) -> None:
         """Report the required constraints on behaviors that were given up: they are lost with these."""
@@ -50,13 +48,12 @@ class Relaxation:
                 fault = NamesDropped(constraint=constraint.text, behavior=min(named))
                 self.losses.append(lost_constraint(constraint, fault))
 
-    def _resolve(self, relaxed: RelaxedProblem, conflict: Conflict) -> None:
+    def _resolve(self, conflict: Conflict) -> None:
         conflict = conflict.out_of_order
+        # A behavior is only in conflict with others, or with the start of the block, by constraints, which go first.
         droppable = [each for each in conflict.requirements if each.rank is not Rank.GIVEN]
-        kept = self._kept(relaxed, droppable)
-        choice = [each for each in droppable if each not in kept] or droppable
-        lowest = min(each.rank for each in choice)
-        least = [each for each in choice if each.rank is lowest]
+        ranks = {each: (self._is_required(each), each.rank) for each in droppable}
+        least = [each for each in droppable if ranks[each] == min(ranks.values())]
         dropped = max(self._of_hurried(least, conflict) or least)
         self.dropped.add(dropped)
         if dropped.rank is Rank.LIMIT:  # the limits of a behavior go together, so that it is stretched evenly
@@ -71,17 +68,9 @@ class Relaxation:
         named = ((each, self._constraint(each)) for each in requirements)
         return [each for each, constraint in named if constraint is not None and constraint.names(hurried)]
 
-    def _kept(self, relaxed: RelaxedProblem, requirements: Iterable[Requirement]) -> set[Requirement]:
-        """The required ones, and the behaviors that required constraints name."""
-        kept, names = set[Requirement](), set[str]()
-        for each in requirements:
-            constraint = self._constraint(each)
-            if constraint is not None and constraint.required:
-                kept.add(each)
-                names |= _behaviors_of(constraint)
-            elif each.rank is Rank.BEHAVIOR and self._problem.items[each.number].behavior.required:
-                kept.add(each)
-        return kept | {Requirement(Rank.BEHAVIOR, i) for i, item in relaxed.items.items() if item.behavior.id in names}
+    def _is_required(self, requirement: Requirement) -> bool:
+        constraint = self._constraint(requirement)
+        return requirement.rank is Rank.BEHAVIOR or (constraint is not None and constraint.required)
 
     def _constraint(self, requirement: Requirement) -> Tie | Precedence | None:
         if requirement.rank is Rank.TIE:
@@ -94,16 +83,7 @@ class Relaxation:
         constraint = self._constraint(dropped)
         if constraint is not None:
             return lost_constraint(constraint, self._constraint_fault(dropped, constraint, conflict))
-        return lost_behavior(self._problem.items[dropped.number].behavior, self._behavior_fault(dropped, conflict))
-
-    def _behavior_fault(self, dropped: Requirement, conflict: Conflict) -> Fault:
-        if (hurried := self._hurried(dropped, conflict)) is not None:
-            return hurried
-        if conflict.requirements == {dropped}:
-            return TooShort()
-        if conflict.requirements == {dropped, GIVEN}:
-            return BeforeBlock(early=conflict.gap)
-        return self._conflict_fault(dropped, conflict)
+        return lost_behavior(self._problem.items[dropped.number].behavior, TooShort())
 
     def _constraint_fault(self, dropped: Requirement, constraint: Tie | Precedence, conflict: Conflict) -> Fault:
         if conflict.outer:

@@ -105,7 +105,7 @@ class BehaviorSpans:
         knots: node of each knot, by index of the point.
         named: indices of the points that constraints name.
         tied: those of them that `at` constraints name.
-        lifted: lengths and limits that were given up.
+        dropped: requirements that were given up; of these, lengths and limits matter.
         node: makes a node.
 
     Attributes:
@@ -121,16 +121,16 @@ class BehaviorSpans:
         knots: Mapping[int, int],
         named: AbstractSet[int],
         tied: AbstractSet[int],
-        lifted: AbstractSet[Requirement],
+        dropped: AbstractSet[Requirement],
         node: Callable[[], int],
     ) -> None:
         self._index = index
         self._phases = timing.phases
         self._knots = knots
         self._named = named
-        self._lifted = lifted
-        self._takes_time = timing.free and not timing.instant and Requirement(Rank.LIMIT, index, 0) not in lifted
-        self._limited = {k for k in timing.limited if Requirement(Rank.LIMIT, index, k) not in lifted}
+        self._dropped = dropped
+        self._takes_time = timing.free and not timing.instant and Requirement(Rank.LIMIT, index, 0) not in dropped
+        self._limited = {k for k in timing.limited if Requirement(Rank.LIMIT, index, k) not in dropped}
         self._node = node
         self.spans: list[Span] = []
         self.rigid: list[tuple[int, int, float]] = []
@@ -180,7 +180,7 @@ class BehaviorSpans:
         preferred = sum(self._phases[k].duration for k in group)
         kind = phase.kind
         if kind is PhaseKind.ELASTIC and (
-            preferred == 0 or (self._lifted and Requirement(Rank.LENGTH, self._index, first) in self._lifted)
+            preferred == 0 or (Requirement(Rank.LENGTH, self._index, first) in self._dropped)
         ):
             kind = PhaseKind.HOLD  # its duration may become 0
         low, high = (phase.minimum, phase.maximum) if first in self._limited else (0.0, inf)

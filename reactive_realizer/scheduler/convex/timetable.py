@@ -1,29 +1,22 @@
 """The times of all points: durations first, then the earliest start of each cluster (thesis 7.24)."""
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
 
 from reactive_realizer.planunit.timing import SHORTEST, PhaseKind, stretched
 from reactive_realizer.scheduler.convex.conflicts import Conflict, Rank, Requirement
-from reactive_realizer.scheduler.convex.durations import Durations
-from reactive_realizer.scheduler.convex.longest_path import TOLERANCE, Arc, components, longest_path
+from reactive_realizer.scheduler.convex.durations import least_cost_times
+from reactive_realizer.scheduler.convex.longest_path import TOLERANCE, Arc, longest_path
 from reactive_realizer.scheduler.convex.model import START, BoundArc, Inequality, Model
 from reactive_realizer.scheduler.convex.spans import Span
+from reactive_realizer.scheduler.offset_union_find import OffsetUnionFind
+from reactive_realizer.scheduler.problem import Point
 
 
-@dataclass(frozen=True, slots=True)
-class Timetable:
-    """The solution of a model.
+def find_times(model: Model) -> dict[Point, float] | list[Conflict]:
+    """The times of all points (s after the block's start) that meet all bounds, or the conflicts if there are none.
 
-    Attributes:
-        points: times of all points of each behavior, s after the block's start.
+    They are of least cost, and as early as that allows.
     """
-
-    points: Mapping[int, Sequence[float]]
-
-
-def find_times(model: Model) -> Timetable | list[Conflict]:
-    """Times that meet all bounds, at least cost and as early as that allows; or the conflicts if there are none."""
     if found := model.conflicts or _conflicts(model):
         return found
     times = _earliest(model)
@@ -31,7 +24,10 @@ def find_times(model: Model) -> Timetable | list[Conflict]:
         span.duration = times[span.head] - times[span.tail] + span.shift
     points = {index: _points(model, times, index) for index in model.knots}
     unplayable = [conflict for index, each in points.items() for conflict in _unplayable(model, index, each)]
-    return unplayable or Timetable(points)
+    items = model.relaxed.items.items()
+    return unplayable or {
+        point: time for index, item in items for point, time in zip(item.points, points[index], strict=True)
+    }
 
 
 # --- feasibility
@@ -76,28 +72,37 @@ def _shortest(span: Span) -> Inequality:
 def _earliest(model: Model) -> list[float]:
     """Durations under the bounds that turn out to matter, and the least shift of each cluster that is free to move.
 
-    Unknown times from outside are free to move too: the plan is made for the time that suits it best.
+    Unknown times from outside are free to move too: the plan is made for the time that suits it best. Bounds are lazy:
+    the plan is first made without them, and only those that it breaks are added. A plan of least cost under some bounds
+    that meets all of them is the plan, so it does not depend on which were added.
     """
-    clusters = _free_clusters(model)
-    durations, active = Durations(model), list[BoundArc]()
+    clusters = _clusters(model)
+    free = _free(model, clusters)
+    active: list[BoundArc] = []
     while True:
-        times = durations.times(active)
-        arcs = [
-            Arc(clusters[b.tail], clusters[b.head], times[b.tail] + b.length - times[b.head], b) for b in model.bounds
-        ]
-        shifts, broken = longest_path(1 + max(clusters), [arc for arc in arcs if arc.tail != arc.head])
+        times = least_cost_times(model, clusters, active)
+        arcs = [Arc(free[b.tail], free[b.head], times[b.tail] + b.length - times[b.head], b) for b in model.bounds]
+        shifts, broken = longest_path(1 + max(free), [arc for arc in arcs if arc.tail != arc.head])
         broken = broken + [arc for arc in arcs if arc.tail == arc.head and arc.length > TOLERANCE]
         found = [arc.label for arc in broken if arc.label not in active]
         if not found:  # all met; or missed, by the little that the numbers are not exact
-            return [time + shifts[number] - shifts[START] for time, number in zip(times, clusters, strict=True)]
+            return [time + shifts[number] - shifts[START] for time, number in zip(times, free, strict=True)]
         active += found
 
 
-def _free_clusters(model: Model) -> list[int]:
+def _clusters(model: Model) -> list[int]:
+    """For each variable one of those that preferred durations connect it with, without the start of the block."""
+    clusters = OffsetUnionFind[int]()
+    for span in model.spans:
+        if span.costs and span.tail and span.head:
+            clusters.union(span.tail, span.head)
+    return [clusters.find(variable)[0] for variable in range(model.size)]
+
+
+def _free(model: Model, clusters: Sequence[int]) -> list[int]:
     """For each variable the number of its cluster; `START` for those that known times hold."""
-    pairs = [(span.tail, span.head) for span in model.spans if span.costs]
-    clusters = components(model.size, [pair for pair in pairs if START not in pair])
-    held = {START, *(clusters[tail or head] for tail, head in pairs if START in (tail, head))}
+    ends = [(span.tail, span.head) for span in model.spans if span.costs]
+    held = {START, *(clusters[tail or head] for tail, head in ends if START in (tail, head))}
     numbers = {cluster: number for number, cluster in enumerate(sorted(set(clusters) - held), 1)}
     return [numbers.get(cluster, START) for cluster in clusters]
 
