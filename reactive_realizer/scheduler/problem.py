@@ -48,8 +48,28 @@ class Item:
         object.__setattr__(self, "points", tuple(Point(self.behavior.id, sync) for sync in self.timing.points))
 
 
+class _Constraint:
+    """The behaviors of a constraint on two nodes."""
+
+    __slots__ = ()
+
+    @property
+    def nodes(self) -> tuple[Node, Node]:
+        """The two nodes."""
+        raise NotImplementedError
+
+    @property
+    def behaviors(self) -> set[str]:
+        """Ids of the behaviors of the block that it names."""
+        return {node.behavior for node in self.nodes if isinstance(node, Point)}
+
+    def names(self, behaviors: Container[str]) -> bool:
+        """Whether it names one of some behaviors."""
+        return any(isinstance(node, Point) and node.behavior in behaviors for node in self.nodes)
+
+
 @dataclass(frozen=True, slots=True)
-class Tie:
+class Tie(_Constraint):
     """An `at` constraint: ``left = right + offset``.
 
     Attributes:
@@ -72,17 +92,13 @@ class Tie:
         """The two nodes."""
         return self.left, self.right
 
-    def names(self, behaviors: Container[str]) -> bool:
-        """Whether it names one of some behaviors."""
-        return _any_of(behaviors, self.nodes)
-
     def renamed(self, names: Mapping[TimeCell, TimeCell]) -> "Tie":
         """The same tie with other pegs from outside."""
         return replace(self, left=_renamed(self.left, names), right=_renamed(self.right, names))
 
 
 @dataclass(frozen=True, slots=True)
-class Precedence:
+class Precedence(_Constraint):
     """An `after` constraint: ``later >= earlier + offset``; a `before` is one with its sides exchanged (thesis 7.12).
 
     Attributes:
@@ -105,17 +121,9 @@ class Precedence:
         """The two nodes, the later one first."""
         return self.later, self.earlier
 
-    def names(self, behaviors: Container[str]) -> bool:
-        """Whether it names one of some behaviors."""
-        return _any_of(behaviors, self.nodes)
-
     def renamed(self, names: Mapping[TimeCell, TimeCell]) -> "Precedence":
         """The same constraint with other pegs from outside."""
         return replace(self, later=_renamed(self.later, names), earlier=_renamed(self.earlier, names))
-
-
-def _any_of(behaviors: Container[str], nodes: tuple[Node, Node]) -> bool:
-    return any(isinstance(node, Point) and node.behavior in behaviors for node in nodes)
 
 
 def _renamed(node: Node, names: Mapping[TimeCell, TimeCell]) -> Node:

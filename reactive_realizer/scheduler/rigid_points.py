@@ -1,8 +1,9 @@
 """The points at fixed distances from those of a rigid behavior."""
 
-from collections.abc import Container, Iterable
+from collections.abc import Container
 
 from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.pegboard.peg_view import followers_of
 from reactive_realizer.pegboard.time_peg import TimeCell, TimePeg
 from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.scheduler.bml_block import BMLBlock
@@ -17,7 +18,7 @@ def shift_ahead(block: BMLBlock, unit: PlanUnit, seconds: float) -> None:
     """
     points = _tied_points(block, unit)
     pegs = {point: peg for point, peg in _pegs_ahead(block).items() if point in points}
-    followers = _followers_of(pegs.values())
+    followers = set[TimeCell]().union(*map(followers_of, pegs.values()))
     for peg in dict.fromkeys(pegs.values()):
         if peg not in followers and not peg.pinned:
             peg.shift(seconds)
@@ -52,18 +53,6 @@ def _tied_points(block: BMLBlock, unit: PlanUnit) -> set[Point]:
     while new := {point for tie in ties if tie & points for point in tie} - points:
         points |= new.union(*(_points_of(rigid[point.behavior]) for point in new if point.behavior in rigid))
     return points
-
-
-def _followers_of(pegs: Iterable[TimePeg]) -> set[TimeCell]:
-    """The pegs that follow some of these."""
-    followers: set[TimeCell] = set()
-    waiting = [follower for peg in pegs for follower in peg.dependents]
-    while waiting:
-        peg = waiting.pop()
-        if peg not in followers:
-            followers.add(peg)
-            waiting += peg.dependents
-    return followers
 
 
 def _points_of(unit: PlanUnit) -> set[Point]:

@@ -57,10 +57,10 @@ class Solution:
         )
 
 
-def lost_behavior(behavior: Behavior, fault: Fault, *, needed: bool = False) -> Loss:
-    """The loss of a behavior; ``needed`` says whether a required constraint is lost with it."""
+def lost_behavior(behavior: Behavior, fault: Fault) -> Loss:
+    """The loss of a behavior."""
     located = fault.located(behavior.location.line, behavior.location.column)
-    return Loss(behavior.id, located, dropped=True, required=behavior.required or needed)
+    return Loss(behavior.id, located, dropped=True, required=behavior.required)
 
 
 def lost_constraint(constraint: Tie | Precedence, fault: Fault) -> Loss:
@@ -74,6 +74,5 @@ def with_required(loss: Loss, problem: SchedulingProblem) -> Loss:
     """The same loss; if a behavior is lost that a required constraint names, the block fails."""
     if not loss.dropped:
         return loss
-    required = (node for each in problem.constraints if each.required for node in each.nodes)
-    named = {node.behavior for node in required if isinstance(node, Point)}
+    named = set[str]().union(*(each.behaviors for each in problem.constraints if each.required))
     return replace(loss, required=loss.required or loss.behavior in named)

@@ -7,7 +7,7 @@ from typing import Protocol
 from reactive_realizer.bml.faults import LostWith
 from reactive_realizer.scheduler.faults import NamesDropped
 from reactive_realizer.scheduler.peg_layout.peg_layout import PegLayout
-from reactive_realizer.scheduler.problem import Point, SchedulingProblem
+from reactive_realizer.scheduler.problem import SchedulingProblem
 from reactive_realizer.scheduler.solution import Loss, Solution, lost_behavior, lost_constraint, with_required
 
 
@@ -59,7 +59,7 @@ def _names_dropped(problem: SchedulingProblem, free: Container[str], lost: Colle
     """The losses of required constraints between a behavior without preferences and one that is lost."""
     for each in problem.constraints:
         if each.required and each.names(free) and each.names(lost):
-            named = {node.behavior for node in each.nodes if isinstance(node, Point)}.intersection(lost)
+            named = each.behaviors.intersection(lost)
             yield lost_constraint(each, NamesDropped(constraint=each.text, behavior=min(named)))
 
 

@@ -44,7 +44,7 @@ class Relaxation:
         lost = {self._problem.items[each.number].behavior.id for each in self.dropped if each.rank is Rank.BEHAVIOR}
         told = [loss.constraint for loss in self.losses]
         for constraint in self._problem.constraints if lost else ():
-            if constraint.required and constraint not in told and (named := _behaviors_of(constraint) & lost):
+            if constraint.required and constraint not in told and (named := constraint.behaviors & lost):
                 fault = NamesDropped(constraint=constraint.text, behavior=min(named))
                 self.losses.append(lost_constraint(constraint, fault))
 
@@ -129,7 +129,3 @@ class Relaxation:
             return item.behavior.id
         start, end = item.timing.points[requirement.phase : requirement.phase + 2]
         return f"the limits of {item.behavior.id} from {start} to {end}"
-
-
-def _behaviors_of(constraint: Tie | Precedence) -> set[str]:
-    return {node.behavior for node in constraint.nodes if isinstance(node, Point)}

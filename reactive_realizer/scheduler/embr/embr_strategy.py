@@ -10,7 +10,7 @@ from reactive_realizer.scheduler.embr.keeping import keep
 from reactive_realizer.scheduler.embr.placing import place
 from reactive_realizer.scheduler.faults import ContradictoryTie
 from reactive_realizer.scheduler.problem import Item, Node, Point, Precedence, SchedulingProblem, Tie
-from reactive_realizer.scheduler.solution import Loss, Solution, lost_behavior
+from reactive_realizer.scheduler.solution import Solution, lost_behavior, with_required
 
 
 class SelfContradictory(SchedulingFault):
@@ -45,7 +45,8 @@ class EmbrStrategy:
         kept = keep(program)
         knots = place(program, kept)
         times = {p: time for item in playable for p, time in _points(item, program.knots[item.behavior.id], knots)}
-        losses = [_dropped(item, constraints, faults[item.behavior.id]) for item in items if item not in playable]
+        lost = [lost_behavior(item.behavior, faults[item.behavior.id]) for item in items if item not in playable]
+        losses = [with_required(loss, problem) for loss in lost]
         return Solution(times, (*losses, *kept.losses))
 
 
@@ -75,10 +76,3 @@ def _alone(item: Item, constraints: Iterable[Tie | Precedence], given: Mapping[N
 
 def _is_of(node: Node, behavior: str) -> bool:
     return isinstance(node, Point) and node.behavior == behavior
-
-
-def _dropped(item: Item, constraints: Iterable[Tie | Precedence], fault: Fault) -> Loss:
-    """The loss of a behavior and of the constraints on it; the block fails if one of these is required."""
-    own = {item.behavior.id}
-    needed = any(each.required and each.names(own) for each in constraints)
-    return lost_behavior(item.behavior, fault, needed=needed)
