@@ -13,6 +13,17 @@ class BadHumanFile(Fault):
     reason: str
 
 
+class NoCharacter(Fault):
+    """A human file has no character with the id."""
+
+    code = "no-character"
+    template = "{file} has no character '{name}'; available: {known}"
+    unknown = "name"
+    file: str
+    name: str
+    known: tuple[str, ...]
+
+
 class NoPlugin(Fault):
     """No plug-in of a group has the name."""
 

@@ -20,6 +20,9 @@ T = TypeVar("T")
 DEFAULT_ENGINES: Final = ("speech", "animation", "face", "wait", "activate", "interrupt", "parameter_value_change")
 DEFAULT_BINDINGS: Final[Mapping[str, str]] = {"gesture": "gesturebinding.xml"}
 
+LIGHTEST, HEAVIEST = 1.0, 1000.0
+"""Bounds of the weight of a character, kg."""
+
 _ID: Final = re.compile(r"[^\s:+\x00-\x1f\x7f]{1,200}")
 """Ids that BML can refer to."""
 
@@ -35,6 +38,7 @@ class CharacterSpec:
         heading: rotation to its left, degrees; 0 faces +z.
         engines: ids of engines, in rank order.
         idle: whether it has idle animation.
+        weight: of its physical body, kg; None for the usual one of its stature.
         bindings: names of files among the assets, by kind; by default `DEFAULT_BINDINGS`.
     """
 
@@ -44,6 +48,7 @@ class CharacterSpec:
     heading: float = 0.0
     engines: tuple[str, ...] = DEFAULT_ENGINES
     idle: bool = True
+    weight: float | None = None
     bindings: Mapping[str, str] = field(default_factory=lambda: DEFAULT_BINDINGS)
 
 
@@ -113,6 +118,8 @@ class _Reader:
     def character(self, key: str, table: Any) -> CharacterSpec:
         spec = self.read(CharacterSpec, key, table)
         self.know(f"{key}.bindings", spec.bindings, tuple(DEFAULT_BINDINGS))
+        if spec.weight is not None and not LIGHTEST <= spec.weight <= HEAVIEST:
+            raise self._bad(f"{key}.weight", f"{spec.weight:g} is not from {LIGHTEST:g} to {HEAVIEST:g} kg")
         for rank, engine in enumerate(spec.engines):
             if engine in spec.engines[:rank]:
                 raise self._bad(f"{key}.engines", f"{engine!r} is listed twice")
@@ -153,8 +160,10 @@ class _Reader:
     def _value(self, key: str, value: Any, kind: Any) -> Any:
         """The value, if it has the type of the field."""
         number = isinstance(value, int | float) and not isinstance(value, bool) and abs(value) <= float_info.max
-        if number and (kind is float or kind is type(value)):
-            return kind(value)
+        if number and kind in (float, float | None):
+            return float(value)
+        if number and kind is type(value):
+            return value
         if kind in (str, bool) and isinstance(value, kind):
             return value
         if kind == Vec3 and isinstance(value, list) and len(value) == 3:

@@ -16,6 +16,7 @@ SMALLEST: dict[str, dict[str, float]] = {
     "idle": {"seconds": 0.05, "most": 1},
     "latency": {"runs": 2},
     "load": {"seconds": 0.05, "behaviors": 20, "viewers": 2},
+    "physics": {"seconds": 0.05},
     "propagation": {"largest": 1000},
     "punctuality": {"seconds": 0.5},
     "scheduling": {"most": 2},
@@ -44,6 +45,15 @@ KEYS: dict[str, set[str]] = {
             for audience in ("viewers_200", "viewers_500", "characters_10")
             for what in ("cpu_share", "frames_arrived", "late_p99_ms")
         ),
+    },
+    "physics": {
+        *(f"momentum_error.{whose}.{step}" for whose in ("ours", "all_physical") for step in ("5", "2.5", "1")),
+        *(
+            f"momentum_error.baseline.{step}.{setting}"
+            for step in ("5", "2.5", "1")
+            for setting in ("as_published", "k_0.5", "averaged_0.3", "averaged_0.15")
+        ),
+        *(f"us_per_step.{what}" for what in ("arms_kinematic", "one_arm_loose")),
     },
     "propagation": {
         *(f"{whose}_ns.{shape}.{n}" for whose in ("cell", "reactivex") for shape in ("fanout", "chain") for n in SIZES),

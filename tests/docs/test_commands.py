@@ -74,7 +74,7 @@ def test_the_lexicon_has_the_lines_on_the_page(capsys: pytest.CaptureFixture[str
     assert [line for line in printed if line.startswith("RAISE_HAND")] == shown
 
 
-@pytest.mark.parametrize("command", ["realize", "check", "lexicon", "serve", "demo", "conformance"])
+@pytest.mark.parametrize("command", ["realize", "check", "lexicon", "physics", "serve", "demo", "conformance"])
 def test_the_page_lists_every_option(command: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert run([command, "--help"]) == 0
     options = set(re.findall(r"--[a-z-]+", capsys.readouterr().out)) - {"--help"}

@@ -1,0 +1,211 @@
+"""Mixed dynamics: a figure with some joints that are moved, and others that move physically (thesis, chapter 3)."""
+
+from collections.abc import Collection, Iterable
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from reactive_realizer.embodiment.body import Body, Skeleton
+from reactive_realizer.embodiment.joints import ROOT
+from reactive_realizer.embodiment.quaternion import Quat, conjugate, multiply, rotate
+from reactive_realizer.embodiment.vector import add, subtract
+from reactive_realizer.physics.joint_limits import LimitSprings
+from reactive_realizer.physics.mjcf import TO_WORLD, inertia, mjcf
+from reactive_realizer.physics.segments import SEGMENTS
+
+SUBSTEP = 0.0025
+"""Default time of a step, s."""
+
+_ARMATURE = 1e6
+"""Inertia that is added to each degree of freedom of a kinematic joint, kg m^2 or kg.
+
+Beside it, that of the body is negligible: no force of the rest of the body disturbs the joint.
+"""
+
+_ROOT_BODY = 1
+"""Index of the body that all others belong to; 0 is the world."""
+
+
+class Simulation:
+    """Simulates a figure in its own frame, at rest in the default pose at first.
+
+    Any set of joints is kinematic: at every step they have the rotations of a given body. The others are physical: they
+    move by torques, gravity, contact with the floor, and what the moving kinematic joints exert on them. This solves
+    the hybrid equation of motion (thesis 3.1) exactly: the accelerations of kinematic joints and the torques of
+    physical joints are known, and the others follow. A kinematic joint has an armature beside which all other inertia
+    is negligible, and the torque that accelerates this armature as wanted; the coupling of both kinds of joints is in
+    MuJoCo's inertia matrix. Unlike the thesis's method (3.2 to 3.7), this needs no accelerations of an earlier step.
+
+    Attributes:
+        joints: of the segments, the root first.
+        model: of MuJoCo. Its frame is turned by `TO_WORLD`.
+        data: of MuJoCo.
+    """
+
+    def __init__(
+        self, skeleton: Skeleton, weight: float | None = None, substep: float = SUBSTEP, floating: bool = False
+    ) -> None:
+        """Prepare a simulation in which all joints are physical.
+
+        Args:
+            skeleton: of the figure.
+            weight: kg; None for the usual one of its stature.
+            substep: time of a step, s.
+            floating: whether it floats freely, without gravity and floor.
+        """
+        self.model = mujoco.MjModel.from_xml_string(mjcf(skeleton, weight).decode())
+        self.model.opt.timestep = substep
+        if floating:
+            self.model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_GRAVITY | mujoco.mjtDisableBit.mjDSBL_CONTACT
+        self.data = mujoco.MjData(self.model)
+        self.joints = tuple(self.model.joint(index).name for index in range(self.model.njnt))
+        self._skeleton = skeleton
+        self._inertia = inertia(self.model)
+        self._links = {joint: _Links(skeleton, joint) for joint in self.joints}
+        addresses = zip(self.joints, self.model.jnt_qposadr.tolist(), self.model.jnt_dofadr.tolist(), strict=True)
+        self._addresses = {joint: (position, degree) for joint, position, degree in addresses}
+        self._damping, self._limited = self.model.dof_damping.copy(), self.model.jnt_limited.copy()
+        self._wanted = self.data.qpos.copy()
+        self._speeds = np.zeros(self.model.nv)
+        self.kinematic = ()
+
+    @property
+    def kinematic(self) -> Collection[str]:
+        """The joints that are kinematic. They can be changed before any step; poses and velocities stay."""
+        return self._kinematic
+
+    @kinematic.setter
+    def kinematic(self, joints: Collection[str]) -> None:
+        """Choose the kinematic joints.
+
+        Raises:
+            KeyError: no segment turns about one of the joints.
+        """
+        if unknown := set(joints).difference(self.joints):
+            raise KeyError(*sorted(unknown))
+        self._kinematic = tuple(joint for joint in self.joints if joint in joints)
+        self._positions = _indices(self.positions(joint) for joint in self._kinematic)
+        self._degrees = _indices(self.degrees(joint) for joint in self._kinematic)
+        loose = [joint for joint in self.joints if joint not in joints and joint != ROOT]
+        self._limits = LimitSprings(self.model, self._inertia, loose)
+        model = self.model
+        model.dof_armature[:], model.jnt_limited[:] = 0.0, self._limited
+        model.dof_armature[self._degrees] = _ARMATURE
+        for joint in self._kinematic:
+            model.joint(joint).limited = 0
+
+    def degrees(self, joint: str) -> slice:
+        """Return the slice of a joint's degrees of freedom in velocities and torques: three, of the root six."""
+        _, first = self._addresses[joint]
+        return slice(first, first + (6 if joint == ROOT else 3))
+
+    def positions(self, joint: str) -> slice:
+        """Return the slice of a joint's generalized coordinates: w x y z, of the root x y z before them."""
+        first, _ = self._addresses[joint]
+        return slice(first, first + (7 if joint == ROOT else 4))
+
+    def place(self, body: Body) -> None:
+        """Put all joints at rest in the pose of a body."""
+        self.data.qpos[:], self.data.qvel[:] = self._coordinates(body, self.joints), 0.0
+
+    def step(self, body: Body, torques: NDArray[np.float64] | None = None) -> None:
+        """Simulate a step.
+
+        Args:
+            body: with the rotations of the kinematic joints, and the root if it is kinematic, at the end of the step.
+            torques: on each degree of freedom, Nm or N, in the axes of its segment; those of kinematic joints have no
+                effect.
+        """
+        model, data, time = self.model, self.data, self.model.opt.timestep
+        own, wanted = self._degrees, self._coordinates(body, self._kinematic)
+        self._wanted[self._positions] = wanted
+        # The velocities that end at the wanted positions after a step of MuJoCo's semi-implicit Euler integrator.
+        mujoco.mj_differentiatePos(model, self._speeds, time, data.qpos, self._wanted)
+        data.qfrc_applied[:] = 0.0 if torques is None else torques
+        model.dof_damping[:] = self._damping
+        self._limits.act(data, time, data.qfrc_applied, model.dof_damping)
+        model.dof_damping[own] = 0.0
+        data.qfrc_applied[own] = _ARMATURE * (self._speeds[own] - data.qvel[own]) / time
+        mujoco.mj_step(model, data)
+        data.qpos[self._positions], data.qvel[own] = wanted, self._speeds[own]
+
+    def body(self, shown: Body) -> Body:
+        """Return a body with physical joints as they are simulated, and all others as in a given body.
+
+        Joints within a segment, such as those of the spine, stay as they are in the given body, and the segment's joint
+        gives the segment the simulated rotation.
+        """
+        physical = [joint for joint in self.joints if joint not in self._kinematic]
+        rotations = {joint: self._links[joint].local(shown, self.rotation(joint)) for joint in physical}
+        if ROOT not in physical:
+            return shown.posed(rotations)
+        x, y, z = self.data.qpos[:3].tolist()
+        root = subtract(rotate(conjugate(TO_WORLD), (x, y, z)), self._skeleton.offset(ROOT))
+        return shown.posed(rotations, root)
+
+    def rotation(self, joint: str) -> Quat:
+        """Return the simulated rotation of a segment in its parent segment, or of the root in the figure's frame."""
+        w, x, y, z = self.data.qpos[self.positions(joint)][-4:].tolist()
+        return multiply(conjugate(TO_WORLD), (w, x, y, z)) if joint == ROOT else (w, x, y, z)
+
+    def angular_momentum(self) -> NDArray[np.float64]:
+        """Return the angular momentum about the center of mass, kg m^2/s, in MuJoCo's world, (3,)."""
+        mujoco.mj_kinematics(self.model, self.data)
+        mujoco.mj_comPos(self.model, self.data)
+        mujoco.mj_subtreeVel(self.model, self.data)
+        momentum: NDArray[np.float64] = self.data.subtree_angmom[_ROOT_BODY].copy()
+        return momentum
+
+    def _coordinates(self, body: Body, joints: Iterable[str]) -> list[float]:
+        """Return the generalized coordinates of joints in the pose of a body."""
+        coordinates: list[float] = []
+        for joint in joints:
+            rotation = self._links[joint].rotation(body)
+            if joint == ROOT:
+                coordinates += rotate(TO_WORLD, add(self._skeleton.offset(ROOT), body.root))
+                coordinates += multiply(TO_WORLD, rotation)
+            else:
+                coordinates += rotation
+        return coordinates
+
+
+class _Links:
+    """The joints that turn a segment in its parent segment: the segment's joint, and those before and after it."""
+
+    def __init__(self, skeleton: Skeleton, joint: str) -> None:
+        chain = skeleton.chain(_end(skeleton, joint))
+        own = chain.index(joint)
+        parent = next((name for name in reversed(chain[:own]) if name in _ENDS), None)
+        first = 0 if parent is None else chain.index(_end(skeleton, parent)) + 1
+        self._before, self._joint, self._after = chain[first:own], joint, chain[own + 1 :]
+
+    def rotation(self, body: Body) -> Quat:
+        """Return the rotation of the segment in a body."""
+        rotation = body.rotation(self._joint)
+        for joint in reversed(self._before):
+            rotation = multiply(body.rotation(joint), rotation)
+        for joint in self._after:
+            rotation = multiply(rotation, body.rotation(joint))
+        return rotation
+
+    def local(self, body: Body, rotation: Quat) -> Quat:
+        """Return the rotation of the joint that gives the segment a rotation, with all others as in a body."""
+        for joint in self._before:
+            rotation = multiply(conjugate(body.rotation(joint)), rotation)
+        for joint in reversed(self._after):
+            rotation = multiply(rotation, conjugate(body.rotation(joint)))
+        return rotation
+
+
+_ENDS = {segment.joint: segment.end or segment.joint for segment in SEGMENTS}
+
+
+def _end(skeleton: Skeleton, joint: str) -> str:
+    """Return the joint that has the orientation of a segment."""
+    return _ENDS[joint] if _ENDS[joint] in skeleton else joint
+
+
+def _indices(slices: Iterable[slice]) -> NDArray[np.intp]:
+    """Return all indices of slices in one array."""
+    return np.array([index for each in slices for index in range(each.start, each.stop)], dtype=np.intp)
