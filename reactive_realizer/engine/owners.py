@@ -41,6 +41,8 @@ class Owners:
         """
         rivals = {other for resource in unit.resources for other in self._by_resource.get(resource, ())}
         rivals.update(self._by_group.get(unit.group or "", ()))
+        if not rivals:
+            return [], []
         excluded = sorted((other for other in rivals if unit.excludes(other)), key=self._order.__getitem__)
         leaving = [each for each in excluded if each.state is UnitState.IN_EXEC and each.subsiding(time)]
         return [each for each in excluded if _keeps(each, time)], leaving

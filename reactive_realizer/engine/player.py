@@ -85,13 +85,14 @@ class Player:
         """Begin the units and fire the sync points that are due; forget units that have ended."""
         self._ended = [unit for unit in self._ended if not is_due(unit.points[-1].peg.value, tick.previous)]
         reached: list[Reached] = []
-        due, starting = self._due(tick.time)
+        now, previous = tick.time, tick.previous
+        due, starting = self._due(now)
         for unit in due:
-            self._fire(unit, tick.time, reached)
+            self._fire(unit, now, reached)
         owners = Owners((*self.playing, *self._ended)) if starting else Owners(())
         for unit in starting:
-            if not self._held(unit, owners, tick):
-                self._fire(unit, tick.time, reached)
+            if not self._held(unit, owners, now, previous):
+                self._fire(unit, now, reached)
                 owners.add(unit)
         self._forget_ended()
         return tuple(reached)
@@ -137,19 +138,19 @@ class Player:
         starting = sorted((unit for unit in due if unit.due(now)), key=lambda u: (u.points[0].peg.value, u.behavior.id))
         return [unit for unit in self.playing if unit in due], starting
 
-    def _held(self, unit: PlanUnit, owners: Owners, tick: Tick) -> bool:
+    def _held(self, unit: PlanUnit, owners: Owners, now: GlobalTime, previous: GlobalTime) -> bool:
         """Whether a due unit cannot begin now: it is dropped, or others have to end first in this round."""
         start = unit.points[0].peg.value
-        if start is None or not unit.due(tick.time):
+        if start is None or not unit.due(now):
             return False
         if (fault := unit.refusal()) is not None:
-            self._drop(unit, fault, tick.time)
+            self._drop(unit, fault, now)
             return True
-        begin = tick.time if is_due(start, tick.previous) else start  # a unit that joins late begins now
+        begin = now if is_due(start, previous) else start  # a unit that joins late begins now
         unit.settle(owners.kept(begin))
         staying, leaving = owners.excluded_by(unit, begin)
         if staying:
-            self._drop(unit, _taken(unit, staying[0]), tick.time)
+            self._drop(unit, _taken(unit, staying[0]), now)
         else:
             self._ending += [EndUnit(owner, begin) for owner in leaving]
         return bool(staying or leaving)

@@ -64,18 +64,24 @@ class Agenda(Generic[T]):
     def next_due(self) -> Time:
         """The earliest time at which an item is due; None while no time is known."""
         self._read()
-        while self._heap and self._heap[0][1] not in self._items:
-            heappop(self._heap)
-        return self._heap[0][0] if self._heap else None
+        return self._first
 
     def take_due(self, now: GlobalTime) -> list[T]:
         """The items that are due, in order of time. Each is read again before the next call."""
+        self._read()
         due: list[T] = []
-        while is_due(self.next_due, now):
-            item = self._items[heappop(self._heap)[1]]
-            due.append(item)
+        while is_due(self._first, now):
+            due.append(self._items[heappop(self._heap)[1]])
         self._unread.update(dict.fromkeys(due))
         return due
+
+    @property
+    def _first(self) -> Time:
+        """The earliest time of the items as they were read."""
+        heap = self._heap
+        while heap and heap[0][1] not in self._items:
+            heappop(heap)
+        return heap[0][0] if heap else None
 
     def _read(self) -> None:
         """Read the items that have changed."""

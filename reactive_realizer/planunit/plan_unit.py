@@ -353,8 +353,10 @@ class PlanUnit:
 
     def _needs(self) -> list[float]:
         """The shortest duration (s) of the phase after each point; no time can pass between points that share a peg."""
-        last = {point.peg: index for index, point in enumerate(self.points)}
         needs, together = [0.0] * len(self.points), 0
+        if not any(self.shortest):
+            return needs
+        last = {point.peg: index for index, point in enumerate(self.points)}
         for index, (point, shortest) in enumerate(zip(self.points, self.shortest, strict=False)):
             together = max(together, last[point.peg])
             needs[index] = 0.0 if index < together else shortest

@@ -12,7 +12,7 @@ from reactive_realizer.engine.faults import UnitFailed
 from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.pegboard.time_peg import OffsetPeg
+from reactive_realizer.pegboard.time_peg import OffsetPeg, TimePeg
 from reactive_realizer.planunit.plan_unit import DuePoint, Hurry, PlanUnit, SyncPoint, UnitState
 from reactive_realizer.reactive.graph import Cell
 from reactive_realizer.scheduler.block_feedback import BlockFeedback
@@ -224,20 +224,24 @@ class UnitLifecycle:
     def _moved(self, changed: Collection[Cell[Any]]) -> list[PlanUnit]:
         """The units of playing blocks of which a point has changed and may have to be corrected.
 
-        Those that are not about to begin are left out if no point has moved into the past; so are those with a
-        scheduled cut.
+        Those that are not about to begin are left out if nothing has moved into the past; so are those with a scheduled
+        cut.
         """
         blocks = [block for block in self._blocks.watch.following(changed) if block.state.plays]
         if not blocks:
             return []
         now, previous = self._board.time, self._board.previous
-        moved = []
-        for unit in (unit for block in blocks for unit in block.units):
-            times = [point.peg.value for point in unit.points if point.peg in changed]
-            past = any(time is not None and time < previous for time in times)
-            if times and (past or unit.begun or is_due(unit.points[0].peg.value, now)):
-                moved.append(unit)
-        return [unit for unit in moved if unit.live and not self.cut_scheduled(unit)]
+        times = (cell.value for cell in changed if isinstance(cell, TimePeg))
+        past = any(time is not None and time < previous for time in times)
+        return [
+            unit
+            for block in blocks
+            for unit in block.units
+            if (past or unit.begun or is_due(unit.points[0].peg.value, now))
+            and any(point.peg in changed for point in unit.points)
+            and unit.live
+            and not self.cut_scheduled(unit)
+        ]
 
     def _pin_past(self, units: Collection[PlanUnit], changed: Collection[Cell[Any]]) -> bool:
         """Pin points that were moved into the past at the present time; whether there were any."""
