@@ -3,6 +3,8 @@
 import asyncio
 from collections.abc import Awaitable, Callable
 from statistics import quantiles
+from time import thread_time
+from typing import NamedTuple
 
 from benchmarks import _viewers
 from benchmarks.scheduling import chain, spread
@@ -35,21 +37,25 @@ def measure(seconds: float = 4.0, behaviors: int = 1000, viewers: int = 500) -> 
     """The 99th percentile of the delay from the time of a tick until it has been played, ms, for each load.
 
     A skipped tick is played with the late one that covers it. ``nothing`` is the delay without a load, which is due to
-    the machine.
+    the machine. ``tick_cpu_ms`` is the processor time of the longest tick, without threads.
 
     Args:
         seconds: time for which each load is observed from its arrival, s.
         behaviors: their number in a load.
         viewers: most sockets that receive frames from a server; without 500, only ``viewers_200`` has a result.
     """
-    ticks = {name: asyncio.run(_p99_ms(load, behaviors, seconds)) for name, load in _LOADS.items()}
+    ticks = {name: asyncio.run(_ticks(load, behaviors, seconds)) for name, load in _LOADS.items()}
     watched = {
         name: _viewers.measure(min(number, viewers), 2.5 * seconds, characters)
         if viewers >= least
         else dict.fromkeys(_viewers.NUMBERS)
         for name, (number, characters, least) in _AUDIENCES.items()
     }
-    return {"tick_p99_ms": ticks, **watched}
+    return {
+        "tick_p99_ms": {name: _p99_ms(played) for name, played in ticks.items()},
+        "tick_cpu_ms": {name: round(1000 * max(played.work, default=0.0), 1) for name, played in ticks.items()},
+        **watched,
+    }
 
 
 async def _nothing(intake: Intake, behaviors: int, seconds: float) -> None:
@@ -94,20 +100,39 @@ _LOADS: dict[str, Load] = {
 }
 
 
-async def _p99_ms(load: Load, behaviors: int, seconds: float) -> float:
-    delays: list[float] = []
+class _Played(NamedTuple):
+    """The ticks of a load.
+
+    Attributes:
+        delays: of each tick, also of those that were left out, s.
+        work: processor time of the main thread for each tick, s.
+    """
+
+    delays: list[float]
+    work: list[float]
+
+
+async def _ticks(load: Load, behaviors: int, seconds: float) -> _Played:
+    played = _Played([], [])
 
     async def run(live: LiveScene) -> None:
         keep_from_ticks()
         async for tick in live.ticker.ticks():
+            began = thread_time()
             await live.step(tick)
-            delays.extend(live.now - tick_time(number) for number in (*tick.left_out, tick.number))
+            played.work.append(thread_time() - began)
+            played.delays.extend(live.now - tick_time(number) for number in (*tick.left_out, tick.number))
 
     async with open_scene(SceneOptions(voice="text")) as scene, asyncio.TaskGroup() as group:
         live = LiveScene(scene, SystemClock())
         ticking = group.create_task(run(live))
         await asyncio.sleep(_SETTLING)
-        delays.clear()
+        played.delays.clear()
+        played.work.clear()
         await load(Intake(live), behaviors, seconds)
         ticking.cancel()
-    return round(1000 * quantiles(delays, n=100)[98], 1)
+    return played
+
+
+def _p99_ms(played: _Played) -> float:
+    return round(1000 * quantiles(played.delays, n=100)[98], 1)

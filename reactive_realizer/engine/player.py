@@ -38,6 +38,8 @@ class Player:
         self._added = 0
         self._agenda: Agenda[PlanUnit] = Agenda(lambda unit: unit.next_due(), lambda unit: unit.awaited())
         self._ended: list[PlanUnit] = []
+        self._touched: list[PlanUnit] = []
+        """The units that may have ended: those that have changed."""
         self._dropped: list[Dropped] = []
         self._ending: list[EndUnit] = []
 
@@ -72,6 +74,7 @@ class Player:
         """Note that a unit has changed."""
         if unit in self._units and unit.state is UnitState.IN_EXEC:
             self._begun[unit] = self._units[unit]
+        self._touched.append(unit)
         self._agenda.note(unit)
 
     def remove(self, unit: PlanUnit) -> None:
@@ -164,12 +167,15 @@ class Player:
             unit.fire(due, now)
         except Exception as failure:
             self._fail(unit, failure, now)
+        self._touched.append(unit)
         reached.extend(Reached(unit, point, time) for point, time in due if point.fired)
         self._note_end(unit)
 
     def _forget_ended(self) -> None:
-        for unit in [unit for unit in self._units if not unit.live]:
-            self._forget(unit)
+        for unit in self._touched:
+            if unit in self._units and not unit.live:
+                self._forget(unit)
+        self._touched.clear()
 
     def _forget(self, unit: PlanUnit) -> None:
         del self._units[unit]
@@ -189,6 +195,7 @@ class Player:
 
     def _drop(self, unit: PlanUnit, fault: Fault, now: GlobalTime) -> None:
         unit.drop(now)
+        self._touched.append(unit)
         self._dropped.append(Dropped(unit, fault))
 
 

@@ -37,7 +37,8 @@ KEYS: dict[str, set[str]] = {
     "latency": {"tick_ms", *(f"{what}_ms.{part}" for what in ("predict", "activate") for part in ("p50", "p99"))},
     "load": {
         *(
-            f"tick_p99_ms.{load}"
+            f"{what}.{load}"
+            for what in ("tick_p99_ms", "tick_cpu_ms")
             for load in ("nothing", "chain_1000", "burst_50_blocks", "parallel_1000", "predict_1000")
         ),
         *(
