@@ -1,5 +1,6 @@
 """Routes of streams: the socket, and feedback as server-sent events."""
 
+import asyncio
 import socket
 from contextlib import ExitStack
 
@@ -44,9 +45,13 @@ async def ws(request: web.Request) -> web.WebSocketResponse:
             stack.callback(request.app[SHUTDOWN].subscribe(lambda _: client.leave()))
             try:
                 await client.serve()
+            except asyncio.CancelledError as vanished:
+                _free_frames(vanished)
+                raise
             finally:
                 _hang_up(request)
                 await answer.close()  # else, its heartbeat keeps the memory of a client that has vanished for a while
+                _free_frames(answer.exception())
     return answer
 
 
@@ -73,6 +78,15 @@ async def feedback(request: web.Request) -> web.StreamResponse:
         if not kept_up:
             _hang_up(request)
     return answer
+
+
+def _free_frames(failure: BaseException | None) -> None:
+    """Cuts a failure off from the frames that it has passed.
+
+    They refer to it, and to everything about a client. Without this, only a collection, which is rare, frees them.
+    """
+    if failure is not None:
+        failure.__traceback__ = failure.__context__ = None
 
 
 def _missed(log: FeedbackLog, after: int | None) -> list[str]:

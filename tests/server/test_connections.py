@@ -6,7 +6,7 @@ import gc
 import resource
 import socket
 import weakref
-from collections.abc import AsyncIterator, Callable
+from collections.abc import AsyncIterator, Callable, Iterator
 from contextlib import AbstractAsyncContextManager, AsyncExitStack, asynccontextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -23,6 +23,7 @@ from reactive_realizer.server.connections import listen
 from reactive_realizer.server.live_scene import LiveScene
 from reactive_realizer.server.security import Security
 from reactive_realizer.server.serve import serving
+from reactive_realizer.server.socket_client import SocketClient
 
 from .conftest import ALICE, Open
 
@@ -180,11 +181,36 @@ async def test_a_ping_is_answered_with_its_text(on_air: Open) -> None:
         assert (answer.type, answer.data) == (aiohttp.WSMsgType.PONG, b"are you there")
 
 
+async def socket_of(served: Door) -> asyncio.StreamWriter:
+    """The socket of a new client."""
+    reader, writer = await asyncio.open_connection("127.0.0.1", served.port)
+    writer.write(HANDSHAKE)
+    assert b"101" in await reader.readline()
+    return writer
+
+
+@pytest.fixture
+def no_collection() -> Iterator[None]:
+    gc.collect()
+    gc.disable()
+    yield
+    gc.enable()
+
+
+async def test_a_client_that_vanishes_is_freed_without_a_collection(door: Doors, no_collection: None) -> None:
+    async with door("clients = 1") as served:
+        writer = await socket_of(served)
+        freed = asyncio.Event()
+        clients = (each for each in gc.get_objects() if isinstance(each, SocketClient))
+        references = [weakref.ref(each, lambda _: freed.set()) for each in clients]
+        writer.transport.abort()
+        await asyncio.wait_for(freed.wait(), 10)
+        assert len(references) == 1
+
+
 async def test_the_memory_of_a_client_that_vanishes_is_given_back_at_once(door: Doors) -> None:
     async with door("clients = 1") as served:
-        reader, writer = await asyncio.open_connection("127.0.0.1", served.port)
-        writer.write(HANDSHAKE)
-        assert b"101" in await reader.readline()
+        writer = await socket_of(served)
         sockets = [each for each in gc.get_objects() if isinstance(each, web.WebSocketResponse) and not each.closed]
         served_socket = weakref.ref(sockets.pop())
         writer.transport.abort()
