@@ -137,6 +137,22 @@ async def test_a_behavior_that_is_interrupted_while_its_block_is_planned_is_not_
     assert slow.feedback.warnings == []
 
 
+@pytest.mark.parametrize("ticks", range(3, 19, 2))
+async def test_an_event_before_the_activation_of_a_block_does_not_count_while_the_block_is_planned_either(
+    slow: RealizerPilot, ticks: int
+) -> None:
+    slow.predict("partner", "hit", 0.01)
+    slow.block(
+        "big", '<wait id="w" duration="0.1" start="anticipators:partner:hit"/>' + loose(5), **{"bmla:preplan": "true"}
+    )
+    await slow.advance(ticks / 100)
+    slow.block("go", characterId="bob", **{"bmla:onStart": "big"})
+    await slow.advance(0.5)
+    slow.predict("partner", "hit", 1.0)
+    await slow.advance(1)
+    assert slow.feedback.time("big:w:start") == 1.0
+
+
 async def test_a_prediction_that_moves_while_a_block_is_planned_is_followed(pilot: RealizerPilot) -> None:
     pilot.predict("partner", "hit", 1.0)
     pilot.block("big", chain(45, first='start="anticipators:partner:hit"'))
