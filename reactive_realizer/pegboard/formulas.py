@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable, Iterator
 from math import inf
 
-from reactive_realizer.clock.units import RESOLUTION, GlobalTime, Time
+from reactive_realizer.clock.units import RESOLUTION, GlobalTime, Time, has_passed
 
 
 def shifted_by(offset: float) -> Callable[[Time], Time]:
@@ -69,6 +69,17 @@ def until(offset: float, limit: float | None) -> Callable[[Time, Time], Time]:
         ends = [] if limit is None else [start + limit]
         ends += [] if awaited is None else [max(start, awaited + offset)]
         return GlobalTime(min(ends)) if ends else None
+
+    return formula
+
+
+def unless_late(least: float, earliest: float) -> Callable[[Time, Time], Time]:
+    """The first time, or ``earliest`` (s) after the second one if it is less than ``least`` (s) after that."""
+
+    def formula(time: Time, start: Time) -> Time:
+        if time is None or start is None:
+            return None
+        return GlobalTime(start + earliest) if has_passed(time, start + least) else time
 
     return formula
 

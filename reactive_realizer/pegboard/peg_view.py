@@ -18,7 +18,7 @@ class PegView:
 
     Attributes:
         key: name of the point.
-        kind: offset, ratio, after, before, latest, block, predicted.
+        kind: offset, ratio, after, before, late, latest, block, predicted.
         time: global time, s; None while unknown.
         state: ``pinned``, ``moving`` or ``unknown``.
         source: the rule by which its time follows from others, for people.

@@ -19,6 +19,7 @@ from reactive_realizer.pegboard.formulas import (
     not_before,
     not_earlier,
     shifted_by,
+    unless_late,
     until,
 )
 from reactive_realizer.reactive.cell import Derived, Source
@@ -281,6 +282,41 @@ class BeforePeg(BoundedPeg):
         return self._described(links, "after", "before")
 
 
+class LateTiePeg(TimePeg):
+    """A peg that follows a time from outside while a block that waits can meet the ties to it.
+
+    If it comes less than ``least`` (s) after the start of the block, the ties are late: they are met ``earliest`` (s)
+    after the start.
+    """
+
+    __slots__ = ("earliest_met", "least")
+
+    kind = "late"
+
+    def __init__(
+        self, graph: Graph, name: str, outside: TimeCell, start: TimeCell, least: float, earliest: float
+    ) -> None:
+        self.least, self.earliest_met = least, earliest
+        super().__init__(graph, name, (outside, start), unless_late(least, earliest))
+
+    @property
+    def parameters(self) -> Mapping[str, object]:
+        """``least`` and ``earliest``, s after the start of the block."""
+        return {"least": self.least, "earliest": self.earliest_met}
+
+    def _deciding(self) -> tuple[Link, ...]:
+        """The start of the block if the ties are late, otherwise the time from outside."""
+        outside, start = self.links[:2]
+        return (outside if outside.time == self.value else start,)
+
+    def _rule(self, links: Sequence[Link]) -> str:
+        """``outside, or start + earliest if it is before start + least``."""
+        outside, start = links
+        return (
+            f"{outside.name}, or {start.name} {self.earliest_met:+g} s if it is before {start.name} {self.least:+g} s"
+        )
+
+
 class LatestPeg(TimePeg):
     """The latest of several pegs, and not before ``floor``; unknown while one of them is."""
 
@@ -396,7 +432,7 @@ class AnticipatorPeg(Source[Time]):
 
 
 def kind_of(peg: TimeCell) -> str:
-    """The kind of a peg: offset, ratio, after, before, latest, block, open, wait or predicted."""
+    """The kind of a peg: offset, ratio, after, before, late, latest, block, open, wait or predicted."""
     return peg.kind if isinstance(peg, TimePeg) else "predicted"
 
 

@@ -18,7 +18,7 @@ class LateTie(SchedulingFault):
     """A tie to a time before the start of the block; ``late`` and ``start`` in s."""
 
     code = "late-tie"
-    template = "{tie} is {late:g} s late, because the block starts at {start:g} s"
+    template = "{tie} is {late:.2f} s late, because the block starts at {start:g} s"
     tie: str
     late: float
     start: float
@@ -44,15 +44,31 @@ def outer_ties(ties: Iterable[Tie]) -> Iterator[OuterTie]:
             yield OuterTie(right, left, -tie.offset, tie)
 
 
-def least_times(items: Iterable[Item], ties: Iterable[Tie]) -> dict[TimeCell, float]:
-    """For each time from outside that points are tied to, the earliest to which no tie is late, s after the start."""
+class Bounds(NamedTuple):
+    """What a time from outside means for the ties of a block to it, s after the start of the block.
+
+    Attributes:
+        least: the earliest time to which no tie is late.
+        earliest: at which the ties are met if one is late.
+    """
+
+    least: float
+    earliest: float
+
+
+def tie_bounds(items: Iterable[Item], ties: Collection[Tie]) -> dict[TimeCell, Bounds]:
+    """The bounds of each time from outside that points are tied to."""
     behaviors = {item.behavior.id: item for item in items}
     least: dict[TimeCell, float] = {}
-    for each in outer_ties(ties):
+    outer = list(outer_ties(ties))
+    for each in outer:
         if isinstance(each.node, Point):
             time = _rigid_lead(behaviors[each.node.behavior], each.node) - each.offset
             least[each.cell] = max(least.get(each.cell, -inf), time)
-    return least
+    return {
+        cell: Bounds(time, _earliest(behaviors, ties, [each for each in outer if each.cell is cell]))
+        for cell, time in least.items()
+    }
 
 
 class LateTies:
@@ -90,7 +106,7 @@ class LateTies:
         replaced: dict[int, Tie | None] = {}
         losses: list[Loss] = []
         for cell, own in members.items():
-            time = self._earliest(own)
+            time = _earliest(self._items, self._ties, own)
             replaced |= {id(each.tie): _to_start(each, time) for each in own}
             losses += self._losses(own, self._start + time - (cell.value or 0.0))
         ties = (replaced.get(id(tie), tie) for tie in self._ties)
@@ -113,30 +129,37 @@ class LateTies:
     def _says_start(self, node: Point | Origin) -> bool:
         return isinstance(node, Origin) or self._items[node.behavior].points[0] == node
 
-    def _earliest(self, ties: Collection[OuterTie]) -> float:
-        """The earliest time (s after the start of the block) for a time from outside.
 
-        The behaviors at its ties, and those tied to them, are at their preferred durations from it.
-        """
-        places: dict[Point | Origin, float] = {each.node: each.offset for each in ties}
-        behaviors = dict.fromkeys(node.behavior for node in places if isinstance(node, Point))
-        waiting = list(behaviors)
-        while waiting:
-            item = self._items[waiting.pop(0)]
-            places |= _placed(item, places)
-            for one, other, offset in self._inner_ties(item.behavior.id):
-                if other.behavior not in behaviors:
-                    behaviors[other.behavior] = None
-                    places[other] = places[one] + offset
-                    waiting.append(other.behavior)
-        return -min(places.values())
+def _earliest(items: Mapping[str, Item], ties: Iterable[Tie], late: Collection[OuterTie]) -> float:
+    """The earliest time (s after the start of the block) for a time from outside.
 
-    def _inner_ties(self, behavior: str) -> Iterator[tuple[Point, Point, float]]:
-        """The ties of a behavior to others of the block: its point, the other one, and how much later (s) that is."""
-        for tie in self._ties:
-            for one, other, offset in ((tie.left, tie.right, -tie.offset), (tie.right, tie.left, tie.offset)):
-                if isinstance(one, Point) and isinstance(other, Point) and one.behavior == behavior:
-                    yield one, other, offset
+    The behaviors at its ties, and those tied to them, are at their preferred durations from it.
+
+    Args:
+        items: the behaviors of the block, by id.
+        ties: all of the block.
+        late: those to the time from outside.
+    """
+    places: dict[Point | Origin, float] = {each.node: each.offset for each in late}
+    behaviors = dict.fromkeys(node.behavior for node in places if isinstance(node, Point))
+    waiting = list(behaviors)
+    while waiting:
+        item = items[waiting.pop(0)]
+        places |= _placed(item, places)
+        for one, other, offset in _inner_ties(ties, item.behavior.id):
+            if other.behavior not in behaviors:
+                behaviors[other.behavior] = None
+                places[other] = places[one] + offset
+                waiting.append(other.behavior)
+    return -min(places.values())
+
+
+def _inner_ties(ties: Iterable[Tie], behavior: str) -> Iterator[tuple[Point, Point, float]]:
+    """The ties of a behavior to others of the block: its point, the other one, and how much later (s) that is."""
+    for tie in ties:
+        for one, other, offset in ((tie.left, tie.right, -tie.offset), (tie.right, tie.left, tie.offset)):
+            if isinstance(one, Point) and isinstance(other, Point) and one.behavior == behavior:
+                yield one, other, offset
 
 
 def _rigid_lead(item: Item, point: Point) -> float:

@@ -11,7 +11,7 @@ from typing import TypeVar
 from reactive_realizer.clock.units import RESOLUTION, GlobalTime, Time, has_passed, is_due
 from reactive_realizer.pegboard.peg_key import PegKey
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.pegboard.time_peg import AfterPeg, Bound, OffsetPeg, OpenPeg, TimeCell, TimePeg
+from reactive_realizer.pegboard.time_peg import Bound, LateTiePeg, OffsetPeg, OpenPeg, TimeCell, TimePeg
 from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
 from reactive_realizer.planunit.timing import OPEN
 from reactive_realizer.planunit.wait_unit import WaitUnit
@@ -21,7 +21,7 @@ from reactive_realizer.scheduler.constraints import ReferenceResolver, bound_on_
 from reactive_realizer.scheduler.duration_limits import limits_not_kept
 from reactive_realizer.scheduler.faults import WorkFailed
 from reactive_realizer.scheduler.free_points import through_free
-from reactive_realizer.scheduler.late_ties import LateTies, least_times
+from reactive_realizer.scheduler.late_ties import LateTies, tie_bounds
 from reactive_realizer.scheduler.passed_moments import without_passed
 from reactive_realizer.scheduler.peg_layout.peg_layout import BuiltPegs, PegLayout
 from reactive_realizer.scheduler.problem import Item, Node, Origin, Point, Precedence, SchedulingProblem, Tie
@@ -291,11 +291,11 @@ class Planning:
         return block.state.plays or (not plan.posed.holds and is_due(block.start.value, self._board.time))
 
     def _not_before(self, block: BMLBlock, plan: Plan) -> dict[TimeCell, TimePeg]:
-        """Pegs for times from outside, for a block that waits: none comes before a tie to it can be met."""
+        """Pegs for times from outside, for a block that waits: if ties to them are late, as at its start."""
         graph, layout = self._board.graph, plan.layout.kept
-        least = least_times(layout.items, layout.ties).items()
+        bounds = tie_bounds(layout.items, layout.ties).items()
         name = f"for {block.key.block}"
-        return {cell: AfterPeg(graph, f"{cell.name} {name}", cell, [(block.start, time)]) for cell, time in least}
+        return {cell: LateTiePeg(graph, f"{cell.name} {name}", cell, block.start, *each) for cell, each in bounds}
 
     def _open(self, unit: PlanUnit) -> None:
         """Give a behavior pegs for the points that are not planned, so that others may depend on them."""
@@ -345,8 +345,8 @@ def _has_late_ties(block: BMLBlock, start: GlobalTime) -> bool:
     if not block.outside:
         return False
     items = map(item_of, block.units)
-    ties = (each for each in _left(block) if isinstance(each, Tie))
-    return any(has_passed(cell.value, start + time) for cell, time in least_times(items, ties).items())
+    ties = [each for each in _left(block) if isinstance(each, Tie)]
+    return any(has_passed(cell.value, start + least) for cell, (least, _) in tie_bounds(items, ties).items())
 
 
 def _left(block: BMLBlock) -> list[Tie | Precedence]:
