@@ -38,6 +38,7 @@ _BMLA, _RR = f' xmlns:bmla="{BMLA}"', f' xmlns:rr="{OWN}"'
 _ESCAPES = {'"': "&quot;", "\t": "&#9;", "\n": "&#10;", "\r": "&#13;"}
 _PLAIN = re.compile(r"[\w:.+-]*").fullmatch
 """Matches values of attributes that are written as they are."""
+_NOT_IN_NAMES = re.compile(r"[^\w.-]", re.ASCII)
 _NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 """Characters that XML does not allow; the reason of a failure or the name of a plug-in may contain any."""
 
@@ -114,7 +115,7 @@ def _sync_point_progress(message: SyncPointProgress, epoch: float | None) -> str
     id_ = _value(f"{message.block}:{message.behavior}:{message.sync}")
     own = f' time="{seconds(message.block_time)}" globalTime="{time}"'
     if details:
-        own += "".join([f' rr:{name}="{_value(value)}"' for name, value in details.items()])
+        own += "".join([f' rr:{_name(name)}="{_value(value)}"' for name, value in details.items()])
     own += _posix_time(time, epoch)
     text = f'<syncPointProgress xmlns="{BML}"{spaces}{_character(message.character)} id="{id_}"{own}/>'
     return text if event is None else _with_event(text, event)
@@ -126,6 +127,13 @@ def _character(id_: str) -> str:
 
 def _posix_time(time: str, epoch: float | None) -> str:
     return "" if epoch is None else f' bmla:posixTime="{_posix(time, epoch)}"'
+
+
+@lru_cache
+def _name(text: str) -> str:
+    """A name that an engine has given to an attribute, with underscores for characters that no name may have."""
+    name = _NOT_IN_NAMES.sub("_", text)
+    return name if name[:1].isalpha() else f"_{name}"
 
 
 def _value(text: str) -> str:

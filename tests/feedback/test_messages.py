@@ -2,6 +2,7 @@
 
 import logging
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import pytest
 from hypothesis import given
@@ -205,3 +206,9 @@ def test_a_listener_that_fails_does_not_stop_the_others(
             manager.flush(GlobalTime(0.0))
     assert len(reports) == 2
     stop()
+
+
+@pytest.mark.parametrize("name", ["a b", "9th", 'x"y', "a:b", "", "<", "ö", "-"])
+def test_an_engine_may_name_an_attribute_of_its_feedback_as_it_likes(name: str) -> None:
+    message = replace(progress("h", 0.0), details={name: "value"})
+    assert "value" in etree.fromstring(to_xml(message)).attrib.values()
