@@ -106,6 +106,12 @@ class Body:
     root: Vec3 = ZERO
     # All motions of a frame need transforms along the same few chains.
     _transforms: dict[str, Transform] = field(init=False, repr=False, compare=False, default_factory=dict)
+    _hash: int = field(init=False, repr=False, compare=False, default=0)
+
+    def __hash__(self) -> int:
+        if not self._hash:
+            object.__setattr__(self, "_hash", hash((self.skeleton, self.root, frozenset(self.pose.items()))))
+        return self._hash  # a key of caches of motions
 
     def transform(self, joint: str) -> Transform:
         """Return the transform of a joint, by forward kinematics along its chain. Each joint is computed once.

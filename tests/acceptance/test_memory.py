@@ -119,15 +119,15 @@ async def test_fading_motions_are_not_kept_if_no_frames_are_made(pilot: Realizer
 
 async def test_the_number_of_cached_gestures_is_limited(pilot: RealizerPilot) -> None:
     before = tracked(GestureMotionUnit)
-    for number in range(200):
-        size = f'<bmlt:parameter name="amount" value="{number / 200}"/>'
+    for number in range(300):
+        size = f'<bmlt:parameter name="amount" value="{number / 300}"/>'
         pilot.block(
             f"b{number}", f'<gesture id="g" lexeme="BEAT" mode="RIGHT_HAND">{size}</gesture>', composition="REPLACE"
         )
         await pilot.tick()
         assert pilot.feedback.warnings == []
     gc.collect()
-    assert len(tracked(GestureMotionUnit, before)) < 140
+    assert len(tracked(GestureMotionUnit, before)) < 270
 
 
 _PERFORMED = """

@@ -149,35 +149,34 @@ class GestureMotionUnit(MotionUnit):
 
 _RANGES = {AMOUNT: AMOUNT_RANGE, HOLD: HOLD_RANGE}
 
-_MOST = 128
-"""Number of cached gestures; a planner may ask for any number of amounts."""
+_MOST = 256
+"""Number of cached gestures, of all characters; a planner may ask for any number of amounts."""
 
 
 class GestureMaker:
     """Makes gestures of animation files.
 
-    Planning a gesture mostly consists of computing the paths of its hands. Equal gestures are planned once, as long as
-    the rest posture stays the same.
+    Planning a gesture mostly consists of computing the paths of its hands. Equal gestures from equal rest postures are
+    planned once.
     """
 
     def __init__(self, context: MakerContext) -> None:
-        self._context = context
+        self._rest = context.rest
         self._files = AnimationFinder(context)
-        self._rest = context.rest.body
-        self._gesture = lru_cache(_MOST)(self._made)
 
     def __call__(self, request: MotionRequest) -> GestureMotionUnit:
         """Make a gesture."""
         animation = self._files(request)
         parameters = finite_numbers(request.parameters) | parameter_values(request.parameters, _RANGES)
-        if self._rest is not self._context.rest.body:
-            self._rest = self._context.rest.body
-            self._gesture.cache_clear()
-        return self._gesture(animation, tuple(parameters.items())).copy()
+        return _planned(animation, tuple(parameters.items()), self._rest.body).copy()
 
     def refresh(self) -> None:
         """Look for files again."""
         self._files.refresh()
 
-    def _made(self, animation: ProceduralAnimation, parameters: tuple[tuple[str, float], ...]) -> GestureMotionUnit:
-        return GestureMotionUnit(animation, dict(parameters), self._rest)
+
+@lru_cache(_MOST)
+def _planned(
+    animation: ProceduralAnimation, parameters: tuple[tuple[str, float], ...], rest: Body
+) -> GestureMotionUnit:
+    return GestureMotionUnit(animation, dict(parameters), rest)

@@ -168,8 +168,8 @@ def _with_repeats(timing: AuthoredTiming, repeats: int) -> dict[str, float]:
     return with_gesture_points({**keys, **{f"stroke:{i + 1}": min(1.0, first + i / repeats) for i in range(repeats)}})
 
 
-_MOST = 128
-"""Number of cached motions."""
+_MOST = 256
+"""Number of cached motions, of all characters."""
 
 
 class ProceduralMotionMaker:
@@ -178,20 +178,20 @@ class ProceduralMotionMaker:
     def __init__(self, context: MakerContext) -> None:
         self._files = AnimationFinder(context)
         self._rest = context.rest
-        self._motion = lru_cache(_MOST)(self._made)
 
     def __call__(self, request: MotionRequest) -> ProceduralMotionUnit:
         """Make a motion."""
-        return self._motion(
-            self._files(request), tuple(finite_numbers(request.parameters).items()), request.added
-        ).copy()
+        parameters = tuple(finite_numbers(request.parameters).items())
+        return _planned(self._files(request), parameters, request.added, self._rest.body).copy()
 
     def refresh(self) -> None:
         """Look for files again."""
         self._files.refresh()
 
-    def _made(
-        self, animation: ProceduralAnimation, parameters: tuple[tuple[str, float], ...], added: bool
-    ) -> ProceduralMotionUnit:
-        kind = LayerKind.ADDITIVE if added else kind_of(animation)
-        return ProceduralMotionUnit(animation, dict(parameters), kind, self._rest.body)
+
+@lru_cache(_MOST)
+def _planned(
+    animation: ProceduralAnimation, parameters: tuple[tuple[str, float], ...], added: bool, rest: Body
+) -> ProceduralMotionUnit:
+    kind = LayerKind.ADDITIVE if added else kind_of(animation)
+    return ProceduralMotionUnit(animation, dict(parameters), kind, rest)

@@ -222,7 +222,11 @@ def load_animation(
 _Functions = tuple[tuple[str, Function], ...]
 
 
-@lru_cache
+_MOST = 512
+"""Number of cached animations: of all files of the package, for several figures."""
+
+
+@lru_cache(_MOST)
 def _made(
     path: Path, changed: int, functions: _Functions, skeleton: Skeleton, mirror: bool, joints: frozenset[str]
 ) -> ProceduralAnimation:
