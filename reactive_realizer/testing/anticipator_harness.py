@@ -62,7 +62,7 @@ class AnticipatorHarness:
         """Plays the inputs of a tick."""
         self.now = GlobalTime(now)
         entered = [(anticipator.id, event._replace(time=self.now)) for anticipator, event in events]
-        self.predicted = self._runner.run(self._streams.run(entered, self.now))
+        self.predicted = self._runner.get_loop().run_until_complete(self._streams.run(entered, self.now))
         with self.board.graph.transaction("inputs"):
             self._streams.apply(self.predicted, self.now)
 
