@@ -3,6 +3,7 @@
 from collections import defaultdict
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from itertools import accumulate, pairwise
 from math import inf
 from typing import NamedTuple
 
@@ -10,6 +11,7 @@ from reactive_realizer.clock.units import GlobalTime, has_passed
 from reactive_realizer.errors import SchedulingFault
 from reactive_realizer.pegboard.time_peg import TimeCell
 from reactive_realizer.planunit.timing import PhaseKind
+from reactive_realizer.scheduler.offset_union_find import OffsetUnionFind
 from reactive_realizer.scheduler.problem import Item, Origin, Point, Tie
 from reactive_realizer.scheduler.solution import Loss, lost_constraint
 
@@ -59,12 +61,13 @@ class Bounds(NamedTuple):
 def tie_bounds(items: Iterable[Item], ties: Collection[Tie]) -> dict[TimeCell, Bounds]:
     """The bounds of each time from outside that points are tied to."""
     behaviors = {item.behavior.id: item for item in items}
-    least: dict[TimeCell, float] = {}
     outer = list(outer_ties(ties))
+    if not outer:
+        return {}
+    leads, least = _Leads(behaviors.values(), ties), dict[TimeCell, float]()
     for each in outer:
         if isinstance(each.node, Point):
-            time = _rigid_lead(behaviors[each.node.behavior], each.node) - each.offset
-            least[each.cell] = max(least.get(each.cell, -inf), time)
+            least[each.cell] = max(least.get(each.cell, -inf), leads[each.node] - each.offset)
     return {
         cell: Bounds(time, _earliest(behaviors, ties, [each for each in outer if each.cell is cell]))
         for cell, time in least.items()
@@ -92,6 +95,7 @@ class LateTies:
         self._ties = ties
         self._start = start
         self._outer = list(outer_ties(ties))
+        self._leads = _Leads(items if self._outer else (), ties)
         self.cells = {each.cell: None for each in self._outer if self._is_late(each)}.keys()
 
     def moved(self) -> tuple[list[Tie], list[Loss]]:
@@ -116,9 +120,7 @@ class LateTies:
         time = outer.cell.value
         if time is None:
             return False
-        lead = 0.0
-        if isinstance(outer.node, Point):
-            lead = _rigid_lead(self._items[outer.node.behavior], outer.node)
+        lead = self._leads[outer.node] if isinstance(outer.node, Point) else 0.0
         return has_passed(time + outer.offset, self._start + lead)
 
     def _losses(self, ties: Iterable[OuterTie], late: float) -> Iterator[Loss]:
@@ -128,6 +130,35 @@ class LateTies:
 
     def _says_start(self, node: Point | Origin) -> bool:
         return isinstance(node, Origin) or self._items[node.behavior].points[0] == node
+
+
+class _Leads:
+    """The least time (s) between the start of a block and each of its points.
+
+    This is the time that rigid phases take before the point, and before those that are held at a distance from it: by
+    ties, also through other behaviors, and by rigid phases.
+    """
+
+    def __init__(self, items: Iterable[Item], ties: Iterable[Tie]) -> None:
+        items = tuple(items)
+        self._groups = OffsetUnionFind[Point]()
+        self._of_roots: dict[Point, float] = {}
+        for item in items:
+            for phase, (point, later) in zip(item.timing.phases, pairwise(item.points), strict=True):
+                if phase.kind is PhaseKind.RIGID:
+                    self._groups.union(later, point, phase.duration)
+        for tie in ties if items else ():
+            if isinstance(tie.left, Point) and isinstance(tie.right, Point):
+                self._groups.union(tie.left, tie.right, tie.offset)
+        for item in items:
+            rigid = (phase.duration if phase.kind is PhaseKind.RIGID else 0.0 for phase in item.timing.phases)
+            for point, lead in zip(item.points, accumulate(rigid, initial=0.0), strict=True):
+                root, distance = self._groups.find(point)
+                self._of_roots[root] = max(self._of_roots.get(root, -inf), lead - distance)
+
+    def __getitem__(self, point: Point) -> float:
+        root, distance = self._groups.find(point)
+        return self._of_roots[root] + distance
 
 
 def _earliest(items: Mapping[str, Item], ties: Iterable[Tie], late: Collection[OuterTie]) -> float:
@@ -160,12 +191,6 @@ def _inner_ties(ties: Iterable[Tie], behavior: str) -> Iterator[tuple[Point, Poi
         for one, other, offset in ((tie.left, tie.right, -tie.offset), (tie.right, tie.left, tie.offset)):
             if isinstance(one, Point) and isinstance(other, Point) and one.behavior == behavior:
                 yield one, other, offset
-
-
-def _rigid_lead(item: Item, point: Point) -> float:
-    """The time (s) that the rigid phases of a behavior take before one of its points."""
-    phases = item.timing.phases[: item.timing.points.index(point.sync)]
-    return sum(phase.duration for phase in phases if phase.kind is PhaseKind.RIGID)
 
 
 def _placed(item: Item, places: Mapping[Point | Origin, float]) -> dict[Point | Origin, float]:

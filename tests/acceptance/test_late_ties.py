@@ -86,6 +86,18 @@ async def test_a_word_that_is_tied_too_soon_after_the_start_is_late_too(pilot: R
     assert [id_ for id_, _ in pilot.feedback.warnings] == ["b"]
 
 
+async def test_a_speech_that_is_tied_too_soon_after_the_start_through_another_behavior_is_late_too(
+    pilot: RealizerPilot,
+) -> None:
+    ties = nod("n", stroke=f"{STOP}+1.4") + synchronize("s:end", "n:stroke")
+    await stop_before_start(pilot, WELL.format("") + ties)
+    assert_time(pilot.feedback, "b:s:start", 2.0)
+    assert_linked(pilot.feedback, "b:s:end", "b:s:start", LENGTH)
+    assert_linked(pilot.feedback, "b:n:stroke", "b:s:end", 0.0)
+    (text,) = texts(pilot)
+    assert text.endswith(f"n:stroke = {STOP}+1.4 is 0.84 s late, because the block starts at 2 s")
+
+
 async def test_a_behavior_between_a_late_and_a_future_time_begins_at_once(pilot: RealizerPilot) -> None:
     pilot.predict("t", "go", 6.0)
     await stop_before_start(pilot, f'<gaze id="look" target="viewer" start="{STOP}" end="{GO}"/>')
