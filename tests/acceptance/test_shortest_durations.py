@@ -31,6 +31,47 @@ async def test_a_stroke_that_cannot_meet_the_first_word_loses_its_tie(pilot: Rea
     assert pilot.feedback.time("b:g:stroke") - pilot.feedback.time("b:g:start") > 0.36
 
 
+SPEECH = '<speech id="s"{}><text><sync id="w"/>I see what <sync id="m"/>you mean.</text></speech>'
+
+
+async def test_every_strategy_gives_up_a_tie_to_a_word_that_comes_too_soon_and_says_need_and_room(
+    any_strategy: RealizerPilot,
+) -> None:
+    beat = '<gesture id="g" lexeme="BEAT" stroke="s:w"/>'
+    any_strategy.block("b", SPEECH.format(' start="0"') + beat + NOD)
+    await any_strategy.advance(4)
+    (text,) = texts(any_strategy, "b:g") or texts(any_strategy, "b:s")
+    assert " is dropped: there is too little time for g from start to stroke: needs 0.40 s, has 0.00 s" in text
+    assert len(any_strategy.feedback.warnings) == 1
+    assert any_strategy.feedback.reached("b:s:w")
+    assert any_strategy.feedback.time("b:g:stroke") == any_strategy.feedback.time("b:n:stroke") > 0.36
+
+
+async def test_a_speech_without_a_given_time_waits_for_a_stroke_that_needs_more_time(
+    any_strategy: RealizerPilot,
+) -> None:
+    any_strategy.block("b", SPEECH.format("") + '<gesture id="g" lexeme="BEAT" start="0.2" stroke="s:w"/>')
+    await any_strategy.advance(4)
+    assert any_strategy.feedback.warnings == []
+    assert any_strategy.feedback.time("b:g:start") == 0.2
+    assert any_strategy.feedback.time("b:s:start") == pytest.approx(any_strategy.feedback.time("b:g:stroke"))
+
+
+@pytest.mark.parametrize("order", [1, -1])
+async def test_a_speech_is_whole_if_a_nod_ties_its_word_to_an_external_time_that_comes_too_soon(
+    any_strategy: RealizerPilot, order: int
+) -> None:
+    any_strategy.predict("t", "hit", 1.1)
+    await any_strategy.advance(1)
+    nod = '<head id="n" lexeme="NOD" stroke="s:m" end="anticipators:t:hit+0.2"/>'
+    any_strategy.block("b", "".join([SPEECH.format(""), nod][::order]))
+    await any_strategy.advance(3)
+    assert any_strategy.feedback.time("b:s:start") == 1.0
+    assert any_strategy.feedback.reached("b:s:end")
+    assert any_strategy.feedback.reached("b:n:end")
+    assert [id_ for id_, _ in any_strategy.feedback.warnings] == ["b:n"]
+
+
 async def test_speech_without_a_tie_waits_for_the_stroke_on_its_first_word(pilot: RealizerPilot) -> None:
     pilot.block(
         "b",

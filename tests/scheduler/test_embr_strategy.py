@@ -7,7 +7,7 @@ import pytest
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.pegboard.time_peg import AnticipatorPeg
 from reactive_realizer.planunit.timing import Phase, PhaseKind, Timing, timing_at
-from reactive_realizer.scheduler.embr.differences import Differences, Row
+from reactive_realizer.scheduler.embr.differences import Differences, Row, Unmet
 from reactive_realizer.scheduler.embr.embr_strategy import EmbrStrategy
 from reactive_realizer.scheduler.plan_view import PlanView
 from reactive_realizer.scheduler.problem import Origin, Point, Precedence, Tie
@@ -235,11 +235,13 @@ def test_a_free_behavior_fills_the_time_between_others_without_moving_them() -> 
 # --- the system of rows
 
 
-def test_adding_contradictory_rows_changes_nothing() -> None:
+def test_adding_contradictory_rows_changes_nothing_and_gives_the_rows_that_contradict_each_other() -> None:
     system = Differences({"start": 0.0, "a": 0.0, "b": 0.0}, ["start"])
     assert system.add(Row("a", "start", 1.0), Row("b", "a", 2.0)) is None
     assert (system["a"], system["b"]) == (1.0, 3.0)
-    assert system.add(Row("b", "a", 4.0), Row("a", "b", -3.0)) == pytest.approx(1.0)
+    rows = Row("b", "a", 4.0), Row("a", "b", -3.0)
+    assert system.add(*rows) == Unmet(rows, 1.0)
     assert (system["a"], system["b"]) == (1.0, 3.0)
-    assert system.add(Row("start", "b", -2.5)) == pytest.approx(0.5)
+    chain = Row("start", "b", -2.5), Row("b", "a", 2.0), Row("a", "start", 1.0)
+    assert system.add(chain[0]) == Unmet(chain, 0.5)
     assert system.add(Row("a", "b", -3.0)) is None

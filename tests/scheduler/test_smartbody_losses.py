@@ -35,41 +35,49 @@ def test_a_cluster_is_placed_without_its_dropped_behavior() -> None:
     assert times[Point("n", "start")] == times[Point("b", "start")] == 0.0
 
 
-def test_a_tie_that_a_rigid_behavior_cannot_meet_does_not_determine_its_time() -> None:
+def test_a_rigid_behavior_loses_only_the_tie_that_it_cannot_meet() -> None:
     ties = at("s:start", "s:end", 0.5), at("s:end", outer("hit", 4.0))
     times, losses = solved({"s": "speech"}, *ties)
-    assert losses == [("rigid", False), ("rigid", False)]
-    assert times[Point("s", "start")] == 0.0
+    assert losses == [("rigid", False)]
+    assert times[Point("s", "end")] == 4.0
 
 
 @pytest.mark.parametrize("required", [False, True])
 def test_the_loss_of_a_behavior_fails_the_block_if_a_required_constraint_refers_to_it(required: bool) -> None:
-    ties = at("lost:start", START, 3.0), at("lost:end", START, 2.0), at("nod:start", "lost:start", required=required)
+    ties = at("lost:start", START, 3.0), at("lost:end", START, 3.0), at("nod:start", "lost:start", required=required)
     _, losses = solved({"lost": "beat", "nod": "nod"}, *ties)
-    assert losses == [("out-of-order", required)]
+    assert losses == [("too-short", required)]
 
 
-def test_a_behavior_before_its_block_is_dropped_also_if_it_follows_a_future_outer_time() -> None:
+def test_a_tie_that_puts_a_behavior_before_its_block_is_given_up_also_if_it_follows_a_future_outer_time() -> None:
     ties = at("s:end", outer("hit", 2.5)), at("n:start", "s:start", -1.0)
     times, losses = solved({"s": "speech", "n": "nod"}, *ties)
-    assert losses == [("before-block", False)]
+    assert losses == [("clash", False)]
     assert times[Point("s", "start")] == 0.5
+    assert times[Point("n", "start")] == 0.0
 
 
-def test_a_behavior_tied_to_an_outer_time_before_its_block_is_dropped() -> None:
+def test_behaviors_stay_together_if_a_tie_of_one_puts_them_before_their_block() -> None:
     for hit, offset in ((-0.5, 0.0), (0.5, -1.0)):
         times, losses = solved(
             {"n": "nod", "m": "nod"}, at("n:start", outer("hit", hit), offset), at("m:start", "n:start")
         )
-        assert losses == [("before-block", False)] * 2
-        assert times == {}
+        assert losses == [("clash", False)]
+        assert times[Point("n", "start")] == times[Point("m", "start")] == 0.0
+
+
+def test_a_speech_that_is_tied_to_a_known_time_waits_for_the_behavior_before_it() -> None:
+    ties = at("n:end", "s:start"), at("b:start", START, 1.0), at("b:end", "s:end")
+    times, losses = solved({"s": "speech", "n": "nod", "b": "beat"}, *ties)
+    assert losses == []
+    assert [times[Point(id_, "start")] for id_ in "nsb"] == [0.0, 1.0, 1.0]
 
 
 @pytest.mark.parametrize("other", [at("b:start", START), at("b:start", outer("hit", 0.25))], ids=["block", "outside"])
-def test_a_behavior_with_a_point_before_the_block_is_dropped_also_if_its_start_is_unknown(other: Tie) -> None:
+def test_a_tie_that_puts_a_point_before_the_block_is_given_up_also_if_the_start_is_unknown(other: Tie) -> None:
     ties = other, at("n:start", outer("unknown", None)), at("n:stroke", "b:start", -0.5)
     _, losses = solved({"b": "beat", "n": "nod"}, *ties)
-    assert losses == [("before-block", False)]
+    assert losses == [("contradictory-tie", False)]
 
 
 def test_a_behavior_without_a_duration_is_dropped_also_if_one_of_its_points_is_unknown() -> None:

@@ -112,10 +112,11 @@ def test_28a_a_beat_follows_the_stroke_of_a_nod_between_two_times() -> None:
     assert plan["beat1:start"] == pytest.approx(3.3)
 
 
-def test_28b_in_the_other_order_the_nod_is_dropped() -> None:
+def test_28b_in_the_other_order_the_tie_between_them_is_given_up() -> None:
     plan = Plan([item("beat1", BEAT), item("nod1", NOD)], *EXAMPLE_28)
-    assert plan.losses == [("nod1", "out-of-order", True)]
+    assert plan.losses == [("beat1", "contradictory-tie", False)]
     assert plan.times("beat1") == pytest.approx(list(BEAT.values()))
+    assert plan.times("nod1") == pytest.approx([3.0, 3.8, 5.0])
 
 
 EXAMPLE_29 = (
@@ -133,10 +134,11 @@ def test_29a_a_cycle_of_ties_with_offsets_is_met_if_the_nod_comes_last() -> None
     assert plan["nod1:end"] == pytest.approx(plan["g2:end"] + 3.0)
 
 
-def test_29b_one_of_the_gestures_is_dropped_if_the_nod_comes_first() -> None:
+def test_29b_a_tie_is_given_up_if_the_nod_comes_first() -> None:
     plan = Plan([item("nod1", NOD), item("g1", BEAT), item("g2", BEAT)], *EXAMPLE_29)
-    assert [(loss, code) for loss, code, _ in plan.losses] == [("g2", "out-of-order")]
-    assert plan.kept == {"nod1", "g1"}
+    assert plan.losses == [("nod1", "contradictory-tie", False)]
+    assert (plan["nod1:start"], plan["g1:start"]) == pytest.approx((0.0, 2.0))
+    assert plan["g2:start"] == pytest.approx(plan["g1:end"])
 
 
 # --- times of points
@@ -198,8 +200,31 @@ def test_a_behavior_that_would_start_before_its_block_is_shortened() -> None:
     assert plan.times("g") == pytest.approx([time / 2 for time in BEAT.values()])
 
 
-def test_a_speech_that_would_start_before_its_block_is_dropped() -> None:
-    assert Plan([speech()], tie("speech1:sync1", START, 0.25)).losses == [("speech1", "before-block", True)]
+def test_a_speech_that_would_start_before_its_block_loses_its_tie() -> None:
+    plan = Plan([speech()], tie("speech1:sync1", START, 0.25))
+    assert plan.losses == [("speech1", "too-hurried", False)]
+    assert plan.times("speech1") == [0.0, 0.5, 2.0]
+
+
+def test_a_speech_without_a_given_time_waits_for_a_gesture_that_starts_later() -> None:
+    plan = Plan([speech(), item("g", BEAT)], tie("g:start", START, 0.2), tie("g:stroke", "speech1:start"))
+    assert plan.losses == []
+    assert plan.times("g") == pytest.approx([0.2 + time for time in BEAT.values()])
+    assert plan["speech1:start"] == pytest.approx(plan["g:stroke"])
+
+
+def test_a_behavior_keeps_its_tie_to_one_that_loses_a_tie() -> None:
+    ties = tie("speech1:start", START), tie("g:start", START, 0.2), tie("g:stroke", "speech1:start")
+    plan = Plan([speech(), item("g", BEAT), item("n", NOD)], *ties, tie("n:stroke", "g:stroke"))
+    assert plan.losses == [("g", "contradictory-tie", False)]
+    assert plan["n:stroke"] == plan["g:stroke"] == pytest.approx(0.7)
+
+
+def test_a_tie_that_is_not_required_is_given_up_before_one_that_is() -> None:
+    ties = tie("g:start", START, 3.0), tie("g:end", START, 2.0, required=True)
+    plan = Plan([item("g", BEAT)], *ties)
+    assert plan.losses == [("g", "contradictory-tie", False)]
+    assert plan["g:end"] == 2.0
 
 
 def test_points_that_depend_on_an_unknown_time_are_unknown() -> None:
@@ -219,10 +244,10 @@ def test_a_behavior_tied_to_an_outer_time_follows_it() -> None:
     assert plan["g:start"] == 3.0
 
 
-def test_a_behavior_tied_to_a_past_point_is_dropped() -> None:
+def test_a_tie_to_a_past_point_is_given_up() -> None:
     plan = Plan([item("g", NOD)], tie("g:start", outer(-1.5)))
-    assert plan.losses == [("g", "before-block", True)]
-    assert plan.kept == set()
+    assert plan.losses == [("g", "clash", False)]
+    assert plan["g:start"] == 0.0
 
 
 # --- conflicts
@@ -280,10 +305,11 @@ def test_a_rigid_behavior_cannot_be_tied_to_two_times_if_one_is_unknown() -> Non
     assert plan.losses == []
 
 
-def test_a_behavior_with_points_out_of_order_is_dropped() -> None:
+def test_a_behavior_with_points_out_of_order_loses_the_tie_of_the_later_one() -> None:
     plan = Plan([item("g", BEAT), item("h", NOD)], tie("g:start", START, 3.0), tie("g:end", START, 2.0))
-    assert plan.losses == [("g", "out-of-order", True)]
-    assert plan.kept == {"h"}
+    assert plan.losses == [("g", "contradictory-tie", False)]
+    assert plan.solution.losses[0].fault.details["gap"] == pytest.approx(1.0)
+    assert plan["g:start"] == 3.0
 
 
 def test_a_behavior_without_a_duration_is_dropped() -> None:
@@ -292,10 +318,11 @@ def test_a_behavior_without_a_duration_is_dropped() -> None:
     ]
 
 
-def test_a_behavior_tied_to_a_time_before_the_block_is_dropped() -> None:
+def test_a_tie_to_a_time_before_the_block_is_given_up() -> None:
     plan = Plan([item("g", BEAT)], tie("g:start", START, -1.0))
-    assert plan.losses == [("g", "before-block", True)]
-    assert plan.solution.losses[0].fault.details["early"] == pytest.approx(1.0)
+    assert plan.losses == [("g", "clash", False)]
+    assert plan.solution.losses[0].fault.details["gap"] == pytest.approx(1.0)
+    assert plan["g:start"] == 0.0
 
 
 # --- any problem

@@ -19,6 +19,13 @@ class Row(NamedTuple, Generic[N]):
     distance: float
 
 
+class Unmet(NamedTuple, Generic[N]):
+    """Rows that cannot be met together, and by how much (s) they miss that."""
+
+    rows: tuple[Row[N], ...]
+    gap: float
+
+
 class Differences(Generic[N]):
     """Rows that can be met together, and the least times that meet them.
 
@@ -34,46 +41,70 @@ class Differences(Generic[N]):
     def __init__(self, floors: Mapping[N, float], fixed: Iterable[N]) -> None:
         self._least = dict(floors)
         self._fixed = frozenset(fixed)
-        self._after: dict[N, list[tuple[N, float]]] = {node: [] for node in floors}
+        self._after: dict[N, list[Row[N]]] = {node: [] for node in floors}
+        self._raised_by: dict[N, Row[N]] = {}
 
     def __getitem__(self, node: N) -> float:
         """The least time (s) of a node."""
         return self._least[node]
 
-    def add(self, *rows: Row[N]) -> float | None:
+    def add(self, *rows: Row[N]) -> Unmet[N] | None:
         """Add rows, all or none.
 
         Returns:
-            None, or by how much (s) they miss being met together with the others.
+            None, or rows that cannot be met together, if these cannot with the others.
         """
-        raised: dict[N, float] = {}
+        before: dict[N, tuple[float, Row[N] | None]] = {}
         for number, row in enumerate(rows):
-            self._after[row.earlier].append((row.later, row.distance))
-            gap = self._raise(row, raised)
-            if gap is not None:
-                self._undo(rows[: number + 1], raised)
-                return gap
+            self._after[row.earlier].append(row)
+            unmet = self._raise(row, before)
+            if unmet is not None:
+                self._undo(rows[: number + 1], before)
+                return unmet
         return None
 
-    def _raise(self, row: Row[N], raised: dict[N, float]) -> float | None:
+    def _raise(self, row: Row[N], before: dict[N, tuple[float, Row[N] | None]]) -> Unmet[N] | None:
+        """Raise nodes until a row is met; ``before`` takes their times and the rows that raised them."""
         numbers = count()
-        waiting = [(self._least[row.later] - self._least[row.earlier] - row.distance, next(numbers), row.later)]
+        waiting = [(self._room(row), next(numbers), row)]
         done: set[N] = set()
         while waiting:
-            room, _, node = heappop(waiting)
+            room, _, by = heappop(waiting)
+            node = by.later
             if room >= -TOLERANCE:
                 return None
             if node in self._fixed or node == row.earlier:
-                return -room
+                return Unmet(self._cause(by), -room)
             if node not in done:
                 done.add(node)
-                raised.setdefault(node, self._least[node])
+                before.setdefault(node, (self._least[node], self._raised_by.get(node)))
                 self._least[node] -= room
-                for later, distance in self._after[node]:
-                    heappush(waiting, (self._least[later] - self._least[node] - distance, next(numbers), later))
+                self._raised_by[node] = by
+                for each in self._after[node]:
+                    heappush(waiting, (self._room(each), next(numbers), each))
         return None
 
-    def _undo(self, rows: Iterable[Row[N]], raised: Mapping[N, float]) -> None:
+    def _undo(self, rows: Iterable[Row[N]], before: Mapping[N, tuple[float, Row[N] | None]]) -> None:
         for row in rows:
-            self._after[row.earlier].remove((row.later, row.distance))
-        self._least.update(raised)
+            self._after[row.earlier].remove(row)
+        for node, (time, by) in before.items():
+            self._least[node] = time
+            if by is None:
+                del self._raised_by[node]
+            else:
+                self._raised_by[node] = by
+
+    def _room(self, row: Row[N]) -> float:
+        """The time (s) by which a row is met."""
+        return self._least[row.later] - self._least[row.earlier] - row.distance
+
+    def _cause(self, last: Row[N]) -> tuple[Row[N], ...]:
+        """The rows that raise the later side of one, back to that side, to a node that none raises, or in a circle."""
+        rows, row = dict[Row[N], None](), last
+        while row not in rows:
+            rows[row] = None
+            before = self._raised_by.get(row.earlier)
+            if before is None or row.earlier == last.later:
+                break
+            row = before
+        return tuple(rows)

@@ -5,6 +5,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple
 
 from reactive_realizer.planunit.timing import PhaseKind
+from reactive_realizer.scheduler.embr.differences import Row
 from reactive_realizer.scheduler.problem import Item, Node, Point, Precedence, Tie
 
 
@@ -24,6 +25,11 @@ class Segment(NamedTuple):
     preferred: float
     rigid: bool
     shortest: float
+
+    @property
+    def row(self) -> Row[Node]:
+        """Its shortest duration as a condition on its knots."""
+        return Row(self.end, self.start, self.shortest)
 
 
 class EmbrProblem:

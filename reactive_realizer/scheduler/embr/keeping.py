@@ -1,9 +1,9 @@
 """Chooses the constraints that can be met together."""
 
-from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import groupby
 
-from reactive_realizer.scheduler.embr.differences import Differences, Row
+from reactive_realizer.scheduler.embr.differences import Differences, Row, Unmet
 from reactive_realizer.scheduler.embr.embr_problem import EmbrProblem
 from reactive_realizer.scheduler.faults import ContradictoryTie, OuterTie, TooHurried
 from reactive_realizer.scheduler.offset_union_find import TIE_TOLERANCE, OffsetUnionFind
@@ -55,7 +55,7 @@ class _Admission:
                 self._groups.union(segment.end, segment.start, segment.preferred)
                 self._differences.add(*_equal(segment.end, segment.start, segment.preferred))
             else:
-                self._add(Row(segment.end, segment.start, segment.shortest))
+                self._add(segment.row)
         for id_, item in self._problem.items.items():
             if not item.timing.instant:
                 self._add(Row(Point(id_, item.timing.points[-1]), Point(id_, item.timing.points[0]), _LEAST))
@@ -63,46 +63,39 @@ class _Admission:
         losses, rows = tuple(self._losses), tuple(self._rows)
         return Kept(constraints, losses, self._groups, rows, self._differences)
 
-    def _add(self, row: Row[Node]) -> float | None:
-        """Add a row; by how much it misses being met together with the others, None if it does not."""
-        gap = self._differences.add(row)
-        if gap is None:
+    def _add(self, row: Row[Node]) -> Unmet[Node] | None:
+        """Add a row; None if it can be met together with the others."""
+        unmet = self._differences.add(row)
+        if unmet is None:
             self._rows.append(row)
-        return gap
+        return unmet
 
     def _admit(self, constraint: Tie | Precedence) -> bool:
         if isinstance(constraint, Precedence):
-            gap = self._add(Row(constraint.later, constraint.earlier, constraint.offset))
+            unmet = self._add(Row(constraint.later, constraint.earlier, constraint.offset))
         elif self._outer(constraint):
             self._losses.append(lost_constraint(constraint, OuterTie(tie=constraint.text)))
             return False
         else:
-            gap = self._differences.add(*_equal(constraint.left, constraint.right, constraint.offset))
-            if gap is None:
+            unmet = self._differences.add(*_equal(constraint.left, constraint.right, constraint.offset))
+            if unmet is None:
                 self._groups.union(constraint.left, constraint.right, constraint.offset)
-        if gap is not None:
-            fault = self._hurried(constraint, gap) or ContradictoryTie(tie=constraint.text, gap=gap)
+        if unmet is not None:
+            fault = self._hurried(constraint, unmet) or ContradictoryTie(tie=constraint.text, gap=unmet.gap)
             self._losses.append(lost_constraint(constraint, fault))
-        return gap is None
+        return unmet is None
 
-    def _hurried(self, constraint: Tie | Precedence, gap: float) -> TooHurried | None:
-        """The fault if a constraint leaves phases next to one of its points too little time, by a gap (s)."""
-        points = [node for node in constraint.nodes if isinstance(node, Point)]
-        needs = [need for point in points for need in self._needs(point) if need[2] >= gap - TIE_TOLERANCE]
-        if not needs:
+    def _hurried(self, constraint: Tie | Precedence, unmet: Unmet[Node]) -> TooHurried | None:
+        """The fault if a constraint leaves phases too little time; None if it is not met even if these take none."""
+        rows = set(unmet.rows)
+        segments = [each for each in self._problem.segments if each.shortest > 0 and each.row in rows]
+        need = sum(segment.shortest for segment in segments)
+        if not segments or unmet.gap > need + TIE_TOLERANCE:
             return None
-        start, end, need = min(needs, key=lambda each: each[2])
-        phases = (f"{start.behavior} from {start.sync} to {end.sync}",)
-        return TooHurried(what=constraint.text, phases=phases, need=need, room=max(0.0, need - gap))
-
-    def _needs(self, point: Point) -> Iterator[tuple[Point, Point, float]]:
-        """The ends and the shortest durations (s) of all sequences of segments that end or begin at a point."""
-        own = [segment for segment in self._problem.segments if segment.start.behavior == point.behavior]
-        index = next((i for i, segment in enumerate(own) if segment.start == point), len(own))
-        for before in range(index):
-            yield own[before].start, point, sum(segment.shortest for segment in own[before:index])
-        for after in range(index, len(own)):
-            yield point, own[after].end, sum(segment.shortest for segment in own[index : after + 1])
+        own = groupby(segments, key=lambda segment: segment.start.behavior)
+        parts = [(behavior, list(each)) for behavior, each in own]
+        phases = tuple(f"{behavior} from {each[0].start.sync} to {each[-1].end.sync}" for behavior, each in parts)
+        return TooHurried(what=constraint.text, phases=phases, need=need, room=max(0.0, need - unmet.gap))
 
     def _outer(self, tie: Tie) -> bool:
         """Whether it would equate two given times, of which one may move without the other."""

@@ -2,24 +2,14 @@
 
 import itertools
 from bisect import bisect
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
-from reactive_realizer.errors import RealizerError, SchedulingFault
-from reactive_realizer.planunit.timing import SHORTEST, Phase, TooShort, stretched
+from reactive_realizer.errors import Fault, RealizerError
+from reactive_realizer.planunit.timing import SHORTEST, Phase, PhaseKind, TooShort, stretched
+from reactive_realizer.scheduler.faults import Conflicting, ContradictoryTie, TooHurried
 from reactive_realizer.scheduler.offset_union_find import TIE_TOLERANCE
-from reactive_realizer.scheduler.problem import Item, Node
-
-
-class OutOfOrder(SchedulingFault):
-    """A behavior with sync points in the wrong order; ``gap`` in s."""
-
-    code = "out-of-order"
-    template = "this behavior is dropped: its {sync} would come {gap:g} s after its {later}"
-    sync: str
-    later: str
-    gap: float
-
+from reactive_realizer.scheduler.problem import Item, Node, Tie
 
 Cluster = str | Node
 """Behaviors that are moved together, by the id of the first of them or by the unknown time from outside that it names.
@@ -54,7 +44,7 @@ class Squeeze(NamedTuple):
         before: index of the earlier point.
         after: index of the later one.
         need: shortest duration of these phases, s.
-        room: time that is given, s.
+        room: time that is given, s; negative if the points are out of order.
     """
 
     before: int
@@ -78,33 +68,36 @@ def squeeze(item: Item, given: Mapping[int, Placement]) -> Squeeze | None:
     """The first two given points with known times that leave the phases between them too little time, if there are."""
     known = [(i, placed.time) for i, placed in sorted(given.items()) if placed.known]
     for (before, time), (after, later) in itertools.pairwise(known):
-        need = sum(phase.shortest for phase in item.timing.phases[before:after])
+        need = sum(map(_least, item.timing.phases[before:after]))
         if later - time < need - TIE_TOLERANCE:
-            return Squeeze(before, after, need, max(0.0, later - time))
+            return Squeeze(before, after, need, later - time)
     return None
 
 
-def check_given(item: Item, given: Mapping[int, Placement]) -> None:
-    """Refuse given times that are out of order.
-
-    Raises:
-        RealizerError: "out-of-order".
-    """
-    known = [(item.timing.points[i], placed.time) for i, placed in sorted(given.items()) if placed.known]
-    _check_order(itertools.combinations(known, 2))
+def squeeze_fault(item: Item, tie: Tie, found: Squeeze, *, by_block: bool) -> Fault:
+    """The fault of a tie that leaves too little time, or a wrong order; ``by_block``: after the start of the block."""
+    if found.room >= -TIE_TOLERANCE:
+        start, end = item.timing.points[found.before], item.timing.points[found.after]
+        phases = (f"{item.behavior.id} from {start} to {end}",)
+        return TooHurried(what=tie.text, phases=phases, need=found.need, room=max(found.room, 0.0))
+    if by_block or found.before == found.after:
+        return Conflicting(what=tie.text, others="the start of the block", gap=-found.room)
+    return ContradictoryTie(tie=tie.text, gap=-found.room)
 
 
 def check_playable(item: Item, placed: Sequence[Placement]) -> None:
-    """Refuse a behavior that cannot be played (thesis 7.14, 7.15).
+    """Refuse a behavior without duration (thesis 7.14).
 
     Raises:
-        RealizerError: its points are out of order, or there is no time between its start and its end.
+        RealizerError: there is no time between its start and its end.
     """
-    known = [(sync, point.time) for sync, point in zip(item.timing.points, placed, strict=True) if point.known]
-    _check_order(itertools.pairwise(known))
     start, end = placed[0], placed[-1]
     if not item.timing.instant and start.known and end.known and end.time - start.time < SHORTEST:
         raise RealizerError(TooShort())
+
+
+def _least(phase: Phase) -> float:
+    return phase.duration if phase.kind is PhaseKind.RIGID else phase.shortest
 
 
 def _place(
@@ -134,9 +127,3 @@ def _average_stretch(offsets: Sequence[float], known: Mapping[int, float]) -> fl
     first, last = min(known), max(known)
     preferred = offsets[last] - offsets[first]
     return (known[last] - known[first]) / preferred if preferred > 0 else 1.0
-
-
-def _check_order(pairs: Iterable[tuple[tuple[str, float], tuple[str, float]]]) -> None:
-    for (sync, time), (later, then) in pairs:
-        if then < time - SHORTEST:
-            raise RealizerError(OutOfOrder(sync=sync, later=later, gap=time - then))

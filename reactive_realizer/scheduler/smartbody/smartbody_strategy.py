@@ -1,29 +1,30 @@
 """SmartBody's scheduling with Elckerlyc's sorting (thesis 7.2.2, 7.3.5)."""
 
-from collections import defaultdict
+import itertools
 from collections.abc import Mapping, Sequence
 from math import isfinite
 
 from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.planunit.timing import SHORTEST
 from reactive_realizer.scheduler.faults import (
-    BeforeBlock,
     ContradictoryTie,
     NoOrder,
     OuterTie,
     Rigid,
-    TooHurried,
 )
 from reactive_realizer.scheduler.offset_union_find import TIE_TOLERANCE, OffsetUnionFind
 from reactive_realizer.scheduler.problem import Item, Node, Origin, Point, SchedulingProblem, Tie
 from reactive_realizer.scheduler.smartbody.placement import (
     Cluster,
     Placement,
-    check_given,
+    Squeeze,
     check_playable,
     fill,
     squeeze,
+    squeeze_fault,
 )
+from reactive_realizer.scheduler.smartbody.sorting import sorted_items
+from reactive_realizer.scheduler.smartbody.tie_chain import chain
 from reactive_realizer.scheduler.solution import Loss, Solution, lost_behavior, lost_constraint, with_required
 
 _SAME = 1e-3
@@ -33,8 +34,9 @@ _SAME = 1e-3
 class SmartBodyStrategy:
     """Places behaviors one by one, each by its ties to earlier ones; then moves free clusters to the block's start.
 
-    It keeps no before/after constraints, and its plans depend on the order of the behaviors (thesis 7.1.6). It is the
-    reference for better strategies.
+    If a behavior cannot be placed, a speech without a given time is moved later, or else one of the ties is given up.
+    The strategy keeps no before/after constraints, and its plans depend on the order of the behaviors (thesis 7.1.6).
+    It is the reference for better strategies.
     """
 
     name = "smartbody"
@@ -61,23 +63,23 @@ class _Run:
         self._clusters = OffsetUnionFind[Cluster]([Origin.BLOCK_START])
         self._placed: dict[str, list[Placement]] = {}
         self._losses: list[Loss] = []
+        self._connected = OffsetUnionFind[str]()
+        self._unsettled: set[str] = set()
 
     def solve(self) -> Solution:
         for tie in self._problem.ties:
             self._tie(tie)
         for order in self._problem.orders:
             self._losses.append(lost_constraint(order, NoOrder(strategy=SmartBodyStrategy.name, text=order.text)))
-        for item in _sorted(self._problem, self._ties):
+        for item in sorted_items(self._problem, self._ties):
             try:
-                self._place(item)
+                if self._connected.find(item.behavior.id)[0] in self._unsettled:
+                    self._leave(item)
+                else:
+                    self._place(item)
             except RealizerError as problem:
                 self._losses.append(lost_behavior(item.behavior, problem.fault))
         earliest = self._earliest()
-        for item in self._problem.items:
-            fault = self._past(self._placed.get(item.behavior.id, ()))
-            if fault is not None:
-                del self._placed[item.behavior.id]
-                self._losses.append(lost_behavior(item.behavior, fault))
         times = {
             point: placed.time - earliest.get(self._cluster(placed), 0.0)
             for item in self._problem.items
@@ -88,6 +90,8 @@ class _Run:
 
     def _tie(self, tie: Tie) -> None:
         gap = self._ties.union(tie.left, tie.right, tie.offset)
+        if isinstance(tie.left, Point) and isinstance(tie.right, Point):
+            self._connected.union(tie.left.behavior, tie.right.behavior)
         if gap is None:
             self._tied.update(tie.nodes)
         elif abs(gap) > TIE_TOLERANCE:
@@ -95,20 +99,23 @@ class _Run:
             self._losses.append(lost_constraint(tie, contradiction if isfinite(gap) else OuterTie(tie=tie.text)))
 
     def _place(self, item: Item) -> None:
-        """Place every point of a behavior; the placements of earlier behaviors stay."""
+        """Place every point of a behavior; the placements of earlier behaviors stay, if possible."""
         points = item.points
         tied = self._known(item, points)
         if not tied:  # it begins a cluster with its first tied point, or its start
             first = next((i for i, point in enumerate(points) if point in self._tied), 0)
             tied = {first: Placement(item.timing.offsets[first], known=True, cluster=item.behavior.id)}
         tied = self._with_own_ties(item, points, tied)
-        if item.timing.rigid:
-            tied = self._met(item, points, tied)
+        if self._ground(tied):
+            self._place(item)
+            return
+        if item.timing.rigid and self._misses(item, points, tied):
+            return
         first = min(tied)
         known = self._not_before_the_block(item, {first: tied[first]} if item.timing.rigid else tied)
-        check_given(item, known)
-        if not item.timing.rigid:
-            known = self._unsqueezed(item, points, known)
+        if (found := self._conflict(item, known)) is not None:
+            self._resolve(item, tied, found)
+            return
         placed = fill(item, known)
         if item.timing.rigid:  # it stays in one piece when its start has passed
             placed = fill(item, {0: placed[0]})
@@ -159,35 +166,92 @@ class _Run:
                 known = {**known, leader: first, i: first.moved(distance - at)}
         return known
 
-    def _met(self, item: Item, points: Sequence[Point], known: Mapping[int, Placement]) -> dict[int, Placement]:
-        """The points that a rigid behavior placed by its first one meets; the ties of the others are lost."""
-        met, first = {}, min(known)
-        for i, placed in sorted(known.items()):
-            gap = self._gap(item, points, known, first, i)
-            if gap is not None and abs(gap) <= _SAME:
-                met[i] = placed
-                continue
-            lost = [loss.constraint for loss in self._losses]
-            for tie in (tie for tie in self._problem.ties if points[i] in tie.nodes and tie not in lost):
+    def _misses(self, item: Item, points: Sequence[Point], known: Mapping[int, Placement]) -> bool:
+        """Whether a rigid behavior placed by its first known point misses another one; the tie of that is given up."""
+        first = min(known)
+        gaps = {i: self._gap(item, points, known, first, i) for i in sorted(known)}
+        for i, gap in gaps.items():
+            if gap is None or abs(gap) > _SAME:
+                tie = self._least(item, i, first)
                 rigid = Rigid(tie=tie.text, point=":".join(points[i]), gap=abs(gap or 0.0))
-                place, fault = item.behavior.location, OuterTie(tie=tie.text) if gap is None else rigid
-                located = fault.located(place.line, place.column)
-                self._losses.append(Loss(item.behavior.id, located, False, tie.required, tie))
-        return met
+                self._give_up(item, tie, OuterTie(tie=tie.text) if gap is None else rigid)
+                return True
+        return False
 
-    def _unsqueezed(self, item: Item, points: Sequence[Point], known: dict[int, Placement]) -> dict[int, Placement]:
-        """The known points without those that leave earlier phases too little time; their ties are lost."""
-        while (found := squeeze(item, known)) is not None:
-            start, end = item.timing.points[found.before], item.timing.points[found.after]
-            phases = (f"{item.behavior.id} from {start} to {end}",)
-            lost = [loss.constraint for loss in self._losses]
-            ties = [tie for tie in self._problem.ties if points[found.after] in tie.nodes and tie not in lost]
-            self._losses += [
-                lost_constraint(tie, TooHurried(what=tie.text, phases=phases, need=found.need, room=found.room))
-                for tie in ties
-            ]
-            known = {i: placed for i, placed in known.items() if i != found.after}
-        return known
+    def _ground(self, tied: Mapping[int, Placement]) -> bool:
+        """Move free clusters that begin before the block, and are tied to known times now, to its start (thesis 7.24).
+
+        Returns:
+            Whether one has been moved.
+        """
+        if not self._is_fixed(tied):
+            return False
+        free = {self._cluster(placed) for placed in tied.values() if self._is_free(placed)}
+        earliest = self._earliest()
+        early = {cluster: -earliest[cluster] for cluster in free if earliest.get(cluster, 0.0) < -SHORTEST}
+        for cluster, distance in early.items():
+            self._move(cluster, distance)
+        return bool(early)
+
+    def _conflict(self, item: Item, known: Mapping[int, Placement]) -> Squeeze | None:
+        """Known points that cannot be where they are."""
+        first = min((i for i, placed in known.items() if placed.known), default=None)
+        if first is not None and known[first].time < -SHORTEST and self._is_fixed(known):
+            return Squeeze(0, first, 0.0, known[first].time)
+        return squeeze(item, known)
+
+    def _resolve(self, item: Item, tied: Mapping[int, Placement], found: Squeeze) -> None:
+        """Have a rigid behavior of a free cluster wait for one that is placed, or give up a tie of that one."""
+        cluster = self._cluster(tied[found.after])
+        others = {i: placed for i, placed in tied.items() if self._cluster(placed) != cluster}
+        rigid = any(each.timing.rigid for each in self._problem.items if self._is_in(each, cluster))
+        if rigid and cluster is not Origin.BLOCK_START and found.before in others:
+            distance = fill(item, others)[found.after].time - tied[found.after].time
+            if distance > found.need - found.room - TIE_TOLERANCE:
+                self._move(cluster, distance)
+                self._clusters.union(others[found.before].cluster, cluster)
+                self._place(item)
+                return
+        tie = self._least(item, found.after, found.before)
+        self._give_up(item, tie, squeeze_fault(item, tie, found, by_block=found.before not in tied))
+
+    def _least(self, item: Item, *indices: int) -> Tie:
+        """The tie to be given up of those that determine the places of points: the last one that is not required."""
+        chains = (reversed(self._chain(item, index)) for index in indices)
+        return min(itertools.chain.from_iterable(chains), key=lambda tie: tie.required)
+
+    def _give_up(self, item: Item, tie: Tie, fault: Fault) -> None:
+        """Give up a tie; what is connected to its behavior is placed without it, in the next run."""
+        self._losses.append(lost_constraint(tie, fault))
+        self._leave(item)
+
+    def _leave(self, item: Item) -> None:
+        """Have a behavior, and those that are connected to it, be placed in the next run."""
+        self._unsettled.add(self._connected.find(item.behavior.id)[0])
+        self._placed[item.behavior.id] = fill(item, {0: self._start})
+
+    def _chain(self, item: Item, index: int) -> list[Tie]:
+        """The ties that determine the place of a point of a behavior."""
+        lost = {id(loss.constraint) for loss in self._losses}
+        placed = {item.behavior.id, *self._placed}
+        return chain(
+            item.points[index],
+            (tie for tie in self._problem.ties if id(tie) not in lost),
+            lambda node: node in self._given or (isinstance(node, Point) and node.behavior in placed),
+        )
+
+    def _move(self, cluster: Cluster, distance: float) -> None:
+        """Move all placements of a cluster by a distance (s)."""
+
+        def moved(placed: Placement) -> Placement:
+            return placed.moved(distance) if self._cluster(placed) == cluster else placed
+
+        self._placed = {id_: [moved(placed) for placed in points] for id_, points in self._placed.items()}
+        self._roots = {root: (moved(placed), at) for root, (placed, at) in self._roots.items()}
+
+    def _is_in(self, item: Item, cluster: Cluster) -> bool:
+        placed = self._placed.get(item.behavior.id, ())
+        return any(self._cluster(each) == cluster for each in placed)
 
     def _gap(
         self, item: Item, points: Sequence[Point], known: Mapping[int, Placement], first: int, index: int
@@ -205,16 +269,13 @@ class _Run:
 
         This does not concern clusters that are moved later.
         """
-        first = min((i for i, placed in known.items() if placed.known), default=None)
-        if first is None:
-            return known
-        given, start = known[first], fill(item, known)[0]
-        early = -(start if start.known else given).time
-        if early <= SHORTEST or self._is_free(given):
-            return known
-        if not start.known or first == 0 or item.timing.rigid or given.time <= 0:
-            raise RealizerError(BeforeBlock(early=early))
-        return {0: self._start, **known}
+        start = fill(item, known)[0]
+        early = start.known and start.time < -SHORTEST and self._is_fixed(known)
+        return {0: self._start, **known} if early else known
+
+    def _is_fixed(self, known: Mapping[int, Placement]) -> bool:
+        """Whether a behavior is tied to a known time."""
+        return not all(self._is_free(placed) for placed in known.values())
 
     def _cluster(self, placed: Placement) -> Cluster:
         return self._clusters.find(placed.cluster)[0]
@@ -230,39 +291,3 @@ class _Run:
             cluster = self._cluster(placed)
             earliest[cluster] = min(earliest.get(cluster, placed.time), placed.time)
         return earliest
-
-    def _past(self, placed: Sequence[Placement]) -> Fault | None:
-        """The fault of a behavior before its block, whose cluster a later behavior has tied to something fixed."""
-        early = (each.time for each in placed if each.known and each.time < -SHORTEST and not self._is_free(each))
-        return next((BeforeBlock(early=-time) for time in early), None)
-
-
-def _sorted(problem: SchedulingProblem, ties: OffsetUnionFind[Node]) -> list[Item]:
-    """The order of scheduling (thesis 7.3.5): rigid behaviors whose time is given, then all others.
-
-    Among these, a rigid behavior comes before the behaviors with which it is in a cycle of ties.
-    Otherwise, behaviors stay in document order. (The thesis's third group, completely flexible behaviors,
-    follows with the first behavior of that kind.)
-    """
-    rigid = [item for item in problem.items if item.timing.rigid]
-    grounded = [item for item in rigid if any(not isinstance(ties.find(node)[0], Point) for node in item.points)]
-    order = [item for item in problem.items if item not in grounded]
-    flexible = {item.behavior.id for item in problem.items if not item.timing.rigid}
-    pairs = [tie.nodes for tie in problem.ties]
-    links = [(one, other) for one, other in pairs if isinstance(one, Point) and isinstance(other, Point)]
-    groups = OffsetUnionFind[str]()
-    for one, other in links:
-        if {one.behavior, other.behavior} <= flexible:
-            groups.union(one.behavior, other.behavior)
-    for item in [item for item in order if item.timing.rigid]:
-        touched: defaultdict[str, set[str]] = defaultdict(set)
-        for here, there in [*links, *((other, one) for one, other in links)]:
-            if here.behavior == item.behavior.id and there.behavior in flexible:
-                touched[groups.find(there.behavior)[0]].add(here.sync)
-        cycles = {group for group, points in touched.items() if len(points) > 1}
-        ahead = order[: order.index(item)]
-        place = next((i for i, each in enumerate(ahead) if groups.find(each.behavior.id)[0] in cycles), None)
-        if place is not None:
-            order.remove(item)
-            order.insert(place, item)
-    return grounded + order
