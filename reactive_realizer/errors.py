@@ -38,7 +38,7 @@ class _Kind:
         dataclass(frozen=True, kw_only=True)(cls)
         if "code" in vars(cls):
             kind = cast("type[Fault]", cls)
-            names = {name for _, name, _, _ in Formatter().parse(kind.template) if name}
+            names = {*kind.compared, *(name for _, name, _, _ in Formatter().parse(kind.template) if name)}
             if unknown := names - {own.name for own in fields(kind)}:
                 raise TypeError(f"the template of {cls.__name__} mentions {', '.join(unknown)}, which is not a field")
             if kind.unknown and not {kind.unknown, "known"} <= {own.name for own in fields(kind)}:
@@ -56,7 +56,9 @@ class Fault(_Kind):
 
     Attributes:
         code: the name of the kind. Programs rely on it, so it never changes.
-        template: the sentence for people. Fields are in braces; tuples are listed.
+        template: the sentence for people. Fields are in braces; tuples are listed, and numbers without a format are
+            `rounded`.
+        compared: the fields of numbers that are wrong because they differ; the sentence shows that they do.
         unknown: the field with the name, or the tuple of names, that is unknown; the sentence then suggests the names
             of the field ``known``, a tuple, that are most like it. Empty for a fault without such names.
         warning: the type of the warningFeedback that reports it; None if feedback does not.
@@ -66,6 +68,7 @@ class Fault(_Kind):
 
     code: ClassVar[str]
     template: ClassVar[str]
+    compared: ClassVar[tuple[str, ...]] = ()
     unknown: ClassVar[str] = ""
     warning: ClassVar[WarningType | None] = None
     line: int | None = None
@@ -79,13 +82,22 @@ class Fault(_Kind):
     @property
     def sentence(self) -> str:
         """The sentence for people, without the place."""
-        sentence = self.template.format(**{name: _listed(value) for name, value in self.details.items()})
+        sentence = self.template.format(**self._shown())
         meant = " and ".join(f"'{name}'" for name in self._nearest())
         return f"{sentence}; did you mean {meant}?" if meant else sentence
 
     def located(self, line: int, column: int) -> Self:
         """This fault with a place, unless it already has one."""
         return self if self.line is not None else replace(self, line=line, column=column)
+
+    def _shown(self) -> dict[str, object]:
+        """The values of the fields as the sentence shows them."""
+        shown = {name: _listed(value) for name, value in self.details.items()}
+        for _, name, form, _ in Formatter().parse(self.template):
+            if name and not form and isinstance(value := shown[name], float):
+                others = self.compared if name in self.compared else ()
+                shown[name] = rounded(value, *(cast("float", self.details[other]) for other in others))
+        return shown
 
     def _nearest(self) -> list[str]:
         """The known names that are most like the unknown ones."""
@@ -102,6 +114,20 @@ class Fault(_Kind):
 
 _MOST_LISTED = 40
 _MOST_QUOTED = 60
+_DIGITS = range(2, 7)
+
+
+def rounded(number: float, *others: float) -> str:
+    """A number for a message, with two digits after the point, or up to six where two show no difference.
+
+    Args:
+        number: in any unit.
+        others: the numbers from which the reader has to tell it; zero if there are none.
+    """
+    different = {number, *(others or (0.0,))}
+    telling = (digits for digits in _DIGITS if len({round(each, digits) for each in different}) == len(different))
+    digits = next(telling, _DIGITS[0])
+    return f"{round(number, digits) + 0.0:.{digits}f}"  # no negative zero
 
 
 def quoted(text: str) -> str:

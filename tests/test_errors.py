@@ -22,6 +22,30 @@ def test_the_sentence_mentions_the_details() -> None:
     assert str(_NoSeat(number=7)).endswith("available: none")
 
 
+class _Late(SchedulingFault):
+    code = "test-late"
+    template = "{late} s late: needs {need} s, has {room} s"
+    compared = ("need", "room")
+    late: float
+    need: float
+    room: float
+
+
+@pytest.mark.parametrize(
+    ("late", "need", "room", "said"),
+    [
+        (0.392817, 0.4, 0.0, "0.39 s late: needs 0.40 s, has 0.00 s"),
+        (-2.0, 0.104, 0.0982, "-2.00 s late: needs 0.104 s, has 0.098 s"),
+        (0.0004, 0.5, 0.5 + 1e-12, "0.0004 s late: needs 0.50 s, has 0.50 s"),
+        (-1e-12, 0.1, 0.1, "0.00 s late: needs 0.10 s, has 0.10 s"),
+    ],
+)
+def test_numbers_have_two_digits_or_more_if_these_show_no_difference(
+    late: float, need: float, room: float, said: str
+) -> None:
+    assert str(_Late(late=late, need=need, room=room)) == said
+
+
 def test_a_fault_keeps_the_first_place_that_it_is_given() -> None:
     fault = _NoSeat(number=7).located(3, 14).located(1, 1)
     assert str(fault).startswith("line 3, column 14: there is no seat")

@@ -67,7 +67,8 @@ class NeverEnters(Fault):
     """A file for a time after the end of the session."""
 
     code = "never-enters"
-    template = "{file} was not played: the session ended at {end:g} s, before its time of {time:g} s"
+    template = "{file} was not played: the session ended at {end} s, before its time of {time} s"
+    compared = ("end", "time")
     file: str
     end: float
     time: float

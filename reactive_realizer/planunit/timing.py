@@ -131,7 +131,8 @@ class Overtaken(SchedulingFault):
     """Sync points whose times, in s, lost their order (thesis 7.15)."""
 
     code = "overtaken"
-    template = "its sync points lost their order when they moved: {sync} is at {time:g} s, {later} at {late:g} s"
+    template = "its sync points lost their order when they moved: {sync} is at {time} s, {later} at {late} s"
+    compared = ("time", "late")
     sync: str
     time: float
     later: str

@@ -24,7 +24,7 @@ class ConstraintLost(SchedulingFault):
     """A constraint that stopped holding after a change; ``gap`` in s."""
 
     code = "constraint-lost"
-    template = "{constraint} no longer holds: it is off by {gap:g} s"
+    template = "{constraint} no longer holds: it is off by {gap} s"
     constraint: str
     gap: float
 
@@ -33,9 +33,8 @@ class ConstraintHurried(SchedulingFault):
     """A constraint that a change left too little time for; times in s."""
 
     code = "constraint-hurried"
-    template = (
-        "{constraint} no longer holds: it is off by {gap:g} s, because {point} needs {need:.2f} s, has {room:.2f} s"
-    )
+    template = "{constraint} no longer holds: it is off by {gap} s, because {point} needs {need} s, has {room} s"
+    compared = ("need", "room")
     constraint: str
     gap: float
     point: str

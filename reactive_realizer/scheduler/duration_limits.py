@@ -16,7 +16,8 @@ class BeyondLimits(SchedulingFault):
     """A behavior, or a phase of it, that is shorter or longer than its author allows; times in s."""
 
     code = "beyond-limits"
-    template = "{behavior} from {start} to {end} is to last at {bound} {limit:.2f} s, lasts {duration:.2f} s"
+    template = "{behavior} from {start} to {end} is to last at {bound} {limit} s, lasts {duration} s"
+    compared = ("limit", "duration")
     behavior: str
     start: str
     end: str

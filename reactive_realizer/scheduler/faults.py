@@ -34,7 +34,7 @@ class ContradictoryTie(SchedulingFault):
     """A constraint that contradicts others; ``gap`` in s."""
 
     code = "contradictory-tie"
-    template = "{tie} contradicts other constraints by {gap:g} s and is dropped"
+    template = "{tie} contradicts other constraints by {gap} s and is dropped"
     tie: str
     gap: float
 
@@ -51,7 +51,7 @@ class Rigid(SchedulingFault):
     """A constraint on a point that cannot move; ``gap`` in s."""
 
     code = "rigid"
-    template = "{tie} is dropped: {point} cannot be moved by the {gap:g} s that it requires"
+    template = "{tie} is dropped: {point} cannot be moved by the {gap} s that it requires"
     tie: str
     point: str
     gap: float
@@ -61,7 +61,7 @@ class BeforeBlock(SchedulingFault):
     """A behavior that would start before its block; ``early`` in s."""
 
     code = "before-block"
-    template = "it would have to start {early:g} s before its block"
+    template = "it would have to start {early} s before its block"
     early: float
 
 
@@ -69,7 +69,7 @@ class Conflicting(SchedulingFault):
     """A constraint or behavior that conflicts with others; ``gap`` in s."""
 
     code = "clash"
-    template = "{what} is dropped: it conflicts with {others} by {gap:g} s"
+    template = "{what} is dropped: it conflicts with {others} by {gap} s"
     what: str
     others: str
     gap: float
@@ -79,7 +79,8 @@ class TooHurried(SchedulingFault):
     """A constraint or behavior that leaves phases of behaviors less time than the body needs; times in s."""
 
     code = "too-hurried"
-    template = "{what} is dropped: there is too little time for {phases}: needs {need:.2f} s, has {room:.2f} s"
+    template = "{what} is dropped: there is too little time for {phases}: needs {need} s, has {room} s"
+    compared = ("need", "room")
     what: str
     phases: tuple[str, ...]
     need: float
@@ -90,7 +91,7 @@ class NeverHolds(SchedulingFault):
     """A constraint or behavior that is impossible by itself; ``gap`` in s."""
 
     code = "never-holds"
-    template = "{what} can never be satisfied and is dropped: it is off by {gap:g} s"
+    template = "{what} can never be satisfied and is dropped: it is off by {gap} s"
     what: str
     gap: float
 

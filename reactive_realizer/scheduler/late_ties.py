@@ -20,7 +20,7 @@ class LateTie(SchedulingFault):
     """A tie to a time before the start of the block; ``late`` and ``start`` in s."""
 
     code = "late-tie"
-    template = "{tie} is {late:.2f} s late, because the block starts at {start:g} s"
+    template = "{tie} is {late} s late, because the block starts at {start} s"
     tie: str
     late: float
     start: float

@@ -18,7 +18,8 @@ class PassedMoment(SchedulingFault):
     """A tie to a moment that passed before the block was meant; times in s."""
 
     code = "passed-moment"
-    template = "{tie}: that came at {time:g} s, before the block {how} at {since:g} s, and does not come again"
+    template = "{tie}: that came at {time} s, before the block {how} at {since} s, and does not come again"
+    compared = ("time", "since")
     tie: str
     time: float
     how: str

@@ -5,7 +5,7 @@ from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from math import inf
 
-from reactive_realizer.errors import Fault, SchedulingFault
+from reactive_realizer.errors import Fault, SchedulingFault, rounded
 from reactive_realizer.pegboard.time_peg import AnticipatorPeg
 from reactive_realizer.planunit.timing import SHORTEST, PhaseKind
 from reactive_realizer.scheduler.offset_union_find import OffsetUnionFind
@@ -20,7 +20,7 @@ class ConstraintBroken(SchedulingFault):
     """A constraint that a plan misses, found by ``--verify``; ``amount`` in s."""
 
     code = "constraint-broken"
-    template = "'{text}' is missed by {amount:g} s ({points}; thesis {equation})"
+    template = "'{text}' is missed by {amount} s ({points}; thesis {equation})"
     text: str
     amount: float
     points: str
@@ -119,7 +119,7 @@ def _rigid_phases(plan: PlanView) -> Iterator[Violation]:
         for phase, (point, after) in zip(timing.phases, itertools.pairwise(points), strict=True):
             if phase.kind is PhaseKind.RIGID and plan.movable(point) and plan.movable(after):
                 short, long = _gap(plan, after, point, phase.duration), _gap(plan, point, after, -phase.duration)
-                text = f"{phase.duration:g} s from {id_}:{point.sync} to its {after.sync}"
+                text = f"{rounded(phase.duration)} s from {id_}:{point.sync} to its {after.sync}"
                 yield Violation("7.1.4", _names(point, after), max(short, long), text)
 
 
@@ -130,7 +130,7 @@ def _shortest_phases(plan: PlanView) -> Iterator[Violation]:
         for shortest, (point, after) in zip(plan.shortest.get(id_, ()), itertools.pairwise(points), strict=False):
             begun = not plan.past or (point in plan.past and plan.movable(after))
             if shortest > 0 and begun and id_ not in plan.lurking:
-                text = f"{shortest:g} s from {id_}:{point.sync} to its {after.sync} at least"
+                text = f"{rounded(shortest)} s from {id_}:{point.sync} to its {after.sync} at least"
                 yield Violation("7.2.1", _names(point, after), _gap(plan, after, point, shortest), text)
 
 

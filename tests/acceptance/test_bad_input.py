@@ -25,7 +25,7 @@ BAD = [
     ('<head id="x" lexeme="NOD" start="nobody:end"/>', "b:x", "IMPOSSIBLE_TO_SCHEDULE", "nobody"),
     ('<head id="x" lexeme="NOD" start="fine:stroke"/>', "b:x", "IMPOSSIBLE_TO_SCHEDULE", "stroke"),
     ('<head id="x" lexeme="NOD" start="other:fine:end"/>', "b:x", "IMPOSSIBLE_TO_SCHEDULE", "other"),
-    ('<head id="x" lexeme="NOD" start="-1"/>', "b:x", "IMPOSSIBLE_TO_SCHEDULE", "the start of the block by 1 s"),
+    ('<head id="x" lexeme="NOD" start="-1"/>', "b:x", "IMPOSSIBLE_TO_SCHEDULE", "the start of the block by 1.00 s"),
     ('<head id="x" lexeme="NOD" start="2" end="1"/>', "b:x", "IMPOSSIBLE_TO_SCHEDULE", "x:end = 1 is dropped"),
     ('<head id="x" lexeme="NOD" start="2" end="2"/>', "b:x", "IMPOSSIBLE_TO_SCHEDULE", "x:end = 2 is dropped"),
     ('<faceLexeme id="x" lexeme="RAISE_BROWS" start="2" end="2"/>', "b:x", "IMPOSSIBLE_TO_SCHEDULE", "no time is left"),

@@ -44,7 +44,7 @@ async def test_a_late_stroke_has_its_preparation_and_one_warning_says_how_late_i
     await pilot.advance(6)
     assert_time(pilot.feedback, "b:g:start", 6.0)
     assert_linked(pilot.feedback, "b:g:stroke", "b:g:start", preparation)
-    said = f"g:stroke = {STOP} is {6.0 + preparation - 4.5:.2f} s late, because the block starts at 6 s"
+    said = f"g:stroke = {STOP} is {6.0 + preparation - 4.5:.2f} s late, because the block starts at 6.00 s"
     assert texts(pilot) == [f"line 1, column 174: {said}"]
 
 

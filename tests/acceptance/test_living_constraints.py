@@ -56,7 +56,7 @@ async def test_a_before_constraint_cannot_move_a_behavior_before_the_start_of_it
     pilot.block("b", wait("w", 0.5) + before(HIT, "w:end"), composition="APPEND")
     await moves(pilot, 0.2, ("hit", 1.0), 4)
     assert_time(pilot.feedback, "b:w:start", 2.0)
-    assert [f"w:end before {HIT} {LOST}: it is off by 1.5 s" in said for said in texts(pilot)] == [True]
+    assert [f"w:end before {HIT} {LOST}: it is off by 1.50 s" in said for said in texts(pilot)] == [True]
 
 
 async def test_dependents_of_a_chunk_follow_when_it_is_planned_again(pilot: RealizerPilot) -> None:
@@ -112,7 +112,7 @@ async def test_a_consistent_cycle_of_ties_is_kept_and_an_inconsistent_one_is_rep
     await pilot.advance(8)
     assert_linked(pilot.feedback, "good:x:start", "good:z:start", 2.0)
     assert pilot.feedback.warnings == [("bad:z", "IMPOSSIBLE_TO_SCHEDULE")]
-    assert "z:start = x:start-2.5 contradicts other constraints by 0.5 s" in texts(pilot)[0]
+    assert "z:start = x:start-2.5 contradicts other constraints by 0.50 s" in texts(pilot)[0]
 
 
 # --- two times from outside
@@ -158,7 +158,7 @@ async def test_a_point_that_its_successor_overtakes_is_predicted_and_happens_wit
     assert [f"n:attackPeak = {HIT} {LOST}" in said for said in texts(pilot)] == [True]
 
 
-@pytest.mark.parametrize(("moved", "why"), [(0.8, ": start is at 1 s, end at 0.8 s"), (1.0, "no time is left")])
+@pytest.mark.parametrize(("moved", "why"), [(0.8, ": start is at 1.00 s, end at 0.80 s"), (1.0, "no time is left")])
 async def test_a_behavior_that_has_no_duration_left_before_its_start_is_dropped_with_one_warning(
     pilot: RealizerPilot, moved: float, why: str
 ) -> None:

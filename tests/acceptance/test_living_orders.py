@@ -39,7 +39,7 @@ async def test_a_behavior_after_an_unknown_time_comes_with_it_even_if_that_is_ea
         await moves(pilot, 0.3, ("hit", 0.3), 3)
         assert_time(pilot.feedback, "b:n:start", 0.3)
         (said,) = texts(pilot)
-        assert f"w:start before {HIT} {LOST}: it is off by 0.1 s" in said
+        assert f"w:start before {HIT} {LOST}: it is off by 0.10 s" in said
 
 
 async def test_an_after_constraint_that_moves_past_a_reached_point_is_reported_once(
@@ -50,7 +50,7 @@ async def test_an_after_constraint_that_moves_past_a_reached_point_is_reported_o
     await moves(pilot, 0.7, ("hit", 2.0), 0.1, ("hit", 2.5), 3)
     assert_time(pilot.feedback, "b:w:start", 0.5)
     (said,) = texts(pilot)
-    assert f"w:start after {HIT}-0.5 {LOST}: it is off by 1 s" in said
+    assert f"w:start after {HIT}-0.5 {LOST}: it is off by 1.00 s" in said
 
 
 async def test_an_after_constraint_delays_a_point_of_a_playing_gesture(pilot: RealizerPilot) -> None:

@@ -34,7 +34,7 @@ async def test_the_end_of_a_playing_speech_does_not_follow_a_later_prediction(pi
     assert_time(pilot.feedback, "b:s:end", 1.5)
     assert_linked(pilot.feedback, "b:n:start", "b:s:m")
     assert_time(pilot.feedback, "b:w:start", 3.0)
-    assert [f"s:end = {HIT} {LOST}: it is off by 1.5 s" in said for said in texts(pilot)] == [True]
+    assert [f"s:end = {HIT} {LOST}: it is off by 1.50 s" in said for said in texts(pilot)] == [True]
 
 
 @pytest.mark.parametrize("moved", [2.0, None])

@@ -92,6 +92,13 @@ async def test_a_pointing_that_has_too_little_time_is_ready_when_it_can_be(pilot
     assert pilot.feedback.time("b:p:ready") > 0.5 + 0.29
 
 
+async def test_a_warning_shows_a_shortage_of_less_than_a_hundredth_of_a_second(pilot: RealizerPilot) -> None:
+    pilot.block("b", '<head id="n" lexeme="TILT" start="1" end="1.1"/>')
+    await pilot.advance(3)
+    (text,) = texts(pilot, "b:n")
+    assert text.endswith("n from start to end: needs 0.101 s, has 0.100 s")
+
+
 async def test_a_hurried_gesture_that_has_just_enough_time_keeps_its_ties(pilot: RealizerPilot) -> None:
     pilot.block("b", '<pointing id="p" target="bluebox" start="0.5" ready="0.8"/>')
     await pilot.advance(3)

@@ -123,7 +123,7 @@ async def test_a_behavior_tied_to_a_moment_before_the_arrival_is_dropped_with_th
     ties = nod("n", stroke=TICK.format(3)) + nod("m", start="n:end") + nod("k", stroke=TICK.format(5))
     pilot.block("b", ties + synchronize("m:end", "k:start"))
     await pilot.advance(4)
-    reason = "n:stroke = anticipators:metronome:tick3: that came at 3 s, before the block arrived at 3.5 s"
+    reason = "n:stroke = anticipators:metronome:tick3: that came at 3.00 s, before the block arrived at 3.50 s"
     assert reason in texts(pilot)[0]
     assert "m:start = n:end refers to 'n', which is dropped" in texts(pilot)[1]
     assert "refers to 'm', which is dropped" in texts(pilot)[2]
@@ -138,7 +138,7 @@ async def test_a_behavior_tied_to_a_moment_before_the_activation_is_dropped_then
     assert pilot.feedback.warnings == []
     await pilot.advance(2)
     assert [id_ for id_, _ in pilot.feedback.warnings] == ["b:n"]
-    assert "that came at 1 s, before the block was activated at 2.5 s, and does not come again" in texts(pilot)[0]
+    assert "that came at 1.00 s, before the block was activated at 2.50 s, and does not come again" in texts(pilot)[0]
     assert_time(pilot.feedback, "b:m:start", 2.5)
     assert_not_played(pilot.feedback, "b:n")
 

@@ -59,7 +59,8 @@ async def test_a_self_contradictory_constraint_is_reported(pilot: RealizerPilot)
     pilot.block("b", wait("w", 1) + before("w:end", "w:end+1"))
     await pilot.advance(2)
     assert [
-        "w:end+1 before w:end can never be satisfied and is dropped: it is off by 1 s" in said for said in texts(pilot)
+        "w:end+1 before w:end can never be satisfied and is dropped: it is off by 1.00 s" in said
+        for said in texts(pilot)
     ] == [True]
 
 

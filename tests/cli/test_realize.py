@@ -51,7 +51,7 @@ def test_a_file_that_would_enter_after_the_end_of_the_session_is_reported(
     one, two = bml(block("one"), "one.xml"), bml(block("two"), "two.xml")
     status, feedback, errors = realize(one, f"{two}@2", "--until", "1")
     assert (status, ids(feedback)) == (0, ["one:start", "one:end"])
-    assert errors == f"{two} was not played: the session ended at 1 s, before its time of 2 s\n"
+    assert errors == f"{two} was not played: the session ended at 1.00 s, before its time of 2.00 s\n"
     assert realize(one, f"{two}@1", "--until", "1")[2] == ""
 
 

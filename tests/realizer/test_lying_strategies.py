@@ -81,8 +81,8 @@ def seen(pilot: RealizerPilot) -> list[tuple[str, str, object]]:
 
 AT_START, AT_HIT = ("7.8", "w:start, block start"), ("7.32", f"m:stroke, {HIT}")
 NO_TIME = [("7.14", f"{id_}:start, {id_}:end", SHORTEST) for id_ in "wnm"]
-HALF_A_NOD = 0.0484946
-"""Time that the head needs for each half of a stroke, s."""
+HALF_A_NOD = 0.05
+"""Time that the head needs for each half of a stroke, as warnings show it, s."""
 HURRIED = [
     ("7.2.1", f"{id_}:{first}, {id_}:{last}", HALF_A_NOD)
     for id_ in "nm"

@@ -54,7 +54,7 @@ async def test_an_equation_that_does_not_hold_is_a_warning_of_its_block(caplog: 
         await broken(pilot)
     assert pilot.feedback.warnings == [("b", "IMPOSSIBLE_TO_SCHEDULE")]
     (warning,) = pilot.feedback.of("warningFeedback")
-    assert "'1 s from w:start to its end' is missed by 2 s (w:start, w:end; thesis 7.1.4)" in warning.text
+    assert "'1.00 s from w:start to its end' is missed by 2.00 s (w:start, w:end; thesis 7.1.4)" in warning.text
     assert [record.levelname for record in caplog.records if record.name.endswith("verifier")] == ["ERROR"]
 
 
@@ -80,7 +80,7 @@ async def test_a_constraint_that_is_missed_although_nothing_moved_is_a_violation
         await pilot.advance(0.1)
         pilot.realizer.record(lambda _: put_off(pilot.realizer))
         await pilot.tick()
-        assert said(pilot) == ["'w:start = 2' is missed by 0.5 s (w:start, block start; thesis 7.8)"]
+        assert said(pilot) == ["'w:start = 2' is missed by 0.50 s (w:start, block start; thesis 7.8)"]
 
 
 async def test_a_constraint_that_a_time_from_outside_breaks_is_no_violation() -> None:

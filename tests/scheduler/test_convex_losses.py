@@ -84,7 +84,7 @@ def test_a_tie_to_a_time_before_the_block_is_dropped() -> None:
     plan = Plan({"n": NOD}, at("n:start", outer("hit", -0.5)))
     assert plan.times("n") == pytest.approx([0.0, 0.4, 1.0])
     assert plan.losses == [("n", "clash", False)]
-    assert "the start of the block by 0.5 s" in plan.solution.losses[0].fault.sentence
+    assert "the start of the block by 0.50 s" in plan.solution.losses[0].fault.sentence
 
 
 def test_independent_contradictions_are_all_reported() -> None:

@@ -16,7 +16,8 @@ class OutsideSound(Fault):
     """A position that a sound does not have, s."""
 
     code = "outside-sound"
-    template = "position {position:g} s is not in the sound '{id}', which lasts {duration:g} s"
+    template = "position {position} s is not in the sound '{id}', which lasts {duration} s"
+    compared = ("position", "duration")
     position: float
     id: str
     duration: float
@@ -26,7 +27,8 @@ class FarOff(Fault):
     """A sound that is said to be heard at a time at which it cannot be heard; ``off`` and ``most`` in s."""
 
     code = "far-off"
-    template = "the sound '{id}' would be heard {off:+g} s off its plan; at most {most:g} s are possible"
+    template = "the sound '{id}' would be heard {off} s off its plan; at most {most} s are possible"
+    compared = ("off", "most")
     id: str
     off: float
     most: float

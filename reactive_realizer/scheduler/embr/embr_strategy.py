@@ -17,7 +17,7 @@ class SelfContradictory(SchedulingFault):
     """A behavior whose own constraints contradict each other; ``gap`` in s."""
 
     code = "self-contradictory"
-    template = "this behavior is dropped: {tie} contradicts its other constraints by {gap:g} s"
+    template = "this behavior is dropped: {tie} contradicts its other constraints by {gap} s"
     tie: str
     gap: float
 
