@@ -358,6 +358,18 @@ class UnknownBlock(SchedulingFault):
     known: tuple[str, ...] = ()
 
 
+class UnknownBlockPoint(SchedulingFault):
+    """A reference to a sync point that a block does not have."""
+
+    code = "unknown-block-point"
+    template = "{reference}: the block '{block}' has no sync point '{sync}'; it has {known}"
+    unknown = "sync"
+    reference: str
+    block: str
+    sync: str
+    known: tuple[str, ...]
+
+
 class UnknownOwner(SchedulingFault):
     """A reference to a block or behavior that does not exist."""
 

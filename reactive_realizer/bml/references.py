@@ -1,16 +1,27 @@
 """Checks that the sync points to which a block refers exist."""
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.block import BehaviorBlock, Constraint, DefineProc, Order, Problem
-from reactive_realizer.bml.faults import LostWith, UnknownBlock, UnknownOwner, UnknownReference, UnknownSync
-from reactive_realizer.bml.names import Location
+from reactive_realizer.bml.faults import (
+    LostWith,
+    UnknownBlock,
+    UnknownBlockPoint,
+    UnknownOwner,
+    UnknownReference,
+    UnknownSync,
+)
+from reactive_realizer.bml.names import ANTICIPATORS, Location
 from reactive_realizer.bml.sync_ref import SyncRef
 from reactive_realizer.errors import Fault
 
 Points = Callable[[Behavior], Collection[str] | None]
 """Returns the sync points of a behavior, None if they are not known."""
+
+Blocks = Callable[[str], Sequence[BehaviorBlock]]
+"""Returns the other blocks with an id of which the content is known."""
 
 
 def standard_points(behavior: Behavior) -> Collection[str] | None:
@@ -18,16 +29,23 @@ def standard_points(behavior: Behavior) -> Collection[str] | None:
     return None if behavior.open_points else behavior.sync_points
 
 
-def check_references(block: BehaviorBlock | DefineProc, points: Points = standard_points) -> tuple[Problem, ...]:
+def check_references(
+    block: BehaviorBlock | DefineProc, points: Points = standard_points, others: Blocks = lambda id_: ()
+) -> tuple[Problem, ...]:
     """A problem for each reference to a behavior or sync point that is missing from this block or procedure.
 
     References to other blocks, to anticipators, and to behaviors whose sync points are not known are not checked.
+
+    Args:
+        block: to check.
+        points: of its behaviors.
+        others: blocks that a reference may have meant instead of a behavior.
     """
     behaviors = {behavior.id: behavior for behavior in block.behaviors}
     return tuple(
         Problem(fault, place)
         for place, location, ref in references_of(block)
-        if ref.block in {None, block.id} and (fault := _fault(ref, block, behaviors, location, points))
+        if ref.block in {None, block.id} and (fault := _fault(ref, block, behaviors, location, points, others))
     )
 
 
@@ -44,6 +62,13 @@ def references_of(block: BehaviorBlock | DefineProc) -> Iterator[tuple[str, Loca
             yield place, constraint.location, ref
 
 
+def predictions_of(block: BehaviorBlock | DefineProc) -> Iterator[tuple[str, Location, str, SyncRef]]:
+    """The references to points of anticipators, after the id and the location of their owner and the anticipator."""
+    for id_, location, ref in references_of(block):
+        if ref.block == ANTICIPATORS and ref.behavior is not None:
+            yield id_, location, ref.behavior, ref
+
+
 def unknown_block(ref: SyncRef, block: BehaviorBlock | DefineProc, blocks: Iterable[str]) -> Fault:
     """The fault of a reference in a block to another one that is not among ``blocks``."""
     name = ref.block or ""
@@ -54,16 +79,31 @@ def unknown_block(ref: SyncRef, block: BehaviorBlock | DefineProc, blocks: Itera
     return UnknownOwner(reference=str(ref), block=name, known=known)
 
 
-def unknown_block_point(ref: SyncRef, block: BehaviorBlock) -> Fault | None:
-    """The fault of a reference to a sync point that a block does not have; None if it has it.
+def unknown_behavior(ref: SyncRef, behaviors: Iterable[str], blocks: Sequence[BehaviorBlock]) -> Fault:
+    """The fault of a reference to a behavior that is not among ``behaviors`` of its block.
+
+    If it has the name of ``blocks``, it names a sync point that these do not have.
+    """
+    name = ref.behavior or ""
+    other = unknown_block_point(replace(ref, block=name, behavior=None), blocks)
+    return other or UnknownReference(reference=str(ref), behavior=name, known=tuple(behaviors))
+
+
+def unknown_block_point(ref: SyncRef, blocks: Sequence[BehaviorBlock]) -> Fault | None:
+    """The fault of a reference to a sync point that none of the blocks with its name has; None if one has it.
 
     By default, a block is ready if one of its behaviors is.
     """
-    ready = any("ready" in behavior.sync_points for behavior in block.behaviors)
-    known = dict.fromkeys(("start", *(["ready"] if ready else []), *block.points, "relax", "end"))
-    if (sync := ref.sync or "start") in known:
+    sync, known = ref.sync or "start", tuple(map(_points, blocks))
+    if not known or any(sync in points for points in known):
         return None
-    return UnknownSync(reference=str(ref), behavior=block.id, sync=sync, known=tuple(known))
+    return UnknownBlockPoint(reference=str(ref), block=ref.block or "", sync=sync, known=known[0])
+
+
+def _points(block: BehaviorBlock) -> tuple[str, ...]:
+    """The sync points of a block."""
+    ready = any("ready" in behavior.sync_points for behavior in block.behaviors)
+    return tuple(dict.fromkeys(("start", *(["ready"] if ready else []), *block.points, "relax", "end")))
 
 
 def _refs_of(constraint: Constraint) -> tuple[SyncRef, ...]:
@@ -76,6 +116,7 @@ def _fault(
     behaviors: Mapping[str, Behavior],
     location: Location,
     points: Points,
+    others: Blocks,
 ) -> Fault | None:
     if ref.behavior is None:
         return None
@@ -84,7 +125,8 @@ def _fault(
     if ref.behavior in block.unread:
         fault = LostWith(reference=str(ref), behavior=ref.behavior)
     elif behavior is None:
-        fault = UnknownReference(reference=str(ref), behavior=ref.behavior, known=tuple(behaviors))
+        another = ref.block is None and ref.behavior != block.id
+        fault = unknown_behavior(ref, behaviors, others(ref.behavior) if another else ())
     elif (those := points(behavior)) is None or ref.sync in those:
         return None
     else:

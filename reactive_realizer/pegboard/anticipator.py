@@ -10,7 +10,7 @@ from typing import ClassVar, NamedTuple
 
 from reactive_realizer.clock.tick_clock import TickClock
 from reactive_realizer.clock.units import GlobalTime, Time
-from reactive_realizer.errors import Fault, RealizerError, SchedulingFault
+from reactive_realizer.errors import Fault, RealizerError, SchedulingFault, TargetFault
 
 _NUMBER = re.compile(r"[0-9]{1,9}")
 
@@ -44,6 +44,17 @@ class UnknownPoint(SchedulingFault):
     reference: str
     anticipator: str
     point: str
+    known: tuple[str, ...]
+
+
+class NoAnticipatorYet(TargetFault):
+    """A reference to an anticipator that does not exist yet, with almost the name of one that does."""
+
+    code = "no-anticipator-yet"
+    template = "{reference}: no anticipator '{anticipator}' is known yet"
+    unknown = "anticipator"
+    reference: str
+    anticipator: str
     known: tuple[str, ...]
 
 

@@ -6,7 +6,8 @@ from itertools import islice
 from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.clock.units import GlobalTime, Time, has_passed, is_due
 from reactive_realizer.errors import Fault, RealizerError
-from reactive_realizer.pegboard.anticipator import Anticipator, Remote
+from reactive_realizer.nearest_name import nearest_name
+from reactive_realizer.pegboard.anticipator import Anticipator, NoAnticipatorYet, Remote
 from reactive_realizer.pegboard.peg_key import ANTICIPATORS, BlockKey, PegKey, anticipator_key
 from reactive_realizer.pegboard.peg_view import Explanation, PegView, explain, view_of
 from reactive_realizer.pegboard.time_peg import AnticipatorPeg, TimeCell, TimePeg, time_of
@@ -165,6 +166,16 @@ class PegBoard:
         """
         if anticipator in self.anticipators:
             self.anticipators[anticipator].check_point(sync, reference)
+
+    def mistyped_anticipator(self, anticipator: str, reference: str) -> NoAnticipatorYet | None:
+        """The fault of a reference to an anticipator that does not exist yet, if its name is like a known one.
+
+        It is no fault otherwise, because clients may predict the points of any anticipator.
+        """
+        known = tuple(self.anticipators)
+        if nearest_name(anticipator, known) is None:
+            return None
+        return NoAnticipatorYet(reference=reference, anticipator=anticipator, known=known)
 
     def occur(self, anticipator: str, sync: str, time: GlobalTime) -> None:
         """Within a transaction, have a point occur; from now on, its name means the next occurrence."""

@@ -1,6 +1,7 @@
 """Finds mistakes in BML documents, and behaviors that the scene cannot play."""
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from itertools import chain
 from typing import NamedTuple
 
 from reactive_realizer.bml.attribute_types import IdList
@@ -9,15 +10,15 @@ from reactive_realizer.bml.behavior import Behavior, ForeignBehavior
 from reactive_realizer.bml.block import BehaviorBlock, DefineProc, Parsed, Problem
 from reactive_realizer.bml.extensions import ParameterValueChange
 from reactive_realizer.bml.faults import ForeignAttribute, UnknownSync
-from reactive_realizer.bml.names import ANTICIPATORS, EVENTS, Location
+from reactive_realizer.bml.names import ANTICIPATORS
 from reactive_realizer.bml.references import (
     check_references,
+    predictions_of,
     references_of,
     standard_points,
     unknown_block,
     unknown_block_point,
 )
-from reactive_realizer.bml.sync_ref import SyncRef
 from reactive_realizer.errors import Fault, RealizerError, WarningType
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.scheduler.block_composition import UnknownTargetBlock
@@ -42,7 +43,6 @@ class NotInHumanFile(Fault):
     template = (
         "{reference}: the human file has no anticipator '{anticipator}', so clients must predict it; available: {known}"
     )
-    unknown = "anticipator"
     reference: str
     anticipator: str
     known: tuple[str, ...]
@@ -68,26 +68,23 @@ class DocumentChecker:
     Args:
         routing: to the engines that would play the behaviors.
         board: of the anticipators.
-        alive: ids of the blocks that are alive, or will be before the first document enters.
+        alive: the blocks that are alive, or will be before the first document enters.
         has_ended: whether there has been another block with an id.
     """
 
     def __init__(
-        self, routing: EngineRouting, board: PegBoard, alive: Iterable[str], has_ended: Callable[[str], bool]
+        self, routing: EngineRouting, board: PegBoard, alive: Iterable[BehaviorBlock], has_ended: Callable[[str], bool]
     ) -> None:
         self._routing = routing
         self._board = board
-        self._alive = dict.fromkeys(alive)
+        self._alive = _by_id(alive)
         self._has_ended = has_ended
-        self._named: dict[str, None] = {}
-        self._written: dict[str, BehaviorBlock] = {}
+        self._named: Mapping[str, Sequence[BehaviorBlock]] = {}
 
     def begin(self, document: Sequence[Parsed]) -> None:
         """Begins with a document, to whose blocks all of its blocks may refer."""
-        blocks = [parsed.block for parsed in document if parsed.block is not None]
-        self._named = self._alive | dict.fromkeys(block.id for block in blocks)
-        # The behaviors of a procedure are not known here.
-        self._written = {block.id: block for block in blocks if block.procedure is None}
+        written = (parsed.block for parsed in document if parsed.block is not None)
+        self._named = _by_id((*chain.from_iterable(self._alive.values()), *written))
 
     async def check(self, parsed: Parsed, refused: Fault | None, turns: Turns | None = None) -> Findings:
         """The findings in the next block or procedure of the document.
@@ -110,7 +107,7 @@ class DocumentChecker:
         for problem in rehearsal.problems:
             (found.notes if problem.fault.warning in _UNPLAYABLE else found.mistakes).append(problem)
         if isinstance(block, BehaviorBlock):
-            self._alive[block.id] = None
+            self._alive.setdefault(block.id, []).append(block)
         return found
 
     def _mistakes(self, block: BehaviorBlock | DefineProc, rehearsal: Rehearsal) -> Iterator[Problem]:
@@ -121,7 +118,7 @@ class DocumentChecker:
 
         if isinstance(block, BehaviorBlock):
             yield from self._unknown_others(block)
-        yield from check_references(block, points)
+        yield from check_references(block, points, self._described)
         yield from self._unknown_blocks(block)
         yield from self._unknown_predictions(block)
         yield from _unknown_behaviors(block)
@@ -143,32 +140,39 @@ class DocumentChecker:
         for id_, location, ref in references_of(block):
             if ref.block not in known:
                 yield Problem(unknown_block(ref, block, others).located(location.line, location.column), id_)
-            other = None if ref.block == block.id or ref.behavior is not None else self._written.get(ref.block or "")
-            if other is not None and (fault := unknown_block_point(ref, other)) is not None:
-                yield Problem(fault.located(location.line, location.column), id_)
+            if ref.block not in {None, block.id} and ref.behavior is None:
+                fault = unknown_block_point(ref, self._described(ref.block))
+                if fault is not None:
+                    yield Problem(fault.located(location.line, location.column), id_)
+
+    def _described(self, id_: str) -> Sequence[BehaviorBlock]:
+        """The blocks with an id; none if one uses a procedure, whose behaviors are not known before it enters."""
+        blocks = self._named.get(id_, ())
+        return () if any(block.procedure is not None and not block.behaviors for block in blocks) else blocks
 
     def _unknown_predictions(self, block: BehaviorBlock | DefineProc) -> Iterator[Problem]:
         """References to points that anticipators of the human file do not have."""
-        for id_, location, anticipator, ref in _predictions_of(block):
+        for id_, location, anticipator, ref in predictions_of(block):
             try:
                 self._board.check_point(anticipator, ref.sync or "", str(ref))
             except RealizerError as unknown:
                 yield Problem(unknown.fault.located(location.line, location.column), id_)
 
     def _remote(self, block: BehaviorBlock | DefineProc) -> Iterator[Problem]:
-        """References to points of anticipators that are not in the human file: clients may predict these."""
+        """References to points of anticipators that are not known yet: clients may predict these."""
         known = tuple(self._board.anticipators)
-        for id_, location, anticipator, ref in _predictions_of(block):
-            if anticipator not in (*known, EVENTS):
-                fault = NotInHumanFile(reference=str(ref), anticipator=anticipator, known=known)
+        for id_, location, anticipator, ref in predictions_of(block):
+            if anticipator not in known:
+                mistyped = self._board.mistyped_anticipator(anticipator, str(ref))
+                fault = mistyped or NotInHumanFile(reference=str(ref), anticipator=anticipator, known=known)
                 yield Problem(fault.located(location.line, location.column), id_)
 
 
-def _predictions_of(block: BehaviorBlock | DefineProc) -> Iterator[tuple[str, Location, str, SyncRef]]:
-    """The references to points of anticipators, after the id and the location of their owner and the anticipator."""
-    for id_, location, ref in references_of(block):
-        if ref.block == ANTICIPATORS and ref.behavior is not None:
-            yield id_, location, ref.behavior, ref
+def _by_id(blocks: Iterable[BehaviorBlock]) -> dict[str, list[BehaviorBlock]]:
+    found: dict[str, list[BehaviorBlock]] = {}
+    for block in blocks:
+        found.setdefault(block.id, []).append(block)
+    return found
 
 
 def _unknown_points(block: BehaviorBlock | DefineProc, rehearsal: Rehearsal) -> Iterator[Problem]:

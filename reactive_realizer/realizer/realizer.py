@@ -158,8 +158,8 @@ class Realizer:
     def checker(self) -> DocumentChecker:
         """Finds the mistakes in a document that would enter after all earlier inputs."""
         blocks = self.scheduler.blocks
-        waiting = (parsed.block.id for parsed in self._waiting if parsed.block is not None)
-        alive = (*(block.key.block for block in blocks.alive), *waiting)
+        waiting = (parsed.block for parsed in self._waiting if parsed.block is not None)
+        alive = (*(block.description for block in blocks.alive), *waiting)
         return DocumentChecker(
             self._routing,
             self.board,

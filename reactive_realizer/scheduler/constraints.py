@@ -11,7 +11,7 @@ from reactive_realizer.bml.block import BehaviorBlock, OrderKind, Synchronize
 from reactive_realizer.bml.block import Order as OrderConstraint
 from reactive_realizer.bml.faults import LostWith, UnknownReference, UnknownSync
 from reactive_realizer.bml.names import ANTICIPATORS
-from reactive_realizer.bml.references import unknown_block, unknown_block_point
+from reactive_realizer.bml.references import predictions_of, unknown_behavior, unknown_block, unknown_block_point
 from reactive_realizer.bml.sync_ref import OWN_BLOCK_POINTS, SyncRef
 from reactive_realizer.errors import Fault, RealizerError, SchedulingFault
 from reactive_realizer.pegboard.peg_key import PegKey
@@ -106,10 +106,13 @@ class ReferenceResolver:
         if unit is None and ref.behavior in _written(self._block):
             raise RealizerError(LostWith(behavior=self._causes.get(ref.behavior, ref.behavior), reference=str(ref)))
         if unit is None:
-            known = tuple(behavior.id for behavior in self._block.description.behaviors)
-            raise RealizerError(UnknownReference(behavior=ref.behavior, reference=str(ref), known=known))
+            raise RealizerError(self._unknown(ref))
         _check_sync(unit, ref.sync, ref)
         return unit.open.get(ref.sync) or Point(ref.behavior, ref.sync)
+
+    def mistyped_anticipator(self, anticipator: str, ref: SyncRef) -> Fault | None:
+        """The fault of a reference to an anticipator that has almost the name of a known one."""
+        return self._board.mistyped_anticipator(anticipator, str(ref))
 
     def startable(self, constraints: list[C]) -> list[C]:
         """The constraints.
@@ -123,6 +126,13 @@ class ReferenceResolver:
             if bound is not None and bound[0] in own:
                 raise RealizerError(CyclicReference(block=self._block.key.block, reference=own[bound[0]]))
         return constraints
+
+    def _unknown(self, ref: SyncRef) -> Fault:
+        """The fault of a reference to a behavior that the block does not have."""
+        name, block = ref.behavior or "", self._block.key
+        other = None if ref.block is not None or name == block.block else self._blocks.find(block.character, name)
+        known = tuple(behavior.id for behavior in self._block.description.behaviors)
+        return unknown_behavior(ref, known, () if other is None else (other.description,))
 
     def _naming(self) -> dict[str, list[int]]:
         """The numbers of the behaviors that name each behavior of the block."""
@@ -208,7 +218,7 @@ class ReferenceResolver:
             return replace(ref, behavior=min(times, key=lambda id_: (times[id_] is None, times[id_] or 0.0)))
         if ref.sync == "ready" and other.state is BlockState.IN_PREP:
             raise RealizerError(MutualReference(block=self._block.key.block, other=other.key.block, reference=str(ref)))
-        unknown = unknown_block_point(ref, other.description)
+        unknown = unknown_block_point(ref, [other.description])
         raise RealizerError(unknown or LostWith(behavior=f"{other.key.block}:ready", reference=str(ref)))
 
 
@@ -248,6 +258,12 @@ def constraints_of(block: BehaviorBlock, resolver: ReferenceResolver) -> Generat
         except RealizerError as problem:
             fault = problem.fault.located(block.location.line, block.location.column)
             found.losses.append(Loss(None, fault, dropped=False, required=False))
+    for place, location, anticipator, ref in predictions_of(block):
+        mistyped = resolver.mistyped_anticipator(anticipator, ref)
+        if mistyped is not None:
+            fault = mistyped.located(location.line, location.column)
+            found.losses.append(Loss(place.partition(":")[2] or None, fault, dropped=False, required=False))
+        yield
     return found
 
 

@@ -126,5 +126,6 @@ async def test_a_reference_to_a_point_that_a_block_does_not_have_drops_its_behav
     pilot.block("d", EXAMPLE_35.replace("BEAT", "NONE"), stroke="g1:stroke")
     await pilot.advance(3)
     said = [text.partition(": ")[2] for text in texts(pilot)]
-    assert "a:strokeEnd: 'a' has no sync point 'strokeEnd'; it has start, ready, stroke, relax, end" in "\n".join(said)
+    unknown = "a:strokeEnd: the block 'a' has no sync point 'strokeEnd'; it has start, ready, stroke, relax, end"
+    assert unknown in "\n".join(said)
     assert pilot.feedback.reached("c:n:end")

@@ -44,7 +44,7 @@ def test_a_sync_point_that_another_block_does_not_define_is_a_problem(
     assert check(capsys, bml(gesture + block("b", nod.format("stroke")) + block("c", nod.format("ready")))) == (0, [])
     status, (line,) = check(capsys, bml(gesture + block("b", nod.format("strokeEnd"))))
     assert status == 1
-    assert "a:strokeEnd: 'a' has no sync point 'strokeEnd'; it has start, ready, stroke, relax, end" in line
+    assert "a:strokeEnd: the block 'a' has no sync point 'strokeEnd'; it has start, ready, stroke, relax, end" in line
 
 
 def test_a_block_may_refer_to_blocks_of_its_file_and_of_earlier_files(
@@ -101,15 +101,24 @@ def test_points_with_names_of_the_human_file_are_known(
     assert check(capsys, bml(block("b", "".join(nods))), "--human", str(human)) == (0, [])
 
 
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("partner", "the human file has no anticipator 'partner', so clients must predict it"),
+        ("spacbar", "no anticipator 'spacbar' is known yet; did you mean 'spacebar'?"),
+        ("event", "no anticipator 'event' is known yet; did you mean 'events'?"),
+    ],
+)
 def test_an_anticipator_that_is_not_in_the_human_file_is_reported_on_stderr_only(
-    bml: Callable[..., str], capsys: pytest.CaptureFixture[str]
+    bml: Callable[..., str], capsys: pytest.CaptureFixture[str], name: str, said: str
 ) -> None:
-    file = bml(block("b", '<head id="h" lexeme="NOD" start="anticipators:spacbar:press"/>'))
+    file = bml(block("b", f'<head id="h" lexeme="NOD" start="anticipators:{name}:press"/>'))
     assert main(["check", file]) == 0
     captured = capsys.readouterr()
     assert captured.out == ""
-    assert "the human file has no anticipator 'spacbar', so clients must predict it" in captured.err
-    assert "did you mean 'spacebar'?" in captured.err
+    (line,) = captured.err.splitlines()
+    assert line.startswith(f"{file}:1:")
+    assert said in line
 
 
 def test_an_event_that_behaviors_emit_is_a_point_without_an_anticipator(

@@ -55,6 +55,16 @@ MISTAKES = {
         "b:w", "unknown-sync", "'g' has no sync point 'strok'", "stroke",
     ),
     '<wait id="w" start="earlyer:w:end"/>': ("b:w", "unknown-block", "the block 'earlyer' is unknown", "earlier"),
+    '<wait id="w" start="anticipators:metronom:tick3" duration="1"/>': (
+        "b:w", "no-anticipator-yet", "no anticipator 'metronom' is known yet", "metronome",
+    ),
+    '<wait id="w" duration="1"/><constraint><synchronize><sync ref="w:end"/><sync ref="anticipators:metronom:tick3"/>'
+    '</synchronize></constraint>': (
+        "b", "no-anticipator-yet", "no anticipator 'metronom' is known yet", "metronome",
+    ),
+    '<wait id="w" start="earlier:strok" duration="1"/>': (
+        "b:w", "unknown-block-point", "the block 'earlier' has no sync point 'strok'", "stroke",
+    ),
     '<x:parametervaluechange id="c" target="g" paramId="amount"><x:trajectory type="liner" targetValue="1"/>'
     '</x:parametervaluechange><gesture id="g" lexeme="BEAT"/>': (
         "b:c", "no-trajectory", "there is no trajectory 'liner'", "linear",
@@ -69,7 +79,7 @@ async def test_a_mistake_is_answered_with_its_line_and_the_nearest_known_name_an
 ) -> None:
     async with on_air(SCENE) as air:
         socket = await air.connect()
-        await post(air, "/bml", wait("earlier", 9))
+        await post(air, "/bml", block('<gesture id="g" lexeme="BEAT"/>', "earlier", 'stroke="g:stroke"'))
         (warning,) = await warnings_of(air, block(inside))
         id_, code, part, meant = MISTAKES[inside]
         assert (warning["id"], warning["code"], warning["line"]) == (id_, code, 2)
@@ -104,6 +114,28 @@ async def test_the_socket_answers_with_the_same_warnings(on_air: Open) -> None:
         assert answer["type"] == "accepted"
         assert [each["code"] for each in answer["warnings"]] == ["no-motion-for", "no-target", "unknown-behavior"]
         assert answer["warnings"] == [each | {"id": each["id"].replace("b:", "c:")} for each in posted]
+
+
+async def test_a_mistyped_point_of_another_block_of_the_document_is_not_taken_for_a_behavior(on_air: Open) -> None:
+    beat = block('<gesture id="g" lexeme="BEAT"/>', "t", 'stroke="g:stroke"')
+    async with on_air(SCENE) as air:
+        socket = await air.connect()
+        document = block('<head id="n" lexeme="NOD" start="t:strok"/>') + beat
+        (warning,) = await warnings_of(air, document)
+        assert (warning["id"], warning["code"], warning["line"]) == ("b:n", "unknown-block-point", 2)
+        assert warning["message"].startswith("t:strok: the block 't' has no sync point 'strok'; it has start, ready")
+        assert warning["message"].endswith("did you mean 'stroke'?")
+        await air.tick_until(0.1)
+        assert await told(socket) == [("b:n", warning["type"], placed(warning))]
+
+
+async def test_an_anticipator_that_clients_have_predicted_or_may_predict_is_no_mistake(on_air: Open) -> None:
+    async with on_air(SCENE) as air:
+        tied = '<wait id="w" start="anticipators:{}:hit" duration="1"/>'
+        assert await warnings_of(air, block(tied.format("partner"), "a")) == []
+        await post(air, "/predict", '{"anticipator": "metronom", "sync": "hit", "in": 2}')
+        await air.tick()
+        assert await warnings_of(air, block(tied.format("metronom"), "b")) == []
 
 
 async def test_a_document_without_mistakes_has_no_warnings(on_air: Open) -> None:
