@@ -95,7 +95,7 @@ async def test_a_speech_that_is_tied_too_soon_after_the_start_through_another_be
     assert_linked(pilot.feedback, "b:s:end", "b:s:start", LENGTH)
     assert_linked(pilot.feedback, "b:n:stroke", "b:s:end", 0.0)
     (text,) = texts(pilot)
-    assert text.endswith(f"n:stroke = {STOP}+1.4 is 0.84 s late, because the block starts at 2 s")
+    assert text.endswith(f"n:stroke = {STOP}+1.4 is 0.84 s late, because the block starts at 2.00 s")
 
 
 async def test_a_behavior_between_a_late_and_a_future_time_begins_at_once(pilot: RealizerPilot) -> None:
