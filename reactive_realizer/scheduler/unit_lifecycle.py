@@ -185,6 +185,7 @@ class UnitLifecycle:
         its successor moves with it from then on. These are added to ``changed``.
         """
         for _ in range(_MOST_CORRECTIONS):
+            self._board.graph.settle()  # so that reading times adds nothing to ``changed``
             units = self._moved(changed)
             if not (self._hold_back(units) or self._pin_past(units, changed) or self._keep_order(units)):
                 return
