@@ -24,7 +24,7 @@ from reactive_realizer.scheduler.smartbody.placement import (
     squeeze_fault,
 )
 from reactive_realizer.scheduler.smartbody.sorting import sorted_items
-from reactive_realizer.scheduler.smartbody.tie_chain import chain
+from reactive_realizer.scheduler.smartbody.tie_chain import chain, links_of
 from reactive_realizer.scheduler.solution import Loss, Solution, lost_behavior, lost_constraint, with_required
 
 _SAME = 1e-3
@@ -63,7 +63,7 @@ class _Run:
         self._clusters = OffsetUnionFind[Cluster]([Origin.BLOCK_START])
         self._placed: dict[str, list[Placement]] = {}
         self._losses: list[Loss] = []
-        self._connected = OffsetUnionFind[str]()
+        self._links = links_of(problem.ties)
         self._unsettled: set[str] = set()
 
     def solve(self) -> Solution:
@@ -73,7 +73,7 @@ class _Run:
             self._losses.append(lost_constraint(order, NoOrder(strategy=SmartBodyStrategy.name, text=order.text)))
         for item in sorted_items(self._problem, self._ties):
             try:
-                if self._connected.find(item.behavior.id)[0] in self._unsettled:
+                if self._unsettled and self._unsettled & self._neighbors(item):
                     self._leave(item)
                 else:
                     self._place(item)
@@ -90,8 +90,6 @@ class _Run:
 
     def _tie(self, tie: Tie) -> None:
         gap = self._ties.union(tie.left, tie.right, tie.offset)
-        if isinstance(tie.left, Point) and isinstance(tie.right, Point):
-            self._connected.union(tie.left.behavior, tie.right.behavior)
         if gap is None:
             self._tied.update(tie.nodes)
         elif abs(gap) > TIE_TOLERANCE:
@@ -184,9 +182,9 @@ class _Run:
         Returns:
             Whether one has been moved.
         """
-        if not self._is_fixed(tied):
-            return False
         free = {self._cluster(placed) for placed in tied.values() if self._is_free(placed)}
+        if not free or not self._is_fixed(tied):
+            return False
         earliest = self._earliest()
         early = {cluster: -earliest[cluster] for cluster in free if earliest.get(cluster, 0.0) < -SHORTEST}
         for cluster, distance in early.items():
@@ -221,24 +219,28 @@ class _Run:
         return min(itertools.chain.from_iterable(chains), key=lambda tie: tie.required)
 
     def _give_up(self, item: Item, tie: Tie, fault: Fault) -> None:
-        """Give up a tie; what is connected to its behavior is placed without it, in the next run."""
+        """Give up a tie; its behavior and those that are tied to that are placed without it, in the next run."""
         self._losses.append(lost_constraint(tie, fault))
         self._leave(item)
 
     def _leave(self, item: Item) -> None:
-        """Have a behavior, and those that are connected to it, be placed in the next run."""
-        self._unsettled.add(self._connected.find(item.behavior.id)[0])
+        """Have a behavior, and those that are tied to it, be placed in the next run."""
+        self._unsettled.add(item.behavior.id)
         self._placed[item.behavior.id] = fill(item, {0: self._start})
 
     def _chain(self, item: Item, index: int) -> list[Tie]:
         """The ties that determine the place of a point of a behavior."""
         lost = {id(loss.constraint) for loss in self._losses}
-        placed = {item.behavior.id, *self._placed}
-        return chain(
-            item.points[index],
-            (tie for tie in self._problem.ties if id(tie) not in lost),
-            lambda node: node in self._given or (isinstance(node, Point) and node.behavior in placed),
-        )
+
+        def is_placed(node: Node) -> bool:
+            own = isinstance(node, Point) and (node.behavior == item.behavior.id or node.behavior in self._placed)
+            return own or node in self._given
+
+        return chain(item.points[index], self._links, lost, is_placed)
+
+    def _neighbors(self, item: Item) -> set[str]:
+        """Ids of the behaviors that are tied to a behavior."""
+        return set[str]().union(*(tie.behaviors for point in item.points for tie in self._links.get(point, ())))
 
     def _move(self, cluster: Cluster, distance: float) -> None:
         """Move all placements of a cluster by a distance (s)."""
