@@ -28,6 +28,9 @@ from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 NEAR, AIMED = 0.02, 2.0
 """How far a wrist (m) and the direction of a pointing finger (degrees) may be from where the motion wants them."""
 
+_AT_ONCE = 1e-3
+"""Time in which a hand moves by millimeters, s."""
+
 GESTURES = ("BEAT", "OFFER", "WAVE", "CONDUCT", "SELF", "CONDUIT", "CHOP", "FLICK", "ONE")
 TARGETS = ("bluebox", "greensphere")
 MODES = ("", ' mode="LEFT_HAND"', ' mode="RIGHT_HAND"', ' mode="BOTH_HANDS"')
@@ -178,7 +181,7 @@ def _shown_at(time: float, side: str, frames: Sequence[Shown]) -> Iterator[Shown
 
     A hand that is there in the frame before may have left in the one after.
     """
-    after = next(index for index, frame in enumerate(frames) if frame.time >= time - 1e-6)
+    after = next(index for index, frame in enumerate(frames) if frame.time >= time - _AT_ONCE)
     yield frames[after]
     if after >= 2:
         earlier, before = (frame.wanted.transform(f"{side}_wrist").position for frame in frames[after - 2 : after])
