@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from itertools import pairwise
 
-from reactive_realizer.clock.units import GlobalTime, is_due
+from reactive_realizer.clock.units import RESOLUTION, GlobalTime, is_due
 from reactive_realizer.embodiment.body import Body, Skeleton
 from reactive_realizer.embodiment.pose import Layer, LayerKind, compose
 from reactive_realizer.embodiment.quaternion import angle, difference
@@ -61,7 +61,9 @@ class AnimationPredictor:
         units = [unit for unit in self._known() if _played_before(unit, time)]
         if not units or latest is None:
             return state
-        known, then = self._through(units, time, -_STEP), self._body(units, latest.time)
+        # A motion without time for its return has left at the time itself.
+        just_before = GlobalTime(time - RESOLUTION)
+        known, then = self._through(units, just_before, -_STEP), self._body(units, latest.time)
         exact = [j for j in known.velocities if angle(difference(then.rotation(j), latest.body.rotation(j))) < _SAME]
         velocities, accelerations = ({j: of[j] for j in exact} for of in (known.velocities, known.accelerations))
         body = state.body.posed({joint: known.body.rotation(joint) for joint in exact})
