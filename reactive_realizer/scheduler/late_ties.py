@@ -65,13 +65,13 @@ def tie_bounds(items: Iterable[Item], ties: Collection[Tie]) -> dict[TimeCell, B
     if not outer:
         return {}
     leads, least = _Leads(behaviors.values(), ties), dict[TimeCell, float]()
+    by_cell: defaultdict[TimeCell, list[OuterTie]] = defaultdict(list)
     for each in outer:
+        by_cell[each.cell].append(each)
         if isinstance(each.node, Point):
             least[each.cell] = max(least.get(each.cell, -inf), leads[each.node] - each.offset)
-    return {
-        cell: Bounds(time, _earliest(behaviors, ties, [each for each in outer if each.cell is cell]))
-        for cell, time in least.items()
-    }
+    inner = _inner_ties(ties)
+    return {cell: Bounds(time, _earliest(behaviors, inner, by_cell[cell])) for cell, time in least.items()}
 
 
 class LateTies:
@@ -107,10 +107,11 @@ class LateTies:
         for each in self._outer:
             if each.cell in self.cells:
                 members[each.cell].append(each)
+        inner = _inner_ties(self._ties)
         replaced: dict[int, Tie | None] = {}
         losses: list[Loss] = []
         for cell, own in members.items():
-            time = _earliest(self._items, self._ties, own)
+            time = _earliest(self._items, inner, own)
             replaced |= {id(each.tie): _to_start(each, time) for each in own}
             losses += self._losses(own, self._start + time - (cell.value or 0.0))
         ties = (replaced.get(id(tie), tie) for tie in self._ties)
@@ -161,15 +162,19 @@ class _Leads:
         return self._of_roots[root] + distance
 
 
-def _earliest(items: Mapping[str, Item], ties: Iterable[Tie], late: Collection[OuterTie]) -> float:
+_InnerTies = Mapping[str, Collection[tuple[Point, Point, float]]]
+"""By behavior, its ties to others of the block: its point, the other one, and how much later (s) that is."""
+
+
+def _earliest(items: Mapping[str, Item], inner: _InnerTies, late: Collection[OuterTie]) -> float:
     """The earliest time (s after the start of the block) for a time from outside.
 
     The behaviors at its ties, and those tied to them, are at their preferred durations from it.
 
     Args:
         items: the behaviors of the block, by id.
-        ties: all of the block.
-        late: those to the time from outside.
+        inner: ties within the block.
+        late: the ties to the time from outside.
     """
     places: dict[Point | Origin, float] = {each.node: each.offset for each in late}
     behaviors = dict.fromkeys(node.behavior for node in places if isinstance(node, Point))
@@ -177,7 +182,7 @@ def _earliest(items: Mapping[str, Item], ties: Iterable[Tie], late: Collection[O
     while waiting:
         item = items[waiting.pop(0)]
         places |= _placed(item, places)
-        for one, other, offset in _inner_ties(ties, item.behavior.id):
+        for one, other, offset in inner.get(item.behavior.id, ()):
             if other.behavior not in behaviors:
                 behaviors[other.behavior] = None
                 places[other] = places[one] + offset
@@ -185,12 +190,13 @@ def _earliest(items: Mapping[str, Item], ties: Iterable[Tie], late: Collection[O
     return -min(places.values())
 
 
-def _inner_ties(ties: Iterable[Tie], behavior: str) -> Iterator[tuple[Point, Point, float]]:
-    """The ties of a behavior to others of the block: its point, the other one, and how much later (s) that is."""
+def _inner_ties(ties: Iterable[Tie]) -> _InnerTies:
+    inner: defaultdict[str, list[tuple[Point, Point, float]]] = defaultdict(list)
     for tie in ties:
-        for one, other, offset in ((tie.left, tie.right, -tie.offset), (tie.right, tie.left, tie.offset)):
-            if isinstance(one, Point) and isinstance(other, Point) and one.behavior == behavior:
-                yield one, other, offset
+        if isinstance(tie.left, Point) and isinstance(tie.right, Point):
+            inner[tie.left.behavior].append((tie.left, tie.right, -tie.offset))
+            inner[tie.right.behavior].append((tie.right, tie.left, tie.offset))
+    return inner
 
 
 def _placed(item: Item, places: Mapping[Point | Origin, float]) -> dict[Point | Origin, float]:
