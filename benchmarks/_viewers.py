@@ -21,7 +21,7 @@ _PONG = bytes((0x8A, 0x80, 0, 0, 0, 0))
 """A message of a client, masked by zeros."""
 
 NUMBERS = ("cpu_share", "frames_arrived", "late_p99_ms")
-"""What `measure` returns."""
+"""Names of the figures of an audience."""
 
 _SETTLING = 1.0
 """Time after which the last viewer receives frames, s."""

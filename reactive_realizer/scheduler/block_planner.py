@@ -131,7 +131,7 @@ class BlockPlanner:
         self._drafts: dict[BMLBlock, _Draft] = {}
 
     def __bool__(self) -> bool:
-        """Whether any block is not planned yet."""
+        """Return whether blocks are waiting to be planned."""
         return bool(self._preparations)
 
     def prepare(self, block: BMLBlock) -> list[Loss]:

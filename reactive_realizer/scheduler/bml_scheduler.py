@@ -132,7 +132,7 @@ class BMLScheduler:
 
     @property
     def unplanned(self) -> int:
-        """How many blocks and procedures wait because the work of a tick is limited: to enter, or to be planned."""
+        """The number of blocks and procedures that wait to enter or to be planned."""
         return len(self.entering) + sum(map(self._planner.waiting, self._turns))
 
     def take(self, document: Iterable[Parsed]) -> None:

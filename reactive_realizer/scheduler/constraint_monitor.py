@@ -133,7 +133,7 @@ def _time(node: Node, block: BMLBlock, units: Mapping[str, PlanUnit]) -> Time:
 
 
 def _holds(constraint: Tie | Precedence, block: BMLBlock, units: Mapping[str, PlanUnit]) -> bool:
-    """Whether the times of a constraint are known and satisfy it: most do, so this is tried first."""
+    """Return whether the times of a constraint are known and satisfy it; this quick check suffices for most."""
     one, other = constraint.nodes
     first, second = _known_time(one, block, units), _known_time(other, block, units)
     return first is not None and second is not None and missed(constraint, first, second) <= TOLERANCE

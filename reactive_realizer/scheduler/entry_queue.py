@@ -42,7 +42,7 @@ class EntryQueue:
         self._names: Counter[str] = Counter()
 
     def __bool__(self) -> bool:
-        """Whether anything has not entered yet."""
+        """Return whether blocks or procedures are waiting to enter."""
         return bool(self._entries)
 
     def __contains__(self, name: object) -> bool:

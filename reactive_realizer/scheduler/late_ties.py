@@ -47,7 +47,7 @@ def outer_ties(ties: Iterable[Tie]) -> Iterator[OuterTie]:
 
 
 class Bounds(NamedTuple):
-    """What a time from outside means for the ties of a block to it, s after the start of the block.
+    """Bounds that a time from outside sets on the ties of a block to it, s after the start of the block.
 
     Attributes:
         least: the earliest time to which no tie is late.

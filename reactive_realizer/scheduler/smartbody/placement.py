@@ -1,15 +1,16 @@
-"""Places the points of one behavior from those that are given (thesis 8.7.3, figure 8.12)."""
+"""Orders behaviors (thesis 7.3.5), and places the points of each from those that are given (8.7.3, figure 8.12)."""
 
 import itertools
 from bisect import bisect
+from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.planunit.timing import SHORTEST, Phase, PhaseKind, TooShort, stretched
 from reactive_realizer.scheduler.faults import Conflicting, ContradictoryTie, TooHurried
-from reactive_realizer.scheduler.offset_union_find import TIE_TOLERANCE
-from reactive_realizer.scheduler.problem import Item, Node, Tie
+from reactive_realizer.scheduler.offset_union_find import TIE_TOLERANCE, OffsetUnionFind
+from reactive_realizer.scheduler.problem import Item, Node, Point, SchedulingProblem, Tie
 
 Cluster = str | Node
 """Behaviors that are moved together, by the id of the first of them or by the unknown time from outside that it names.
@@ -127,3 +128,34 @@ def _average_stretch(offsets: Sequence[float], known: Mapping[int, float]) -> fl
     first, last = min(known), max(known)
     preferred = offsets[last] - offsets[first]
     return (known[last] - known[first]) / preferred if preferred > 0 else 1.0
+
+
+def sorted_items(problem: SchedulingProblem, ties: OffsetUnionFind[Node]) -> list[Item]:
+    """The order of scheduling (thesis 7.3.5): rigid behaviors whose time is given, then all others.
+
+    Among these, a rigid behavior comes before the behaviors with which it is in a cycle of ties.
+    Otherwise, behaviors stay in document order. (The thesis's third group, completely flexible behaviors,
+    follows with the first behavior of that kind.)
+    """
+    rigid = [item for item in problem.items if item.timing.rigid]
+    grounded = [item for item in rigid if any(not isinstance(ties.find(node)[0], Point) for node in item.points)]
+    order = [item for item in problem.items if item not in grounded]
+    flexible = {item.behavior.id for item in problem.items if not item.timing.rigid}
+    pairs = [tie.nodes for tie in problem.ties]
+    links = [(one, other) for one, other in pairs if isinstance(one, Point) and isinstance(other, Point)]
+    groups = OffsetUnionFind[str]()
+    for one, other in links:
+        if {one.behavior, other.behavior} <= flexible:
+            groups.union(one.behavior, other.behavior)
+    for item in [item for item in order if item.timing.rigid]:
+        touched: defaultdict[str, set[str]] = defaultdict(set)
+        for here, there in [*links, *((other, one) for one, other in links)]:
+            if here.behavior == item.behavior.id and there.behavior in flexible:
+                touched[groups.find(there.behavior)[0]].add(here.sync)
+        cycles = {group for group, points in touched.items() if len(points) > 1}
+        ahead = order[: order.index(item)]
+        place = next((i for i, each in enumerate(ahead) if groups.find(each.behavior.id)[0] in cycles), None)
+        if place is not None:
+            order.remove(item)
+            order.insert(place, item)
+    return grounded + order

@@ -20,10 +20,10 @@ from reactive_realizer.scheduler.smartbody.placement import (
     Squeeze,
     check_playable,
     fill,
+    sorted_items,
     squeeze,
     squeeze_fault,
 )
-from reactive_realizer.scheduler.smartbody.sorting import sorted_items
 from reactive_realizer.scheduler.smartbody.tie_chain import chain, links_of
 from reactive_realizer.scheduler.solution import Loss, Solution, lost_behavior, lost_constraint, with_required
 
