@@ -14,7 +14,7 @@ from reactive_realizer.embodiment.joints import EYES, LEFT_ARM, RIGHT_ARM, ROOT
 from reactive_realizer.embodiment.pose import ComposedBody, Layer, compose
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, conjugate, from_axis_angle, multiply, rotate
 from reactive_realizer.embodiment.speed_limit import SpeedLimit, slowed
-from reactive_realizer.embodiment.vector import UP, ZERO, Vec3, add, scale, subtract
+from reactive_realizer.embodiment.vector import UP, ZERO, Vec3, add, distance, scale, subtract
 
 
 class EyePose(NamedTuple):
@@ -53,6 +53,7 @@ class Humanoid:
         self._time = GlobalTime(0.0)
         self._passed = 0.0
         self._before: Body | None = None
+        self._wanted = self._shown
         self.body = Body(avatar.skeleton)
         """The figure without additive motion, its arms as shown, in its own frame; motions start from here."""
 
@@ -66,7 +67,7 @@ class Humanoid:
         The second step is `look`: figures look at each other, so all of them move first.
         """
         composed = compose(self.avatar.skeleton, layers)
-        self._passed, self._time = time - self._time, time
+        self._passed, self._time, self._wanted = time - self._time, time, composed.shown
         if self._limit is None:
             self._limit = SpeedLimit(composed.shown)
             self._shown = composed.shown
@@ -101,6 +102,16 @@ class Humanoid:
     def shown(self) -> Body:
         """The figure as shown last, additive motion included, in its own frame."""
         return self._shown
+
+    @property
+    def time(self) -> GlobalTime:
+        """The time of the last move, s."""
+        return self._time
+
+    def gap(self, joint: str) -> float:
+        """Return the distance between the positions of a joint as composed and as shown, m; speed limits cause it."""
+        wanted, shown = (body.transform(joint).position for body in (self._wanted, self._shown))
+        return distance(wanted, shown)
 
     def to_own_frame(self, point: Vec3) -> Vec3:
         """Convert a point of the world to the figure's frame, m."""

@@ -346,3 +346,30 @@ async def test_a_head_of_the_built_in_lexicon_may_nod_slowly(pilot: RealizerPilo
     pilot.block("b", '<head id="n" lexeme="NOD" start="0" end="4"/>')
     await pilot.advance(5)
     assert pilot.feedback.warnings == []
+
+
+TURNING = (
+    '<gaze id="o" target="bluebox" influence="WAIST" ready="0.2" relax="0.6" end="{}"/>'
+    '<pointing id="p" target="greensphere" mode="BOTH_HANDS" ready="0.74" strokeEnd="0.74"/>'
+)
+
+
+async def warnings_of_a_turn_that_ends(at: float) -> list[str]:
+    async with open_pilot(SceneOptions(voice="text", strategy="smartbody")) as pilot:
+        pilot.watch()
+        pilot.block("b", TURNING.format(at))
+        await pilot.advance(1.5)
+        return texts(pilot, "b:p")
+
+
+async def test_a_hurried_hand_that_a_turning_trunk_makes_late_is_warned_of() -> None:
+    first, *_ = await warnings_of_a_turn_that_ends(0.8)
+    assert "at p:ready the left hand is 3 cm away from where it should be" in first
+    assert await warnings_of_a_turn_that_ends(1.0) == []
+
+
+async def test_a_gaze_that_must_return_at_once_loses_its_tie(pilot: RealizerPilot) -> None:
+    pilot.block("b", '<gaze id="o" target="bluebox" influence="WAIST" ready="0.5" relax="1" end="1.02"/>')
+    await pilot.advance(3)
+    (text,) = texts(pilot, "b:o")
+    assert "there is too little time for o from relax to end" in text

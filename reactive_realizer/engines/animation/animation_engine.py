@@ -47,6 +47,7 @@ from reactive_realizer.engines.animation.gaze.eyes import lid_weights
 from reactive_realizer.engines.animation.gaze.head_turn import GAZE_WEIGHTS, HEAD_WEIGHTS
 from reactive_realizer.engines.animation.idle import Idle
 from reactive_realizer.engines.animation.kinematics import MotionHistory
+from reactive_realizer.engines.animation.late_hands import LateHands
 from reactive_realizer.engines.animation.lexicon import binding_lexicon
 from reactive_realizer.engines.animation.motion_library import MotionLibrary
 from reactive_realizer.engines.animation.motion_maker import MakerContext
@@ -93,6 +94,7 @@ class AnimationEngine(DefaultEngine):
         )
         self._library = MotionLibrary(binding, maker_context)
         self._idle = Idle(Random(context.seed)) if context.idle else None
+        self._late_hands = LateHands(context.humanoid)
         self._foot_planting = FootPlanting(context.humanoid.avatar.skeleton)
         self._persistent = PersistentPoses()
         self._eye_controller = EyeController(self._idle.blink) if self._idle else EyeController()
@@ -119,7 +121,7 @@ class AnimationEngine(DefaultEngine):
             lambda: self._humanoid.shown,
             self._predictor.state_before,
             self._hands,
-            self._note_gaze_change,
+            self._note_passed,
             self._fade_out,
             graph,
         )
@@ -255,13 +257,18 @@ class AnimationEngine(DefaultEngine):
         """Return warnings about new units, and about playing units."""
         notes, self._notes = self._notes, []
         units = [unit for unit in self.player.playing if isinstance(unit, AnimationUnit)]
-        return (*notes, *(Warn(unit, fault) for unit in units if (fault := unit.new_fault()) is not None))
+        faults = (Warn(unit, fault) for unit in units if (fault := unit.new_fault()) is not None)
+        return (*notes, *faults, *self._late_hands.warnings())
 
     def _gazes(self) -> Iterator[GazeGoal]:
         """Yield the active gaze goals: persistent ones, then playing ones, the latest last."""
         lasting = (motion.gaze(1.0) for motion in self._persistent.motions)
         playing = (unit.motion.gaze(unit.phase) for unit in self.player.stacked(AnimationUnit))
         return (gaze for gaze in (*lasting, *playing) if gaze is not None)
+
+    def _note_passed(self, unit: AnimationUnit, sync: str, time: GlobalTime) -> None:
+        self._note_gaze_change(unit, time)
+        self._late_hands.note(unit, sync, time)
 
     def _note_gaze_change(self, unit: AnimationUnit, time: GlobalTime) -> None:
         gaze = unit.motion.gaze(0.0)

@@ -65,7 +65,7 @@ class MotionContext:
     shown: Callable[[], Body]
     state_at: Callable[[GlobalTime], KinematicState]
     hands: Callable[[GlobalTime], Body | None]
-    passed: Callable[["AnimationUnit", GlobalTime], None]
+    passed: Callable[["AnimationUnit", str, GlobalTime], None]
     released: Callable[["AnimationUnit", GlobalTime], None]
     graph: Graph
 
@@ -200,7 +200,7 @@ class AnimationUnit(PlanUnit):
 
     def on_sync(self, sync: str, time: GlobalTime) -> None:
         """Report the sync point: a gaze may get or release the eyes here."""
-        self._context.passed(self, time)
+        self._context.passed(self, sync, time)
 
     def on_finish(self, time: GlobalTime) -> None:
         """Release the joints."""

@@ -11,6 +11,10 @@ def minimum_jerk(progress: float) -> float:
     return t * t * t * (10.0 + t * (6.0 * t - 15.0))
 
 
+MINIMUM_JERK_PEAK = 1.875
+"""The highest speed of a minimum-jerk movement, relative to its average speed."""
+
+
 def smoothstep(progress: float) -> float:
     """Return 3t^2 - 2t^3, t from 0 to 1: a share from 0 to 1 whose speed is 0 at both ends."""
     return progress * progress * (3.0 - 2.0 * progress)

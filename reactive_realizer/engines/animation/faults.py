@@ -122,6 +122,19 @@ class TargetLost(PlayingFault):
     reason: str
 
 
+class HandLate(PlayingFault):
+    """A hand that is not where its gesture wants it at a sync point; ``distance`` is in cm."""
+
+    code = "hand-late"
+    template = (
+        "at {point} the {hand} hand is {distance:.0f} cm away from where it should be, "
+        "because it cannot move as fast as its motions ask"
+    )
+    point: str
+    hand: str
+    distance: float
+
+
 class GazeShort(PlayingFault):
     """A target too far to the side; ``angle`` is how far the gaze falls short, in degrees."""
 

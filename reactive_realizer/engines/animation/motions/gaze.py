@@ -3,6 +3,7 @@
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import pairwise
 from types import MappingProxyType
 from typing import Self
 
@@ -12,10 +13,11 @@ from reactive_realizer.bml.behaviors import Gaze, GazeShift, HeadDirectionShift
 from reactive_realizer.bml.names import BMLT
 from reactive_realizer.bml.vocabulary import Influence
 from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.joints import TRUNK
 from reactive_realizer.embodiment.pose import LayerKind
 from reactive_realizer.embodiment.quaternion import Quat, slerp
 from reactive_realizer.embodiment.vector import Vec3
-from reactive_realizer.engines.animation.easing import minimum_jerk, share
+from reactive_realizer.engines.animation.easing import MINIMUM_JERK_PEAK, minimum_jerk, share
 from reactive_realizer.engines.animation.faults import GazeNear, GazeShort, WrongElement
 from reactive_realizer.engines.animation.gaze.eyes import GazeTarget
 from reactive_realizer.engines.animation.gaze.head_turn import (
@@ -124,14 +126,20 @@ class GazeMotionUnit(MotionUnit):
         self._begin = rest.body
         self._late = False
         if expected is not None:
-            self.shortest = {"ready" if "ready" in kind.key_positions else "end": self._shortest(expected)}
+            self.shortest = self._shortest(expected)
 
-    def _shortest(self, expected: GazeTarget) -> float:
-        """Return the shortest duration of the turn from rest to the expected target, s."""
+    def _shortest(self, expected: GazeTarget) -> dict[str, float]:
+        """Return the shortest durations of the turn from rest to the expected target, and of the turn back, s.
+
+        The head may fall behind on its way. The trunk may not, because the arms hang on it.
+        """
         body = self._rest.body
         turn = head_turn_toward(body, self._rest.pose, expected.point, self.parameters).rotations
-        turning = turning_time(body, body.posed(turn), turn)
-        return min(self._ready * self.preferred_duration, lag(minimum_jerk) * turning)
+        turned, trunk = body.posed(turn), turn.keys() & TRUNK
+        head = lag(minimum_jerk) * turning_time(body, turned, turn.keys() - trunk)
+        turning = max(head, MINIMUM_JERK_PEAK * turning_time(body, turned, trunk))
+        spans = ((point, end - begin) for (_, begin), (point, end) in pairwise(self.key_positions.items()))
+        return {point: min(span * self.preferred_duration, turning) for point, span in spans if point != "relax"}
 
     def start(self, body: Body) -> None:
         """Turn the head from its current direction, which may be another gaze."""
