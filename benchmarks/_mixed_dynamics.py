@@ -98,7 +98,7 @@ def all_physical_momentum(
         inertia += step * np.diag(model.dof_damping)  # as MuJoCo integrates it
         rest = np.linalg.solve(inertia[~own][:, ~own], forces[~own] - inertia[~own][:, own] @ accelerations)
         torques[own] = inertia[own][:, ~own] @ rest + inertia[own][:, own] @ accelerations - forces[own]
-        figure.step(motion(0.0), torques)
+        figure.advance(motion(0.0), torques=torques)
         worst = max(worst, float(np.linalg.norm(figure.angular_momentum())))
     return worst
 

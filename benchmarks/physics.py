@@ -96,7 +96,7 @@ def _momentum(motion: Callable[[float], Body], step: float, seconds: float, kine
     """The largest angular momentum, kg m^2/s."""
     simulation, worst = _simulation(motion, step, kinematic), 0.0
     for number in range(1, round(seconds / step) + 1):
-        simulation.step(motion(number * step))
+        simulation.advance(motion(number * step))
         worst = max(worst, float(np.linalg.norm(simulation.angular_momentum())))
     return worst
 
@@ -112,6 +112,6 @@ def _microseconds(
     for number in range(round(seconds / step)):
         body = motion(number * step)
         begin = perf_counter()
-        simulation.step(body)
+        simulation.advance(body)
         times.append(perf_counter() - begin)
     return round(1e6 * median(times), 1)

@@ -1,6 +1,6 @@
 """Mixed dynamics: a figure with some joints that are moved, and others that move physically (thesis, chapter 3)."""
 
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Sequence
 
 import mujoco
 import numpy as np
@@ -10,6 +10,7 @@ from reactive_realizer.embodiment.body import Body, Skeleton
 from reactive_realizer.embodiment.joints import ROOT
 from reactive_realizer.embodiment.quaternion import Quat, conjugate, multiply, rotate
 from reactive_realizer.embodiment.vector import add, subtract
+from reactive_realizer.physics.controllers.controller import Controller
 from reactive_realizer.physics.joint_limits import LimitSprings
 from reactive_realizer.physics.mjcf import TO_WORLD, inertia, mjcf
 from reactive_realizer.physics.segments import SEGMENTS
@@ -30,7 +31,7 @@ _ROOT_BODY = 1
 class Simulation:
     """Simulates a figure in its own frame, at rest in the default pose at first.
 
-    Any set of joints is kinematic: at every step they have the rotations of a given body. The others are physical: they
+    Any set of joints is kinematic: they follow a given body. The others are physical: they
     move by torques, gravity, contact with the floor, and what the moving kinematic joints exert on them. This solves
     the hybrid equation of motion (thesis 3.1) exactly: the accelerations of kinematic joints and the torques of
     physical joints are known, and the others follow. A kinematic joint has an armature beside which all other inertia
@@ -109,26 +110,39 @@ class Simulation:
         """Put all joints at rest in the pose of a body."""
         self.data.qpos[:], self.data.qvel[:] = self._coordinates(body, self.joints), 0.0
 
-    def step(self, body: Body, torques: NDArray[np.float64] | None = None) -> None:
-        """Simulate a step.
+    def advance(
+        self,
+        body: Body,
+        controllers: Sequence[Controller] = (),
+        steps: int = 1,
+        torques: NDArray[np.float64] | None = None,
+    ) -> None:
+        """Simulate some steps.
 
         Args:
-            body: with the rotations of the kinematic joints, and the root if it is kinematic, at the end of the step.
-            torques: on each degree of freedom, Nm or N, in the axes of its segment; those of kinematic joints have no
-                effect.
+            body: with the rotations of the kinematic joints, and the root if it is kinematic, at the end of the last
+                step. They move there at constant velocities.
+            controllers: of physical joints; the torques of several on one joint add up.
+            steps: their number.
+            torques: on each degree of freedom, Nm or N, in the axes of its segment, in addition; those of kinematic
+                joints have no effect.
         """
         model, data, time = self.model, self.data, self.model.opt.timestep
         own, wanted = self._degrees, self._coordinates(body, self._kinematic)
         self._wanted[self._positions] = wanted
-        # The velocities that end at the wanted positions after a step of MuJoCo's semi-implicit Euler integrator.
-        mujoco.mj_differentiatePos(model, self._speeds, time, data.qpos, self._wanted)
-        data.qfrc_applied[:] = 0.0 if torques is None else torques
-        model.dof_damping[:] = self._damping
-        self._limits.act(data, time, data.qfrc_applied, model.dof_damping)
-        model.dof_damping[own] = 0.0
-        data.qfrc_applied[own] = _ARMATURE * (self._speeds[own] - data.qvel[own]) / time
-        mujoco.mj_step(model, data)
-        data.qpos[self._positions], data.qvel[own] = wanted, self._speeds[own]
+        # MuJoCo's semi-implicit Euler integrator ends at the wanted positions with these velocities.
+        mujoco.mj_differentiatePos(model, self._speeds, steps * time, data.qpos, self._wanted)
+        for _ in range(steps):
+            data.qfrc_applied[:] = 0.0 if torques is None else torques
+            model.dof_damping[:] = self._damping
+            self._limits.act(data, time, data.qfrc_applied, model.dof_damping)
+            for controller in controllers:
+                controller.act(self, body, data.qfrc_applied, model.dof_damping)
+            model.dof_damping[own] = 0.0
+            data.qfrc_applied[own] = _ARMATURE * (self._speeds[own] - data.qvel[own]) / time
+            mujoco.mj_step(model, data)
+            data.qvel[own] = self._speeds[own]
+        data.qpos[self._positions] = wanted
 
     def body(self, shown: Body) -> Body:
         """Return a body with physical joints as they are simulated, and all others as in a given body.

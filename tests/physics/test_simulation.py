@@ -47,7 +47,7 @@ def momenta(skeleton: Skeleton, kinematic: Collection[str], step: float) -> NDAr
     simulation.kinematic = kinematic
     found = []
     for number in range(1, round(1.0 / step) + 1):
-        simulation.step(swing(skeleton, number * step))
+        simulation.advance(swing(skeleton, number * step))
         found.append(np.linalg.norm(simulation.angular_momentum()))
     return np.array(found)
 
@@ -59,7 +59,7 @@ def test_any_set_of_kinematic_joints_follows_its_animation(kinematic: set[str]) 
     simulation.place(swing(MALE, 0.0))
     simulation.kinematic = kinematic
     for number in range(1, 41):
-        simulation.step(swing(MALE, number * STEP))
+        simulation.advance(swing(MALE, number * STEP))
     everything_kinematic = Simulation(MALE)
     everything_kinematic.place(swing(MALE, 40 * STEP))
     for joint in JOINTS:
@@ -81,7 +81,7 @@ def test_the_momentum_of_a_floating_figure_stays_zero_but_for_the_error_of_the_i
 def test_a_body_without_kinematic_joints_collapses_on_the_floor_within_its_limits(skeleton: Skeleton) -> None:
     simulation = Simulation(skeleton)
     for _ in range(1200):
-        simulation.step(Body(skeleton))
+        simulation.advance(Body(skeleton))
     body = simulation.body(Body(skeleton))
     assert body.transform("skullbase").position[1] < 0.5
     for joint in JOINTS:
@@ -100,7 +100,7 @@ def test_a_loose_arm_falls_and_swings_ever_less(skeleton: Skeleton) -> None:
     lowest = Body(skeleton).transform("l_wrist").position[1]
     heights = []
     for _ in range(round(2.0 / STEP)):
-        simulation.step(raised)
+        simulation.advance(raised)
         heights.append(simulation.body(raised).transform("l_wrist").position[1] - lowest)
     forward, back = heights[0], max(heights[round(0.5 / STEP) : round(1.0 / STEP)])
     assert min(heights) == pytest.approx(0.0, abs=0.02)
@@ -112,10 +112,10 @@ def test_a_joint_that_becomes_physical_keeps_its_pose_and_velocity(skeleton: Ske
     simulation.place(swing(skeleton, 0.0))
     simulation.kinematic = JOINTS
     for number in range(1, 101):
-        simulation.step(swing(skeleton, number * STEP))
+        simulation.advance(swing(skeleton, number * STEP))
     before = simulation.data.qvel.copy()
     simulation.kinematic = set(JOINTS).difference(LEFT_ARM)
-    simulation.step(swing(skeleton, 101 * STEP))
+    simulation.advance(swing(skeleton, 101 * STEP))
     for joint in LEFT_ARM:
         moved = simulation.data.qvel[simulation.degrees(joint)] - before[simulation.degrees(joint)]
         assert np.abs(moved).max() < 0.5

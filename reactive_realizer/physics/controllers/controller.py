@@ -1,0 +1,63 @@
+"""What a controller is, and the simplest of them."""
+
+from abc import ABC, abstractmethod
+from collections.abc import Collection, Mapping
+from types import MappingProxyType
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from reactive_realizer.embodiment.body import Body
+
+if TYPE_CHECKING:
+    from reactive_realizer.physics.simulation import Simulation
+
+
+class Controller(ABC):
+    """Moves physical joints by torques.
+
+    Attributes:
+        joints: of segments, that it needs to be physical.
+        desired: further joints that it moves if they are physical.
+        parameters: name -> value; may change before any step.
+        ranges: name of each parameter -> its lowest and highest value.
+    """
+
+    joints: frozenset[str]
+    desired: frozenset[str] = frozenset()
+    parameters: Mapping[str, float] = MappingProxyType({})
+    ranges: Mapping[str, tuple[float, float]] = MappingProxyType({})
+
+    @abstractmethod
+    def act(
+        self, simulation: "Simulation", goal: Body, torques: NDArray[np.float64], damping: NDArray[np.float64]
+    ) -> None:
+        """Add torques, Nm, and damping, Nms, of degrees of freedom to arrays, (nv,), before a step.
+
+        The torque at the end of the step counts, as in a stable PD controller (Tan, Liu and Turk 2011): the part of it
+        that depends on velocities is damping, which MuJoCo integrates implicitly. What concerns kinematic joints has no
+        effect.
+
+        Args:
+            simulation: the state of the figure.
+            goal: its pose if no joint were physical.
+            torques: on the degrees of freedom, in the axes of their segments.
+            damping: of the degrees of freedom.
+        """
+
+
+class RagdollController(Controller):
+    """Lets joints hang loosely.
+
+    Args:
+        joints: of segments.
+    """
+
+    def __init__(self, joints: Collection[str]) -> None:
+        self.joints = frozenset(joints)
+
+    def act(
+        self, simulation: "Simulation", goal: Body, torques: NDArray[np.float64], damping: NDArray[np.float64]
+    ) -> None:
+        """Add nothing: the damping of joints and the springs at their limits are part of every simulation."""
