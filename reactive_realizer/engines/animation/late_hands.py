@@ -13,6 +13,9 @@ from reactive_realizer.engines.animation.faults import HandLate
 NEAR = 0.02
 """Distance between the intended and the shown wrist above which a hand is late, m."""
 
+_SHOWN_WITHIN = 1.0
+"""Time after which a point that no frame has shown is no longer watched, s: frames are not always made."""
+
 _POINTS = ("ready", "stroke")
 _HANDS = dict(zip(SIDES, ("left", "right"), strict=True))
 
@@ -32,19 +35,27 @@ class LateHands:
         self._passed: list[tuple[GlobalTime, AnimationUnit, str]] = []
 
     def note(self, unit: AnimationUnit, sync: str, time: GlobalTime) -> None:
-        """Note that a unit has passed a sync point; its frame is not shown yet.
+        """Note that a unit has passed a sync point; its frame is not shown yet, and may never be.
 
         At a point that is its start, a motion has had no time to move the hands.
         """
         if sync in _POINTS and unit.motion.kind is LayerKind.GESTURE and unit.keys[sync] > 0.0:
-            self._passed.append((time, unit, sync))
+            recent = (each for each in self._passed if each[0] > time - _SHOWN_WITHIN)
+            self._passed = [*recent, (time, unit, sync)]
 
     def warnings(self) -> Iterator[Warn]:
-        """Yield a warning for each hand that is late in the frame shown last, once for every point."""
+        """Yield a warning for each hand that is late in the frame shown last, once for every point.
+
+        Motions with a fault are left out: their hands may be elsewhere because of it.
+        """
         shown = [each for each in self._passed if each[0] <= self._humanoid.time]
         self._passed = [each for each in self._passed if each[0] > self._humanoid.time]
         for _, unit, sync in shown:
-            for side, hand in _HANDS.items():
-                gap = self._humanoid.gap(f"{side}_wrist") if f"{side}_shoulder" in unit.motion.joints else 0.0
-                if gap > NEAR:
-                    yield Warn(unit, HandLate(point=f"{unit.behavior.id}:{sync}", hand=hand, distance=100.0 * gap))
+            if unit.motion.fault is None:
+                yield from self._late(unit, sync)
+
+    def _late(self, unit: AnimationUnit, sync: str) -> Iterator[Warn]:
+        for side, hand in _HANDS.items():
+            gap = self._humanoid.gap(f"{side}_wrist") if f"{side}_shoulder" in unit.motion.joints else 0.0
+            if gap > NEAR:
+                yield Warn(unit, HandLate(point=f"{unit.behavior.id}:{sync}", hand=hand, distance=100.0 * gap))
