@@ -115,5 +115,14 @@ _UNITS = (
         '<bmlt:parameter name="joints" value="r_shoulder r_elbow r_wrist l_shoulder l_elbow l_wrist"/>'
         '</bmlt:transition><bmlt:procanimation id="a" name="3-beat" start="t:end"/>',
     ),
+    Entry(
+        "controller",
+        '<bmlt:controller id="b" class="BalanceController" start="0.5"/>'
+        '<bmlt:controller id="l" class="CompoundController" name="leftarmhang" start="0.5"/>'
+        '<bmlt:procanimation id="c" name="conduct-3-beat" mode="RIGHT_HAND" start="1" end="3"/>'
+        '<gesture id="g" lexeme="OFFER" mode="LEFT_HAND" start="2"/>',
+        whole_body=True,
+        seconds=6.0,
+    ),
     Entry("idle", "", whole_body=True, seconds=12.0),
 )

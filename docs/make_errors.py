@@ -40,6 +40,7 @@ _TITLES = {
     "embodiment": "Avatars and poses",
     "binding": "Bindings and assets",
     "planunit": "Plan units",
+    "physics": "Controllers",
     "engine": "Engines",
     "engines": "Behaviors",
     "scheduler": "Scheduling",

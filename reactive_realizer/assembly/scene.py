@@ -105,7 +105,7 @@ def _character(
     seed: int,
     time: Source[GlobalTime],
 ) -> Character:
-    humanoid = Humanoid(Avatar.read(assets(spec.avatar)), spec.position, math.radians(spec.heading))
+    humanoid = Humanoid(Avatar.read(assets(spec.avatar)), spec.position, math.radians(spec.heading), spec.weight)
     world.add_character(id_, humanoid.locate)
     mouth = _Mouth()
     context = EngineContext(

@@ -25,6 +25,9 @@ _MODE = "mode"
 _LEXEME = "lexeme"
 """The attribute in which most entries differ."""
 
+_CONTROLLER = "PhysicalController"
+"""The kind of unit whose class is a parameter."""
+
 _CACHE_SIZE = 1000
 """Number of cached matches. Most behaviors are repeated often."""
 
@@ -152,6 +155,8 @@ def _spec(element: XmlElement, part: str, behavior: str | None) -> UnitSpec:
     if file is None and "class" not in unit.attrib and not {"file", "name"} & set(parameter_map.values()):
         raise asset_error(unit, "neither a file nor a class")
     kind = attribute(unit, "type")
+    if kind == _CONTROLLER and "class" in unit.attrib:
+        defaults.setdefault("class", attribute(unit, "class"))
     return UnitSpec(
         behavior=behavior,
         namespace=namespace,

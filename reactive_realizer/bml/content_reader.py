@@ -1,13 +1,16 @@
 """Reads the content of a block or procedure: behaviors and constraints."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Final
 
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.behavior_reader import read_behavior
+from reactive_realizer.bml.behaviors import Gaze, Posture
 from reactive_realizer.bml.block import Constraint, Order, OrderKind, Problem, Synchronize
 from reactive_realizer.bml.block_source import BlockSource
-from reactive_realizer.bml.drafts import modernize, persisting
+from reactive_realizer.bml.drafts import modernize
+from reactive_realizer.bml.extensions import Controller
 from reactive_realizer.bml.faults import DuplicateId, MissingElement, MoreProblems, TooManyBehaviors
 from reactive_realizer.bml.sync_ref import SyncRef
 from reactive_realizer.bml.trees import Tree, children_of, is_continuous, is_core, name_of, namespace_of
@@ -16,6 +19,7 @@ from reactive_realizer.errors import Fault, RealizerError, quoted
 _REQUIRED: Final = "required"
 _CONSTRAINT: Final = "constraint"
 _SYNCHRONIZE: Final = "synchronize"
+_ENDING: Final = frozenset({"relax", "end"})
 _CONSTRAINTS: Final = (_SYNCHRONIZE, *OrderKind)
 """The elements that a ``<constraint>`` may contain."""
 
@@ -79,8 +83,22 @@ class ContentReader:
         for tree, required in children:
             if _is(tree, _CONSTRAINT):
                 self._read_constraints(tree, required)
-        for behavior in persisting([self._behaviors[id_] for id_ in self._drafts], self._constraints):
-            self._behaviors[behavior.id] = behavior
+        for behavior in self._persistent():
+            self._behaviors[behavior.id] = replace(behavior, persistent=True)
+
+    def _persistent(self) -> list[Behavior]:
+        """The persistent behaviors: controllers, gazes and postures of drafts, if nothing is tied to their end.
+
+        Thesis 6.3 and C.4.
+        """
+        tied = (ref for tie in self._constraints if isinstance(tie, Synchronize) for ref in tie.refs)
+        ended = {ref.behavior for ref in tied if ref.block is None and ref.sync in _ENDING}
+        may = [each for each in self._behaviors.values() if isinstance(each, Controller) or self._is_draft_pose(each)]
+        return [each for each in may if each.id not in ended and not _ENDING & set(each.syncs)]
+
+    def _is_draft_pose(self, behavior: Behavior) -> bool:
+        """Whether a behavior is a gaze or a posture, but no shift, of a draft."""
+        return behavior.id in self._drafts and type(behavior) in (Gaze, Posture)
 
     def report(self, faults: list[Fault], part: str | None = None) -> None:
         """Adds problems of the block, or of the behavior or constraint with an id."""

@@ -4,24 +4,18 @@ One tolerant reading serves the draft of the thesis (van Welbergen 2011, chapter
 reads. Nothing is guessed: what this module does not know stays as it is, and the reader of BML 1.0 reports it.
 """
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
-from dataclasses import replace
+from collections.abc import Callable, Collection, Mapping
 from types import MappingProxyType
 from typing import Final
 
 from lxml import etree
 
-from reactive_realizer.bml.behavior import Behavior
-from reactive_realizer.bml.behaviors import Gaze, GazeShift, Posture, PostureShift
-from reactive_realizer.bml.block import Constraint, Synchronize
 from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.faults import UnknownWord
 from reactive_realizer.bml.names import BMLA
 from reactive_realizer.bml.sync_ref import DRAFT_SPELLINGS
 from reactive_realizer.bml.trees import Tree, children_of, name_of, stray_text_of
 from reactive_realizer.errors import RealizerError
-
-_ENDING: Final = frozenset({"relax", "end"})
 
 _AXES: Final = {"X": "NOD", "Y": "SHAKE", "Z": "TILT"}
 _HANDS: Final = {"LEFT": "LEFT_HAND", "RIGHT": "RIGHT_HAND", "BOTH": "BOTH_HANDS"}
@@ -49,22 +43,6 @@ def modernize(tree: Tree, source: BlockSource) -> None:
     rewrite = _REWRITES.get(name_of(tree))
     if rewrite is not None:
         rewrite(tree, source)
-
-
-def persisting(behaviors: Iterable[Behavior], constraints: Iterable[Constraint]) -> Iterator[Behavior]:
-    """The persistent behaviors of a draft: gazes and postures without a constraint on their relax or end (thesis 6.3).
-
-    Args:
-        behaviors: as they were read.
-        constraints: of their block.
-    """
-    tied = (ref for tie in constraints if isinstance(tie, Synchronize) for ref in tie.refs)
-    ended = {ref.behavior for ref in tied if ref.block is None and ref.sync in _ENDING}
-    for behavior in behaviors:
-        if not isinstance(behavior, Gaze | Posture) or isinstance(behavior, GazeShift | PostureShift):
-            continue
-        if behavior.id not in ended and not _ENDING & set(behavior.syncs):
-            yield replace(behavior, persistent=True)
 
 
 def _head(tree: Tree, source: BlockSource) -> None:

@@ -25,6 +25,7 @@ from reactive_realizer.bml.behaviors import (
 )
 from reactive_realizer.bml.extensions import (
     Activate,
+    Controller,
     Emit,
     Interrupt,
     Keyframe,
@@ -116,6 +117,7 @@ _BEHAVIORS = (
     Keyframe,
     Noise,
     Transition,
+    Controller,
 )
 
 ELEMENTS: Mapping[str, Element] = MappingProxyType({each.name: each for each in map(_element, _BEHAVIORS)})

@@ -130,7 +130,7 @@ class ParameterValueChange(Behavior):
         return self.target.rpartition(":")[2]
 
 
-# --- motion as it was made
+# --- motion
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -207,10 +207,26 @@ class Transition(Behavior):
     kind: str = field(metadata=attribute(Text(), "class"))
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Controller(Behavior):
+    """Moves joints by forces (C.1.4). Without a constraint on its end it is persistent (C.4).
+
+    Attributes:
+        kind: of controller, such as BalanceController.
+        controller: name of a compound controller.
+    """
+
+    NAMESPACE = BMLT
+    SYNC_POINTS = _START_AND_END
+
+    kind: str = field(metadata=attribute(Text(), "class"))
+    controller: str | None = field(default=None, metadata=attribute(Text(), "name"))
+
+
 MOTIONS: Final[frozenset[type[Behavior]]] = frozenset(
-    {ProcAnimation, ProcAnimationGesture, Keyframe, Noise, Transition}
+    {ProcAnimation, ProcAnimationGesture, Keyframe, Noise, Transition, Controller}
 )
-"""The behaviors that play motion as it was made."""
+"""The behaviors that move joints, each in its own way."""
 
 
 # --- in any behavior

@@ -33,6 +33,13 @@ Eyes = Callable[[Body], EyePose]
 """Returns the eye pose for a body with its head as shown. Eyes are posed last, after all figures have moved."""
 
 
+Dynamics = Callable[[Body, float], Body]
+"""Moves joints by forces: from a body at the end of a frame, and the duration of the frame, s, to the body to show.
+
+It is called once for every frame, in any thread, while nothing else uses the figure.
+"""
+
+
 class Humanoid:
     """A figure in the world.
 
@@ -40,10 +47,14 @@ class Humanoid:
         avatar: its body.
         position: of the point on the ground where it stands, m.
         heading: turn to its left, rad; 0 faces +z.
+        weight: kg; None for the usual one of its stature.
     """
 
-    def __init__(self, avatar: Avatar, position: Vec3 = ZERO, heading: float = 0.0) -> None:
+    def __init__(
+        self, avatar: Avatar, position: Vec3 = ZERO, heading: float = 0.0, weight: float | None = None
+    ) -> None:
         self.avatar = avatar
+        self.weight = weight
         self._position = position
         self._turn = from_axis_angle(UP, heading)
         self._morphs = {morph: i for i, morph in enumerate(avatar.morphs)}
@@ -53,7 +64,9 @@ class Humanoid:
         self._time = GlobalTime(0.0)
         self._passed = 0.0
         self._before: Body | None = None
-        self._wanted = self._shown
+        self._wanted = self._limited = self._shown
+        # Joints that forces moved in the last frame, so that speed limits do not hold back their animation.
+        self._forced: frozenset[str] = frozenset()
         self.body = Body(avatar.skeleton)
         """The figure without additive motion, its arms as shown, in its own frame; motions start from here."""
 
@@ -64,7 +77,8 @@ class Humanoid:
     def move(self, time: GlobalTime, layers: Iterable[Layer]) -> None:
         """Move to the pose that layers compose for a time, without a jump.
 
-        The second step is `look`: figures look at each other, so all of them move first.
+        Then come `simulate`, if forces move the figure, and `look`: figures look at each other, so all of them move
+        first.
         """
         composed = compose(self.avatar.skeleton, layers)
         self._passed, self._time, self._wanted = time - self._time, time, composed.shown
@@ -73,8 +87,18 @@ class Humanoid:
             self._shown = composed.shown
         else:
             self._before = self._shown
+            if self._forced:
+                self._limit.release(composed.shown, self._forced)
             self._shown = self._limit(composed.shown, self._passed)
+        self._limited, self._forced = self._shown, frozenset()
         self.body = self._steady(composed)
+
+    def simulate(self, dynamics: Dynamics) -> None:
+        """Let forces move the figure from the pose of the last move; it may run in any thread."""
+        body = dynamics(self._limited, self._passed)
+        kinematic = self._limited.pose
+        moved = {joint: turn for joint, turn in body.pose.items() if turn is not kinematic[joint]}
+        self._shown, self.body, self._forced = body, self.body.posed(moved, body.root), frozenset(moved)
 
     def _steady(self, composed: ComposedBody) -> Body:
         """Return the body without additive motion, with arms that are slowed where they are shown."""
@@ -109,13 +133,17 @@ class Humanoid:
         return self._time
 
     def gap(self, joint: str) -> float:
-        """Return the distance between the positions of a joint as composed and as shown, m; speed limits cause it."""
-        wanted, shown = (body.transform(joint).position for body in (self._wanted, self._shown))
-        return distance(wanted, shown)
+        """Return the distance between the positions of a joint as composed and as moved, m; speed limits cause it."""
+        wanted, limited = (body.transform(joint).position for body in (self._wanted, self._limited))
+        return distance(wanted, limited)
 
     def to_own_frame(self, point: Vec3) -> Vec3:
         """Convert a point of the world to the figure's frame, m."""
         return rotate(conjugate(self._turn), subtract(point, self._position))
+
+    def to_own_axes(self, vector: Vec3) -> Vec3:
+        """Convert a direction or a force in the axes of the world to the figure's."""
+        return rotate(conjugate(self._turn), vector)
 
     def locate(self, joint: str | None, time: GlobalTime | None = None) -> Vec3 | None:
         """Return the position of a joint in the world, m; None if there is no such joint.

@@ -1,6 +1,7 @@
 """Limits how fast the figure moves, as a last safeguard against jumps."""
 
 import math
+from collections.abc import Collection
 
 from reactive_realizer.embodiment.body import Body, JointRotations
 from reactive_realizer.embodiment.feet import depth, drawn, feet, leg, soles, walks
@@ -81,6 +82,12 @@ class SpeedLimit:
         self._velocities: dict[str, Vec3] = dict.fromkeys(_WRISTS, ZERO)
         self._soles = soles(shown.skeleton)
         self._walks = walks(shown.skeleton)
+
+    def release(self, wanted: Body, joints: Collection[str]) -> None:
+        """Let joints, and the root if it is one of them, be at once where they are wanted, when they are shown next."""
+        root = wanted.root if ROOT in joints else self._shown.root
+        self._shown = self._shown.posed({joint: wanted.rotation(joint) for joint in joints}, root)
+        self._places = {wrist: _from_root(wrist, self._shown) for wrist in _WRISTS}
 
     def __call__(self, wanted: Body, duration: float) -> Body:
         """Return the body to show now.

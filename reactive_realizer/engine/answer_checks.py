@@ -5,9 +5,19 @@ from math import isfinite
 from typing import Final, TypeVar, cast, get_args
 
 from reactive_realizer.embodiment.audio import AudioChange
+from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.humanoid import EyePose
-from reactive_realizer.embodiment.pose import check_rotations
-from reactive_realizer.engine.effects import ActivateBlock, Dropped, EndUnit, InterruptBlock, Play, Reached, Request
+from reactive_realizer.embodiment.pose import Layer, LayerKind, check_rotations, checked
+from reactive_realizer.engine.effects import (
+    ActivateBlock,
+    Dropped,
+    EndUnit,
+    InterruptBlock,
+    Play,
+    Reached,
+    ReportFall,
+    Request,
+)
 from reactive_realizer.engine.hearing import Drift
 from reactive_realizer.errors import Fault
 from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
@@ -61,7 +71,7 @@ def check_play(play: Play) -> Play:
     for request in play.requests:
         expected(_REQUESTS, request)
         expected(PlanUnit, request.unit)
-        if isinstance(request, ActivateBlock | InterruptBlock | EndUnit):
+        if isinstance(request, ActivateBlock | InterruptBlock | EndUnit | ReportFall):
             number(request.time)
     return play
 
@@ -85,6 +95,16 @@ def check_eyes(pose: EyePose) -> EyePose:
     check_rotations(expected(EyePose, pose).turns)
     check_weights(pose.lids)
     return pose
+
+
+def check_body(body: Body) -> Body:
+    """A body that can be shown.
+
+    Raises:
+        RealizerError, TypeError, ValueError: it cannot.
+    """
+    checked(Layer(LayerKind.BASE, expected(Body, body).pose, root=body.root))
+    return body
 
 
 def check_drift(drift: Drift | None) -> Drift | None:

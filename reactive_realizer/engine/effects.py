@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from reactive_realizer.bml.extensions import Emit
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.audio import AudioChange
-from reactive_realizer.embodiment.humanoid import Eyes
+from reactive_realizer.embodiment.humanoid import Dynamics, Eyes
 from reactive_realizer.embodiment.pose import Layer
 from reactive_realizer.errors import Fault
 from reactive_realizer.planunit.parameter import Parameter
@@ -141,6 +141,19 @@ class Warn:
     fault: Fault
 
 
+@dataclass(frozen=True, slots=True)
+class ReportFall:
+    """Requests feedback about a figure that has fallen.
+
+    Attributes:
+        unit: that moves the figure by forces.
+        time: of the frame in which it has fallen, s, global.
+    """
+
+    unit: PlanUnit
+    time: GlobalTime
+
+
 class ParameterUser(PlanUnit, ABC):
     """A unit that changes a parameter of another unit."""
 
@@ -153,7 +166,7 @@ class ParameterUser(PlanUnit, ABC):
         """
 
 
-Request = ActivateBlock | InterruptBlock | BindParameter | SetParameter | FollowCell | EndUnit | Warn
+Request = ActivateBlock | InterruptBlock | BindParameter | SetParameter | FollowCell | EndUnit | Warn | ReportFall
 """Requests of an engine to the scheduler, carried out in the same tick."""
 
 
@@ -183,9 +196,11 @@ class Output:
         face: weights of morphs, 0..1; those of several engines are added.
         eyes: movement of the eyes, applied after the head.
         effects: of showing: units that failed, and warnings.
+        dynamics: movement of joints by forces, applied before that of the eyes; None for a figure that none moves.
     """
 
     layers: tuple[Layer, ...] = ()
     face: Mapping[str, float] = field(default_factory=dict)
     eyes: Eyes | None = None
     effects: Play = Play()
+    dynamics: Dynamics | None = None

@@ -8,9 +8,10 @@ from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.clock.units import GlobalTime, Time
 from reactive_realizer.embodiment.audio import AudioChange
-from reactive_realizer.embodiment.humanoid import Eyes
+from reactive_realizer.embodiment.humanoid import Dynamics, Eyes
 from reactive_realizer.embodiment.pose import Layer
-from reactive_realizer.engine.effects import Dropped, Output, Play, Reached, Request, Warn
+from reactive_realizer.embodiment.vector import Vec3
+from reactive_realizer.engine.effects import Dropped, Output, Play, Reached, ReportFall, Request, Warn
 from reactive_realizer.engine.player import Player
 from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.peg_key import BlockKey
@@ -41,6 +42,21 @@ class Engine(Protocol):
     extensions: frozenset[tuple[str, str]]
     reads_parameters: bool
     parameters: Mapping[type[Behavior], Mapping[str, Range]]
+
+    def push(self, joint: str, force: Vec3, duration: float) -> None:
+        """Push the figure at a segment; an engine that moves it by forces lets it give way.
+
+        Args:
+            joint: of the segment, or within it.
+            force: N, in the figure's frame.
+            duration: s, from the next frame on.
+        """
+        ...
+
+    @property
+    def needs_frames(self) -> bool:
+        """Whether showing frames now has effects other than the frames, so that they are shown without listeners."""
+        ...
 
     def supports(self, behavior: Behavior) -> bool:
         """Whether it plays a behavior."""
@@ -119,6 +135,14 @@ class DefaultEngine:
         self.player = Player()
         self._reached: list[Reached] = []
 
+    def push(self, joint: str, force: Vec3, duration: float) -> None:
+        """Do nothing."""
+
+    @property
+    def needs_frames(self) -> bool:
+        """False: it plays the same whether frames are shown or not."""
+        return False
+
     def supports(self, behavior: Behavior) -> bool:
         """Whether a behavior is of one of its kinds, not of a subclass."""
         return type(behavior) in self.behaviors
@@ -160,8 +184,9 @@ class DefaultEngine:
 
     def show(self, tick: Tick) -> Output:
         """Layers, face and eyes; a unit that fails is dropped."""
-        layers, face, eyes = self.layers(tick), self.face(tick), self.eyes(tick)
-        return Output(layers, face, eyes, Play(dropped=self.player.take_dropped(), requests=self.warnings()))
+        layers, face, eyes, dynamics = self.layers(tick), self.face(tick), self.eyes(tick), self.dynamics(tick)
+        effects = Play(dropped=self.player.take_dropped(), requests=self.warnings())
+        return Output(layers, face, eyes, effects, dynamics)
 
     def fail(self, time: GlobalTime, fault: Fault) -> Play:
         """Drop every unit; the points reached before the failure are returned too."""
@@ -178,8 +203,8 @@ class DefaultEngine:
         """The requests of this tick."""
         return ()
 
-    def warnings(self) -> tuple[Warn, ...]:
-        """The warnings about units since the last call, asked for after playing and after showing."""
+    def warnings(self) -> tuple[Warn | ReportFall, ...]:
+        """The warnings about units, and falls, since the last call, asked for after playing and after showing."""
         return ()
 
     def layers(self, tick: Tick) -> tuple[Layer, ...]:
@@ -192,6 +217,10 @@ class DefaultEngine:
 
     def eyes(self, tick: Tick) -> Eyes | None:
         """The movement of the eyes in this tick, applied after the head."""
+        return None
+
+    def dynamics(self, tick: Tick) -> Dynamics | None:
+        """The movement of joints by forces in this tick, applied before that of the eyes."""
         return None
 
     def audio(self, tick: Tick) -> tuple[AudioChange, ...]:

@@ -45,6 +45,8 @@ class EngineTasks:
         self._ranks = {task: rank for rank, task in enumerate(self.tasks)}
         self._agenda: Agenda[EngineTask] = Agenda(lambda task: task.engine.next_due, lambda task: ())
         self._woken: set[EngineTask] = set()
+        self._needing: set[EngineTask] = set()
+        """The engines that need frames, as they said when they last played or showed one."""
         for task in self.tasks:
             self._agenda.add(task)
             task.engine.listen(partial(self._woken.add, task))
@@ -58,12 +60,29 @@ class EngineTasks:
 
     async def play(self, tick: Tick) -> list[Play]:
         """One round of a tick: the engines that are due or woken play; their effects are in rank order."""
-        answers = [task.post(tick) for task in self._take_due(tick.time)]
-        return [await answer for answer in answers]
+        due = self._take_due(tick.time)
+        answers = [task.post(tick) for task in due]
+        plays = [await answer for answer in answers]
+        self._note_needs(due)
+        return plays
 
     def show(self, tick: Tick) -> list[Output]:
         """The outputs of all engines for the frame of a tick, in rank order."""
-        return [task.engine.show(tick) for task in self.tasks]
+        outputs = [task.engine.show(tick) for task in self.tasks]
+        self._note_needs(self.tasks)
+        return outputs
+
+    @property
+    def need_frames(self) -> bool:
+        """Whether an engine needs frames for its own sake."""
+        return bool(self._needing)
+
+    def _note_needs(self, tasks: Iterable[EngineTask]) -> None:
+        for task in tasks:
+            if task.engine.needs_frames:
+                self._needing.add(task)
+            else:
+                self._needing.discard(task)
 
     def _take_due(self, now: GlobalTime) -> list[EngineTask]:
         due = {*self._agenda.take_due(now), *self._woken}

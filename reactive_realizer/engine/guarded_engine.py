@@ -10,10 +10,11 @@ from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.clock.units import GlobalTime, Time
 from reactive_realizer.embodiment.audio import AudioHeard
-from reactive_realizer.embodiment.body import Body
-from reactive_realizer.embodiment.humanoid import EyePose, Eyes
+from reactive_realizer.embodiment.humanoid import Dynamics, EyePose, Eyes
 from reactive_realizer.embodiment.pose import check_layers
+from reactive_realizer.embodiment.vector import Vec3
 from reactive_realizer.engine.answer_checks import (
+    check_body,
     check_drift,
     check_eyes,
     check_play,
@@ -95,6 +96,15 @@ class GuardedEngine:
         """
         return expected(PlanUnit, _called(lambda: self.engine.plan(block, behavior, prepared)))
 
+    @property
+    def needs_frames(self) -> bool:
+        """Whether frames have an effect on what it plays; False if it raises."""
+        return self._try(lambda: bool(self.engine.needs_frames), False)
+
+    def push(self, joint: str, force: Vec3, duration: float) -> None:
+        """Push the figure; an exception is logged."""
+        self._try(lambda: self.engine.push(joint, force, duration), None)
+
     def add(self, unit: PlanUnit) -> None:
         """Take a unit into the plan."""
         self._units[unit] = None
@@ -134,8 +144,7 @@ class GuardedEngine:
             check_play(output.effects)
         except FAILURES as failure:
             return Output(effects=self._drop_all(tick.time, failure))
-        eyes = output.eyes
-        return output if eyes is None else replace(output, eyes=lambda body: self._look(eyes, body))
+        return replace(output, eyes=self._guarded_eyes(output.eyes), dynamics=self._guarded_dynamics(output.dynamics))
 
     def fail(self, time: GlobalTime, fault: Fault) -> Play:
         """Drop every unit."""
@@ -196,8 +205,15 @@ class GuardedEngine:
         due = self.engine.next_due
         return None if due is None else GlobalTime(number(due))
 
-    def _look(self, eyes: Eyes, body: Body) -> EyePose:
-        return self._try(lambda: check_eyes(eyes(body)), EyePose({}, {}))
+    def _guarded_eyes(self, eyes: Eyes | None) -> Eyes | None:
+        if eyes is None:
+            return None
+        return lambda body: self._try(lambda: check_eyes(eyes(body)), EyePose({}, {}))
+
+    def _guarded_dynamics(self, dynamics: Dynamics | None) -> Dynamics | None:
+        if dynamics is None:
+            return None
+        return lambda body, duration: self._try(lambda: check_body(dynamics(body, duration)), body)
 
 
 def _called(call: Callable[[], T]) -> T:

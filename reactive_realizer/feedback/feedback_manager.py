@@ -11,6 +11,7 @@ from reactive_realizer.clock.ticker import RATE
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.feedback.messages import (
     BlockProgress,
+    FallFeedback,
     Feedback,
     PredictionFeedback,
     SyncPointProgress,
@@ -61,8 +62,8 @@ class FeedbackManager:
         self._listeners.append(listener)
         return lambda: self._listeners.remove(listener) if listener in self._listeners else None
 
-    def add(self, message: WarningFeedback | PredictionFeedback) -> None:
-        """Send a warning or prediction with this tick: in the order of adding, before all progress."""
+    def add(self, message: WarningFeedback | PredictionFeedback | FallFeedback) -> None:
+        """Send a warning, prediction or fall with this tick: in the order of adding, before all progress."""
         self._messages.append(message)
 
     def add_progress(self, message: BlockProgress | SyncPointProgress, order: ProgressOrder) -> None:

@@ -1,4 +1,4 @@
-"""Feedback as data (BML 1.0, with the status of BMLA)."""
+"""Feedback as data (BML 1.0, with the status of BMLA, and falls)."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -81,4 +81,14 @@ class WarningFeedback:
     text: str
 
 
-Feedback = BlockProgress | SyncPointProgress | PredictionFeedback | WarningFeedback
+@dataclass(frozen=True, slots=True)
+class FallFeedback:
+    """A figure fell while a behavior moved it by forces."""
+
+    character: str
+    block: str
+    behavior: str
+    time: GlobalTime
+
+
+Feedback = BlockProgress | SyncPointProgress | PredictionFeedback | WarningFeedback | FallFeedback

@@ -1,4 +1,4 @@
-"""Feedback as XML, in the forms of BML 1.0 (blockProgress, syncPointProgress, predictionFeedback, warningFeedback)."""
+"""Feedback as XML, in the forms of BML 1.0, and falls in the realizer's own namespace."""
 
 import re
 from collections.abc import Iterator
@@ -16,6 +16,7 @@ from reactive_realizer.feedback.messages import (
     BehaviorPrediction,
     BlockProgress,
     EmittedEvent,
+    FallFeedback,
     Feedback,
     PredictionFeedback,
     SyncPointProgress,
@@ -63,6 +64,9 @@ def xml_parts(message: Feedback, epoch: float | None = None) -> Iterator[str]:
         return
     if isinstance(message, BlockProgress):
         yield _block_progress(message, epoch)
+        return
+    if isinstance(message, FallFeedback):
+        yield _fall(message, epoch)
         return
     element = _element(message)
     if epoch is not None:
@@ -119,6 +123,13 @@ def _sync_point_progress(message: SyncPointProgress, epoch: float | None) -> str
     own += _posix_time(time, epoch)
     text = f'<syncPointProgress xmlns="{BML}"{spaces}{_character(message.character)} id="{id_}"{own}/>'
     return text if event is None else _with_event(text, event)
+
+
+def _fall(message: FallFeedback, epoch: float | None) -> str:
+    time, space = seconds(message.time), "" if epoch is None else _BMLA
+    id_ = _value(f"{message.block}:{message.behavior}")
+    own = f'{_character(message.character)} id="{id_}" globalTime="{time}"{_posix_time(time, epoch)}'
+    return f'<fall xmlns="{OWN}"{space}{own}/>'
 
 
 def _character(id_: str) -> str:

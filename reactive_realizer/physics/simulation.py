@@ -1,19 +1,28 @@
 """Mixed dynamics: a figure with some joints that are moved, and others that move physically (thesis, chapter 3)."""
 
+import logging
 from collections.abc import Collection, Iterable, Sequence
+from typing import NamedTuple
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
 from reactive_realizer.embodiment.body import Body, Skeleton
-from reactive_realizer.embodiment.joints import ROOT
+from reactive_realizer.embodiment.joints import ROOT, SIDES
 from reactive_realizer.embodiment.quaternion import Quat, conjugate, multiply, rotate
-from reactive_realizer.embodiment.vector import add, subtract
+from reactive_realizer.embodiment.vector import Vec3, add, subtract
 from reactive_realizer.physics.controllers.controller import Controller
 from reactive_realizer.physics.joint_limits import LimitSprings
 from reactive_realizer.physics.mjcf import TO_WORLD, inertia, mjcf
+from reactive_realizer.physics.rotations import turns
 from reactive_realizer.physics.segments import SEGMENTS
+from reactive_realizer.physics.static_friction import StaticFriction
+
+logger = logging.getLogger(__name__)
+
+# MuJoCo would write its warnings, such as that of a huge acceleration, to a file in the current folder.
+mujoco.set_mju_user_warning(lambda text: logger.debug("MuJoCo: %s", text))
 
 SUBSTEP = 0.0025
 """Default time of a step, s."""
@@ -24,8 +33,23 @@ _ARMATURE = 1e6
 Beside it, that of the body is negligible: no force of the rest of the body disturbs the joint.
 """
 
+_FASTEST = 1000.0
+"""Speed that no joint reaches, rad/s or m/s."""
+
+_LYING = 0.5
+"""Height of the center of mass of a figure that has fallen, in multiples of its height when it stands."""
+
+_CONTROL = 4
+"""Number of steps for which the torques of springs and controllers stay."""
+
+FEET = tuple(f"{side}_ankle" for side in SIDES)
+
 _ROOT_BODY = 1
 """Index of the body that all others belong to; 0 is the world."""
+
+
+class Exploded(Exception):
+    """The state of a simulation is none that a body can have."""
 
 
 class Simulation:
@@ -42,6 +66,8 @@ class Simulation:
         joints: of the segments, the root first.
         model: of MuJoCo. Its frame is turned by `TO_WORLD`.
         data: of MuJoCo.
+        mass: of the figure, kg.
+        inertia: that turns about each degree of freedom in the default pose, kg m^2, or kg, (nv,).
     """
 
     def __init__(
@@ -57,19 +83,29 @@ class Simulation:
         """
         self.model = mujoco.MjModel.from_xml_string(mjcf(skeleton, weight).decode())
         self.model.opt.timestep = substep
+        self.model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_AUTORESET
         if floating:
             self.model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_GRAVITY | mujoco.mjtDisableBit.mjDSBL_CONTACT
         self.data = mujoco.MjData(self.model)
         self.joints = tuple(self.model.joint(index).name for index in range(self.model.njnt))
         self._skeleton = skeleton
-        self._inertia = inertia(self.model)
+        self.inertia = inertia(self.model)
+        self._greatest = self.inertia.copy()
+        self._greatest[6:] = self.inertia[6:].reshape(-1, 3).max(axis=1).repeat(3)
         self._links = {joint: _Links(skeleton, joint) for joint in self.joints}
         addresses = zip(self.joints, self.model.jnt_qposadr.tolist(), self.model.jnt_dofadr.tolist(), strict=True)
         self._addresses = {joint: (position, degree) for joint, position, degree in addresses}
         self._damping, self._limited = self.model.dof_damping.copy(), self.model.jnt_limited.copy()
         self._wanted = self.data.qpos.copy()
-        self._speeds = np.zeros(self.model.nv)
+        self._speeds, self._jacobian = np.zeros(self.model.nv), np.zeros((3, self.model.nv))
+        self._known_indices: dict[tuple[str, ...], tuple[NDArray[np.intp], NDArray[np.intp]]] = {}
+        self._bodies = {joint: int(self.model.body(joint).id) for joint in self.joints}
+        self._friction = StaticFriction(self.model, [self._bodies[foot] for foot in FEET if foot in self._bodies])
+        self._pushes: list[_Push] = []
+        self.mass = float(self.model.body_subtreemass[_ROOT_BODY])
         self.kinematic = ()
+        mujoco.mj_forward(self.model, self.data)
+        self._standing = float(self.data.subtree_com[_ROOT_BODY, 2])
 
     @property
     def kinematic(self) -> Collection[str]:
@@ -89,12 +125,27 @@ class Simulation:
         self._positions = _indices(self.positions(joint) for joint in self._kinematic)
         self._degrees = _indices(self.degrees(joint) for joint in self._kinematic)
         loose = [joint for joint in self.joints if joint not in joints and joint != ROOT]
-        self._limits = LimitSprings(self.model, self._inertia, loose)
+        self._limits = LimitSprings(self.model, self.inertia, loose)
         model = self.model
         model.dof_armature[:], model.jnt_limited[:] = 0.0, self._limited
         model.dof_armature[self._degrees] = _ARMATURE
         for joint in self._kinematic:
             model.joint(joint).limited = 0
+
+    @property
+    def period(self) -> float:
+        """The time for which the torques of springs and controllers stay, s."""
+        return _CONTROL * self.substep
+
+    @property
+    def substep(self) -> float:
+        """The time of a step, s."""
+        return float(self.model.opt.timestep)
+
+    def segments(self, joints: Iterable[str]) -> frozenset[str]:
+        """Return the joints of the segments that any of some joints turns."""
+        turned = set(joints)
+        return frozenset(joint for joint, links in self._links.items() if not turned.isdisjoint(links.joints))
 
     def degrees(self, joint: str) -> slice:
         """Return the slice of a joint's degrees of freedom in velocities and torques: three, of the root six."""
@@ -109,6 +160,7 @@ class Simulation:
     def place(self, body: Body) -> None:
         """Put all joints at rest in the pose of a body."""
         self.data.qpos[:], self.data.qvel[:] = self._coordinates(body, self.joints), 0.0
+        mujoco.mj_forward(self.model, self.data)
 
     def advance(
         self,
@@ -126,23 +178,43 @@ class Simulation:
             steps: their number.
             torques: on each degree of freedom, Nm or N, in the axes of its segment, in addition; those of kinematic
                 joints have no effect.
+
+        Raises:
+            Exploded: it cannot go on.
         """
         model, data, time = self.model, self.data, self.model.opt.timestep
-        own, wanted = self._degrees, self._coordinates(body, self._kinematic)
+        wanted = self._coordinates(body, self._kinematic)
         self._wanted[self._positions] = wanted
         # MuJoCo's semi-implicit Euler integrator ends at the wanted positions with these velocities.
         mujoco.mj_differentiatePos(model, self._speeds, steps * time, data.qpos, self._wanted)
-        for _ in range(steps):
-            data.qfrc_applied[:] = 0.0 if torques is None else torques
-            model.dof_damping[:] = self._damping
-            self._limits.act(data, time, data.qfrc_applied, model.dof_damping)
-            for controller in controllers:
-                controller.act(self, body, data.qfrc_applied, model.dof_damping)
-            model.dof_damping[own] = 0.0
-            data.qfrc_applied[own] = _ARMATURE * (self._speeds[own] - data.qvel[own]) / time
-            mujoco.mj_step(model, data)
-            data.qvel[own] = self._speeds[own]
-        data.qpos[self._positions] = wanted
+        for done in range(0, steps, _CONTROL):
+            self._advance(body, controllers, min(_CONTROL, steps - done), torques)
+            self._pushes = [push for push in self._pushes if push.until > data.time]
+        data.qpos[self._positions], data.qvel[self._degrees] = wanted, self._speeds[self._degrees]
+        if not (np.isfinite(data.qpos).all() and abs(data.qvel).max() < _FASTEST):
+            raise Exploded
+
+    def _advance(
+        self, body: Body, controllers: Sequence[Controller], steps: int, torques: NDArray[np.float64] | None
+    ) -> None:
+        """Simulate some steps with the torques of the present state."""
+        model, data, own = self.model, self.data, self._degrees
+        applied, damping = data.qfrc_applied, model.dof_damping
+        applied[:] = 0.0 if torques is None else torques
+        data.xfrc_applied[:] = 0.0
+        self._friction.act(data)
+        for push in self._pushes:
+            data.xfrc_applied[push.body, :3] += push.force
+        damping[:] = self._damping
+        self._limits.act(data, self.period, applied, damping)
+        for controller in controllers:
+            controller.act(self, body, applied, damping)
+        damping[own] = 0.0
+        applied[own] = _ARMATURE * (self._speeds[own] - data.qvel[own]) / model.opt.timestep
+        mujoco.mj_step(model, data)
+        if steps > 1:
+            applied[own], data.qvel[own] = 0.0, self._speeds[own]
+            mujoco.mj_step(model, data, steps - 1)
 
     def body(self, shown: Body) -> Body:
         """Return a body with physical joints as they are simulated, and all others as in a given body.
@@ -163,6 +235,68 @@ class Simulation:
         w, x, y, z = self.data.qpos[self.positions(joint)][-4:].tolist()
         return multiply(conjugate(TO_WORLD), (w, x, y, z)) if joint == ROOT else (w, x, y, z)
 
+    def push(self, joint: str, force: Vec3, duration: float) -> None:
+        """Push a segment at its center of mass from now on.
+
+        Args:
+            joint: of the segment, or within it.
+            force: N, in the figure's frame.
+            duration: s.
+        """
+        turned = np.array(rotate(TO_WORLD, force))
+        segment: str | None = joint
+        while segment is not None and segment not in self._bodies:
+            segment = self._skeleton.parent(segment)
+        self._pushes.append(_Push(self._bodies[segment or ROOT], turned, self.data.time + duration))
+
+    @property
+    def fallen(self) -> bool:
+        """Whether the figure lies on the floor: its center of mass is at less than half its height when it stands."""
+        return bool(self.data.subtree_com[_ROOT_BODY, 2] < _LYING * self._standing)
+
+    def body_of(self, joint: str) -> int:
+        """Return MuJoCo's index of the body of a segment."""
+        return self._bodies[joint]
+
+    def center_of_mass(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return the place of the center of mass of the figure, m, and its velocity, m/s, in MuJoCo's world."""
+        mujoco.mj_jacSubtreeCom(self.model, self.data, self._jacobian, _ROOT_BODY)
+        return self.data.subtree_com[_ROOT_BODY], self._jacobian @ self.data.qvel
+
+    def jacobian(self, body: int, point: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return how a point of a body, m, moves with all degrees of freedom, in MuJoCo's world, (3, nv)."""
+        jacobian = np.empty((3, self.model.nv))
+        mujoco.mj_jac(self.model, self.data, jacobian, None, point, body)
+        return jacobian
+
+    def hold(
+        self,
+        joints: tuple[str, ...],
+        goal: Body,
+        frequency: float | NDArray[np.float64],
+        ratio: float,
+        torques: NDArray[np.float64],
+        damping: NDArray[np.float64],
+    ) -> None:
+        """Add springs and dampers that hold joints in the pose of a body (stable PD control).
+
+        Args:
+            joints: of segments, without the root.
+            goal: the pose.
+            frequency: angular frequency of the springs, rad/s, of all or of each degree of freedom: their stiffness is
+                in proportion to the greatest inertia that turns about an axis of the joint, because limbs would twist
+                otherwise.
+            ratio: of damping, 1 for critical.
+            torques: to add to, (nv,).
+            damping: to add to, (nv,).
+        """
+        positions, degrees = self._indices(joints)
+        wanted = np.array(self._coordinates(goal, joints)).reshape(-1, 4)
+        inertia = self._greatest[degrees]
+        stiffness = inertia * frequency**2
+        torques[degrees] += stiffness * turns(self.data.qpos[positions].reshape(-1, 4), wanted).ravel()
+        damping[degrees] += stiffness * self.period + 2.0 * ratio * frequency * inertia
+
     def angular_momentum(self) -> NDArray[np.float64]:
         """Return the angular momentum about the center of mass, kg m^2/s, in MuJoCo's world, (3,)."""
         mujoco.mj_kinematics(self.model, self.data)
@@ -170,6 +304,17 @@ class Simulation:
         mujoco.mj_subtreeVel(self.model, self.data)
         momentum: NDArray[np.float64] = self.data.subtree_angmom[_ROOT_BODY].copy()
         return momentum
+
+    def wanted(self, joint: str, body: Body) -> Quat:
+        """Return the rotation of a segment in its parent segment in a body; that of the root in MuJoCo's world."""
+        rotation = self._links[joint].rotation(body)
+        return multiply(TO_WORLD, rotation) if joint == ROOT else rotation
+
+    def _indices(self, joints: tuple[str, ...]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """Return the indices of the generalized coordinates of joints, and of their degrees of freedom."""
+        if joints not in self._known_indices:
+            self._known_indices[joints] = _indices(map(self.positions, joints)), _indices(map(self.degrees, joints))
+        return self._known_indices[joints]
 
     def _coordinates(self, body: Body, joints: Iterable[str]) -> list[float]:
         """Return the generalized coordinates of joints in the pose of a body."""
@@ -184,8 +329,20 @@ class Simulation:
         return coordinates
 
 
+class _Push(NamedTuple):
+    """A push: the index of a body, the force, N, in MuJoCo's world, and when it ends, s."""
+
+    body: int
+    force: NDArray[np.float64]
+    until: float
+
+
 class _Links:
-    """The joints that turn a segment in its parent segment: the segment's joint, and those before and after it."""
+    """The joints that turn a segment in its parent segment: the segment's joint, and those before and after it.
+
+    Attributes:
+        joints: all of them.
+    """
 
     def __init__(self, skeleton: Skeleton, joint: str) -> None:
         chain = skeleton.chain(_end(skeleton, joint))
@@ -193,6 +350,7 @@ class _Links:
         parent = next((name for name in reversed(chain[:own]) if name in _ENDS), None)
         first = 0 if parent is None else chain.index(_end(skeleton, parent)) + 1
         self._before, self._joint, self._after = chain[first:own], joint, chain[own + 1 :]
+        self.joints = frozenset(chain[first:])
 
     def rotation(self, body: Body) -> Quat:
         """Return the rotation of the segment in a body."""

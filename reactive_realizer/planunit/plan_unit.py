@@ -275,9 +275,9 @@ class PlanUnit:
         if (lost := self.overtaken()) is not None:
             (sync, time), (later, late) = lost
             return Overtaken(sync=sync, time=time, later=later, late=late)
-        if start is None or end is None or self.timing.instant or self.timing.waits or end - start >= SHORTEST:
+        if start is None or end is None or end - start >= SHORTEST:
             return None
-        return TooShort()
+        return None if self.timing.closed.instant else TooShort()
 
     def release(self) -> None:
         """Called when its block has started."""

@@ -87,13 +87,16 @@ class Timing:
 
     @property
     def closed(self) -> "Timing":
-        """The part that can be timed: the part before its relax if it is persistent, and no time if it waits."""
+        """The part that can be timed: the part before its relax if it is persistent, and no time if it waits.
+
+        It is an instant if it has one point alone.
+        """
         if self.waits:
             return Timing(self.points, tuple(Phase(0.0, PhaseKind.RIGID) for _ in self.phases), instant=True)
         if not self.persistent:
             return self
         count = len([point for point in self.points if point not in OPEN])
-        return Timing(self.points[:count], self.phases[: count - 1], self.instant)
+        return Timing(self.points[:count], self.phases[: count - 1], self.instant or count == 1)
 
     @property
     def offsets(self) -> tuple[float, ...]:

@@ -1,7 +1,8 @@
 """A character of the realizer."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.frame import Frame
@@ -18,9 +19,14 @@ class Character:
     humanoid: Humanoid
     engines: tuple[Engine, ...]
 
-    def move(self, time: GlobalTime, outputs: Sequence[Output]) -> None:
-        """Move the figure to the pose that its engines give for a time; call `look` after that."""
+    def move(self, time: GlobalTime, outputs: Sequence[Output]) -> list[Callable[[], None]]:
+        """Move the figure to the pose that its engines give for a time.
+
+        Returns:
+            Simulations that move it further, each of which may run in a thread of its own; call `look` after that.
+        """
         self.humanoid.move(time, [layer for output in outputs for layer in output.layers])
+        return [partial(self.humanoid.simulate, each.dynamics) for each in outputs if each.dynamics is not None]
 
     def look(self, outputs: Sequence[Output]) -> Frame:
         """The frame after `move`, with the eyes and the face that its engines give."""

@@ -14,7 +14,7 @@ from reactive_realizer.pegboard.anticipator import Anticipator, AnticipatorEvent
 from reactive_realizer.pegboard.peg_key import PegKey, anticipator_key
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.realizer.anticipator_streams import AnticipatorStreams
-from reactive_realizer.realizer.inputs import BmlText, Event, Input, Prediction, TargetMoved
+from reactive_realizer.realizer.inputs import BmlText, Event, Input, Prediction, Push, TargetMoved
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -116,7 +116,7 @@ class Inbox:
             case Event(id_, name, value, text):
                 self._anticipator(id_).check_heard(name)
                 return id_, AnticipatorEvent(name, value, text, now)
-            case BmlText() | TargetMoved() | AudioHeard():
+            case BmlText() | TargetMoved() | AudioHeard() | Push():
                 return None
 
     def _anticipator(self, id_: str) -> Anticipator:

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from reactive_realizer.bml.block import Parsed
 from reactive_realizer.clock.units import Time
 from reactive_realizer.embodiment.audio import AudioHeard
+from reactive_realizer.embodiment.vector import Vec3
 from reactive_realizer.errors import Fault
 
 WorldPosition = tuple[float, float, float]
@@ -51,7 +52,24 @@ class TargetMoved:
     position: WorldPosition | None
 
 
-Input = BmlText | Prediction | Event | TargetMoved | AudioHeard
+@dataclass(frozen=True, slots=True)
+class Push:
+    """A push of a character, which gives way where forces move it.
+
+    Attributes:
+        character: its id.
+        joint: of the pushed segment, or within it.
+        force: N, in the axes of the world.
+        duration: s, from the next frame on.
+    """
+
+    character: str
+    joint: str
+    force: Vec3
+    duration: float
+
+
+Input = BmlText | Prediction | Event | TargetMoved | AudioHeard | Push
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,6 +1,7 @@
 """The realizer: takes inputs, plays ticks, and gives feedback, frames and sounds."""
 
 import asyncio
+import logging
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AsyncExitStack
 from types import TracebackType
@@ -17,7 +18,7 @@ from reactive_realizer.embodiment.world import World
 from reactive_realizer.engine.effects import Output
 from reactive_realizer.engine.engine_task import EngineTasks
 from reactive_realizer.engine.guarded_engine import GuardedEngine
-from reactive_realizer.errors import WarningType
+from reactive_realizer.errors import RealizerError, TargetFault, WarningType
 from reactive_realizer.feedback.feedback_manager import FeedbackManager
 from reactive_realizer.feedback.messages import WarningFeedback
 from reactive_realizer.limits import Limits
@@ -32,18 +33,31 @@ from reactive_realizer.realizer.character import Character
 from reactive_realizer.realizer.document_checker import DocumentChecker
 from reactive_realizer.realizer.emitted_events import EmittedEvents
 from reactive_realizer.realizer.inbox import Inbox
-from reactive_realizer.realizer.inputs import BmlText, Forecast, Input, StreamFailure, TickInputs
+from reactive_realizer.realizer.inputs import BmlText, Forecast, Input, Push, StreamFailure, TickInputs
 from reactive_realizer.realizer.verifier import Verifier
-from reactive_realizer.scheduler.admission import Admission
+from reactive_realizer.scheduler.admission import Admission, UnknownCharacter
 from reactive_realizer.scheduler.bml_scheduler import BMLScheduler
 from reactive_realizer.scheduler.engine_routing import EngineRouting
 from reactive_realizer.scheduler.strategy import SchedulingStrategy
+
+logger = logging.getLogger(__name__)
 
 _MOST_ROUNDS = 100
 
 FramesListener = Callable[[Mapping[str, Frame]], None]
 AudioListener = Callable[[AudioChange], None]
 EntryListener = Callable[[TickInputs], None]
+
+
+class UnknownJoint(TargetFault):
+    """No joint of a character has the name."""
+
+    code = "unknown-joint"
+    template = "{character} has no joint '{joint}'; available: {known}"
+    unknown = "joint"
+    character: str
+    joint: str
+    known: tuple[str, ...]
 
 
 class Realizer:
@@ -147,6 +161,19 @@ class Realizer:
         """
         return self.scheduler.check_heard(heard)
 
+    def check_push(self, push: Push) -> None:
+        """Check whether there is such a character with such a joint.
+
+        Raises:
+            RealizerError: "unknown-character" or "unknown-joint".
+        """
+        character = self.characters.get(push.character)
+        if character is None:
+            raise RealizerError(UnknownCharacter(character=push.character, known=tuple(self.characters)))
+        joints = character.humanoid.avatar.skeleton.joints
+        if push.joint not in joints:
+            raise RealizerError(UnknownJoint(character=push.character, joint=push.joint, known=joints))
+
     def admission(self) -> Admission:
         """Checks for blocks and procedures that would enter after all earlier inputs."""
         admission = self.scheduler.admission()
@@ -177,7 +204,7 @@ class Realizer:
     def watch(self, listener: FramesListener) -> Callable[[], None]:
         """Call a listener with the frames of each tick, by the ids of all characters in their order.
 
-        The returned function ends that. Without listeners, no frames are composed.
+        The returned function ends that. Without listeners, frames are composed only while an engine needs them.
         """
         self._frame_listeners.append(listener)
         return lambda: self._frame_listeners.remove(listener)
@@ -224,12 +251,12 @@ class Realizer:
             self._streams.replay(recorded.forecasts)
         self._apply(entered, tick.time)
         await self._catch_up(tick)
-        watched = Tick.on_time(tick.number, tick.frame and bool(self._frame_listeners))
+        watched = Tick.on_time(tick.number, tick.frame and self._frames_needed)
         self.board.begin(watched)
         self._take_blocks(entered, tick.time)
         shown = await self._play(watched)
         if watched.frame:
-            self._publish_frames(tick.time, shown)
+            await self._publish_frames(tick.time, shown)
         self.scheduler.publish(tick.time)
         self._check(tick.time)
         self.feedback.flush(tick.time)
@@ -240,18 +267,30 @@ class Realizer:
         return TickInputs(tick.number, inputs, work, predicted)
 
     def _apply(self, entered: TickInputs, now: GlobalTime) -> None:
-        """Move targets, write predictions, and have speech follow what is heard."""
+        """Move targets, write predictions, have speech follow what is heard, and push characters."""
         with self.board.graph.transaction("inputs"):
             self._inbox.apply(entered.inputs)
             self._streams.apply(entered.predicted, now)
         for entry in entered.inputs:
             if isinstance(entry, AudioHeard):
                 self.scheduler.follow_heard(entry)
+            if isinstance(entry, Push):
+                self._push(entry)
         for each in entered.predicted:
             if isinstance(each, StreamFailure):
                 fault = AnticipatorFailed(anticipator=each.anticipator, reason=each.reason)
                 id_ = f"{ANTICIPATORS}:{each.anticipator}"
                 self.feedback.add(WarningFeedback(None, id_, WarningType.EXECUTION_FAILURE, str(fault)))
+
+    def _push(self, push: Push) -> None:
+        try:
+            self.check_push(push)
+        except RealizerError as problem:
+            logger.warning("%s is skipped: %s", push, problem)
+            return
+        force = self.characters[push.character].humanoid.to_own_axes(push.force)
+        for engine in self._engines[push.character]:
+            engine.push(push.joint, force, push.duration)
 
     async def _catch_up(self, tick: Tick) -> None:
         """Play the skipped ticks in which something was due, in order and without output."""
@@ -305,6 +344,11 @@ class Realizer:
                 self._publish_audio(change)
         return changed or self.scheduler.advance(tick.time)
 
+    @property
+    def _frames_needed(self) -> bool:
+        """Whether a listener wants frames, or an engine needs them for its own sake."""
+        return bool(self._frame_listeners) or self._following.need_frames
+
     def _write_time(self, now: GlobalTime) -> None:
         """Move the cells that depend on the time, if there are any."""
         if self._time.dependents:
@@ -321,14 +365,15 @@ class Realizer:
         for listener in self._audio_listeners:
             listener(change)
 
-    def _publish_frames(self, time: GlobalTime, outputs: Sequence[Output]) -> None:
+    async def _publish_frames(self, time: GlobalTime, outputs: Sequence[Output]) -> None:
         by_engine = dict(zip((task.engine for task in self._following.tasks), outputs, strict=True))
         shown = [
             (character, [by_engine[engine] for engine in self._engines[character.id] if engine in by_engine])
             for character in self.characters.values()
         ]
-        for character, own in shown:
-            character.move(time, own)
+        simulations = [simulation for character, own in shown for simulation in character.move(time, own)]
+        if simulations:
+            await asyncio.gather(*map(asyncio.to_thread, simulations))
         # Eyes look at the positions that other characters, and the character's own hands, have in this frame.
         frames = {character.id: character.look(own) for character, own in shown}
         for listener in tuple(self._frame_listeners):

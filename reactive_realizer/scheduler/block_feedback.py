@@ -11,7 +11,13 @@ from reactive_realizer.clock.units import BlockTime, GlobalTime
 from reactive_realizer.engine.effects import Reached
 from reactive_realizer.errors import Fault
 from reactive_realizer.feedback.feedback_manager import FeedbackManager, ProgressOrder
-from reactive_realizer.feedback.messages import BlockProgress, EmittedEvent, SyncPointProgress, WarningFeedback
+from reactive_realizer.feedback.messages import (
+    BlockProgress,
+    EmittedEvent,
+    FallFeedback,
+    SyncPointProgress,
+    WarningFeedback,
+)
 from reactive_realizer.feedback.xml import as_reported
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.plan_unit import PlanUnit
@@ -55,6 +61,10 @@ class BlockFeedback:
         # A point that passed before its block started is reported after that start.
         order = _order(block, max(time, block.start.value), unit.behavior.order, sync)
         self._feedback.add_progress(message, order)
+
+    def fall(self, unit: PlanUnit, time: GlobalTime) -> None:
+        """Report that the figure has fallen that a behavior moves by forces."""
+        self._feedback.add(FallFeedback(*unit.block, unit.behavior.id, time))
 
     # --- warnings
 

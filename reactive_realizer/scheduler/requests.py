@@ -9,6 +9,7 @@ from reactive_realizer.engine.effects import (
     EndUnit,
     FollowCell,
     InterruptBlock,
+    ReportFall,
     Request,
     SetParameter,
     Warn,
@@ -85,9 +86,11 @@ class EngineRequests:
                     parameter.follow(cell)
                 case Warn(unit, fault):
                     self._feedback.warn_behavior(unit, fault)
+                case ReportFall(unit, time):
+                    self._feedback.fall(unit, time)
                 case _:
                     pass
-        timed = [each for each in requests if not isinstance(each, SetParameter | FollowCell | Warn)]
+        timed = [each for each in requests if not isinstance(each, SetParameter | FollowCell | Warn | ReportFall)]
         for request in sorted(timed, key=lambda each: now if isinstance(each, BindParameter) else each.time):
             self._carry_out(request, now)
         return bool(timed)

@@ -15,11 +15,11 @@ from reactive_realizer.embodiment.audio import AudioHeard
 from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.realizer.document_checker import DocumentChecker
 from reactive_realizer.realizer.inbox import TooManyNames
-from reactive_realizer.realizer.inputs import BmlText, Event, Prediction, TargetMoved, WorldPosition
+from reactive_realizer.realizer.inputs import BmlText, Event, Prediction, Push, TargetMoved, WorldPosition
 from reactive_realizer.server.faults import GoingAway, NoDemo, NotMovable, UnknownAnticipator
 from reactive_realizer.server.heard_reports import HeardReports
 from reactive_realizer.server.live_scene import LiveScene
-from reactive_realizer.server.protocol import Message
+from reactive_realizer.server.protocol import Message, push_of
 from reactive_realizer.server.turns import Turns
 
 _LEAD_IN = 150
@@ -194,6 +194,8 @@ class Intake:
                 self._move(message["set"])
             case "heard":
                 self._heard.take(AudioHeard(message["id"], message["position"], GlobalTime(message["time"])), client)
+            case "push":
+                self._push(push_of(message))
             case _:  # "demo", the last type of the protocol
                 self.demo.perform()
 
@@ -238,6 +240,10 @@ class Intake:
         else:
             anticipator.check_heard(event.name)
         self._realizer.put(event)
+
+    def _push(self, push: Push) -> None:
+        self._realizer.check_push(push)
+        self._realizer.put(push)
 
     def _move(self, targets: dict[str, Any]) -> None:
         for target in targets:

@@ -8,6 +8,7 @@ from typing import Any, Final
 
 from reactive_realizer.bml.block import Problem
 from reactive_realizer.errors import RealizerError
+from reactive_realizer.realizer.inputs import Push
 from reactive_realizer.server.faults import BadJson, UnknownMessage
 from reactive_realizer.server.schema import Schema, shown
 
@@ -77,6 +78,12 @@ def check(message: Any) -> None:
     if not isinstance(kind, str) or kind not in _FROM_CLIENT:
         raise RealizerError(UnknownMessage(type=shown(kind), known=tuple(_FROM_CLIENT)))
     _SCHEMA.check(message, _FROM_CLIENT[kind], kind)
+
+
+def push_of(message: Message) -> Push:
+    """The push that a checked message requests."""
+    x, y, z = message["force"]
+    return Push(message["character"], message["joint"], (float(x), float(y), float(z)), message["duration"])
 
 
 def ref_of(message: Any) -> str | int | None:

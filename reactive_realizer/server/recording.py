@@ -20,6 +20,7 @@ from reactive_realizer.realizer.inputs import (
     Input,
     Predicted,
     Prediction,
+    Push,
     Revocation,
     StreamFailure,
     TargetMoved,
@@ -35,7 +36,7 @@ from reactive_realizer.server.faults import (
     PartsOutOfOrder,
     TicksOutOfOrder,
 )
-from reactive_realizer.server.protocol import Message, check, decode
+from reactive_realizer.server.protocol import Message, check, decode, push_of
 from reactive_realizer.server.recording_parts import part_path
 from reactive_realizer.server.schema import Schema, shown
 
@@ -60,6 +61,8 @@ def message_of(entry: Input) -> Message:
             return {"type": "world", "set": {target: position}}
         case AudioHeard(id_, position, time):
             return {"type": "heard", "id": id_, "position": position, "time": time}
+        case Push(character, joint, force, duration):
+            return {"type": "push", "character": character, "joint": joint, "force": force, "duration": duration}
         case _:
             assert_never(entry)
 
@@ -80,6 +83,8 @@ def input_of(message: Message) -> Input:
             return Event(anticipator, name, message.get("value"), message.get("text"))
         case {"type": "heard", "id": id_, "position": position, "time": time}:
             return AudioHeard(id_, position, GlobalTime(time))
+        case {"type": "push"}:
+            return push_of(message)
         case {"type": "world", "set": targets} if len(targets) == 1:
             return _moved(targets)
         case _:

@@ -31,6 +31,7 @@ from reactive_realizer.engine.effects import (
     InterruptBlock,
     Output,
     Play,
+    ReportFall,
     Request,
     SetParameter,
     Warn,
@@ -312,7 +313,7 @@ class EngineHarness:
             self._carry_out_one(request)
         for dropped in play.dropped:
             self.engine.remove(dropped.unit)
-        requested = any(not isinstance(each, SetParameter | FollowCell | Warn) for each in play.requests)
+        requested = any(not isinstance(each, SetParameter | FollowCell | Warn | ReportFall) for each in play.requests)
         return bool(play.reached or play.dropped or requested)
 
     def _carry_out_one(self, request: Request) -> None:
@@ -327,7 +328,7 @@ class EngineHarness:
                 with self._graph.transaction("end"):
                     unit.interrupt(time)
                 self.engine.remove(unit)
-            case ActivateBlock() | InterruptBlock() | Warn():
+            case ActivateBlock() | InterruptBlock() | Warn() | ReportFall():
                 pass  # there are no other blocks, and no client
 
     def _note(self, commit: Commit) -> None:

@@ -16,7 +16,7 @@ from reactive_realizer.embodiment.body import Body, Skeleton
 from reactive_realizer.embodiment.frame import Frame
 from reactive_realizer.embodiment.joints import ROOT
 from reactive_realizer.embodiment.vector import subtract
-from reactive_realizer.realizer.inputs import BmlText, Event, Prediction, TargetMoved
+from reactive_realizer.realizer.inputs import BmlText, Event, Prediction, Push, TargetMoved
 from reactive_realizer.realizer.realizer import Realizer
 from reactive_realizer.testing.feedback_list import FeedbackList
 
@@ -75,6 +75,13 @@ class RealizerPilot:
     def move(self, target: str, position: tuple[float, float, float] | None) -> None:
         """Moves a target at the next tick; None removes it."""
         self.realizer.put(TargetMoved(target, position), self.now)
+
+    def push(
+        self, joint: str, force: tuple[float, float, float], duration: float, character: str | None = None
+    ) -> None:
+        """Pushes a character, by default the first, at the next tick: with a force, N, for a duration, s."""
+        name = character or next(iter(self.realizer.characters))
+        self.realizer.put(Push(name, joint, force, duration), self.now)
 
     def watch(self) -> None:
         """Records frames from now on."""

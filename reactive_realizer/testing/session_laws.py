@@ -11,7 +11,7 @@ from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.clock.ticker import RATE
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.feedback.feedback_manager import Report
-from reactive_realizer.feedback.messages import BlockProgress, PredictionFeedback, SyncPointProgress
+from reactive_realizer.feedback.messages import BlockProgress, PredictionFeedback, SyncPointProgress, WarningFeedback
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.timing import OPEN
 from reactive_realizer.realizer import verifier
@@ -83,7 +83,7 @@ class SessionLaws:
         elif isinstance(message, SyncPointProgress):
             self._check_time(now, message, f"{message.block}:{message.behavior}:{message.sync}")
             self._check_point(now, message)
-        elif "; thesis " in message.text:
+        elif isinstance(message, WarningFeedback) and "; thesis " in message.text:
             self.note("equation", now, f"{message.id}: {message.text}")
 
     def note(self, law: str, time: float, text: str) -> None:

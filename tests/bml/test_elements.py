@@ -28,6 +28,7 @@ from reactive_realizer.bml.block import BehaviorBlock
 from reactive_realizer.bml.elements import ELEMENTS
 from reactive_realizer.bml.extensions import (
     Activate,
+    Controller,
     Emit,
     Interrupt,
     Keyframe,
@@ -175,6 +176,16 @@ WRITTEN: dict[str, tuple[type[Behavior], dict[str, object], tuple[str, ...]]] = 
     '<bmlt:keyframe id="x" name="walk"/>': (Keyframe, {"animation": "walk", "interpolator": None}, SHIFT),
     '<bmlt:noise id="x" type="perlin" joint="vl5"/>': (Noise, {"type": "perlin", "joint": "vl5"}, SHIFT),
     '<bmlt:transition id="x" class="SlerpTransition"/>': (Transition, {"kind": "SlerpTransition"}, SHIFT),
+    '<bmlt:controller id="x" class="BalanceController"/>': (
+        Controller,
+        {"kind": "BalanceController", "controller": None, "persistent": True},
+        SHIFT,
+    ),
+    '<bmlt:controller id="x" class="CompoundController" name="limp" end="3"/>': (
+        Controller,
+        {"kind": "CompoundController", "controller": "limp", "persistent": False},
+        SHIFT,
+    ),
 }
 
 

@@ -133,7 +133,7 @@ EXAMPLES: dict[int, tuple[Part, ...]] = {
     10: (
         Part(4594, 4596, "Interrupt", (declare_bmlt,), ("malformed-xml", 2)),
         Part(4599, 4601, "Interrupt", (declare_bmlt,), ("malformed-xml", 2)),
-        Part(4605, 4608, "Interrupt ForeignBehavior", (declare_bmlt,), ("malformed-xml", 2)),
+        Part(4605, 4608, "Interrupt Controller", (declare_bmlt,), ("malformed-xml", 2)),
     ),
     11: (
         Part(4715, 4720, "Speech, Speech", (declare_bmlt,), UNBOUND),
@@ -166,14 +166,10 @@ EXAMPLES: dict[int, tuple[Part, ...]] = {
     ),
     17: (Part(4940, 4944, "Speech"),),
     18: (
-        Part(5026, 5029, "ForeignBehavior", (block(),), UNBOUND),
+        Part(5026, 5029, "Controller", (block(),), UNBOUND),
         Part(5032, 5039, "Posture", (block(),), ("malformed-xml", 3)),
     ),
-    19: (
-        Part(
-            5048, 5055, "Gesture ForeignBehavior ForeignBehavior", (block('<gesture id="g1" type="BEAT"/>'),), UNBOUND
-        ),
-    ),
+    19: (Part(5048, 5055, "Gesture Controller Controller", (block('<gesture id="g1" type="BEAT"/>'),), UNBOUND),),
     20: (Part(5082, 5084, "", (DOTS,), ("stray-text", 1)),),
     21: (Part(5096, 5101, "ParameterValueChange", (declare_bmlt,), UNBOUND),),
     22: (
@@ -222,7 +218,7 @@ EXAMPLES: dict[int, tuple[Part, ...]] = {
     35: (Part(8942, 8945, "Speech Gesture", (SYNC, slip("type=..", 'type="BEAT"')), ("malformed-xml", 2)),),
     36: (Part(9309, 9312, "Keyframe", (block(),), UNBOUND),),
     37: (Part(9335, 9335, "ForeignBehavior", (block(),), UNBOUND),),
-    38: (Part(9359, 9362, "ForeignBehavior", (block(),), UNBOUND),),
+    38: (Part(9359, 9362, "Controller", (block(),), UNBOUND),),
     39: (Part(9382, 9384, "ProcAnimation", (block(),), UNBOUND),),
     40: (Part(9404, 9408, "Transition ProcAnimation", (block(),), UNBOUND),),
     41: (Part(9432, 9435, "Noise", (block(),), UNBOUND),),
@@ -232,17 +228,17 @@ EXAMPLES: dict[int, tuple[Part, ...]] = {
     45: (Part(9582, 9584, "", (DOTS, declare_bmlt), UNBOUND),),
     46: (Part(9605, 9605, "Activate", (block(),), UNBOUND),),
     47: (Part(9616, 9627, "ProcAnimation Synchronize Synchronize Synchronize", (block(),), UNBOUND),),
-    48: (Part(9636, 9638, "ForeignBehavior"),),
+    48: (Part(9636, 9638, "Controller"),),
     49: (
         Part(
             9652,
             9661,
-            "ForeignBehavior ForeignBehavior",
+            "Controller Controller",
             (slip('id="balance1" class="BalanceController" start', 'id="balance2" class="BalanceController" start'),),
             ("duplicate-id", 6),
         ),
     ),
-    50: (Part(9665, 9671, "Posture ForeignBehavior"),),
+    50: (Part(9665, 9671, "Posture Controller"),),
     51: (Part(9682, 9690, "Gesture", (block(),), ("malformed-xml", 4)),),
     52: (Part(9700, 9707, "Speech"),),
     53: (Part(9710, 9719, "Speech"),),

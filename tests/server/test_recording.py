@@ -24,6 +24,7 @@ from reactive_realizer.realizer.inputs import (
     Input,
     Predicted,
     Prediction,
+    Push,
     Revocation,
     StreamFailure,
     TargetMoved,
@@ -46,6 +47,7 @@ INPUTS: list[Input] = [
     TargetMoved("bluebox", (0.1, 1.0, -2.5)),
     TargetMoved("bluebox", None),
     AudioHeard("alice-1", 0.1 + 0.2, GlobalTime(1.7)),
+    Push("alice", "vt10", (0.1, 0.0, -2.5), 0.5),
 ]
 PREDICTED = (
     Prediction("user", "stop", GlobalTime(1.3)),
@@ -140,7 +142,7 @@ def test_all_complete_ticks_of_a_truncated_file_are_read(read: Callable[[str | b
 
 
 GOOD = recorded(SESSION).splitlines()
-EVENT = '{"seq": 13, "tick": 10, "time": 0.1, "input": {"type": "event", "anticipator": "a", "event": "e"}}'
+EVENT = '{"seq": 14, "tick": 10, "time": 0.1, "input": {"type": "event", "anticipator": "a", "event": "e"}}'
 FORECAST = '{"tick": 9, "forecast": {"anticipator": "m", "sync": "tick1", "time": null}}'
 
 
@@ -157,7 +159,7 @@ FORECAST = '{"tick": 9, "forecast": {"anticipator": "m", "sync": "tick1", "time"
         ([GOOD[0], '{"tick": -1}'], 2, "minimum 0"),
         ([GOOD[0], '{"tick": 1e308}'], 2, "maximum 10000000000"),
         ([GOOD[0], '{"tick": 3}', '{"tick": 3}'], 3, "tick 3 follows tick 3"),
-        ([GOOD[0], EVENT.replace("13", "2")], 2, "input 2 follows where input 1"),
+        ([GOOD[0], EVENT.replace("14", "2")], 2, "input 2 follows where input 1"),
         ([*GOOD, EVENT.replace("10", "9")], len(GOOD) + 1, "tick 9 follows tick 9"),
         ([*GOOD, EVENT, '{"tick": 11}'], len(GOOD) + 2, "tick 11 follows tick 10"),
         ([GOOD[0], FORECAST], 2, "tick 9 follows tick -1"),

@@ -10,7 +10,7 @@ export type Message = ClientMessage | ServerMessage;
 /**
  * A message of a client. If it has a ref, the answer is accepted or error with the same ref.
  */
-export type ClientMessage = Bml | Predict | Event | Ping | Clock | Camera | WorldChange | Heard | Demo;
+export type ClientMessage = Bml | Predict | Event | Ping | Clock | Camera | WorldChange | Heard | Push | Demo;
 /**
  * Chosen by the client, and repeated in the answer.
  */
@@ -124,6 +124,24 @@ export interface Heard {
   id: string;
   position: number;
   time: Seconds;
+  ref?: Ref;
+}
+/**
+ * Pushes a character at a segment of its body: with a force (N, in the axes of the world), for a duration (s). It gives way only where controllers move it by forces.
+ */
+export interface Push {
+  type: "push";
+  character: string;
+  /**
+   * Joint of the segment, or within it, such as vt10.
+   */
+  joint: string;
+  /**
+   * @minItems 3
+   * @maxItems 3
+   */
+  force: [number, number, number];
+  duration: number;
   ref?: Ref;
 }
 /**

@@ -23,12 +23,12 @@ from reactive_realizer.bml.extensions import MOTIONS
 from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body
-from reactive_realizer.embodiment.humanoid import EyePose, Eyes
+from reactive_realizer.embodiment.humanoid import Dynamics, EyePose, Eyes
 from reactive_realizer.embodiment.pose import Layer, LayerKind, checked, over
 from reactive_realizer.embodiment.quaternion import Quat
 from reactive_realizer.embodiment.vector import Vec3
 from reactive_realizer.engine.context import EngineContext
-from reactive_realizer.engine.effects import Warn
+from reactive_realizer.engine.effects import ReportFall, Warn
 from reactive_realizer.engine.engine import DefaultEngine
 from reactive_realizer.engine.lexicon import LexiconEntry
 from reactive_realizer.engines.animation.animation_predictor import AnimationPredictor
@@ -52,18 +52,24 @@ from reactive_realizer.engines.animation.lexicon import binding_lexicon
 from reactive_realizer.engines.animation.motion_library import MotionLibrary
 from reactive_realizer.engines.animation.motion_maker import MakerContext
 from reactive_realizer.engines.animation.motion_unit import AMOUNT_RANGE, GazeGoal
+from reactive_realizer.engines.animation.motions.controller import ControllerMotionUnit
 from reactive_realizer.engines.animation.motions.posture import posture_after, temporary_bodies
 from reactive_realizer.engines.animation.motions.transition import TransitionMotionUnit, TransitionUnit
 from reactive_realizer.engines.animation.persistent_poses import PersistentPoses
+from reactive_realizer.engines.animation.physical_figure import PhysicalFigure
 from reactive_realizer.engines.animation.posture.foot_planting import FootPlanting
 from reactive_realizer.engines.animation.posture.posture_library import BodyPosture, PostureLibrary
 from reactive_realizer.engines.animation.posture.rest_posture import RestPosture
 from reactive_realizer.pegboard.peg_key import BlockKey
+from reactive_realizer.physics.controllers.controller import Controller
 from reactive_realizer.planunit.parameter import Range
 from reactive_realizer.planunit.plan_unit import PlanUnit, UnitState
 from reactive_realizer.reactive.graph import Graph
 
 T = TypeVar("T")
+
+_CLAIMING = (LayerKind.FULL_BODY, LayerKind.GAZE, LayerKind.GESTURE)
+"""The kinds of motions whose joints no controller moves."""
 
 
 class AnimationEngine(DefaultEngine):
@@ -95,6 +101,7 @@ class AnimationEngine(DefaultEngine):
         self._library = MotionLibrary(binding, maker_context)
         self._idle = Idle(Random(context.seed)) if context.idle else None
         self._late_hands = LateHands(context.humanoid)
+        self._physical_figure = PhysicalFigure(context.humanoid)
         self._foot_planting = FootPlanting(context.humanoid.avatar.skeleton)
         self._persistent = PersistentPoses()
         self._eye_controller = EyeController(self._idle.blink) if self._idle else EyeController()
@@ -242,6 +249,29 @@ class AnimationEngine(DefaultEngine):
         layers = self.player.show(AnimationUnit, lambda unit: (unit, unit.layer(now)), now)
         return [(unit.height, layer) for unit, layer in layers]
 
+    def push(self, joint: str, force: Vec3, duration: float) -> None:
+        """Push the figure; it gives way where controllers move it."""
+        self._physical_figure.push(joint, force, duration)
+
+    @property
+    def needs_frames(self) -> bool:
+        """Whether the figure is simulated: what happens then depends on what happened before."""
+        return self._physical_figure.active or bool(self._controlling())
+
+    def dynamics(self, tick: Tick) -> Dynamics | None:
+        """Return the movement of the joints that controllers move and no motion turns (thesis 8.7.5)."""
+        claimed: frozenset[str] = frozenset()
+        for unit in self.player.playing:
+            if isinstance(unit, AnimationUnit) and unit.motion.kind in _CLAIMING:
+                claimed |= unit.shown.rotations.keys()
+        return self._physical_figure.dynamics(list(self._controlling().values()), claimed)
+
+    def _controlling(self) -> dict[AnimationUnit, Controller]:
+        """Return the controllers that act, the latest last: in each replacement group, only the uppermost unit does."""
+        units = {unit.group or unit: unit for unit in self.player.stacked(AnimationUnit)}
+        motions = ((unit, unit.motion) for unit in units.values())
+        return {unit: motion.controller for unit, motion in motions if isinstance(motion, ControllerMotionUnit)}
+
     def eyes(self, tick: Tick) -> Eyes:
         """Pose the eyes for all gazes, from the head as shown; the lids follow."""
         gazes = list(self._gazes())
@@ -253,12 +283,18 @@ class AnimationEngine(DefaultEngine):
         blinks: Mapping[str, float] = self._idle_part(lambda idle: idle.weights(now), {})
         return EyePose(turns, lid_weights(turns, blinks))
 
-    def warnings(self) -> tuple[Warn, ...]:
-        """Return warnings about new units, and about playing units."""
+    def warnings(self) -> tuple[Warn | ReportFall, ...]:
+        """Return warnings about new units, and about playing units; and a fall."""
         notes, self._notes = self._notes, []
         units = [unit for unit in self.player.playing if isinstance(unit, AnimationUnit)]
         faults = (Warn(unit, fault) for unit in units if (fault := unit.new_fault()) is not None)
-        return (*notes, *faults, *self._late_hands.warnings())
+        return (*notes, *faults, *self._falls(), *self._late_hands.warnings())
+
+    def _falls(self) -> Iterator[ReportFall]:
+        """Yield the fall of the figure in the frame shown last, if it has fallen, with the last unit that moves it."""
+        units = list(self._controlling())
+        if units and self._physical_figure.take_fall():
+            yield ReportFall(units[-1], self._humanoid.time)
 
     def _gazes(self) -> Iterator[GazeGoal]:
         """Yield the active gaze goals: persistent ones, then playing ones, the latest last."""

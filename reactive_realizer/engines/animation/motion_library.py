@@ -30,6 +30,7 @@ from reactive_realizer.engines.animation.motion_parameters import (
     unused_entry_parameters,
 )
 from reactive_realizer.engines.animation.motion_unit import FILE, MotionUnit
+from reactive_realizer.engines.animation.motions.controller import ControllerMaker
 from reactive_realizer.engines.animation.motions.gaze import DYNAMIC, GazeMaker, HeadDirectionMaker
 from reactive_realizer.engines.animation.motions.gesture import GestureMaker
 from reactive_realizer.engines.animation.motions.keyframe import KeyframeMaker
@@ -58,6 +59,8 @@ MAKERS: Mapping[str, Callable[[MakerContext], MotionMaker]] = MappingProxyType(
         "transition": TransitionMaker,
         "posture": PostureMaker,
         "posture-shift": PostureMaker,
+        "PhysicalController": ControllerMaker,
+        "CompoundController": ControllerMaker,
     }
 )
 """Id of a kind of motion -> creates its maker for a figure."""

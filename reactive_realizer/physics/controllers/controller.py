@@ -22,12 +22,16 @@ class Controller(ABC):
         desired: further joints that it moves if they are physical.
         parameters: name -> value; may change before any step.
         ranges: name of each parameter -> its lowest and highest value.
+        fixed: names of parameters that are read only when it is made.
+        failed: whether the simulation could not go on while it acted.
     """
 
     joints: frozenset[str]
     desired: frozenset[str] = frozenset()
     parameters: Mapping[str, float] = MappingProxyType({})
     ranges: Mapping[str, tuple[float, float]] = MappingProxyType({})
+    fixed: frozenset[str] = frozenset()
+    failed = False
 
     @abstractmethod
     def act(
@@ -54,6 +58,8 @@ class RagdollController(Controller):
         joints: of segments.
     """
 
+    fixed = frozenset({"joints"})
+
     def __init__(self, joints: Collection[str]) -> None:
         self.joints = frozenset(joints)
 
@@ -61,3 +67,14 @@ class RagdollController(Controller):
         self, simulation: "Simulation", goal: Body, torques: NDArray[np.float64], damping: NDArray[np.float64]
     ) -> None:
         """Add nothing: the damping of joints and the springs at their limits are part of every simulation."""
+
+
+class NoController(Controller):
+    """Moves nothing: it takes the place of another controller of its replacement group (thesis example 19)."""
+
+    joints = frozenset()
+
+    def act(
+        self, simulation: "Simulation", goal: Body, torques: NDArray[np.float64], damping: NDArray[np.float64]
+    ) -> None:
+        """Add nothing."""
