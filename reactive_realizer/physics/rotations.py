@@ -23,6 +23,27 @@ def rotation_vectors(rotations: Array) -> Array:
     return factors * axes
 
 
+def swing_and_twist(rotations: Array) -> tuple[Array, Array]:
+    """Return the rotation vectors of the two parts of rotations, rad, (N, 3) each.
+
+    A rotation is a twist about y, followed by a swing, the short way round, about an axis in the x-z plane.
+    """
+    w, x, y, z = rotations.T
+    cosines = np.maximum(np.hypot(w, y), _NOTHING)
+    c, s = w / cosines, y / cosines
+    none = np.zeros_like(w)
+    swings = rotation_vectors(np.stack((cosines, x * c + z * s, none, z * c - x * s), axis=1))
+    twists = np.stack((none, 2.0 * np.arctan2(np.copysign(1.0, c) * s, np.abs(c)), none), axis=1)
+    return swings, twists
+
+
+def turned_about_y(vectors: Array, angles: Array) -> Array:
+    """Return vectors turned about y by angles, rad, (N, 3)."""
+    c, s = np.cos(angles), np.sin(angles)
+    x, y, z = vectors.T
+    return np.stack((x * c + z * s, y, z * c - x * s), axis=1)
+
+
 def long_way(vectors: Array) -> Array:
     """Return the rotation vectors of the same rotations the long way round, rad, (N, 3)."""
     turned: Array = vectors * (1.0 - 2.0 * np.pi / np.maximum(lengths(vectors), _NOTHING))

@@ -125,7 +125,7 @@ class Simulation:
         self._positions = _indices(self.positions(joint) for joint in self._kinematic)
         self._degrees = _indices(self.degrees(joint) for joint in self._kinematic)
         loose = [joint for joint in self.joints if joint not in joints and joint != ROOT]
-        self._limits = LimitSprings(self.model, self.inertia, loose)
+        self._limits = LimitSprings(self.model, self.inertia, loose, self.data.qpos)
         model = self.model
         model.dof_armature[:], model.jnt_limited[:] = 0.0, self._limited
         model.dof_armature[self._degrees] = _ARMATURE

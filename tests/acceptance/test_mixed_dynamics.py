@@ -2,6 +2,8 @@
 
 import itertools
 import math
+from collections.abc import Sequence
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -234,3 +236,125 @@ async def test_sessions_with_forces_are_equal_to_the_byte() -> None:
     first, again = await play(), await play()
     assert any("<fall" in xml for xml in first[0])
     assert first == again
+
+
+LOW = '<bmlt:parameter name="pelvisheight" value="0.8"/>'
+SAME = '<bmlt:parameter name="replacementgroup" value="{}"/>'
+
+
+def hips(pilot: RealizerPilot, times: Sequence[float]) -> list[float]:
+    """The height of the hips at some times, m."""
+    return [pilot.bodies()[round(time / 0.02)].transform("l_hip").position[1] for time in times]
+
+
+async def test_of_one_replacement_group_the_controller_acts_that_started_last(pilot: RealizerPilot) -> None:
+    """Thesis C.5, example 49."""
+    pilot.watch()
+    same = SAME.format("balance")
+    pilot.block(
+        "b",
+        f'<bmlt:controller id="high" class="BalanceController" start="0">{same}</bmlt:controller>'
+        f'<bmlt:controller id="low" class="BalanceController" start="1" end="2.5">{LOW}{same}</bmlt:controller>',
+    )
+    await pilot.advance(4)
+    before, low, after = hips(pilot, (0.9, 2.4, 3.9))
+    assert before - low > 0.1
+    assert after == pytest.approx(before, abs=0.02)
+    assert pilot.feedback.warnings == []
+
+
+async def test_a_controller_takes_the_place_of_a_persistent_posture(pilot: RealizerPilot) -> None:
+    """Thesis C.5, example 50."""
+    pilot.watch()
+    controller = f'<bmlt:controller id="low" class="BalanceController" start="1">{LOW}{SAME}</bmlt:controller>'
+    pilot.block("b", f'<posture id="p"><stance type="STANDING"/></posture>{controller.format("posture")}')
+    await pilot.advance(2.5)
+    before, low = hips(pilot, (0.9, 2.4))
+    assert before - low > 0.1
+    assert pilot.feedback.warnings == []
+
+
+async def test_no_controller_gives_an_arm_to_a_gesture(pilot: RealizerPilot) -> None:
+    """Thesis 6.6.7, example 19."""
+    pilot.watch()
+    same = SAME.format("arm")
+    pilot.block(
+        "b",
+        '<bmlt:controller id="loose" class="CompoundController" name="leftarmhang" start="0">'
+        f'<bmlt:parameter name="shoulder:anglez" value="1.2"/><bmlt:parameter name="shoulder:ksz" value="100"/>{same}'
+        "</bmlt:controller>"
+        f'<bmlt:controller id="none" class="NoController" start="1" end="2">{same}</bmlt:controller>',
+    )
+    await pilot.advance(3)
+    raised, taken, again = [angles(pilot, "l_shoulder")[round(time / 0.02)] for time in (0.9, 1.9, 2.9)]
+    assert raised > 35.0
+    assert taken < 25.0
+    assert again > 35.0
+    assert pilot.feedback.warnings == []
+
+
+async def test_a_controller_may_describe_a_posture(pilot: RealizerPilot) -> None:
+    """Thesis 6.6.6, example 18b."""
+    pilot.watch()
+    pilot.block(
+        "b",
+        '<posture id="p" start="0" end="2"><stance type="STANDING"/><description priority="1" type="bmlt:controller">'
+        f'<bmlt:controller id="p" class="BalanceController">{LOW}</bmlt:controller></description></posture>',
+    )
+    await pilot.advance(3.5)
+    low, after = hips(pilot, (1.9, 3.4))
+    assert after - low > 0.1
+    assert pilot.feedback.time("b:p:end") == pytest.approx(2.0)
+    assert pilot.feedback.warnings == []
+
+
+async def test_an_interrupted_arm_relaxes_into_a_controller(pilot: RealizerPilot) -> None:
+    """Thesis 6.5.2, example 10c."""
+    pilot.watch()
+    pilot.block("talk", '<gesture id="g" lexeme="OFFER" mode="LEFT_HAND" start="0" end="4"/>')
+    await pilot.advance(1.5)
+    raised = angles(pilot, "l_elbow")[-1]
+    pilot.block(
+        "yield",
+        '<bmlt:interrupt id="i" target="talk"/>'
+        '<bmlt:controller id="relax" class="CompoundController" name="leftarmhang"/>',
+    )
+    await pilot.advance(2)
+    assert raised > 60.0
+    assert angles(pilot, "l_elbow")[-1] < 30.0
+    assert kicks(pilot, frozenset({"l_shoulder", "l_elbow"})) < 160.0
+    assert pilot.feedback.warnings == []
+
+
+HANGING = """<CompoundController xmlns:bmlt="http://hmi.ewi.utwente.nl/bmlt">
+  <required>
+    <Controller class="hmi.physics.controller.BallJointController" id="upper">
+      <bmlt:parameter name="joint" value="r_shoulder"/></Controller>
+    <Controller class="hmi.physics.controller.HingeJointController" id="lower">
+      <bmlt:parameter name="joint" value="r_elbow"/></Controller>
+  </required>
+  <desired>
+    <Controller class="hmi.physics.controller.HingeJointController" id="hand">
+      <bmlt:parameter name="joint" value="r_wrist"/><bmlt:parameter name="axis" value="2"/></Controller>
+  </desired>
+</CompoundController>"""
+
+
+async def hung(folder: Path, text: str, joint: str) -> float:
+    """How far a joint has moved when a compound controller has let it hang for a second, degrees."""
+    (folder / "controllers").mkdir()
+    (folder / "controllers/hanging.xml").write_text(text)
+    async with open_pilot(SceneOptions(voice="text", assets=(folder,))) as pilot:
+        pilot.watch()
+        pilot.block("b", '<bmlt:controller id="x" class="CompoundController" name="hanging"/>')
+        await pilot.advance(1)
+        assert pilot.feedback.warnings == []
+        return abs(angles(pilot, joint)[-1] - angles(pilot, joint)[0])
+
+
+async def test_a_compound_controller_may_name_java_classes(tmp_path: Path) -> None:
+    assert await hung(tmp_path, HANGING, "r_elbow") > 3.0
+
+
+async def test_a_published_compound_controller_is_played_unchanged(tmp_path: Path, shared_cases: Path) -> None:
+    assert await hung(tmp_path, (shared_cases / "asap/controllers/left_arm_hang.xml").read_text(), "l_elbow") > 3.0

@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 from reactive_realizer.embodiment.avatar import Avatar
 from reactive_realizer.embodiment.body import Body, Skeleton
 from reactive_realizer.embodiment.joints import ROOT, SIDES
-from reactive_realizer.embodiment.quaternion import Quat, angle, difference, from_rotation_vector, rotation_vector
+from reactive_realizer.embodiment.quaternion import Quat, angle, difference, from_rotation_vector
+from reactive_realizer.physics.rotations import swing_and_twist
 from reactive_realizer.physics.segments import LIMITS, SEGMENTS
 from reactive_realizer.physics.simulation import Simulation
 
@@ -87,7 +88,8 @@ def test_a_body_without_kinematic_joints_collapses_on_the_floor_within_its_limit
     for joint in JOINTS:
         assert body.transform(joint).position[1] > -0.02
     for joint, limits in LIMITS.items():
-        turned = np.degrees(rotation_vector(simulation.rotation(joint)))
+        swings, twists = swing_and_twist(np.array([simulation.rotation(joint)]))
+        turned = np.degrees(swings + twists)[0]
         assert (turned > np.array(limits.lowest) - SOFT).all(), joint
         assert (turned < np.array(limits.highest) + SOFT).all(), joint
 
