@@ -358,3 +358,34 @@ async def test_a_compound_controller_may_name_java_classes(tmp_path: Path) -> No
 
 async def test_a_published_compound_controller_is_played_unchanged(tmp_path: Path, shared_cases: Path) -> None:
     assert await hung(tmp_path, (shared_cases / "asap/controllers/left_arm_hang.xml").read_text(), "l_elbow") > 3.0
+
+
+@pytest.mark.parametrize(
+    ("part", "why"),
+    [
+        ('class="BallJointController" id="x"', "BallJointController needs the parameter 'joint'"),
+        ('class="DanceController" id="x"', "there is no controller 'DanceController'"),
+        ('class="RagdollController"', "id"),
+    ],
+)
+async def test_a_compound_controller_with_a_wrong_part_is_warned_of_with_its_line(
+    tmp_path: Path, part: str, why: str
+) -> None:
+    (tmp_path / "controllers").mkdir()
+    (tmp_path / "controllers/odd.xml").write_text(
+        f"<CompoundController>\n<required><Controller {part}/></required></CompoundController>"
+    )
+    async with open_pilot(SceneOptions(voice="text", assets=(tmp_path,))) as pilot:
+        pilot.block("b", '<bmlt:controller id="x" class="CompoundController" name="odd"/><head id="n" lexeme="NOD"/>')
+        await pilot.advance(2)
+        (warning,) = pilot.feedback.of("warningFeedback")
+        assert warning.id == "b:x"
+        assert "odd.xml, line 2" in warning.text
+        assert why in warning.text
+        assert pilot.feedback.reached("b:n:end")
+
+
+async def test_a_desired_part_that_cannot_be_made_is_left_out(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    desired = '<desired><Controller class="DanceController" id="y"/></desired></CompoundController>'
+    assert await hung(tmp_path, HANGING.replace("</CompoundController>", desired), "r_elbow") > 3.0
+    assert "there is no controller 'DanceController'" in caplog.text

@@ -5,12 +5,15 @@ import math
 import pytest
 
 from reactive_realizer.embodiment.body import Body, Skeleton
-from reactive_realizer.embodiment.joints import ROOT
+from reactive_realizer.embodiment.joints import LEGS, ROOT
 from reactive_realizer.embodiment.quaternion import angle, difference, from_rotation_vector, rotation_vector
+from reactive_realizer.errors import RealizerError
 from reactive_realizer.physics.controllers.catalog import CONTROLLERS, new_controller
 from reactive_realizer.physics.controllers.compound import CompoundController
 from reactive_realizer.physics.controllers.controller import Controller, RagdollController
 from reactive_realizer.physics.simulation import Exploded, Simulation
+
+from .skeletons import without
 
 ARM = ("l_shoulder", "l_elbow", "l_wrist")
 
@@ -97,3 +100,12 @@ def test_every_kind_of_controller_is_found_with_and_without_a_package(skeleton: 
         for kind in (name, f"hmi.physics.controller.{name}"):
             controller = new_controller(kind, {"joint": "l_elbow"}, skeleton)
             assert set(controller.parameters) == set(controller.ranges)
+
+
+def test_a_figure_without_legs_cannot_balance_but_lets_its_arms_hang(skeleton: Skeleton) -> None:
+    bust = without(skeleton, LEGS)
+    with pytest.raises(RealizerError, match=r"this character cannot balance: it lacks .*l_hip"):
+        new_controller("BalanceController", {}, bust)
+    raised = Body(bust, {"l_shoulder": from_rotation_vector((-1.0, 0.0, 0.0))})
+    simulation = simulated(bust, RagdollController(ARM), raised, 3.0)
+    assert off(simulation, "l_shoulder", Body(bust)) < 10.0

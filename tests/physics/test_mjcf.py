@@ -12,21 +12,11 @@ from reactive_realizer.embodiment.joints import LEGS, ROOT
 from reactive_realizer.physics.mjcf import mjcf, stature, usual_weight
 from reactive_realizer.physics.segments import LIMITS, REFERENCE_WEIGHT, SEGMENTS
 
+from .skeletons import without
+
 
 def loaded(skeleton: Skeleton, weight: float | None = None) -> mujoco.MjModel:
     return mujoco.MjModel.from_xml_string(mjcf(skeleton, weight).decode())
-
-
-def without(skeleton: Skeleton, joints: Collection[str]) -> Skeleton:
-    """A skeleton that lacks some joints, whose descendants are connected to the joint above."""
-    names = [joint for joint in skeleton.joints if joint not in joints]
-    body = Body(skeleton)
-    parents = [next((name for name in reversed(skeleton.chain(joint)[:-1]) if name in names), None) for joint in names]
-    places = [body.transform(joint).position for joint in names]
-    origins = [(0.0, 0.0, 0.0) if parent is None else body.transform(parent).position for parent in parents]
-    offsets = [tuple(np.subtract(place, origin).tolist()) for place, origin in zip(places, origins, strict=True)]
-    indices = [-1 if parent is None else names.index(parent) for parent in parents]
-    return Skeleton(tuple(names), tuple(indices), tuple(offsets))
 
 
 def volume(model: mujoco.MjModel, geom: int) -> float:
