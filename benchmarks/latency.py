@@ -1,4 +1,8 @@
-"""Measures latency: the time from a request to its feedback, with a server process and a socket on loopback."""
+"""Measures latency: the time from a request to its feedback, with a server process and a socket on loopback.
+
+Each request is alone. In particular, predictions are sent less often than the realizer reports those of one block, so that
+no report waits for this rate: what is measured is the way over the socket, the wait for the next tick, and its work.
+"""
 
 import asyncio
 import sys
@@ -11,6 +15,7 @@ from time import perf_counter
 import aiohttp
 
 from reactive_realizer.clock.ticker import RATE
+from reactive_realizer.limits import Limits
 from reactive_realizer.testing.pilot import block
 
 TICK_MS = 1000 / RATE
@@ -19,6 +24,8 @@ AIMS = {"predict_ms.p99": TICK_MS + 3, "activate_ms.p99": TICK_MS + 3}
 
 _SERVE = (sys.executable, "-m", "reactive_realizer", "serve", "--voice", "text", "--port", "0")
 _FAR = 3600.0
+_APART = 1.2 / Limits().predictions_per_second
+"""Time between two predictions, s: a fifth longer than that between two reports of predictions of a block."""
 _GOLDEN = 0.618
 
 _WAITING = block("waiting", '<gesture id="clap" lexeme="BEAT" stroke="anticipators:partner:hit"/>')
@@ -88,7 +95,8 @@ class _Planner:
         await self._hear("predictionFeedback", 'id="waiting"')
 
     async def predict(self, number: int) -> float:
-        """Time from a prediction of that point to the new prediction of the gesture, s."""
+        """Time from a single prediction of that point to the new prediction of the gesture, s."""
+        await asyncio.sleep(_APART)
         begin = await _between_ticks(number)
         await self._send(type="predict", anticipator="partner", sync="hit", time=self._now + _FAR + number)
         await self._hear("predictionFeedback", 'id="waiting"')
