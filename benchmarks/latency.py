@@ -1,7 +1,7 @@
 """Measures latency: the time from a request to its feedback, with a server process and a socket on loopback.
 
-Each request is alone. In particular, predictions are sent less often than the realizer reports those of one block, so that
-no report waits for this rate: what is measured is the way over the socket, the wait for the next tick, and its work.
+Each request is alone. In particular, predictions are sent less often than the realizer reports those of one block, so
+that no report waits for this rate: what is measured is the way over the socket, and the wait for the next tick.
 """
 
 import asyncio
