@@ -23,12 +23,15 @@ from reactive_realizer.server.recording import FORMAT, message_of
 
 logger = logging.getLogger(__name__)
 
+_MOST_EMPTY = RATE
+"""Ticks in which nothing enters that wait for a common line: a killed session lacks no more than these."""
+
 
 class Recorder:
     """Records the inputs of a realizer, tick by tick, before they have any effect.
 
-    So even a killed session can be replayed up to its last tick. If a line cannot be written, recording ends, and the
-    session continues.
+    So even a killed session can be replayed up to its last tick, or up to a second earlier if nothing has entered since
+    then. If a line cannot be written, recording ends, and the session continues.
 
     Args:
         write: writes lines, and raises OSError if it cannot.
@@ -40,27 +43,49 @@ class Recorder:
         self._write_lines: Callable[[str], None] | None = write
         self._inputs = 0
         self._tick = 0
+        self._empty = range(0)
         scene = _scene(options)
         self._write([{"recording": FORMAT, "version": __version__, "rate": RATE, "started": started, "scene": scene}])
 
     def __call__(self, entered: TickInputs) -> None:
         """Write the inputs of a tick, then the line of the tick, which marks them as complete."""
+        self._tick = entered.tick
+        if not (entered.inputs or entered.work or entered.predicted):
+            self._add_empty(entered.tick)
+            return
         lines = []
         for entry in entered.inputs:
             self._inputs += 1
             place = {"seq": self._inputs, "tick": entered.tick, "time": tick_time(entered.tick)}
             lines.append({**place, "input": message_of(entry)})
-        self._tick = entered.tick
         work = {"work": [_delivery(delivery) for delivery in entered.work]} if entered.work else {}
         predicted = {"predicted": [_predicted(each) for each in entered.predicted]} if entered.predicted else {}
-        self._write([*lines, {"tick": entered.tick, **work, **predicted}])
+        self._write([*self._take_empty(), *lines, {"tick": entered.tick, **work, **predicted}])
 
     def forecast(self, answer: Forecast) -> None:
         """Write an answer of an anticipator after the line of its tick."""
-        self._write([{"tick": self._tick, "forecast": asdict(answer)}])
+        self._write([*self._take_empty(), {"tick": self._tick, "forecast": asdict(answer)}])
+
+    def close(self) -> None:
+        """Write the ticks that wait for a common line."""
+        self._write(self._take_empty())
+
+    def _add_empty(self, tick: int) -> None:
+        """Have a tick in which nothing enters share a line with those just before it."""
+        if tick != self._empty.stop:
+            self._write(self._take_empty())
+        self._empty = range(self._empty.start if self._empty else tick, tick + 1)
+        if len(self._empty) == _MOST_EMPTY:
+            self._write(self._take_empty())
+
+    def _take_empty(self) -> list[Mapping[str, object]]:
+        """The line of the ticks in which nothing has entered since the last line, if there are any."""
+        empty, self._empty = self._empty, range(0)
+        count = {"count": len(empty)} if len(empty) > 1 else {}
+        return [{"tick": empty.start, **count}] if empty else []
 
     def _write(self, lines: list[Mapping[str, object]]) -> None:
-        if self._write_lines is None:
+        if self._write_lines is None or not lines:
             return
         try:
             self._write_lines("".join(json.dumps(line, default=str) + "\n" for line in lines))

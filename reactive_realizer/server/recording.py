@@ -225,7 +225,9 @@ class _Reader:
     def _take_tick(self, line: Message) -> None:
         work = tuple(map(_delivery, line.get("work", ())))
         predicted = tuple(map(_predicted, line.get("predicted", ())))
-        self.ticks.append(TickInputs(self._later(int(line["tick"])), tuple(self._inputs), work, predicted))
+        tick = self._later(int(line["tick"]))
+        self.ticks.append(TickInputs(tick, tuple(self._inputs), work, predicted))
+        self.ticks += map(TickInputs, range(tick + 1, tick + int(line.get("count", 1))))
         self._inputs, self._tick = [], None
 
     def _take_forecast(self, line: Message) -> None:

@@ -77,6 +77,7 @@ async def serve(options: ServerOptions) -> None:
         live = LiveScene(scene, SystemClock(), options.performance, found)
         if parts is not None:
             recorder = Recorder(parts.write, options.scene, live.clock.epoch)
+            stack.callback(recorder.close)
             live.realizer.record(recorder, recorder.forecast)
         ticking = group.create_task(live.run())
         try:

@@ -62,6 +62,16 @@ SESSION = [
     TickInputs(7, (), (Delivery(2), Delivery(1, VoiceFailed(reason="killed", line=3, column=4)))),
     TickInputs(9, (Event("metronome", "start"),)),
 ]
+SHARED = [
+    TickInputs(300, (Event("metronome", "start"),)),
+    TickInputs(301),
+    TickInputs(302),
+    TickInputs(303, (), (), (), FORECASTS),
+    TickInputs(304),
+    TickInputs(305),
+    TickInputs(306, (), (Delivery(1),)),
+]
+"""With ticks in which nothing enters, one of which is followed by answers."""
 
 
 def recorded(session: list[TickInputs], options: SceneOptions | None = None) -> str:
@@ -76,6 +86,7 @@ def record(session: list[TickInputs], write: Callable[[str], None], options: Sce
         recorder(entered)
         for forecast in entered.forecasts:
             recorder.forecast(forecast)
+    recorder.close()
 
 
 @pytest.fixture
@@ -121,9 +132,32 @@ def test_an_input_precedes_its_tick_with_its_number_and_time() -> None:
     assert tick == {"tick": 9}
 
 
+def test_ticks_in_which_nothing_enters_share_a_line_up_to_a_hundred_or_a_skipped_tick() -> None:
+    numbers = [*range(250), *range(252, 255), 260]
+    _, *lines = map(json.loads, recorded([*map(TickInputs, numbers), *SHARED]).splitlines())
+    assert lines[:3] == [{"tick": 0, "count": 100}, {"tick": 100, "count": 100}, {"tick": 200, "count": 50}]
+    assert lines[3:5] == [{"tick": 252, "count": 3}, {"tick": 260}]
+    assert [line.get("count") for line in lines[5:]] == [None, None, 3, None, None, 2, None]
+
+
+def test_ticks_that_share_a_line_are_read_one_by_one(read: Callable[[str | bytes], Recording]) -> None:
+    session = [*map(TickInputs, range(250)), *SHARED]
+    assert list(read(recorded(session)).ticks) == session
+
+
+def test_a_killed_session_lacks_at_most_a_second_without_input() -> None:
+    lines: list[str] = []
+    recorder = Recorder(lines.append, SceneOptions(), 0.0)
+    recorder(TickInputs(0, (Event("metronome", "start"),)))
+    for number in range(1, 1000):
+        recorder(TickInputs(number))
+        last = json.loads("".join(lines).splitlines()[-1])
+        assert number - (last["tick"] + last.get("count", 1) - 1) < 100
+
+
 def test_every_line_satisfies_the_schema() -> None:
     schema = json.loads(Path(recording_module.__file__).with_name("recording.json").read_text("utf-8"))
-    for number, line in enumerate(map(json.loads, recorded(SESSION).splitlines())):
+    for number, line in enumerate(map(json.loads, recorded([*SESSION, *SHARED]).splitlines())):
         kind = "Header" if number == 0 else "Input" if "input" in line else "Answer" if "forecast" in line else "Tick"
         Draft202012Validator({"$ref": f"#/$defs/{kind}", "$defs": schema["$defs"]}).validate(line)
 
@@ -159,6 +193,9 @@ FORECAST = '{"tick": 9, "forecast": {"anticipator": "m", "sync": "tick1", "time"
         ([GOOD[0], '{"tick": -1}'], 2, "minimum 0"),
         ([GOOD[0], '{"tick": 1e308}'], 2, "maximum 10000000000"),
         ([GOOD[0], '{"tick": 3}', '{"tick": 3}'], 3, "tick 3 follows tick 3"),
+        ([GOOD[0], '{"tick": 3, "count": 4}', '{"tick": 6}'], 3, "tick 6 follows tick 6"),
+        ([GOOD[0], '{"tick": 3, "count": 0}'], 2, "minimum 1"),
+        ([GOOD[0], '{"tick": 3, "count": 1e9}'], 2, "maximum 100"),
         ([GOOD[0], EVENT.replace("14", "2")], 2, "input 2 follows where input 1"),
         ([*GOOD, EVENT.replace("10", "9")], len(GOOD) + 1, "tick 9 follows tick 9"),
         ([*GOOD, EVENT, '{"tick": 11}'], len(GOOD) + 2, "tick 11 follows tick 10"),
@@ -238,7 +275,7 @@ def test_parts_that_do_not_belong_together_are_refused(parts: list[Path]) -> Non
 
 
 async def test_a_full_disk_ends_the_recording_and_not_the_session(caplog: pytest.LogCaptureFixture) -> None:
-    options, room = SceneOptions(voice="text"), [True] * 50
+    options, room = SceneOptions(voice="text"), [True] * 2
 
     def write(_: str) -> None:
         if not room:

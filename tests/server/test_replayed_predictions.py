@@ -78,6 +78,7 @@ async def test_a_session_with_all_anticipators_is_replayed_to_the_byte_without_t
             for tick in range(800):
                 act(pilot, random, tick)
                 await pilot.tick()
+            recorder.close()
             told = pilot.feedback.raw
             pegs = [view.as_json() for view in pilot.realizer.board.snapshot()]
     for kind in (Conducting, Exercise, Metronome, SpeechStop, Tap):
