@@ -68,6 +68,8 @@ class Simulation:
         data: of MuJoCo.
         mass: of the figure, kg.
         inertia: that turns about each degree of freedom in the default pose, kg m^2, or kg, (nv,).
+        reaction: factor of what moving kinematic limbs exert on the physical segments to which they are attached, apart
+            from their weight (k of thesis 3.1). It is 1 unless a controller sets it, in each period anew.
     """
 
     def __init__(
@@ -102,6 +104,8 @@ class Simulation:
         self._bodies = {joint: int(self.model.body(joint).id) for joint in self.joints}
         self._friction = StaticFriction(self.model, [self._bodies[foot] for foot in FEET if foot in self._bodies])
         self._pushes: list[_Push] = []
+        self.reaction = 1.0
+        self._gravity = np.zeros(3) if floating else self.model.opt.gravity.copy()
         self.mass = float(self.model.body_subtreemass[_ROOT_BODY])
         self.kinematic = ()
         mujoco.mj_forward(self.model, self.data)
@@ -124,6 +128,9 @@ class Simulation:
         self._kinematic = tuple(joint for joint in self.joints if joint in joints)
         self._positions = _indices(self.positions(joint) for joint in self._kinematic)
         self._degrees = _indices(self.degrees(joint) for joint in self._kinematic)
+        parents = ((self._bodies[joint], int(self.model.body_parentid[self._bodies[joint]])) for joint in joints)
+        moved = {self._bodies[joint] for joint in self.joints if joint not in joints}
+        self._limbs = [(limb, parent) for limb, parent in sorted(parents) if parent in moved]
         loose = [joint for joint in self.joints if joint not in joints and joint != ROOT]
         self._limits = LimitSprings(self.model, self.inertia, loose, self.data.qpos)
         model = self.model
@@ -207,14 +214,34 @@ class Simulation:
             data.xfrc_applied[push.body, :3] += push.force
         damping[:] = self._damping
         self._limits.act(data, self.period, applied, damping)
+        self.reaction = 1.0
         for controller in controllers:
             controller.act(self, body, applied, damping)
+        self._scale_reactions()
         damping[own] = 0.0
         applied[own] = _ARMATURE * (self._speeds[own] - data.qvel[own]) / model.opt.timestep
         mujoco.mj_step(model, data)
         if steps > 1:
             applied[own], data.qvel[own] = 0.0, self._speeds[own]
             mujoco.mj_step(model, data, steps - 1)
+
+    def _scale_reactions(self) -> None:
+        """Add what the factor `reaction` changes in what kinematic limbs exert in the next period.
+
+        Their accelerations are known; those of the physical joints are of the last step.
+        """
+        if self.reaction == 1.0:
+            return
+        data, own = self.data, self._degrees
+        data.qacc[own] = (self._speeds[own] - data.qvel[own]) / self.period
+        mujoco.mj_rnePostConstraint(self.model, data)
+        for limb, parent in self._limbs:
+            place = data.xipos[parent]
+            weight = -self.model.body_subtreemass[limb] * self._gravity
+            force = data.cfrc_int[limb, 3:] - weight
+            torque = data.cfrc_int[limb, :3] + np.cross(data.subtree_com[_ROOT_BODY] - place, data.cfrc_int[limb, 3:])
+            torque -= np.cross(data.subtree_com[limb] - place, weight)
+            data.xfrc_applied[parent] += (1.0 - self.reaction) * np.concatenate((force, torque))
 
     def body(self, shown: Body) -> Body:
         """Return a body with physical joints as they are simulated, and all others as in a given body.

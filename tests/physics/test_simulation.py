@@ -15,6 +15,7 @@ from reactive_realizer.embodiment.avatar import Avatar
 from reactive_realizer.embodiment.body import Body, Skeleton
 from reactive_realizer.embodiment.joints import ROOT, SIDES
 from reactive_realizer.embodiment.quaternion import Quat, angle, difference, from_rotation_vector
+from reactive_realizer.physics.controllers.controller import NoController
 from reactive_realizer.physics.rotations import swing_and_twist
 from reactive_realizer.physics.segments import LIMITS, SEGMENTS
 from reactive_realizer.physics.simulation import Simulation
@@ -138,3 +139,26 @@ def test_joints_within_the_spine_stay_as_they_are_animated(skeleton: Skeleton) -
 def test_an_unknown_joint_cannot_be_kinematic(skeleton: Skeleton) -> None:
     with pytest.raises(KeyError, match="vt10"):
         Simulation(skeleton).kinematic = ["vt10"]
+
+
+def test_reactions_are_scaled(skeleton: Skeleton) -> None:
+    """The factor k of thesis 3.1: a trunk that floats is turned less by arms that swing."""
+
+    class Factor(NoController):
+        def __init__(self, factor: float) -> None:
+            self.factor = factor
+
+        def act(self, simulation: Simulation, *_: object) -> None:
+            simulation.reaction = self.factor
+
+    def turned(factor: float) -> float:
+        simulation = Simulation(skeleton, floating=True)
+        simulation.place(swing(skeleton, 0.0))
+        simulation.kinematic = ARMS
+        for number in range(1, 13):
+            simulation.advance(swing(skeleton, number * 0.02), (Factor(factor),), 8)
+        return angle(simulation.rotation(ROOT))
+
+    half, whole, more = (turned(factor) for factor in (0.5, 1.0, 1.5))
+    assert half < 0.7 * whole
+    assert more > 1.2 * whole

@@ -15,7 +15,7 @@ from reactive_realizer.physics.rotations import Array, turns
 if TYPE_CHECKING:
     from reactive_realizer.physics.simulation import Simulation
 
-PELVIS_HEIGHT, STIFFNESS, DAMPING = "pelvisheight", "stiffnessmultiplier", "damping"
+PELVIS_HEIGHT, STIFFNESS, DAMPING, REACTION = "pelvisheight", "stiffnessmultiplier", "damping", "reaction"
 
 _BALANCE = 5.0
 """Angular frequency of the spring that holds the center of mass above the feet, rad/s."""
@@ -67,14 +67,15 @@ class BalanceController(Controller):
     figure that has fallen does not try to stand up.
 
     Its parameters are the height of the hips above the soles in multiples of the length of the legs, of which 0.7 to
-    0.985 are in its power, a factor of the stiffness of all springs, and their damping, 1 for critical.
+    0.985 are in its power, a factor of the stiffness of all springs, their damping, 1 for critical, and a factor of the
+    effect that kinematic limbs have (`Simulation.reaction`).
 
     Args:
         skeleton: of a figure with legs.
     """
 
     ranges: Mapping[str, tuple[float, float]] = MappingProxyType(
-        {PELVIS_HEIGHT: (0.5, 3.0), STIFFNESS: (0.1, 10.0), DAMPING: (0.1, 5.0)}
+        {PELVIS_HEIGHT: (0.5, 3.0), STIFFNESS: (0.1, 10.0), DAMPING: (0.1, 5.0), REACTION: (0.0, 3.0)}
     )
 
     def __init__(self, skeleton: Skeleton) -> None:
@@ -84,7 +85,7 @@ class BalanceController(Controller):
         self._long = body.transform(_LEGS[0][0]).position[1]
         self._above = body.transform(ROOT).position[1] - self._long
         self._height = self._above + self._long * _HIPS[1]
-        self.parameters = {PELVIS_HEIGHT: 1.0, STIFFNESS: 1.0, DAMPING: 1.0}
+        self.parameters = {PELVIS_HEIGHT: 1.0, STIFFNESS: 1.0, DAMPING: 1.0, REACTION: 1.0}
 
     @staticmethod
     def needed() -> frozenset[str]:
@@ -93,6 +94,7 @@ class BalanceController(Controller):
 
     def act(self, simulation: "Simulation", goal: Body, torques: Array, damping: Array) -> None:
         """Add the torques of both legs."""
+        simulation.reaction = self.parameters[REACTION]
         if simulation.fallen:
             return
         self._move_height(_LOWERING * simulation.period)
