@@ -1,9 +1,11 @@
 """The examples of continuous interaction show what they promise."""
 
 import itertools
+import re
 import runpy
 import sys
 from collections.abc import Callable, Iterator
+from math import degrees
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +14,7 @@ import pytest
 
 from reactive_realizer.bml.names import OWN
 from reactive_realizer.embodiment.audio import AudioGain, AudioStart, AudioStop
+from reactive_realizer.embodiment.quaternion import angle
 from reactive_realizer.testing.pilot import RealizerPilot
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
@@ -60,6 +63,23 @@ async def test_the_conductor_is_ahead_of_the_music_also_where_a_beat_was_not_hea
     ahead = [beats[n - 1] - scene.feedback.time(f"bar{n}:beat:stroke") for n in numbers]
     assert all(0.03 < each < 0.16 for each in ahead)
     well(scene, *(f"bar{n}" for n in numbers))
+
+
+async def test_the_conductor_stands_when_it_is_pushed_and_its_right_arm_does_not_notice(
+    example: Play, capsys: pytest.CaptureFixture[str]
+) -> None:
+    conductor = example("conductor")
+    scene = await conductor["main"]()
+    printed = capsys.readouterr().out
+    assert "right arm: 0.0000" in printed
+    before, after = map(int, re.findall(r"(\d+) mm", printed))
+    assert 5 < before < after < 100
+    assert scene.feedback.of("fall") == []
+    assert printed.endswith("did not fall\n")
+    bends = [degrees(angle(body.rotation("l_elbow"))) for body in scene.bodies()]
+    cues = [scene.feedback.time(f"cue{number}:hand:stroke") for number in conductor["CUES"]]
+    assert min(bends[round(50 * time)] for time in cues) > 60
+    well(scene, *(f"cue{number}" for number in conductor["CUES"]))
 
 
 async def test_the_nods_are_with_the_taps_also_where_one_is_missed(example: Play) -> None:

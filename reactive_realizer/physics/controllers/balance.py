@@ -32,6 +32,12 @@ _POSE = 4.0
 _LOWERING = 0.3
 """Greatest speed at which the wanted height changes, m/s."""
 
+_SHIFTING = 0.06
+"""Greatest speed at which the wanted place of the center of mass changes, m/s."""
+
+_ASIDE = 0.06
+"""How far this place may be from the middle between the feet at the beginning, m."""
+
 _GRAVITY = 9.81
 _LOAD = (0.3, 2.0)
 """Limits of the vertical force on the ground in multiples of the weight."""
@@ -84,7 +90,8 @@ class BalanceController(Controller):
         self._held = (*_LEGS[0], *_LEGS[1])
         self._long = body.transform(_LEGS[0][0]).position[1]
         self._above = body.transform(ROOT).position[1] - self._long
-        self._height = self._above + self._long * _HIPS[1]
+        self._aside, self._height = np.zeros(2), 0.0
+        self._acted: float | None = None
         self.parameters = {PELVIS_HEIGHT: 1.0, STIFFNESS: 1.0, DAMPING: 1.0, REACTION: 1.0}
 
     @staticmethod
@@ -97,9 +104,9 @@ class BalanceController(Controller):
         simulation.reaction = self.parameters[REACTION]
         if simulation.fallen:
             return
-        self._move_height(_LOWERING * simulation.period)
         stiffness, ratio = self.parameters[STIFFNESS], self.parameters[DAMPING]
         soles = [_sole(simulation, leg[-1]) for leg in _LEGS]
+        self._move_goals(simulation, _middle(soles))
         if any(sole.touches for sole in soles):
             force, pressure = self._support(simulation, soles, self._uprighting(simulation, goal))
             for sole, leg, part in zip(soles, _LEGS, _shared(soles, pressure), strict=True):
@@ -108,9 +115,20 @@ class BalanceController(Controller):
         held = _POSE * math.sqrt(stiffness) * np.array([[not sole.touches, 1.0, 1.0] * 3 for sole in soles]).ravel()
         simulation.hold(self._held, goal, held, ratio, torques, damping)
 
-    def _move_height(self, most: float) -> None:
-        """Move the wanted height of the pelvis to that of the parameter, by a distance at most, m."""
+    def _move_goals(self, simulation: "Simulation", middle: Array) -> None:
+        """Move the wanted place of the center of mass to the middle between the feet, and the wanted height to its own.
+
+        They start from where the figure is when the controller begins to act, so that it does not jerk.
+        """
+        data, period = simulation.data, simulation.period
+        if self._acted is None or data.time - self._acted > 1.5 * period:
+            self._aside = (simulation.center_of_mass()[0] - middle)[:2].clip(-_ASIDE, _ASIDE)
+            self._height = float(data.qpos[2] - middle[2])
+        self._acted = data.time
+        far = math.hypot(*self._aside)
+        self._aside *= 1.0 - min(1.0, _SHIFTING * period / max(far, 1e-9))
         wanted = self._above + self._long * min(max(self.parameters[PELVIS_HEIGHT], _HIPS[0]), _HIPS[1])
+        most = _LOWERING * period
         self._height += min(max(wanted - self._height, -most), most)
 
     def _spring(self, frequency: float, way: Array, velocity: Array) -> Array:
@@ -127,9 +145,10 @@ class BalanceController(Controller):
             torque: that the ground should exert about the center of mass, Nm.
         """
         data, mass = simulation.data, simulation.mass
-        middle = (soles[0].center + soles[1].center) / 2.0
+        middle = _middle(soles)
         center, velocity = simulation.center_of_mass()
-        force = mass * self._spring(_BALANCE, middle - center, velocity)
+        aside = np.array((*self._aside, 0.0))
+        force = mass * self._spring(_BALANCE, middle + aside - center, velocity)
         lift = self._spring(_HEIGHT, middle[2] + self._height - data.qpos[2], data.qvel[2])
         force[2] = mass * min(max(_GRAVITY + float(lift), _LOAD[0] * _GRAVITY), _LOAD[1] * _GRAVITY)
         sideways = math.hypot(force[0], force[1])
@@ -198,6 +217,12 @@ def _sole(simulation: "Simulation", joint: str) -> _Sole:
     size, frame = model.geom_size[geom], data.geom_xmat[geom].reshape(3, 3)
     touches = geom in data.contact.geom
     return _Sole(body, data.geom_xpos[geom] - size[1] * frame[:, 1], frame, _SOLE * size, touches)
+
+
+def _middle(soles: list[_Sole]) -> Array:
+    """Return the middle between the soles, m."""
+    middle: Array = (soles[0].center + soles[1].center) / 2.0
+    return middle
 
 
 class _Pressure(NamedTuple):
