@@ -82,3 +82,13 @@ def test_a_size_of_recordings_without_a_recording_or_of_nothing_is_refused(
         main(["serve", *options])
     assert ended.value.code == 2
     assert "--record-size" in capsys.readouterr().err
+
+
+def test_the_demo_serves_the_named_performance(served: list[ServerOptions], capsys: pytest.CaptureFixture[str]) -> None:
+    main(["demo"])
+    main(["demo", "conductor"])
+    assert ['id="greeting"' in (each.performance or "") for each in served] == [True, False]
+    assert "conduct-4-beat" in (served[1].performance or "")
+    with pytest.raises(SystemExit):
+        main(["demo", "dance"])
+    assert "there is no performance 'dance'; available: conductor, greeting" in capsys.readouterr().err
