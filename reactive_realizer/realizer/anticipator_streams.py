@@ -11,6 +11,7 @@ from math import isfinite
 
 from reactive_realizer.clock.tick_clock import TickClock
 from reactive_realizer.clock.units import GlobalTime, Time
+from reactive_realizer.engine.guarded_engine import FAILURES
 from reactive_realizer.errors import Fault, NotANumber, PlayingFault, RealizerError
 from reactive_realizer.pegboard.anticipator import Anticipator, AnticipatorContext, AnticipatorEvent, Revoked
 from reactive_realizer.pegboard.pegboard import PegBoard
@@ -165,11 +166,9 @@ class AnticipatorStreams:
 
     def _forecast(self, anticipator: Anticipator, sync: str) -> Time:
         try:
-            time = anticipator.forecast(sync)
-        except Exception:
+            time = _seconds(anticipator.forecast(sync))
+        except FAILURES:
             logger.exception("the anticipator '%s' has no forecast of '%s'", anticipator.id, sync)
-            time = None
-        if time is not None and not isfinite(time):
             time = None
         for listener in self._listeners:
             listener(Forecast(anticipator.id, sync, time))
@@ -186,10 +185,13 @@ async def _run(anticipator: Anticipator, take: Callable[[Predicted], None]) -> N
         async with aclosing(anticipator.predictions()) as predictions:
             async for each in predictions:
                 take(_checked(anticipator, each))
-    except (Exception, asyncio.CancelledError, GeneratorExit, SystemExit) as failure:
-        if (task := asyncio.current_task()) is not None and task.cancelling():
+    except FAILURES as failure:
+        ended = (task := asyncio.current_task()) is not None and task.cancelling() > 0
+        if ended and isinstance(failure, asyncio.CancelledError):
             raise
         logger.exception("the anticipator '%s' has failed", anticipator.id)
+        if ended:  # it failed while it closed
+            return
         reason = (
             failure.fault.sentence if isinstance(failure, RealizerError) else f"{type(failure).__name__}: {failure}"
         )
@@ -202,6 +204,18 @@ def _checked(anticipator: Anticipator, item: tuple[str, float | None] | Revoked)
         raise RealizerError(UndeclaredPoint(point=point, known=tuple(map(str, anticipator.points))))
     if isinstance(item, Revoked):
         return Revocation(anticipator.id, point)
-    if time is not None and not isfinite(time):
+    return Prediction(anticipator.id, point, _seconds(time))
+
+
+def _seconds(time: float | None) -> Time:
+    """A time that an anticipator gives, which may be any kind of number.
+
+    Raises:
+        RealizerError: "not-a-number".
+        Exception: it is none.
+    """
+    if time is None:
+        return None
+    if not isfinite(time):
         raise RealizerError(NotANumber())
-    return Prediction(anticipator.id, point, None if time is None else GlobalTime(float(time)))
+    return GlobalTime(float(time))

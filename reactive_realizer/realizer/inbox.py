@@ -8,6 +8,7 @@ from typing import ParamSpec, TypeVar
 from reactive_realizer.clock.units import GlobalTime, is_due
 from reactive_realizer.embodiment.audio import AudioHeard
 from reactive_realizer.embodiment.world import World
+from reactive_realizer.engine.guarded_engine import FAILURES
 from reactive_realizer.errors import Fault, NotANumber, RealizerError
 from reactive_realizer.limits import Limits
 from reactive_realizer.pegboard.anticipator import Anticipator, AnticipatorEvent, Remote
@@ -145,6 +146,6 @@ def _try(what: object, act: Callable[P, T], *arguments: P.args, **named: P.kwarg
         return act(*arguments, **named)
     except RealizerError as problem:
         logger.warning("%s is skipped: %s", what, problem)
-    except Exception:
+    except FAILURES:
         logger.exception("%s is skipped", what)
     return None

@@ -1,6 +1,7 @@
 """Streams of anticipators run beside the ticks, and their predictions enter with them."""
 
 import asyncio
+import math
 from collections.abc import AsyncIterator, Callable
 from contextlib import AbstractAsyncContextManager, asynccontextmanager
 from pathlib import Path
@@ -215,6 +216,85 @@ async def test_a_forecast_that_fails_leaves_its_point_unknown(opened: Open, capl
         assert not pilot.feedback.reached("b:h:start")
         assert pilot.feedback.time("c:h:start") == 0.5
     assert "the anticipator 'fragile' has no forecast of 'turn2'" in caplog.text
+
+
+@pytest.mark.parametrize(
+    "answer", [ValueError("no"), SystemExit(3), asyncio.CancelledError(), "soon", 10**400, math.nan, np.array([1.0, 2.0])]
+)
+async def test_a_forecast_that_is_no_time_leaves_its_point_unknown_and_everything_else_as_it_is(
+    opened: Open, monkeypatch: pytest.MonkeyPatch, answer: object
+) -> None:
+    def forecast(self: Anticipator, point: str) -> object:
+        if isinstance(answer, BaseException):
+            raise answer
+        return answer
+
+    monkeypatch.setattr(Fragile, "forecast", forecast)
+    async with opened(Fragile) as pilot:
+        pilot.block("b", NOD.format("fragile:turn2"))
+        pilot.block("c", NOD.format("fragile:turn1"))
+        await pilot.advance(1)
+        assert not pilot.feedback.reached("b:h:start")
+        assert pilot.feedback.time("c:h:start") == 0.5
+
+
+async def test_a_forecast_may_be_any_kind_of_number(opened: Open, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Fragile, "forecast", lambda self, point: np.float32(0.75))
+    async with opened(Fragile) as pilot:
+        pilot.block("b", NOD.format("fragile:turn2"))
+        await pilot.advance(1)
+        assert pilot.feedback.time("b:h:start") == 0.75
+
+
+class Picky(Anticipator):
+    """Fails when it checks an event."""
+
+    kind = "picky"
+    events = ("go",)
+    points = ("hit",)
+
+    async def predictions(self) -> Predictions:
+        async for event in self.inputs:
+            yield "hit", event.time
+
+    def check(self, name: str, value: float | None) -> None:
+        if value is None:
+            raise SystemExit(3)
+
+
+async def test_an_event_that_an_anticipator_cannot_check_is_skipped(opened: Open) -> None:
+    async with opened(Picky) as pilot:
+        pilot.block("b", NOD.format("picky:hit"))
+        pilot.event("picky", "go")
+        await pilot.advance(0.5)
+        pilot.event("picky", "go", 1.0)
+        await pilot.advance(1)
+        assert pilot.feedback.time("b:h:start") == 0.5
+
+
+class FailsAtItsEnd(Anticipator):
+    """Cannot close what it has opened."""
+
+    kind = "fails_at_its_end"
+    points = ("hit",)
+
+    async def predictions(self) -> Predictions:
+        try:
+            yield "hit", 0.5
+            await asyncio.Event().wait()
+        finally:
+            raise ValueError("already closed")
+
+
+async def test_a_stream_that_fails_while_it_closes_does_not_fail_the_session(
+    opened: Open, caplog: pytest.LogCaptureFixture
+) -> None:
+    async with opened(FailsAtItsEnd, Fed) as pilot:
+        pilot.block("b", NOD.format("fails_at_its_end:hit"))
+        await pilot.advance(1)
+        assert pilot.feedback.time("b:h:start") == 0.5
+    assert Fed.ended == ["fed"]
+    assert "already closed" in caplog.text
 
 
 async def test_a_replay_without_a_forecast_that_it_needs_says_so(opened: Open) -> None:
