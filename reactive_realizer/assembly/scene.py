@@ -1,5 +1,6 @@
 """Assembles and runs a scene."""
 
+import logging
 import math
 from collections.abc import AsyncIterator, Callable, Mapping
 from contextlib import asynccontextmanager
@@ -16,8 +17,10 @@ from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.avatar import Avatar
 from reactive_realizer.embodiment.humanoid import Humanoid
 from reactive_realizer.embodiment.world import World
+from reactive_realizer.engine.answer_checks import check_weights
 from reactive_realizer.engine.context import EngineContext, LipSyncProvider
 from reactive_realizer.engine.engine import Engine
+from reactive_realizer.engine.guarded_engine import FAILURES
 from reactive_realizer.engine.tts import TTSBinding
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.pegboard.anticipator import Anticipator, AnticipatorContext
@@ -26,6 +29,8 @@ from reactive_realizer.reactive.graph import Graph
 from reactive_realizer.realizer.character import Character
 from reactive_realizer.realizer.realizer import Realizer
 from reactive_realizer.scheduler.strategy import SchedulingStrategy
+
+_log = logging.getLogger(__name__)
 
 DEFAULT_HUMAN = PACKAGE_ASSETS / "humans" / "default.toml"
 
@@ -133,9 +138,24 @@ class _Mouth:
 
     def __init__(self) -> None:
         self.voices: list[LipSyncProvider] = []
+        self._told = ""
+        """The failure that was logged last."""
 
     def mouth(self, time: GlobalTime) -> Mapping[str, float] | None:
-        return next((weights for voice in self.voices if (weights := voice.mouth(time)) is not None), None)
+        return next((weights for voice in self.voices if (weights := self._weights(voice, time)) is not None), None)
+
+    def _weights(self, voice: LipSyncProvider, time: GlobalTime) -> Mapping[str, float] | None:
+        """Those of a voice; if its lip sync fails, it leaves the mouth closed, and faces as they are."""
+        try:
+            weights = voice.mouth(time)
+            if weights is not None:
+                check_weights(weights)
+        except FAILURES as failure:
+            if repr(failure) != self._told:  # it may fail in the same way in every frame
+                self._told = repr(failure)
+                _log.error("lip sync failed at %.2f s", time, exc_info=failure)
+            return None
+        return weights
 
 
 def _anticipators(

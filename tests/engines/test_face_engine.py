@@ -9,7 +9,9 @@ import pytest
 from numpy.typing import NDArray
 
 from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.embodiment.audio import AudioStart
 from reactive_realizer.engines.speech.espeak_voice import EspeakVoice
+from reactive_realizer.engines.speech.speech_engine import SpeechEngine
 from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 SMILE = (
@@ -90,6 +92,43 @@ async def test_the_mouth_opens_during_speech_and_closes_softly_when_it_is_interr
         jaw = weight(pilot, "jawOpen")
         assert np.abs(np.diff(jaw))[49:].max() < 0.1
         assert jaw[-1] == 0
+
+
+@pytest.mark.speech
+@pytest.mark.parametrize("method", ["hear", "mouth"])
+async def test_the_mouth_closes_when_speech_or_its_lip_sync_fails_and_a_face_stays(
+    monkeypatch: pytest.MonkeyPatch, method: str
+) -> None:
+    frown = '<faceLexeme id="f" lexeme="LOWER_BROWS" start="0" end="3"/>'
+    async with open_pilot(SceneOptions()) as pilot:
+        pilot.watch()
+        pilot.block("b", f'<speech id="s"><text>Bananas, papayas and apples are here.</text></speech>{frown}')
+        await pilot.advance(1)
+        monkeypatch.setattr(SpeechEngine, method, lambda self, _: 1 / 0)
+        (sound,) = (change for change in pilot.sounds if isinstance(change, AudioStart))
+        pilot.heard(sound.clip.id, 0.9, pilot.now)
+        await pilot.advance(2.5)
+        jaw = weight(pilot, "jawOpen")
+        assert jaw[:50].max() > 0.2
+        assert jaw[70:].max() == 0
+        assert weight(pilot, "browDownLeft")[70:100].min() > 0.2
+        assert pilot.feedback.reached("b:f:end")
+
+
+@pytest.mark.speech
+@pytest.mark.parametrize("answer", [7, {"jawOpen": float("nan")}, {"jawOpen": "wide"}])
+async def test_lip_sync_that_gives_no_weights_leaves_the_mouth_closed_and_faces_as_they_are(
+    monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture, answer: object
+) -> None:
+    monkeypatch.setattr(SpeechEngine, "mouth", lambda self, time: answer)
+    async with open_pilot() as pilot:
+        pilot.watch()
+        pilot.block("b", SMILE.format(amount=1))
+        await pilot.advance(2.5)
+        assert pilot.feedback.warnings == []
+        assert weight(pilot, "mouthSmileLeft").max() > 0.2
+        assert weight(pilot, "jawOpen").max() == 0
+    assert caplog.text.count("lip sync failed") == 1
 
 
 @pytest.mark.speech

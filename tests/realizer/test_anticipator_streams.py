@@ -219,7 +219,8 @@ async def test_a_forecast_that_fails_leaves_its_point_unknown(opened: Open, capl
 
 
 @pytest.mark.parametrize(
-    "answer", [ValueError("no"), SystemExit(3), asyncio.CancelledError(), "soon", 10**400, math.nan, np.array([1.0, 2.0])]
+    "answer",
+    [ValueError("no"), SystemExit(3), asyncio.CancelledError(), "soon", 10**400, math.nan, np.array([1.0, 2.0])],
 )
 async def test_a_forecast_that_is_no_time_leaves_its_point_unknown_and_everything_else_as_it_is(
     opened: Open, monkeypatch: pytest.MonkeyPatch, answer: object
