@@ -124,6 +124,7 @@ class TickInputs:
         work: in the order in which it was delivered.
         predicted: in the order in which it was applied.
         forecasts: the answers during the tick, in order; empty until it has been played.
+        watched: whether frames had listeners. Forces move bodies only in ticks with frames.
     """
 
     tick: int
@@ -131,3 +132,4 @@ class TickInputs:
     work: tuple[Delivery, ...] = ()
     predicted: tuple[Predicted, ...] = ()
     forecasts: tuple[Forecast, ...] = ()
+    watched: bool = False

@@ -251,7 +251,7 @@ class Realizer:
             self._streams.replay(recorded.forecasts)
         self._apply(entered, tick.time)
         await self._catch_up(tick)
-        watched = Tick.on_time(tick.number, tick.frame and self._frames_needed)
+        watched = Tick.on_time(tick.number, tick.frame and self._frames_needed(entered))
         self.board.begin(watched)
         self._take_blocks(entered, tick.time)
         shown = await self._play(watched)
@@ -264,7 +264,7 @@ class Realizer:
     async def _enter(self, tick: Tick) -> TickInputs:
         inputs, work = self._inbox.take(tick.time), self._background.ready()
         predicted = await self._streams.run(self._inbox.deliver(inputs, tick.time), tick.time)
-        return TickInputs(tick.number, inputs, work, predicted)
+        return TickInputs(tick.number, inputs, work, predicted, watched=bool(self._frame_listeners))
 
     def _apply(self, entered: TickInputs, now: GlobalTime) -> None:
         """Move targets, write predictions, have speech follow what is heard, and push characters."""
@@ -344,10 +344,9 @@ class Realizer:
                 self._publish_audio(change)
         return changed or self.scheduler.advance(tick.time)
 
-    @property
-    def _frames_needed(self) -> bool:
-        """Whether a listener wants frames, or an engine needs them for its own sake."""
-        return bool(self._frame_listeners) or self._following.need_frames
+    def _frames_needed(self, entered: TickInputs) -> bool:
+        """Whether a listener wants frames, or wanted them in the recorded session, or an engine needs them itself."""
+        return entered.watched or bool(self._frame_listeners) or self._following.need_frames
 
     def _write_time(self, now: GlobalTime) -> None:
         """Move the cells that depend on the time, if there are any."""

@@ -44,6 +44,7 @@ class Recorder:
         self._inputs = 0
         self._tick = 0
         self._empty = range(0)
+        self._watched = False
         scene = _scene(options)
         self._write([{"recording": FORMAT, "version": __version__, "rate": RATE, "started": started, "scene": scene}])
 
@@ -51,7 +52,7 @@ class Recorder:
         """Write the inputs of a tick, then the line of the tick, which marks them as complete."""
         self._tick = entered.tick
         if not (entered.inputs or entered.work or entered.predicted):
-            self._add_empty(entered.tick)
+            self._add_empty(entered)
             return
         lines = []
         for entry in entered.inputs:
@@ -60,7 +61,9 @@ class Recorder:
             lines.append({**place, "input": message_of(entry)})
         work = {"work": [_delivery(delivery) for delivery in entered.work]} if entered.work else {}
         predicted = {"predicted": [_predicted(each) for each in entered.predicted]} if entered.predicted else {}
-        self._write([*self._take_empty(), *lines, {"tick": entered.tick, **work, **predicted}])
+        self._write(
+            [*self._take_empty(), *lines, {"tick": entered.tick, **work, **predicted, **_watched(entered.watched)}]
+        )
 
     def forecast(self, answer: Forecast) -> None:
         """Write an answer of an anticipator after the line of its tick."""
@@ -70,10 +73,12 @@ class Recorder:
         """Write the ticks that wait for a common line."""
         self._write(self._take_empty())
 
-    def _add_empty(self, tick: int) -> None:
-        """Have a tick in which nothing enters share a line with those just before it."""
-        if tick != self._empty.stop:
+    def _add_empty(self, entered: TickInputs) -> None:
+        """Have a tick in which nothing enters share a line with those just before it, if these are watched like it."""
+        tick = entered.tick
+        if tick != self._empty.stop or entered.watched != self._watched:
             self._write(self._take_empty())
+        self._watched = entered.watched
         self._empty = range(self._empty.start if self._empty else tick, tick + 1)
         if len(self._empty) == _MOST_EMPTY:
             self._write(self._take_empty())
@@ -82,7 +87,7 @@ class Recorder:
         """The line of the ticks in which nothing has entered since the last line, if there are any."""
         empty, self._empty = self._empty, range(0)
         count = {"count": len(empty)} if len(empty) > 1 else {}
-        return [{"tick": empty.start, **count}] if empty else []
+        return [{"tick": empty.start, **count, **_watched(self._watched)}] if empty else []
 
     def _write(self, lines: list[Mapping[str, object]]) -> None:
         if self._write_lines is None or not lines:
@@ -98,6 +103,10 @@ def _scene(options: SceneOptions) -> Message:
     plain = {field.name: getattr(options, field.name) for field in fields(options)}
     human = options.human.read_text(encoding="utf-8")
     return plain | {"human": human, "assets": [str(folder.resolve()) for folder in options.assets]}
+
+
+def _watched(watched: bool) -> Message:
+    return {"watched": True} if watched else {}
 
 
 def _delivery(delivery: Delivery) -> Message:

@@ -225,9 +225,10 @@ class _Reader:
     def _take_tick(self, line: Message) -> None:
         work = tuple(map(_delivery, line.get("work", ())))
         predicted = tuple(map(_predicted, line.get("predicted", ())))
-        tick = self._later(int(line["tick"]))
-        self.ticks.append(TickInputs(tick, tuple(self._inputs), work, predicted))
-        self.ticks += map(TickInputs, range(tick + 1, tick + int(line.get("count", 1))))
+        tick, watched = self._later(int(line["tick"])), line.get("watched", False)
+        self.ticks.append(TickInputs(tick, tuple(self._inputs), work, predicted, watched=watched))
+        following = range(tick + 1, tick + int(line.get("count", 1)))
+        self.ticks += (TickInputs(number, watched=watched) for number in following)
         self._inputs, self._tick = [], None
 
     def _take_forecast(self, line: Message) -> None:

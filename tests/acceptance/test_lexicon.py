@@ -105,9 +105,14 @@ async def test_every_lexicon_entry_of_asaprealizers_binding_plays(
 async def test_the_package_plays_entries_with_an_unknown_unit(
     play: Callable[..., Awaitable[None]], tmp_path: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
-    copy(DATA / "bindings" / "published.xml", tmp_path / "gesturebinding.xml")
+    (tmp_path / "gesturebinding.xml").write_text(
+        """<gesturebinding><MotionUnitSpec type="posture">
+             <constraints><constraint name="stance" value="STANDING"/></constraints>
+             <MotionUnit type="Muscle" class="Biceps"/>
+           </MotionUnitSpec></gesturebinding>"""
+    )
     await play(['<posture id="example" end="1"><stance type="STANDING"/></posture>'], tmp_path)
-    assert "this entry is skipped: there is no motion unit 'PhysicalController'" in caplog.text
+    assert "this entry is skipped: there is no motion unit 'Muscle'" in caplog.text
 
 
 async def test_the_entries_of_a_user_come_before_those_of_the_package(tmp_path: Path) -> None:

@@ -12,6 +12,8 @@ from lxml import etree
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.embodiment.joints import LEFT_ARM, ROOT
 from reactive_realizer.embodiment.quaternion import angle, difference
+from reactive_realizer.realizer.inputs import TickInputs
+from reactive_realizer.realizer.session import replay
 from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 BALANCE = '<bmlt:controller id="balance" class="BalanceController" start="{}"/>'
@@ -252,6 +254,25 @@ async def test_sessions_with_forces_are_equal_to_the_byte() -> None:
 
 LOW = '<bmlt:parameter name="pelvisheight" value="0.8"/>'
 SAME = '<bmlt:parameter name="replacementgroup" value="{}"/>'
+
+
+async def test_a_session_that_was_watched_is_replayed_exactly_without_a_viewer() -> None:
+    session: list[TickInputs] = []
+    async with open_pilot(SceneOptions(voice="text")) as pilot:
+        pilot.realizer.record(session.append)
+        pilot.watch()
+        pilot.block("c", '<bmlt:procanimation id="c" name="conduct-3-beat" start="0.3" end="2.3"/>')
+        pilot.block("b", BALANCE.format(1))
+        await pilot.advance(2)
+        pilot.push("vt10", (30.0, 0.0, 300.0), 0.5)
+        await pilot.advance(2)
+        (fall,) = pilot.feedback.of("fall")
+    async with open_pilot(SceneOptions(voice="text")) as again:
+        await replay(again.realizer, session)
+        assert [etree.tostring(each.element) for each in again.feedback.messages] == [
+            etree.tostring(each.element) for each in pilot.feedback.messages
+        ]
+        assert again.feedback.of("fall")[0].global_time == fall.global_time
 
 
 def hips(pilot: RealizerPilot, times: Sequence[float]) -> list[float]:

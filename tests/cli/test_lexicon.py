@@ -16,7 +16,7 @@ BINDING = """<gesturebinding>
   </MotionUnitSpec>
   <MotionUnitSpec type="gesture">
     <constraints><constraint name="lexeme" value="SKIP"/></constraints>
-    <MotionUnit type="PhysicalController" class="hmi.physics.controller.BalanceController"/>
+    <MotionUnit type="Muscle" class="Biceps"/>
   </MotionUnitSpec>
   <MotionUnitSpec type="gesture">
     <constraints><constraint name="lexeme" value="JUMP"/><constraint name="mood" value="glad"/></constraints>
@@ -97,7 +97,7 @@ def test_entries_of_the_user_come_first_and_invalid_ones_are_listed_on_stderr(
     assert not any(line.split()[0] in ("HOP", "SKIP") for line in said)
     assert complaints == [
         "alice: gesture HOP mode=LEFT_HAND: there is no asset named 'nowhere.xml'",
-        "alice: gesture SKIP: there is no motion unit 'PhysicalController'",
+        "alice: gesture SKIP: there is no motion unit 'Muscle'",
     ]
 
 

@@ -140,6 +140,13 @@ def test_ticks_in_which_nothing_enters_share_a_line_up_to_a_hundred_or_a_skipped
     assert [line.get("count") for line in lines[5:]] == [None, None, 3, None, None, 2, None]
 
 
+def test_ticks_that_share_a_line_are_all_watched_or_none_is(read: Callable[[str | bytes], Recording]) -> None:
+    session = [TickInputs(number, watched=3 <= number < 7) for number in range(10)]
+    _, *lines = map(json.loads, recorded(session).splitlines())
+    assert lines == [{"tick": 0, "count": 3}, {"tick": 3, "count": 4, "watched": True}, {"tick": 7, "count": 3}]
+    assert list(read(recorded(session)).ticks) == session
+
+
 def test_ticks_that_share_a_line_are_read_one_by_one(read: Callable[[str | bytes], Recording]) -> None:
     session = [*map(TickInputs, range(250)), *SHARED]
     assert list(read(recorded(session)).ticks) == session
