@@ -15,8 +15,8 @@ class Limits:
     """Attributes and namespace declarations of an element."""
     behaviors_per_block: int = 1_000
     """Behaviors in a block."""
-    blocks_alive: int = 1_000
-    """Accepted blocks that have not ended, for all characters together."""
+    blocks_alive: int = 2_000
+    """Accepted blocks that have not ended, of all characters; a client has at most half of what others leave."""
     sync_points_per_block: int = 10_000
     """Sync points of a block, which fails if it has more; a nod has one for each repetition."""
     planning_per_tick: int = 1_000
@@ -52,7 +52,7 @@ class Limits:
     predictions_per_second: int = 10
     """Reports per second and block of predictions that have moved; the last one is always reported."""
     predicted_behaviors_per_second: int = 2_000
-    """Behaviors in the reports of predictions that have moved, per second and for all blocks together."""
+    """Behaviors in the reports of predictions that have moved, per second. Clients share them equally."""
     targets: int = 1_000
     """Objects in the world, including those added by clients."""
     sound_bytes: int = 64 * 1024 * 1024

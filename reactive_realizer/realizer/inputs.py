@@ -18,10 +18,12 @@ class BmlText:
 
     Attributes:
         text: the document.
+        client: that sent it; empty for the session itself. Clients take turns in planning.
         parsed: the parsed document, if it was parsed before; otherwise it is parsed when it enters.
     """
 
     text: str | bytes
+    client: str = ""
     parsed: Sequence[Parsed] | None = field(default=None, compare=False, repr=False)
 
 

@@ -174,18 +174,17 @@ class Realizer:
         if push.joint not in joints:
             raise RealizerError(UnknownJoint(character=push.character, joint=push.joint, known=joints))
 
-    def admission(self) -> Admission:
-        """Checks for blocks and procedures that would enter after all earlier inputs."""
-        admission = self.scheduler.admission()
-        for parsed in self._waiting:
-            if parsed.procedure is not None:
-                admission.admit_procedure(parsed.procedure)
+    def admission(self, client: str = "") -> Admission:
+        """Checks for blocks and procedures of a client that would enter after all earlier inputs."""
+        admission = self.scheduler.admission(client=client)
+        for parsed, sender in self._waiting:
+            admission.expect(parsed, sender)
         return admission
 
     def checker(self) -> DocumentChecker:
         """Finds the mistakes in a document that would enter after all earlier inputs."""
         blocks = self.scheduler.blocks
-        waiting = (parsed.block for parsed in self._waiting if parsed.block is not None)
+        waiting = (parsed.block for parsed, _ in self._waiting if parsed.block is not None)
         alive = (*(block.description for block in blocks.alive), *waiting)
         return DocumentChecker(
             self._routing,
@@ -195,11 +194,11 @@ class Realizer:
         )
 
     @property
-    def _waiting(self) -> Iterator[Parsed]:
-        """The blocks and procedures that have arrived and have not entered yet, as far as they are parsed."""
-        yield from self.scheduler.entering
-        for entry in self._inbox.waiting:
-            yield from (isinstance(entry, BmlText) and entry.parsed) or ()
+    def _waiting(self) -> Iterator[tuple[Parsed, str]]:
+        """The blocks and procedures that have arrived and have not entered yet, as far as parsed, and their clients."""
+        yield from ((entry.parsed, entry.lane.client) for entry in self.scheduler.entering)
+        for document in (each for each in self._inbox.waiting if isinstance(each, BmlText)):
+            yield from ((parsed, document.client) for parsed in document.parsed or ())
 
     def watch(self, listener: FramesListener) -> Callable[[], None]:
         """Call a listener with the frames of each tick, by the ids of all characters in their order.
@@ -317,7 +316,8 @@ class Realizer:
         self._background.deliver(entered.work, now)
         for entry in entered.inputs:
             if isinstance(entry, BmlText):
-                self.scheduler.take(parse(entry.text, self.limits) if entry.parsed is None else entry.parsed)
+                parsed = parse(entry.text, self.limits) if entry.parsed is None else entry.parsed
+                self.scheduler.take(parsed, entry.client)
 
     async def _play(self, tick: Tick) -> list[Output]:
         """Play rounds of the tick until nothing changes, then show its frame, if one is due; the outputs."""

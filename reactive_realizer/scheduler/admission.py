@@ -1,5 +1,6 @@
 """Admission control: whether blocks and procedures may enter."""
 
+from collections import Counter
 from collections.abc import Collection, Sequence
 
 from reactive_realizer.bml.block import BehaviorBlock, DefineProc, Parsed
@@ -8,6 +9,7 @@ from reactive_realizer.errors import Fault, ParsingFault, TargetFault
 from reactive_realizer.limits import Limits
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.scheduler.blocks import Blocks
+from reactive_realizer.scheduler.lanes import Lane
 
 
 class DuplicateBlock(ParsingFault):
@@ -24,6 +26,15 @@ class TooManyBlocks(ParsingFault):
     code = "too-many-blocks"
     template = "the limit of {limit} live blocks is reached; this one is refused"
     limit: int
+
+
+class TooManyOfOne(ParsingFault):
+    """A block of a client that has more live blocks than are left."""
+
+    code = "too-many-of-one"
+    template = "this client has {own} live blocks, so the {free} that are left are for others; this one is refused"
+    own: int
+    free: int
 
 
 class TooManyProcedures(ParsingFault):
@@ -65,9 +76,17 @@ class Admission:
         limits: how many blocks may be alive at once, and procedures defined.
         blocks: those that are alive.
         procedures: ids of the procedures that are defined.
+        client: that sent what is to enter. Only clients leave others as many blocks as they have themselves.
     """
 
-    def __init__(self, characters: Sequence[str], limits: Limits, blocks: Blocks, procedures: Collection[str]) -> None:
+    def __init__(
+        self,
+        characters: Sequence[str],
+        limits: Limits,
+        blocks: Blocks,
+        procedures: Collection[str],
+        client: str,
+    ) -> None:
         self._characters = characters
         self._limits = limits
         self._blocks = blocks
@@ -75,7 +94,18 @@ class Admission:
         self._added: set[BlockKey] = set()
         self._replaced: set[str] = set()
         self._defined: dict[str, None] = {}
-        self._number = len(blocks)
+        self._client = client
+        self._numbers = blocks.numbers.copy()
+
+    def expect(self, parsed: Parsed, client: str) -> None:
+        """Count what enters before."""
+        if parsed.procedure is not None:
+            self.admit_procedure(parsed.procedure)
+        elif parsed.block is not None:
+            character = parsed.block.character or self._characters[0]
+            if parsed.block.composition is Composition.REPLACE:
+                self._replace(character)
+            self._numbers[Lane(client, character)] += 1
 
     def refusal(self, parsed: Parsed) -> Fault | None:
         """Admit what was read, or return why not."""
@@ -110,17 +140,14 @@ class Admission:
             self._replace(key.character)
         if not failed and not self._is_alive(key):
             self._added.add(key)
-            self._number += 1
+            self._numbers[Lane(self._client, key.character)] += 1
         return None
 
     def _replace(self, character: str) -> None:
         """Count all blocks of a character as ended."""
-        if character not in self._replaced:
-            self._number -= len(self._blocks.of(character))
-            self._replaced.add(character)
-        for key in [key for key in self._added if key.character == character]:
-            self._added.remove(key)
-            self._number -= 1
+        self._replaced.add(character)
+        self._added = {key for key in self._added if key.character != character}
+        self._numbers = Counter({lane: n for lane, n in self._numbers.items() if lane.character != character})
 
     def _is_alive(self, key: BlockKey) -> bool:
         alive = key.character not in self._replaced and self._blocks.get(key) is not None
@@ -133,6 +160,14 @@ class Admission:
             return DuplicateBlock(block=key.block)
         if block.procedure is not None and block.procedure not in (*self._procedures, *self._defined):
             return UnknownProcedure(procedure=block.procedure, known=(*self._procedures, *self._defined))
-        if block.composition is not Composition.REPLACE and self._number >= self._limits.blocks_alive:
-            return TooManyBlocks(limit=self._limits.blocks_alive)
+        return None if block.composition is Composition.REPLACE else self._overfull()
+
+    def _overfull(self) -> Fault | None:
+        """The fault of one more block of the client."""
+        limit, number = self._limits.blocks_alive, sum(self._numbers.values())
+        own = sum(n for lane, n in self._numbers.items() if lane.client == self._client)
+        if number >= limit:
+            return TooManyBlocks(limit=limit)
+        if self._client and own > limit - number:
+            return TooManyOfOne(own=own, free=limit - number)
         return None

@@ -57,11 +57,12 @@ class BlockLifecycle:
 
     # --- arrival and planning
 
-    def accept(self, composition: BlockComposition, failed: bool, now: GlobalTime) -> None:
+    def accept(self, composition: BlockComposition, client: str, failed: bool, now: GlobalTime) -> None:
         """Make a block, end the blocks that it replaces or interrupts, and have it prepared.
 
         Args:
             composition: of the block, without a fault.
+            client: that sent the block.
             failed: whether something required could not be read, so that the block ends at once.
             now: the time of the tick.
         """
@@ -69,7 +70,7 @@ class BlockLifecycle:
             self.interrupt(other, now)
         if composition.replaces:
             self._routing.reset(composition.character, now)
-        block = self._new_block(composition, composition.predecessors, now)
+        block = self._new_block(composition, composition.predecessors, client, now)
         with self._board.graph.transaction(f"put {block.key.block} before others"):
             for later, predecessor in composition.delayed_by(block):
                 later.set_predecessors((*later.predecessors, predecessor))
@@ -80,12 +81,12 @@ class BlockLifecycle:
         elif not self._fails_by(block, self._planner.prepare(block), now):
             self._predictions.request(block)
 
-    def accept_failed(self, composition: BlockComposition, now: GlobalTime) -> None:
+    def accept_failed(self, composition: BlockComposition, client: str, now: GlobalTime) -> None:
         """Make a block that cannot be put before the blocks that it names, and fail it.
 
         It is not refused, because its sender may have been told already that it is accepted.
         """
-        self._transitions.end(self._new_block(composition, (), now), BlockEvent.FAIL, now)
+        self._transitions.end(self._new_block(composition, (), client, now), BlockEvent.FAIL, now)
 
     def plan(self, block: BMLBlock, outcome: Plan | Loss, now: GlobalTime) -> None:
         """Commit the plan of a block, or fail the block if something required is lost."""
@@ -223,12 +224,12 @@ class BlockLifecycle:
         self._cut(block, [unit for unit in chosen if ends.get(unit, time) <= time], time)
 
     def _new_block(
-        self, composition: BlockComposition, predecessors: Iterable[Predecessor], now: GlobalTime
+        self, composition: BlockComposition, predecessors: Iterable[Predecessor], client: str, now: GlobalTime
     ) -> BMLBlock:
         description = composition.description
         self._arrivals += 1
         key = BlockKey(composition.character, description.id)
-        block = BMLBlock(self._board, key, description, self._arrivals, now, predecessors)
+        block = BMLBlock(self._board, key, description, self._arrivals, now, predecessors, client)
         self._blocks.add(block)
         self._feedback.foreign_attributes(key, description)
         return block

@@ -1,7 +1,7 @@
 """Plans accepted blocks: engines prepare and make the units of their behaviors, and the strategy times them."""
 
 import asyncio
-from collections.abc import Callable, Container, Generator, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Container, Generator, Iterable, Mapping, Sequence
 from functools import partial
 from itertools import count
 from typing import NamedTuple
@@ -18,6 +18,7 @@ from reactive_realizer.scheduler.block_feedback import BlockFeedback
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock, Meant
 from reactive_realizer.scheduler.engine_routing import EngineRouting, Result, RoutedBehavior
+from reactive_realizer.scheduler.lanes import Lane
 from reactive_realizer.scheduler.planning import BlockProblem, Plan, Planning, item_of
 from reactive_realizer.scheduler.planning_queue import PlanningQueue
 from reactive_realizer.scheduler.preparation import BackgroundWork, Preparation
@@ -171,16 +172,21 @@ class BlockPlanner:
         """The engine that has made a unit of a block that is being planned."""
         return self._preparations[block].engine_of(unit)
 
-    def waiting(self, character: str) -> int:
-        """How many blocks of a character can be planned."""
-        return self._queue.length(character)
+    @property
+    def lanes(self) -> Collection[Lane]:
+        """The lanes that have blocks to be planned, now or later."""
+        return self._queue.lanes
 
-    def step(self, character: str) -> tuple[int, Planned | None]:
-        """Do one step for a character: the work that it took, and the block that is planned by it.
+    def waiting(self, lane: Lane) -> int:
+        """How many blocks of a lane can be planned."""
+        return self._queue.length(lane)
+
+    def step(self, lane: Lane) -> tuple[int, Planned | None]:
+        """Do one step for a lane: the work that it took, and the block that is planned by it.
 
         A block is planned as if it were to start now. The caller puts its plan on the board, and has it `leave`.
         """
-        block = self._queue.first(character)
+        block = self._queue.first(lane)
         if block is None:
             return 0, None
         draft = self._drafts.get(block)

@@ -1,5 +1,6 @@
 """The blocks of all characters: those alive, and a record of those that ended last."""
 
+from collections import Counter
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 
@@ -11,6 +12,7 @@ from reactive_realizer.reactive.graph import Graph
 from reactive_realizer.scheduler.block_state import BlockState
 from reactive_realizer.scheduler.block_watch import BlockWatch, in_order
 from reactive_realizer.scheduler.bml_block import BMLBlock
+from reactive_realizer.scheduler.lanes import Lane
 
 
 class NoSuchBlock(TargetFault):
@@ -67,12 +69,14 @@ class Blocks:
         remembered: how many ended blocks are kept.
 
     Attributes:
+        numbers: how many are alive in each lane.
         starting: those that are planned, by their starts.
         watch: observes those that are alive.
     """
 
     def __init__(self, graph: Graph, remembered: int) -> None:
         self.starting: Agenda[BMLBlock] = Agenda(_start, lambda block: (block.start,))
+        self.numbers: Counter[Lane] = Counter()
         self.watch = BlockWatch(graph)
         self._remembered = remembered
         self._alive: dict[BlockKey, BMLBlock] = {}
@@ -143,6 +147,7 @@ class Blocks:
     def add(self, block: BMLBlock) -> None:
         """Add an accepted block."""
         self._alive[block.key] = block
+        self.numbers[block.lane] += 1
         self._own.add(block.key.character, block)
         self._last.add(block.key.character, block)
         self._named.add(block.key.block, block)
@@ -151,7 +156,10 @@ class Blocks:
 
     def end(self, block: BMLBlock, time: GlobalTime) -> None:
         """Move a block from those alive to those ended."""
-        self._alive.pop(block.key, None)
+        if self._alive.pop(block.key, None) is not None:
+            self.numbers[block.lane] -= 1
+            if not self.numbers[block.lane]:
+                del self.numbers[block.lane]
         self._own.remove(block.key.character, block)
         self._last.remove(block.key.character, block)
         self._named.remove(block.key.block, block)

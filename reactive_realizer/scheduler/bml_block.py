@@ -14,6 +14,7 @@ from reactive_realizer.pegboard.time_peg import AnticipatorPeg, BMLBlockPeg, Lat
 from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
 from reactive_realizer.planunit.wait_unit import WaitUnit
 from reactive_realizer.scheduler.block_state import BlockEvent, BlockState, BlockTransition, transition
+from reactive_realizer.scheduler.lanes import Lane
 from reactive_realizer.scheduler.named_blocks import named_blocks
 from reactive_realizer.scheduler.problem import Origin, Point, Precedence, Tie
 
@@ -59,6 +60,7 @@ class BMLBlock:
         description: the BML that was sent.
         named_blocks: the other blocks that the description names.
         arrival: number of arrival over all characters.
+        client: that sent it; empty if it is of the session itself.
         started_at: time of the tick in which it started, None before; its peg may lie before that.
         predicted: the points of anticipators that it names, by anticipator and sync id: the first occurrences since it
             was ``meant``, which may have passed when it is planned or starts.
@@ -88,11 +90,13 @@ class BMLBlock:
         arrival: int,
         arrived: GlobalTime,
         predecessors: Iterable[Predecessor],
+        client: str,
     ) -> None:
         self.key = key
         self.description = description
         self.named_blocks = named_blocks(description)
         self.arrival = arrival
+        self.client = client
         self.predecessors: tuple[Predecessor, ...] = ()
         self.successors: dict[BMLBlock, bool] = {}
         self._link(predecessors)
@@ -121,6 +125,11 @@ class BMLBlock:
         for anticipator, point in dict.fromkeys(points):
             if anticipator is not None and point is not None:
                 self._name(board, anticipator, point, board.upcoming(anticipator, point))
+
+    @property
+    def lane(self) -> Lane:
+        """Its client and its character."""
+        return Lane(self.client, self.key.character)
 
     # --- state
 

@@ -1,6 +1,5 @@
 """The scheduler: takes blocks in, and has them planned, started, played and ended tick by tick (thesis 7.3.4)."""
 
-from collections import deque
 from collections.abc import Callable, Iterable, Sequence
 
 from reactive_realizer.bml.block import BehaviorBlock, Parsed
@@ -24,6 +23,7 @@ from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.scheduler.constraint_monitor import ConstraintMonitor
 from reactive_realizer.scheduler.engine_routing import EngineRouting
 from reactive_realizer.scheduler.entry_queue import Entry, EntryQueue
+from reactive_realizer.scheduler.lanes import Lane, LaneTurns
 from reactive_realizer.scheduler.planned_events import PlannedEvents
 from reactive_realizer.scheduler.planning import PlanListener, Planning
 from reactive_realizer.scheduler.predictions import Predictions
@@ -36,7 +36,7 @@ _ENTRY = 60
 """Work of an entry without behaviors, and of planning it, as the planner counts work."""
 
 _MOST_WAITING = 10
-"""Blocks of a character that can be planned while further ones enter."""
+"""Blocks of a lane that can be planned while further ones enter."""
 
 
 class NeverMoves(SchedulingFault):
@@ -93,7 +93,7 @@ class BMLScheduler:
             self._entries,
             limits.sync_points_per_block,
         )
-        self._turns = deque(routing.characters)
+        self._turns = LaneTurns()
         self._left = 0
         self._lifecycle = BlockLifecycle(
             board, routing, self.blocks, self._planner, self._planning, self._feedback, self._predictions
@@ -126,52 +126,56 @@ class BMLScheduler:
     # --- blocks and procedures that enter
 
     @property
-    def entering(self) -> tuple[Parsed, ...]:
+    def entering(self) -> tuple[Entry, ...]:
         """What has arrived and has not entered yet, in order of arrival."""
         return self._entries.waiting
 
     @property
     def unplanned(self) -> int:
         """The number of blocks and procedures that wait to enter or to be planned."""
-        return len(self.entering) + sum(map(self._planner.waiting, self._turns))
+        return len(self.entering) + sum(map(self._planner.waiting, self._planner.lanes))
 
-    def take(self, document: Iterable[Parsed]) -> None:
-        """Have the blocks and procedures of a document enter, in this tick as far as there is time."""
+    def take(self, document: Iterable[Parsed], client: str = "") -> None:
+        """Have the blocks and procedures of a client's document enter, in this tick as far as there is time."""
         for parsed in document:
-            self._entries.add(parsed)
+            self._turns.add(self._entries.add(parsed, client))
 
     def begin_planning(self) -> None:
         """Begin a tick: there is time for planning again."""
         self._left = self._limits.planning_per_tick
+        for lane in tuple(self._turns):
+            if lane not in self._entries.lanes and lane not in self._planner.lanes:
+                self._turns.remove(lane)
 
     def _work(self, now: GlobalTime) -> None:
-        """Have blocks enter and plan them, one step for each character in turn, until the work of a tick is done.
+        """Have blocks enter and plan them, one step for each lane in turn, until the work of a tick is done.
 
         Blocks that enter come first, but not too many of them, because each plan moves those that come after.
         """
-        while self._left > 0 and (character := self._next_character()) is not None:
-            entry = self._entries.first(character)
-            if entry is not None and self._planner.waiting(character) < _MOST_WAITING:
+        while self._left > 0 and (lane := self._next_lane()) is not None:
+            self._turns.take(lane)
+            entry = self._entries.first(lane)
+            if entry is not None and self._has_room(entry):
                 self._entries.remove(entry)
                 self._accept(entry, now)
-                written = entry.parsed.block or entry.parsed.procedure
+                written = entry.parsed.written
                 self._left -= _ENTRY + (0 if written is None else len(written.behaviors))
             else:
-                self._plan(character, now)
+                self._plan(lane, now)
 
-    def _next_character(self) -> str | None:
-        """The next character that has something to enter or to be planned."""
+    def _next_lane(self) -> Lane | None:
+        """The next lane that has something to enter or to be planned."""
         if not self._entries and not self._planner:
             return None
-        for _ in range(len(self._turns)):
-            self._turns.rotate(-1)
-            character = self._turns[-1]
-            if self._planner.waiting(character) or self._entries.first(character) is not None:
-                return character
-        return None
+        runnable = (lane for lane in self._turns if self._planner.waiting(lane) or self._entries.first(lane))
+        return next(runnable, None)
 
-    def _plan(self, character: str, now: GlobalTime) -> None:
-        work, planned = self._planner.step(character)
+    def _has_room(self, entry: Entry) -> bool:
+        """Whether an entry should enter before others are planned; those that end before they play need no plan."""
+        return self._planner.waiting(entry.lane) < _MOST_WAITING or self._entries.is_replaced(entry)
+
+    def _plan(self, lane: Lane, now: GlobalTime) -> None:
+        work, planned = self._planner.step(lane)
         self._left -= work
         if planned is not None:
             self._lifecycle.plan(*planned, now)
@@ -188,8 +192,8 @@ class BMLScheduler:
             if fault is None:
                 self._procedures.define(parsed.procedure)
         elif parsed.block is not None:
-            fault = self._admit(parsed.block, parsed.failed, character, now)
-        written = parsed.block or parsed.procedure
+            fault = self._admit(parsed.block, entry, now)
+        written = parsed.written
         if fault is not None or written is None:
             self.refused += 1
         if fault is not None and written is not None:
@@ -197,9 +201,10 @@ class BMLScheduler:
         if parsed.block is not None:
             self._planner.entered(parsed.block.id)
 
-    def admission(self, defined: Iterable[str] = ()) -> Admission:
-        """Admission control for further blocks and procedures, after those with the ids ``defined``."""
-        return Admission(self._routing.characters, self._limits, self.blocks, (*self._procedures.names, *defined))
+    def admission(self, defined: Iterable[str] = (), client: str = "") -> Admission:
+        """Admission control for further blocks and procedures of a client, after those with the ids ``defined``."""
+        procedures = (*self._procedures.names, *defined)
+        return Admission(self._routing.characters, self._limits, self.blocks, procedures, client)
 
     # --- a tick
 
@@ -278,18 +283,19 @@ class BMLScheduler:
     def _count(self, ended: BMLBlock) -> None:
         self.failed += ended.state is BlockState.FAILED
 
-    def _admit(self, written: BehaviorBlock, failed: bool, character: str, now: GlobalTime) -> Fault | None:
+    def _admit(self, written: BehaviorBlock, entry: Entry, now: GlobalTime) -> Fault | None:
         """Begin the life of a block; the fault if it is refused."""
-        fault = self.admission().admit(written)
+        character, client = entry.character, entry.lane.client
+        fault = self.admission(client=client).admit(written)
         if fault is not None:
             return fault
         composition = BlockComposition(self.blocks, character, self._procedures.expand(written))
         fault = composition.fault()
         if fault is None:
-            self._lifecycle.accept(composition, failed, now)
+            self._lifecycle.accept(composition, client, entry.parsed.failed, now)
         elif self.blocks.get(BlockKey(character, written.id)) is not None:
             return fault
         else:
             self._feedback.warn(character, written.id, fault, written.location)
-            self._lifecycle.accept_failed(composition, now)
+            self._lifecycle.accept_failed(composition, client, now)
         return None

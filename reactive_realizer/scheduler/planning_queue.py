@@ -1,15 +1,17 @@
-"""The queue of blocks to be planned: which of a character's blocks may be planned next."""
+"""The queue of blocks to be planned: which block of a lane may be planned next."""
 
-from collections.abc import Container
+from collections import Counter
+from collections.abc import Collection, Container
 from heapq import heappop, heappush
 
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock
+from reactive_realizer.scheduler.lanes import Lane
 from reactive_realizer.scheduler.preparation import Preparation
 
 
 class PlanningQueue:
-    """Blocks by character, in order of arrival; each after those that it names, and after its slow work.
+    """Blocks by lane, in order of arrival; each after those that it names, and after its slow work.
 
     A block is looked at when it enters, and again only when what it waits for is there. In a circle of blocks, the one
     that entered last is first.
@@ -23,15 +25,17 @@ class PlanningQueue:
         self._blocks = blocks
         self._expected = expected
         self._preparations: dict[BMLBlock, Preparation] = {}
-        self._ready: dict[str, list[tuple[int, BMLBlock]]] = {}
-        self._present: dict[str, BMLBlock] = {}
+        self._ready: dict[Lane, list[tuple[int, BMLBlock]]] = {}
+        self._present: dict[Lane, BMLBlock] = {}
         self._awaited: dict[BMLBlock, BMLBlock] = {}
         self._waiting: dict[BMLBlock | str, list[BMLBlock]] = {}
+        self._numbers: Counter[Lane] = Counter()
 
     def add(self, block: BMLBlock, preparation: Preparation) -> None:
         """Add a block that has entered."""
         self.entered(block.key.block)
         self._preparations[block] = preparation
+        self._numbers[block.lane] += 1
         self._examine(block)
 
     def entered(self, name: str) -> None:
@@ -39,33 +43,42 @@ class PlanningQueue:
         for block in self._waiting.pop(name, ()):
             self._examine(block)
 
-    def first(self, character: str) -> BMLBlock | None:
-        """The block of a character to be planned now; it stays the first until it is put off or leaves."""
-        ready = self._ready.get(character, [])
-        while character not in self._present and ready:
+    def first(self, lane: Lane) -> BMLBlock | None:
+        """The block of a lane to be planned now; it stays the first until it is put off or leaves."""
+        ready = self._ready.get(lane, [])
+        while lane not in self._present and ready:
             _, block = heappop(ready)
             if block in self._preparations:
-                self._present[character] = block
-        return self._present.get(character)
+                self._present[lane] = block
+        return self._present.get(lane)
 
-    def length(self, character: str) -> int:
-        """How many blocks of a character may be planned."""
-        return len(self._ready.get(character, ())) + (character in self._present)
+    def length(self, lane: Lane) -> int:
+        """How many blocks of a lane may be planned."""
+        return len(self._ready.get(lane, ())) + (lane in self._present)
+
+    @property
+    def lanes(self) -> Collection[Lane]:
+        """The lanes that have blocks in the queue."""
+        return self._numbers.keys()
 
     def put_off(self, block: BMLBlock) -> None:
         """Take the first block from its place, until it returns."""
-        del self._present[block.key.character]
+        del self._present[block.lane]
 
     def put_back(self, block: BMLBlock) -> None:
         """Have a block that was put off be planned further."""
         if block in self._preparations:
-            heappush(self._ready.setdefault(block.key.character, []), (block.arrival, block))
+            heappush(self._ready.setdefault(block.lane, []), (block.arrival, block))
 
     def leave(self, block: BMLBlock) -> None:
         """Remove a block that is planned or has ended, if it is in the queue."""
-        self._preparations.pop(block, None)
+        if self._preparations.pop(block, None) is not None:
+            self._numbers[block.lane] -= 1
+            if not self._numbers[block.lane]:
+                del self._numbers[block.lane]
+                self._ready.pop(block.lane, None)
         self._awaited.pop(block, None)
-        if self._present.get(block.key.character) is block:
+        if self._present.get(block.lane) is block:
             self.put_off(block)
         for other in self._waiting.pop(block, ()):
             self._awaited.pop(other, None)

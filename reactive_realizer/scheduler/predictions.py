@@ -1,6 +1,6 @@
 """Prediction feedback: reported when it is requested, and again when a reported time has moved."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 from reactive_realizer.clock.ticker import RATE
 from reactive_realizer.clock.units import BlockTime, GlobalTime, Time, is_due
@@ -22,8 +22,9 @@ class Predictions:
     """Reports ``predictionFeedback`` with the times at the end of a tick (docs/semantics.md, predictions).
 
     A prediction that is requested is reported in its tick. One that has moved is reported at a limited rate, the latest
-    one always: at most so often for a block, and only so many behaviors of all blocks together, in the order in which
-    the blocks have begun to wait. Before progress of its block is reported, it does not wait any more.
+    one always: at most so often for a block, and only so many behaviors of all blocks together. Clients share these
+    equally; the blocks of each are reported in the order in which they have begun to wait. Before progress of its block
+    is reported, a prediction does not wait any more.
     """
 
     def __init__(self, feedback: FeedbackManager, watch: BlockWatch, limits: Limits) -> None:
@@ -31,7 +32,8 @@ class Predictions:
         self._moves = watch.moves()
         self._interval = 1.0 / limits.predictions_per_second
         self._behaviors_per_tick = limits.predicted_behaviors_per_second / RATE
-        self._allowance = 0.0
+        self._allowances: dict[str, float] = {}
+        """By client, the behaviors that may be reported; below 0, more were reported than it may."""
         self._published: dict[BMLBlock, _Times] = {}
         self._next: dict[BMLBlock, GlobalTime] = {}
         self._waiting: dict[BMLBlock, None] = {}
@@ -52,15 +54,21 @@ class Predictions:
         self._waiting.update(dict.fromkeys(moved))
         progressing = self._feedback.progressing if self._waiting else frozenset()
         chosen = self._requested | {block for block in self._waiting if block.key in progressing}
-        self._allowance = min(self._allowance, 0.0) + self._behaviors_per_tick - sum(map(_cost, chosen))
+        self._allow({block.client for block in (*self._waiting, *chosen)})
+        for block in chosen:
+            self._allowances[block.client] -= _cost(block)
         for block in [block for block in self._waiting if is_due(self._next.get(block, now), now)]:
-            if self._allowance <= 0.0:
-                break
-            if block not in chosen:
+            if block not in chosen and self._allowances[block.client] > 0.0:
                 chosen.add(block)
-                self._allowance -= _cost(block)
+                self._allowances[block.client] -= _cost(block)
         for block in in_order(chosen):
             self._publish(block, now)
+
+    def _allow(self, clients: Iterable[str]) -> None:
+        """Share the behaviors of a tick among the clients whose predictions wait, or were too many before."""
+        owing = {client: left for client, left in self._allowances.items() if left < 0.0}
+        sharing = {**dict.fromkeys(clients, 0.0), **owing}
+        self._allowances = {client: left + self._behaviors_per_tick / len(sharing) for client, left in sharing.items()}
 
     def close(self, block: BMLBlock, now: GlobalTime) -> None:
         """Forget a block that ends; of one that plays, report what was requested or has moved in this tick before."""

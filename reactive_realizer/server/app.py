@@ -5,9 +5,10 @@ import logging
 from aiohttp import web
 
 from reactive_realizer.server import routes_page, routes_requests, routes_state, routes_streams, routes_watch
+from reactive_realizer.server.client_names import ClientNames
 from reactive_realizer.server.connections import count_used
 from reactive_realizer.server.intake import Intake
-from reactive_realizer.server.keys import INTAKE, LIVE, SECURITY, SHUTDOWN, TOKEN, USED
+from reactive_realizer.server.keys import CLIENTS, INTAKE, LIVE, SECURITY, SHUTDOWN, TOKEN, USED
 from reactive_realizer.server.live_scene import LiveScene
 from reactive_realizer.server.middleware import add_headers, let_in, shorten, tell_refusals
 from reactive_realizer.server.security import Security
@@ -28,6 +29,7 @@ def create_app(live: LiveScene, security: Security) -> web.Application:
     app[INTAKE] = Intake(live)
     app[SECURITY] = security
     app[USED] = set()
+    app[CLIENTS] = ClientNames()
     app[TOKEN] = TokenCheck(security.token, live.clock)
     app[SHUTDOWN] = Subscribers()
     for module in (routes_page, routes_requests, routes_state, routes_streams, routes_watch):

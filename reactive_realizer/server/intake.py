@@ -121,25 +121,25 @@ class Intake:
         self._heard = HeardReports(live)
         self.demo = Demo(live, self.stop)
 
-    async def document(self, text: str | bytes) -> Answer:
-        """Accepts a document if every block can be accepted.
+    async def document(self, text: str | bytes, client: str = "") -> Answer:
+        """Accepts a client's document if every block can be accepted.
 
         Raises:
             BlocksRefused: with the fault of the first block that cannot be accepted; none has entered.
         """
-        judged = await self._judge(text)
+        judged = await self._judge(text, client)
         if judged.first_refusal is not None:
             warnings = await self._warnings(judged, self._realizer.checker())
             raise BlocksRefused(judged.first_refusal, Answer([], warnings))
         return await self._enter(judged)
 
-    async def blocks(self, text: str) -> Answer:
-        """Accepts those blocks of a document that can be accepted; feedback reports each of the others.
+    async def blocks(self, text: str, client: str = "") -> Answer:
+        """Accepts those blocks of a client's document that can be accepted; feedback reports each of the others.
 
         Raises:
             BlocksRefused: with the fault of the first of the others.
         """
-        judged = await self._judge(text)
+        judged = await self._judge(text, client)
         answer = await self._enter(judged)
         if judged.first_refusal is not None:
             raise BlocksRefused(judged.first_refusal, answer)
@@ -199,7 +199,7 @@ class Intake:
             case _:  # "demo", the last type of the protocol
                 self.demo.perform()
 
-    async def _judge(self, text: str | bytes) -> _Judged:
+    async def _judge(self, text: str | bytes, client: str) -> _Judged:
         if self.closed:
             raise RealizerError(GoingAway())
         if len(text) < _SMALL:
@@ -207,8 +207,8 @@ class Intake:
                 read = parse(text, self._live.limits)
         else:
             read = await asyncio.to_thread(parse, text, self._live.limits)
-        admission = self._realizer.admission()
-        judged = _Judged(BmlText(text, read), [], [])
+        admission = self._realizer.admission(client)
+        judged = _Judged(BmlText(text, client, read), [], [])
         for parsed in read:
             judged.refusals.append(admission.refusal(parsed))
             if judged.refusals[-1] is None and parsed.block is not None:

@@ -2,6 +2,7 @@
 
 from aiohttp import web
 
+from reactive_realizer.server.client_names import ClientNames
 from reactive_realizer.server.intake import Intake
 from reactive_realizer.server.live_scene import LiveScene
 from reactive_realizer.server.security import Security
@@ -13,6 +14,7 @@ INTAKE = web.AppKey("intake", Intake)
 SECURITY = web.AppKey("security", Security)
 USED = web.AppKey("used", set[web.RequestHandler])
 """The connections on which a request is being answered."""
+CLIENTS = web.AppKey("clients", ClientNames)
 TOKEN = web.AppKey("token", TokenCheck)
 SHUTDOWN = web.AppKey("shutdown", Subscribers[None])
 """Called when the server shuts down, so that open connections end."""

@@ -10,6 +10,7 @@ from reactive_realizer import __version__
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.clock.ticker import RATE, tick_time
 from reactive_realizer.realizer.inputs import (
+    BmlText,
     Delivery,
     Forecast,
     Predicted,
@@ -58,7 +59,8 @@ class Recorder:
         for entry in entered.inputs:
             self._inputs += 1
             place = {"seq": self._inputs, "tick": entered.tick, "time": tick_time(entered.tick)}
-            lines.append({**place, "input": message_of(entry)})
+            client = {"client": entry.client} if isinstance(entry, BmlText) and entry.client else {}
+            lines.append({**place, **client, "input": message_of(entry)})
         work = {"work": [_delivery(delivery) for delivery in entered.work]} if entered.work else {}
         predicted = {"predicted": [_predicted(each) for each in entered.predicted]} if entered.predicted else {}
         self._write(

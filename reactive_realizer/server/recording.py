@@ -67,8 +67,8 @@ def message_of(entry: Input) -> Message:
             assert_never(entry)
 
 
-def input_of(message: Message) -> Input:
-    """Decodes an input from a recorded message.
+def input_of(message: Message, client: str = "") -> Input:
+    """Decodes an input from the recorded message of a client.
 
     Raises:
         RealizerError: "unknown-message" or "bad-message".
@@ -76,7 +76,7 @@ def input_of(message: Message) -> Input:
     check(message)
     match message:
         case {"type": "bml"}:
-            return BmlText(_text(message))
+            return BmlText(_text(message), client)
         case {"type": "predict", "anticipator": anticipator, "sync": sync, "time": time}:
             return Prediction(anticipator, sync, None if time is None else GlobalTime(time))
         case {"type": "event", "anticipator": anticipator, "event": name}:
@@ -220,7 +220,7 @@ class _Reader:
         if line["seq"] != self._seq:
             raise RealizerError(LostInput(seq=line["seq"], wanted=self._seq))
         self._tick = self._later(int(line["tick"]))
-        self._inputs.append(input_of(line["input"]))
+        self._inputs.append(input_of(line["input"], line.get("client", "")))
 
     def _take_tick(self, line: Message) -> None:
         work = tuple(map(_delivery, line.get("work", ())))

@@ -10,7 +10,7 @@ from reactive_realizer.bml.faults import BadEncoding
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.server.faults import SlowRequest, WrongCharset, WrongMediaType
 from reactive_realizer.server.intake import BlocksRefused
-from reactive_realizer.server.keys import INTAKE, LIVE
+from reactive_realizer.server.keys import CLIENTS, INTAKE, LIVE
 from reactive_realizer.server.middleware import answer_to
 from reactive_realizer.server.protocol import bml_answer, check, decode
 
@@ -64,7 +64,7 @@ async def bml(request: web.Request) -> web.Response:
     text = text_of(await _body(request), request.charset)
     limit = request.app[LIVE].limits.answered_warnings
     try:
-        answer = await request.app[INTAKE].document(text)
+        answer = await request.app[INTAKE].document(text, request.app[CLIENTS].of(request))
     except BlocksRefused as refusal:
         return answer_to(request, refusal, bml_answer(*refusal.answer, limit))
     return web.json_response(bml_answer(*answer, limit), status=202)

@@ -8,7 +8,7 @@ from aiohttp import web
 
 from reactive_realizer.server.client_limits import ClientQueue
 from reactive_realizer.server.feedback_log import Entry, FeedbackLog
-from reactive_realizer.server.keys import INTAKE, LIVE, SHUTDOWN
+from reactive_realizer.server.keys import CLIENTS, INTAKE, LIVE, SHUTDOWN
 from reactive_realizer.server.prediction_rate import follow_feedback
 from reactive_realizer.server.socket_client import SocketClient
 from reactive_realizer.server.stream_query import Stream, after_of, predictions_of, streams_of
@@ -36,9 +36,10 @@ async def ws(request: web.Request) -> web.WebSocketResponse:
         )
         await answer.prepare(request)
         _keep_buffer_small(request)
+        name = request.app[CLIENTS].of(request)
         if (transport := request.transport) is None:
             return answer  # the client has disconnected
-        client = SocketClient(live, intake, answer, transport, streams, after, predictions)
+        client = SocketClient(live, intake, answer, transport, name, streams, after, predictions)
         if Stream.FRAMES in streams:
             intake.demo.page_opened()
         with ExitStack() as stack:

@@ -38,6 +38,7 @@ class SocketClient:
         intake: receives the requests.
         socket: of the client, prepared.
         transport: of the socket.
+        name: of the client, for the realizer.
         streams: those that the client requested.
         after: number of the last feedback that it has; None for new feedback only.
         predictions: how many a second it wants of each block, at most; None for all.
@@ -49,6 +50,7 @@ class SocketClient:
         intake: Intake,
         socket: web.WebSocketResponse,
         transport: asyncio.WriteTransport,
+        name: str,
         streams: frozenset[Stream],
         after: int | None,
         predictions: float | None,
@@ -57,6 +59,7 @@ class SocketClient:
         self._intake = intake
         self._socket = socket
         self._transport = transport
+        self._name = name
         self._streams = streams
         self._predictions = predictions
         self._rate = RateLimit(live.limits.messages_per_second)
@@ -176,7 +179,7 @@ class SocketClient:
             case "clock":
                 self._enqueue({"type": "clock", "time": round(self._live.now, 6)})
             case "bml":
-                return self._about(await self._intake.blocks(message["xml"]))
+                return self._about(await self._intake.blocks(message["xml"], self._name))
             case _:
                 self._intake.message(message, self)
         return {}

@@ -7,14 +7,15 @@ import pytest
 from lxml import etree
 
 from reactive_realizer.assembly.scene import SceneOptions
-from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
+from reactive_realizer.realizer.inputs import BmlText
+from reactive_realizer.testing.pilot import RealizerPilot, block, open_pilot
 
 HIT = "anticipators:test:hit"
 NOD = f'<head id="h" lexeme="NOD" end="{HIT}"/>'
 
 
-def said_at(pilot: RealizerPilot, block: str) -> list[Any]:
-    return [line.time for line in pilot.feedback.predictions(block)]
+def said_at(pilot: RealizerPilot, name: str) -> list[Any]:
+    return [line.time for line in pilot.feedback.predictions(name)]
 
 
 def status(line: Any) -> Any:
@@ -136,6 +137,23 @@ async def test_moving_predictions_of_many_behaviors_share_a_rate_and_each_is_rep
         assert {line.id for line in moved} == set("abcdef")
         await pilot.advance(1)
         assert [pilot.feedback.predicted(f"{name}:end") for name in "abcdef"] == [3.49] * 6
+
+
+async def test_moving_predictions_of_one_client_do_not_delay_those_of_another(tmp_path: Path) -> None:
+    human = tmp_path / "human.toml"
+    human.write_text("[character.alice]\n[limits]\npredicted_behaviors_per_second = 400\n")
+    waits = "".join(f'<wait id="w{i}" end="anticipators:test:hit"/>' for i in range(100))
+    async with open_pilot(SceneOptions(human, voice="text")) as pilot:
+        for i in range(5):
+            pilot.realizer.put(BmlText(block(f"many{i}", waits), "one"))
+        pilot.realizer.put(BmlText(block("few", NOD), "another"))
+        await pilot.advance(5)
+        for each in range(100):
+            pilot.predict("test", "hit", 7.0 + each / 100)
+            await pilot.tick()
+        times = [time for time in said_at(pilot, "few") if time > 5]
+        assert len(times) >= 10
+        assert sum(len([time for time in said_at(pilot, f"many{i}") if time > 5]) for i in range(5)) == 2
 
 
 async def test_changes_in_the_tick_in_which_a_block_starts_are_in_its_prediction(pilot: RealizerPilot) -> None:

@@ -14,7 +14,7 @@ WAIT = '<wait id="w" duration="1"/>'
 
 async def test_a_parsed_document_enters_as_it_was_parsed() -> None:
     async with open_pilot() as pilot:
-        pilot.realizer.put(BmlText("read before", parse(block("b", WAIT), pilot.realizer.limits)))
+        pilot.realizer.put(BmlText("read before", parsed=parse(block("b", WAIT), pilot.realizer.limits)))
         await pilot.advance(2)
         assert pilot.feedback.progress == ["b:start", "b:w:start", "b:w:end", "b:end"]
 

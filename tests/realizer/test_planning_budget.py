@@ -1,4 +1,4 @@
-"""Planning has a budget for each tick: what is left waits for the next tick, and no character waits for another one."""
+"""Planning has a budget for each tick: the rest waits, and no character or client waits for another one."""
 
 from collections.abc import AsyncIterator
 from pathlib import Path
@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
-from reactive_realizer.realizer.inputs import TickInputs
+from reactive_realizer.realizer.inputs import BmlText, TickInputs
 from reactive_realizer.realizer.session import replay
 from reactive_realizer.testing.pilot import RealizerPilot, block, open_pilot
 
@@ -72,6 +72,78 @@ async def test_a_small_block_of_another_character_does_not_wait_for_many_blocks(
     pilot.block("small", NOD, characterId="bob")
     await pilot.tick()
     assert pilot.feedback.time("small:start") == 0.0
+
+
+def send(pilot: RealizerPilot, client: str, name: str, inside: str = NOD, **attributes: str) -> None:
+    """Sends a block of a client."""
+    pilot.realizer.put(BmlText(block(name, inside, **attributes), client), pilot.now)
+
+
+async def test_a_small_block_of_another_client_does_not_wait_for_a_big_one(pilot: RealizerPilot) -> None:
+    send(pilot, "flooding", "big", chain(200))
+    await pilot.tick()
+    send(pilot, "quiet", "small")
+    await pilot.tick()
+    assert pilot.feedback.time("small:start") == 0.01
+    assert not pilot.feedback.reached("big:start")
+
+
+@pytest.mark.parametrize("others", ["alice", "alice bob"])
+async def test_a_small_block_of_another_client_does_not_wait_for_many_blocks(pilot: RealizerPilot, others: str) -> None:
+    for i in range(200):
+        for character in others.split():
+            send(pilot, "flooding", f"{character}{i}", characterId=character, composition="APPEND")
+    send(pilot, "quiet", "small", characterId="alice")
+    await pilot.tick()
+    assert pilot.feedback.time("small:start") == 0.0
+    assert pilot.realizer.scheduler.unplanned > 100
+
+
+async def test_a_block_that_names_one_of_another_client_waits_for_it_only(pilot: RealizerPilot) -> None:
+    for i in range(100):
+        send(pilot, "flooding", f"b{i}", '<wait id="w" duration="0.1"/>')
+    send(pilot, "quiet", "small", '<wait id="w" start="b1:w:end" duration="0.1"/>')
+    await pilot.tick()
+    assert pilot.feedback.reached("small:start")
+    assert pilot.realizer.scheduler.unplanned > 50
+    await pilot.advance(0.5)
+    assert pilot.feedback.time("small:w:start") == pilot.feedback.time("b1:w:end")
+    assert pilot.feedback.warnings == []
+
+
+async def test_a_replace_of_another_client_ends_everything_that_arrived_before_it(pilot: RealizerPilot) -> None:
+    for i in range(300):
+        send(pilot, "flooding", f"b{i}", loose(10))
+    send(pilot, "quiet", "last", composition="REPLACE")
+    await pilot.advance(0.5)
+    assert pilot.feedback.time("last:start") < 0.35
+    await pilot.advance(3)
+    assert pilot.feedback.status("b299") in ("REVOKED", "INTERRUPTED")
+    assert pilot.feedback.status("last") == "DONE"
+
+
+async def test_a_block_with_the_id_of_one_of_another_client_that_arrived_before_is_the_one_refused(
+    pilot: RealizerPilot,
+) -> None:
+    for i in range(50):
+        send(pilot, "flooding", f"b{i}", '<wait id="w" duration="9"/>')
+    send(pilot, "quiet", "b49", '<wait id="w" duration="1"/>')
+    await pilot.advance(2)
+    assert pilot.feedback.warnings == [("b49", "PARSING_FAILURE")]
+    assert not pilot.feedback.reached("b49:end")
+
+
+async def test_a_client_gets_as_many_blocks_as_are_left_for_others(tmp_path: Path) -> None:
+    human = tmp_path / "few.toml"
+    human.write_text(TWO.human.read_text() + "[limits]\nblocks_alive = 8\n")
+    async with open_pilot(SceneOptions(human, "text")) as pilot:
+        for client in ("first", "second", "third", ""):
+            for i in range(9):
+                send(pilot, client, f"{client}{i}", '<wait id="w" duration="9"/>')
+            await pilot.advance(0.5)
+        alive = [each.client for each in pilot.realizer.scheduler.blocks.alive]
+    assert [alive.count(client) for client in ("first", "second", "third", "")] == [5, 2, 1, 0]
+    assert "so the 3 that are left are for others" in "".join(pilot.feedback.raw)
 
 
 async def test_blocks_of_a_character_play_in_order_although_they_are_planned_in_several_ticks(

@@ -86,7 +86,7 @@ LIVES: dict[str, tuple[Sent, list[BlockEvent]]] = {
 def make_block() -> BMLBlock:
     (parsed,) = parse(bml("b"), Limits())
     assert parsed.block
-    return BMLBlock(PegBoard(Graph()), BlockKey("alice", "b"), parsed.block, 1, GlobalTime(0.0), ())
+    return BMLBlock(PegBoard(Graph()), BlockKey("alice", "b"), parsed.block, 1, GlobalTime(0.0), (), "")
 
 
 def path_to(state: BlockState) -> tuple[BlockEvent, ...]:

@@ -7,7 +7,7 @@ from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.audio import AudioClip, AudioGain, AudioMove, AudioStart, AudioStop
 from reactive_realizer.server import client_limits
 
-from .conftest import ALICE, OnAir, Open, report, wait
+from .conftest import ALICE, BML, XML, OnAir, Open, report, wait
 
 
 @pytest.fixture
@@ -201,6 +201,33 @@ async def test_clients_above_the_limit_are_refused(on_air: Open) -> None:
                 assert (await answer.json())["error"]["code"] == "too-many-clients"
         await one.raw.close()
         assert (await air.connect()).hello
+
+
+async def test_a_client_that_floods_a_character_does_not_delay_the_block_of_another_client(on_air: Open) -> None:
+    async with on_air() as air:
+        flooding, quiet = await air.connect(), await air.connect("?streams=feedback")
+        nods = "".join(f'<head id="h{i}" lexeme="NOD"/>' for i in range(20))
+        flood = "".join(f'<bml {BML} id="f{i}" composition="APPEND">{nods}</bml>' for i in range(500))
+        await flooding.ask(type="bml", xml=flood)
+        await air.tick()
+        assert (await quiet.ask(type="bml", xml=wait("small")))["blocks"] == ["small"]
+        await air.tick()
+        assert 'globalTime="0.01"' in (await quiet.hear_feedback('"small:start"'))["xml"]
+        assert air.live.realizer.scheduler.unplanned > 400
+
+
+async def test_a_client_that_has_half_of_the_blocks_leaves_the_others_to_other_clients(on_air: Open) -> None:
+    async with on_air(ALICE + "[limits]\nblocks_alive = 20\n") as air:
+        greedy, other = await air.connect(), await air.connect()
+        answers = [await greedy.ask(type="bml", xml=wait(f"g{i}", 9)) for i in range(12)]
+        assert [each["type"] for each in answers] == ["accepted"] * 11 + ["error"]
+        assert answers[-1]["code"] == "too-many-of-one"
+        assert (await other.ask(type="bml", xml=wait("small")))["type"] == "accepted"
+        async with air.client.post("/bml", data=wait("posted"), headers=XML) as answer:
+            assert answer.status == 202
+        await air.tick()
+        assert (await greedy.ask(type="bml", xml=wait("g12")))["code"] == "too-many-of-one"
+        assert not air.live.realizer.scheduler.refused
 
 
 async def test_all_clients_are_disconnected_when_the_server_ends(on_air: Open) -> None:

@@ -37,6 +37,7 @@ from reactive_realizer.server.recording_parts import RecordingParts
 
 INPUTS: list[Input] = [
     BmlText('<bml id="ü"/>'),
+    BmlText('<bml id="ü"/>', "192.0.2.7"),
     BmlText("a half of a pair: \ud800"),
     BmlText('<bml id="ü"/>'.encode()),
     BmlText('<?xml version="1.0" encoding="UTF-16"?><bml id="ü"/>'.encode("utf-16")),
@@ -183,7 +184,7 @@ def test_all_complete_ticks_of_a_truncated_file_are_read(read: Callable[[str | b
 
 
 GOOD = recorded(SESSION).splitlines()
-EVENT = '{"seq": 14, "tick": 10, "time": 0.1, "input": {"type": "event", "anticipator": "a", "event": "e"}}'
+EVENT = '{"seq": 15, "tick": 10, "time": 0.1, "input": {"type": "event", "anticipator": "a", "event": "e"}}'
 FORECAST = '{"tick": 9, "forecast": {"anticipator": "m", "sync": "tick1", "time": null}}'
 
 
