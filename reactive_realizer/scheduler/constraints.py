@@ -69,6 +69,8 @@ class ReferenceResolver:
         self._board = board
         self._blocks = blocks
         self._causes: dict[str, str] = {}
+        # What a reference names is found once: the block of the point may end, ticks later, while this one is planned.
+        self._outer: dict[SyncRef, TimeCell] = {}
 
     def drop_unplaceable(self) -> Generator[None, None, list[Loss]]:
         """Drop the behaviors with invalid references, those that depend on them, and so on; a behavior in each step."""
@@ -99,7 +101,9 @@ class ReferenceResolver:
             self._board.check_point(ref.behavior, ref.sync, str(ref))
             return self._block.predicted[ref.behavior, ref.sync]
         if ref.block not in (None, self._block.key.block):
-            return self._outside(ref)
+            if ref not in self._outer:
+                self._outer[ref] = self._outside(ref)
+            return self._outer[ref]
         if ref.behavior is None or ref.sync is None:
             return Origin.BLOCK_START
         unit = self.units.get(ref.behavior)

@@ -258,3 +258,18 @@ async def test_a_session_in_which_planning_is_spread_over_ticks_is_replayed_byte
     async with open_pilot(TWO) as pilot:
         await replay(pilot.realizer, session)
         assert pilot.feedback.raw == recorded
+
+
+@pytest.mark.parametrize("ticks", range(8, 18))
+async def test_a_block_may_be_interrupted_while_one_that_names_its_points_is_planned(
+    slow: RealizerPilot, ticks: int
+) -> None:
+    slow.block("named", '<wait id="w" duration="1"/>', characterId="bob")
+    await slow.advance(0.05)
+    slow.block("big", chain(22, first='start="named:w:end+0.5"'))
+    await slow.advance(ticks / 100)
+    slow.block("stop", characterId="bob", composition="REPLACE")
+    await slow.advance(4)
+    dropped = [text for text in slow.feedback.raw if "big:w0" in text and "has ended" in text]
+    assert slow.feedback.reached("big:w0:start") is not bool(dropped)
+    assert slow.feedback.status("big") == "DONE"
