@@ -131,6 +131,19 @@ def not_after_next(formula: Callable[..., Time], distance: float) -> Callable[..
     return bounded
 
 
+def not_before_previous(formula: Callable[..., Time], distance: float) -> Callable[..., Time]:
+    """The result of another formula for all times but the last, and no earlier than at a distance (s) from the last.
+
+    None while that result is unknown; an unknown last time has no effect.
+    """
+
+    def bounded(*times: Time) -> Time:
+        time, previous = formula(*times[:-1]), times[-1]
+        return time if time is None or previous is None else max(time, GlobalTime(previous + distance))
+
+    return bounded
+
+
 def not_earlier(formula: Callable[..., Time], earliest: GlobalTime) -> Callable[..., Time]:
     """The result of another formula, and not before a time if it is known."""
 

@@ -17,6 +17,7 @@ from reactive_realizer.pegboard.formulas import (
     not_after,
     not_after_next,
     not_before,
+    not_before_previous,
     not_earlier,
     shifted_by,
     unless_late,
@@ -51,17 +52,29 @@ class Link(NamedTuple):
     peg: weakref.ref[TimeCell]
 
 
+class Neighbor(NamedTuple):
+    """A peg before which another one is kept, or behind it.
+
+    Attributes:
+        distance: from it, s.
+        later: whether the other one does not come later than that; if not, it does not come earlier.
+    """
+
+    distance: float
+    later: bool
+
+
 class TimePeg(Derived[Time]):
     """A point in time that depends on others until it is pinned.
 
     Attributes:
         kind: name of its kind.
         why: text of the BML constraint that it was made for; None if there is none.
-        successors: distances (s) from the last dependencies, which only keep it from coming later than that.
+        neighbors: what its last dependencies are to it: they only keep it before them, or behind them.
         earliest: time before which it does not come, whatever it depends on; None if there is none.
     """
 
-    __slots__ = ("_cut_from", "earliest", "successors", "why")
+    __slots__ = ("_cut_from", "earliest", "neighbors", "why")
 
     kind: ClassVar[str]
 
@@ -70,7 +83,7 @@ class TimePeg(Derived[Time]):
     ) -> None:
         super().__init__(graph, name, dependencies, formula)
         self.why: str | None = None
-        self.successors: tuple[float, ...] = ()
+        self.neighbors: tuple[Neighbor, ...] = ()
         self.earliest: Time = None
         self._cut_from: tuple[Link, ...] = ()
 
@@ -90,9 +103,9 @@ class TimePeg(Derived[Time]):
         time = time_of(self)
         if time is not None and time == self.earliest:
             return ()
-        successors = zip(self._split_links[1], self.successors, strict=True)
-        overtaken_by = [link for link, distance in successors if link.time is not None and link.time + distance == time]
-        return tuple(overtaken_by[:1]) or self._deciding()
+        neighbors = zip(self._split_links[1], self.neighbors, strict=True)
+        kept_by = [link for link, each in neighbors if link.time is not None and link.time + each.distance == time]
+        return tuple(kept_by[:1]) or self._deciding()
 
     def keep_before(self, successor: "TimePeg", distance: float = 0.0) -> None:
         """Within a transaction, keep this peg from coming later than at a distance (s) from another one from now on.
@@ -103,7 +116,16 @@ class TimePeg(Derived[Time]):
             self.pin(None if successor.value is None else GlobalTime(successor.value + distance))
         else:
             self.rebind((*self.dependencies, successor), not_after_next(self.formula, distance))
-            self.successors += (distance,)
+            self.neighbors += (Neighbor(distance, later=True),)
+
+    def keep_behind(self, previous: "TimePeg", distance: float) -> None:
+        """Within a transaction, keep this peg from coming earlier than at a distance (s) from another one from now on.
+
+        The other one must not depend on this one. A pinned peg keeps its time.
+        """
+        if not self.pinned:
+            self.rebind((*self.dependencies, previous), not_before_previous(self.formula, distance))
+            self.neighbors += (Neighbor(distance, later=False),)
 
     def keep_after(self, time: GlobalTime) -> None:
         """Within a transaction, keep this peg from coming before a time from now on, unless it is pinned."""
@@ -136,28 +158,27 @@ class TimePeg(Derived[Time]):
 
     def describe(self) -> str:
         """The rule by which its time follows from its links, for people."""
-        own, successors = self._split_links
-        bounds = zip(successors, self.successors, strict=True)
-        names = (f"{link.name} {distance:+g} s" if distance else link.name for link, distance in bounds)
+        own, neighbors = self._split_links
         rule, formula = self._rule(own), self.formula
         if isinstance(formula, Later):
             rule += f" {formula.seconds:+g} s of drift"
-        rule = ", not after ".join([rule, *names])
+        for link, (distance, later) in zip(neighbors, self.neighbors, strict=True):
+            rule += f", not {'after' if later else 'before'} {link.name}" + (f" {distance:+g} s" if distance else "")
         return rule if self.earliest is None else f"{rule}, not before {self.earliest:g} s"
 
     @abstractmethod
     def _rule(self, links: Sequence[Link]) -> str:
-        """The rule without the successors."""
+        """The rule without the neighbors."""
 
     def _deciding(self) -> tuple[Link, ...]:
-        """The deciding links among those that are no successors."""
+        """The deciding links among those that are no neighbors."""
         return self._split_links[0]
 
     @property
     def _split_links(self) -> tuple[tuple[Link, ...], tuple[Link, ...]]:
-        """The links without the successors, and the successors."""
+        """The links without the neighbors, and the neighbors."""
         links = self.links
-        count = len(links) - len(self.successors)
+        count = len(links) - len(self.neighbors)
         return links[:count], links[count:]
 
 

@@ -72,14 +72,18 @@ class _Later(NamedTuple):
     """A later point, as earlier ones see it: they come no later than at a distance (s) from it."""
 
     latest: GlobalTime
-    peg: TimePeg
+    point: SyncPoint
     distance: float
 
     def ahead(self, need: float) -> "_Later":
         """The same point, as seen from before a phase that needs some time (s); a pinned one cannot wait for that."""
-        if self.peg.pinned:
+        if self.point.peg.pinned:
             return self
-        return _Later(GlobalTime(self.latest - need), self.peg, self.distance - need) if need else self
+        return _Later(GlobalTime(self.latest - need), self.point, self.distance - need) if need else self
+
+    def yields_to(self, peg: TimePeg) -> bool:
+        """Whether it can wait for a peg: it moves with that, and no constraint names it."""
+        return not self.point.tied and self.point.peg.depends_on(peg)
 
 
 class DuePoint(NamedTuple):
@@ -321,7 +325,7 @@ class PlanUnit:
         """Within a transaction, keep each point that has not fired in time for later ones; whether any was not.
 
         A point that a later one overtook, or left less time than the body needs, moves with that, for as long as it is
-        so early.
+        so early. But later points that only follow it, because no constraint names them, wait for it.
 
         Args:
             part: called with each point before its peg is changed.
@@ -341,13 +345,19 @@ class PlanUnit:
                 continue
             if time > soonest + RESOLUTION:
                 overtaking = [each for each in later if time > each.latest + RESOLUTION]
+                firm = [each for each in overtaking if not each.yields_to(point.peg)]
+                if not firm:
+                    for each in {each.point.peg: each for each in overtaking}.values():
+                        part(each.point)
+                        each.point.peg.keep_behind(point.peg, -each.distance)
+                    return True
                 # Points between the two may depend on both; only one that does not depend on this one can hold it.
-                independent = [each for each in overtaking if not each.peg.depends_on(point.peg)]
-                successor = min(independent or overtaking, key=lambda each: each.latest)
+                independent = [each for each in firm if not each.point.peg.depends_on(point.peg)]
+                successor = min(independent or firm, key=lambda each: each.latest)
                 part(point)
-                point.peg.keep_before(successor.peg, successor.distance)
+                point.peg.keep_before(successor.point.peg, successor.distance)
                 time, moved = successor.latest, True
-            later.append(_Later(time, point.peg, 0.0))
+            later.append(_Later(time, point, 0.0))
             soonest = min(soonest, time)
         return moved
 

@@ -181,6 +181,21 @@ async def test_a_stroke_that_waits_for_its_hand_follows_a_prediction_that_is_lat
     assert pilot.feedback.time("b:g:stroke") == pilot.feedback.time("b:n:stroke") == 1.9
 
 
+async def test_a_stroke_between_tied_points_waits_for_a_ready_that_a_prediction_makes_late(
+    any_strategy: RealizerPilot,
+) -> None:
+    any_strategy.block(
+        "b", '<gesture id="g" lexeme="BEAT" mode="RIGHT_HAND" ready="anticipators:t:go" end="anticipators:t:stop"/>'
+    )
+    any_strategy.predict("t", "stop", 1.14)
+    await any_strategy.advance(0.05)
+    any_strategy.predict("t", "go", 0.73)
+    await any_strategy.advance(2)
+    assert any_strategy.feedback.warnings == []
+    times = {sync: any_strategy.feedback.time(f"b:g:{sync}") for sync in ("ready", "stroke", "strokeEnd", "end")}
+    assert times == pytest.approx({"ready": 0.73, "stroke": 0.9005, "strokeEnd": 0.958, "end": 1.14}, abs=1e-3)
+
+
 async def test_a_word_does_not_wait_for_a_hand_that_is_late(pilot: RealizerPilot) -> None:
     pilot.predict("t", "hit", 3.0)
     pilot.block(

@@ -277,3 +277,26 @@ def test_a_peg_can_be_kept_at_a_distance_before_another_one(graph: Graph) -> Non
     assert ready.value == 1.75
     assert ready.describe() == "hit +0 s, not after stroke -0.25 s"
     assert [link.name for link in ready.deciding] == ["stroke"]
+
+
+def test_a_peg_that_is_kept_behind_another_one_moves_with_it_while_that_is_late(graph: Graph) -> None:
+    hit, end = AnticipatorPeg(graph, "hit", GlobalTime(1.0)), AnticipatorPeg(graph, "end", GlobalTime(2.0))
+    ready = OffsetPeg(graph, "ready", hit, 0.0)
+    stroke = RatioPeg(graph, "stroke", ready, end, 0.25)
+    with graph.transaction("test"):
+        stroke.keep_behind(ready, 0.5)
+    assert stroke.value == 1.5
+    assert stroke.describe() == "0.25 of the way ready .. end, not before ready +0.5 s"
+    assert [link.name for link in stroke.deciding] == ["ready"]
+    with graph.transaction("test"):
+        end.set(GlobalTime(5.0))
+    assert stroke.value == 2.0
+
+
+def test_a_pinned_peg_is_not_kept_behind_another_one(graph: Graph) -> None:
+    ready = OffsetPeg(graph, "ready", AnticipatorPeg(graph, "hit", GlobalTime(1.0)), 0.0)
+    stroke = OffsetPeg(graph, "stroke", ready, 0.0)
+    with graph.transaction("test"):
+        stroke.pin(GlobalTime(1.0))
+        stroke.keep_behind(ready, 0.5)
+    assert stroke.value == 1.0

@@ -97,6 +97,7 @@ def test_a_point_is_overtaken_by_one_that_depends_on_it_too() -> None:
     limit = AnticipatorPeg(unit.graph, "limit", GlobalTime(8.0))
     natural = OffsetPeg(unit.graph, "natural", unit.point("stroke").peg, 1.0)
     unit.point("end").peg = BeforePeg(unit.graph, "end", natural, [(limit, 0.0)])
+    unit.point("end").tied = True
     unit.sources["limit"] = limit
     unit.move("limit", 1.5)
     assert (unit.time("stroke"), unit.time("end")) == (1.5, 1.5)
