@@ -5,6 +5,8 @@ from dataclasses import dataclass
 from random import Random
 from typing import TypeVar
 
+from reactive_realizer.bml.names import BML
+from reactive_realizer.limits import Limits
 from reactive_realizer.testing.pilot import RealizerPilot, block
 
 CHARACTERS = ("alice", "bob", "carol")
@@ -34,6 +36,10 @@ _BEHAVIORS = {
     '<pointing id="{id}" target="bluebox"{ties}/>': ("start", "ready", "relax", "end"),
     '<gaze id="{id}" target="bluebox"{ties}/>': ("start", "ready", "relax", "end"),
     '<gazeShift id="{id}" target="bluebox"{ties}/>': ("start", "end"),
+    '<postureShift id="{id}"{ties}><stance type="STANDING"/><pose part="ARMS" lexeme="ARMS_CROSSED"/></postureShift>': (
+        "start",
+        "end",
+    ),
     '<faceLexeme id="{id}" lexeme="RAISE_BROWS"{ties}/>': ("start", "attackPeak", "end"),
     '<wait id="{id}" duration="0.4"{ties}/>': ("start", "end"),
     '<wait id="{id}" max-wait="0.8"{ties}/>': ("start", "end"),
@@ -52,6 +58,7 @@ _BEHAVIORS = {
 }
 """The behaviors, each with the points of it that may be tied."""
 
+_PLANNING = Limits().planning_per_tick
 _IDS = ("p", "q", "r", "s")
 _SIZES = (0, 1, 1, 2, 2, 3, 4)
 _REMOTE = ("hit", "go")
@@ -69,6 +76,8 @@ _AHEAD = (None, -0.5, -0.03, 0.0, 0.05, 0.2, 0.5, 1.0, 2.0)
 _COMPOSITIONS = ("MERGE",) * 6 + ("APPEND",) * 3 + ("REPLACE",)
 _DISTANCES = (1, 1, 1, 2, 2, 3, 4, -1, -2)
 """How many blocks ago the other block of a reference was sent."""
+_OWN_POINTS = ("ready", "strokeStart", "stroke", "strokeEnd")
+"""Sync points that a block may define."""
 _JOINS = ("appendAfter", "chunkAfter", "prependBefore", "chunkBefore", "interrupt", "onStart")
 
 
@@ -79,15 +88,20 @@ class Block:
     Attributes:
         attributes: of BML and of BMLA, by name.
         parts: its behaviors and constraints.
+        draft: whether it is written in a draft of BML, in which a gaze without an end persists.
     """
 
     id: str
     attributes: dict[str, str]
     parts: tuple[str, ...]
+    draft: bool = False
 
     def send(self, pilot: RealizerPilot) -> None:
         """Send it."""
-        pilot.perform(block(self.id, "".join(self.parts), **self.attributes))
+        text = block(self.id, "".join(self.parts), **self.attributes)
+        if self.draft:
+            text = text.replace(f' xmlns="{BML}"', ' bmlt:allowexternalrefs="true"')
+        pilot.perform(text)
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,9 +149,14 @@ class Step:
 
 @dataclass(frozen=True, slots=True)
 class Session:
-    """The inputs of a session in order."""
+    """The inputs of a session in order.
+
+    Attributes:
+        planning: work of planning in a tick, as in the limits; with little, blocks are planned over many ticks.
+    """
 
     steps: tuple[Step, ...]
+    planning: int = _PLANNING
 
     @property
     def blocks(self) -> int:
@@ -169,7 +188,9 @@ class _Mix:
         self.events = some(_EVENTS)
         self.ahead = some(_AHEAD)
         self.moving = random.choice((0.2, 0.35, 0.75))
-        self.joined, self.preplanned, self.required = (random.choice((0.0, 0.15, 0.4)) for _ in range(3))
+        shares = (random.choice((0.0, 0.15, 0.4)) for _ in range(5))
+        self.joined, self.preplanned, self.required, self.draft, self.own_points = shares
+        self.planning = random.choice((_PLANNING,) * 2 + (200, 20))
 
 
 def random_session(random: Random, blocks: int = 25) -> Session:
@@ -188,7 +209,7 @@ def random_session(random: Random, blocks: int = 25) -> Session:
         steps.append(
             Step(random.choice(mix.pauses), random.choice(mix.left_out), _BlockDraw(random, mix, kinds).block())
         )
-    return Session(tuple(steps))
+    return Session(tuple(steps), mix.planning)
 
 
 class _BlockDraw:
@@ -216,7 +237,7 @@ class _BlockDraw:
         parts += [self._constraint() for _ in range(random.choice((0, 0, 0, 1, 2)) if own else 0)]
         if random.random() < self._mix.required:
             parts = [f"<required>{part}</required>" for part in parts]
-        return Block(f"b{number}", self._attributes(), tuple(parts))
+        return Block(f"b{number}", self._attributes(), tuple(parts), random.random() < self._mix.draft)
 
     def _attributes(self) -> dict[str, str]:
         random = self._random
@@ -231,6 +252,8 @@ class _BlockDraw:
             attributes["bmla:preplan"] = "true"
         if random.random() < 0.05:
             attributes["start"] = self._outside() + random.choice(self._mix.offsets)
+        if (own := self._kinds[-1]) and random.random() < self._mix.own_points:
+            attributes[random.choice(_OWN_POINTS)] = self._point(own, random.choice([*own]))
         return attributes
 
     def _behavior(self, id_: str, kind: str) -> str:
@@ -265,7 +288,7 @@ class _BlockDraw:
         number = self._other_number()
         kinds = self._kinds[number] if number < len(self._kinds) else {}
         if not kinds or random.random() < 0.3:
-            return f"b{number}:{random.choice(('start', 'relax', 'end'))}"
+            return f"b{number}:{random.choice(('start', 'relax', 'end', 'ready', 'stroke'))}"
         return f"b{number}:{self._point(kinds, random.choice([*kinds]))}"
 
     def _other(self) -> str:

@@ -3,6 +3,7 @@
 import logging
 from collections.abc import Iterator
 from contextlib import contextmanager
+from itertools import pairwise
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import NamedTuple
@@ -13,8 +14,10 @@ from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.feedback.feedback_manager import Report
 from reactive_realizer.feedback.messages import BlockProgress, PredictionFeedback, SyncPointProgress, WarningFeedback
 from reactive_realizer.pegboard.peg_key import BlockKey
-from reactive_realizer.planunit.timing import OPEN
+from reactive_realizer.planunit.plan_unit import PlanUnit
+from reactive_realizer.planunit.timing import OPEN, SHORTEST, PhaseKind
 from reactive_realizer.realizer import verifier
+from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 from reactive_realizer.testing.random_session import HUMAN, Session
 
@@ -33,6 +36,9 @@ LAWS = {
 _TICK, _ROUNDING = 1.0 / RATE, 2e-6
 _LONGEST = 120.0
 """Time after the last input in which a session comes to rest, s."""
+
+_SLOWEST_TICKS = 100
+"""Ticks in which a REPLACE of each character is planned, however little is planned in each."""
 
 
 class Breach(NamedTuple):
@@ -65,6 +71,8 @@ class SessionLaws:
         self.ended = 0
         self.tick = _TICK
         self._playing: dict[BlockKey, _Told] = {}
+        self._early: dict[tuple[BlockKey, str, str], str] = {}
+        """What came earlier than predicted, or without a prediction, and is allowed if it was cut."""
         self._predicted: dict[BlockKey, list[tuple[GlobalTime, PredictionFeedback]]] = {}
         """The last prediction of each block, and those before it in the same tick: an id may be used again in it."""
 
@@ -85,6 +93,19 @@ class SessionLaws:
             self._check_point(now, message)
         elif isinstance(message, WarningFeedback) and "; thesis " in message.text:
             self.note("equation", now, f"{message.id}: {message.text}")
+
+    def check_units(self, block: BMLBlock) -> None:
+        """Check the times of the behaviors of a block that ended; only what was cut may have come early."""
+        now = GlobalTime(0.0) if block.end.value is None else block.end.value
+        for unit in block.units:
+            for point in unit.points:
+                early = self._early.get((block.key, unit.behavior.id, point.id))
+                if early is not None and not point.cut:
+                    self.note("prediction", now, early)
+            if all(point.fired and not point.cut for point in unit.points):
+                for text in _wrong_durations(unit):
+                    self.note("equation", now, f"{block.key.block}: {text}")
+        self._early = {key: text for key, text in self._early.items() if key[0] != block.key}
 
     def note(self, law: str, time: float, text: str) -> None:
         """Note a breach."""
@@ -134,13 +155,13 @@ class SessionLaws:
     def _check_prediction(self, now: GlobalTime, progress: BlockProgress | SyncPointProgress, name: str) -> None:
         predictions = self._predicted.get(BlockKey(progress.character, progress.block), ())
         times = [time for _, each in predictions if (time := _predicted_time(each, progress)) is not None]
-        may_be_cut = progress.sync in OPEN
-        if not times and not may_be_cut:
-            self.note("prediction", now, f"{name} was not predicted")
-        elif times and not any(
-            abs(progress.time - time) <= _TICK + _ROUNDING or (may_be_cut and progress.time < time) for time in times
-        ):
-            self.note("prediction", now, f"{name} at {progress.time:g} was predicted at {times[-1]:g}")
+        if any(abs(progress.time - time) <= _TICK + _ROUNDING for time in times):
+            return
+        text = f"{name} at {progress.time:g} was predicted at {times[-1]:g}" if times else f"{name} was not predicted"
+        if progress.sync not in OPEN or any(progress.time > time for time in times):
+            self.note("prediction", now, text)
+        elif isinstance(progress, SyncPointProgress):
+            self._early[BlockKey(progress.character, progress.block), progress.behavior, progress.sync] = text
 
 
 def _predicted_time(prediction: PredictionFeedback, progress: BlockProgress | SyncPointProgress) -> float | None:
@@ -152,12 +173,29 @@ def _predicted_time(prediction: PredictionFeedback, progress: BlockProgress | Sy
     return None if local is None else prediction.start + local
 
 
+def _wrong_durations(unit: PlanUnit) -> Iterator[str]:
+    """The durations of a behavior that has ended which break the equations 7.14, 7.15 or 7.1.4 of the thesis."""
+    if unit.timing.waits:
+        return
+    timing, id_ = unit.timing.closed, unit.behavior.id
+    times = [point.peg.value or GlobalTime(0.0) for point in unit.points]
+    if not timing.instant and times[-1] - times[0] < SHORTEST - _ROUNDING:
+        yield f"{id_} took no time"
+    for point, phase, (time, after) in zip(unit.points, timing.phases, pairwise(times), strict=False):
+        took = after - time
+        if took < -_ROUNDING:
+            yield f"{id_}:{point.id} came at {time:g}, after the next point at {after:g}"
+        if phase.kind is PhaseKind.RIGID and abs(took - phase.duration) > _ROUNDING:
+            yield f"{id_} took {took:g} s from {point.id}, not {phase.duration:g} s, although it is rigid"
+
+
 async def examine(session: Session, strategy: str) -> SessionLaws:
     """Play a session without frames, until nothing can happen any more, and check the laws."""
     laws = SessionLaws()
-    with _human_file() as human, _logged_errors(laws):
+    with _human_file(session) as human, _logged_errors(laws):
         async with open_pilot(SceneOptions(human, "text", strategy=strategy, verify=True)) as pilot:
             pilot.realizer.feedback.listen(laws)
+            pilot.realizer.scheduler.listen(laws.check_units)
             try:
                 for step in session.steps:
                     await pilot.advance(step.pause)
@@ -190,16 +228,19 @@ async def _rest(pilot: RealizerPilot, laws: SessionLaws) -> None:
                 laws.note("unnamed", pilot.now, f"{each.key.block} is {each.state.value}")
     for character in pilot.realizer.characters:
         pilot.block("last", characterId=character, composition="REPLACE")
-    await pilot.advance(0.02)
+    await pilot.tick()
+    for _ in range(_SLOWEST_TICKS):
+        if scheduler.blocks.alive or scheduler.entering:
+            await pilot.tick()
     for each in scheduler.blocks.alive:
         laws.note("endless", pilot.now, f"{each.key.block} outlives a REPLACE")
 
 
 @contextmanager
-def _human_file() -> Iterator[Path]:
+def _human_file(session: Session) -> Iterator[Path]:
     with TemporaryDirectory() as folder:
         human = Path(folder, "three.toml")
-        human.write_text(HUMAN, encoding="utf-8")
+        human.write_text(f"{HUMAN}[limits]\nplanning_per_tick = {session.planning}\n", encoding="utf-8")
         yield human
 
 

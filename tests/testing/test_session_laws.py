@@ -1,5 +1,8 @@
 """The laws of any session: feedback that keeps them passes, and each breach is noted with its law."""
 
+from types import SimpleNamespace
+from typing import cast
+
 import pytest
 
 from reactive_realizer.bml.document import parse
@@ -15,6 +18,12 @@ from reactive_realizer.feedback.messages import (
     WarningFeedback,
 )
 from reactive_realizer.limits import Limits
+from reactive_realizer.pegboard.peg_key import BlockKey
+from reactive_realizer.pegboard.time_peg import AnticipatorPeg, OffsetPeg
+from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
+from reactive_realizer.planunit.timing import PhaseKind, timing_at
+from reactive_realizer.reactive.graph import Graph
+from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.testing.pilot import block
 from reactive_realizer.testing.session_laws import SessionLaws
 
@@ -71,3 +80,41 @@ def test_a_behavior_that_is_cut_may_end_earlier_than_predicted() -> None:
 )
 def test_a_breach_is_noted_with_its_law(law: str, told: list[tuple[float, Feedback]]) -> None:
     assert law in broken(*told)
+
+
+def ended(*, cut: bool = False, kind: PhaseKind = PhaseKind.ELASTIC, **times: float) -> BMLBlock:
+    """A block whose behavior has ended with points at some times; it preferred a second for each phase."""
+    graph, key = Graph(), BlockKey("c", "b")
+    unit = PlanUnit(key, WAIT, timing_at({sync: float(i) for i, sync in enumerate(times)}, kind))
+    for sync, time in times.items():
+        peg = OffsetPeg(graph, sync, AnticipatorPeg(graph, sync, GlobalTime(time)), 0.0)
+        unit.points.append(SyncPoint(sync, peg, fired=True, cut=cut and sync == "end"))
+    return cast("BMLBlock", SimpleNamespace(key=key, units=[unit], end=unit.points[-1].peg))
+
+
+def broken_at_end(block: BMLBlock, *told: tuple[float, Feedback]) -> list[str]:
+    laws = SessionLaws()
+    for now, message in told:
+        laws(Report(GlobalTime(now), message))
+    laws.check_units(block)
+    return [breach.law for breach in laws.breaches]
+
+
+@pytest.mark.parametrize(("cut", "laws"), [(True, []), (False, ["prediction"])])
+def test_only_a_behavior_that_is_cut_may_end_earlier_than_predicted(cut: bool, laws: list[str]) -> None:
+    assert broken_at_end(ended(start=0.0, end=0.5, cut=cut), *BEGUN, (0.5, point("end", 0.5))) == laws
+
+
+@pytest.mark.parametrize(
+    ("block", "laws"),
+    [
+        (ended(start=0.0, end=0.8), []),
+        (ended(start=0.0, end=0.0), ["equation"]),
+        (ended(start=0.0, stroke=0.9, end=0.8), ["equation"]),
+        (ended(start=0.0, end=0.8, kind=PhaseKind.RIGID), ["equation"]),
+        (ended(start=0.0, end=1.0, kind=PhaseKind.RIGID), []),
+        (ended(start=0.0, end=0.8, kind=PhaseKind.RIGID, cut=True), []),
+    ],
+)
+def test_the_durations_of_a_behavior_are_checked_when_its_block_has_ended(block: BMLBlock, laws: list[str]) -> None:
+    assert broken_at_end(block) == laws
