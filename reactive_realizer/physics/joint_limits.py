@@ -1,13 +1,11 @@
 """Springs that keep physical joints within the limits of table 3.2 of the thesis."""
 
 import math
-from collections.abc import Sequence
 
-import mujoco
-import numpy as np
-
-from reactive_realizer.physics.rotations import Array, lengths, long_way, swing_and_twist, turned_about_y
-from reactive_realizer.physics.segments import LIMITS
+from reactive_realizer.embodiment.quaternion import Quat
+from reactive_realizer.embodiment.vector import ZERO, Vec3, length, scale
+from reactive_realizer.physics.rotations import SwingTwist, swing_and_twist, turned_about_y
+from reactive_realizer.physics.segments import JointLimits
 
 _FREQUENCY = 60.0
 """Angular frequency at which a joint beyond a limit would swing about it without damping, rad/s."""
@@ -19,8 +17,8 @@ _YIELDING = 0.3
 """Time constant with which bounds return that yielded to the pose of an animation, s."""
 
 
-class LimitSprings:
-    """Springs at the limits of ball joints, which MuJoCo's limits of ball joints, a single angle, cannot express.
+class LimitSpring:
+    """A spring at the limits of a ball joint, which MuJoCo's limit of a ball joint, a single angle, cannot express.
 
     A rotation is a twist about the long axis of the segment, y, followed by a swing about an axis in the x-z plane. The
     twist and both components of the swing have bounds of their own. (Components of the rotation vector as a whole would
@@ -32,52 +30,63 @@ class LimitSprings:
     Animations may turn joints beyond these bounds. The bounds yield to the first pose, and return gradually.
 
     Args:
-        model: whose joints are named after the segments.
-        inertia: that turns about each degree of freedom, kg m^2, (nv,).
-        names: of the ball joints that are limited.
-        first: generalized coordinates of the first pose, (nq,).
+        limits: of the joint.
+        inertia: that turns about its axes, kg m^2.
+        first: rotation at first.
     """
 
-    def __init__(self, model: mujoco.MjModel, inertia: Array, names: Sequence[str], first: Array) -> None:
-        joints = [model.joint(name) for name in names]
-        self._positions = np.array([joint.qposadr[0] + np.arange(4) for joint in joints], dtype=np.intp)
-        self._degrees = np.array([joint.dofadr[0] + np.arange(3) for joint in joints], dtype=np.intp)
-        self._lowest = np.radians([LIMITS[name].lowest for name in names])
-        self._highest = np.radians([LIMITS[name].highest for name in names])
-        self._inertia = inertia[self._degrees]
-        self._slack = np.zeros_like(self._lowest)
-        if self._degrees.size:
-            self._slack = self._beyond(*swing_and_twist(first[self._positions]))
+    def __init__(self, limits: JointLimits, inertia: Vec3, first: Quat) -> None:
+        lowest, highest = (tuple(map(math.radians, bounds)) for bounds in (limits.lowest, limits.highest))
+        self._bounds = (*zip(lowest, highest, strict=True),)
+        self._inertia = inertia
+        self._slack = ZERO
+        self._slack = self._beyond(swing_and_twist(first))
 
-    def act(self, data: mujoco.MjData, period: float, torques: Array, damping: Array) -> None:
-        """Add the torques, Nm, and the damping, Nms, of the springs in a state to arrays, (nv,).
+    def act(self, rotation: Quat, period: float, first: int, torques: list[float], damping: list[float]) -> None:
+        """Add the torques, Nm, and the damping, Nms, of the spring to those of degrees of freedom.
 
         Args:
-            data: the state.
+            rotation: of the joint.
             period: for which the torques stay, s.
-            torques: on the degrees of freedom.
-            damping: of the degrees of freedom.
+            first: index of the first of the joint's degrees of freedom.
+            torques: on all degrees of freedom, (nv,).
+            damping: of all degrees of freedom, (nv,).
         """
-        if self._degrees.size:
-            self._slack *= math.exp(-period / _YIELDING)
-            swings, twists = swing_and_twist(data.qpos[self._positions])
-            beyond = self._beyond(swings, twists)
-            stiffness = self._inertia * _FREQUENCY**2
-            torques[self._degrees] -= stiffness * turned_about_y(beyond, -twists[:, 1])
-            damping[self._degrees] += (beyond != 0.0) * (stiffness * period + _DAMPED * _FREQUENCY * self._inertia)
+        if self._slack != ZERO:
+            self._slack = scale(self._slack, math.exp(-period / _YIELDING))
+        parts = swing_and_twist(rotation)
+        beyond = self._beyond(parts)
+        if beyond == ZERO:
+            return
+        pulls = turned_about_y(beyond, -parts.twist)
+        for degree, (pull, over, inertia) in enumerate(zip(pulls, beyond, self._inertia, strict=True), first):
+            stiffness = inertia * _FREQUENCY**2
+            torques[degree] -= stiffness * pull
+            if over:
+                damping[degree] += stiffness * period + _DAMPED * _FREQUENCY * inertia
 
-    def _beyond(self, swings: Array, twists: Array) -> Array:
-        """Return how far rotations are beyond the bounds, rad, in the axes after their twist, (N, 3).
+    def _beyond(self, parts: SwingTwist) -> Vec3:
+        """Return how far a rotation is beyond the bounds, rad, in the axes after its twist.
 
         Of the two swings that give a rotation, one the long way round, the one nearer to the bounds counts: shoulders
-        turn by more than half a turn.
+        turn by more than half a turn. No bounds are nearer to the long way round of a swing by less than a quarter.
         """
-        lowest, highest = self._lowest + self._slack.clip(max=0.0), self._highest + self._slack.clip(min=0.0)
-        vectors = swings + twists
-        near: Array = vectors - vectors.clip(lowest, highest)
-        if not near.any():
+        near = self._outside(parts)
+        if near == ZERO or math.hypot(parts.x, parts.z) < math.pi / 2.0:
             return near
-        vectors = long_way(swings) + twists
-        far = vectors - vectors.clip(lowest, highest)
-        nearer: Array = np.where(lengths(near) <= lengths(far), near, far)
-        return nearer
+        far = self._outside(parts.long_way())
+        return near if length(near) <= length(far) else far
+
+    def _outside(self, parts: SwingTwist) -> Vec3:
+        x, y, z = map(_outside, parts, self._bounds, self._slack)
+        return (x, y, z)
+
+
+def _outside(value: float, bounds: tuple[float, float], slack: float) -> float:
+    """Return how far a value is outside of bounds, of which the one in the direction of the slack yields by it."""
+    low, high = bounds
+    if value < low:
+        return min(value - low - min(slack, 0.0), 0.0)
+    if value > high:
+        return max(value - high - max(slack, 0.0), 0.0)
+    return 0.0

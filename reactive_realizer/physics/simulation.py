@@ -10,13 +10,13 @@ from numpy.typing import NDArray
 
 from reactive_realizer.embodiment.body import Body, Skeleton
 from reactive_realizer.embodiment.joints import ROOT, SIDES
-from reactive_realizer.embodiment.quaternion import Quat, conjugate, multiply, rotate
-from reactive_realizer.embodiment.vector import Vec3, add, subtract
+from reactive_realizer.embodiment.quaternion import Quat, conjugate, difference, multiply, rotate, rotation_vector
+from reactive_realizer.embodiment.vector import Vec3, add, scale, subtract
 from reactive_realizer.physics.controllers.controller import Controller
-from reactive_realizer.physics.joint_limits import LimitSprings
+from reactive_realizer.physics.joint_limits import LimitSpring
+from reactive_realizer.physics.links import Links
 from reactive_realizer.physics.mjcf import TO_WORLD, inertia, mjcf
-from reactive_realizer.physics.rotations import turns
-from reactive_realizer.physics.segments import SEGMENTS
+from reactive_realizer.physics.segments import LIMITS
 from reactive_realizer.physics.static_friction import StaticFriction
 
 logger = logging.getLogger(__name__)
@@ -39,8 +39,8 @@ _FASTEST = 1000.0
 _LYING = 0.5
 """Height of the center of mass of a figure that has fallen, in multiples of its height when it stands."""
 
-_CONTROL = 4
-"""Number of steps for which the torques of springs and controllers stay."""
+_PERIOD = 0.01
+"""Time for which the torques of springs and controllers stay, s: a tick. Loose limbs are unstable at twice this."""
 
 FEET = tuple(f"{side}_ankle" for side in SIDES)
 
@@ -68,6 +68,9 @@ class Simulation:
         data: of MuJoCo.
         mass: of the figure, kg.
         inertia: that turns about each degree of freedom in the default pose, kg m^2, or kg, (nv,).
+        substep: time of a step, s.
+        period: time for which the torques of springs and controllers stay, s.
+        touching: indices of the geoms that touch, at the beginning of the present period.
         reaction: factor of what moving kinematic limbs exert on the physical segments to which they are attached, apart
             from their weight (k of thesis 3.1). It is 1 unless a controller sets it, in each period anew.
     """
@@ -91,16 +94,17 @@ class Simulation:
         self.data = mujoco.MjData(self.model)
         self.joints = tuple(self.model.joint(index).name for index in range(self.model.njnt))
         self._skeleton = skeleton
-        self.inertia = inertia(self.model)
-        self._greatest = self.inertia.copy()
-        self._greatest[6:] = self.inertia[6:].reshape(-1, 3).max(axis=1).repeat(3)
-        self._links = {joint: _Links(skeleton, joint) for joint in self.joints}
+        self.inertia: Sequence[float] = inertia(self.model).tolist()
+        self.substep = substep
+        self.period = max(1, round(_PERIOD / substep)) * substep
+        self.touching: Collection[int] = ()
+        self._links = {joint: Links(skeleton, joint) for joint in self.joints}
         addresses = zip(self.joints, self.model.jnt_qposadr.tolist(), self.model.jnt_dofadr.tolist(), strict=True)
         self._addresses = {joint: (position, degree) for joint, position, degree in addresses}
-        self._damping, self._limited = self.model.dof_damping.copy(), self.model.jnt_limited.copy()
-        self._wanted = self.data.qpos.copy()
-        self._speeds, self._jacobian = np.zeros(self.model.nv), np.zeros((3, self.model.nv))
-        self._known_indices: dict[tuple[str, ...], tuple[NDArray[np.intp], NDArray[np.intp]]] = {}
+        self._damping, self._limited = self.model.dof_damping.tolist(), self.model.jnt_limited.copy()
+        self._wanted, self._present = self.data.qpos.copy(), self.data.qpos.tolist()
+        self._speeds, self._pressed = np.zeros(self.model.nv), np.zeros(self.model.nv)
+        self._jacobian, self._untwisted = np.zeros((3, self.model.nv)), np.zeros(3)
         self._bodies = {joint: int(self.model.body(joint).id) for joint in self.joints}
         self._friction = StaticFriction(self.model, [self._bodies[foot] for foot in FEET if foot in self._bodies])
         self._pushes: list[_Push] = []
@@ -131,23 +135,16 @@ class Simulation:
         parents = ((self._bodies[joint], int(self.model.body_parentid[self._bodies[joint]])) for joint in joints)
         moved = {self._bodies[joint] for joint in self.joints if joint not in joints}
         self._limbs = [(limb, parent) for limb, parent in sorted(parents) if parent in moved]
-        loose = [joint for joint in self.joints if joint not in joints and joint != ROOT]
-        self._limits = LimitSprings(self.model, self.inertia, loose, self.data.qpos)
+        self._limits = {
+            joint: LimitSpring(LIMITS[joint], self._about(joint), self.rotation(joint))
+            for joint in self.joints
+            if joint not in joints and joint != ROOT
+        }
         model = self.model
         model.dof_armature[:], model.jnt_limited[:] = 0.0, self._limited
         model.dof_armature[self._degrees] = _ARMATURE
         for joint in self._kinematic:
             model.joint(joint).limited = 0
-
-    @property
-    def period(self) -> float:
-        """The time for which the torques of springs and controllers stay, s."""
-        return _CONTROL * self.substep
-
-    @property
-    def substep(self) -> float:
-        """The time of a step, s."""
-        return float(self.model.opt.timestep)
 
     def segments(self, joints: Iterable[str]) -> frozenset[str]:
         """Return the joints of the segments that any of some joints turns."""
@@ -163,6 +160,11 @@ class Simulation:
         """Return the slice of a joint's generalized coordinates: w x y z, of the root x y z before them."""
         first, _ = self._addresses[joint]
         return slice(first, first + (7 if joint == ROOT else 4))
+
+    def _about(self, joint: str) -> Vec3:
+        """Return the inertia that turns about the axes of a ball joint in the default pose, kg m^2."""
+        x, y, z = self.inertia[self.degrees(joint)]
+        return (x, y, z)
 
     def place(self, body: Body) -> None:
         """Put all joints at rest in the pose of a body."""
@@ -189,41 +191,58 @@ class Simulation:
         Raises:
             Exploded: it cannot go on.
         """
-        model, data, time = self.model, self.data, self.model.opt.timestep
+        model, data = self.model, self.data
         wanted = self._coordinates(body, self._kinematic)
         self._wanted[self._positions] = wanted
         # MuJoCo's semi-implicit Euler integrator ends at the wanted positions with these velocities.
-        mujoco.mj_differentiatePos(model, self._speeds, steps * time, data.qpos, self._wanted)
-        for done in range(0, steps, _CONTROL):
-            self._advance(body, controllers, min(_CONTROL, steps - done), torques)
-            self._pushes = [push for push in self._pushes if push.until > data.time]
+        mujoco.mj_differentiatePos(model, self._speeds, steps * self.substep, data.qpos, self._wanted)
+        most = round(self.period / self.substep)
+        for done in range(0, steps, most):
+            ahead = min(most, steps - done)
+            self._push(ahead * self.substep)
+            self._exert(body, controllers, torques)
+            self._step(ahead, accelerate=done == 0)
         data.qpos[self._positions], data.qvel[self._degrees] = wanted, self._speeds[self._degrees]
         if not (np.isfinite(data.qpos).all() and abs(data.qvel).max() < _FASTEST):
             raise Exploded
 
-    def _advance(
-        self, body: Body, controllers: Sequence[Controller], steps: int, torques: NDArray[np.float64] | None
-    ) -> None:
-        """Simulate some steps with the torques of the present state."""
-        model, data, own = self.model, self.data, self._degrees
-        applied, damping = data.qfrc_applied, model.dof_damping
-        applied[:] = 0.0 if torques is None else torques
+    def _push(self, duration: float) -> None:
+        """Set the forces of pushes for some time, s; one that ends within this time is weaker, with the same effect."""
+        data = self.data
         data.xfrc_applied[:] = 0.0
-        self._friction.act(data)
+        self._pushes = [push for push in self._pushes if push.until > data.time]
         for push in self._pushes:
-            data.xfrc_applied[push.body, :3] += push.force
-        damping[:] = self._damping
-        self._limits.act(data, self.period, applied, damping)
+            data.xfrc_applied[push.body, :3] += min(1.0, (push.until - data.time) / duration) * push.force
+
+    def _exert(self, body: Body, controllers: Sequence[Controller], torques: NDArray[np.float64] | None) -> None:
+        """Set the torques that the present state causes, and add its forces, for a period."""
+        model, data, own = self.model, self.data, self._degrees
+        self.touching = frozenset(data.contact.geom.ravel().tolist())
+        self._friction.act(data, self.touching)
+        forces = [0.0] * model.nv if torques is None else torques.tolist()
+        damping = self._damping.copy()
+        self._present = data.qpos.tolist()
+        for joint, spring in self._limits.items():
+            spring.act(self._turned(joint), self.period, self._addresses[joint][1], forces, damping)
         self.reaction = 1.0
         for controller in controllers:
-            controller.act(self, body, applied, damping)
+            controller.act(self, body, forces, damping)
         self._scale_reactions()
-        damping[own] = 0.0
-        applied[own] = _ARMATURE * (self._speeds[own] - data.qvel[own]) / model.opt.timestep
-        mujoco.mj_step(model, data)
-        if steps > 1:
-            applied[own], data.qvel[own] = 0.0, self._speeds[own]
-            mujoco.mj_step(model, data, steps - 1)
+        applied = data.qfrc_applied
+        model.dof_damping[:], applied[:] = damping, forces
+        model.dof_damping[own] = applied[own] = 0.0
+
+    def _step(self, steps: int, *, accelerate: bool) -> None:
+        """Simulate some steps with the same torques; kinematic joints get their speeds in the first, or have them."""
+        model, data, own = self.model, self.data, self._degrees
+        if accelerate:
+            data.qfrc_applied[own] = _ARMATURE * (self._speeds[own] - data.qvel[own]) / self.substep
+            mujoco.mj_step(model, data)
+            data.qfrc_applied[own] = 0.0
+            steps -= 1
+        data.qvel[own] = self._speeds[own]
+        if steps:
+            mujoco.mj_step(model, data, steps)
 
     def _scale_reactions(self) -> None:
         """Add what the factor `reaction` changes in what kinematic limbs exert in the next period.
@@ -285,44 +304,65 @@ class Simulation:
         """Return MuJoCo's index of the body of a segment."""
         return self._bodies[joint]
 
-    def center_of_mass(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def center_of_mass(self) -> tuple[Vec3, Vec3]:
         """Return the place of the center of mass of the figure, m, and its velocity, m/s, in MuJoCo's world."""
         mujoco.mj_jacSubtreeCom(self.model, self.data, self._jacobian, _ROOT_BODY)
-        return self.data.subtree_com[_ROOT_BODY], self._jacobian @ self.data.qvel
+        x, y, z = self.data.subtree_com[_ROOT_BODY].tolist()
+        vx, vy, vz = (self._jacobian @ self.data.qvel).tolist()
+        return (x, y, z), (vx, vy, vz)
 
-    def jacobian(self, body: int, point: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return how a point of a body, m, moves with all degrees of freedom, in MuJoCo's world, (3, nv)."""
-        jacobian = np.empty((3, self.model.nv))
-        mujoco.mj_jac(self.model, self.data, jacobian, None, point, body)
-        return jacobian
-
-    def hold(
-        self,
-        joints: tuple[str, ...],
-        goal: Body,
-        frequency: float | NDArray[np.float64],
-        ratio: float,
-        torques: NDArray[np.float64],
-        damping: NDArray[np.float64],
-    ) -> None:
-        """Add springs and dampers that hold joints in the pose of a body (stable PD control).
+    def pressed(self, body: int, point: Vec3, force: Vec3) -> list[float]:
+        """Return the torques on all degrees of freedom, Nm or N, (nv,), that a force on a body amounts to.
 
         Args:
-            joints: of segments, without the root.
+            body: MuJoCo's index.
+            point: at which the force acts, m, in MuJoCo's world.
+            force: N, in MuJoCo's world.
+        """
+        self._pressed[:] = 0.0
+        mujoco.mj_applyFT(self.model, self.data, np.array(force), self._untwisted, np.array(point), body, self._pressed)
+        torques: list[float] = self._pressed.tolist()
+        return torques
+
+    def hold(
+        self, joint: str, goal: Body, frequencies: Vec3, ratio: float, torques: list[float], damping: list[float]
+    ) -> None:
+        """Add springs and dampers that hold a joint in the pose of a body, as `pull` does.
+
+        Args:
+            joint: of a segment, but not the root.
             goal: the pose.
-            frequency: angular frequency of the springs, rad/s, of all or of each degree of freedom: their stiffness is
-                in proportion to the greatest inertia that turns about an axis of the joint, because limbs would twist
-                otherwise.
+            frequencies: angular frequencies of the springs, rad/s: their stiffness is in proportion to the greatest
+                inertia that turns about an axis of the joint, because limbs would twist otherwise.
             ratio: of damping, 1 for critical.
             torques: to add to, (nv,).
             damping: to add to, (nv,).
         """
-        positions, degrees = self._indices(joints)
-        wanted = np.array(self._coordinates(goal, joints)).reshape(-1, 4)
-        inertia = self._greatest[degrees]
-        stiffness = inertia * frequency**2
-        torques[degrees] += stiffness * turns(self.data.qpos[positions].reshape(-1, 4), wanted).ravel()
-        damping[degrees] += stiffness * self.period + 2.0 * ratio * frequency * inertia
+        inertia = max(self._about(joint))
+        x, y, z = frequencies
+        stiffness = (inertia * x * x, inertia * y * y, inertia * z * z)
+        dampers = scale(frequencies, 2.0 * ratio * inertia)
+        self.pull(joint, self.wanted(joint, goal), stiffness, dampers, torques, damping)
+
+    def pull(
+        self, joint: str, wanted: Quat, stiffness: Vec3, dampers: Vec3, torques: list[float], damping: list[float]
+    ) -> None:
+        """Add springs and dampers about the axes of a joint, which are stable however stiff (`Controller.act`).
+
+        Args:
+            joint: of a segment, but not the root.
+            wanted: its rotation without forces.
+            stiffness: of the springs, Nm/rad.
+            dampers: Nms/rad.
+            torques: to add to, (nv,).
+            damping: to add to, (nv,).
+        """
+        _, first = self._addresses[joint]
+        period = self.period
+        way = rotation_vector(difference(self._turned(joint), wanted))
+        for degree, (turn, spring, damper) in enumerate(zip(way, stiffness, dampers, strict=True), first):
+            torques[degree] += spring * turn
+            damping[degree] += spring * period + damper
 
     def angular_momentum(self) -> NDArray[np.float64]:
         """Return the angular momentum about the center of mass, kg m^2/s, in MuJoCo's world, (3,)."""
@@ -337,11 +377,11 @@ class Simulation:
         rotation = self._links[joint].rotation(body)
         return multiply(TO_WORLD, rotation) if joint == ROOT else rotation
 
-    def _indices(self, joints: tuple[str, ...]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """Return the indices of the generalized coordinates of joints, and of their degrees of freedom."""
-        if joints not in self._known_indices:
-            self._known_indices[joints] = _indices(map(self.positions, joints)), _indices(map(self.degrees, joints))
-        return self._known_indices[joints]
+    def _turned(self, joint: str) -> Quat:
+        """Return the rotation of a segment at the beginning of the present period, in its parent segment."""
+        first, _ = self._addresses[joint]
+        w, x, y, z = self._present[first : first + 4]
+        return (w, x, y, z)
 
     def _coordinates(self, body: Body, joints: Iterable[str]) -> list[float]:
         """Return the generalized coordinates of joints in the pose of a body."""
@@ -362,47 +402,6 @@ class _Push(NamedTuple):
     body: int
     force: NDArray[np.float64]
     until: float
-
-
-class _Links:
-    """The joints that turn a segment in its parent segment: the segment's joint, and those before and after it.
-
-    Attributes:
-        joints: all of them.
-    """
-
-    def __init__(self, skeleton: Skeleton, joint: str) -> None:
-        chain = skeleton.chain(_end(skeleton, joint))
-        own = chain.index(joint)
-        parent = next((name for name in reversed(chain[:own]) if name in _ENDS), None)
-        first = 0 if parent is None else chain.index(_end(skeleton, parent)) + 1
-        self._before, self._joint, self._after = chain[first:own], joint, chain[own + 1 :]
-        self.joints = frozenset(chain[first:])
-
-    def rotation(self, body: Body) -> Quat:
-        """Return the rotation of the segment in a body."""
-        rotation = body.rotation(self._joint)
-        for joint in reversed(self._before):
-            rotation = multiply(body.rotation(joint), rotation)
-        for joint in self._after:
-            rotation = multiply(rotation, body.rotation(joint))
-        return rotation
-
-    def local(self, body: Body, rotation: Quat) -> Quat:
-        """Return the rotation of the joint that gives the segment a rotation, with all others as in a body."""
-        for joint in self._before:
-            rotation = multiply(conjugate(body.rotation(joint)), rotation)
-        for joint in reversed(self._after):
-            rotation = multiply(rotation, conjugate(body.rotation(joint)))
-        return rotation
-
-
-_ENDS = {segment.joint: segment.end or segment.joint for segment in SEGMENTS}
-
-
-def _end(skeleton: Skeleton, joint: str) -> str:
-    """Return the joint that has the orientation of a segment."""
-    return _ENDS[joint] if _ENDS[joint] in skeleton else joint
 
 
 def _indices(slices: Iterable[slice]) -> NDArray[np.intp]:

@@ -1,9 +1,8 @@
 """Static friction of feet: MuJoCo's friction is regularized, so that a figure would creep over the floor."""
 
-import mujoco
-import numpy as np
+from collections.abc import Collection
 
-from reactive_realizer.physics.rotations import Array
+import mujoco
 
 _STIFFNESS = 4000.0
 """Of the spring between a foot and the place where it stands, N/m."""
@@ -25,18 +24,23 @@ class StaticFriction:
 
     def __init__(self, model: mujoco.MjModel, feet: list[int]) -> None:
         self._geoms = {foot: int(model.body_geomadr[foot]) for foot in feet}
-        self._places: dict[int, Array] = {}
+        self._places: dict[int, tuple[float, float]] = {}
 
-    def act(self, data: mujoco.MjData) -> None:
-        """Add the forces to those on the bodies, N, in MuJoCo's world."""
-        touching = set(data.contact.geom.ravel().tolist())
+    def act(self, data: mujoco.MjData, touching: Collection[int]) -> None:
+        """Add the forces to those on the bodies, N, in MuJoCo's world.
+
+        Args:
+            data: the state.
+            touching: indices of the geoms that touch the floor.
+        """
         for foot, geom in self._geoms.items():
             if geom not in touching:
                 self._places.pop(foot, None)
                 continue
-            now = data.geom_xpos[geom, :2]
-            place = self._places.get(foot)
-            if place is None or float(np.abs(place - now).max()) > _SLIP:
-                self._places[foot] = now.copy()
+            x, y, _ = data.geom_xpos[geom].tolist()
+            at = self._places.get(foot)
+            if at is None or max(abs(at[0] - x), abs(at[1] - y)) > _SLIP:
+                self._places[foot] = x, y
             else:
-                data.xfrc_applied[foot, :2] += _STIFFNESS * (place - now)
+                data.xfrc_applied[foot, 0] += _STIFFNESS * (at[0] - x)
+                data.xfrc_applied[foot, 1] += _STIFFNESS * (at[1] - y)

@@ -2,6 +2,7 @@
 
 import asyncio
 import logging
+import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AsyncExitStack
 from types import TracebackType
@@ -371,9 +372,16 @@ class Realizer:
             for character in self.characters.values()
         ]
         simulations = [simulation for character, own in shown for simulation in character.move(time, own)]
-        if simulations:
-            await asyncio.gather(*map(asyncio.to_thread, simulations))
+        # One thread a core: more of them would only wait for the interpreter's lock.
+        threads, waiting = min(os.cpu_count() or 1, len(simulations)), iter(simulations)
+        await asyncio.gather(*(asyncio.to_thread(_call_all, waiting) for _ in range(threads)))
         # Eyes look at the positions that other characters, and the character's own hands, have in this frame.
         frames = {character.id: character.look(own) for character, own in shown}
         for listener in tuple(self._frame_listeners):
             listener(frames)
+
+
+def _call_all(waiting: Iterator[Callable[[], None]]) -> None:
+    """Call what is left of an iterator that threads share."""
+    for call in waiting:
+        call()

@@ -5,12 +5,11 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple
 
-import numpy as np
-
 from reactive_realizer.embodiment.body import Body, Skeleton
 from reactive_realizer.embodiment.joints import ROOT, SIDES
+from reactive_realizer.embodiment.quaternion import difference, rotate, rotation_vector
+from reactive_realizer.embodiment.vector import Vec3, add, dot, scale, subtract
 from reactive_realizer.physics.controllers.controller import Controller
-from reactive_realizer.physics.rotations import Array, turns
 
 if TYPE_CHECKING:
     from reactive_realizer.physics.simulation import Simulation
@@ -45,7 +44,7 @@ _LOAD = (0.3, 2.0)
 _FRICTION = 0.7
 """Limit of the horizontal force as a share of the vertical one; soles slip at somewhat more."""
 
-_SOLE = np.array((0.85, 0.0, 0.97))
+_SOLE = (0.85, 0.0, 0.97)
 """Share of the half width and length of a sole within which the center of pressure stays."""
 
 _HIPS = (0.7, 0.985)
@@ -87,10 +86,9 @@ class BalanceController(Controller):
     def __init__(self, skeleton: Skeleton) -> None:
         body = Body(skeleton)
         self.joints = self.needed()
-        self._held = (*_LEGS[0], *_LEGS[1])
         self._long = body.transform(_LEGS[0][0]).position[1]
         self._above = body.transform(ROOT).position[1] - self._long
-        self._aside, self._height = np.zeros(2), 0.0
+        self._aside, self._height = (0.0, 0.0), 0.0
         self._acted: float | None = None
         self.parameters = {PELVIS_HEIGHT: 1.0, STIFFNESS: 1.0, DAMPING: 1.0, REACTION: 1.0}
 
@@ -99,44 +97,48 @@ class BalanceController(Controller):
         """Return the joints that it needs: the root, hips, knees and ankles."""
         return frozenset((ROOT, *_LEGS[0], *_LEGS[1]))
 
-    def act(self, simulation: "Simulation", goal: Body, torques: Array, damping: Array) -> None:
+    def act(self, simulation: "Simulation", goal: Body, torques: list[float], damping: list[float]) -> None:
         """Add the torques of both legs."""
         simulation.reaction = self.parameters[REACTION]
         if simulation.fallen:
             return
-        stiffness, ratio = self.parameters[STIFFNESS], self.parameters[DAMPING]
         soles = [_sole(simulation, leg[-1]) for leg in _LEGS]
         self._move_goals(simulation, _middle(soles))
         if any(sole.touches for sole in soles):
             force, pressure = self._support(simulation, soles, self._uprighting(simulation, goal))
             for sole, leg, part in zip(soles, _LEGS, _shared(soles, pressure), strict=True):
-                self._press(simulation, sole, leg, part.share * force, part.point, torques)
-        # The bend of a leg that stands follows from the height of the pelvis.
-        held = _POSE * math.sqrt(stiffness) * np.array([[not sole.touches, 1.0, 1.0] * 3 for sole in soles]).ravel()
-        simulation.hold(self._held, goal, held, ratio, torques, damping)
+                _press(simulation, sole, leg, scale(force, part.share), part.point, torques)
+        held, ratio = _POSE * math.sqrt(self.parameters[STIFFNESS]), self.parameters[DAMPING]
+        for sole, leg in zip(soles, _LEGS, strict=True):
+            # The bend of a leg that stands follows from the height of the pelvis.
+            frequencies = (0.0 if sole.touches else held, held, held)
+            for joint in leg:
+                simulation.hold(joint, goal, frequencies, ratio, torques, damping)
 
-    def _move_goals(self, simulation: "Simulation", middle: Array) -> None:
+    def _move_goals(self, simulation: "Simulation", middle: Vec3) -> None:
         """Move the wanted place of the center of mass to the middle between the feet, and the wanted height to its own.
 
         They start from where the figure is when the controller begins to act, so that it does not jerk.
         """
         data, period = simulation.data, simulation.period
         if self._acted is None or data.time - self._acted > 1.5 * period:
-            self._aside = (simulation.center_of_mass()[0] - middle)[:2].clip(-_ASIDE, _ASIDE)
-            self._height = float(data.qpos[2] - middle[2])
+            x, y, _ = subtract(simulation.center_of_mass()[0], middle)
+            self._aside = (min(max(x, -_ASIDE), _ASIDE), min(max(y, -_ASIDE), _ASIDE))
+            self._height = float(data.qpos[2]) - middle[2]
         self._acted = data.time
-        far = math.hypot(*self._aside)
-        self._aside *= 1.0 - min(1.0, _SHIFTING * period / max(far, 1e-9))
+        x, y = self._aside
+        left = 1.0 - min(1.0, _SHIFTING * period / max(math.hypot(x, y), 1e-9))
+        self._aside = (left * x, left * y)
         wanted = self._above + self._long * min(max(self.parameters[PELVIS_HEIGHT], _HIPS[0]), _HIPS[1])
         most = _LOWERING * period
         self._height += min(max(wanted - self._height, -most), most)
 
-    def _spring(self, frequency: float, way: Array, velocity: Array) -> Array:
+    def _spring(self, frequency: float, way: float, velocity: float) -> float:
         """Return the acceleration by a spring and a damper, m/s^2 or rad/s^2."""
         omega = frequency * math.sqrt(self.parameters[STIFFNESS])
-        return omega**2 * way - 2.0 * self.parameters[DAMPING] * omega * velocity
+        return omega * omega * way - 2.0 * self.parameters[DAMPING] * omega * velocity
 
-    def _support(self, simulation: "Simulation", soles: "list[_Sole]", torque: Array) -> tuple[Array, Array]:
+    def _support(self, simulation: "Simulation", soles: "list[_Sole]", torque: Vec3) -> tuple[Vec3, Vec3]:
         """Return the force that the ground should exert, N, and its center of pressure, m, in MuJoCo's world.
 
         Args:
@@ -144,47 +146,51 @@ class BalanceController(Controller):
             soles: of both feet.
             torque: that the ground should exert about the center of mass, Nm.
         """
-        data, mass = simulation.data, simulation.mass
+        mass, data = simulation.mass, simulation.data
         middle = _middle(soles)
         center, velocity = simulation.center_of_mass()
-        aside = np.array((*self._aside, 0.0))
-        force = mass * self._spring(_BALANCE, middle + aside - center, velocity)
-        lift = self._spring(_HEIGHT, middle[2] + self._height - data.qpos[2], data.qvel[2])
-        force[2] = mass * min(max(_GRAVITY + float(lift), _LOAD[0] * _GRAVITY), _LOAD[1] * _GRAVITY)
-        sideways = math.hypot(force[0], force[1])
-        force[:2] *= min(1.0, _FRICTION * force[2] / max(sideways, 1e-9))
-        over = (center[2] - middle[2]) / force[2]
-        pressure = center - force * over
-        reached: Array = sum((part.share * part.point for part in _shared(soles, pressure)), np.zeros(3))
-        beyond = pressure - reached
+        lift = self._spring(_HEIGHT, middle[2] + self._height - float(data.qpos[2]), float(data.qvel[2]))
+        up = mass * min(max(_GRAVITY + lift, _LOAD[0] * _GRAVITY), _LOAD[1] * _GRAVITY)
+        x, y = (
+            mass * self._spring(_BALANCE, middle[axis] + self._aside[axis] - center[axis], velocity[axis])
+            for axis in (0, 1)
+        )
+        grip = min(1.0, _FRICTION * up / max(math.hypot(x, y), 1e-9))
+        force = (grip * x, grip * y, up)
+        over = (center[2] - middle[2]) / up
+        pressure = subtract(center, scale(force, over))
+        left, right = _shared(soles, pressure)
+        reached = add(scale(left.point, left.share), scale(right.point, right.share))
+        beyond = subtract(pressure, reached)
         far = math.hypot(beyond[0], beyond[1])
         if far > _BEYOND:
-            pressure = reached + beyond * (_BEYOND / far)
-            force[:2] = (center - pressure)[:2] / over
-        pressure[:2] += np.array((-torque[1], torque[0])) / force[2]
-        return force, pressure
+            pressure = add(reached, scale(beyond, _BEYOND / far))
+            force = ((center[0] - pressure[0]) / over, (center[1] - pressure[1]) / over, up)
+        return force, add(pressure, (-torque[1] / up, torque[0] / up, 0.0))
 
-    def _press(
-        self,
-        simulation: "Simulation",
-        sole: "_Sole",
-        leg: tuple[str, ...],
-        force: Array,
-        point: Array,
-        torques: Array,
-    ) -> None:
-        jacobian = simulation.jacobian(sole.body, point)
-        for joint in leg:
-            degrees = simulation.degrees(joint)
-            torques[degrees] -= jacobian[:, degrees].T @ force
-
-    def _uprighting(self, simulation: "Simulation", goal: Body) -> Array:
+    def _uprighting(self, simulation: "Simulation", goal: Body) -> Vec3:
         """Return the torque that turns the pelvis to its orientation in a body, Nm, in MuJoCo's world."""
-        data, degrees = simulation.data, simulation.degrees(ROOT)
-        (way,) = turns(data.qpos[np.newaxis, 3:7], np.array([simulation.wanted(ROOT, goal)]))
-        torque = simulation.inertia[degrees][3:] * self._spring(_UPRIGHT, way, data.qvel[3:6])
-        turned: Array = data.xmat[simulation.body_of(ROOT)].reshape(3, 3) @ torque
-        return turned.clip(-_UPRIGHTING, _UPRIGHTING)
+        w, x, y, z = simulation.data.qpos[3:7].tolist()
+        way = rotation_vector(difference((w, x, y, z), simulation.wanted(ROOT, goal)))
+        moments, velocities = simulation.inertia[3:6], simulation.data.qvel[3:6].tolist()
+        across, about, along = (
+            moment * self._spring(_UPRIGHT, part, velocity)
+            for moment, part, velocity in zip(moments, way, velocities, strict=True)
+        )
+        turned = rotate((w, x, y, z), (across, about, along))
+        x, y, z = (min(max(part, -_UPRIGHTING), _UPRIGHTING) for part in turned)
+        return (x, y, z)
+
+
+def _press(
+    simulation: "Simulation", sole: "_Sole", leg: tuple[str, ...], force: Vec3, point: Vec3, torques: list[float]
+) -> None:
+    """Add the torques of the joints of a leg that press a force on the ground at a point of its sole."""
+    pressed = simulation.pressed(sole.body, point, force)
+    for joint in leg:
+        degrees = simulation.degrees(joint)
+        for degree in range(degrees.start, degrees.stop):
+            torques[degree] -= pressed[degree]
 
 
 class _Sole(NamedTuple):
@@ -193,61 +199,68 @@ class _Sole(NamedTuple):
     Attributes:
         body: index of the foot.
         center: m.
-        frame: from the axes of the foot to those of the world, (3, 3).
-        reach: from the center to the farthest centers of pressure, in the axes of the foot, m, (3,).
+        axes: of the foot, unit vectors.
+        reach: from the center to the farthest centers of pressure, along these axes, m.
         touches: whether the foot touches the ground.
     """
 
     body: int
-    center: Array
-    frame: Array
-    reach: Array
+    center: Vec3
+    axes: tuple[Vec3, Vec3, Vec3]
+    reach: Vec3
     touches: bool
 
-    def within(self, point: Array) -> Array:
+    def within(self, point: Vec3) -> Vec3:
         """Return the point of the sole that is nearest to a point."""
-        own: Array = self.frame.T @ (point - self.center)
-        nearest: Array = self.center + self.frame @ own.clip(-self.reach, self.reach)
+        off, nearest = subtract(point, self.center), self.center
+        for axis, reach in zip(self.axes, self.reach, strict=True):
+            nearest = add(nearest, scale(axis, min(max(dot(axis, off), -reach), reach)))
         return nearest
 
 
 def _sole(simulation: "Simulation", joint: str) -> _Sole:
     model, data, body = simulation.model, simulation.data, simulation.body_of(joint)
-    geom = model.body_geomadr[body]
-    size, frame = model.geom_size[geom], data.geom_xmat[geom].reshape(3, 3)
-    touches = geom in data.contact.geom
-    return _Sole(body, data.geom_xpos[geom] - size[1] * frame[:, 1], frame, _SOLE * size, touches)
+    geom = int(model.body_geomadr[body])
+    wide, high, long = model.geom_size[geom].tolist()
+    xx, yx, zx, xy, yy, zy, xz, yz, zz = data.geom_xmat[geom].tolist()
+    axes = (xx, xy, xz), (yx, yy, yz), (zx, zy, zz)
+    x, y, z = data.geom_xpos[geom].tolist()
+    center = subtract((x, y, z), scale(axes[1], high))
+    reach = (_SOLE[0] * wide, _SOLE[1] * high, _SOLE[2] * long)
+    return _Sole(body, center, axes, reach, geom in simulation.touching)
 
 
-def _middle(soles: list[_Sole]) -> Array:
+def _middle(soles: list[_Sole]) -> Vec3:
     """Return the middle between the soles, m."""
-    middle: Array = (soles[0].center + soles[1].center) / 2.0
-    return middle
+    left, right = soles
+    return scale(add(left.center, right.center), 0.5)
 
 
 class _Pressure(NamedTuple):
     """What a foot presses on the ground with: its share of the force, and its center of pressure, m."""
 
     share: float
-    point: Array
+    point: Vec3
 
 
-def _shared(soles: list[_Sole], pressure: Array) -> list[_Pressure]:
+def _shared(soles: list[_Sole], pressure: Vec3) -> list[_Pressure]:
     """Return how feet press so that together they have a center of pressure, as far as they reach.
 
     The centers of pressure of both are equally far from the centers of their soles.
     """
     shares = _shares(soles, pressure)
-    off: Array = pressure - shares[0] * soles[0].center - shares[1] * soles[1].center
-    return [_Pressure(share, sole.within(sole.center + off)) for share, sole in zip(shares, soles, strict=True)]
+    off = pressure
+    for share, sole in zip(shares, soles, strict=True):
+        off = subtract(off, scale(sole.center, share))
+    return [_Pressure(share, sole.within(add(sole.center, off))) for share, sole in zip(shares, soles, strict=True)]
 
 
-def _shares(soles: list[_Sole], pressure: Array) -> tuple[float, float]:
+def _shares(soles: list[_Sole], pressure: Vec3) -> tuple[float, float]:
     """Return the share of the force that each foot presses on the ground with."""
     left, right = soles
     if not (left.touches and right.touches):
         return float(left.touches), float(right.touches)
-    across = right.center - left.center
-    share = float((pressure - left.center) @ across) / max(float(across @ across), 1e-9)
+    across = subtract(right.center, left.center)
+    share = dot(subtract(pressure, left.center), across) / max(dot(across, across), 1e-9)
     share = min(max(share, 0.0), 1.0)
     return 1.0 - share, share

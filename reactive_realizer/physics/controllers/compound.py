@@ -5,7 +5,6 @@ from typing import TYPE_CHECKING, TypeVar
 
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.physics.controllers.controller import Controller
-from reactive_realizer.physics.rotations import Array
 
 if TYPE_CHECKING:
     from reactive_realizer.physics.simulation import Simulation
@@ -30,7 +29,7 @@ class CompoundController(Controller):
         self.parameters = _named(self._parts, lambda part: part.parameters)
         self.ranges = _named(self._parts, lambda part: part.ranges)
 
-    def act(self, simulation: "Simulation", goal: Body, torques: Array, damping: Array) -> None:
+    def act(self, simulation: "Simulation", goal: Body, torques: list[float], damping: list[float]) -> None:
         """Let all parts act."""
         for id_, part in self._parts.items():
             part.parameters = {name: self.parameters[f"{id_}:{name}"] for name in part.parameters}

@@ -5,9 +5,6 @@ from collections.abc import Collection, Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-import numpy as np
-from numpy.typing import NDArray
-
 from reactive_realizer.embodiment.body import Body
 
 if TYPE_CHECKING:
@@ -34,14 +31,12 @@ class Controller(ABC):
     failed = False
 
     @abstractmethod
-    def act(
-        self, simulation: "Simulation", goal: Body, torques: NDArray[np.float64], damping: NDArray[np.float64]
-    ) -> None:
-        """Add torques, Nm, and damping, Nms, of degrees of freedom to arrays, (nv,), before a step.
+    def act(self, simulation: "Simulation", goal: Body, torques: list[float], damping: list[float]) -> None:
+        """Add torques, Nm, and damping, Nms, of degrees of freedom to lists, (nv,), before a period.
 
-        The torque at the end of the step counts, as in a stable PD controller (Tan, Liu and Turk 2011): the part of it
-        that depends on velocities is damping, which MuJoCo integrates implicitly. What concerns kinematic joints has no
-        effect.
+        The torque at the end of the period counts, as in a stable PD controller (Tan, Liu and Turk 2011): the part of
+        it that depends on velocities is damping, which MuJoCo integrates implicitly. What concerns kinematic joints has
+        no effect.
 
         Args:
             simulation: the state of the figure.
@@ -63,9 +58,7 @@ class RagdollController(Controller):
     def __init__(self, joints: Collection[str]) -> None:
         self.joints = frozenset(joints)
 
-    def act(
-        self, simulation: "Simulation", goal: Body, torques: NDArray[np.float64], damping: NDArray[np.float64]
-    ) -> None:
+    def act(self, simulation: "Simulation", goal: Body, torques: list[float], damping: list[float]) -> None:
         """Add nothing: the damping of joints and the springs at their limits are part of every simulation."""
 
 
@@ -74,7 +67,5 @@ class NoController(Controller):
 
     joints = frozenset()
 
-    def act(
-        self, simulation: "Simulation", goal: Body, torques: NDArray[np.float64], damping: NDArray[np.float64]
-    ) -> None:
+    def act(self, simulation: "Simulation", goal: Body, torques: list[float], damping: list[float]) -> None:
         """Add nothing."""

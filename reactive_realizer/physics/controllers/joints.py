@@ -1,14 +1,13 @@
 """Controllers of single joints: springs and dampers that hold them loosely in a pose (thesis 4.2.3)."""
 
+import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.quaternion import from_euler
+from reactive_realizer.embodiment.vector import Vec3
 from reactive_realizer.physics.controllers.controller import Controller
-from reactive_realizer.physics.rotations import Array, turns
 
 if TYPE_CHECKING:
     from reactive_realizer.physics.simulation import Simulation
@@ -49,13 +48,14 @@ class BallJointController(Controller):
             **{f"ds{axis}": _USUAL_DAMPER for axis in AXES},
         }
 
-    def act(self, simulation: "Simulation", goal: Body, torques: Array, damping: Array) -> None:
+    def act(self, simulation: "Simulation", goal: Body, torques: list[float], damping: list[float]) -> None:
         """Add the torques of the springs."""
-        angles, springs, dampers = (self._values(name) for name in ("angle", "ks", "ds"))
-        _spring(simulation, self._joint, angles, springs, dampers, torques, damping)
+        wanted = from_euler(*self._values("angle"))
+        simulation.pull(self._joint, wanted, self._values("ks"), self._values("ds"), torques, damping)
 
-    def _values(self, name: str) -> Array:
-        return np.array([self.parameters[f"{name}{axis}"] for axis in AXES])
+    def _values(self, name: str) -> Vec3:
+        values = self.parameters
+        return (values[f"{name}x"], values[f"{name}y"], values[f"{name}z"])
 
 
 class HingeJointController(Controller):
@@ -73,30 +73,17 @@ class HingeJointController(Controller):
 
     def __init__(self, joint: str, axis: int = 0) -> None:
         self.joints = frozenset({joint})
-        self._joint, self._axis = joint, np.eye(3)[axis]
+        self._joint, self._axis = joint, axis
         self.parameters = {"angle": 0.0, "ks": _USUAL_SPRING, "ds": _USUAL_DAMPER}
 
-    def act(self, simulation: "Simulation", goal: Body, torques: Array, damping: Array) -> None:
+    def act(self, simulation: "Simulation", goal: Body, torques: list[float], damping: list[float]) -> None:
         """Add the torque of the spring."""
-        angle, spring, damper = (self.parameters[name] * self._axis for name in ("angle", "ks", "ds"))
-        _spring(simulation, self._joint, angle, spring, damper, torques, damping)
+        wanted = from_euler(*self._about_axis("angle"))
+        simulation.pull(self._joint, wanted, self._about_axis("ks"), self._about_axis("ds"), torques, damping)
 
-
-def _spring(
-    simulation: "Simulation",
-    joint: str,
-    angles: Array,
-    springs: Array,
-    dampers: Array,
-    torques: Array,
-    damping: Array,
-) -> None:
-    """Add springs and dampers about the axes of a joint, which are stable however stiff (`Controller.act`)."""
-    degrees = simulation.degrees(joint)
-    now = simulation.data.qpos[np.newaxis, simulation.positions(joint)]
-    (way,) = turns(now, np.array([from_euler(*angles.tolist())]))
-    torques[degrees] += springs * way
-    damping[degrees] += springs * simulation.period + dampers
+    def _about_axis(self, name: str) -> Vec3:
+        x, y, z = (self.parameters[name] * (axis == self._axis) for axis in range(3))
+        return (x, y, z)
 
 
 class PoseController(Controller):
@@ -117,7 +104,8 @@ class PoseController(Controller):
         self._held = joints
         self.parameters = {"stiffnessmultiplier": 1.0, "damping": 1.0}
 
-    def act(self, simulation: "Simulation", goal: Body, torques: Array, damping: Array) -> None:
+    def act(self, simulation: "Simulation", goal: Body, torques: list[float], damping: list[float]) -> None:
         """Add the torques of the springs."""
-        frequency = self._FREQUENCY * float(np.sqrt(self.parameters["stiffnessmultiplier"]))
-        simulation.hold(self._held, goal, frequency, self.parameters["damping"], torques, damping)
+        frequency = self._FREQUENCY * math.sqrt(self.parameters["stiffnessmultiplier"])
+        for joint in self._held:
+            simulation.hold(joint, goal, (frequency,) * 3, self.parameters["damping"], torques, damping)
