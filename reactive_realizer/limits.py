@@ -37,6 +37,8 @@ class Limits:
     """Time within which a connection must send its next request, without the body, s."""
     body_seconds: float = 30.0
     """Time within which the body of a request must arrive, s."""
+    reported_problems: int = 100
+    """Problems of a block or procedure that are reported when it is read; the others are counted."""
     messages_per_second: int = 500
     """Socket messages that are read per second and client; further ones wait."""
     answered_warnings: int = 50

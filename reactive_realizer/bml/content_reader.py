@@ -58,8 +58,8 @@ class ContentReader:
 
     @property
     def problems(self) -> tuple[Problem, ...]:
-        """In document order, as many as a block may have behaviors, and one for the rest."""
-        most = self._source.limits.behaviors_per_block
+        """In document order, not more than the limit, and one for the rest."""
+        most = self._source.limits.reported_problems
         first, others = sorted(self._problems, key=_position)[:most], self._problems[most:]
         if others:
             more = self._source.located(self._source.tree, MoreProblems(number=len(others)))

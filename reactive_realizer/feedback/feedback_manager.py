@@ -1,7 +1,7 @@
 """Collects feedback and delivers it in one order."""
 
 import logging
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from operator import itemgetter
@@ -20,6 +20,9 @@ from reactive_realizer.feedback.messages import (
 from reactive_realizer.feedback.xml import to_xml
 
 logger = logging.getLogger(__name__)
+
+_MOST_LOGGED = 20
+"""Warnings of a tick that are written to the log: a block can cause a thousand, which would take many ticks."""
 
 
 @dataclass(frozen=True)
@@ -79,15 +82,27 @@ class FeedbackManager:
         """Send the messages of the tick at ``time`` to every listener."""
         messages = [*self._messages, *(message for _, message in sorted(self._progress, key=itemgetter(0)))]
         self._messages, self._progress = [], []
-        for message in messages:
-            self._send(Report(time, message))
+        reports = [Report(time, message) for message in messages]
+        _log(reports, round(time * RATE))
+        for report in reports:
+            self._send(report)
 
     def _send(self, report: Report) -> None:
-        level = logging.WARNING if isinstance(report.message, WarningFeedback) else logging.DEBUG
-        if logger.isEnabledFor(level):
-            logger.log(level, "tick %d: %s", round(report.time * RATE), report.xml)
         for listener in tuple(self._listeners):
             try:
                 listener(report)
             except Exception:
                 logger.exception("a feedback listener failed")
+
+
+def _log(reports: Sequence[Report], tick: int) -> None:
+    """Write the warnings of a tick to the log, but not all of many; other messages only to debug."""
+    debugging = logger.isEnabledFor(logging.DEBUG)
+    warnings = 0
+    for report in reports:
+        is_warning = isinstance(report.message, WarningFeedback)
+        warnings += is_warning
+        if debugging or (is_warning and warnings <= _MOST_LOGGED):
+            logger.log(logging.WARNING if is_warning else logging.DEBUG, "tick %d: %s", tick, report.xml)
+    if warnings > _MOST_LOGGED and not debugging:
+        logger.warning("tick %d: %d more warnings", tick, warnings - _MOST_LOGGED)

@@ -159,7 +159,8 @@ class BMLScheduler:
                 self._entries.remove(entry)
                 self._accept(entry, now)
                 written = entry.parsed.written
-                self._left -= _ENTRY + (0 if written is None else len(written.behaviors))
+                behaviors = 0 if written is None else len(written.behaviors)
+                self._left -= _ENTRY + len(entry.parsed.problems) + behaviors
             else:
                 self._plan(lane, now)
 

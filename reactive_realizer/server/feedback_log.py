@@ -5,7 +5,6 @@ import logging
 from collections import deque
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import islice
 
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.errors import RealizerError
@@ -20,13 +19,13 @@ from reactive_realizer.server.subscribers import Subscribers
 logger = logging.getLogger(__name__)
 
 _AT_ONCE = 50
-"""Parts of messages that are written within a tick; the rest is written after it, a few at a time."""
+"""Parts of messages that are written within a tick; the rest is written after it, in turns of the event loop."""
 
-_TURN = 10
-"""Parts that are written in a turn of the event loop, at least."""
+_TURN = 0.002
+"""Duration of a turn, s: a tick waits for it."""
 
 _TURNS = 50
-"""Turns in which everything that waits is written, if it needs more parts: a backlog does not grow for long."""
+"""Turns in which everything that waits is written, even if they take longer: a backlog does not grow for long."""
 
 BlockName = tuple[str, str]
 """Character and id of a block."""
@@ -103,9 +102,14 @@ class FeedbackLog:
             asyncio.get_running_loop().call_soon(self._take_turn, self._write_waiting())
 
     def _take_turn(self, steps: Iterator[None]) -> None:
-        self._parts -= sum(1 for _ in islice(steps, max(_TURN, self._parts // _TURNS)))
+        loop = asyncio.get_running_loop()
+        end, least = loop.time() + _TURN, self._parts // _TURNS
+        for written, _ in enumerate(steps, 1):
+            self._parts -= 1
+            if written >= least and loop.time() >= end:
+                break
         if self._waiting:
-            asyncio.get_running_loop().call_soon(self._take_turn, steps)
+            loop.call_soon(self._take_turn, steps)
 
     def _write_waiting(self) -> Iterator[None]:
         """Writes and publishes what waits, a part of a message in each step."""

@@ -60,6 +60,8 @@ def shorten(record: logging.LogRecord) -> bool:
     """Makes one line of the traceback that aiohttp logs for a request that cannot be read: it is no fault of ours."""
     problem = record.exc_info[1] if record.exc_info else None
     if isinstance(problem, (HttpProcessingError, web.RequestPayloadError)):
+        if isinstance(record.args, tuple) and record.args:
+            record.address = record.args[0]
         record.msg, record.args = "a request cannot be read: %s", (_on_one_line(problem),)
         record.levelno, record.levelname, record.exc_info = logging.INFO, "INFO", None
     return True

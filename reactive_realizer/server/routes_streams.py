@@ -1,6 +1,7 @@
 """Routes of streams: the socket, and feedback as server-sent events."""
 
 import asyncio
+import logging
 import socket
 from contextlib import ExitStack
 
@@ -13,7 +14,10 @@ from reactive_realizer.server.prediction_rate import follow_feedback
 from reactive_realizer.server.socket_client import SocketClient
 from reactive_realizer.server.stream_query import Stream, after_of, predictions_of, streams_of
 
+logger = logging.getLogger(__name__)
+
 _HEARTBEAT = 30.0
+"""Time between two pings, s; the answer has to come within half of it."""
 _SEND_BUFFER = 128 * 1024
 """Send buffer of the operating system, bytes. It is small, so that a slow client is detected early."""
 
@@ -52,7 +56,10 @@ async def ws(request: web.Request) -> web.WebSocketResponse:
             finally:
                 _hang_up(request)
                 await answer.close()  # else, its heartbeat keeps the memory of a client that has vanished for a while
+                _say_why(request, answer.exception())
                 _free_frames(answer.exception())
+                # The connection and the socket refer to each other. Only a collection, which is rare, would free them.
+                request.protocol._data_received_cb = None
     return answer
 
 
@@ -79,6 +86,14 @@ async def feedback(request: web.Request) -> web.StreamResponse:
         if not kept_up:
             _hang_up(request)
     return answer
+
+
+def _say_why(request: web.Request, failure: BaseException | None) -> None:
+    """Logs why the connection of a client has failed; one that a client has closed has not."""
+    if failure is not None:
+        silent = isinstance(failure, TimeoutError)
+        reason = f"no answer to a ping within {_HEARTBEAT / 2:g} s" if silent else str(failure)
+        logger.info("the connection of a client was closed: %s", reason, extra={"address": request.remote})
 
 
 def _free_frames(failure: BaseException | None) -> None:

@@ -145,6 +145,8 @@ class SocketClient:
 
     async def _read(self) -> None:
         async for message in self._socket:
+            if message.type is WSMsgType.ERROR:
+                break  # no answer to a ping
             await self._rate.take()
             if message.type is WSMsgType.PING:
                 await self._socket.pong(message.data)

@@ -240,7 +240,13 @@ def test_a_long_value_is_truncated_in_the_message(read: Read) -> None:
 
 
 LIMITS = Limits(
-    bml_bytes=1_000, xml_depth=5, xml_attributes=6, behaviors_per_block=3, blocks_alive=2, utterance_characters=10
+    bml_bytes=1_000,
+    xml_depth=5,
+    xml_attributes=6,
+    behaviors_per_block=3,
+    reported_problems=3,
+    blocks_alive=2,
+    utterance_characters=10,
 )
 INSIDE = '<bml id="b">{}</bml>'
 

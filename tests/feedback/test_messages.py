@@ -212,3 +212,15 @@ def test_a_listener_that_fails_does_not_stop_the_others(
 def test_an_engine_may_name_an_attribute_of_its_feedback_as_it_likes(name: str) -> None:
     message = replace(progress("h", 0.0), details={name: "value"})
     assert "value" in etree.fromstring(to_xml(message)).attrib.values()
+
+
+def test_of_many_warnings_of_a_tick_some_are_written_to_the_log(
+    told: tuple[FeedbackManager, list[Report]], caplog: pytest.LogCaptureFixture
+) -> None:
+    manager, reports = told
+    for number in range(100):
+        manager.add(WarningFeedback("alice", f"b{number}", WarningType.PARSING_FAILURE, "wrong"))
+    manager.flush(GlobalTime(0.25))
+    assert len(reports) == 100
+    assert len(caplog.messages) == 21
+    assert caplog.messages[-1] == "tick 25: 80 more warnings"

@@ -18,7 +18,7 @@ from aiohttp import web
 
 from reactive_realizer.assembly.scene import SceneOptions, open_scene
 from reactive_realizer.clock.clock import ManualClock
-from reactive_realizer.server import connections
+from reactive_realizer.server import connections, routes_streams
 from reactive_realizer.server.connections import listen
 from reactive_realizer.server.live_scene import LiveScene
 from reactive_realizer.server.security import Security
@@ -218,3 +218,32 @@ async def test_the_memory_of_a_client_that_vanishes_is_given_back_at_once(door: 
             while served_socket() is not None:
                 await asyncio.sleep(0)
                 gc.collect()
+
+
+async def test_a_client_that_does_not_answer_a_ping_is_dropped_with_a_line_in_the_log_and_freed_without_a_collection(
+    door: Doors, no_collection: None, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    caplog.set_level("INFO")
+    monkeypatch.setattr(routes_streams, "_HEARTBEAT", 0.2)
+    async with door("clients = 1") as served:
+        silent = await socket_of(served)
+        sockets = [each for each in gc.get_objects() if isinstance(each, web.WebSocketResponse) and not each.closed]
+        freed = asyncio.Event()
+        reference = weakref.ref(sockets.pop(), lambda _: freed.set())
+        await asyncio.wait_for(freed.wait(), 10)
+        assert reference() is None
+        (line,) = [record for record in caplog.records if record.name == routes_streams.__name__]
+        assert line.getMessage() == "the connection of a client was closed: no answer to a ping within 0.1 s"
+        assert vars(line)["address"] == "127.0.0.1"
+        silent.close()
+
+
+async def test_a_request_that_cannot_be_read_is_logged_with_its_address(
+    door: Doors, caplog: pytest.LogCaptureFixture
+) -> None:
+    caplog.set_level("INFO")
+    async with door("") as served:
+        assert await served.status(b"GET / HTTP/1.1\r\nHost: a\r\nContent-Length: -1\r\n\r\n") == 400
+        (line,) = [record for record in caplog.records if record.name == "aiohttp.server"]
+        assert line.getMessage().startswith("a request cannot be read: 400")
+        assert vars(line)["address"] == "127.0.0.1"
