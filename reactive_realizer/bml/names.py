@@ -29,12 +29,20 @@ EVENTS: Final = "events"
 _NO_SYNC_IDS: Final = frozenset({"id", "xmlns"})
 
 
-@lru_cache(1000)
+_LONGEST_KEPT = 100
+"""Characters of the longest names that are remembered; a client may send longer ones."""
+
+
 def is_sync_id(name: str) -> bool:
     """Whether an attribute of an element can have the name of a sync point: an NCName (Namespaces in XML 1.0, 7).
 
     Its own id is excluded, and `xmlns`, which is not an attribute.
     """
+    return _is_ncname(name) if len(name) <= _LONGEST_KEPT else _is_ncname.__wrapped__(name)
+
+
+@lru_cache(1000)
+def _is_ncname(name: str) -> bool:
     try:
         return name not in _NO_SYNC_IDS and etree.QName(name).text == etree.QName(name).localname
     except ValueError:

@@ -22,6 +22,7 @@ from reactive_realizer.feedback.messages import (
     SyncPointProgress,
     WarningFeedback,
 )
+from reactive_realizer.sized_cache import SizedCache
 
 _DECIMALS = 6
 _STATUS = f"{{{BMLA}}}status"
@@ -33,8 +34,8 @@ _PREDICTION: dict[str | None, str] = {None: BML, "bmla": BMLA, "rr": OWN}
 _MARK = f"t{uuid4().hex}"
 """Marks the places of times in a template; no input contains it."""
 _ATTRIBUTES: dict[type[Behavior], frozenset[str]] = {}
-_TEMPLATES = 4096
-"""Templates that are kept: a behavior is predicted again whenever its times move."""
+_TEMPLATE_CHARACTERS = 16 * 1024 * 1024
+"""Characters of the templates that are kept: those of twenty thousand nods, or of ten behaviors of the largest size."""
 _BMLA, _RR = f' xmlns:bmla="{BMLA}"', f' xmlns:rr="{OWN}"'
 _ESCAPES = {'"': "&quot;", "\t": "&#9;", "\n": "&#10;", "\r": "&#13;"}
 _PLAIN = re.compile(r"[\w:.+-]*").fullmatch
@@ -207,23 +208,40 @@ class _Template(NamedTuple):
     syncs: list[str]
 
 
+class _TemplateKey(NamedTuple):
+    """The arguments of `_template`."""
+
+    source: str
+    id: str
+    written: frozenset[str]
+    own: frozenset[str]
+    syncs: tuple[str, ...]
+
+
+_TEMPLATES: SizedCache[_TemplateKey, _Template] = SizedCache(_TEMPLATE_CHARACTERS)
+"""The templates that were used last: a behavior is predicted again whenever its times move."""
+
+
 def _predicted(block: str, prediction: BehaviorPrediction) -> str:
     """The behavior's own element, with times for its sync points; an inline sync of a speech has its own."""
     behavior, times = prediction.behavior, prediction.times
-    template = _template(
+    key = _TemplateKey(
         behavior.source,
         _legal(f"{block}:{behavior.id}"),
         frozenset(behavior.syncs),
         frozenset({sync for sync in times if sync in behavior.sync_points or sync not in _attributes(type(behavior))}),
         tuple(times),
     )
+    template = _TEMPLATES.get(key)
+    if template is None:
+        template = _template(*key)
+        _TEMPLATES.add(key, template, len(key.source) + sum(map(len, template.texts)))
     text = template.texts[0]
     for sync, following in zip(template.syncs, template.texts[1:], strict=True):
         text += seconds(times[sync]) + following
     return text
 
 
-@lru_cache(_TEMPLATES)
 def _template(source: str, id_: str, written: frozenset[str], own: frozenset[str], syncs: tuple[str, ...]) -> _Template:
     """The element of a behavior with places for its times.
 

@@ -4,13 +4,15 @@ import gc
 import weakref
 from collections import Counter
 from collections.abc import Iterable
+from pathlib import Path
 from typing import TypeVar
 
+from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.engine.engine import DefaultEngine
 from reactive_realizer.engines.animation.fade_out import FadeOut
 from reactive_realizer.engines.animation.motions.gesture import GestureMotionUnit
 from reactive_realizer.scheduler.bml_block import BMLBlock
-from reactive_realizer.testing.pilot import RealizerPilot
+from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 T = TypeVar("T")
 OURS, TESTING = "reactive_realizer", "reactive_realizer.testing"
@@ -20,6 +22,13 @@ def tracked(kind: type[T], besides: Iterable[T] = ()) -> list[T]:
     """The objects of a type that the garbage collector tracks, except some."""
     known = {id(each) for each in besides}
     return [each for each in gc.get_objects() if isinstance(each, kind) and id(each) not in known]
+
+
+def living() -> Counter[str]:
+    """The number of live objects of the realizer, by type."""
+    gc.collect()
+    modules = ((type(each).__name__, str(type(each).__module__)) for each in gc.get_objects())
+    return Counter(name for name, module in modules if module.startswith(OURS) and not module.startswith(TESTING))
 
 
 async def test_300_blocks_leave_nothing_behind(pilot: RealizerPilot) -> None:
@@ -91,13 +100,61 @@ async def test_blocks_that_are_sent_again_and_again_leave_nothing_new_behind(pil
             await pilot.advance(0.1 if number % 5 == 4 else 1.5)
         await pilot.advance(2.0)
         assert pilot.feedback.messages  # parsed; the reports are freed
-        gc.collect()
-        modules = ((type(each).__name__, str(type(each).__module__)) for each in gc.get_objects())
-        return Counter(name for name, module in modules if module.startswith(OURS) and not module.startswith(TESTING))
+        return living()
 
     await play()
     before = await play()
     assert await play() - before == Counter()
+
+
+async def test_large_behaviors_are_not_remembered_when_they_have_ended(pilot: RealizerPilot) -> None:
+    large = "x" * 500_000
+    wait = f'<wait id="w" duration="0.01"><description priority="1" type="x/y"><a>{large}</a></description></wait>'
+
+    async def play(blocks: int) -> int:
+        for _ in range(blocks):
+            pilot.block("b", wait.replace("x/y", f"x/{pilot.now}"))
+            await pilot.advance(0.03)
+            pilot.feedback.clear()
+        gc.collect()
+        return sum(len(text) for text in _texts_of(gc.get_objects()) if large in text)
+
+    assert await play(28) < 20e6
+
+
+def _texts_of(objects: Iterable[object]) -> Iterable[str]:
+    """The texts in lists and tuples, each once."""
+    held = (each for each in objects if isinstance(each, list | tuple))
+    texts = {id(text): text for each in held for text in each if isinstance(text, str)}
+    return texts.values()
+
+
+async def test_points_and_blocks_with_new_names_are_remembered_up_to_the_limits(tmp_path: Path) -> None:
+    human = tmp_path / "few.toml"
+    human.write_text("[character.alice]\n[limits]\nremembered_blocks = 10\npredicted_points = 10\n")
+    async with open_pilot(SceneOptions(human, "text")) as pilot:
+
+        async def play(first: int) -> Counter[str]:
+            for number in range(first, first + 15):
+                pilot.predict("t", f"turn{number}", pilot.now + 0.1)
+                pilot.block(
+                    f"b{number}",
+                    f"""
+                    <speech id="s"><text>number {number:03}</text></speech>
+                    <head id="h" lexeme="NOD" stroke="anticipators:t:turn{number}"/>
+                    <wait id="w" start="anticipators:metronome:tick{number}" duration="0.1"/>
+                    """,
+                    composition="REPLACE",
+                )
+                await pilot.advance(0.5)
+            await pilot.advance(2.0)
+            pilot.feedback.clear()
+            return living()
+
+        await play(0)
+        before = await play(15)
+        more = await play(30) - before
+        assert set(more) <= {"_Template", "_TemplateKey"}  # limited by their size
 
 
 async def test_fading_motions_are_not_kept_if_no_frames_are_made(pilot: RealizerPilot) -> None:

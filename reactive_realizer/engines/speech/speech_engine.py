@@ -1,6 +1,5 @@
 """The engine of ``speech`` (thesis 8.10)."""
 
-from collections import OrderedDict
 from collections.abc import Awaitable, Collection, Mapping
 from types import MappingProxyType
 
@@ -20,6 +19,7 @@ from reactive_realizer.errors import CreationFault, RealizerError
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.parameter import Range
 from reactive_realizer.planunit.plan_unit import PlanUnit
+from reactive_realizer.sized_cache import SizedCache
 
 
 class NothingToSay(CreationFault):
@@ -33,31 +33,10 @@ _Text = tuple[str, tuple[tuple[str, int], ...]]
 """A text to be synthesized, and its marks: the id of each, and the index of the character that it precedes."""
 
 _REMEMBERED_BYTES = 16 * 1024 * 1024
-"""Audio of the utterances that are remembered for repetition: six minutes of speech at 22 kHz."""
+"""Size of the utterances that are remembered for repetition: six minutes of speech at 22 kHz."""
 
-
-class _Spoken:
-    """The utterances that were planned last; what is said again need not be synthesized again.
-
-    They are remembered when they are planned, not when they are synthesized: so a replay remembers the same ones at the
-    same ticks.
-    """
-
-    def __init__(self) -> None:
-        self._utterances: OrderedDict[_Text, Utterance] = OrderedDict()
-        self._bytes = 0
-
-    def get(self, text: _Text) -> Utterance | None:
-        if text in self._utterances:
-            self._utterances.move_to_end(text)
-        return self._utterances.get(text)
-
-    def add(self, text: _Text, utterance: Utterance) -> None:
-        if text not in self._utterances:
-            self._utterances[text] = utterance
-            self._bytes += len(utterance.audio)
-        while self._bytes > _REMEMBERED_BYTES:
-            self._bytes -= len(self._utterances.popitem(last=False)[1].audio)
+_BYTES_A_CHARACTER = 50
+"""Size of an utterance without its sound: a word takes 200 to 300 bytes."""
 
 
 class SpeechEngine(DefaultEngine):
@@ -73,7 +52,9 @@ class SpeechEngine(DefaultEngine):
         self._voice = context.voice
         self._graph = context.graph
         self._audio = SpeechAudio(context.character)
-        self._spoken = _Spoken()
+        # What is said again need not be synthesized again. Utterances are remembered when they are planned, not when
+        # they are synthesized: so a replay remembers the same ones at the same ticks.
+        self._spoken: SizedCache[_Text, Utterance] = SizedCache(_REMEMBERED_BYTES)
         self._tracks: dict[SpeechUnit, VisemeTrack] = {}
 
     def check(self, behavior: Behavior) -> Collection[str] | None:
@@ -101,7 +82,8 @@ class SpeechEngine(DefaultEngine):
         if not utterance.words:
             raise RealizerError(NothingToSay())
         if prepared is not None:
-            self._spoken.add(_text(behavior), utterance)
+            text = _text(behavior)
+            self._spoken.add(text, utterance, len(utterance.audio) + _BYTES_A_CHARACTER * len(text[0]))
         return SpeechUnit(block, behavior, utterance, self._graph)
 
     def add(self, unit: PlanUnit) -> None:
