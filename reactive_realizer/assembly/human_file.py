@@ -23,6 +23,9 @@ DEFAULT_BINDINGS: Final[Mapping[str, str]] = {"gesture": "gesturebinding.xml"}
 LIGHTEST, HEAVIEST = 1.0, 1000.0
 """Bounds of the weight of a character, kg."""
 
+FEWEST_STEPS, MOST_STEPS = 2, 20
+"""Bounds of the steps in which a physical body is simulated in each tick."""
+
 _ID: Final = re.compile(r"[^\s:+\x00-\x1f\x7f]{1,200}")
 """Ids that BML can refer to."""
 
@@ -39,6 +42,7 @@ class CharacterSpec:
         engines: ids of engines, in rank order.
         idle: whether it has idle animation.
         weight: of its physical body, kg; None for the usual one of its stature.
+        simulation_steps: of its physical body in each tick; None for steps of the usual time.
         bindings: names of files among the assets, by kind; by default `DEFAULT_BINDINGS`.
     """
 
@@ -49,6 +53,7 @@ class CharacterSpec:
     engines: tuple[str, ...] = DEFAULT_ENGINES
     idle: bool = True
     weight: float | None = None
+    simulation_steps: int | None = None
     bindings: Mapping[str, str] = field(default_factory=lambda: DEFAULT_BINDINGS)
 
 
@@ -120,6 +125,9 @@ class _Reader:
         self.know(f"{key}.bindings", spec.bindings, tuple(DEFAULT_BINDINGS))
         if spec.weight is not None and not LIGHTEST <= spec.weight <= HEAVIEST:
             raise self._bad(f"{key}.weight", f"{spec.weight:g} is not from {LIGHTEST:g} to {HEAVIEST:g} kg")
+        steps = spec.simulation_steps
+        if steps is not None and not FEWEST_STEPS <= steps <= MOST_STEPS:
+            raise self._bad(f"{key}.simulation_steps", f"{steps} is not from {FEWEST_STEPS} to {MOST_STEPS}")
         for rank, engine in enumerate(spec.engines):
             if engine in spec.engines[:rank]:
                 raise self._bad(f"{key}.engines", f"{engine!r} is listed twice")
@@ -162,7 +170,7 @@ class _Reader:
         number = isinstance(value, int | float) and not isinstance(value, bool) and abs(value) <= float_info.max
         if number and kind in (float, float | None):
             return float(value)
-        if number and kind is type(value):
+        if number and kind in (type(value), type(value) | None):
             return value
         if kind in (str, bool) and isinstance(value, kind):
             return value

@@ -110,7 +110,8 @@ def _character(
     seed: int,
     time: Source[GlobalTime],
 ) -> Character:
-    humanoid = Humanoid(Avatar.read(assets(spec.avatar)), spec.position, math.radians(spec.heading), spec.weight)
+    heading = math.radians(spec.heading)
+    humanoid = Humanoid(Avatar.read(assets(spec.avatar)), spec.position, heading, spec.weight, spec.simulation_steps)
     world.add_character(id_, humanoid.locate)
     mouth = _Mouth()
     context = EngineContext(

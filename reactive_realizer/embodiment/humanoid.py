@@ -48,13 +48,19 @@ class Humanoid:
         position: of the point on the ground where it stands, m.
         heading: turn to its left, rad; 0 faces +z.
         weight: kg; None for the usual one of its stature.
+        simulation_steps: in which it is simulated in each tick; None for steps of the usual time.
     """
 
     def __init__(
-        self, avatar: Avatar, position: Vec3 = ZERO, heading: float = 0.0, weight: float | None = None
+        self,
+        avatar: Avatar,
+        position: Vec3 = ZERO,
+        heading: float = 0.0,
+        weight: float | None = None,
+        simulation_steps: int | None = None,
     ) -> None:
         self.avatar = avatar
-        self.weight = weight
+        self.weight, self.simulation_steps = weight, simulation_steps
         self._position = position
         self._turn = from_axis_angle(UP, heading)
         self._morphs = {morph: i for i, morph in enumerate(avatar.morphs)}

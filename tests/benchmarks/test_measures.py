@@ -16,7 +16,7 @@ SMALLEST: dict[str, dict[str, float]] = {
     "idle": {"seconds": 0.05, "most": 1},
     "latency": {"runs": 2},
     "load": {"seconds": 0.05, "behaviors": 20, "viewers": 2},
-    "physics": {"seconds": 0.05},
+    "physics": {"seconds": 0.05, "most": 1},
     "propagation": {"largest": 1000},
     "punctuality": {"seconds": 0.5},
     "scheduling": {"most": 2},
@@ -54,7 +54,10 @@ KEYS: dict[str, set[str]] = {
             for step in ("5", "2.5", "1")
             for setting in ("as_published", "k_0.5", "averaged_0.3", "averaged_0.15")
         ),
-        *(f"us_per_step.{what}" for what in ("arms_kinematic", "one_arm_loose")),
+        *(f"us_per_tick.{crowd}.{what}" for crowd in ("1", "10", "30", "100") for what in ("one_thread", "all")),
+        *(f"realtime_characters.{step}" for step in ("2.5", "5")),
+        "switch_jump.rad",
+        "switch_jump.rad_s",
     },
     "propagation": {
         *(f"{whose}_ns.{shape}.{n}" for whose in ("cell", "reactivex") for shape in ("fanout", "chain") for n in SIZES),

@@ -51,3 +51,12 @@ def test_an_impossible_weight_is_refused(
     assert main(["physics", str(tmp_path / "d.xml"), "--human", human]) == 2
     assert "human.toml: character.alice.weight: " in capsys.readouterr().err
     assert not (tmp_path / "d.xml").exists()
+
+
+@pytest.mark.parametrize("steps", ["1", "21", "2.5", '"many"'])
+def test_steps_of_a_simulation_that_are_too_few_or_too_many_are_refused(
+    tmp_path: Path, bml: Callable[..., str], steps: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    human = bml(f"[character.alice]\nsimulation_steps = {steps}\n", "human.toml")
+    assert main(["physics", str(tmp_path / "e.xml"), "--human", human]) == 2
+    assert "human.toml: character.alice.simulation_steps: " in capsys.readouterr().err

@@ -4,6 +4,7 @@ from collections.abc import Collection, Sequence
 from functools import partial
 from typing import NamedTuple
 
+from reactive_realizer.clock.ticker import RATE
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.humanoid import Dynamics, Humanoid
 from reactive_realizer.embodiment.joints import ROOT
@@ -12,7 +13,7 @@ from reactive_realizer.embodiment.vector import ZERO, Vec3, add, length, scale, 
 from reactive_realizer.engines.animation.easing import minimum_jerk
 from reactive_realizer.engines.animation.motions.rotation_curves import CurveEnd, HermiteCurve
 from reactive_realizer.physics.controllers.controller import Controller
-from reactive_realizer.physics.simulation import Exploded, Simulation
+from reactive_realizer.physics.simulation import SUBSTEP, Exploded, Simulation
 
 _RETURN = 0.6
 """Duration of the return of joints to their animation, s."""
@@ -109,7 +110,9 @@ class PhysicalFigure:
         if not controllers:
             self._simulation, self._lies = None, False
         elif self._simulation is None:
-            self._simulation = Simulation(self._humanoid.avatar.skeleton, self._humanoid.weight)
+            steps = self._humanoid.simulation_steps
+            substep = SUBSTEP if steps is None else 1.0 / (steps * RATE)
+            self._simulation = Simulation(self._humanoid.avatar.skeleton, self._humanoid.weight, substep)
             self._simulation.place(self._frames[-1].shown)
         else:
             moved = (joint for controller in controllers for joint in controller.joints | controller.desired)

@@ -14,7 +14,7 @@ from reactive_realizer.embodiment.avatar import Avatar
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.humanoid import Humanoid
 from reactive_realizer.embodiment.pose import Layer, LayerKind
-from reactive_realizer.embodiment.quaternion import Quat, difference, from_rotation_vector, rotation_vector
+from reactive_realizer.embodiment.quaternion import Quat, angle, difference, from_rotation_vector, rotation_vector
 from reactive_realizer.engines.animation.physical_figure import PhysicalFigure
 from reactive_realizer.physics.controllers.controller import Controller, RagdollController
 
@@ -111,3 +111,17 @@ def test_claimed_joints_of_a_controller_follow_their_animation() -> None:
     shown = session.humanoid.shown
     assert rotation_vector(difference(shown.rotation("r_elbow"), animated["r_elbow"])) == pytest.approx((0, 0, 0))
     assert max(map(abs, rotation_vector(difference(shown.rotation("l_elbow"), animated["l_elbow"])))) > 0.2
+
+
+def test_the_steps_of_the_simulation_are_those_of_the_figure() -> None:
+    def swung(steps: int | None) -> Body:
+        session = Session()
+        session.humanoid = Humanoid(AVATAR, simulation_steps=steps)
+        session.figure = PhysicalFigure(session.humanoid)
+        for _ in range(20):
+            session.show([RagdollController(LIMBS["left arm"])], set())
+        return session.humanoid.shown
+
+    usual, same, coarse = (swung(steps).rotation("l_elbow") for steps in (None, 4, 2))
+    assert usual == same
+    assert 1e-6 < angle(difference(usual, coarse)) < 0.1
