@@ -94,7 +94,7 @@ class Engine(Protocol):
 
     @property
     def next_due(self) -> Time:
-        """The time at which it next has something to play, as far as it is known; None while it only waits."""
+        """A time before which it has nothing to play, as far as it is known; None while it only waits."""
         ...
 
     def listen(self, wake: Callable[[], None]) -> None:
@@ -165,7 +165,7 @@ class DefaultEngine:
 
     @property
     def next_due(self) -> Time:
-        """The time at which a unit next begins or reaches a point; None while no such time is known."""
+        """A time before which no unit begins or reaches a point; None while no such time is known."""
         return self.player.next_due
 
     def listen(self, wake: Callable[[], None]) -> None:

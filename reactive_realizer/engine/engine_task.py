@@ -53,7 +53,7 @@ class EngineTasks:
 
     @property
     def next_due(self) -> Time:
-        """The time at which an engine next has something to play, as far as it is known; None if there is none."""
+        """A time before which no engine has something to play, as far as it is known; None if there is none."""
         for task in self._woken:
             self._agenda.note(task)
         return self._agenda.next_due

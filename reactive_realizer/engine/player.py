@@ -60,7 +60,7 @@ class Player:
 
     @property
     def next_due(self) -> Time:
-        """The time at which a unit next begins or reaches a point; None while no such time is known."""
+        """A time before which no unit begins or reaches a point; None while no such time is known."""
         return self._agenda.next_due
 
     def add(self, unit: PlanUnit) -> None:

@@ -7,6 +7,8 @@ from typing import Generic, TypeVar
 from reactive_realizer.clock.units import GlobalTime, Time, is_due
 from reactive_realizer.pegboard.time_peg import TimeCell
 from reactive_realizer.pegboard.watch import Watch
+from reactive_realizer.reactive.errors import Failure
+from reactive_realizer.reactive.graph import Change
 
 T = TypeVar("T")
 
@@ -17,12 +19,12 @@ _FEW = 32
 class Agenda(Generic[T]):
     """Items by the times at which they are next due.
 
-    An item is read when it is added, and again only when one of its pegs has moved or after `note`. An item that waits
-    costs nothing.
+    An item is read when it is added, and again only after `note`, or after one of its pegs has moved: soon if that may
+    make it due earlier, otherwise when the time comes that was read. An item that waits costs nothing.
 
     Args:
         due: returns the time at which an item is next due; None while it is unknown.
-        pegs: returns the pegs on which this time depends.
+        pegs: returns the pegs on which this time depends. The time may not come earlier when one of them comes later.
         wake: called when an item is to be read again.
     """
 
@@ -35,8 +37,11 @@ class Agenda(Generic[T]):
         self.wake = wake
         self._due = due
         self._pegs = pegs
-        self._watch: Watch[T] = Watch(lambda item, _: self.note(item))
+        self._watch: Watch[T] = Watch(self._note_move)
         self._numbers: dict[T, int] = {}
+        self._times: dict[T, GlobalTime] = {}
+        self._later: set[T] = set()
+        """The items that may be due later than they were when they were read."""
         self._unread: dict[T, None] = {}
         self._items: dict[int, T] = {}
         self._heap: list[tuple[GlobalTime, int]] = []
@@ -51,6 +56,8 @@ class Agenda(Generic[T]):
     def remove(self, item: T) -> None:
         """Remove an item, if it is on the agenda."""
         self._unread.pop(item, None)
+        self._times.pop(item, None)
+        self._later.discard(item)
         self._watch.forget(item)
         self._items.pop(self._numbers.pop(item, 0), None)
 
@@ -62,7 +69,7 @@ class Agenda(Generic[T]):
 
     @property
     def next_due(self) -> Time:
-        """The earliest time at which an item is due; None while no time is known."""
+        """A time before which no item is due: the earliest one that was read; None if none was known."""
         self._read()
         return self._first
 
@@ -70,9 +77,16 @@ class Agenda(Generic[T]):
         """The items that are due, in order of time. Each is read again before the next call."""
         self._read()
         due: list[T] = []
-        while is_due(self._first, now):
-            due.append(self._items[heappop(self._heap)[1]])
-        self._unread.update(dict.fromkeys(due))
+        try:
+            while is_due(self._first, now):
+                item = self._items[heappop(self._heap)[1]]
+                if item in self._later:
+                    self._unread[item] = None
+                    self._read()
+                else:
+                    due.append(item)
+        finally:
+            self._unread.update(dict.fromkeys(due))
         return due
 
     @property
@@ -83,6 +97,15 @@ class Agenda(Generic[T]):
             heappop(heap)
         return heap[0][0] if heap else None
 
+    def _note_move(self, item: T, change: Change) -> None:
+        """Note that a peg of an item has moved; nothing is done yet if that cannot make it due earlier."""
+        time, new = self._times.get(item), change.new
+        if time is not None and not isinstance(new, Failure) and (new is None or new >= time):
+            self._later.add(item)
+            self.wake()
+        else:
+            self.note(item)
+
     def _read(self) -> None:
         """Read the items that have changed."""
         while self._unread:
@@ -90,7 +113,11 @@ class Agenda(Generic[T]):
             time = self._due(item)
             self._watch.follow(item, self._pegs(item))
             number = self._renumber(item)
-            if time is not None:
+            self._later.discard(item)
+            if time is None:
+                self._times.pop(item, None)
+            else:
+                self._times[item] = time
                 heappush(self._heap, (time, number))
             del self._unread[item]
         if len(self._heap) > 2 * len(self._numbers) + _FEW:
