@@ -255,7 +255,9 @@ class PlanUnit:
             return self.points[0].peg.value
         if self.state is not UnitState.IN_EXEC:
             return None
-        return min((time for point in self.ahead() if (time := point.peg.value) is not None), default=None)
+        return min(
+            [time for point in self.points if not point.fired and (time := point.peg.value) is not None], default=None
+        )
 
     def awaited(self) -> list[TimePeg]:
         """The pegs that it waits for: that of its start or, while it plays, those of the points ahead."""
@@ -264,6 +266,8 @@ class PlanUnit:
     def overtaken(self) -> tuple[tuple[str, GlobalTime], tuple[str, GlobalTime]] | None:
         """Two points, with their times, that are out of order (thesis 7.15), if there are any; tied ones first."""
         known = [(point, time) for point in self.points if (time := point.peg.value) is not None]
+        if all(one[1] <= other[1] for one, other in itertools.pairwise(known)):
+            return None
         for points in ([each for each in known if each[0].tied], known):
             for (earlier, time), (later, late) in itertools.pairwise(points):
                 if time > late + RESOLUTION:

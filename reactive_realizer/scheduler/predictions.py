@@ -113,23 +113,28 @@ def _differ(before: Mapping[str, Time], after: Mapping[str, Time]) -> bool:
 
 def _prediction(block: BMLBlock, times: _Times, now: GlobalTime) -> PredictionFeedback:
     """The known times of a block; if its start is unknown, the times that were planned, as if it started now."""
-    start = now if block.start.value is None else block.start.value
-    known = [(unit.behavior, _known(block, unit.behavior.id, times[unit.behavior.id], start)) for unit in block.units]
-    end = block.end.value
-    if end is None:
-        end = max([start, *(time for _, own in known for time in own.values())])
+    start, end = block.start.value, block.end.value
+    if start is None:
+        start = now
+        times = {id_: _planned(block, id_, own, start) for id_, own in times.items()}
     behaviors = tuple(
-        # A waiting block is planned again at its start, so that no point comes before that.
-        BehaviorPrediction(behavior, {sync: BlockTime(max(time - start, 0.0)) for sync, time in own.items()})
-        for behavior, own in known
+        [BehaviorPrediction(unit.behavior, _known(times[unit.behavior.id], start)) for unit in block.units]
     )
+    if end is None:
+        end = GlobalTime(start + max((time for each in behaviors for time in each.times.values()), default=0.0))
     return PredictionFeedback(*block.key, start, end, block.state.value, behaviors)
 
 
-def _known(block: BMLBlock, id_: str, times: Mapping[str, Time], start: GlobalTime) -> dict[str, GlobalTime]:
-    """The known times of a behavior; those that were planned if the start of its block is unknown."""
-    if block.start.value is None:
-        planned = {sync: block.planned_times.get(Point(id_, sync)) for sync in times}
-        after = {sync: None if time is None else GlobalTime(start + time) for sync, time in planned.items()}
-        times = {sync: after[sync] if time is None else time for sync, time in times.items()}
-    return {sync: time for sync, time in times.items() if time is not None}
+def _known(times: Mapping[str, Time], start: GlobalTime) -> dict[str, BlockTime]:
+    """The known times of a behavior.
+
+    A waiting block is planned again at its start, so that no point comes before that.
+    """
+    return {sync: BlockTime(max(time - start, 0.0)) for sync, time in times.items() if time is not None}
+
+
+def _planned(block: BMLBlock, id_: str, times: Mapping[str, Time], start: GlobalTime) -> dict[str, Time]:
+    """The times of a behavior, and the planned ones of points without a time."""
+    planned = {sync: block.planned_times.get(Point(id_, sync)) for sync in times}
+    after = {sync: None if time is None else GlobalTime(start + time) for sync, time in planned.items()}
+    return {sync: after[sync] if time is None else time for sync, time in times.items()}
