@@ -19,7 +19,7 @@ class Limits:
     """Accepted blocks that have not ended, of all characters; a client has at most half of what others leave."""
     sync_points_per_block: int = 10_000
     """Sync points of a block, which fails if it has more; a nod has one for each repetition."""
-    planning_per_tick: int = 1_000
+    planning_per_tick: int = 700
     """Work of planning in a tick, counted in sync points that are made, placed or put on pegs. The rest waits."""
     procedures: int = 1_000
     """Defined procedures; a redefinition does not count again."""

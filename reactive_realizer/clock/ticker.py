@@ -58,6 +58,11 @@ def tick_time(number: int) -> GlobalTime:
     return GlobalTime(number / RATE)
 
 
+def next_tick(time: GlobalTime) -> GlobalTime:
+    """The time of the tick after the one at ``time``, s."""
+    return tick_time(round(time * RATE) + 1)
+
+
 def first_tick(time: GlobalTime) -> int:
     """The number of the first tick at which a time is due."""
     number = ceil((time - RESOLUTION) * RATE)

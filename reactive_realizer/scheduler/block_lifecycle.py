@@ -88,20 +88,27 @@ class BlockLifecycle:
         """
         self._transitions.end(self._new_block(composition, (), client, now), BlockEvent.FAIL, now)
 
-    def plan(self, block: BMLBlock, outcome: Plan | Loss, now: GlobalTime) -> None:
-        """Commit the plan of a block, or fail the block if something required is lost."""
+    def plan(self, block: BMLBlock, outcome: Plan | Loss, now: GlobalTime, floor: GlobalTime) -> None:
+        """Commit the plan of a block, or fail the block if something required is lost.
+
+        Args:
+            block: in preparation.
+            outcome: of its planning.
+            now: the time of the tick.
+            floor: time before which the block does not start.
+        """
         if isinstance(outcome, Loss):
             self._fails_by(block, [outcome], now)
         else:
-            self._commit(block, outcome, now)
+            self._commit(block, outcome, now, floor)
         self._planner.leave(block)
 
-    def _commit(self, block: BMLBlock, plan: Plan, now: GlobalTime) -> None:
+    def _commit(self, block: BMLBlock, plan: Plan, now: GlobalTime, floor: GlobalTime) -> None:
         if self._fails_by_plan(block, plan, now):
             return
         with self._board.graph.transaction(f"plan {block.key.block}"):
             holds = self._planning.lay_out(block, plan)
-            block.set_plan(now, plan.units, plan.times, plan.kept, holds)
+            block.set_plan(floor, plan.units, plan.times, plan.kept, plan.bounds, holds)
         self._blocks.watch.follow(block)
         for unit in plan.units:
             self._routing.assign(unit, self._planner.engine_of(block, unit))
@@ -296,7 +303,7 @@ class BlockLifecycle:
             other.rename_pegs(replaced)
             self._blocks.watch.follow(other)
         self._planner.rename_pegs(replaced)
-        block.set_plan(block.end.floor, plan.units, plan.times, plan.kept, holds)
+        block.set_plan(block.end.floor, plan.units, plan.times, plan.kept, plan.bounds, holds)
         self._blocks.watch.follow(block)
         self._units.remove(lost, now)
         block.dropped |= {unit.behavior.id for unit in lost}

@@ -15,6 +15,7 @@ from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
 from reactive_realizer.planunit.wait_unit import WaitUnit
 from reactive_realizer.scheduler.block_state import BlockEvent, BlockState, BlockTransition, transition
 from reactive_realizer.scheduler.lanes import Lane
+from reactive_realizer.scheduler.late_ties import Bounds
 from reactive_realizer.scheduler.named_blocks import named_blocks
 from reactive_realizer.scheduler.problem import Origin, Point, Precedence, Tie
 
@@ -77,6 +78,7 @@ class BMLBlock:
         planned_times: of the points of its plan, s after its start; None for unknown ones.
         kept: the constraints of its plan.
         outside: the pegs of other blocks and of anticipators that these name.
+        bounds: those that they set on the ties of the plan to them.
         beyond_limits: ids of behaviors of which a warning has said that they do not keep the limits of their authors.
         settled: the constraints that are not checked any more: they were missed, or are met and past.
         failing: whether something required was lost, so that the block is to end FAILED.
@@ -108,6 +110,7 @@ class BMLBlock:
         self.planned_times: Mapping[Point, float | None] = {}
         self.kept: tuple[Tie | Precedence, ...] = ()
         self.outside: frozenset[TimeCell] = frozenset()
+        self.bounds: Mapping[TimeCell, Bounds] = {}
         self.beyond_limits: set[str] = set()
         self.settled: set[Tie | Precedence] = set()
         self.failing = False
@@ -234,6 +237,7 @@ class BMLBlock:
         units: Sequence[PlanUnit],
         times: Mapping[Point, float | None],
         kept: Sequence[Tie | Precedence],
+        bounds: Mapping[TimeCell, Bounds],
         holds: Sequence[TimeCell],
     ) -> None:
         """Have the behaviors of a plan; start after everything that it waits for, and end not before ``floor``.
@@ -243,7 +247,7 @@ class BMLBlock:
         self.holds = tuple(holds)
         self.planned_times = times
         self.units, self.kept = list(units), tuple(kept)
-        self.outside = _outside(self.kept)
+        self.outside, self.bounds = _outside(self.kept), bounds
         self.update_end(floor)
         if not self.state.plays:
             self.start.wait_for(floor, self._awaited())
@@ -267,6 +271,7 @@ class BMLBlock:
                 unit.rename(replaced)
         self.kept = tuple(each.renamed(replaced) for each in self.kept)
         self.outside = _outside(self.kept)
+        self.bounds = {replaced.get(cell, cell): each for cell, each in self.bounds.items()}
         self.settled = {each.renamed(replaced) for each in self.settled}
 
     def set_predecessors(self, predecessors: Iterable[Predecessor]) -> None:

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterable, Sequence
 
 from reactive_realizer.bml.block import BehaviorBlock, Parsed
+from reactive_realizer.clock.ticker import next_tick
 from reactive_realizer.clock.units import GlobalTime, Time, is_due
 from reactive_realizer.embodiment.audio import AudioHeard
 from reactive_realizer.engine.effects import Play
@@ -35,7 +36,7 @@ from reactive_realizer.scheduler.strategy import SchedulingStrategy
 _ENTRY = 60
 """Work of an entry without behaviors, and of planning it, as the planner counts work."""
 
-_MOST_WAITING = 10
+_MOST_WAITING = 5
 """Blocks of a lane that can be planned while further ones enter."""
 
 
@@ -141,8 +142,8 @@ class BMLScheduler:
             self._turns.add(self._entries.add(parsed, client))
 
     def begin_planning(self) -> None:
-        """Begin a tick: there is time for planning again."""
-        self._left = self._limits.planning_per_tick
+        """Begin a tick: there is time for planning again, less what the ticks before have done too much."""
+        self._left = min(self._left, 0) + self._limits.planning_per_tick
         for lane in tuple(self._turns):
             if lane not in self._entries.lanes and lane not in self._planner.lanes:
                 self._turns.remove(lane)
@@ -179,7 +180,9 @@ class BMLScheduler:
         work, planned = self._planner.step(lane)
         self._left -= work
         if planned is not None:
-            self._lifecycle.plan(*planned, now)
+            # To start a block takes as long as to put it on the board: a big one does not do both in one tick.
+            floor = now if work <= self._limits.planning_per_tick else next_tick(now)
+            self._lifecycle.plan(*planned, now, floor)
             self._events.add(planned.block.units)
 
     def _accept(self, entry: Entry, now: GlobalTime) -> None:

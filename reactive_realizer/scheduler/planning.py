@@ -78,6 +78,7 @@ class Plan:
         losses: those of the problem and of the strategy.
         beyond_limits: the behaviors that do not keep the limits of their authors.
         kept: the constraints that are kept.
+        bounds: those that the times from outside set on the ties to them.
         times: of the planned points, s after the start of the block; None for those that depend on an unknown time.
         built: its pegs; None until they are made.
         points: the sync points of its behaviors, on these pegs.
@@ -93,6 +94,7 @@ class Plan:
         self.losses = (*posed.losses, *solution.losses)
         self.beyond_limits = tuple(limits_not_kept(posed.problem, solution))
         self.kept = (*self.layout.kept.constraints, *posed.holds)
+        self.bounds = tie_bounds(self.layout.kept.items, self.layout.kept.ties)
         waiting = {Point(unit.behavior.id, sync) for unit in self.units for sync in unit.open}
         self.times = {point: time for point, time in self.layout.times.items() if point not in waiting}
         self.built: BuiltPegs | None = None
@@ -115,12 +117,15 @@ class Plan:
             self.built.dispose()
 
     def name_pegs(self) -> Iterator[None]:
-        """Make the sync points of its behaviors and the names of their pegs, in small steps."""
+        """Make the sync points of its behaviors, and the names and the texts of their pegs, in small steps."""
         units = {unit.behavior.id: unit for unit in self.units}
         for point, peg in self._pegs.items():
             unit = units[point.behavior]
             if point.sync not in unit.open:
-                self.points[unit].append(SyncPoint(point.sync, peg, tied=point in self._reasons))
+                reasons = self._reasons.get(point)
+                if reasons is not None:
+                    peg.why = "; ".join(reasons)
+                self.points[unit].append(SyncPoint(point.sync, peg, tied=reasons is not None))
                 self.named[unit.key(point.sync)] = peg
             yield
         for unit, points in self.points.items():
@@ -130,16 +135,13 @@ class Plan:
             yield
 
     def give_points(self, start: TimeCell) -> None:
-        """Within a transaction, give the behaviors their points, and the pegs the texts of their constraints.
+        """Within a transaction, give the behaviors their points.
 
         Args:
             start: the peg of the start of the block.
         """
         for unit, points in self.points.items():
             unit.points = points
-            for point in points:
-                if point.tied:
-                    point.peg.why = "; ".join(self._reasons[Point(unit.behavior.id, point.id)])
             unit.wake()
         for unit, node in self.posed.awaited.items():
             if unit in self.points:
@@ -225,7 +227,8 @@ class Planning:
             None if the present plan is still good, or the new plan of a chunk would lose anything.
         """
         times = (point.peg.value for unit in block.units for point in unit.points)
-        early = any(has_passed(time, start) for time in times) or _has_late_ties(block, start)
+        late = any(has_passed(cell.value, start + least) for cell, (least, _) in block.bounds.items())
+        early = late or any(has_passed(time, start) for time in times)
         if not early and not any(each.chunk for each in block.predecessors):
             return None
         items = {unit: Item(unit.behavior, unit.preference(now).closed) for unit in block.units}
@@ -292,9 +295,8 @@ class Planning:
 
     def _not_before(self, block: BMLBlock, plan: Plan) -> dict[TimeCell, TimePeg]:
         """Pegs for times from outside, for a block that waits: if ties to them are late, as at its start."""
-        graph, layout = self._board.graph, plan.layout.kept
-        bounds = tie_bounds(layout.items, layout.ties).items()
-        name = f"for {block.key.block}"
+        graph, name = self._board.graph, f"for {block.key.block}"
+        bounds = plan.bounds.items()
         return {cell: LateTiePeg(graph, f"{cell.name} {name}", cell, block.start, *each) for cell, each in bounds}
 
     def _open(self, unit: PlanUnit) -> None:
@@ -339,14 +341,6 @@ def _in_steps(small: Generator[None, None, T]) -> Generator[int, None, T]:
         yield steps
         result: T = end.value
         return result
-
-
-def _has_late_ties(block: BMLBlock, start: GlobalTime) -> bool:
-    if not block.outside:
-        return False
-    items = map(item_of, block.units)
-    ties = [each for each in _left(block) if isinstance(each, Tie)]
-    return any(has_passed(cell.value, start + least) for cell, (least, _) in tie_bounds(items, ties).items())
 
 
 def _left(block: BMLBlock) -> list[Tie | Precedence]:

@@ -162,7 +162,7 @@ async def test_times_that_moved_while_a_block_was_solved_are_no_violation(pilot:
     before = f'<constraint><before ref="{HIT}"><sync ref="w:end"/></before></constraint>'
     rest = "".join(f'<wait id="w{i}" duration="1"/>' for i in range(60))
     pilot.block("b", f'<wait id="w" duration="1" start="anticipators:partner:start"/>{before}{rest}')
-    for hit in (3.0, 3.2, 3.0, 2.5):
+    for hit in (3.0, 3.0, 3.2, 3.0, 2.5):
         pilot.predict("partner", "hit", hit)
         await pilot.tick()
     await pilot.advance(4)

@@ -8,6 +8,8 @@ import pytest
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.realizer.inputs import BmlText, TickInputs
 from reactive_realizer.realizer.session import replay
+from reactive_realizer.scheduler.block_planner import BlockPlanner, Planned
+from reactive_realizer.scheduler.lanes import Lane
 from reactive_realizer.testing.pilot import RealizerPilot, block, open_pilot
 
 TWO = SceneOptions(Path(__file__).parents[1] / "data" / "humans" / "two.toml", "text")
@@ -55,6 +57,40 @@ async def test_a_big_block_is_planned_over_several_ticks_and_then_played_whole(p
     assert 0.0 < start < 0.1
     assert pilot.feedback.time("big:end") == pytest.approx(start + 4.5)
     assert pilot.feedback.warnings == []
+
+
+async def test_a_block_whose_pegs_are_more_than_the_work_of_a_tick_starts_in_the_tick_after_they_are_on_the_board(
+    pilot: RealizerPilot,
+) -> None:
+    pilot.block("big", chain(300))
+    await pilot.advance(0.5)
+    *_, planned, started = [each for each in pilot.feedback.of("predictionFeedback") if each.id == "big"]
+    assert round(started.time - planned.time, 6) == 0.01
+    assert pilot.feedback.time("big:start") == started.time
+
+
+async def test_work_beyond_the_budget_of_a_tick_is_taken_from_the_next_ones(
+    slow: RealizerPilot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    slices: list[int] = []
+    last = 0.0
+    step = BlockPlanner.step
+
+    def count(planner: BlockPlanner, lane: Lane) -> tuple[int, Planned | None]:
+        nonlocal last
+        work, planned = step(planner, lane)
+        slices.append(work)
+        last = slow.now
+        return work, planned
+
+    monkeypatch.setattr(BlockPlanner, "step", count)
+    for i in range(4):
+        slow.block(f"b{i}", loose(5), characterId="alice")
+        slow.block(f"c{i}", loose(5), characterId="bob")
+    await slow.advance(3)
+    assert slow.feedback.status("b3") == slow.feedback.status("c3") == "DONE"
+    entries, ticks = 8 * 65, round(last * 100) + 1
+    assert 20 * (ticks - 1) <= entries + sum(slices) <= 20 * ticks + max(slices)
 
 
 async def test_a_small_block_of_another_character_does_not_wait_for_a_big_one(pilot: RealizerPilot) -> None:

@@ -80,7 +80,7 @@ async def calls_in_a_second(blocks: int, options: SceneOptions | None = None) ->
     async with open_pilot(options) as pilot:
         for number in range(blocks):
             pilot.block(f"b{number}", WAITING)
-        await pilot.advance(0.1)
+        await pilot.advance(0.5)
         gc.disable()  # callbacks of the collector would be counted
         sys.setprofile(count)
         await pilot.advance(1)

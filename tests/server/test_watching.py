@@ -60,7 +60,7 @@ async def samples_of(air: OnAir) -> dict[str, float]:
 
 
 async def test_metrics_count_the_blocks_that_wait_for_the_work_of_a_tick(on_air: Open) -> None:
-    async with on_air(ALICE + "[limits]\nplanning_per_tick = 1\n") as air:
+    async with on_air(ALICE + "[limits]\nplanning_per_tick = 50\n") as air:
         for number in range(5):
             await post(air, "/bml", wait(f"b{number}", 9))
         counts = []
