@@ -30,8 +30,9 @@ def test_every_data_folder_has_a_license_that_lets_everyone_use_it() -> None:
 
 def test_what_comes_from_elsewhere_carries_its_own_notice() -> None:
     from_elsewhere = [name for name in ENTRIES if "written for this" not in entry(name)]
-    assert from_elsewhere == ["avatars"]
+    assert from_elsewhere == ["avatars", "voices"]
     assert "CC0 1.0" in (ASSETS / "avatars" / "LICENSE.md").read_text(encoding="utf-8")
+    assert "Apache License 2.0" in (ASSETS / "voices" / "LICENSE.md").read_text(encoding="utf-8")
 
 
 def test_every_library_in_the_page_bundle_stands_in_the_notice() -> None:

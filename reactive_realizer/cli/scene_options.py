@@ -23,7 +23,9 @@ def add_file_options(parser: argparse.ArgumentParser) -> None:
 def add_scene_options(parser: argparse.ArgumentParser) -> None:
     """Add all options of a scene."""
     add_file_options(parser)
-    parser.add_argument("--voice", choices=names("tts"), default="espeak", help="the voice; text is silent")
+    parser.add_argument(
+        "--voice", choices=names("tts"), default="espeak", help="the text-to-speech system; text is silent"
+    )
     parser.add_argument("--seed", type=int, default=0, metavar="N", help="the seed of idle animation and noise")
     parser.add_argument("--strategy", choices=names("strategies"), default="convex", help="the scheduling strategy")
     parser.add_argument("--verify", action="store_true", help="check the constraints of plans during playback")

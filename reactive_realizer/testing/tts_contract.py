@@ -2,8 +2,9 @@
 
 import asyncio
 from abc import ABC, abstractmethod
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
+from typing import ClassVar
 
 import pytest
 
@@ -13,7 +14,8 @@ from reactive_realizer.errors import RealizerError
 
 _SENTENCE = "Please put the red box on the green table, Dr. Smith."
 _NO_WORDS = ["", " ", "?", "... \u2014 !"]
-_TEXTS = [
+_LONG = "hello world " * 100
+_TEXTS = (
     _SENTENCE,
     "Yes",
     "of a the to",
@@ -22,8 +24,7 @@ _TEXTS = [
     "Is 5 < 6 & 7 > 6? <b>Yes</b> &amp; <sync id='m'/> no.",
     'In 1984 "they" (all 23 of them) paid $5.20 to bob@x.org \u2014 e.g. Dr. U.S.A. \u6f22\u5b57 \U0001f600!',
     "Gr\u00fc\u00dfe, \u00e7a va? \u041f\u0440\u0438\u0432\u0435\u0442.",
-    "hello world " * 100,
-]
+)
 
 
 class Speaker:
@@ -64,7 +65,15 @@ class Speaker:
 
 
 class TTSContract(ABC):
-    """Tests of any voice: words and marks have times in the order of the text, and utterances are independent."""
+    """Tests of any voice: words and marks have times in the order of the text, and utterances are independent.
+
+    Attributes:
+        texts: what is said; a slow voice may choose fewer.
+        long_text: what takes some time to say.
+    """
+
+    texts: ClassVar[Sequence[str]] = _TEXTS
+    long_text: ClassVar[str] = _LONG
 
     @abstractmethod
     def tts(self) -> TTSBinding:
@@ -82,7 +91,7 @@ class TTSContract(ABC):
                 runner.run(tts.close())
 
     def test_words_are_in_the_text_and_their_times_in_its_order(self, speaker: Speaker) -> None:
-        for text in (*_TEXTS, *_NO_WORDS):
+        for text in (*self.texts, self.long_text, *_NO_WORDS):
             utterance = speaker.say(text)
             assert utterance.text == text
             assert all(text[word.first : word.last] == word.text for word in utterance.words), text
@@ -91,7 +100,7 @@ class TTSContract(ABC):
             _assert_in_order([word.start for word in utterance.words], utterance)
 
     def test_marks_at_all_indices_have_times_in_their_order(self, speaker: Speaker) -> None:
-        for text in (*_TEXTS, *_NO_WORDS):
+        for text in (*self.texts, *_NO_WORDS):
             places = range(min(len(text), 80) + 1)
             utterance = speaker.say(text, *((f"mark{place}", place) for place in places))
             assert utterance.marks.keys() == {f"mark{place}" for place in places}
@@ -125,7 +134,7 @@ class TTSContract(ABC):
             assert 0.0 <= utterance.marks["mark"] <= utterance.duration, text
 
     def test_audio_and_phonemes_last_as_long_as_the_utterance(self, speaker: Speaker) -> None:
-        for text in _TEXTS:
+        for text in self.texts:
             utterance = speaker.say(text)
             assert len(utterance.audio) % 2 == 0, text
             if utterance.audio:
@@ -143,12 +152,12 @@ class TTSContract(ABC):
         assert speaker.say(_SENTENCE, ("red", 15)) == first
 
     def test_concurrent_requests_are_not_mixed_up(self, speaker: Speaker) -> None:
-        texts = ("one", "one two three four", _TEXTS[-1], "five")
+        texts = ("one", "one two three four", self.long_text, "five")
         assert speaker.say_concurrently(*texts) == [speaker.say(text) for text in texts]
 
     def test_canceling_a_request_does_not_affect_the_next_one(self, speaker: Speaker) -> None:
         whole = speaker.say(_SENTENCE)
-        speaker.cancel(_TEXTS[-1])
+        speaker.cancel(self.long_text)
         assert speaker.say(_SENTENCE) == whole
 
     def test_the_listed_voices_are_sorted_and_can_speak(self, speaker: Speaker) -> None:

@@ -157,8 +157,8 @@ async def test_killing_the_speech_worker_drops_only_the_speech() -> None:
         pilot.block("b", '<speech id="s"><text>Never heard.</text></speech><head id="h" lexeme="NOD"/>')
         voice = pilot.scene.tts
         assert isinstance(voice, EspeakVoice)
-        assert voice._process
-        os.kill(voice._process.pid, signal.SIGKILL)
+        assert voice.worker.process
+        os.kill(voice.worker.process.pid, signal.SIGKILL)
         await pilot.advance(2)
         assert pilot.feedback.warnings == [("b:s", "CANNOT_CREATE_BEHAVIOR")]
         assert pilot.feedback.reached("b:h:end")

@@ -7,7 +7,7 @@ import pytest
 
 from reactive_realizer.binding.faults import NoAsset
 from reactive_realizer.clock.units import GlobalTime
-from reactive_realizer.engines.speech.espeak_voice import VoiceFailed
+from reactive_realizer.engines.speech.speech_worker import VoiceFailed
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.realizer.background_tasks import BackgroundTasks
 from reactive_realizer.realizer.inputs import BmlText, Delivery, TickInputs

@@ -14,7 +14,7 @@ from reactive_realizer.assembly.scene import DEFAULT_HUMAN, SceneOptions, open_s
 from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.audio import AudioHeard
-from reactive_realizer.engines.speech.espeak_voice import VoiceFailed
+from reactive_realizer.engines.speech.speech_worker import VoiceFailed
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.realizer.inputs import (
     BmlText,

@@ -54,20 +54,20 @@ class Spoken:
 
     Attributes:
         audio: mono int16 PCM.
-        words: time, and 1-based position in the document, of each spoken word.
+        words: time, 1-based position in the document, and number of the first phoneme of each spoken word.
         marks: (name, time).
         phonemes: (time, IPA symbol).
     """
 
     audio: bytearray = field(default_factory=bytearray)
-    words: list[tuple[int, int]] = field(default_factory=list)
+    words: list[tuple[int, int, int]] = field(default_factory=list)
     marks: list[tuple[str, int]] = field(default_factory=list)
     phonemes: list[tuple[int, str]] = field(default_factory=list)
 
     def add(self, event: Any) -> None:
         """Adds one event of the library."""
         if event.type == _WORD and event.length > 0:  # length 0: a pause at a bracket or quotation mark
-            self.words.append((event.sample, event.text_position))
+            self.words.append((event.sample, event.text_position, len(self.phonemes)))
         elif event.type == _MARK:
             self.marks.append((event.id.name.decode(), event.sample))
         elif event.type == _PHONEME:

@@ -10,7 +10,7 @@ from xml.sax.saxutils import escape
 import numpy as np
 
 from reactive_realizer.engine.tts import Phoneme, Utterance, Word, word_spans
-from reactive_realizer.engines.speech.espeak_messages import WorkerMessage
+from reactive_realizer.engines.speech.worker_messages import WorkerMessage
 
 _BYTES_PER_SAMPLE = 2
 
@@ -33,6 +33,23 @@ class Markup:
         return self.origins[min(max(position, 1), len(self.origins)) - 1]
 
 
+@dataclass(frozen=True, slots=True)
+class PronouncedWord:
+    """A word of a text, with its sounds.
+
+    Attributes:
+        first: index of its first character in the text, without the punctuation around it.
+        last: index after its last character.
+        sounds: IPA symbols, stress marks included; none for a word that is not spoken.
+        pause: whether a pause follows, as at the end of a sentence, but not at the stop of an abbreviation.
+    """
+
+    first: int
+    last: int
+    sounds: tuple[str, ...]
+    pause: bool
+
+
 def marked_up(text: str, marks: tuple[int, ...]) -> Markup:
     """A plain text with empty ``<mark>`` elements at the given indices (0 to ``len(text)``)."""
     pieces: list[tuple[str, int]] = [("<speak>", 0)]
@@ -51,11 +68,27 @@ def as_utterance(reply: WorkerMessage, text: str, marks: tuple[tuple[str, int], 
     duration = len(reply.body) / _BYTES_PER_SAMPLE / rate
     phonemes = _phonemes([(sample / rate, symbol) for sample, symbol in reply.header["phonemes"]], duration)
     silent = max((phoneme.start + phoneme.duration for phoneme in phonemes if phoneme.symbol), default=duration)
-    reported_words = [(sample / rate, markup.origin(position)) for sample, position in reply.header["words"]]
-    words = _words(text, reported_words, silent)
+    reported_words = [(sample / rate, markup.origin(position)) for sample, position, _ in reply.header["words"]]
+    words = timed_words(text, reported_words, silent)
     unmarked = Utterance(text, duration, words, MappingProxyType({}), phonemes, reply.body, rate)
     reported_marks = {name: sample / rate for name, sample in reply.header["marks"]}
     return replace(unmarked, marks=MappingProxyType(_marks(marks, reported_marks, unmarked)))
+
+
+def pronounced_words(reply: WorkerMessage, text: str, markup: Markup) -> tuple[PronouncedWord, ...]:
+    """The words of a text with the sounds in a reply of the worker, which has more words for a number or an address."""
+    spans = word_spans(text)
+    ends = [last for _, last in spans]
+    symbols: list[list[str]] = [[] for _ in spans]
+    reported = [symbol for _, symbol in reply.header["phonemes"]]
+    words = [(markup.origin(position), first) for _, position, first in reply.header["words"]]
+    for (character, first), (_, last) in pairwise([*words, (len(text), len(reported))]):
+        if (word := bisect_right(ends, character)) < len(spans):
+            symbols[word] += reported[first:last]
+    return tuple(
+        PronouncedWord(first, last, tuple(filter(None, own)), pause=own[-1:] == [""])
+        for (first, last), own in zip(spans, symbols, strict=True)
+    )
 
 
 def _phonemes(onsets: list[tuple[float, str]], duration: float) -> tuple[Phoneme, ...]:
@@ -71,15 +104,15 @@ def _marks(marks: tuple[tuple[str, int], ...], reported: Mapping[str, float], sp
     return {name: time for (_, (name, _)), time in zip(ordered, accumulate(times, max), strict=True)}
 
 
-def _words(text: str, reported: list[tuple[float, int]], silent: float) -> tuple[Word, ...]:
+def timed_words(text: str, reported: list[tuple[float, int]], silent: float) -> tuple[Word, ...]:
     """The words of a text with their times.
 
-    espeak-ng counts spoken words. For a number or an address it reports several, of which the first counts. For short
-    words that it joins it reports one; the others get a time between their neighbors, by the number of characters.
+    Spoken words are reported. For a number or an address there are several, of which the first counts. Words without a
+    report, such as short ones that are joined, get a time between their neighbors, by the number of characters.
 
     Args:
         text: the spoken text.
-        reported: time, s, and index of the character of each word that espeak-ng reports.
+        reported: time, s, and index of a character of each spoken word.
         silent: end of the last word, s.
     """
     spans = word_spans(text)

@@ -1,12 +1,18 @@
 """The embedded voice: espeak-ng in a worker process."""
 
-import asyncio
 from importlib.util import find_spec
+from typing import Any
 
 from reactive_realizer.engine.tts import Utterance
-from reactive_realizer.engines.speech.espeak_messages import WorkerMessage
-from reactive_realizer.engines.speech.espeak_process import EspeakProcess
-from reactive_realizer.engines.speech.espeak_utterance import as_utterance, marked_up
+from reactive_realizer.engines.speech.espeak_utterance import (
+    Markup,
+    PronouncedWord,
+    as_utterance,
+    marked_up,
+    pronounced_words,
+)
+from reactive_realizer.engines.speech.speech_worker import SpeechWorker
+from reactive_realizer.engines.speech.worker_messages import WorkerMessage
 from reactive_realizer.errors import CreationFault, RealizerError
 
 _PATIENCE = 10.0
@@ -14,10 +20,11 @@ _PATIENCE = 10.0
 
 
 class VoiceNotInstalled(CreationFault):
-    """The package with espeak-ng is not installed."""
+    """The packages of a voice are not installed."""
 
     code = "voice-not-installed"
-    template = "speech requires espeak-ng: pip install 'reactive-realizer[espeak]'"
+    template = "this voice requires packages that are not installed: pip install 'reactive-realizer[{extra}]'"
+    extra: str
 
 
 class UnknownVoice(CreationFault):
@@ -30,39 +37,32 @@ class UnknownVoice(CreationFault):
     known: tuple[str, ...] = ()
 
 
-class VoiceFailed(CreationFault):
-    """The speech worker failed or was killed during synthesis."""
-
-    code = "voice-failed"
-    template = "the speech worker failed during synthesis: {reason}"
-    reason: str
-
-
 class EspeakVoice:
-    """A `TTSBinding` that uses the speech worker.
+    """A `TTSBinding` that uses the espeak worker.
 
-    When a worker ends or hangs, the utterances requested of it fail, and the next request starts a new worker. Names of
-    voices are those of espeak-ng, in any case, with or without a variant: ``en-us``, ``nl``, ``en-gb+f3``.
+    Names of voices are those of espeak-ng, in any case, with or without a variant: ``en-us``, ``nl``, ``en-gb+f3``.
 
     Args:
         default_voice: the voice of characters that name none.
         patience: time limit of the worker for one utterance, s.
 
     Attributes:
-        restarts: number of workers started after the first.
+        worker: makes the utterances.
     """
 
     def __init__(self, default_voice: str = "en-us", patience: float = _PATIENCE) -> None:
-        self.restarts = 0
+        self.worker = SpeechWorker("reactive_realizer.engines.speech.espeak_worker", patience)
         self._default_voice = default_voice
-        self._patience = patience
-        self._process: EspeakProcess | None = None
-        self._starting = asyncio.Lock()
 
     @property
     def alive(self) -> bool:
         """Whether a worker is running."""
-        return self._process is not None and not self._process.ended.done()
+        return self.worker.alive
+
+    @property
+    def restarts(self) -> int:
+        """Number of workers started after the first."""
+        return self.worker.restarts
 
     async def start(self) -> None:
         """Starts the worker.
@@ -70,7 +70,7 @@ class EspeakVoice:
         Raises:
             RealizerError: espeak-ng is not installed, or its worker ends at once.
         """
-        await self._running()
+        await self._hello()
 
     async def voices(self) -> tuple[str, ...]:
         """The sorted names that `synthesize` takes, without variants.
@@ -78,47 +78,39 @@ class EspeakVoice:
         Raises:
             RealizerError: as `start`.
         """
-        _, hello = await self._running()
-        return tuple(sorted(hello.header["voices"]))
+        return tuple(sorted((await self._hello())["voices"]))
 
     async def synthesize(self, text: str, marks: tuple[tuple[str, int], ...], voice: str | None) -> Utterance:
         """Speaks a text; see `TTSBinding.synthesize`."""
-        process, hello = await self._running()
-        identifier = _identifier(hello, voice or self._default_voice)
         markup = marked_up(text, tuple(index for _, index in marks))
-        reply = await process.request({"ssml": markup.ssml, "voice": identifier})
-        return as_utterance(_succeeded(reply), text, marks, markup)
+        return as_utterance(await self._spoken(markup, voice), text, marks, markup)
+
+    async def pronounce(self, text: str, voice: str | None) -> tuple[PronouncedWord, ...]:
+        """The words of a text with their sounds, for voices without a dictionary.
+
+        Raises:
+            RealizerError: as `synthesize`.
+        """
+        markup = marked_up(text, ())
+        return pronounced_words(await self._spoken(markup, voice), text, markup)
 
     async def close(self) -> None:
         """Ends the worker."""
-        if self._process is not None:
-            await self._process.close()
+        await self.worker.close()
 
-    async def _running(self) -> tuple[EspeakProcess, WorkerMessage]:
-        """A running worker, and its first message."""
-        async with self._starting:
-            if self._process is None or self._process.ended.done():
-                _require_espeak()
-                self.restarts += self._process is not None
-                self._process = await EspeakProcess.start(self._patience)
-        return self._process, _succeeded(await asyncio.shield(self._process.hello))
+    async def _spoken(self, markup: Markup, voice: str | None) -> WorkerMessage:
+        identifier = _identifier(await self._hello(), voice or self._default_voice)
+        return await self.worker.request({"ssml": markup.ssml, "voice": identifier})
 
-
-def _require_espeak() -> None:
-    """Finds the package without importing it: only the worker may."""
-    if find_spec("espeakng_loader") is None:
-        raise RealizerError(VoiceNotInstalled())
+    async def _hello(self) -> dict[str, Any]:
+        if find_spec("espeakng_loader") is None:  # only the worker may import it
+            raise RealizerError(VoiceNotInstalled(extra="espeak"))
+        return await self.worker.hello()
 
 
-def _succeeded(reply: WorkerMessage) -> WorkerMessage:
-    if "failed" in reply.header:
-        raise RealizerError(VoiceFailed(reason=reply.header["failed"]))
-    return reply
-
-
-def _identifier(hello: WorkerMessage, voice: str) -> str:
+def _identifier(hello: dict[str, Any], voice: str) -> str:
     """The library's identifier of a voice; the library would take an unknown name for the name of a file."""
-    voices, variants = hello.header["voices"], hello.header["variants"]
+    voices, variants = hello["voices"], hello["variants"]
     name, plus, variant = voice.partition("+")
     if name.lower() not in voices:
         raise RealizerError(UnknownVoice(voice=voice, known=tuple(voices)))

@@ -8,12 +8,11 @@ crashes the library ends only one child.
 import os
 import signal
 import traceback
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from functools import partial
-from typing import BinaryIO
 
 from reactive_realizer.engines.speech.espeak_library import EspeakLibrary
-from reactive_realizer.engines.speech.espeak_messages import MessageDecoder, WorkerMessage, failure
+from reactive_realizer.engines.speech.worker_messages import WorkerMessage, WorkerPipe, failure
 
 _TIME_LIMIT = 5
 """Time limit of one child, s, shorter than that of the worker; the longest text allowed takes less than one."""
@@ -21,23 +20,11 @@ _TIME_LIMIT = 5
 
 def main() -> None:
     """Answers the requests on standard input, in order, on standard output."""
-    replies = os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)  # keeps what the library prints out of the replies
+    pipe = WorkerPipe()
     library = EspeakLibrary()
-    _send(replies, WorkerMessage({"voices": library.voices(), "variants": library.variants()}).encode())
-    for request in _requests():
-        _send(replies, _in_child(partial(_speak, library, request)))
-
-
-def _send(replies: BinaryIO, encoded: bytes) -> None:
-    replies.write(encoded)
-    replies.flush()
-
-
-def _requests() -> Iterator[WorkerMessage]:
-    decoder = MessageDecoder()
-    while piece := os.read(0, 65_536):
-        yield from decoder.feed(piece)
+    pipe.send(WorkerMessage({"voices": library.voices(), "variants": library.variants()}).encode())
+    for request in pipe.requests():
+        pipe.send(_in_child(partial(_speak, library, request)))
 
 
 def _speak(library: EspeakLibrary, request: WorkerMessage) -> bytes:

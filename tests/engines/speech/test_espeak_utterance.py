@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 from lxml import etree
 
 from reactive_realizer.engine.tts import Utterance
-from reactive_realizer.engines.speech.espeak_messages import WorkerMessage
-from reactive_realizer.engines.speech.espeak_utterance import as_utterance, marked_up
+from reactive_realizer.engines.speech.espeak_utterance import as_utterance, marked_up, pronounced_words
+from reactive_realizer.engines.speech.worker_messages import WorkerMessage
 
 RATE = 1000
 
@@ -24,7 +24,7 @@ def utterance(
 ) -> Utterance:
     """Words are reported at (time in ms, character of the text), phonemes as (time in ms, symbol)."""
     markup = marked_up(text, tuple(place for _, place in marks))
-    positions = [(time, markup.origins.index(character) + 1) for time, character in words]
+    positions = [(time, markup.origins.index(character) + 1, 0) for time, character in words]
     header = {"sample_rate": RATE, "words": positions, "marks": reported, "phonemes": phonemes}
     return as_utterance(WorkerMessage(header, bytes(2 * duration)), text, tuple(marks), markup)
 
@@ -136,3 +136,18 @@ def test_the_ssml_is_well_formed_and_has_the_same_text(text: str, data: st.DataO
 def test_every_character_of_the_text_has_a_position_in_the_ssml(text: str) -> None:
     origins = marked_up(text, ()).origins
     assert sorted(set(origins)) == list(range(len(text) + 1))
+
+
+def test_the_sounds_of_a_word_are_those_until_the_next_one_and_a_number_has_those_of_all_its_words() -> None:
+    text = '"Me", 21 of us *'
+    markup = marked_up(text, ())
+    words = [(markup.origins.index(character) + 1, first) for character, first in [(0, 0), (6, 3), (7, 5), (12, 6)]]
+    phonemes = [(time, symbol) for time, symbol in enumerate(["m", "i", "", "tw", "ɛ", "w", "ʌ", "s", ""])]
+    reply = WorkerMessage({"words": [(0, *word) for word in words], "phonemes": phonemes})
+    assert [(text[word.first : word.last], word.sounds) for word in pronounced_words(reply, text, markup)] == [
+        ("Me", ("m", "i")),
+        ("21", ("tw", "ɛ", "w")),
+        ("of", ()),
+        ("us", ("ʌ", "s")),
+        ("*", ()),
+    ]

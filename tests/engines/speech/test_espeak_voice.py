@@ -11,9 +11,9 @@ from pathlib import Path
 import pytest
 
 from reactive_realizer.engine.tts import Utterance
-from reactive_realizer.engines.speech.espeak_messages import MessageDecoder
-from reactive_realizer.engines.speech.espeak_process import EspeakProcess
 from reactive_realizer.engines.speech.espeak_voice import EspeakVoice
+from reactive_realizer.engines.speech.worker_messages import MessageDecoder
+from reactive_realizer.engines.speech.worker_process import WorkerProcess
 from reactive_realizer.errors import RealizerError
 
 pytestmark = pytest.mark.speech
@@ -226,9 +226,9 @@ def test_only_the_worker_loads_the_library() -> None:
     assert subprocess.run([sys.executable, "-c", check], check=False).returncode == 0
 
 
-def process_of(voice: EspeakVoice) -> EspeakProcess:
-    assert voice._process
-    return voice._process
+def process_of(voice: EspeakVoice) -> WorkerProcess:
+    assert voice.worker.process
+    return voice.worker.process
 
 
 def worker_of(voice: EspeakVoice) -> int:

@@ -1,6 +1,7 @@
-"""Messages between the realizer and the speech worker: two lengths, a JSON header, raw bytes."""
+"""Messages between the realizer and a speech worker: two lengths, a JSON header, raw bytes."""
 
 import json
+import os
 import signal
 import struct
 from collections.abc import Iterator
@@ -50,6 +51,25 @@ class MessageDecoder:
         message = WorkerMessage(json.loads(self._pending[_LENGTHS.size : start]), bytes(self._pending[start:end]))
         del self._pending[:end]
         return message
+
+
+class WorkerPipe:
+    """The end of the worker: requests on standard input, replies on standard output."""
+
+    def __init__(self) -> None:
+        self._replies = os.fdopen(os.dup(1), "wb")
+        os.dup2(2, 1)  # keeps what libraries print out of the replies
+
+    def send(self, encoded: bytes) -> None:
+        """Sends an encoded message."""
+        self._replies.write(encoded)
+        self._replies.flush()
+
+    def requests(self) -> Iterator[WorkerMessage]:
+        """The requests until the input ends."""
+        decoder = MessageDecoder()
+        while piece := os.read(0, 65_536):
+            yield from decoder.feed(piece)
 
 
 def failure(exit_status: int) -> WorkerMessage:

@@ -3,7 +3,7 @@
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from reactive_realizer.engines.speech.espeak_messages import MessageDecoder, WorkerMessage, failure
+from reactive_realizer.engines.speech.worker_messages import MessageDecoder, WorkerMessage, failure
 
 MESSAGES = st.builds(WorkerMessage, st.dictionaries(st.text(), st.integers()), st.binary(max_size=40))
 

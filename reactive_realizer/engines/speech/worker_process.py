@@ -1,4 +1,4 @@
-"""Runs the speech worker and exchanges messages with it."""
+"""Runs a speech worker, a process that makes utterances, and exchanges messages with it."""
 
 import asyncio
 import logging
@@ -9,11 +9,10 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any, Self, cast
 
-from reactive_realizer.engines.speech.espeak_messages import MessageDecoder, WorkerMessage, failure
+from reactive_realizer.engines.speech.worker_messages import MessageDecoder, WorkerMessage, failure
 
-_WORKER = "reactive_realizer.engines.speech.espeak_worker"
 _START_PATIENCE = 30.0
-"""Time limit for the first message of a worker, which has to load the library, s."""
+"""Time limit for the first message of a worker, which has to load a library or a model, s."""
 _log = logging.getLogger(__name__)
 
 
@@ -25,14 +24,14 @@ class _Request:
     reply: asyncio.Future[WorkerMessage]
 
 
-class EspeakProcess(asyncio.SubprocessProtocol):
+class WorkerProcess(asyncio.SubprocessProtocol):
     """One run of the worker. Requests are sent one by one, each when the previous one is answered.
 
     A request that is canceled before it is sent costs nothing; after that, its reply is discarded. When the process
     ends, all open requests fail. A worker that takes longer for a reply than the time limit is killed.
 
     Attributes:
-        hello: the first message of the worker: its voices and their variants.
+        hello: the first message of the worker, when it is ready.
         ended: is done when the process has ended.
     """
 
@@ -50,14 +49,15 @@ class EspeakProcess(asyncio.SubprocessProtocol):
         self._hung = False
 
     @classmethod
-    async def start(cls, patience: float) -> Self:
+    async def start(cls, worker: str, patience: float) -> Self:
         """Starts a worker process in a session of its own, so that Ctrl-C in the terminal reaches only the realizer.
 
         Args:
+            worker: the module that it runs.
             patience: time limit for one reply, s.
         """
         loop = asyncio.get_running_loop()
-        command = (sys.executable, "-m", _WORKER)
+        command = (sys.executable, "-m", worker)
         _, process = await loop.subprocess_exec(partial(cls, patience), *command, stderr=None, start_new_session=True)
         return process
 
@@ -65,6 +65,11 @@ class EspeakProcess(asyncio.SubprocessProtocol):
     def pid(self) -> int:
         """The process id of the worker."""
         return self._transport.get_pid()
+
+    @property
+    def busy(self) -> bool:
+        """Whether the worker owes a reply."""
+        return self._awaited is not None
 
     def request(self, header: dict[str, Any]) -> asyncio.Future[WorkerMessage]:
         """Sends a request, and returns the future of its reply."""

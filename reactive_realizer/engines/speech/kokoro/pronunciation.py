@@ -1,0 +1,130 @@
+"""From a text and the sounds of its words to the tokens of the network, sentence by sentence."""
+
+import tomllib
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cache
+from importlib.resources import files
+from typing import Self
+
+from reactive_realizer.engines.speech.espeak_utterance import PronouncedWord
+
+_MOST_TOKENS = 510
+_LONG = 300
+"""Tokens after which a sentence is cut at the next comma: the sooner it is spoken, and it has to fit."""
+_STRESS = "\u02c8\u02cc"
+_LENGTH_MARK = "\u02d0"
+_SENTENCE_ENDS = frozenset(".!?\u2026\n")
+_CLAUSE_ENDS = frozenset(",;:\u2014")
+_SPACE = " "
+
+
+@dataclass(frozen=True, slots=True)
+class Alphabet:
+    """The characters that the network knows.
+
+    Attributes:
+        tokens: the number of each character.
+        sounds: how sounds in IPA are written, for American (a) and British (b) voices.
+    """
+
+    tokens: Mapping[str, int]
+    sounds: Mapping[str, Mapping[str, str]]
+
+    @classmethod
+    def from_toml(cls, text: str) -> Self:
+        """Reads the format of assets/voices/kokoro/symbols.toml."""
+        table = tomllib.loads(text)
+        return cls(table["tokens"], table["sounds"])
+
+    def write(self, sound: str, accent: str) -> list[int]:
+        """The tokens of a sound in IPA, with stress marks in front; none for one that it cannot write."""
+        bare = sound.lstrip(_STRESS)
+        written = self.sounds[accent].get(bare)
+        if written is None:
+            written = bare if accent == "b" else bare.replace(_LENGTH_MARK, "")
+        return [self.tokens[each] for each in sound[: len(sound) - len(bare)] + written if each in self.tokens]
+
+    def punctuate(self, between: str, *, last: bool) -> list[int]:
+        """The tokens of the text between two words, or after the last one: stops, quotation marks and one space."""
+        words = between.replace("\u2013", "\u2014").split()
+        joined = _SPACE.join(words)
+        spaced = (_SPACE * between[:1].isspace() + joined + _SPACE * between[-1:].isspace()) if joined else _SPACE
+        return [self.tokens[each] for each in (spaced.rstrip() if last else spaced) if each in self.tokens]
+
+
+@cache
+def default_alphabet() -> Alphabet:
+    """The alphabet in the package."""
+    return Alphabet.from_toml((files("reactive_realizer") / "assets/voices/kokoro/symbols.toml").read_text("utf-8"))
+
+
+@dataclass(frozen=True, slots=True)
+class Sound:
+    """A sound within a sentence.
+
+    Attributes:
+        symbol: IPA, stress marks included.
+        word: index of its word in the text.
+        first: index of its first token in the sentence.
+        last: index after its last token.
+    """
+
+    symbol: str
+    word: int
+    first: int
+    last: int
+
+
+@dataclass(slots=True)
+class Sentence:
+    """What the network speaks at once.
+
+    Attributes:
+        tokens: 1 to 510.
+        sounds: in their order.
+    """
+
+    tokens: list[int] = field(default_factory=list)
+    sounds: list[Sound] = field(default_factory=list)
+
+
+def sentences(text: str, words: Sequence[PronouncedWord], accent: str, alphabet: Alphabet) -> Iterator[Sentence]:
+    """The sentences of a text; a long one is cut at a clause, or between words if it has none.
+
+    Args:
+        text: plain text.
+        words: all of its words.
+        accent: a (American) or b (British).
+        alphabet: of the network.
+    """
+    sentence = Sentence()
+    for number, word in enumerate(words):
+        spoken = [(sound, alphabet.write(sound, accent)) for sound in word.sounds]
+        if len(sentence.tokens) + sum(len(tokens) for _, tokens in spoken) > _MOST_TOKENS and sentence.sounds:
+            yield sentence
+            sentence = Sentence()
+        _append(sentence, number, spoken)
+        following = words[number + 1].first if number + 1 < len(words) else len(text)
+        between = text[word.last : following] if word.pause else _SPACE
+        ends = following == len(text) or _ends(between, len(sentence.tokens))
+        room = _MOST_TOKENS - len(sentence.tokens)
+        sentence.tokens += alphabet.punctuate(between, last=ends)[:room]
+        if ends and sentence.sounds:
+            yield sentence
+            sentence = Sentence()
+
+
+def _append(sentence: Sentence, word: int, spoken: Sequence[tuple[str, list[int]]]) -> None:
+    for symbol, tokens in spoken:
+        first = len(sentence.tokens)
+        sentence.tokens += tokens[: _MOST_TOKENS - first]
+        if len(sentence.tokens) > first:
+            sentence.sounds.append(Sound(symbol, word, first, len(sentence.tokens)))
+
+
+def _ends(between: str, length: int) -> bool:
+    """Whether a sentence of a number of tokens ends at the text between two words."""
+    if _SENTENCE_ENDS & set(between):
+        return True
+    return length > _LONG and bool(_CLAUSE_ENDS & set(between))

@@ -1,0 +1,147 @@
+"""The natural voice, spoken by its network."""
+
+import asyncio
+import os
+import signal
+from collections.abc import AsyncIterator, Iterator
+from importlib import resources
+from itertools import pairwise
+from pathlib import Path
+from typing import ClassVar
+
+import numpy as np
+import pytest
+
+from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.engine.tts import TTSBinding, Utterance
+from reactive_realizer.engines.speech.kokoro import model as model_module
+from reactive_realizer.engines.speech.kokoro.model import KokoroModel, UnusableWeights, read_styles
+from reactive_realizer.engines.speech.kokoro.voice import KokoroVoice
+from reactive_realizer.errors import RealizerError
+from reactive_realizer.testing.pilot import open_pilot
+from reactive_realizer.testing.tts_contract import Speaker, TTSContract
+
+STYLES = Path(str(resources.files("reactive_realizer") / "assets/voices/kokoro"))
+
+
+@pytest.fixture(scope="module")
+def started() -> Iterator[Speaker]:
+    """A voice that has started, which takes seconds."""
+    with asyncio.Runner() as runner:
+        voice = KokoroVoice()
+        runner.run(voice.start())
+        yield Speaker(voice, runner)
+        runner.run(voice.close())
+
+
+@pytest.mark.kokoro
+class TestKokoroVoice(TTSContract):
+    texts: ClassVar = ("Yes", "In '84, bob@x.org paid $5!", "\u041f\u0440\u0438\u0432\u0435\u0442. \u6f22 \U0001f600")
+    long_text: ClassVar = "hello world " * 5
+
+    def tts(self) -> TTSBinding:
+        return KokoroVoice()
+
+    @pytest.fixture
+    def speaker(self, started: Speaker) -> Speaker:
+        """The one that all tests share."""
+        return started
+
+    def test_the_same_text_gives_the_same_utterance_in_another_process(self, speaker: Speaker) -> None:
+        with asyncio.Runner() as runner:
+            voice = KokoroVoice()
+            again = Speaker(voice, runner).say("Yes")
+            runner.run(voice.close())
+        assert again == speaker.say("Yes")
+
+    def test_words_sound_where_they_are_said_to_be(self, speaker: Speaker) -> None:
+        spoken = speaker.say("Stop. Papa stops.", voice="am_michael")
+        level = loudness(spoken)
+        for word in spoken.words:
+            assert max(level[round(word.start * 100) :][:30]) > 0.3, word
+        (pause,) = [each for each in spoken.phonemes[:-1] if not each.symbol]
+        assert level[round((pause.start + pause.duration / 2) * 100)] < 0.02
+        assert all(one.start < next_.start for one, next_ in pairwise(spoken.words))
+
+
+def loudness(spoken: Utterance) -> np.ndarray:
+    """The root mean square of each 10 ms, as a share of the greatest."""
+    samples = np.frombuffer(spoken.audio, "<i2").astype(float)
+    blocks = samples[: len(samples) // 240 * 240].reshape(-1, 240)
+    levels = np.sqrt((blocks**2).mean(axis=1))
+    return np.asarray(levels / levels.max())
+
+
+@pytest.fixture
+async def voice() -> AsyncIterator[KokoroVoice]:
+    voice = KokoroVoice()
+    await voice.start()
+    yield voice
+    await voice.close()
+
+
+@pytest.mark.kokoro
+async def test_killing_the_worker_in_the_middle_fails_one_speech_and_the_next_starts_another(
+    voice: KokoroVoice,
+) -> None:
+    pending = asyncio.ensure_future(voice.synthesize("This will never be said.", (), None))
+    process = voice.worker.process
+    assert process
+    while not process.busy:  # noqa: ASYNC110 - nothing signals a request
+        await asyncio.sleep(0.01)
+    os.kill(process.pid, signal.SIGKILL)
+    with pytest.raises(RealizerError, match="SIGKILL"):
+        await pending
+    assert (await voice.synthesize("Yes.", (), None)).audio
+    assert voice.restarts == 1
+
+
+@pytest.mark.kokoro
+async def test_a_character_speaks_with_a_voice_of_its_own_and_one_that_does_not_exist_is_named(tmp_path: Path) -> None:
+    human = tmp_path / "human.toml"
+    human.write_text('[character.max]\nvoice = "am_michael"\n[character.eva]\nvoice = "en-us"\n')
+    async with open_pilot(SceneOptions(human, voice="kokoro")) as pilot:
+        pilot.block("b", '<speech id="s"><text>Yes.</text></speech>')
+        pilot.block("c", '<speech id="s"><text>Yes.</text></speech>', characterId="eva")
+        await pilot.advance(2)
+        assert pilot.feedback.reached("b:s:end")
+        assert pilot.feedback.warnings == [("c:s", "CANNOT_CREATE_BEHAVIOR")]
+        assert pilot.sounds
+
+
+def test_a_file_of_the_user_that_is_no_network_and_altered_packages_are_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "mine.onnx").write_bytes(b"not a network")
+    with pytest.raises(UnusableWeights):
+        KokoroModel(tmp_path)
+    monkeypatch.setattr(model_module, "_SHA256", "0")
+    with pytest.raises(UnusableWeights, match="altered"):
+        KokoroModel(None)
+
+
+@pytest.mark.kokoro
+async def test_a_voice_whose_weights_cannot_be_used_says_so_when_it_starts(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "mine.onnx").write_bytes(b"not a network")
+    monkeypatch.setenv("REACTIVE_REALIZER_KOKORO", str(tmp_path))
+    voice = KokoroVoice()
+    try:
+        with pytest.raises(RealizerError, match="protobuf"):
+            await voice.start()
+    finally:
+        await voice.close()
+
+
+def test_styles_of_the_user_are_added_to_those_of_the_package(tmp_path: Path) -> None:
+    np.ones((510, 256), np.float32).tofile(tmp_path / "bf_mine.bin")
+    styles = read_styles([STYLES, tmp_path])
+    assert sorted(styles) == ["af_heart", "am_michael", "bf_mine"]
+    assert {style.shape for style in styles.values()} == {(510, 256)}
+
+
+async def test_the_error_without_the_packages_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("reactive_realizer.engines.speech.kokoro.voice.find_spec", lambda name: None)
+    with pytest.raises(RealizerError, match=r"reactive-realizer\[kokoro\]"):
+        await KokoroVoice().start()
