@@ -30,6 +30,8 @@ _CONTROLLER = "PhysicalController"
 
 _CACHE_SIZE = 1000
 """Number of cached matches. Most behaviors are repeated often."""
+_LONGEST_KEPT = 1000
+"""Characters of the attributes for which the matches are remembered; a client may send more."""
 
 _Attributes = tuple[tuple[str, str], ...]
 
@@ -85,7 +87,9 @@ class GestureBinding:
             namespace: of its element.
             attributes: of the behavior (`behavior_attributes`).
         """
-        return self._matches(behavior, namespace, tuple(attributes.items()))
+        size = sum(len(name) + len(value) for name, value in attributes.items())
+        matches = self._matches if size <= _LONGEST_KEPT else self._match
+        return matches(behavior, namespace, tuple(attributes.items()))
 
     def _match(self, behavior: str, namespace: str, attributes: _Attributes) -> tuple[UnitSpec, ...]:
         values = normalized(dict(attributes))

@@ -11,6 +11,9 @@ from reactive_realizer.bml.behaviors import Posture
 
 _NONE: Mapping[str, str] = MappingProxyType({})
 
+_LONGEST_KEPT = 100
+"""Characters of the longest values that are remembered; a client may send longer ones."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class UnitSpec:
@@ -65,7 +68,10 @@ class UnitSpec:
 
 def normalized(attributes: Mapping[str, str]) -> dict[str, str]:
     """Return attributes with values in a form that compares equal across case, and across "_" and "-"."""
-    return {name: _word(value) for name, value in attributes.items()}
+    return {
+        name: _word(value) if len(value) <= _LONGEST_KEPT else _word.__wrapped__(value)
+        for name, value in attributes.items()
+    }
 
 
 @lru_cache

@@ -1,11 +1,14 @@
 """Ended blocks are freed."""
 
 import gc
+import tracemalloc
 import weakref
 from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
 from typing import TypeVar
+
+import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.engine.engine import DefaultEngine
@@ -107,26 +110,24 @@ async def test_blocks_that_are_sent_again_and_again_leave_nothing_new_behind(pil
     assert await play() - before == Counter()
 
 
-async def test_large_behaviors_are_not_remembered_when_they_have_ended(pilot: RealizerPilot) -> None:
-    large = "x" * 500_000
-    wait = f'<wait id="w" duration="0.01"><description priority="1" type="x/y"><a>{large}</a></description></wait>'
-
-    async def play(blocks: int) -> int:
-        for _ in range(blocks):
-            pilot.block("b", wait.replace("x/y", f"x/{pilot.now}"))
-            await pilot.advance(0.03)
+@pytest.mark.parametrize(
+    "behavior",
+    [
+        '<wait id="w" duration="0.01"><description priority="1" type="x/{0}"><a>{1}</a></description></wait>',
+        '<head id="h" lexeme="NOD" start="anticipators:t:never"><bmlt:parameter name="n" value="{0}{1}"/></head>',
+    ],
+)
+async def test_large_behaviors_are_not_remembered_when_they_have_ended(pilot: RealizerPilot, behavior: str) -> None:
+    tracemalloc.start()
+    try:
+        for number in range(40):
+            pilot.block("b", behavior.format(number, "x" * 500_000), **{"bmla:interrupt": "b"})
+            await pilot.tick()
             pilot.feedback.clear()
         gc.collect()
-        return sum(len(text) for text in _texts_of(gc.get_objects()) if large in text)
-
-    assert await play(28) < 20e6
-
-
-def _texts_of(objects: Iterable[object]) -> Iterable[str]:
-    """The texts in lists and tuples, each once."""
-    held = (each for each in objects if isinstance(each, list | tuple))
-    texts = {id(text): text for each in held for text in each if isinstance(text, str)}
-    return texts.values()
+        assert tracemalloc.get_traced_memory()[0] < 20e6
+    finally:
+        tracemalloc.stop()
 
 
 async def test_points_and_blocks_with_new_names_are_remembered_up_to_the_limits(tmp_path: Path) -> None:
