@@ -101,3 +101,31 @@ async def test_a_block_whose_start_is_predicted_into_the_past_starts_now(pilot: 
     assert texts(pilot) == []
     assert_time(pilot.feedback, "b:start", 3.0)
     assert_linked(pilot.feedback, "b:n:end", "b:start", 0.7)
+
+
+@pytest.mark.parametrize("past", [2.0, -0.1])
+async def test_a_block_that_waits_for_a_point_is_shown_when_that_is_predicted_into_the_past(
+    pilot: RealizerPilot, past: float
+) -> None:
+    pilot.watch()
+    pilot.block("b", '<gesture id="g" lexeme="BEAT" mode="RIGHT_HAND"/>' + before("0", HIT))
+    await moves(pilot, 3, ("hit", past), 3)
+    assert_time(pilot.feedback, "b:start", 3.0)
+    assert pilot.feedback.time("b:g:end") > 4.0
+    wrist = pilot.path("r_wrist")
+    assert abs(wrist[150] - wrist[140]).max() < 0.01
+    assert abs(wrist[190] - wrist[150]).max() > 0.1  # it is at its stroke at 3.8 s
+
+
+async def test_a_block_before_a_point_that_is_predicted_into_the_past_is_shown(pilot: RealizerPilot) -> None:
+    pilot.watch()
+    pilot.predict("t", "hit", 9.0)
+    pilot.block("a", '<wait id="w" duration="3"/>')
+    pilot.block("b", '<gesture id="g" lexeme="BEAT" mode="RIGHT_HAND"/>' + before(HIT, "g:end"), composition="APPEND")
+    await moves(pilot, 1, ("hit", 0.5), 5)
+    assert_time(pilot.feedback, "b:g:start", 3.0)
+    assert pilot.feedback.time("b:g:end") > 4.0
+    wrist = pilot.path("r_wrist")
+    assert abs(wrist[190] - wrist[150]).max() > 0.1
+    (text,) = texts(pilot)
+    assert "g:end before anticipators:t:hit" in text
