@@ -156,6 +156,32 @@ async def test_a_figure_that_is_pushed_hard_falls_tells_it_once_and_is_put_back_
     assert len(pilot.feedback.of("fall")) == 1
 
 
+@pytest.mark.parametrize("direction", [0.48, 0.64, 0.8, 3.0])
+async def test_a_figure_falls_in_any_direction_without_a_warning(pilot: RealizerPilot, direction: float) -> None:
+    pilot.block("b", BALANCE.format(0))
+    await pilot.advance(0.13)
+    pilot.push("vl5", (300.0 * math.sin(direction), 0.0, 300.0 * math.cos(direction)), 0.2)
+    await pilot.advance(2.5)
+    assert pilot.feedback.warnings == []
+    assert len(pilot.feedback.of("fall")) == 1
+
+
+async def test_a_fall_names_the_controller_of_the_root(pilot: RealizerPilot) -> None:
+    pilot.block("b", BALANCE.format(0) + LOOSE.format(0.1))
+    await pilot.advance(0.5)
+    pilot.push("vt10", (0.0, 0.0, 300.0), 0.5)
+    await pilot.advance(2)
+    assert [fall.id for fall in pilot.feedback.of("fall")] == ["b:balance"]
+
+
+async def test_a_figure_that_lies_down_has_not_fallen(pilot: RealizerPilot) -> None:
+    pilot.watch()
+    pilot.block("b", '<posture id="p" start="0" end="9"><stance type="LYING"/></posture>' + LOOSE.format(0.5))
+    await pilot.advance(4)
+    assert height(pilot) < 0.5
+    assert pilot.feedback.of("fall") == []
+
+
 async def test_a_push_without_bounds_ends_the_controllers_with_a_warning_and_motions_go_on(
     pilot: RealizerPilot,
 ) -> None:

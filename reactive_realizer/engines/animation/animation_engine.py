@@ -24,6 +24,7 @@ from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.humanoid import Dynamics, EyePose, Eyes
+from reactive_realizer.embodiment.joints import ROOT
 from reactive_realizer.embodiment.pose import Layer, LayerKind, checked, over
 from reactive_realizer.embodiment.quaternion import Quat
 from reactive_realizer.embodiment.vector import Vec3
@@ -291,9 +292,12 @@ class AnimationEngine(DefaultEngine):
         return (*notes, *faults, *self._falls(), *self._late_hands.warnings())
 
     def _falls(self) -> Iterator[ReportFall]:
-        """Yield the fall of the figure in the frame shown last, if it has fallen, with the last unit that moves it."""
-        units = list(self._controlling())
-        if units and self._physical_figure.take_fall():
+        """Yield the fall of the figure in the frame shown last, if it has, with the last unit that moves its root.
+
+        A figure that lies because its posture says so has not fallen.
+        """
+        units = [unit for unit, controller in self._controlling().items() if ROOT in controller.joints]
+        if self._physical_figure.take_fall() and units:
             yield ReportFall(units[-1], self._humanoid.time)
 
     def _gazes(self) -> Iterator[GazeGoal]:

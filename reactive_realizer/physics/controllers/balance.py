@@ -54,6 +54,9 @@ upright would fall backward; higher up, knees would lock."""
 _BEYOND = 0.12
 """How far the center of pressure that the force needs may be beyond the soles, m: the trunk then turns instead."""
 
+_FLAT = 0.5
+"""Cosine of the greatest angle between a sole that presses and the ground."""
+
 _UPRIGHTING = 80.0
 """Limit of the torque that turns the pelvis upright, Nm."""
 
@@ -155,8 +158,7 @@ class BalanceController(Controller):
             mass * self._spring(_BALANCE, middle[axis] + self._aside[axis] - center[axis], velocity[axis])
             for axis in (0, 1)
         )
-        grip = min(1.0, _FRICTION * up / max(math.hypot(x, y), 1e-9))
-        force = (grip * x, grip * y, up)
+        force = _carried(x, y, up)
         over = (center[2] - middle[2]) / up
         pressure = subtract(center, scale(force, over))
         left, right = _shared(soles, pressure)
@@ -165,7 +167,7 @@ class BalanceController(Controller):
         far = math.hypot(beyond[0], beyond[1])
         if far > _BEYOND:
             pressure = add(reached, scale(beyond, _BEYOND / far))
-            force = ((center[0] - pressure[0]) / over, (center[1] - pressure[1]) / over, up)
+            force = _carried((center[0] - pressure[0]) / over, (center[1] - pressure[1]) / over, up)
         return force, add(pressure, (-torque[1] / up, torque[0] / up, 0.0))
 
     def _uprighting(self, simulation: "Simulation", goal: Body) -> Vec3:
@@ -180,6 +182,12 @@ class BalanceController(Controller):
         turned = rotate((w, x, y, z), (across, about, along))
         x, y, z = (min(max(part, -_UPRIGHTING), _UPRIGHTING) for part in turned)
         return (x, y, z)
+
+
+def _carried(x: float, y: float, up: float) -> Vec3:
+    """Return a force on the ground, N, with as much of its horizontal part as friction carries."""
+    grip = min(1.0, _FRICTION * up / max(math.hypot(x, y), 1e-9))
+    return (grip * x, grip * y, up)
 
 
 def _press(
@@ -201,7 +209,7 @@ class _Sole(NamedTuple):
         center: m.
         axes: of the foot, unit vectors.
         reach: from the center to the farthest centers of pressure, along these axes, m.
-        touches: whether the foot touches the ground.
+        touches: whether the foot touches the ground, more with its sole than with its side.
     """
 
     body: int
@@ -227,7 +235,7 @@ def _sole(simulation: "Simulation", joint: str) -> _Sole:
     x, y, z = data.geom_xpos[geom].tolist()
     center = subtract((x, y, z), scale(axes[1], high))
     reach = (_SOLE[0] * wide, _SOLE[1] * high, _SOLE[2] * long)
-    return _Sole(body, center, axes, reach, geom in simulation.touching)
+    return _Sole(body, center, axes, reach, geom in simulation.touching and axes[1][2] > _FLAT)
 
 
 def _middle(soles: list[_Sole]) -> Vec3:
