@@ -212,3 +212,32 @@ async def test_the_board_lists_pegs_and_what_moved_them(serve: Serve) -> None:
         await send(page, f'<bml {BML} id="late"><wait id="w" start="anticipators:test:hit" duration="30"/></bml>')
         await expect(page.locator("#pegs-rows")).to_contain_text("late:w:end")
         await expect(page.locator("#pegs-rows")).to_contain_text("anticipators:test:hit")
+
+
+async def test_physics_is_turned_on_and_off_and_a_figure_that_is_pushed_over_is_put_back(serve: Serve) -> None:
+    head = "viewer.bone('alice', 'Head')"
+    async with serve(ALICE) as scene:
+        page = await scene.open()
+        tall = (await page.evaluate(head))[1]
+        await page.locator("#push-impulse").fill("60")
+        await page.click("#push-front")
+        await page.check("#physics-on")
+        await expect(page.locator("#feedback")).to_contain_text(":legs:start")
+        await expect(page.locator("#physics-on")).to_be_checked()
+        # Before, the push had no effect; now, one does.
+        assert (await page.evaluate(head))[1] == pytest.approx(tall, abs=0.03)
+        await page.click("#push-back")
+        await expect(page.locator("#feedback .row.fall")).to_contain_text("alice has fallen", timeout=20_000)
+        await page.wait_for_function(f"() => {head}[1] < 0.5 && {head}[2] > 0.3")
+        await page.click("#reset")
+        await expect(page.locator("#physics-bml")).to_be_checked()
+        await page.wait_for_function(f"tall => Math.abs({head}[1] - tall) < 0.03", arg=tall)
+        await page.check("#physics-on")
+        await expect(page.locator("#physics-on")).to_be_checked()
+        await page.check("#physics-off")
+        await expect(page.locator("#physics-off")).to_be_checked()
+        await page.click("#push-front")
+        await send(page, f'<bml {BML} id="late"><wait id="w" duration="1.5"/></bml>')
+        await expect(page.locator("#feedback")).to_contain_text("late:w:end")
+        assert (await page.evaluate(head))[1] == pytest.approx(tall, abs=0.03)
+        assert await page.locator("#feedback .row.fall").count() == 1

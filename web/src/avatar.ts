@@ -5,6 +5,7 @@ import {
   MeshStandardMaterial,
   type Object3D,
   PropertyBinding,
+  Quaternion,
   Texture,
   Vector3,
 } from "three";
@@ -25,6 +26,9 @@ export class Avatar {
   /** The topmost bone, which carries the root's position. */
   private readonly root: Object3D | undefined;
 
+  /** The inverse of the root's orientation in the model, in which the character faces +z. */
+  private readonly unturned = new Quaternion();
+
   private constructor(
     readonly object: Object3D,
     private readonly character: Character,
@@ -32,6 +36,7 @@ export class Avatar {
     private readonly slots: MorphSlot[][],
   ) {
     this.root = bones.find((bone) => !bones.includes(bone?.parent ?? undefined));
+    this.root?.getWorldQuaternion(this.unturned).invert();
   }
 
   /** Loads the character's model; rejects when it cannot be loaded. */
@@ -56,6 +61,12 @@ export class Avatar {
   /** World position of the root, m. */
   get position(): Position {
     return worldPosition(this.root ?? this.object);
+  }
+
+  /** Where the root faces in the world, horizontally, of length 1. */
+  get forward(): Position {
+    const turn = (this.root ?? this.object).getWorldQuaternion(new Quaternion()).multiply(this.unturned);
+    return new Vector3(0, 0, 1).applyQuaternion(turn).setY(0).normalize().toArray();
   }
 
   /** World position of a bone, m; null when the avatar has none of this name. */

@@ -75,6 +75,11 @@ export class Characters {
     return this.find(characterId)?.bone(name) ?? null;
   }
 
+  /** Where a character faces, horizontally, of length 1; null when there is none, or its avatar is not loaded. */
+  forward(characterId: string): Position | null {
+    return this.find(characterId)?.forward ?? null;
+  }
+
   /** Weight of a morph; null as for a bone. */
   morph(characterId: string, name: string): number | null {
     return this.find(characterId)?.morph(name) ?? null;

@@ -15,6 +15,7 @@ import type {
   Heard,
   Hello,
   Predict,
+  Push,
   Ref,
   Refused,
   ServerMessage,
@@ -28,7 +29,7 @@ const LONGEST_RETRY = 8000;
 export type AudioMessage = AudioStart | AudioMove | AudioGain | AudioStop;
 
 /** A message that the realizer answers. */
-export type Request = Bml | Predict | Event | Demo;
+export type Request = Bml | Predict | Event | Push | Demo;
 
 /** A message without an answer. */
 export type Notice = Camera | Heard;

@@ -7,6 +7,7 @@ import { AnticipatorsPanel } from "./panels/anticipators";
 import { BmlPanel } from "./panels/bml";
 import { FeedbackPanel } from "./panels/feedback";
 import { PegsPanel } from "./panels/pegs";
+import { PhysicsPanel } from "./panels/physics";
 import type { StatusPanel } from "./panels/status";
 import type { Board, Feedback, Hello } from "./protocol";
 import { SpeechPlayer } from "./speech";
@@ -26,6 +27,7 @@ export class Viewer implements ConnectionListener {
   private readonly world: World;
   private readonly cameraReport: CameraReport;
   private readonly pegs = new PegsPanel();
+  private readonly physics: PhysicsPanel;
   private readonly soundButton = element("sound", HTMLButtonElement);
   private readonly demoButton = element("demo", HTMLButtonElement);
 
@@ -44,6 +46,7 @@ export class Viewer implements ConnectionListener {
     });
     new BmlPanel(this.connection);
     new AnticipatorsPanel(this.connection, status.report);
+    this.physics = new PhysicsPanel(this.connection, (id) => this.characters.forward(id), status.report);
     this.bindButtons();
   }
 
@@ -83,6 +86,7 @@ export class Viewer implements ConnectionListener {
 
   onFeedback(feedback: Feedback): void {
     this.feedback.add(feedback);
+    this.physics.take(feedback);
   }
 
   onAudio(message: AudioMessage): void {
@@ -95,6 +99,7 @@ export class Viewer implements ConnectionListener {
 
   private renew(hello: Hello): void {
     this.characters.assign(hello.characters);
+    this.physics.assign(hello.characters);
     this.speech.clear();
     this.pegs.clear();
     this.feedback.mark(`Session ${hello.session.slice(0, 8)}`);
@@ -104,7 +109,7 @@ export class Viewer implements ConnectionListener {
     const time = this.followFrames();
     for (const report of this.speech.report()) this.connection.notify(report);
     if (time !== null) this.characters.show(time);
-    if (this.characters.complete) this.viewport.frame(this.characters.roots());
+    if (this.characters.complete) this.viewport.frame(page, this.characters.roots());
     this.viewport.draw(page);
     this.feedback.draw();
     this.pegs.draw();

@@ -21,6 +21,7 @@ import {
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { RoomEnvironment } from "three/addons/environments/RoomEnvironment.js";
 
+import { Follow } from "./follow";
 import type { Position } from "./protocol";
 
 /** How much the page spends on looks: `?quality=low` is for machines without a graphics card. */
@@ -52,9 +53,6 @@ const MARGIN = 0.05;
 const REACH = 0.5;
 const EYE_HEIGHT = 1.6;
 
-/** Distance that a character must move before the camera follows, m. */
-const STEP = 0.4;
-
 /** The quality that the page's address asks for. */
 export function qualityOf(address: string): Quality {
   return new URL(address).searchParams.get("quality") === "low" ? "low" : "normal";
@@ -68,6 +66,7 @@ export class Viewport {
   private readonly controls: OrbitControls;
   /** Roots of the characters that the camera keeps in view, m; null once the user has moved the camera. */
   private framed: Position[] | null = [];
+  private readonly follow = new Follow();
   private nextDraw = 0;
 
   /** Throws when the browser has no WebGL 2. */
@@ -96,9 +95,9 @@ export class Viewport {
     return this.camera.position.toArray();
   }
 
-  /** Shows all characters, by their roots (m), unless the user has moved the camera. */
-  frame(roots: Position[]): void {
-    if (this.framed === null || near(this.framed, roots)) return;
+  /** Shows all characters at a page time (ms), by their roots (m), unless the user has moved the camera. */
+  frame(page: number, roots: Position[]): void {
+    if (this.framed === null || !this.follow.update(page, roots)) return;
     this.framed = roots;
     this.look();
   }
@@ -203,14 +202,6 @@ export class CameraReport {
 
 function distance(a: Position, b: Position): number {
   return Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-}
-
-/** Whether all characters are where they were: swaying, bowing and sitting down do not move the camera. */
-function near(before: Position[], roots: Position[]): boolean {
-  return (
-    before.length === roots.length &&
-    roots.every(([x, , z], i) => Math.hypot(x - (before[i]?.[0] ?? 0), z - (before[i]?.[2] ?? 0)) < STEP)
-  );
 }
 
 /** The camera's target and its distance in front of it (m) that show all characters, by their roots (m). */

@@ -7,13 +7,14 @@ const ROWS = 300;
 /** Distance from the bottom within which the log scrolls along with new rows, pixels. */
 const FOLLOWING = 24;
 
-type FeedbackKind = "block" | "sync" | "prediction" | "warning" | "other";
+type FeedbackKind = "block" | "sync" | "prediction" | "warning" | "fall" | "other";
 
 const KINDS: Record<string, FeedbackKind> = {
   blockProgress: "block",
   syncPointProgress: "sync",
   predictionFeedback: "prediction",
   warningFeedback: "warning",
+  fall: "fall",
 };
 
 /** A feedback message as one line: its kind, its subject and its content. */
@@ -102,6 +103,8 @@ function summarize(feedback: Feedback): Summary {
       return { kind, ...prediction(root) };
     case "warning":
       return { kind, about: attribute(root, "id"), detail: `${attribute(root, "type")}: ${root.textContent.trim()}` };
+    case "fall":
+      return { kind, about: attribute(root, "id"), detail: `${attribute(root, "characterId")} has fallen` };
     case "other":
       return { kind, about: root.localName, detail: "" };
   }
