@@ -99,6 +99,20 @@ class Timing:
         return Timing(self.points[:count], self.phases[: count - 1], self.instant or count == 1)
 
     @property
+    def limits(self) -> tuple[float, float]:
+        """Authored limits of the whole behavior, s, of which its phases have their shares, and holds have none.
+
+        0 and infinity if there are none, or if they concern only a part of the behavior.
+        """
+        phases = self.phases
+        held = (k for k, each in enumerate(phases) if each.kind is PhaseKind.HOLD or each.duration == 0.0)
+        if not self.limited or len(self.limited.union(held)) < len(phases):
+            return 0.0, inf
+        limited, preferred = [phases[k] for k in self.limited], self.offsets[-1]
+        share = sum(phase.duration for phase in limited) / preferred if preferred > 0.0 else 1.0
+        return sum(phase.minimum for phase in limited) / share, sum(phase.maximum for phase in limited) / share
+
+    @property
     def offsets(self) -> tuple[float, ...]:
         """Preferred time (s) of each point after the first."""
         times = [0.0]

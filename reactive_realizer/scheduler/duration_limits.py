@@ -58,11 +58,7 @@ def _first(item: Item, times: Sequence[float]) -> BeyondLimits | None:
 
 def _whole(behavior: str, timing: Timing, duration: float) -> BeyondLimits | None:
     """The fault of a behavior that lasts (s) less or more than its limits, of which each phase has its share."""
-    phases = [timing.phases[k] for k in timing.limited]
-    preferred = timing.offsets[-1]
-    share = sum(phase.duration for phase in phases) / preferred if preferred > 0.0 else 1.0
-    limits = sum(phase.minimum for phase in phases) / share, sum(phase.maximum for phase in phases) / share
-    return _beyond(behavior, timing.points[0], timing.points[-1], limits, duration)
+    return _beyond(behavior, timing.points[0], timing.points[-1], timing.limits, duration)
 
 
 def _phase(behavior: str, timing: Timing, index: int, duration: float) -> BeyondLimits | None:

@@ -47,7 +47,7 @@ async def test_a_point_stays_after_two_earlier_behaviors_when_either_moves(
     assert_linked(pilot.feedback, "b:g:end", "b:n:stroke", 0.2)
     assert_order(pilot.feedback, "b:n:start", "b:n:stroke")
     assert_order(pilot.feedback, "b:g:strokeEnd", "b:g:end")
-    assert texts(pilot) == []
+    assert not any("no longer holds" in text for text in texts(pilot))
 
 
 async def test_a_point_stays_before_two_later_behaviors_when_either_moves(pilot: RealizerPilot) -> None:

@@ -138,9 +138,10 @@ async def test_a_prediction_that_comes_early_hurries_a_stroke_at_most_to_its_lim
     await pilot.advance(3)
     stroke = pilot.feedback.time("b:g:stroke")
     assert 1.5 < stroke < 1.3 + 0.39
-    (text,) = texts(pilot, "b:g")
+    text, limit = texts(pilot, "b:g")
     assert "g:stroke = anticipators:t:hit no longer holds" in text
     assert "because g:stroke needs" in text
+    assert "g from stroke to strokeEnd is to last at least 0.09 s" in limit
     assert pilot.feedback.time("b:g:ready") < stroke < pilot.feedback.time("b:g:strokeEnd")
     first, last = (round(50 * pilot.feedback.time(f"b:g:{point}")) for point in ("ready", "strokeEnd"))
     heights = pilot.path("r_wrist")[:, 1]
@@ -226,8 +227,9 @@ async def test_the_hand_is_there_at_a_stroke_whose_ready_is_unknown(pilot: Reali
     await pilot.advance(3)
     path = pilot.path("r_wrist", "alice")
     await pilot.advance(0.5)
-    assert pilot.feedback.warnings == []
     assert pilot.feedback.time("b:g:ready") == pilot.feedback.time("b:g:stroke") == 3.0
+    (text,) = texts(pilot, "b:g")
+    assert "g from strokeStart to stroke is to last at least 0.16 s, lasts 0.00 s" in text
     assert np.linalg.norm(path[-1] - path[0]) > 0.3
 
 
@@ -255,7 +257,7 @@ async def test_a_gesture_after_a_retraction_that_was_too_short_is_ready_when_its
     )
     pilot.watch()
     await pilot.advance(2)
-    assert pilot.feedback.warnings == []
+    assert texts(pilot, "b:g") == []
     ready = pilot.feedback.time("b:g:ready")
     assert 1.22 < ready < 1.3
     path = pilot.path("l_wrist")
@@ -333,6 +335,57 @@ async def test_a_constraint_that_exceeds_the_limits_of_an_author_holds_with_one_
         assert text.endswith(told)
         assert pilot.feedback.time("b:p:end") == end
         assert pilot.feedback.status("b") == "DONE"
+
+
+@pytest.mark.parametrize(
+    ("end", "told"),
+    [(1.4, "g from stroke to strokeEnd is to last at least 0.66 s, lasts 0.40 s"),
+     (5.0, "g from stroke to strokeEnd is to last at most 2.46 s, lasts 4.00 s")],
+)  # fmt: skip
+@pytest.mark.parametrize("required", ["{}", "<required>{}</required>"])
+async def test_the_stroke_of_a_gesture_exceeds_the_limits_of_its_animation_only_with_a_warning(
+    any_strategy: RealizerPilot, end: float, told: str, required: str
+) -> None:
+    any_strategy.block(
+        "b", required.format(f'<gesture id="g" lexeme="WAVE" strokeStart="0.8" stroke="1" strokeEnd="{end}"/>')
+    )
+    await any_strategy.advance(7)
+    (text,) = texts(any_strategy, "b:g")
+    assert text.endswith(told)
+    assert any_strategy.feedback.time("b:g:stroke") == 1.0
+    assert any_strategy.feedback.time("b:g:strokeEnd") == end
+
+
+async def test_the_ways_of_a_gesture_take_the_time_that_its_stroke_may_not(pilot: RealizerPilot) -> None:
+    pilot.block("b", '<gesture id="g" lexeme="WAVE" start="0" end="7"/>')
+    await pilot.advance(7.1)
+    assert pilot.feedback.warnings == []
+    assert pilot.feedback.time("b:g:strokeEnd") - pilot.feedback.time("b:g:strokeStart") < 0.54 + 2.46
+
+
+async def test_a_prediction_that_hurries_a_wave_beyond_its_limits_is_reported(pilot: RealizerPilot) -> None:
+    pilot.predict("t", "hit", 2.5)
+    pilot.block("b", '<gesture id="g" lexeme="WAVE" stroke="1" strokeEnd="anticipators:t:hit"/>')
+    await pilot.advance(1.1)
+    pilot.predict("t", "hit", 1.4)
+    await pilot.advance(3)
+    assert pilot.feedback.time("b:g:strokeEnd") == 1.4
+    (text,) = texts(pilot, "b:g")
+    assert "g from stroke to strokeEnd is to last at least 0.66 s, lasts 0.40 s" in text
+
+
+@pytest.mark.parametrize("strategy", ["convex", "embr"])
+@pytest.mark.parametrize(("end", "breath"), [(11.0, 8.0), (1.42, 1.2)])
+async def test_what_has_no_limits_gives_way_before_the_limits_of_an_author_do(
+    strategy: str, end: float, breath: float
+) -> None:
+    async with open_pilot(SceneOptions(voice="text", strategy=strategy)) as pilot:
+        nod = f'<head id="n" lexeme="NOD" start="p:end" end="{end}"/>'
+        pilot.block("b", BREATH.format('start="0"') + nod)
+        await pilot.advance(end + 0.1)
+        assert pilot.feedback.warnings == []
+        assert pilot.feedback.time("b:p:end") == pytest.approx(breath, abs=1e-4)
+        assert pilot.feedback.time("b:n:end") == end
 
 
 async def test_a_prediction_that_moves_a_playing_motion_beyond_its_limits_is_reported_once(

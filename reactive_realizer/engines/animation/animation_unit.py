@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import pairwise
 from math import inf
+from typing import NamedTuple
 
 from reactive_realizer.bml.behavior import Behavior, SyncPoints
 from reactive_realizer.bml.behaviors import Pointing
@@ -292,9 +293,26 @@ def motion_timing(behavior: Behavior, motion: MotionUnit, keys: Mapping[str, flo
     # Additive motion has no holds: points that coincide stay together.
     waits = motion.kind is not LayerKind.ADDITIVE
     holds = _holds(isinstance(behavior, Pointing), behavior.sync_points) if waits else _NO_HOLDS
-    limits = motion.limits or (0.0, inf)
+    first, last = (motion.key_positions[point] for point in motion.authored)
+    limits = _Limits(first, last, *(motion.stretch or (0.0, inf)))
     shortest = tuple(motion.shortest.items())
     return _timing(tuple(keys.items()), motion.preferred_duration, shortest, limits, holds, behavior.persistent)
+
+
+class _Limits(NamedTuple):
+    """The durations that an author allows for each phase in a part of a motion, relative to the preferred ones.
+
+    Attributes:
+        first: the phase at which the part begins, 0 to 1.
+        last: the phase at which it ends.
+        least: stretch of each of its phases.
+        most: likewise.
+    """
+
+    first: float
+    last: float
+    least: float
+    most: float
 
 
 @lru_cache(_MOST_TIMINGS)
@@ -302,11 +320,10 @@ def _timing(
     keys: tuple[tuple[str, float], ...],
     duration: float,
     shortest: tuple[tuple[str, float], ...],
-    limits: tuple[float, float],
+    limits: _Limits,
     holds: frozenset[PhaseEnds],
     persistent: bool,
 ) -> Timing:
-    minimum, maximum = limits
     needs = dict(shortest)
     phases = []
     for (point, begin), (other, end) in pairwise(keys):
@@ -315,9 +332,12 @@ def _timing(
         need = min(needs.get(other, 0.0), part * duration)
         if (point, other) in holds:
             phases.append(Phase(part * duration, PhaseKind.HOLD, shortest=need))
+        elif part > 0.0 and limits.first <= begin and end <= limits.last:
+            preferred = part * duration
+            least, most = limits.least * preferred, limits.most * preferred
+            phases.append(Phase(preferred, PhaseKind.ELASTIC, least, most, need))
         else:
-            most = part * maximum if part > 0.0 else inf
-            phases.append(Phase(part * duration, PhaseKind.ELASTIC, part * minimum, most, need))
+            phases.append(Phase(part * duration, PhaseKind.ELASTIC, shortest=need))
     return Timing(tuple(point for point, _ in keys), tuple(phases), persistent=persistent)
 
 

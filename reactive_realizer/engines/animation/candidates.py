@@ -81,5 +81,5 @@ def select(candidates: Iterable[Candidate], taken: frozenset[str], time: float |
 
 
 def _hurried(motion: MotionUnit, time: float) -> bool:
-    shortest, _ = motion.limits or (0.0, inf)
-    return time < max(shortest, _SHORT * motion.preferred_duration)
+    least, _ = motion.stretch or (0.0, inf)
+    return time < max(least, _SHORT) * motion.preferred_duration

@@ -128,7 +128,9 @@ class MotionUnit(ABC):
         preferred_duration: s.
         shortest: sync id -> shortest duration of the phase that ends there, s, where the limits of the body matter.
         retraction: shortest duration of the way back from relax to end, s; it may be cut short.
-        limits: shortest and longest duration, s, if the author set any; these are relaxed before any constraint.
+        stretch: the least and the greatest stretch of each phase that its author allows, if there are such limits; they
+            are relaxed before any constraint.
+        authored: the points between which they apply.
         predictability: when its poses can be predicted.
         entrance: duration of its fade-in if it joins late, s; None if it appears at once or handles this itself.
         joined: time at which it joined late, s; None if it started in time.
@@ -149,7 +151,8 @@ class MotionUnit(ABC):
     preferred_duration: float
     shortest: Mapping[str, float] = MappingProxyType({})
     retraction: float = 0.0
-    limits: tuple[float, float] | None = None
+    stretch: tuple[float, float] | None = None
+    authored: tuple[str, str] = ("start", "end")
     predictability: Predictability = Predictability.NEVER
     fade_in: float | None = None
     joined: GlobalTime | None = None

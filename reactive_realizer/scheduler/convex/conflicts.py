@@ -28,7 +28,7 @@ class Requirement(NamedTuple):
 
     Attributes:
         number: index among the constraints or behaviors in canonical order; for a length or limit, of its behavior.
-        phase: index of the phase of a length or limit.
+        phase: index of the phase of a length or limit; of the limit of a whole behavior, their number.
     """
 
     rank: Rank

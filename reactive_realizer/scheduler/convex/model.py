@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from math import inf
 from typing import NamedTuple, TypeVar
 
+from reactive_realizer.planunit.timing import Timing
 from reactive_realizer.scheduler.convex.conflicts import GIVEN, Conflict, ExplainedGroups, Need, Rank, Requirement
 from reactive_realizer.scheduler.convex.longest_path import TOLERANCE, Arc
 from reactive_realizer.scheduler.convex.spans import BehaviorSpans, Span
@@ -98,6 +99,7 @@ class Model:
 
     def __init__(self, problem: SchedulingProblem, dropped: AbstractSet[Requirement]) -> None:
         self.relaxed = relaxed = RelaxedProblem.of(problem, dropped)
+        self._dropped = dropped
         self.nodes: dict[Node, int] = {node: number for number, node in enumerate(relaxed.fixed)}
         self.groups = ExplainedGroups(len(relaxed.fixed))
         self.knots: dict[int, dict[int, int]] = {}
@@ -181,6 +183,16 @@ class Model:
             yield Inequality(knots[0], START, 0.0, GIVEN)  # thesis 7.13
         for span in self.spans:
             yield from _limits(span)
+        for index, item in self.relaxed.items.items():
+            yield from self._whole_limits(index, item.timing)
+
+    def _whole_limits(self, index: int, timing: Timing) -> Iterator[Inequality]:
+        """The longest duration of a whole behavior, which holds could exceed."""
+        last = len(timing.phases)
+        _, most = timing.limits
+        requirement = Requirement(Rank.LIMIT, index, last)
+        if most < inf and last in self.knots[index] and requirement not in self._dropped:
+            yield Inequality(self.knots[index][0], self.knots[index][last], -most, requirement)
 
     def _bounds(self, inequalities: Iterable[Inequality]) -> Iterator[BoundArc]:
         for each in inequalities:

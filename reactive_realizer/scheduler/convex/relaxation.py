@@ -1,9 +1,9 @@
 """The requirements that are given up if not all can be satisfied, and the losses that explain this."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 
 from reactive_realizer.errors import Fault
-from reactive_realizer.planunit.timing import TooShort
+from reactive_realizer.planunit.timing import Timing, TooShort
 from reactive_realizer.scheduler.convex.conflicts import Conflict, Rank, Requirement
 from reactive_realizer.scheduler.faults import (
     Conflicting,
@@ -18,19 +18,28 @@ from reactive_realizer.scheduler.problem import Point, Precedence, SchedulingPro
 from reactive_realizer.scheduler.solution import Loss, lost_behavior, lost_constraint
 
 
+def limits_of(behavior: int, timing: Timing) -> Iterator[Requirement]:
+    """The limits of all phases of a behavior, and of the whole."""
+    return (Requirement(Rank.LIMIT, behavior, phase) for phase in range(len(timing.phases) + 1))
+
+
 class Relaxation:
     """Gives up limits first, then before/after, then ties, then behaviors; the last of several; required ones never.
 
     (docs/semantics.md, scheduling.) If only required ones are left, the loss of one fails the block.
+
+    Args:
+        problem: in canonical order.
+        left_out: requirements that are not looked at.
 
     Attributes:
         dropped: the requirements that were given up.
         losses: the explanations; there is none for lengths and limits.
     """
 
-    def __init__(self, problem: SchedulingProblem) -> None:
+    def __init__(self, problem: SchedulingProblem, left_out: Iterable[Requirement] = ()) -> None:
         self._problem = problem
-        self.dropped: set[Requirement] = set()
+        self.dropped = set(left_out)
         self.losses: list[Loss] = []
 
     def resolve(self, conflicts: Iterable[Conflict]) -> None:
@@ -57,8 +66,7 @@ class Relaxation:
         dropped = max(self._of_hurried(least, conflict) or least)
         self.dropped.add(dropped)
         if dropped.rank is Rank.LIMIT:  # the limits of a behavior go together, so that it is stretched evenly
-            phases = range(len(self._problem.items[dropped.number].timing.phases))
-            self.dropped |= {dropped._replace(phase=phase) for phase in phases}
+            self.dropped.update(limits_of(dropped.number, self._problem.items[dropped.number].timing))
         if dropped.rank > Rank.LIMIT:
             self.losses.append(self._loss(dropped, conflict))
 
@@ -127,5 +135,7 @@ class Relaxation:
         item = self._problem.items[requirement.number]
         if requirement.rank is Rank.BEHAVIOR:
             return item.behavior.id
+        if requirement.phase == len(item.timing.phases):
+            return f"the limits of {item.behavior.id}"
         start, end = item.timing.points[requirement.phase : requirement.phase + 2]
         return f"the limits of {item.behavior.id} from {start} to {end}"

@@ -1,10 +1,11 @@
 """The problem of EMBR's strategy: behaviors cut into segments at the points to which constraints refer."""
 
 import itertools
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from math import inf
 from typing import NamedTuple
 
-from reactive_realizer.planunit.timing import PhaseKind
+from reactive_realizer.planunit.timing import Phase, PhaseKind
 from reactive_realizer.scheduler.embr.differences import Row
 from reactive_realizer.scheduler.problem import Item, Node, Point, Precedence, Tie
 
@@ -18,6 +19,7 @@ class Segment(NamedTuple):
         preferred: duration, s.
         rigid: whether it cannot be stretched; EMBR does not distinguish the other kinds of phases.
         shortest: duration that the body needs, s.
+        phases: of the behavior, between the knots.
     """
 
     start: Point
@@ -25,11 +27,23 @@ class Segment(NamedTuple):
     preferred: float
     rigid: bool
     shortest: float
+    phases: Sequence[Phase]
 
     @property
     def row(self) -> Row[Node]:
         """Its shortest duration as a condition on its knots."""
         return Row(self.end, self.start, self.shortest)
+
+    @property
+    def limits(self) -> Iterator[Row[Node]]:
+        """The durations with which all its phases keep their authored limits, as conditions on its knots."""
+        limited = [phase for phase in self.phases if phase.authored and phase.duration > 0.0]
+        if limited and not self.rigid:
+            least = max(phase.minimum / phase.duration for phase in limited)
+            most = min(phase.maximum / phase.duration for phase in limited)
+            yield Row(self.end, self.start, least * self.preferred)
+            if most < inf:
+                yield Row(self.start, self.end, -most * self.preferred)
 
 
 class EmbrProblem:
@@ -84,5 +98,6 @@ def _segments(item: Item, knots: Sequence[int]) -> list[Segment]:
     for first, last in itertools.pairwise(knots):
         rigid = phases[first].kind is PhaseKind.RIGID
         shortest = 0.0 if rigid else sum(phase.shortest for phase in phases[first:last])
-        segments.append(Segment(points[first], points[last], offsets[last] - offsets[first], rigid, shortest))
+        preferred = offsets[last] - offsets[first]
+        segments.append(Segment(points[first], points[last], preferred, rigid, shortest, phases[first:last]))
     return segments

@@ -5,12 +5,13 @@ from itertools import accumulate, pairwise
 
 from reactive_realizer.errors import Fault, SchedulingFault
 from reactive_realizer.planunit.timing import SHORTEST, TooShort, stretched
+from reactive_realizer.scheduler.duration_limits import limits_not_kept
 from reactive_realizer.scheduler.embr.embr_problem import EmbrProblem
 from reactive_realizer.scheduler.embr.keeping import keep
 from reactive_realizer.scheduler.embr.placing import place
 from reactive_realizer.scheduler.faults import ContradictoryTie
 from reactive_realizer.scheduler.problem import Item, Node, Point, Precedence, SchedulingProblem, Tie
-from reactive_realizer.scheduler.solution import Solution, lost_behavior, with_required
+from reactive_realizer.scheduler.solution import Loss, Solution, lost_behavior, with_required
 
 
 class SelfContradictory(SchedulingFault):
@@ -31,7 +32,8 @@ class EmbrStrategy:
     stretches rather than shrinks.
 
     Constraints are admitted in this order: required, `at`, before/after, and by name; those that contradict earlier
-    ones are dropped. Limits of phases are ignored, and a hold is as stiff as a stroke.
+    ones are dropped. Authored limits are admitted last, if the plan does not keep them anyway. A hold is as stiff as a
+    stroke.
     """
 
     name = "embr"
@@ -42,12 +44,20 @@ class EmbrStrategy:
         faults = {item.behavior.id: fault for item in items if (fault := _alone(item, constraints, given)) is not None}
         playable = [item for item in items if item.behavior.id not in faults]
         program = EmbrProblem(playable, [each for each in constraints if not each.names(faults)], given)
-        kept = keep(program)
-        knots = place(program, kept)
-        times = {p: time for item in playable for p, time in _points(item, program.knots[item.behavior.id], knots)}
         lost = [lost_behavior(item.behavior, faults[item.behavior.id]) for item in items if item not in playable]
         losses = [with_required(loss, problem) for loss in lost]
-        return Solution(times, (*losses, *kept.losses))
+        solution = _solved(program, losses, limits=False)
+        broken = any(limits_not_kept(problem, solution))
+        return _solved(program, losses, limits=True) if broken else solution
+
+
+def _solved(program: EmbrProblem, losses: Iterable[Loss], *, limits: bool) -> Solution:
+    """The plan with or without authored limits, and with some more losses."""
+    kept = keep(program, limits=limits)
+    knots = place(program, kept)
+    items = program.items.items()
+    times = {point: time for id_, item in items for point, time in _points(item, program.knots[id_], knots)}
+    return Solution(times, (*losses, *kept.losses))
 
 
 def _points(item: Item, knots: Sequence[int], times: Mapping[Node, float]) -> Iterator[tuple[Point, float]]:
@@ -69,7 +79,7 @@ def _alone(item: Item, constraints: Iterable[Tie | Precedence], given: Mapping[N
     id_ = item.behavior.id
     ties = [each for each in constraints if isinstance(each, Tie) and each.owner == id_]
     own = [tie for tie in ties if all(node in given or _is_of(node, id_) for node in tie.nodes)]
-    faults = (loss.fault for loss in keep(EmbrProblem([item], own, given)).losses) if own else iter(())
+    faults = (loss.fault for loss in keep(EmbrProblem([item], own, given), limits=False).losses) if own else iter(())
     clashes = (fault for fault in faults if isinstance(fault, ContradictoryTie))
     return next((SelfContradictory(tie=clash.tie, gap=clash.gap) for clash in clashes), None)
 

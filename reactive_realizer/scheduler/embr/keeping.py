@@ -22,7 +22,7 @@ class Kept:
         constraints: that can be met together.
         losses: the other constraints.
         groups: of points that `at` constraints and rigid phases hold together.
-        rows: the other conditions on all times, including the before/after constraints.
+        rows: the other conditions on all times, including the before/after constraints and authored limits.
         least: the earliest solution.
     """
 
@@ -33,9 +33,14 @@ class Kept:
     least: Differences[Node]
 
 
-def keep(problem: EmbrProblem) -> Kept:
-    """Admit constraints in their order, except for those that cannot be met together with earlier ones."""
-    return _Admission(problem).keep()
+def keep(problem: EmbrProblem, *, limits: bool) -> Kept:
+    """Admit constraints in their order, except for those that cannot be met together with earlier ones.
+
+    Args:
+        problem: with the constraints.
+        limits: whether authored limits are admitted too, last.
+    """
+    return _Admission(problem).keep(limits=limits)
 
 
 class _Admission:
@@ -49,7 +54,7 @@ class _Admission:
         known = [node for node, time in problem.given.items() if time is not None]
         self._differences = Differences[Node](self._floors(), known)
 
-    def keep(self) -> Kept:
+    def keep(self, *, limits: bool) -> Kept:
         for segment in self._problem.segments:
             if segment.rigid:
                 self._groups.union(segment.end, segment.start, segment.preferred)
@@ -60,6 +65,9 @@ class _Admission:
             if not item.timing.instant:
                 self._add(Row(Point(id_, item.timing.points[-1]), Point(id_, item.timing.points[0]), _LEAST))
         constraints = tuple(each for each in self._problem.constraints if self._admit(each))
+        for segment in self._problem.segments if limits else ():
+            for row in segment.limits:
+                self._add(row)
         losses, rows = tuple(self._losses), tuple(self._rows)
         return Kept(constraints, losses, self._groups, rows, self._differences)
 

@@ -52,6 +52,7 @@ class GestureMotionUnit(MotionUnit):
     """
 
     kind = LayerKind.GESTURE
+    authored = ("ready", "relax")
     fixed = FILE_PARAMETERS | {HOLD}
     predictability = Predictability.ONCE_STARTED
 
@@ -79,6 +80,7 @@ class GestureMotionUnit(MotionUnit):
         timing = animation.timing(self.parameters)
         keys = with_gesture_points(timing.key_positions)
         self._inner = [keys[point] for point in _INNER]
+        self.stretch = timing.stretch
         durations = self._durations(timing.duration, parameters.get(HOLD, 0.0))
         self.preferred_duration = sum(each.preferred for each in durations)
         self.key_positions = gesture_key_positions([each.preferred for each in durations])

@@ -121,7 +121,7 @@ class ProceduralMotionUnit(MotionUnit):
         self._animation = animation
         # Timing is fixed when planned; a parameter that changes while it plays changes only the motion.
         timing = animation.timing(self.parameters)
-        self.preferred_duration, self.limits = timing.duration, timing.limits
+        self.preferred_duration, self.stretch = timing.duration, timing.stretch
         self.key_positions = _with_repeats(timing, round(self.parameters.get(REPEATS, 1.0)))
         self._arrival: InertializedStart | None = None
         if rest is not None:

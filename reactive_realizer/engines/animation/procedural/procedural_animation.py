@@ -39,6 +39,11 @@ class AuthoredTiming:
     limits: tuple[float, float] | None
     key_positions: Mapping[str, float]
 
+    @property
+    def stretch(self) -> tuple[float, float] | None:
+        """The limits relative to the preferred duration."""
+        return None if self.limits is None else (self.limits[0] / self.duration, self.limits[1] / self.duration)
+
 
 @dataclass(frozen=True, eq=False)
 class ProceduralAnimation:
