@@ -9,7 +9,10 @@ from reactive_realizer.scheduler.problem import Item, SchedulingProblem
 from reactive_realizer.scheduler.solution import Loss, Solution
 
 _NOTICEABLE = 0.01
-"""A phase that exceeds its limit by less (s), which is one tick, keeps it."""
+"""A planned phase that exceeds its limit by less (s), which is one tick, keeps it."""
+
+_ACCEPTABLE = 0.1
+"""A phase that has been played may exceed its limit by as much (s), as a tie may be missed (`ConstraintMonitor`)."""
 
 
 class BeyondLimits(SchedulingFault):
@@ -45,8 +48,9 @@ def limit_not_kept(unit: PlanUnit, point: SyncPoint) -> BeyondLimits | None:
     start, begin = unit.time(timing.points[0]), unit.time(timing.points[phase])
     if start is None or begin is None:
         return None
-    whole = _whole(unit.behavior.id, timing, end - start) if point is unit.points[-1] else None
-    return whole or (_phase(unit.behavior.id, timing, phase, end - begin) if phase in timing.limited else None)
+    id_ = unit.behavior.id
+    whole = _whole(id_, timing, end - start, _ACCEPTABLE) if point is unit.points[-1] else None
+    return whole or (_phase(id_, timing, phase, end - begin, _ACCEPTABLE) if phase in timing.limited else None)
 
 
 def _first(item: Item, times: Sequence[float]) -> BeyondLimits | None:
@@ -56,21 +60,25 @@ def _first(item: Item, times: Sequence[float]) -> BeyondLimits | None:
     return _whole(id_, timing, times[-1] - times[0]) or next(filter(None, phases), None)
 
 
-def _whole(behavior: str, timing: Timing, duration: float) -> BeyondLimits | None:
+def _whole(behavior: str, timing: Timing, duration: float, tolerance: float = _NOTICEABLE) -> BeyondLimits | None:
     """The fault of a behavior that lasts (s) less or more than its limits, of which each phase has its share."""
-    return _beyond(behavior, timing.points[0], timing.points[-1], timing.limits, duration)
+    return _beyond(behavior, timing.points[0], timing.points[-1], timing.limits, duration, tolerance)
 
 
-def _phase(behavior: str, timing: Timing, index: int, duration: float) -> BeyondLimits | None:
+def _phase(
+    behavior: str, timing: Timing, index: int, duration: float, tolerance: float = _NOTICEABLE
+) -> BeyondLimits | None:
     """The fault of a phase that lasts (s) less or more than its limits."""
     phase = timing.phases[index]
     limits = phase.minimum, phase.maximum
-    return _beyond(behavior, timing.points[index], timing.points[index + 1], limits, duration)
+    return _beyond(behavior, timing.points[index], timing.points[index + 1], limits, duration, tolerance)
 
 
-def _beyond(behavior: str, start: str, end: str, limits: tuple[float, float], duration: float) -> BeyondLimits | None:
+def _beyond(
+    behavior: str, start: str, end: str, limits: tuple[float, float], duration: float, tolerance: float
+) -> BeyondLimits | None:
     least, most = limits
-    if least - _NOTICEABLE <= duration <= most + _NOTICEABLE:
+    if least - tolerance <= duration <= most + tolerance:
         return None
     bound, limit = ("least", least) if duration < least else ("most", most)
     return BeyondLimits(behavior=behavior, start=start, end=end, bound=bound, limit=limit, duration=duration)

@@ -138,10 +138,9 @@ async def test_a_prediction_that_comes_early_hurries_a_stroke_at_most_to_its_lim
     await pilot.advance(3)
     stroke = pilot.feedback.time("b:g:stroke")
     assert 1.5 < stroke < 1.3 + 0.39
-    text, limit = texts(pilot, "b:g")
+    (text,) = texts(pilot, "b:g")
     assert "g:stroke = anticipators:t:hit no longer holds" in text
     assert "because g:stroke needs" in text
-    assert "g from stroke to strokeEnd is to last at least 0.09 s" in limit
     assert pilot.feedback.time("b:g:ready") < stroke < pilot.feedback.time("b:g:strokeEnd")
     first, last = (round(50 * pilot.feedback.time(f"b:g:{point}")) for point in ("ready", "strokeEnd"))
     heights = pilot.path("r_wrist")[:, 1]
