@@ -250,7 +250,10 @@ class PlanUnit:
         return self.state is UnitState.LURKING and is_due(self.points[0].peg.value, now)
 
     def next_due(self) -> Time:
-        """The earliest known time at which it begins or reaches a point; None if there is none."""
+        """The earliest known time at which it begins or reaches a point; None if there is none.
+
+        It does not come earlier when one of the pegs that it awaits comes later.
+        """
         if self.state is UnitState.LURKING:
             return self.points[0].peg.value
         if self.state is not UnitState.IN_EXEC:

@@ -118,6 +118,21 @@ async def test_a_prediction_wakes_the_engines_that_wait_for_it_once_each(
     assert pilot.feedback.time("b:s:start") == pilot.feedback.time("b:g:stroke") == 8.5
 
 
+async def test_behaviors_that_wait_for_a_prediction_are_not_asked_again_when_it_is_put_off(
+    pilot: RealizerPilot, calls: Counter[str]
+) -> None:
+    pilot.predict("partner", "hit", 2.0)
+    pilot.block("b", WAITING)
+    await pilot.advance(0.1)
+    calls.clear()
+    for hit in (3.0, 4.0, 5.0):
+        pilot.predict("partner", "hit", hit)
+        await pilot.tick()
+    assert calls["next_due"] == 0
+    await pilot.advance(6)
+    assert pilot.feedback.time("b:s:start") == pilot.feedback.time("b:g:stroke") == 5.0
+
+
 async def test_frames_are_shown_once_each(pilot: RealizerPilot, monkeypatch: pytest.MonkeyPatch) -> None:
     shown: list[int] = []
     engine = next(each for each in pilot.realizer.characters["alice"].engines if each.name.endswith("/animation"))
