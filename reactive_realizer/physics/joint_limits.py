@@ -38,7 +38,7 @@ class LimitSpring:
     def __init__(self, limits: JointLimits, inertia: Vec3, first: Quat) -> None:
         lowest, highest = (tuple(map(math.radians, bounds)) for bounds in (limits.lowest, limits.highest))
         self._bounds = (*zip(lowest, highest, strict=True),)
-        self._inertia = inertia
+        self._stiffness = tuple(each * _FREQUENCY**2 for each in inertia)
         self._slack = ZERO
         self._slack = self._beyond(swing_and_twist(first))
 
@@ -59,11 +59,11 @@ class LimitSpring:
         if beyond == ZERO:
             return
         pulls = turned_about_y(beyond, -parts.twist)
-        for degree, (pull, over, inertia) in enumerate(zip(pulls, beyond, self._inertia, strict=True), first):
-            stiffness = inertia * _FREQUENCY**2
-            torques[degree] -= stiffness * pull
-            if over:
-                damping[degree] += stiffness * period + _DAMPED * _FREQUENCY * inertia
+        damped = period + _DAMPED / _FREQUENCY
+        for axis, stiffness in enumerate(self._stiffness):
+            torques[first + axis] -= stiffness * pulls[axis]
+            if beyond[axis]:
+                damping[first + axis] += stiffness * damped
 
     def _beyond(self, parts: SwingTwist) -> Vec3:
         """Return how far a rotation is beyond the bounds, rad, in the axes after its twist.

@@ -359,10 +359,14 @@ class Simulation:
         """
         _, first = self._addresses[joint]
         period = self.period
-        way = rotation_vector(difference(self._turned(joint), wanted))
-        for degree, (turn, spring, damper) in enumerate(zip(way, stiffness, dampers, strict=True), first):
-            torques[degree] += spring * turn
-            damping[degree] += spring * period + damper
+        x, y, z = rotation_vector(difference(self._turned(joint), wanted))
+        of_x, of_y, of_z = stiffness
+        torques[first] += of_x * x
+        torques[first + 1] += of_y * y
+        torques[first + 2] += of_z * z
+        damping[first] += of_x * period + dampers[0]
+        damping[first + 1] += of_y * period + dampers[1]
+        damping[first + 2] += of_z * period + dampers[2]
 
     def angular_momentum(self) -> NDArray[np.float64]:
         """Return the angular momentum about the center of mass, kg m^2/s, in MuJoCo's world, (3,)."""
