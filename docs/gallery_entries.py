@@ -15,12 +15,14 @@ class Entry:
         behaviors: as BML.
         whole_body: whether the picture includes the feet.
         seconds: minimum duration, s, for motion that continues after the end of the block.
+        push: force on the trunk for 0.2 s, N, one second after the start; None for no push.
     """
 
     name: str
     behaviors: str
     whole_body: bool = False
     seconds: float = 0.0
+    push: tuple[float, float, float] | None = None
 
     @property
     def block(self) -> str:
@@ -69,6 +71,12 @@ _CLIP = """
   1.4  0 1 0 -0.7  1 0 0 -0.6
   2    0 1 0 0     1 0 0 -0.2
 </SkeletonInterpolator>
+""".strip()
+
+_BALANCE = """
+<bmlt:controller id="b" class="BalanceController" start="0"/>
+<bmlt:controller id="l" class="CompoundController" name="leftarmhang" start="0"/>
+<bmlt:controller id="r" class="CompoundController" name="rightarmhang" start="0"/>
 """.strip()
 
 _UNITS = (
@@ -124,5 +132,7 @@ _UNITS = (
         whole_body=True,
         seconds=6.0,
     ),
+    Entry("controller-pushed", _BALANCE, whole_body=True, seconds=3.0, push=(0.0, 0.0, 110.0)),
+    Entry("controller-falling", _BALANCE, whole_body=True, seconds=3.0, push=(0.0, 0.0, -250.0)),
     Entry("idle", "", whole_body=True, seconds=12.0),
 )

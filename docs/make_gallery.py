@@ -25,7 +25,7 @@ from reactive_realizer.clock.clock import ManualClock
 from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.engine.lexicon import lexicon_of
-from reactive_realizer.realizer.inputs import BmlText
+from reactive_realizer.realizer.inputs import BmlText, Push
 from reactive_realizer.server.app import create_app
 from reactive_realizer.server.live_scene import LiveScene
 from reactive_realizer.server.security import Security
@@ -40,6 +40,8 @@ HIGH: ViewportSize = {"width": 1000, "height": 1200}
 PICTURE = (180, 240)
 WHOLE_BODY = (150, 300)
 MOMENTS = 7
+PUSH_AFTER = 1.0
+"""Time from the start of a strip to the push, s."""
 LONGEST = 20.0
 """Maximum duration of a strip, s, for behaviors without an end."""
 
@@ -100,6 +102,9 @@ async def strip(camera: Camera, entry: Entry) -> Image.Image:
     await live.realizer.settle()
     await live.step(await anext(ticks))
     begun, end = live.realizer.time, _end(live, entry)
+    if entry.push is not None:
+        push = Push(next(iter(live.realizer.characters)), "vl5", entry.push, 0.2)
+        live.realizer.put(push, GlobalTime(begun + PUSH_AFTER))
     pictures = []
     for i in range(MOMENTS):
         moment = begun + (end - begun) * (i + 0.5) / MOMENTS
@@ -192,6 +197,8 @@ def index(all_entries: Iterable[Entry]) -> str:
     for entry in all_entries:
         picture = f"![{entry.name}]({entry.name}.webp)"
         lines += [f"### {entry.name}", "", picture, "", "```xml", entry.behaviors, "```", ""]
+        if entry.push is not None:
+            lines += [f"pushed with {max(map(abs, entry.push)):g} N for 0.2 s", ""]
     return "\n".join(lines)
 
 
