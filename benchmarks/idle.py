@@ -13,7 +13,7 @@ from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.engine.effects import Play
 from reactive_realizer.engine.engine_task import EngineTask
 from reactive_realizer.realizer.inputs import BmlText
-from reactive_realizer.server.live_scene import LiveScene
+from reactive_realizer.server.live_scene import LiveScene, keep_from_ticks
 from reactive_realizer.testing.pilot import block
 
 AIMS = {"posts_per_s": 0.0}
@@ -54,6 +54,7 @@ def _wait(size: int, seconds: float) -> tuple[float, float]:
 
 async def _measure(human: Path, size: int, seconds: float) -> tuple[float, float]:
     async with open_scene(SceneOptions(human, "text")) as scene, asyncio.TaskGroup() as group:
+        keep_from_ticks()  # as a server does
         live = LiveScene(scene, SystemClock())
         for rank in range(size):
             live.realizer.put(BmlText(block(f"b{rank}", _INSIDE, characterId=f"c{rank}")))

@@ -13,7 +13,7 @@ from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.feedback.feedback_manager import Report
 from reactive_realizer.feedback.messages import BlockProgress, SyncPointProgress
 from reactive_realizer.realizer.inputs import BmlText
-from reactive_realizer.server.live_scene import LiveScene
+from reactive_realizer.server.live_scene import LiveScene, keep_from_ticks
 from reactive_realizer.testing.pilot import block
 
 TICK_MS = 1000 / RATE
@@ -51,6 +51,7 @@ def _lateness(size: int, seconds: float) -> dict[str, float]:
 
 async def _perform(human: Path, seconds: float) -> list[float]:
     async with open_scene(SceneOptions(human, "text")) as scene, asyncio.TaskGroup() as group:
+        keep_from_ticks()  # as a server does
         live = LiveScene(scene, SystemClock())
         crowd = _Crowd(live)
         live.realizer.feedback.listen(crowd.hear)  # after the listeners that send it

@@ -49,6 +49,10 @@ class Inbox:
         self._limits = limits
         self._waiting: list[tuple[GlobalTime, int, Input]] = []
         self._put = 0
+        self._waiting_points: set[PegKey] = set()
+        """Points of the predictions that wait."""
+        self._new_points: set[PegKey] = set()
+        """Those of them that are not on the board."""
         self._remotes: set[str] = set()
         """The anticipators that clients have named."""
         self._unneeded: tuple[GlobalTime, frozenset[PegKey]] = (GlobalTime(-1.0), frozenset())
@@ -60,6 +64,8 @@ class Inbox:
         """Add an input, which enters at a time, after all earlier inputs."""
         self._put += 1
         self._waiting.append((at, self._put, entry))
+        if isinstance(entry, Prediction):
+            self._note(entry)
 
     @property
     def waiting(self) -> list[Input]:
@@ -75,20 +81,23 @@ class Inbox:
         if anticipator in self._board.anticipators:
             self._board.anticipators[anticipator].check_prediction()
         key, limit = anticipator_key(anticipator, sync), self._limits.predicted_points
-        if self._board.get(key) is not None:
+        if self._board.get(key) is not None or key in self._new_points:
             return
-        waiting = {
-            anticipator_key(each.anticipator, each.sync) for each in self.waiting if isinstance(each, Prediction)
-        }
-        new = {each for each in (key, *waiting) if self._board.get(each) is None}
-        points = len(self._board.predicted_points) + len(new)
-        if points > limit and points - len(self._unneeded_points(now) - waiting) > limit:
+        points = len(self._board.predicted_points) + len(self._new_points) + 1
+        if points <= limit:
+            return
+        unneeded = self._unneeded_points(now)
+        if points - len(unneeded) + len(unneeded & self._waiting_points) > limit:
             raise RealizerError(TooManyNames(limit=limit, things="predicted points"))
 
     def take(self, now: GlobalTime) -> tuple[Input, ...]:
         """Remove and return the inputs whose time has come, in order."""
         due = [entry for at, _, entry in sorted(self._waiting, key=lambda each: each[:2]) if is_due(at, now)]
         self._waiting = [waiting for waiting in self._waiting if not is_due(waiting[0], now)]
+        self._waiting_points, self._new_points = set(), set()
+        for entry in self.waiting:
+            if isinstance(entry, Prediction):
+                self._note(entry)
         return tuple(due)
 
     def deliver(self, entries: Sequence[Input], now: GlobalTime) -> list[tuple[str, AnticipatorEvent]]:
@@ -125,6 +134,13 @@ class Inbox:
             self._remotes.add(id_)
             self._streams.add(Remote(self._streams.context(id_)))
         return self._board.anticipators[id_]
+
+    def _note(self, prediction: Prediction) -> None:
+        """Note the point of a prediction that waits."""
+        key = anticipator_key(prediction.anticipator, prediction.sync)
+        self._waiting_points.add(key)
+        if self._board.get(key) is None:
+            self._new_points.add(key)
 
     def _unneeded_points(self, now: GlobalTime) -> frozenset[PegKey]:
         """The points that may be forgotten; there are many to look at, and they change only in ticks."""

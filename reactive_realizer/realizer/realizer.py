@@ -175,11 +175,11 @@ class Realizer:
         if push.joint not in joints:
             raise RealizerError(UnknownJoint(character=push.character, joint=push.joint, known=joints))
 
-    def admission(self, client: str = "") -> Admission:
-        """Checks for blocks and procedures of a client that would enter after all earlier inputs."""
-        admission = self.scheduler.admission(client=client)
-        for parsed, sender in self._waiting:
-            admission.expect(parsed, sender)
+    def admission(self) -> Admission:
+        """Checks for blocks and procedures that would enter after all earlier inputs."""
+        admission = self.scheduler.admission()
+        for parsed, client in self._waiting:
+            admission.refusal(parsed, client)
         return admission
 
     def checker(self) -> DocumentChecker:

@@ -76,7 +76,6 @@ class Admission:
         limits: how many blocks may be alive at once, and procedures defined.
         blocks: those that are alive.
         procedures: ids of the procedures that are defined.
-        client: that sent what is to enter. Only clients leave others as many blocks as they have themselves.
     """
 
     def __init__(
@@ -85,7 +84,6 @@ class Admission:
         limits: Limits,
         blocks: Blocks,
         procedures: Collection[str],
-        client: str,
     ) -> None:
         self._characters = characters
         self._limits = limits
@@ -94,25 +92,14 @@ class Admission:
         self._added: set[BlockKey] = set()
         self._replaced: set[str] = set()
         self._defined: dict[str, None] = {}
-        self._client = client
         self._numbers = blocks.numbers.copy()
 
-    def expect(self, parsed: Parsed, client: str) -> None:
-        """Count what enters before."""
-        if parsed.procedure is not None:
-            self.admit_procedure(parsed.procedure)
-        elif parsed.block is not None:
-            character = parsed.block.character or self._characters[0]
-            if parsed.block.composition is Composition.REPLACE:
-                self._replace(character)
-            self._numbers[Lane(client, character)] += 1
-
-    def refusal(self, parsed: Parsed) -> Fault | None:
-        """Admit what was read, or return why not."""
+    def refusal(self, parsed: Parsed, client: str = "") -> Fault | None:
+        """Admit what was read from a client, or return why not."""
         if parsed.procedure is not None:
             return self.admit_procedure(parsed.procedure)
         if parsed.block is not None:
-            return self.admit(parsed.block, parsed.failed)
+            return self.admit(parsed.block, parsed.failed, client)
         return parsed.refusal
 
     def admit_procedure(self, procedure: DefineProc) -> Fault | None:
@@ -125,22 +112,23 @@ class Admission:
         self._defined[procedure.id] = None
         return None
 
-    def admit(self, block: BehaviorBlock, failed: bool = False) -> Fault | None:
+    def admit(self, block: BehaviorBlock, failed: bool = False, client: str = "") -> Fault | None:
         """Admit a block, or return why not.
 
         Args:
             block: as it was read.
             failed: whether something required could not be read, so that the block ends at once.
+            client: that sent it, and has to leave others as many blocks as it has; empty for none.
         """
         key = BlockKey(block.character or self._characters[0], block.id)
-        fault = self._rejection(key, block)
+        fault = self._rejection(key, block, client)
         if fault is not None:
             return fault.located(block.location.line, block.location.column)
         if block.composition is Composition.REPLACE:
             self._replace(key.character)
         if not failed and not self._is_alive(key):
             self._added.add(key)
-            self._numbers[Lane(self._client, key.character)] += 1
+            self._numbers[Lane(client, key.character)] += 1
         return None
 
     def _replace(self, character: str) -> None:
@@ -153,21 +141,21 @@ class Admission:
         alive = key.character not in self._replaced and self._blocks.get(key) is not None
         return alive or key in self._added
 
-    def _rejection(self, key: BlockKey, block: BehaviorBlock) -> Fault | None:
+    def _rejection(self, key: BlockKey, block: BehaviorBlock, client: str) -> Fault | None:
         if key.character not in self._characters:
             return UnknownCharacter(character=key.character, known=tuple(self._characters))
         if self._is_alive(key) and key.block not in block.interrupts:
             return DuplicateBlock(block=key.block)
         if block.procedure is not None and block.procedure not in (*self._procedures, *self._defined):
             return UnknownProcedure(procedure=block.procedure, known=(*self._procedures, *self._defined))
-        return None if block.composition is Composition.REPLACE else self._overfull()
+        return None if block.composition is Composition.REPLACE else self._overfull(client)
 
-    def _overfull(self) -> Fault | None:
-        """The fault of one more block of the client."""
+    def _overfull(self, client: str) -> Fault | None:
+        """The fault of one more block of a client."""
         limit, number = self._limits.blocks_alive, sum(self._numbers.values())
-        own = sum(n for lane, n in self._numbers.items() if lane.client == self._client)
+        own = sum(n for lane, n in self._numbers.items() if lane.client == client)
         if number >= limit:
             return TooManyBlocks(limit=limit)
-        if self._client and own > limit - number:
+        if client and own > limit - number:
             return TooManyOfOne(own=own, free=limit - number)
         return None

@@ -13,7 +13,7 @@ from reactive_realizer.feedback.feedback_manager import FeedbackManager
 from reactive_realizer.limits import Limits
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.scheduler.admission import Admission
+from reactive_realizer.scheduler.admission import Admission, TooManyOfOne
 from reactive_realizer.scheduler.block_composition import BlockComposition
 from reactive_realizer.scheduler.block_feedback import BlockFeedback
 from reactive_realizer.scheduler.block_lifecycle import BlockLifecycle
@@ -138,8 +138,13 @@ class BMLScheduler:
 
     def take(self, document: Iterable[Parsed], client: str = "") -> None:
         """Have the blocks and procedures of a client's document enter, in this tick as far as there is time."""
+        admission = self.admission()
+        for entry in self.entering if client else ():
+            admission.refusal(entry.parsed, entry.lane.client)
         for parsed in document:
-            self._turns.add(self._entries.add(parsed, client))
+            # Only at its arrival is it known what others have; the rest is judged when it enters.
+            fault = admission.refusal(parsed, client) if client else None
+            self._turns.add(self._entries.add(parsed, client, fault if isinstance(fault, TooManyOfOne) else None))
 
     def begin_planning(self) -> None:
         """Begin a tick: there is time for planning again, less what the ticks before have done too much."""
@@ -205,10 +210,9 @@ class BMLScheduler:
         if parsed.block is not None:
             self._planner.entered(parsed.block.id)
 
-    def admission(self, defined: Iterable[str] = (), client: str = "") -> Admission:
-        """Admission control for further blocks and procedures of a client, after those with the ids ``defined``."""
-        procedures = (*self._procedures.names, *defined)
-        return Admission(self._routing.characters, self._limits, self.blocks, procedures, client)
+    def admission(self, defined: Iterable[str] = ()) -> Admission:
+        """Admission control for further blocks and procedures, after those with the ids ``defined``."""
+        return Admission(self._routing.characters, self._limits, self.blocks, (*self._procedures.names, *defined))
 
     # --- a tick
 
@@ -290,7 +294,7 @@ class BMLScheduler:
     def _admit(self, written: BehaviorBlock, entry: Entry, now: GlobalTime) -> Fault | None:
         """Begin the life of a block; the fault if it is refused."""
         character, client = entry.character, entry.lane.client
-        fault = self.admission(client=client).admit(written)
+        fault = entry.fault or self.admission().admit(written)
         if fault is not None:
             return fault
         composition = BlockComposition(self.blocks, character, self._procedures.expand(written))

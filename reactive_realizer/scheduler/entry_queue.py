@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from reactive_realizer.bml.block import BehaviorBlock, Parsed
 from reactive_realizer.bml.extensions import Activate, Interrupt
 from reactive_realizer.bml.vocabulary import Composition
+from reactive_realizer.errors import Fault
 from reactive_realizer.scheduler.lanes import Lane
 from reactive_realizer.scheduler.named_blocks import named_blocks
 
@@ -25,6 +26,7 @@ class Entry:
         lane: of its client, and of a character that exists.
         names: its own.
         needed: the names before which it does not enter, if they arrived before.
+        fault: why it is to be refused when it enters, if that was clear at its arrival.
     """
 
     number: int
@@ -33,6 +35,7 @@ class Entry:
     lane: Lane
     names: frozenset[Name]
     needed: frozenset[Name]
+    fault: Fault | None
 
     @property
     def replaces(self) -> bool:
@@ -99,13 +102,13 @@ class EntryQueue:
         """The lanes of what waits."""
         return self._lanes.keys()
 
-    def add(self, parsed: Parsed, client: str) -> Lane:
-        """Add what has arrived from a client; its lane."""
+    def add(self, parsed: Parsed, client: str, fault: Fault | None = None) -> Lane:
+        """Add what has arrived from a client, with why it is to be refused; its lane."""
         self._arrived += 1
         character = (parsed.block and parsed.block.character) or self._characters[0]
         lane = Lane(client, character if character in self._characters else self._characters[0])
         names = frozenset(_names(parsed))
-        entry = Entry(self._arrived, parsed, character, lane, names, names.union(_needed(parsed)))
+        entry = Entry(self._arrived, parsed, character, lane, names, names.union(_needed(parsed)), fault)
         self._entries[entry.number] = entry
         self._lanes.setdefault(lane, deque()).append(entry)
         for numbers, key in self._keys(entry):

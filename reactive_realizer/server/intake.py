@@ -109,6 +109,7 @@ class Intake:
 
     Attributes:
         demo: the performance of the scene.
+        turns: in which messages and documents are read and checked.
         closed: whether new documents are refused, because the server is about to shut down.
     """
 
@@ -117,7 +118,7 @@ class Intake:
         self._realizer = live.realizer
         self._stops = 0
         self.closed = False
-        self._turns = Turns()
+        self.turns = Turns()
         self._heard = HeardReports(live)
         self.demo = Demo(live, self.stop)
 
@@ -203,14 +204,14 @@ class Intake:
         if self.closed:
             raise RealizerError(GoingAway())
         if len(text) < _SMALL:
-            async with self._turns:
+            async with self.turns:
                 read = parse(text, self._live.limits)
         else:
             read = await asyncio.to_thread(parse, text, self._live.limits)
-        admission = self._realizer.admission(client)
+        admission = self._realizer.admission()
         judged = _Judged(BmlText(text, client, read), [], [])
         for parsed in read:
-            judged.refusals.append(admission.refusal(parsed))
+            judged.refusals.append(admission.refusal(parsed, client))
             if judged.refusals[-1] is None and parsed.block is not None:
                 judged.blocks.append(parsed.block.id)
         return judged
@@ -226,7 +227,7 @@ class Intake:
         warnings: list[Problem] = []
         checker.begin(document)
         for parsed, refusal in zip(document, judged.refusals, strict=True):
-            mistakes, notes = await checker.check(parsed, refusal, self._turns)
+            mistakes, notes = await checker.check(parsed, refusal, self.turns)
             warnings += (each for each in (*mistakes, *notes) if each.fault.warning is not None)
         return sorted(dict.fromkeys(warnings), key=_place)
 

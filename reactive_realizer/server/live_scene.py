@@ -93,7 +93,6 @@ class LiveScene:
 
     async def run(self) -> None:
         """Ticks until it is canceled."""
-        keep_from_ticks()
         async for tick in self.ticker.ticks():
             await self.step(tick)
 

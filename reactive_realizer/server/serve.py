@@ -20,7 +20,7 @@ from reactive_realizer.server.capabilities import found_for
 from reactive_realizer.server.connections import Connections, listen
 from reactive_realizer.server.intake import Intake
 from reactive_realizer.server.keys import INTAKE
-from reactive_realizer.server.live_scene import LiveScene
+from reactive_realizer.server.live_scene import LiveScene, keep_from_ticks
 from reactive_realizer.server.recorder import Recorder
 from reactive_realizer.server.recording_parts import RecordingParts
 from reactive_realizer.server.security import Security
@@ -73,7 +73,8 @@ async def serve(options: ServerOptions) -> None:
             parts = stack.enter_context(closing(RecordingParts(options.record, options.record_bytes)))
         scene = await stack.enter_async_context(open_scene(options.scene))
         group = await stack.enter_async_context(asyncio.TaskGroup())
-        found = found_for(scene)  # reading files takes long, so the clock starts after that
+        found = found_for(scene)
+        keep_from_ticks()  # this and reading files take long, so the clock starts after that
         live = LiveScene(scene, SystemClock(), options.performance, found)
         if parts is not None:
             recorder = Recorder(parts.write, options.scene, live.clock.epoch)

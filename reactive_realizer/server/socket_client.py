@@ -159,10 +159,13 @@ class SocketClient:
         try:
             if received.type is not WSMsgType.TEXT:
                 raise RealizerError(BinaryMessage())
-            message = decode(received.data)
-            ref = ref_of(message)
-            check(message)
-            more = await self._answer(message)
+            async with self._intake.turns:  # what has arrived is read without a pause, and would hold up the session
+                message = decode(received.data)
+                ref = ref_of(message)
+                check(message)
+                more = self._answer(message)
+            if message["type"] == "bml":
+                more = self._about(await self._intake.blocks(message["xml"], self._name))
         except NoNumber as refusal:
             self._enqueue(refused(refusal, ref_of(refusal.message)))
         except BlocksRefused as refusal:
@@ -173,15 +176,15 @@ class SocketClient:
             if ref is not None:
                 self._enqueue(accepted(ref, more))
 
-    async def _answer(self, message: Message) -> Message:
-        """Handles a message; returns what its answer says about BML."""
+    def _answer(self, message: Message) -> Message:
+        """Handles a message other than BML; what its answer says beyond that it is accepted."""
         match message["type"]:
             case "ping":
                 self._enqueue({"type": "pong", "t": message["t"], "time": round(self._live.now, 6)})
             case "clock":
                 self._enqueue({"type": "clock", "time": round(self._live.now, 6)})
             case "bml":
-                return self._about(await self._intake.blocks(message["xml"], self._name))
+                pass
             case _:
                 self._intake.message(message, self)
         return {}

@@ -1,8 +1,13 @@
 """Invalid messages: each is answered with a code and a sentence, and the socket stays open."""
 
+import asyncio
 import json
 
 import pytest
+
+from reactive_realizer.pegboard.peg_key import PegKey
+from reactive_realizer.server import socket_client
+from reactive_realizer.server.protocol import Message
 
 from .conftest import ALICE, BML, Open, Socket, wait
 
@@ -243,6 +248,42 @@ async def test_anticipators_of_clients_without_points_make_room_for_new_ones(on_
         await socket.ask(type="predict", anticipator="user0", sync="a", time=air.live.realizer.time + 0.05)
         await air.tick()
         assert air.live.realizer.board.predictions("user0")
+
+
+async def test_a_prediction_costs_the_same_however_many_wait_for_the_tick(
+    on_air: Open, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    async with on_air() as air:
+        socket, board = await air.connect(), air.live.realizer.board
+        looks, get = list[object](), board.get
+
+        def look(key: PegKey) -> object:
+            looks.append(key)
+            return get(key)
+
+        monkeypatch.setattr(board, "get", look)
+        for number in range(200):
+            await socket.ask(type="predict", anticipator="user", sync=f"p{number}", time=100)
+        assert len(looks) <= 2 * 200
+
+
+async def test_ticks_come_between_the_messages_of_a_client_that_sends_many_at_once(
+    on_air: Open, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    async with on_air() as air:
+        turn, turns = 0, list[int]()
+
+        def check(message: Message) -> None:
+            turns.append(turn)
+
+        monkeypatch.setattr(socket_client, "check", check)
+        socket = await air.connect()
+        for number in range(50):
+            await socket.raw.send_json({"type": "clock", "ref": number})
+        while len(turns) < 50:
+            turn += 1
+            await asyncio.sleep(0)
+        assert len(set(turns)) == 50
 
 
 async def test_more_targets_than_the_limit_are_refused_and_known_ones_may_still_move(on_air: Open) -> None:

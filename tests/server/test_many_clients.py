@@ -206,14 +206,14 @@ async def test_clients_above_the_limit_are_refused(on_air: Open) -> None:
 async def test_a_client_that_floods_a_character_does_not_delay_the_block_of_another_client(on_air: Open) -> None:
     async with on_air() as air:
         flooding, quiet = await air.connect(), await air.connect("?streams=feedback")
-        nods = "".join(f'<head id="h{i}" lexeme="NOD"/>' for i in range(20))
-        flood = "".join(f'<bml {BML} id="f{i}" composition="APPEND">{nods}</bml>' for i in range(500))
+        nods = "".join(f'<head id="h{i}" lexeme="NOD"/>' for i in range(5))
+        flood = "".join(f'<bml {BML} id="f{i}" composition="APPEND">{nods}</bml>' for i in range(200))
         await flooding.ask(type="bml", xml=flood)
         await air.tick()
         assert (await quiet.ask(type="bml", xml=wait("small")))["blocks"] == ["small"]
         await air.tick()
         assert 'globalTime="0.01"' in (await quiet.hear_feedback('"small:start"'))["xml"]
-        assert air.live.realizer.scheduler.unplanned > 400
+        assert air.live.realizer.scheduler.unplanned > 100
 
 
 async def test_a_client_that_has_half_of_the_blocks_leaves_the_others_to_other_clients(on_air: Open) -> None:
@@ -227,7 +227,9 @@ async def test_a_client_that_has_half_of_the_blocks_leaves_the_others_to_other_c
             assert answer.status == 202
         await air.tick()
         assert (await greedy.ask(type="bml", xml=wait("g12")))["code"] == "too-many-of-one"
-        assert not air.live.realizer.scheduler.refused
+        await air.tick()
+        alive = {block.key.block for block in air.live.realizer.scheduler.blocks.alive}
+        assert alive == {*(f"g{i}" for i in range(11)), "small", "posted"}
 
 
 async def test_all_clients_are_disconnected_when_the_server_ends(on_air: Open) -> None:

@@ -204,7 +204,7 @@ FORECAST = '{"tick": 9, "forecast": {"anticipator": "m", "sync": "tick1", "time"
         ([GOOD[0], '{"tick": 3, "count": 4}', '{"tick": 6}'], 3, "tick 6 follows tick 6"),
         ([GOOD[0], '{"tick": 3, "count": 0}'], 2, "minimum 1"),
         ([GOOD[0], '{"tick": 3, "count": 1e9}'], 2, "maximum 100"),
-        ([GOOD[0], EVENT.replace("14", "2")], 2, "input 2 follows where input 1"),
+        ([GOOD[0], EVENT.replace("15", "2")], 2, "input 2 follows where input 1"),
         ([*GOOD, EVENT.replace("10", "9")], len(GOOD) + 1, "tick 9 follows tick 9"),
         ([*GOOD, EVENT, '{"tick": 11}'], len(GOOD) + 2, "tick 11 follows tick 10"),
         ([GOOD[0], FORECAST], 2, "tick 9 follows tick -1"),

@@ -4,12 +4,14 @@ import asyncio
 import logging
 import os
 import signal
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from typing import Any
 
 import aiohttp
 import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.server import serve as serve_module
 from reactive_realizer.server.serve import ServerOptions, serve
 
 TEXT = SceneOptions(voice="text")
@@ -50,6 +52,25 @@ async def test_the_server_prints_its_address_ticks_and_ends_on_sigterm(lines: Li
                 pass
             assert socket.close_code == 1001
         await serving
+
+
+async def test_the_clock_starts_when_everything_is_ready(lines: Lines, monkeypatch: pytest.MonkeyPatch) -> None:
+    steps = list[str]()
+
+    def noting(name: str, act: Callable[..., Any]) -> Callable[..., Any]:
+        def noted(*arguments: Any) -> Any:
+            steps.append(name)
+            return act(*arguments)
+
+        return noted
+
+    for name in ("found_for", "keep_from_ticks", "SystemClock"):
+        monkeypatch.setattr(serve_module, name, noting(name, getattr(serve_module, name)))
+    async with asyncio.TaskGroup() as group:
+        serving = group.create_task(serve(ServerOptions(port=0, scene=TEXT)))
+        await lines.said.get()
+        serving.cancel()
+    assert steps == ["found_for", "keep_from_ticks", "SystemClock"]
 
 
 async def test_a_port_that_is_in_use_is_an_error_and_nothing_keeps_running(lines: Lines) -> None:
