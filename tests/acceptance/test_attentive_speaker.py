@@ -18,7 +18,8 @@ LENGTH = 0.3
 """Duration of the speech with the text voice, s."""
 COUNT, PLAYED = 6, 6.0
 """Utterances, and the length of a session, s."""
-MOMENTS = st.integers(1, round(PLAYED * 100)).map(lambda ticks: ticks / 100)
+MOMENTS = st.integers(10, round(PLAYED * 100)).map(lambda ticks: ticks / 100)
+"""Of events and activations, s: after all utterances are planned."""
 
 
 async def play(

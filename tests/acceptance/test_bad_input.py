@@ -105,5 +105,5 @@ async def test_blocks_above_the_limit_are_refused_and_may_be_sent_again_later(pi
     pilot.block("first", FINE)
     for number in range(limit + 2):
         pilot.block(f"b{number}", '<head id="h" lexeme="NOD" start="anticipators:test:go"/>' if number else "")
-    await pilot.advance(3)
+    await pilot.advance(5)
     assert pilot.feedback.warnings == [(f"b{limit + 1}", "PARSING_FAILURE")]
