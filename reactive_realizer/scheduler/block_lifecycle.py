@@ -335,6 +335,8 @@ class BlockLifecycle:
         cut = [self._units.cut(unit, time) for unit in units]
         block.units = [unit for unit in block.units if unit.state is not UnitState.DROPPED]
         if block.live_units:
+            with self._board.graph.transaction(f"cut a part of {block.key.block}"):
+                block.update_end(time)  # what is left may be past its relax already: the block subsides now
             self._ties.release(block, missed, CutTie, time)
             self._transitions.subside(block.key)
         elif any(cut):

@@ -74,7 +74,10 @@ class SessionLaws:
         self._early: dict[tuple[BlockKey, str, str], str] = {}
         """What came earlier than predicted, or without a prediction, and is allowed if it was cut."""
         self._predicted: dict[BlockKey, list[tuple[GlobalTime, PredictionFeedback]]] = {}
-        """The last prediction of each block, and those before it in the same tick: an id may be used again in it."""
+        """The last prediction of each block, and those before it in the same tick: an id may be used again in it.
+
+        While a block plays, the first one is the last of this block; others may be of the next block with its id.
+        """
 
     def __call__(self, report: Report) -> None:
         """Check a report."""
@@ -83,8 +86,7 @@ class SessionLaws:
             for each in message.behaviors:
                 if early := [sync for sync, time in each.times.items() if time < 0.0]:
                     self.note("before_block", now, f"{message.block}:{each.behavior.id}:{early[0]} is predicted")
-            key = BlockKey(message.character, message.block)
-            self._predicted[key] = [*(each for each in self._predicted.get(key, ()) if each[0] == now), (now, message)]
+            self._note_prediction(now, message)
         elif isinstance(message, BlockProgress):
             self._check_time(now, message, f"{message.block}:{message.sync}")
             self._check_block(now, message)
@@ -110,6 +112,13 @@ class SessionLaws:
     def note(self, law: str, time: float, text: str) -> None:
         """Note a breach."""
         self.breaches.append(Breach(law, time, text))
+
+    def _note_prediction(self, now: GlobalTime, message: PredictionFeedback) -> None:
+        key = BlockKey(message.character, message.block)
+        playing = self._playing.get(key)
+        of_next = playing is not None and abs(message.start - playing.start) > _ROUNDING
+        kept = (each for each in self._predicted.get(key, ()) if of_next or each[0] == now)
+        self._predicted[key] = [*kept, (now, message)]
 
     def _check_time(self, now: GlobalTime, progress: BlockProgress | SyncPointProgress, name: str) -> None:
         if not now - self.tick - _ROUNDING <= progress.time <= now + _ROUNDING:

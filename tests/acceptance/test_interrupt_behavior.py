@@ -234,3 +234,17 @@ async def test_a_behavior_tied_to_an_interrupted_point_without_a_time_is_dropped
     assert pilot.feedback.warnings == [("talk:x", "IMPOSSIBLE_TO_SCHEDULE")]
     assert "talk:w:start" in next(line.text for line in pilot.feedback.messages if line.id == "talk:x")
     assert pilot.feedback.status("talk") in ("DONE", "INTERRUPTED")
+
+
+async def test_a_block_of_which_only_what_has_relaxed_is_left_subsides_with_the_interruption(
+    pilot: RealizerPilot,
+) -> None:
+    pilot.block(
+        "b", '<gesture id="g" lexeme="BEAT" start="0"/><head id="h" lexeme="NOD" start="anticipators:t:never"/>'
+    )
+    relax, end = 1.166, 1.671
+    pilot.block("stop", '<bmla:interrupt id="i" target="b" include="h" start="1.4"/>')
+    await pilot.advance(3)
+    assert pilot.feedback.time("b:g:relax") == pytest.approx(relax, abs=1e-3)
+    assert pilot.feedback.time("b:relax") == 1.4
+    assert pilot.feedback.time("b:end") == pytest.approx(end, abs=1e-3)

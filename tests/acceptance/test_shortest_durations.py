@@ -147,17 +147,6 @@ async def test_a_prediction_that_comes_early_hurries_a_stroke_at_most_to_its_lim
     assert heights[round(50 * stroke)] < heights[first:last].min() + 0.02
 
 
-async def test_a_gesture_whose_points_are_all_tied_to_an_event_is_ready_as_soon_as_it_can_be_after_that() -> None:
-    async with open_pilot(SceneOptions(voice="text", strategy="smartbody")) as pilot:
-        press = "anticipators:events:press"
-        pilot.block("b", f'<gesture id="g" lexeme="BEAT" mode="RIGHT_HAND" ready="{press}" end="{press}"/>')
-        await pilot.advance(1)
-        pilot.event("events", "press")
-        await pilot.advance(3)
-        assert pilot.feedback.time("b:g:start") == 1.0
-        assert 1.2 < pilot.feedback.time("b:g:ready") == pilot.feedback.time("b:g:end") < 1.25
-
-
 async def test_a_prediction_that_comes_a_little_early_is_no_loss(pilot: RealizerPilot) -> None:
     pilot.predict("t", "hit", 2.0)
     pilot.block("b", '<gesture id="g" lexeme="BEAT" stroke="anticipators:t:hit"/>')
@@ -179,6 +168,23 @@ async def test_a_stroke_that_waits_for_its_hand_follows_a_prediction_that_is_lat
     pilot.predict("t", "hit", 1.9)
     await pilot.advance(3)
     assert pilot.feedback.time("b:g:stroke") == pilot.feedback.time("b:n:stroke") == 1.9
+
+
+@pytest.mark.parametrize("end", ["anticipators:t:hit", "i:start"])
+async def test_points_that_are_tied_to_one_unknown_time_without_room_between_them_lose_a_tie_at_once(
+    any_strategy: RealizerPilot, end: str
+) -> None:
+    interrupt = '<bmla:interrupt id="i" target="other" start="anticipators:t:hit"/>'
+    any_strategy.block(
+        "b",
+        f'<gaze id="g" target="bluebox" ready="anticipators:t:hit" end="{end}"/><wait id="w" duration="1"/>{interrupt}',
+    )
+    await any_strategy.tick()
+    assert len(any_strategy.feedback.warnings) == 1
+    assert "is dropped: there is too little time for g from" in any_strategy.feedback.raw[0]
+    any_strategy.predict("t", "hit", 0.5)
+    await any_strategy.advance(3)
+    assert "thesis" not in "".join(any_strategy.feedback.raw)
 
 
 async def test_a_stroke_between_tied_points_waits_for_a_ready_that_a_prediction_makes_late(

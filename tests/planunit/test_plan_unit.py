@@ -92,6 +92,15 @@ def test_a_point_that_was_overtaken_returns_when_its_successor_is_late_again() -
     assert [unit.time(sync) for sync in ("stroke", "relax", "end")] == [2.0, 3.0, 4.0]
 
 
+def test_no_time_is_kept_between_points_that_share_a_peg() -> None:
+    unit = Told(start=1.0, stroke=2.0, end=3.0)
+    unit.points[2].peg = unit.points[1].peg
+    unit.shortest = [0.5, 0.5]
+    unit.fired(1.0)
+    unit.move("stroke", 1.8)
+    assert (unit.time("stroke"), unit.time("end")) == (1.8, 1.8)
+
+
 def test_a_point_is_overtaken_by_one_that_depends_on_it_too() -> None:
     unit = Told(start=1.0, stroke=2.0, end=9.0)
     limit = AnticipatorPeg(unit.graph, "limit", GlobalTime(8.0))

@@ -66,9 +66,14 @@ def fill(item: Item, given: Mapping[int, Placement]) -> list[Placement]:
 
 
 def squeeze(item: Item, given: Mapping[int, Placement]) -> Squeeze | None:
-    """The first two given points with known times that leave the phases between them too little time, if there are."""
-    known = [(i, placed.time) for i, placed in sorted(given.items()) if placed.known]
-    for (before, time), (after, later) in itertools.pairwise(known):
+    """The first two given points that leave the phases between them too little time, if there are.
+
+    Both have known times, or times at a distance from the same unknown one.
+    """
+    groups: defaultdict[Cluster | None, list[tuple[int, float]]] = defaultdict(list)
+    for i, placed in sorted(given.items()):
+        groups[None if placed.known else placed.cluster].append((i, placed.time))
+    for (before, time), (after, later) in itertools.chain.from_iterable(map(itertools.pairwise, groups.values())):
         need = sum(map(_least, item.timing.phases[before:after]))
         if later - time < need - TIE_TOLERANCE:
             return Squeeze(before, after, need, later - time)
