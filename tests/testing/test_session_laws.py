@@ -64,7 +64,7 @@ def test_a_behavior_that_is_cut_may_end_earlier_than_predicted() -> None:
 
 
 def test_a_prediction_of_the_next_block_with_the_same_id_does_not_count_for_the_present_one() -> None:
-    of_next = PredictionFeedback("c", "b", GlobalTime(1.0), GlobalTime(2.0), "LURKING", ())
+    of_next = PredictionFeedback("c", "b", GlobalTime(0.5), GlobalTime(0.5), "DONE", ())
     assert broken(*BEGUN, (1.0, of_next), (1.0, point("end", 1.0)), (1.0, of_block("end", 1.0))) == []
 
 
