@@ -188,8 +188,8 @@ class _Mix:
         self.events = some(_EVENTS)
         self.ahead = some(_AHEAD)
         self.moving = random.choice((0.2, 0.35, 0.75))
-        shares = (random.choice((0.0, 0.15, 0.4)) for _ in range(5))
-        self.joined, self.preplanned, self.required, self.draft, self.own_points = shares
+        shares = (random.choice((0.0, 0.15, 0.4)) for _ in range(6))
+        self.joined, self.preplanned, self.required, self.draft, self.own_points, self.crossed = shares
         self.planning = random.choice((_PLANNING,) * 2 + (200, 20))
 
 
@@ -258,7 +258,10 @@ class _BlockDraw:
 
     def _behavior(self, id_: str, kind: str) -> str:
         points = self._random.sample(_BEHAVIORS[kind], min(len(_BEHAVIORS[kind]), self._random.choice((0, 1, 1, 2))))
-        ties = "".join(f' {point}="{self._reference(id_)}"' for point in points)
+        references = [self._reference(id_) for _ in points]
+        if len(points) == len(_REMOTE) and self._random.random() < self._mix.crossed:
+            references = [f"anticipators:t:{sync}" for sync in _REMOTE]  # which may change their order while it plays
+        ties = "".join(f' {point}="{reference}"' for point, reference in zip(points, references, strict=True))
         return kind.format(id=id_, ties=ties, other=self._other())
 
     def _constraint(self) -> str:
