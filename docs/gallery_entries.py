@@ -3,7 +3,10 @@
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
+from reactive_realizer.assembly.assets import PACKAGE_ASSETS
+from reactive_realizer.bml.names import BML_EXT
 from reactive_realizer.engine.lexicon import LexiconEntry
+from reactive_realizer.engines.face.expressions import Expressions
 
 
 @dataclass(frozen=True, slots=True)
@@ -16,6 +19,7 @@ class Entry:
         whole_body: whether the picture includes the feet.
         seconds: minimum duration, s, for motion that continues after the end of the block.
         push: force on the trunk for 0.2 s, N, one second after the start; None for no push.
+        face: whether the picture shows the face only.
     """
 
     name: str
@@ -23,6 +27,7 @@ class Entry:
     whole_body: bool = False
     seconds: float = 0.0
     push: tuple[float, float, float] | None = None
+    face: bool = False
 
     @property
     def block(self) -> str:
@@ -38,7 +43,14 @@ def entries(lexicon: Iterable[LexiconEntry]) -> list[Entry]:
     found = [
         strip for entry in playing for strip in _strips(entry) if entry.constraints or entry.lexeme not in own_modes
     ]
-    return [*found, *_UNITS]
+    return [*found, *_action_units(), *_UNITS]
+
+
+def _action_units() -> Iterator[Entry]:
+    face = PACKAGE_ASSETS / "face"
+    for number in Expressions.read(face / "lexemes.json", face / "action_units.json").units:
+        behavior = f'<faceFacs xmlns="{BML_EXT}" id="f" au="{number}" amount="1"/>'
+        yield Entry(f"facefacs-{number:02}", behavior, face=True)
 
 
 def _strips(entry: LexiconEntry) -> Iterator[Entry]:
@@ -46,7 +58,7 @@ def _strips(entry: LexiconEntry) -> Iterator[Entry]:
     name = "-".join([entry.element, entry.lexeme, *entry.constraints.values()]).lower().replace("_", "-")
     match entry.element:
         case "faceLexeme":
-            yield Entry(name, f'<faceLexeme id="f" lexeme="{entry.lexeme}" amount="1"/>')
+            yield Entry(name, f'<faceLexeme id="f" lexeme="{entry.lexeme}" amount="1"/>', face=True)
         case "head":
             yield Entry(name, f'<head id="h" lexeme="{entry.lexeme}" amount="1"/>')
         case "gesture":

@@ -37,8 +37,8 @@ WITH_SOUND = "--autoplay-policy=no-user-gesture-required"
 WIDE: ViewportSize = {"width": 1000, "height": 560}
 HIGH: ViewportSize = {"width": 1000, "height": 1200}
 """A high window shows legs and feet."""
-PICTURE = (180, 240)
-WHOLE_BODY = (150, 300)
+LARGE: ViewportSize = {"width": 2000, "height": 1120}
+"""A large window shows enough of a face."""
 MOMENTS = 7
 PUSH_AFTER = 1.0
 """Time from the start of a strip to the push, s."""
@@ -71,26 +71,55 @@ class Studio(LiveScene):
 
 
 @dataclass(frozen=True, slots=True)
+class Framing:
+    """What a picture shows.
+
+    Attributes:
+        window: of the browser.
+        size: of a picture, pixels.
+        rows: top and bottom of the part of the canvas around its middle column, pixels; None for all.
+    """
+
+    window: ViewportSize
+    size: tuple[int, int]
+    rows: tuple[int, int] | None = None
+
+    @classmethod
+    def of(cls, entry: Entry) -> "Framing":
+        """That of an entry."""
+        if entry.face:
+            return cls(LARGE, (150, 180), (95, 440))
+        return cls(HIGH, (150, 300)) if entry.whole_body else cls(WIDE, (180, 240))
+
+    def picture(self, canvas: Image.Image) -> Image.Image:
+        """The picture in a screenshot."""
+        if self.rows is not None:
+            canvas = canvas.crop((0, self.rows[0], canvas.width, self.rows[1]))
+        return ImageOps.fit(canvas, self.size)
+
+
+@dataclass(frozen=True, slots=True)
 class Camera:
     """Takes pictures of one character in the viewer.
 
     Attributes:
         live: the scene.
         page: of the viewer, in a browser.
-        size: of a picture, pixels.
+        framing: of a picture.
     """
 
     live: Studio
     page: Page
-    size: tuple[int, int]
+    framing: Framing
 
     async def picture(self) -> Image.Image:
         """A screenshot of the newest frame."""
         newest = self.live.newest - 1e-6
-        await self.page.wait_for_function("time => viewer.lastFrameTime >= time", arg=newest)
+        shown = "([time, id]) => viewer.lastFrameTime >= time && viewer.morph(id, 'jawOpen') !== null"
+        await self.page.wait_for_function(shown, arg=[newest, next(iter(self.live.realizer.characters))])
         await self.page.wait_for_timeout(120)  # low quality draws 12 times a second
         shot = Image.open(io.BytesIO(await self.page.locator("#viewport canvas").screenshot()))
-        return ImageOps.fit(shot.convert("RGB"), self.size)
+        return self.framing.picture(shot.convert("RGB"))
 
 
 async def strip(camera: Camera, entry: Entry) -> Image.Image:
@@ -111,7 +140,7 @@ async def strip(camera: Camera, entry: Entry) -> Image.Image:
         while live.realizer.time < moment:
             await live.step(await anext(ticks))
         pictures.append(await camera.picture())
-    width, height = camera.size
+    width, height = camera.framing.size
     whole = Image.new("RGB", (width * MOMENTS, height))
     for i, picture in enumerate(pictures):
         whole.paste(picture, (i * width, 0))
@@ -127,7 +156,7 @@ def _end(live: LiveScene, entry: Entry) -> float:
 
 
 @asynccontextmanager
-async def studio(options: SceneOptions, page: Page, size: tuple[int, int]) -> AsyncIterator[Camera]:
+async def studio(options: SceneOptions, page: Page, framing: Framing) -> AsyncIterator[Camera]:
     """Opens a new scene in the viewer."""
     async with open_scene(options) as scene:
         live = Studio(scene, ManualClock())
@@ -138,7 +167,7 @@ async def studio(options: SceneOptions, page: Page, size: tuple[int, int]) -> As
         await page.goto(f"http://{host}:{port}/?quality=low")
         await page.wait_for_function("window.viewer && viewer.connected")
         try:
-            yield Camera(live, page, size)
+            yield Camera(live, page, framing)
         finally:
             await page.goto("about:blank")
             await runner.cleanup()
@@ -151,8 +180,9 @@ async def make(wanted: Sequence[Entry], options: SceneOptions, folder: Path, bro
         browser = await playwright.chromium.launch(executable_path=browser_file, args=[*FLAGS, WITH_SOUND])
         page = await browser.new_page(bypass_csp=True)
         for entry in wanted:
-            await page.set_viewport_size(HIGH if entry.whole_body else WIDE)
-            async with studio(options, page, WHOLE_BODY if entry.whole_body else PICTURE) as camera:
+            framing = Framing.of(entry)
+            await page.set_viewport_size(framing.window)
+            async with studio(options, page, framing) as camera:
                 picture = await strip(camera, entry)
             file = folder / f"{entry.name}.webp"
             if compare:

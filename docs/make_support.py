@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from reactive_realizer.assembly.scene import Scene, SceneOptions, open_scene
-from reactive_realizer.bml.attribute_types import Integer
+from reactive_realizer.bml.attribute_types import Float, Integer
 from reactive_realizer.bml.attributes import Attribute, attributes_of
 from reactive_realizer.bml.behavior import Behavior, Description
 from reactive_realizer.bml.behaviors import Mark, Pose, Stance
@@ -57,6 +57,7 @@ _NOTES = {
     "gesture mode": "by default, the right hand, or the left one if that is busy",
     "pointing target": "as for a gaze; a moving target is followed",
     "pointing mode": "by default, the hand on the side of the target, or the other one if that is busy or cannot reach",
+    "faceShift overshoot": "no effect, because a shift has no attack peak",
     "head amount": "1 is the maximum",
     "gaze target": "an object of the world, a character, or a joint such as `alice:l_wrist`",
     "gaze influence": "by default, HEAD; `NECK` means HEAD, `TORSO` means WAIST; WHOLE does not move the feet",
@@ -220,7 +221,7 @@ def _example(element: Element) -> Behavior:
 
 
 def _sample(attribute: Attribute) -> str:
-    return "1" if isinstance(attribute.type, Integer) else "example"
+    return "1" if isinstance(attribute.type, Integer | Float) else "example"
 
 
 def _elements(engines: Mapping[str, str | None]) -> str:

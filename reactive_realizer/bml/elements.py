@@ -27,6 +27,7 @@ from reactive_realizer.bml.extensions import (
     Activate,
     Controller,
     Emit,
+    FaceMorph,
     Interrupt,
     Keyframe,
     Noise,
@@ -118,6 +119,7 @@ _BEHAVIORS = (
     Noise,
     Transition,
     Controller,
+    FaceMorph,
 )
 
 ELEMENTS: Mapping[str, Element] = MappingProxyType({each.name: each for each in map(_element, _BEHAVIORS)})

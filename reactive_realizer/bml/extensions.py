@@ -208,6 +208,22 @@ class Transition(Behavior):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class FaceMorph(Behavior):
+    """A morph target of the avatar (C.1.8).
+
+    Attributes:
+        targetname: name of the morph target.
+        intensity: weight of the morph target, 0 to 1.
+    """
+
+    NAMESPACE = BMLT
+    SYNC_POINTS: ClassVar[SyncPoints] = ("start", "attackPeak", "relax", "end")
+
+    targetname: str = field(metadata=attribute(Text()))
+    intensity: float = field(metadata=attribute(Float(0, 1)))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Controller(Behavior):
     """Moves joints by forces (C.1.4). Without a constraint on its end it is persistent (C.4).
 

@@ -30,6 +30,7 @@ from reactive_realizer.bml.extensions import (
     Activate,
     Controller,
     Emit,
+    FaceMorph,
     Interrupt,
     Keyframe,
     Noise,
@@ -175,6 +176,11 @@ WRITTEN: dict[str, tuple[type[Behavior], dict[str, object], tuple[str, ...]]] = 
     ),
     '<bmlt:keyframe id="x" name="walk"/>': (Keyframe, {"animation": "walk", "interpolator": None}, SHIFT),
     '<bmlt:noise id="x" type="perlin" joint="vl5"/>': (Noise, {"type": "perlin", "joint": "vl5"}, SHIFT),
+    '<bmlt:facemorph id="x" targetname="grin" intensity="0.4"/>': (
+        FaceMorph,
+        {"targetname": "grin", "intensity": 0.4},
+        FACE,
+    ),
     '<bmlt:transition id="x" class="SlerpTransition"/>': (Transition, {"kind": "SlerpTransition"}, SHIFT),
     '<bmlt:controller id="x" class="BalanceController"/>': (
         Controller,
@@ -232,6 +238,7 @@ def test_every_default_sync_point_is_an_attribute_with_a_reference(block: Block,
             prefix = PREFIXES[element.namespace]
             values = {"event": "go", "lexeme": "NOD", "target": "box", "au": "1", "paramId": "volume"}
             values |= {"type": "perlin", "joint": "vl5", "class": "SlerpTransition"}
+            values |= {"targetname": "grin", "intensity": "0.5"}
             attributes = "".join(
                 f' {each.name}="{values[each.name]}"' for each in element.attributes[1:] if each.required
             )

@@ -14,7 +14,7 @@ import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.bml.behavior import Behavior, ForeignBehavior
-from reactive_realizer.bml.behaviors import FaceFacs, Locomotion
+from reactive_realizer.bml.behaviors import Locomotion
 from reactive_realizer.bml.block import Parsed
 from reactive_realizer.bml.document import parse
 from reactive_realizer.bml.names import BMLT
@@ -222,7 +222,7 @@ EXAMPLES: dict[int, tuple[Part, ...]] = {
     39: (Part(9382, 9384, "ProcAnimation", (block(),), UNBOUND),),
     40: (Part(9404, 9408, "Transition ProcAnimation", (block(),), UNBOUND),),
     41: (Part(9432, 9435, "Noise", (block(),), UNBOUND),),
-    42: (Part(9467, 9468, "ForeignBehavior", (slip("<facemorph", "<bmlt:facemorph"), block()), FRAGMENT),),
+    42: (Part(9467, 9468, "FaceMorph", (slip("<facemorph", "<bmlt:facemorph"), block()), FRAGMENT),),
     43: (Part(9511, 9512, "Head Interrupt", (block(SHAKE),), UNBOUND),),
     44: (Part(9536, 9539, "ParameterValueChange", (block(),), UNBOUND),),
     45: (Part(9582, 9584, "", (DOTS, declare_bmlt), UNBOUND),),
@@ -257,7 +257,6 @@ PARTS = {f"{number}-{chr(97 + at)}": part for number, parts in EXAMPLES.items() 
 
 LATER: dict[type[Behavior], str] = {
     ForeignBehavior: "CUSTOM_BEHAVIOUR_NOT_SUPPORTED",
-    FaceFacs: "BEHAVIOR_TYPE_NOT_SUPPORTED",
     Locomotion: "BEHAVIOR_TYPE_NOT_SUPPORTED",
 }
 """The behaviors that are read but not realized yet, with their warnings."""

@@ -7,7 +7,7 @@ from reactive_realizer.engine.engine import Engine
 from reactive_realizer.engine.tts import Utterance
 from reactive_realizer.engines.animation.animation_engine import AnimationEngine
 from reactive_realizer.engines.block_control import ActivateEngine, InterruptEngine
-from reactive_realizer.engines.face_engine import FaceEngine
+from reactive_realizer.engines.face.face_engine import FaceEngine
 from reactive_realizer.engines.parameter_value_change import ParameterValueChangeEngine
 from reactive_realizer.engines.speech.speech_engine import SpeechEngine
 from reactive_realizer.engines.speech.text_voice import TextVoice
