@@ -46,7 +46,7 @@ class BlockLifecycle:
         self._planning = planning
         self._feedback = feedback
         self._predictions = predictions
-        self._units = UnitLifecycle(board, routing, blocks, feedback)
+        self._units = UnitLifecycle(board, routing, blocks, feedback, predictions)
         self._ties = TieRelease(board, blocks, self._units, feedback)
         self._transitions = BlockTransitions(board, routing, blocks, self._ties, feedback, predictions)
         self._arrivals = 0

@@ -48,6 +48,11 @@ class Predictions:
         """Have this tick report the prediction of a block, even if no time has moved."""
         self._requested.add(block)
 
+    def report_requested(self, block: BMLBlock, now: GlobalTime) -> None:
+        """Report the prediction of a block at once if it was requested, because a behavior of it is about to go."""
+        if block in self._requested:
+            self._publish(block, now)
+
     def publish(self, now: GlobalTime) -> None:
         """Report the predictions that were requested, and moved ones as far as the rates allow."""
         moved, _ = self._moves.take()

@@ -20,6 +20,7 @@ from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.scheduler.duration_limits import limit_not_kept
 from reactive_realizer.scheduler.engine_routing import EngineRouting
+from reactive_realizer.scheduler.predictions import Predictions
 from reactive_realizer.scheduler.rigid_points import shift_ahead
 
 logger = logging.getLogger(__name__)
@@ -31,11 +32,19 @@ _MOST_CORRECTIONS = 20
 class UnitLifecycle:
     """Takes single behaviors to their end and reports it; `BlockLifecycle` decides what that means for the block."""
 
-    def __init__(self, board: PegBoard, routing: EngineRouting, blocks: Blocks, feedback: BlockFeedback) -> None:
+    def __init__(
+        self,
+        board: PegBoard,
+        routing: EngineRouting,
+        blocks: Blocks,
+        feedback: BlockFeedback,
+        predictions: Predictions,
+    ) -> None:
         self._board = board
         self._routing = routing
         self._blocks = blocks
         self._feedback = feedback
+        self._predictions = predictions
         self._scheduled_cuts: dict[PlanUnit, GlobalTime] = {}
         self._touched: set[BlockKey] = set()
         board.graph.before_commit(self._correct_points)
@@ -145,9 +154,11 @@ class UnitLifecycle:
 
     def drop(self, unit: PlanUnit, fault: Fault, now: GlobalTime) -> None:
         """Drop a behavior with a warning; if it had begun, it ends now. The block of a required one fails."""
+        block = self._blocks.get(unit.block)
+        if block is not None and unit.begun:
+            self._predictions.report_requested(block, now)  # its start is reported in this tick
         unit.drop(now)
         self.touch(unit.block)
-        block = self._blocks.get(unit.block)
         self._feedback.warn_behavior(unit, fault)
         if block is not None and unit in block.units:
             block.units.remove(unit)

@@ -214,3 +214,14 @@ async def test_the_last_prediction_of_a_block_has_the_times_of_the_tick_in_which
     await pilot.tick()
     assert pilot.feedback.time("b:end") == pilot.feedback.time("b:w:end") == 1.0
     assert pilot.feedback.predicted("b:end") == pilot.feedback.predicted("b:w:end") == 1.0
+
+
+async def test_a_behavior_that_is_dropped_in_the_tick_in_which_it_begins_is_predicted_before(
+    pilot: RealizerPilot,
+) -> None:
+    shift = '<gazeShift id="{}" target="bluebox" start="0" end="{}"/>'
+    pilot.block("b", shift.format("q", "s:end-1") + shift.format("s", "anticipators:events:asked"))
+    await pilot.tick()
+    assert pilot.feedback.reached("b:q:start")
+    first = next(message for message in pilot.feedback.messages if message.kind == "predictionFeedback")
+    assert first.predicted("b:q:start") == 0.0
