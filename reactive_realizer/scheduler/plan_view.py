@@ -25,7 +25,7 @@ class PlanView:
         kept: the constraints of the plan.
         outer: times of the pegs outside of the block that these name.
         start: of the block, None while unknown.
-        earliest: at which a behavior that has not begun could begin.
+        earliest: at which a behavior that has not begun could begin; None if that is not known.
         end: of the block; None if it is unknown.
         end_floor: before which the block does not end.
         settled: the constraints that need not hold any more.
@@ -64,7 +64,8 @@ class PlanView:
         # The start of the block waits for these, and may come later; a body was too slow for the others. Until the
         # block starts, ties to times from outside may be late.
         waited = (each for each in block.kept if not any(isinstance(node, Point) for node in each.nodes))
-        late = (each.tie for each in outer_ties(each for each in block.kept if isinstance(each, Tie)))
+        late = [] if block.state.plays else list(outer_ties(each for each in block.kept if isinstance(each, Tie)))
+        # What comes after a time to which a tie is late comes, until the block starts, after the time of that tie.
         hurried = {Point(unit.behavior.id, sync) for unit in block.units for sync in unit.hurries}
         missed = (each for each in block.kept if not hurried.isdisjoint(each.nodes))
         return cls(
@@ -80,10 +81,10 @@ class PlanView:
             block.kept,
             {n: n.value for each in block.kept for n in each.nodes if not isinstance(n, Point | Origin)},
             start,
-            None if start is None else max(start, now),
+            None if start is None or late else max(start, now),
             block.end.value,
             block.end.floor,
-            frozenset(block.settled.union(waited, missed, () if block.state.plays else late)),
+            frozenset(block.settled.union(waited, missed, (each.tie for each in late))),
             frozenset(unit.behavior.id for unit in block.units if not unit.begun),
             {unit.behavior.id: unit.shortest for unit in block.units},
         )

@@ -224,3 +224,12 @@ async def test_a_waiting_block_starts_without_a_behavior_whose_time_will_never_c
     assert_not_played(pilot.feedback, "b:n")
     assert_time(pilot.feedback, "b:m:start", 1.0)
     assert [id_ for id_, _ in pilot.feedback.warnings] == ["b:n"]
+
+
+async def test_what_comes_after_a_time_to_which_a_tie_is_late_starts_with_the_block() -> None:
+    async with open_pilot(SceneOptions(voice="text", verify=True)) as pilot:
+        late = BEAT.format(f' stroke="{STOP}"') + nod("n") + after(STOP, "n:start")
+        await stop_before_start(pilot, late)
+        assert pilot.feedback.time("b:n:start") == pilot.feedback.time("b:g:start") == 2.0
+        (warning,) = pilot.feedback.of("warningFeedback")
+        assert f"g:stroke = {STOP} is 1.73 s late" in warning.text
