@@ -36,7 +36,7 @@ def limits_not_kept(problem: SchedulingProblem, solution: Solution) -> Iterator[
             continue
         if (fault := _first(item, [solution.times[point] for point in item.points])) is not None:
             located = fault.located(item.behavior.location.line, item.behavior.location.column)
-            yield Loss(item.behavior.id, located, dropped=False, required=False)
+            yield Loss(item.behavior.id, located, dropped=False, required=item.behavior.required)
 
 
 def limit_not_kept(unit: PlanUnit, point: SyncPoint) -> BeyondLimits | None:

@@ -321,6 +321,7 @@ async def test_a_prediction_that_comes_early_hurries_a_nod_at_most_to_its_limit(
 # --- limits that the author of a motion has set
 
 
+WAVE = '<gesture id="g" lexeme="WAVE" strokeStart="0.8" stroke="1" strokeEnd="{}"/>'
 BREATH = '<bmlt:procanimation id="p" name="breathe_clavicular" {}/>'
 
 
@@ -347,18 +348,26 @@ async def test_a_constraint_that_exceeds_the_limits_of_an_author_holds_with_one_
     [(1.4, "g from stroke to strokeEnd is to last at least 0.66 s, lasts 0.40 s"),
      (5.0, "g from stroke to strokeEnd is to last at most 2.46 s, lasts 4.00 s")],
 )  # fmt: skip
-@pytest.mark.parametrize("required", ["{}", "<required>{}</required>"])
 async def test_the_stroke_of_a_gesture_exceeds_the_limits_of_its_animation_only_with_a_warning(
-    any_strategy: RealizerPilot, end: float, told: str, required: str
+    any_strategy: RealizerPilot, end: float, told: str
 ) -> None:
-    any_strategy.block(
-        "b", required.format(f'<gesture id="g" lexeme="WAVE" strokeStart="0.8" stroke="1" strokeEnd="{end}"/>')
-    )
+    any_strategy.block("b", WAVE.format(end))
     await any_strategy.advance(7)
     (text,) = texts(any_strategy, "b:g")
     assert text.endswith(told)
     assert any_strategy.feedback.time("b:g:stroke") == 1.0
     assert any_strategy.feedback.time("b:g:strokeEnd") == end
+
+
+async def test_a_required_gesture_that_cannot_keep_the_limits_of_its_animation_fails_its_block(
+    any_strategy: RealizerPilot,
+) -> None:
+    any_strategy.block("b", f'<required>{WAVE.format(1.4)}</required><head id="n" lexeme="NOD"/>')
+    await any_strategy.advance(3)
+    (text,) = texts(any_strategy, "b:g")
+    assert text.endswith("g from stroke to strokeEnd is to last at least 0.66 s, lasts 0.40 s")
+    assert any_strategy.feedback.status("b") == "FAILED"
+    assert not any_strategy.feedback.reached("b:n:start")
 
 
 async def test_the_ways_of_a_gesture_take_the_time_that_its_stroke_may_not(pilot: RealizerPilot) -> None:
