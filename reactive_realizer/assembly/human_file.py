@@ -36,7 +36,7 @@ class CharacterSpec:
 
     Attributes:
         avatar: name of a GLB file among the assets.
-        voice: a name that the text-to-speech binding knows; empty for its default.
+        voice: a name that the text-to-speech binding knows, empty for its default; or one for each binding, by its id.
         position: on the ground, m.
         heading: rotation to its left, degrees; 0 faces +z.
         engines: ids of engines, in rank order.
@@ -47,7 +47,7 @@ class CharacterSpec:
     """
 
     avatar: str = "avatars/female.glb"
-    voice: str = ""
+    voice: str | Mapping[str, str] = ""
     position: Vec3 = ZERO
     heading: float = 0.0
     engines: tuple[str, ...] = DEFAULT_ENGINES
@@ -55,6 +55,10 @@ class CharacterSpec:
     weight: float | None = None
     simulation_steps: int | None = None
     bindings: Mapping[str, str] = field(default_factory=lambda: DEFAULT_BINDINGS)
+
+    def voice_of(self, tts: str) -> str | None:
+        """The name of its voice of a text-to-speech binding; None for the default of this binding."""
+        return (self.voice if isinstance(self.voice, str) else self.voice.get(tts)) or None
 
 
 @dataclass(frozen=True, slots=True)
@@ -178,7 +182,9 @@ class _Reader:
             return tuple(self._value(key, part, float) for part in value)
         if kind == tuple[str, ...] and isinstance(value, list):
             return tuple(self._value(key, part, str) for part in value)
-        if kind == Mapping[str, str] and isinstance(value, dict):
+        if kind == str | Mapping[str, str] and isinstance(value, str):
+            return value
+        if kind in (Mapping[str, str], str | Mapping[str, str]) and isinstance(value, dict):
             return {name: self._value(f"{key}.{name}", part, str) for name, part in value.items()}
         raise self._bad(key, f"{value!r} has the wrong type")
 

@@ -86,7 +86,7 @@ async def open_scene(options: SceneOptions) -> AsyncIterator[Scene]:
     tts: TTSBinding = load("tts", options.voice)()
     time = Source(Graph(), "time", GlobalTime(0.0))
     characters = [
-        _character(id_, spec, world, assets, tts, options.seed + rank, time)
+        _character(id_, spec, world, assets, tts, options.voice, options.seed + rank, time)
         for rank, (id_, spec) in enumerate(specification.characters.items())
     ]
     anticipators = _anticipators(options.human.name, specification.anticipators)
@@ -107,6 +107,7 @@ def _character(
     world: World,
     assets: Assets,
     tts: TTSBinding,
+    voice: str,
     seed: int,
     time: Source[GlobalTime],
 ) -> Character:
@@ -121,7 +122,7 @@ def _character(
         assets,
         seed,
         tts,
-        spec.voice or None,
+        spec.voice_of(voice),
         binding_files(spec.bindings, assets),
         mouth,
         trajectories={name: load("trajectories", name) for name in names("trajectories")},

@@ -66,6 +66,8 @@ def test_missing_keys_of_a_character_have_their_defaults(human: Callable[[str], 
         (ALICE + 'bindings = { foo = "x" }', ["character.alice.bindings.foo", "known are gesture"]),
         (ALICE + "bindings = { gesture = 3 }", ["character.alice.bindings.gesture"]),
         (ALICE + 'engines = ["speech", "wait", "speech"]', ["character.alice.engines", "'speech'", "twice"]),
+        (ALICE + "voice = 3", ["character.alice.voice", "3"]),
+        (ALICE + "voice = {kokoro = 3}", ["character.alice.voice.kokoro", "3"]),
         (ALICE + "physics = false", ["character.alice.physics", "known are avatar"]),
         (ALICE + "[target.alice]\nposition = [1, 2, 3]", ["target.alice", "a character"]),
         (ALICE + "[limits]\nblocks_alive = -1", ["limits.blocks_alive", "-1"]),
@@ -87,6 +89,17 @@ def test_an_id_that_cannot_be_referenced_is_refused(human: Callable[[str], Path]
     with pytest.raises(RealizerError) as refused:
         read_human_file(human(f'[character.alice]\n[{section}."{id_}"]'))
     assert all(part in str(refused.value) for part in ["human.toml", section, "control character"])
+
+
+def test_a_voice_is_for_all_speech_synthesis_or_one_for_each(human: Callable[[str], Path]) -> None:
+    plain = read_human_file(human(ALICE + 'voice = "nl"')).characters["alice"]
+    own = read_human_file(human(ALICE + 'voice = {espeak = "nl"}')).characters["alice"]
+    none = read_human_file(human(ALICE)).characters["alice"]
+    assert [each.voice_of(tts) for each in (plain, own, none) for tts in ("espeak", "kokoro")] == [
+        *("nl", "nl"),
+        *("nl", None),
+        *(None, None),
+    ]
 
 
 def test_a_missing_kind_of_binding_has_its_default(human: Callable[[str], Path]) -> None:

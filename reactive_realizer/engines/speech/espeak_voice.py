@@ -15,6 +15,7 @@ from reactive_realizer.engines.speech.speech_worker import SpeechWorker
 from reactive_realizer.engines.speech.worker_messages import WorkerMessage
 from reactive_realizer.errors import CreationFault, RealizerError
 
+_EXAMPLES = "en-us, en-gb, fr, nl or en-us+f3"
 _PATIENCE = 10.0
 """Time limit for one utterance, s; the worker itself stops an utterance after 5 s."""
 
@@ -28,12 +29,13 @@ class VoiceNotInstalled(CreationFault):
 
 
 class UnknownVoice(CreationFault):
-    """A name that no voice of espeak-ng has."""
+    """A name that no voice has."""
 
     code = "unknown-voice"
-    template = "there is no voice '{voice}'; voices have names such as en-us, en-gb, fr, nl or en-us+f3"
+    template = "there is no voice '{voice}'; voices have names such as {examples}"
     unknown = "voice"
     voice: str
+    examples: str
     known: tuple[str, ...] = ()
 
 
@@ -113,7 +115,9 @@ def _identifier(hello: dict[str, Any], voice: str) -> str:
     voices, variants = hello["voices"], hello["variants"]
     name, plus, variant = voice.partition("+")
     if name.lower() not in voices:
-        raise RealizerError(UnknownVoice(voice=voice, known=tuple(voices)))
+        raise RealizerError(UnknownVoice(voice=voice, examples=_EXAMPLES, known=tuple(voices)))
     if plus and variant not in variants:
-        raise RealizerError(UnknownVoice(voice=voice, known=tuple(f"{name}+{each}" for each in variants)))
+        raise RealizerError(
+            UnknownVoice(voice=voice, examples=_EXAMPLES, known=tuple(f"{name}+{each}" for each in variants))
+        )
     return str(voices[name.lower()]) + plus + variant

@@ -99,14 +99,26 @@ async def test_killing_the_worker_in_the_middle_fails_one_speech_and_the_next_st
 @pytest.mark.kokoro
 async def test_a_character_speaks_with_a_voice_of_its_own_and_one_that_does_not_exist_is_named(tmp_path: Path) -> None:
     human = tmp_path / "human.toml"
-    human.write_text('[character.max]\nvoice = "am_michael"\n[character.eva]\nvoice = "en-us"\n')
+    human.write_text(
+        '[character.max]\nvoice = {kokoro = "am_michael", espeak = "en-us"}\n[character.eva]\nvoice = "en-us"\n'
+    )
     async with open_pilot(SceneOptions(human, voice="kokoro")) as pilot:
         pilot.block("b", '<speech id="s"><text>Yes.</text></speech>')
         pilot.block("c", '<speech id="s"><text>Yes.</text></speech>', characterId="eva")
         await pilot.advance(2)
         assert pilot.feedback.reached("b:s:end")
         assert pilot.feedback.warnings == [("c:s", "CANNOT_CREATE_BEHAVIOR")]
+        assert "such as af_heart, am_michael" in pilot.feedback.of("warningFeedback")[0].text
         assert pilot.sounds
+
+
+@pytest.mark.kokoro
+async def test_the_default_scene_speaks() -> None:
+    async with open_pilot(SceneOptions(voice="kokoro")) as pilot:
+        pilot.block("b", '<speech id="s"><text>Yes.</text></speech>')
+        await pilot.advance(2)
+        assert pilot.feedback.warnings == []
+        assert pilot.feedback.reached("b:s:end")
 
 
 def test_a_file_of_the_user_that_is_no_network_and_altered_packages_are_refused(

@@ -75,7 +75,7 @@ class KokoroVoice:
         name = voice or self._default_voice
         known = await self.voices()
         if name not in known:
-            raise RealizerError(UnknownVoice(voice=name, known=known))
+            raise RealizerError(UnknownVoice(voice=name, examples=", ".join(known), known=known))
         accent = name[0]
         words = await self._dictionary.pronounce(text, _ACCENTS[accent])
         written = sentences(text, words, accent, default_alphabet())
