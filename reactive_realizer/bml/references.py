@@ -73,7 +73,7 @@ def unknown_block(ref: SyncRef, block: BehaviorBlock | DefineProc, blocks: Itera
     """The fault of a reference in a block to another one that is not among ``blocks``."""
     name = ref.block or ""
     if ref.behavior is not None:
-        return UnknownBlock(reference=str(ref), block=name, known=tuple(blocks))
+        return UnknownBlock(reference=str(ref), block=name, known=(*blocks, ANTICIPATORS))
     # b1:end may have been meant for a behavior as well.
     known = tuple(behavior.id for behavior in block.behaviors)
     return UnknownOwner(reference=str(ref), block=name, known=known)

@@ -65,6 +65,9 @@ MISTAKES = {
     '<wait id="w" start="earlier:strok" duration="1"/>': (
         "b:w", "unknown-block-point", "the block 'earlier' has no sync point 'strok'", "stroke",
     ),
+    '<wait id="w" start="anticpators:spacebar:press" duration="1"/>': (
+        "b:w", "unknown-block", "the block 'anticpators' is unknown", "anticipators",
+    ),
     '<x:parametervaluechange id="c" target="g" paramId="amount"><x:trajectory type="liner" targetValue="1"/>'
     '</x:parametervaluechange><gesture id="g" lexeme="BEAT"/>': (
         "b:c", "no-trajectory", "there is no trajectory 'liner'", "linear",
