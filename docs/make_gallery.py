@@ -72,7 +72,7 @@ class Studio(LiveScene):
 
 @dataclass(frozen=True, slots=True)
 class Framing:
-    """What a picture shows.
+    """The window, the size and the crop of a picture.
 
     Attributes:
         window: of the browser.

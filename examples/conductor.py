@@ -96,7 +96,7 @@ def off(some: list[Body], others: list[Body], *joints: str) -> float:
 
 
 def sway(bodies: list[Body]) -> float:
-    """How far the head moves over the floor, mm."""
+    """The range of the horizontal movement of the head, mm."""
     heads = np.array([body.transform("skullbase").position for body in bodies])
     return float(1000 * np.ptp(heads[:, ::2], axis=0).max())
 

@@ -4,7 +4,7 @@ from collections.abc import Callable, Container, Mapping
 from dataclasses import dataclass, field, replace
 from enum import Enum
 from functools import cached_property
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.names import Location
@@ -48,22 +48,26 @@ class Item:
         object.__setattr__(self, "points", tuple(Point(self.behavior.id, sync) for sync in self.timing.points))
 
 
+class _HasNodes(Protocol):
+    """A constraint on two nodes."""
+
+    @property
+    def nodes(self) -> tuple[Node, Node]:
+        """The two nodes."""
+        ...
+
+
 class _Constraint:
     """The behaviors of a constraint on two nodes."""
 
     __slots__ = ()
 
     @property
-    def nodes(self) -> tuple[Node, Node]:
-        """The two nodes."""
-        raise NotImplementedError
-
-    @property
-    def behaviors(self) -> set[str]:
+    def behaviors(self: _HasNodes) -> set[str]:
         """Ids of the behaviors of the block that it names."""
         return {node.behavior for node in self.nodes if isinstance(node, Point)}
 
-    def names(self, behaviors: Container[str]) -> bool:
+    def names(self: _HasNodes, behaviors: Container[str]) -> bool:
         """Whether it names one of some behaviors."""
         return any(isinstance(node, Point) and node.behavior in behaviors for node in self.nodes)
 

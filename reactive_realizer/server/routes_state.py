@@ -22,6 +22,7 @@ async def status(request: web.Request) -> web.Response:
     live = request.app[LIVE]
     blocks = live.realizer.scheduler.blocks
     states = [*(block.state for block in blocks.alive), *(block.state for block in blocks.ended)]
+    worker = getattr(live.scene.tts, "worker", None)
     answer = {
         "version": __version__,
         "protocol": VERSION,
@@ -30,7 +31,7 @@ async def status(request: web.Request) -> web.Response:
         "ticks": _ticks(live),
         "clients": live.clients.number,
         "blocks": Counter(state.value for state in states),
-        "worker": {name: getattr(live.scene.tts, name, None) for name in ("alive", "restarts")},
+        "worker": {name: getattr(worker, name, None) for name in ("alive", "restarts")},
         "limits": asdict(live.limits),
     }
     return web.json_response(answer)

@@ -63,9 +63,9 @@ def _exposition(live: LiveScene) -> Iterator[str]:
     yield from _metric("unplanned_blocks", "gauge", "Blocks and procedures that wait for the work of a tick.", {
         "": live.realizer.scheduler.unplanned
     })  # fmt: skip
-    restarts = getattr(tts, "restarts", None)
-    if restarts is not None:
-        yield from _metric("voice_restarts_total", "counter", "Restarts of the speech process.", {"": restarts})
+    worker = getattr(tts, "worker", None)
+    if worker is not None:
+        yield from _metric("voice_restarts_total", "counter", "Restarts of the speech process.", {"": worker.restarts})
 
 
 def _queues(clients: Clients) -> Iterator[str]:

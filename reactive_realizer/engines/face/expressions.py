@@ -59,7 +59,7 @@ class ActionUnit:
 
 @dataclass(frozen=True, slots=True)
 class Expressions:
-    """What faces can show.
+    """The face lexemes and the action units.
 
     Attributes:
         lexemes: weights at amount 1 of each lexeme, under all of its names.

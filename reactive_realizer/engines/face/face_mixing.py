@@ -1,4 +1,4 @@
-"""How the faces of a frame become one: fades, and the parts that each may move."""
+"""Combines expressions, the resting face and speech into the face of a frame."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -64,7 +64,7 @@ class MouthShare:
 
 
 def resting_face_under(resting: Weights, expressions: Iterable[tuple[Weights, float]]) -> dict[str, float]:
-    """What is seen of the resting face: an expression takes its place in the regions that it moves, by its level.
+    """The resting face, reduced in each region by the level of the expressions that move the region.
 
     Args:
         resting: weights of the resting face.

@@ -56,16 +56,6 @@ class EspeakVoice:
         self.worker = SpeechWorker("reactive_realizer.engines.speech.espeak_worker", patience)
         self._default_voice = default_voice
 
-    @property
-    def alive(self) -> bool:
-        """Whether a worker is running."""
-        return self.worker.alive
-
-    @property
-    def restarts(self) -> int:
-        """Number of workers started after the first."""
-        return self.worker.restarts
-
     async def start(self) -> None:
         """Starts the worker.
 

@@ -1,27 +1,13 @@
 """Compound faces, action units, morph targets and resting faces, as seen in frames."""
 
-from collections.abc import AsyncIterator
-
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
-from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
+from reactive_realizer.testing.pilot import RealizerPilot
+
+from .conftest import weight
 
 EXT = 'xmlns="http://www.bml-initiative.org/bml/coreextensions-1.0"'
-
-
-@pytest.fixture
-async def pilot() -> AsyncIterator[RealizerPilot]:
-    async with open_pilot() as pilot:
-        pilot.watch()
-        yield pilot
-
-
-def weight(pilot: RealizerPilot, morph: str) -> NDArray[np.float64]:
-    """The weight of a morph target in each frame, (F,)."""
-    morphs = pilot.realizer.characters["alice"].humanoid.avatar.morphs
-    return np.array([frame.weights for frame in pilot.frames["alice"]])[:, morphs.index(morph)]
 
 
 async def test_an_action_unit_moves_its_half_of_the_face_at_its_times(pilot: RealizerPilot) -> None:

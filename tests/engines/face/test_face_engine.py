@@ -2,11 +2,9 @@
 
 import os
 import signal
-from collections.abc import AsyncIterator
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.embodiment.audio import AudioStart
@@ -14,22 +12,11 @@ from reactive_realizer.engines.speech.espeak_voice import EspeakVoice
 from reactive_realizer.engines.speech.speech_engine import SpeechEngine
 from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
+from .conftest import weight
+
 SMILE = (
     '<faceLexeme id="f" lexeme="RAISE_MOUTH_CORNERS" amount="{amount}" start="0" attackPeak="0.5" relax="1.5" end="2"/>'
 )
-
-
-@pytest.fixture
-async def pilot() -> AsyncIterator[RealizerPilot]:
-    async with open_pilot() as pilot:
-        pilot.watch()
-        yield pilot
-
-
-def weight(pilot: RealizerPilot, morph: str) -> NDArray[np.float64]:
-    """The weight of a morph target in each frame, (F,)."""
-    morphs = pilot.realizer.characters["alice"].humanoid.avatar.morphs
-    return np.array([frame.weights for frame in pilot.frames["alice"]])[:, morphs.index(morph)]
 
 
 async def test_a_face_is_held_from_its_attack_peak_to_its_relax_and_is_gone_at_its_end(pilot: RealizerPilot) -> None:
@@ -180,4 +167,4 @@ async def test_killing_the_speech_worker_drops_only_the_speech() -> None:
         pilot.block("c", '<speech id="s"><text>Here again.</text></speech>')
         await pilot.advance(2)
         assert pilot.feedback.reached("c:s:end")
-        assert voice.restarts == 1
+        assert voice.worker.restarts == 1

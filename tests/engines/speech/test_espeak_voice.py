@@ -103,23 +103,23 @@ async def test_killing_the_worker_fails_its_requests_and_the_next_one_starts_a_n
     for outcome in await asyncio.gather(*pending, return_exceptions=True):
         assert isinstance(outcome, RealizerError)
         assert (outcome.fault.code, outcome.fault.details["reason"]) == ("voice-failed", "SIGKILL")
-    assert (voice.alive, voice.restarts) == (False, 0)
+    assert (voice.worker.alive, voice.worker.restarts) == (False, 0)
     assert (await spoken(voice, "hello")).audio
-    assert (voice.alive, voice.restarts) == (True, 1)
+    assert (voice.worker.alive, voice.worker.restarts) == (True, 1)
 
 
 async def test_killing_an_idle_worker_fails_no_request(voice: EspeakVoice) -> None:
     os.kill(worker_of(voice), signal.SIGKILL)
     await process_of(voice).ended
     assert (await spoken(voice, "hello")).audio
-    assert voice.restarts == 1
+    assert voice.worker.restarts == 1
 
 
 async def test_two_requests_after_the_end_of_a_worker_start_one_new_worker(voice: EspeakVoice) -> None:
     os.kill(worker_of(voice), signal.SIGKILL)
     await process_of(voice).ended
     await asyncio.gather(spoken(voice, "one"), spoken(voice, "two"))
-    assert voice.restarts == 1
+    assert voice.worker.restarts == 1
 
 
 async def test_a_worker_that_hangs_is_killed_and_the_next_request_starts_a_new_one() -> None:
@@ -132,9 +132,9 @@ async def test_a_worker_that_hangs_is_killed_and_the_next_request_starts_a_new_o
         faults = [outcome.fault for outcome in outcomes if isinstance(outcome, RealizerError)]
         assert [fault.code for fault in faults] == ["voice-failed"] * 2
         assert faults[0].details["reason"] == "no answer"
-        assert (voice.alive, voice.restarts) == (False, 0)
+        assert (voice.worker.alive, voice.worker.restarts) == (False, 0)
         assert (await spoken(voice, "hello")).audio
-        assert voice.restarts == 1
+        assert voice.worker.restarts == 1
     finally:
         await voice.close()
 
@@ -156,7 +156,7 @@ async def test_killing_a_child_fails_one_utterance_and_the_worker_goes_on(voice:
         await pending
     assert failure.value.fault.details["reason"] == "SIGKILL"
     assert (await later).audio
-    assert (voice.alive, voice.restarts) == (True, 0)
+    assert (voice.worker.alive, voice.worker.restarts) == (True, 0)
 
 
 async def test_canceling_a_request_does_not_affect_the_others(
@@ -195,7 +195,7 @@ async def test_a_request_canceled_while_it_waits_is_never_sent(
 async def test_a_closed_voice_has_no_process(voice: EspeakVoice) -> None:
     worker = worker_of(voice)
     await voice.close()
-    assert not voice.alive
+    assert not voice.worker.alive
     with pytest.raises(ProcessLookupError):
         os.kill(worker, 0)
 

@@ -93,7 +93,7 @@ async def test_killing_the_worker_in_the_middle_fails_one_speech_and_the_next_st
     with pytest.raises(RealizerError, match="SIGKILL"):
         await pending
     assert (await voice.synthesize("Yes.", (), None)).audio
-    assert voice.restarts == 1
+    assert voice.worker.restarts == 1
 
 
 @pytest.mark.kokoro

@@ -80,7 +80,7 @@ def read_styles(folders: Sequence[Path]) -> dict[str, npt.NDArray[np.float32]]:
 
 
 def with_output(name: str) -> bytes:
-    """What to append to an ONNX file so that a value within its graph becomes an output.
+    """The bytes that, appended to an ONNX file, make a value within its graph an output.
 
     Messages of Protocol Buffers that follow each other are merged, so a model needs no parsing to be extended.
     """

@@ -27,6 +27,9 @@ class KokoroVoice:
 
     Args:
         default_voice: the voice of characters that name none.
+
+    Attributes:
+        worker: runs the network.
     """
 
     def __init__(self, default_voice: str = "af_heart") -> None:
@@ -34,16 +37,6 @@ class KokoroVoice:
         self._dictionary = EspeakVoice()
         self._spoken: SizedCache[tuple[str, tuple[int, ...]], SpokenSentence] = SizedCache(_REMEMBERED_BYTES)
         self.worker = SpeechWorker("reactive_realizer.engines.speech.kokoro.worker", _PATIENCE)
-
-    @property
-    def alive(self) -> bool:
-        """Whether its worker is running."""
-        return self.worker.alive
-
-    @property
-    def restarts(self) -> int:
-        """Number of its workers started after the first."""
-        return self.worker.restarts
 
     async def start(self) -> None:
         """Starts both workers, which loads the network.
