@@ -3,16 +3,13 @@
 import asyncio
 import json
 import os
-import sys
-from asyncio.subprocess import PIPE
-from collections.abc import AsyncIterator
-from contextlib import asynccontextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from urllib.request import urlopen
 
 from yarl import URL
 
+from benchmarks._served import served
 from reactive_realizer.clock.ticker import FRAME_EVERY, RATE
 
 _BINARY, _PING = 0x82, 0x89
@@ -44,7 +41,7 @@ def measure(viewers: int, seconds: float, characters: int = 1) -> dict[str, floa
 
 
 async def _measure(human: Path, viewers: int, seconds: float) -> dict[str, float]:
-    async with _server(human) as (address, pid):
+    async with served(human, "text") as (address, pid):
         loop = asyncio.get_running_loop()
         connecting = (
             loop.create_connection(lambda: _Viewer(address), str(address.host), int(address.port or 0))
@@ -62,21 +59,6 @@ async def _measure(human: Path, viewers: int, seconds: float) -> dict[str, float
     sent = viewers * elapsed * RATE / FRAME_EVERY
     arrived = round(min(1.0, seen / sent), 4)
     return dict(zip(NUMBERS, (round(used / elapsed, 4), arrived, late), strict=True))
-
-
-@asynccontextmanager
-async def _server(human: Path) -> AsyncIterator[tuple[URL, int]]:
-    command = ("-m", "reactive_realizer", "serve", "--voice", "text", "--port", "0", "--human", str(human))
-    process = await asyncio.create_subprocess_exec(sys.executable, *command, stderr=PIPE)
-    assert process.stderr is not None
-    try:
-        async for line in process.stderr:
-            if b"serving on" in line:
-                break
-        yield URL(line.decode().split()[-1]), process.pid
-    finally:
-        process.terminate()
-        await process.communicate()
 
 
 def _late_p99_ms(address: URL) -> float:

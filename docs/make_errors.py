@@ -44,6 +44,7 @@ _TITLES = {
     "engine": "Engines",
     "engines": "Behaviors",
     "scheduler": "Scheduling",
+    "liveliness": "Liveliness",
     "realizer": "Running and replaying a session",
     "assembly": "Assembling a scene",
     "server": "The server",

@@ -10,10 +10,11 @@ import argparse
 import asyncio
 import io
 import shutil
-from collections.abc import AsyncIterator, Iterable, Sequence
-from contextlib import asynccontextmanager
-from dataclasses import dataclass
+from collections.abc import AsyncIterator, Iterable, Iterator, Sequence
+from contextlib import asynccontextmanager, contextmanager
+from dataclasses import dataclass, replace
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from aiohttp import web
 from gallery_entries import Entry, entries
@@ -39,6 +40,10 @@ HIGH: ViewportSize = {"width": 1000, "height": 1200}
 """A high window shows legs and feet."""
 LARGE: ViewportSize = {"width": 2000, "height": 1120}
 """A large window shows enough of a face."""
+NEAR: ViewportSize = {"width": 1000, "height": 600}
+"""A window in which the camera comes near to a mouth."""
+MOUTH = {"female": -0.012, "male": 0.012}
+"""Height of the mouth above the joint of the head, m."""
 MOMENTS = 7
 PUSH_AFTER = 1.0
 """Time from the start of a strip to the push, s."""
@@ -87,6 +92,8 @@ class Framing:
     @classmethod
     def of(cls, entry: Entry) -> "Framing":
         """That of an entry."""
+        if entry.mouth:
+            return cls(NEAR, (150, 120), (140, 460))
         if entry.face:
             return cls(LARGE, (150, 180), (95, 440))
         return cls(HIGH, (150, 300)) if entry.whole_body else cls(WIDE, (180, 240))
@@ -118,7 +125,8 @@ class Camera:
         shown = "([time, id]) => viewer.lastFrameTime >= time && viewer.morph(id, 'jawOpen') !== null"
         await self.page.wait_for_function(shown, arg=[newest, next(iter(self.live.realizer.characters))])
         await self.page.wait_for_timeout(120)  # low quality draws 12 times a second
-        shot = Image.open(io.BytesIO(await self.page.locator("#viewport canvas").screenshot()))
+        only_canvas = "#viewport > :not(canvas) { visibility: hidden; }"
+        shot = Image.open(io.BytesIO(await self.page.locator("#viewport canvas").screenshot(style=only_canvas)))
         return self.framing.picture(shot.convert("RGB"))
 
 
@@ -134,6 +142,8 @@ async def strip(camera: Camera, entry: Entry) -> Image.Image:
     if entry.push is not None:
         push = Push(next(iter(live.realizer.characters)), "vl5", entry.push, 0.2)
         live.realizer.put(push, GlobalTime(begun + PUSH_AFTER))
+    if entry.mouth:
+        await approach_mouth(camera.page, entry.avatar)
     pictures = []
     for i in range(MOMENTS):
         moment = begun + (end - begun) * (i + 0.5) / MOMENTS
@@ -153,6 +163,35 @@ def _end(live: LiveScene, entry: Entry) -> float:
     now = live.realizer.time
     end = now if block is None or block.end.value is None else block.end.value
     return min(max(end, now + entry.seconds), now + LONGEST)
+
+
+@contextmanager
+def with_avatar(options: SceneOptions, avatar: str) -> Iterator[SceneOptions]:
+    """A scene whose character has an avatar of the package."""
+    with TemporaryDirectory() as folder:
+        human = Path(folder, "human.toml")
+        default = options.human.read_text(encoding="utf-8")
+        human.write_text(default.replace("avatars/female.glb", f"avatars/{avatar}.glb"), encoding="utf-8")
+        yield replace(options, human=human)
+
+
+async def approach_mouth(page: Page, avatar: str) -> None:
+    """Moves the camera near to the mouth of a character, as a user does: by dragging and with the wheel."""
+    await page.wait_for_function("viewer.morph('alice', 'jawOpen') !== null")
+    hips, head = [(await page.evaluate(f"viewer.bone('alice', '{bone}')"))[1] for bone in ("Hips", "Head")]
+    box = await page.locator("#viewport canvas").bounding_box()
+    assert box is not None
+    top, height = hips / 0.53 + 0.05, box["height"] / box["width"]  # what web/src/viewport.ts shows, m
+    up = (head + MOUTH[avatar] - (top - height / 2)) / height * box["height"]
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    await page.mouse.move(x, y)
+    await page.mouse.down(button="right")
+    await page.mouse.move(x, y + up, steps=4)
+    await page.mouse.up(button="right")
+    await page.mouse.move(x, y)
+    for _ in range(30):
+        await page.mouse.wheel(0, -100)
+    await page.wait_for_timeout(2000)  # the camera coasts
 
 
 @asynccontextmanager
@@ -182,8 +221,9 @@ async def make(wanted: Sequence[Entry], options: SceneOptions, folder: Path, bro
         for entry in wanted:
             framing = Framing.of(entry)
             await page.set_viewport_size(framing.window)
-            async with studio(options, page, framing) as camera:
-                picture = await strip(camera, entry)
+            with with_avatar(options, entry.avatar) as own:
+                async with studio(own, page, framing) as camera:
+                    picture = await strip(camera, entry)
             file = folder / f"{entry.name}.webp"
             if compare:
                 share = _difference(file, picture)
@@ -226,7 +266,8 @@ def index(all_entries: Iterable[Entry]) -> str:
     ]
     for entry in all_entries:
         picture = f"![{entry.name}]({entry.name}.webp)"
-        lines += [f"### {entry.name}", "", picture, "", "```xml", entry.behaviors, "```", ""]
+        described = [entry.caption] if entry.caption else ["```xml", entry.behaviors, "```"]
+        lines += [f"### {entry.name}", "", picture, "", *described, ""]
         if entry.push is not None:
             lines += [f"pushed with {max(map(abs, entry.push)):g} N for 0.2 s", ""]
     return "\n".join(lines)

@@ -58,6 +58,10 @@ _NOTES = {
     "pointing target": "as for a gaze; a moving target is followed",
     "pointing mode": "by default, the hand on the side of the target, or the other one if that is busy or cannot reach",
     "faceShift overshoot": "no effect, because a shift has no attack peak",
+    "facefap fap": "numbers or names of [MPEG-4](face.md#mpeg-4-parameters)",
+    "facefap value": "in the unit of the parameter",
+    "facekeyframe name": "of a file, `NAME.xml` ([FaceInterpolator](face.md#animations)); otherwise, keys inside",
+    "faceplutchik angle": "on [the wheel of emotions](face.md#the-wheel-of-emotions), degrees",
     "head amount": "1 is the maximum",
     "gaze target": "an object of the world, a character, or a joint such as `alice:l_wrist`",
     "gaze influence": "by default, HEAD; `NECK` means HEAD, `TORSO` means WAIST; WHOLE does not move the feet",
@@ -65,6 +69,7 @@ _NOTES = {
     "procanimation mode": "for animations that the binding has for several hands",
     "keyframe name": "of a file, `NAME.xml` (SkeletonInterpolator) or `NAME.bvh` (capture); otherwise, keys inside",
     "noise type": "perlin",
+    "audiofile filename": "of [a file among the assets](audio.md); `fileName` is read too",
     "transition class": "SlerpTransition, HermiteTransition",
     "parameter of any behavior name": "of [the motion that plays it](binding.md#kinds-of-motion)",
     "pose of a posture lexeme": "a lexeme of `pose` (see below), or of [your own file](human.md#postures)",
@@ -122,18 +127,23 @@ _AROUND = """\
 | `required` | yes | its contents must succeed; otherwise the block ends as FAILED and stops |
 | `constraint`, `synchronize` | yes | its `<sync ref="..."/>` sync points coincide; an absolute time fixes them |
 | `constraint`, `before`, `after` | yes | also while the block plays; `smartbody` drops them with a warning |
-| `description` | yes | the one with the highest priority that can be realized is played |
+| `description` | yes | by priority; of a `speech` also [audio](audio.md#recorded-speech), [SSML](voices.md#ssml) |
 
 ## Other namespaces
 
 | feature | realized | notes |
 |---|---|---|
 | `dynamic="true"` of `http://hmi.ewi.utwente.nl/bmlt` on `gaze` and its shifts | yes | follows a moving target |
+| `voice="NAME"` of `http://hmi.ewi.utwente.nl/bmlt` on `speech` | yes | another [voice](voices.md) |
 | `words="true"` of `urn:reactive-realizer:1` on `speech` | yes | each word is a sync point `wordN`, counted from 0 |
+| `liveliness="0.5"` of `urn:reactive-realizer:1` on `speech` | yes | how much the speaker moves of itself, 0 to 1 \
+([liveliness](liveliness.md)) |
+| `accompanies="b1"` of `urn:reactive-realizer:1` on `bml` | yes | its behaviors \
+[give way](liveliness.md#accompanying-blocks) to all others, and end with `b1` |
 | other attributes | no | warning `CUSTOM_ATTRIBUTE_NOT_SUPPORTED`; their behavior plays |
 | elements, including those of BMLA and BMLT without a table above | no | warning `CUSTOM_BEHAVIOUR_NOT_SUPPORTED` |
 
-`procanimation`, `procanimationgesture`, `keyframe`, `noise` and `transition` are in the namespace
+`procanimation`, `procanimationgesture`, `keyframe`, `noise`, `transition` and `audiofile` are in the namespace
 `http://hmi.ewi.utwente.nl/bmlt`. The motion of such an element, or of a `gesture` or `head`, can have additional sync
 points, such as the beats of a conducting pattern. Constraints and the attributes of BMLT elements can name these.
 

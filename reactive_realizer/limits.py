@@ -59,6 +59,8 @@ class Limits:
     """Objects in the world, including those added by clients."""
     sound_bytes: int = 64 * 1024 * 1024
     """Bytes of audio stored for clients to fetch."""
+    sound_seconds: float = 300.0
+    """Duration of a sound file, s."""
     remembered_feedback: int = 10_000
     """Feedback messages stored for clients that reconnect."""
     remembered_feedback_bytes: int = 256 * 1024 * 1024

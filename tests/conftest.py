@@ -34,6 +34,10 @@ def pytest_report_header() -> list[str]:
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     left_out = [item for item in items if _is_left_out(item)]
     items[:] = [item for item in items if not _is_left_out(item)]
+    for item in items:
+        if item.get_closest_marker("browser"):
+            # On a busy machine, a page may skip what is shown for a moment: a failure counts if it happens three times.
+            item.add_marker(pytest.mark.flaky(reruns=2))
     config.hook.pytest_deselected(items=left_out)
 
 

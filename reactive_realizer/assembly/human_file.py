@@ -17,11 +17,25 @@ from reactive_realizer.limits import Limits
 
 T = TypeVar("T")
 
-DEFAULT_ENGINES: Final = ("speech", "animation", "face", "wait", "activate", "interrupt", "parameter_value_change")
-DEFAULT_BINDINGS: Final[Mapping[str, str]] = {"gesture": "gesturebinding.xml"}
+DEFAULT_ENGINES: Final = (
+    "speech",
+    "audio",
+    "animation",
+    "face",
+    "wait",
+    "activate",
+    "interrupt",
+    "parameter_value_change",
+)
+DEFAULT_BINDINGS: Final[Mapping[str, str]] = {"gesture": "gesturebinding.xml", "face": "facebinding.xml"}
+VISEMES: Final = "visemes"
+"""The kind of the binding from sounds to the mouth; that of the package depends on the avatar."""
 
 LIGHTEST, HEAVIEST = 1.0, 1000.0
 """Bounds of the weight of a character, kg."""
+
+MOST_BLINKS = 60.0
+"""Bound of the rate of blinks, per minute."""
 
 FEWEST_STEPS, MOST_STEPS = 2, 20
 """Bounds of the steps in which a physical body is simulated in each tick."""
@@ -41,6 +55,8 @@ class CharacterSpec:
         heading: rotation to its left, degrees; 0 faces +z.
         engines: ids of engines, in rank order.
         idle: whether it has idle animation.
+        blink_rate: blinks per minute of idle animation; None for the usual rate.
+        liveliness: how lively it is while it speaks, 0 to 1; None for that of the scene.
         weight: of its physical body, kg; None for the usual one of its stature.
         simulation_steps: of its physical body in each tick; None for steps of the usual time.
         bindings: names of files among the assets, by kind; by default `DEFAULT_BINDINGS`.
@@ -52,6 +68,8 @@ class CharacterSpec:
     heading: float = 0.0
     engines: tuple[str, ...] = DEFAULT_ENGINES
     idle: bool = True
+    blink_rate: float | None = None
+    liveliness: float | None = None
     weight: float | None = None
     simulation_steps: int | None = None
     bindings: Mapping[str, str] = field(default_factory=lambda: DEFAULT_BINDINGS)
@@ -126,9 +144,13 @@ class _Reader:
 
     def character(self, key: str, table: Any) -> CharacterSpec:
         spec = self.read(CharacterSpec, key, table)
-        self.know(f"{key}.bindings", spec.bindings, tuple(DEFAULT_BINDINGS))
+        self.know(f"{key}.bindings", spec.bindings, (*DEFAULT_BINDINGS, VISEMES))
         if spec.weight is not None and not LIGHTEST <= spec.weight <= HEAVIEST:
             raise self._bad(f"{key}.weight", f"{spec.weight:g} is not from {LIGHTEST:g} to {HEAVIEST:g} kg")
+        if spec.blink_rate is not None and not 0.0 <= spec.blink_rate <= MOST_BLINKS:
+            raise self._bad(f"{key}.blink_rate", f"{spec.blink_rate:g} is not from 0 to {MOST_BLINKS:g} per minute")
+        if spec.liveliness is not None and not 0.0 <= spec.liveliness <= 1.0:
+            raise self._bad(f"{key}.liveliness", f"{spec.liveliness:g} is not from 0 to 1")
         steps = spec.simulation_steps
         if steps is not None and not FEWEST_STEPS <= steps <= MOST_STEPS:
             raise self._bad(f"{key}.simulation_steps", f"{steps} is not from {FEWEST_STEPS} to {MOST_STEPS}")

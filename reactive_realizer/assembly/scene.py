@@ -23,6 +23,8 @@ from reactive_realizer.engine.engine import Engine
 from reactive_realizer.engine.guarded_engine import FAILURES
 from reactive_realizer.engine.tts import TTSBinding
 from reactive_realizer.errors import RealizerError
+from reactive_realizer.limits import Limits
+from reactive_realizer.liveliness.word_classes import read_word_classes
 from reactive_realizer.pegboard.anticipator import Anticipator, AnticipatorContext
 from reactive_realizer.reactive.cell import Source
 from reactive_realizer.reactive.graph import Graph
@@ -33,6 +35,9 @@ from reactive_realizer.scheduler.strategy import SchedulingStrategy
 _log = logging.getLogger(__name__)
 
 DEFAULT_HUMAN = PACKAGE_ASSETS / "humans" / "default.toml"
+
+WORD_CLASSES = "liveliness/english.toml"
+"""The asset with the words with which speakers move."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,6 +51,7 @@ class SceneOptions:
         seed: of all randomness.
         strategy: id of the scheduling strategy.
         verify: whether plans are checked while they are played.
+        liveliness: of the characters whose human file does not state it, 0 to 1; None if they only do what is asked.
     """
 
     human: Path = DEFAULT_HUMAN
@@ -54,6 +60,7 @@ class SceneOptions:
     seed: int = 0
     strategy: str = "convex"
     verify: bool = False
+    liveliness: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,12 +93,22 @@ async def open_scene(options: SceneOptions) -> AsyncIterator[Scene]:
     tts: TTSBinding = load("tts", options.voice)()
     time = Source(Graph(), "time", GlobalTime(0.0))
     characters = [
-        _character(id_, spec, world, assets, tts, options.voice, options.seed + rank, time)
+        _character(id_, spec, specification.limits, world, assets, tts, options, options.seed + rank, time)
         for rank, (id_, spec) in enumerate(specification.characters.items())
     ]
     anticipators = _anticipators(options.human.name, specification.anticipators)
     strategy: SchedulingStrategy = load("strategies", options.strategy)()
-    realizer = Realizer(characters, world, anticipators, strategy, specification.limits, time, verify=options.verify)
+    classes = read_word_classes(assets(WORD_CLASSES))
+    realizer = Realizer(
+        characters,
+        world,
+        anticipators,
+        strategy,
+        specification.limits,
+        time,
+        word_classes=classes,
+        verify=options.verify,
+    )
     await tts.start()
     try:
         async with realizer:
@@ -104,15 +121,17 @@ async def open_scene(options: SceneOptions) -> AsyncIterator[Scene]:
 def _character(
     id_: str,
     spec: CharacterSpec,
+    limits: Limits,
     world: World,
     assets: Assets,
     tts: TTSBinding,
-    voice: str,
+    options: SceneOptions,
     seed: int,
     time: Source[GlobalTime],
 ) -> Character:
     heading = math.radians(spec.heading)
-    humanoid = Humanoid(Avatar.read(assets(spec.avatar)), spec.position, heading, spec.weight, spec.simulation_steps)
+    file = assets(spec.avatar)
+    humanoid = Humanoid(Avatar.read(file), spec.position, heading, spec.weight, spec.simulation_steps)
     world.add_character(id_, humanoid.locate)
     mouth = _Mouth()
     context = EngineContext(
@@ -122,13 +141,16 @@ def _character(
         assets,
         seed,
         tts,
-        spec.voice_of(voice),
-        binding_files(spec.bindings, assets),
+        spec.voice_of(options.voice),
+        binding_files(spec.bindings, file, assets),
         mouth,
         trajectories={name: load("trajectories", name) for name in names("trajectories")},
         functions={name: load("functions", name) for name in names("functions")},
         time=time,
         idle=spec.idle,
+        blink_rate=spec.blink_rate,
+        limits=limits,
+        liveliness=options.liveliness if spec.liveliness is None else spec.liveliness,
     )
     engines: list[Engine] = [load("engines", name)(context) for name in spec.engines]
     mouth.voices = [engine for engine in engines if isinstance(engine, LipSyncProvider)]

@@ -41,6 +41,7 @@ class Attribute:
         required: whether an element without it is refused.
         default: its value if it is not written.
         continuous: whether it is in the namespace of BMLA or BMLT; otherwise, it is in none.
+        synonyms: other names that it may have.
         spellings: its names in Clark notation; if several are written, the first one counts.
     """
 
@@ -50,26 +51,30 @@ class Attribute:
     required: bool
     default: object
     continuous: bool
+    synonyms: tuple[str, ...] = ()
     spellings: tuple[str, ...] = dataclasses.field(init=False)
 
     def __post_init__(self) -> None:
         qualified = tuple(f"{{{namespace}}}{self.name}" for namespace in CONTINUOUS)
-        object.__setattr__(self, "spellings", qualified if self.continuous else (self.name,))
+        object.__setattr__(self, "spellings", qualified if self.continuous else (self.name, *self.synonyms))
 
 
 _CACHE: dict[type, tuple[Attribute, ...]] = {}
 """Cache of `attributes_of`, which is called for every behavior."""
 
 
-def attribute(kind: AttributeType, name: str | None = None, continuous: bool = False) -> Mapping[str, Any]:
+def attribute(
+    kind: AttributeType, name: str | None = None, continuous: bool = False, synonyms: tuple[str, ...] = ()
+) -> Mapping[str, Any]:
     """Metadata of a field that holds an attribute.
 
     Args:
         kind: its type.
         name: its name; by default, that of the field in camelCase.
         continuous: whether it is in the namespace of BMLA or BMLT; else it is in none.
+        synonyms: other names that it may have.
     """
-    return {_METADATA: (kind, name, continuous)}
+    return {_METADATA: (kind, name, continuous, synonyms)}
 
 
 def attributes_of(data: type) -> tuple[Attribute, ...]:
@@ -80,10 +85,10 @@ def attributes_of(data: type) -> tuple[Attribute, ...]:
 
 
 def _attribute(each: "dataclasses.Field[Any]") -> Attribute:
-    kind, given, continuous = each.metadata[_METADATA]
+    kind, given, continuous, synonyms = each.metadata[_METADATA]
     name = given or _camel(each.name)
     required = each.default is dataclasses.MISSING
-    return Attribute(name, each.name, kind, required, None if required else each.default, continuous)
+    return Attribute(name, each.name, kind, required, None if required else each.default, continuous, synonyms)
 
 
 def _camel(name: str) -> str:

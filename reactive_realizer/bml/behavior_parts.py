@@ -1,20 +1,30 @@
 """Reads the child elements of behaviors: texts, expressions, poses, trajectories, keyframes, parameters."""
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from types import MappingProxyType
-from typing import Any
+from typing import Any, Final
 
 from reactive_realizer.bml.attributes import attributes_of
 from reactive_realizer.bml.behavior import Behavior
-from reactive_realizer.bml.behaviors import Face, Mark, Pose, Posture, Speech, Stance
+from reactive_realizer.bml.behaviors import Face, Mark, MarkTime, Pose, Posture, Speech, Stance
 from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.elements import ELEMENTS
-from reactive_realizer.bml.extensions import BehaviorParameter, Keyframe, ParameterValueChange, Trajectory
-from reactive_realizer.bml.faults import DuplicateId, EventTooLong, MissingElement, RepeatedElement, UtteranceTooLong
+from reactive_realizer.bml.extensions import BehaviorParameter, ParameterValueChange, Trajectory
+from reactive_realizer.bml.faults import (
+    DuplicateId,
+    EventTooLong,
+    MissingElement,
+    RepeatedElement,
+    UnknownMark,
+    UtteranceTooLong,
+)
 from reactive_realizer.bml.trees import PARAMETER, Tree, children_of, is_core, name_of
 from reactive_realizer.bml.vocabulary import PosePart
 from reactive_realizer.errors import Fault, RealizerError
+
+_RECORDING_FILES: Final = {"file": ("ref",), "audiofile": ("filename", "fileName")}
+"""The elements that name the file of a recording, and the attributes that hold its name."""
 
 
 def read_speech(tree: Tree, source: BlockSource, notes: list[Fault]) -> dict[str, Any]:
@@ -36,6 +46,30 @@ def read_speech(tree: Tree, source: BlockSource, notes: list[Fault]) -> dict[str
     text = text.rstrip()
     marks = tuple(Mark(id=name, char_index=min(at, len(text))) for name, at in places.items())
     return {"text": text, "marks": marks}
+
+
+def read_recording(description: Tree, marks: Sequence[Mark], source: BlockSource) -> dict[str, Any] | None:
+    """The file of a speech that is described as audio, and the times of its marks; None for another description.
+
+    The file is the one of ``<file ref="..."/>``, in any namespace and at any depth, as in the thesis (example 5) and in
+    SmartBody's speech files, or that of a ``<bmlt:audiofile>``.
+
+    Raises:
+        RealizerError: a time is bad, or the speech has no such mark.
+    """
+    references = ((name_of(each), each) for each in description.iterdescendants())
+    names = (each.get(attribute) for name, each in references for attribute in _RECORDING_FILES.get(name, ()))
+    file_name = next((name for name in names if name is not None), None)
+    if file_name is None:
+        return None
+    known = tuple(mark.id for mark in marks)
+    times = []
+    for sync in description.iterdescendants("{*}sync"):
+        time = MarkTime(**source.values(sync, attributes_of(MarkTime)))
+        if time.id not in known:
+            raise RealizerError(source.located(sync, UnknownMark(mark=time.id, known=known)))
+        times.append(time)
+    return {"file_name": file_name, "mark_times": tuple(times)}
 
 
 def read_face(tree: Tree, source: BlockSource, notes: list[Fault]) -> dict[str, Any]:
@@ -83,12 +117,12 @@ def read_trajectory(tree: Tree, source: BlockSource, notes: list[Fault]) -> dict
 
 
 def read_interpolator(tree: Tree, source: BlockSource, notes: list[Fault]) -> dict[str, Any]:
-    """The interpolator inside a keyframe animation, None if there is none.
+    """The interpolator inside a keyframe animation of the body or the face, None if there is none.
 
     Raises:
         RealizerError: there are two.
     """
-    written = children_of(tree, *Keyframe.CHILDREN)
+    written = children_of(tree, *ELEMENTS[name_of(tree)].children)
     if len(written) > 1:
         raise _repeated(written[1], name_of(written[1]), tree, source)
     return {"interpolator": source.xml(written[0]) if written else None}

@@ -19,8 +19,9 @@ from reactive_realizer.bml.behaviors import Face, FaceShift, Posture, PostureShi
 from reactive_realizer.bml.block import PROCEDURES
 from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.elements import ELEMENTS, Element
-from reactive_realizer.bml.extensions import Emit, Keyframe, ParameterValueChange
+from reactive_realizer.bml.extensions import Emit, FaceKeyframe, Keyframe, ParameterValueChange
 from reactive_realizer.bml.faults import ProcedureInBlock, UnknownBehavior
+from reactive_realizer.bml.speech_descriptions import read_speech_description, unspoken
 from reactive_realizer.bml.trees import (
     PARAMETER,
     Tree,
@@ -44,6 +45,7 @@ _READ_PARTS: Final[Mapping[type[Behavior], Callable[[Tree, BlockSource, list[Fau
     PostureShift: read_posture,
     ParameterValueChange: read_trajectory,
     Keyframe: read_interpolator,
+    FaceKeyframe: read_interpolator,
     Emit: read_event,
 }
 
@@ -86,7 +88,7 @@ def _known(tree: Tree, element: Element, source: BlockSource, place: dict[str, A
     else:
         notes += source.unknown_core_content(tree, names, [*element.children, _DESCRIPTION, PARAMETER])
         values["parameters"] = read_parameters(tree, source, notes)
-        values["descriptions"] = _descriptions(tree, source, notes)
+        values["descriptions"] = _descriptions(tree, element, values, source, notes)
     try:
         syncs = element.behavior.complete_syncs(source.syncs(tree, points), values, namespace)
     except RealizerError as refused:
@@ -102,17 +104,33 @@ def _own_points(tree: Tree, element: Element, source: BlockSource) -> list[str]:
     return [name for name in names_in(tree) if name not in known and source.holds_ref(tree, name)]
 
 
-def _descriptions(tree: Tree, source: BlockSource, notes: list[Fault]) -> tuple[Description, ...]:
-    """The descriptions that can be read; the behavior plays without the others."""
-    descriptions = []
+def _descriptions(
+    tree: Tree, element: Element, core: Mapping[str, Any], source: BlockSource, notes: list[Fault]
+) -> tuple[Description, ...]:
+    """The descriptions that can be read; the behavior plays without the others.
+
+    Args:
+        tree: the behavior that they describe.
+        element: of the behavior.
+        core: values of the behavior, by field.
+        source: its block.
+        notes: receives the faults that do not prevent reading it.
+    """
+    descriptions: dict[Tree, Description] = {}
     for child in children_of(tree, _DESCRIPTION):
         try:
             values = source.values(child, attributes_of(Description))
             content = source.content(child)
-            descriptions.append(Description(**values, content=content, behavior=_described(tree, child, source, notes)))
+            behavior: Behavior | None = None
+            if element.behavior is Speech:
+                behavior = read_speech_description(child, values["type"], core, source, notes)
+            behavior = behavior or _described(tree, child, source, notes)
+            descriptions[child] = Description(**values, content=content, behavior=behavior)
         except RealizerError as refused:
             notes.append(refused.fault)
-    return tuple(descriptions)
+    if element.behavior is Speech:
+        notes += unspoken(descriptions, source)
+    return tuple(descriptions.values())
 
 
 def _described(tree: Tree, description: Tree, source: BlockSource, notes: list[Fault]) -> Behavior | None:

@@ -13,7 +13,8 @@ from reactive_realizer.bml.attribute_types import Duration, Enumeration, EventNa
 from reactive_realizer.bml.attributes import attribute
 from reactive_realizer.bml.behavior import Behavior, SyncPoints
 from reactive_realizer.bml.faults import TwoEnds
-from reactive_realizer.bml.names import ANTICIPATORS, BML_EXT, EVENTS, OWN
+from reactive_realizer.bml.markup import Markup
+from reactive_realizer.bml.names import ANTICIPATORS, BML_EXT, BMLT, EVENTS, OWN
 from reactive_realizer.bml.sync_ref import SyncRef
 from reactive_realizer.bml.vocabulary import Influence, Mode, OffsetDirection, PosePart, Side, StanceType
 from reactive_realizer.errors import RealizerError
@@ -25,6 +26,12 @@ _START_AND_END: SyncPoints = ("start", "end")
 
 WORDS: Final = (OWN, "words")
 """The attribute of a speech that makes every word a sync point."""
+
+VOICE: Final = (BMLT, "voice")
+"""The attribute of a speech that names a voice other than that of its character."""
+
+LIVELINESS: Final = (OWN, "liveliness")
+"""The attribute of a speech that says how lively the character is while it speaks."""
 
 MOST_REPETITIONS: Final = 100
 """Limit on the strokes of a head behavior; each stroke is a sync point."""
@@ -58,6 +65,7 @@ class Speech(Behavior):
     Attributes:
         text: the text, runs of white space reduced to single spaces.
         marks: inline sync points, in the order of the text.
+        markup: how the parts of the text are spoken, outer parts first; only a description in SSML has any.
     """
 
     CHILDREN = ("text",)
@@ -65,6 +73,7 @@ class Speech(Behavior):
 
     text: str
     marks: tuple[Mark, ...] = ()
+    markup: tuple[Markup, ...] = ()
 
     @property
     def sync_points(self) -> tuple[str, ...]:
@@ -73,8 +82,29 @@ class Speech(Behavior):
 
     @property
     def open_points(self) -> bool:
-        """Whether its words may be sync points, whose number depends on the voice."""
-        return WORDS in self.extensions
+        """Whether it may have more sync points: words, whose number depends on the voice, or marks of SSML."""
+        return WORDS in self.extensions or any(each.behavior is not None for each in self.descriptions)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MarkTime:
+    """The time of an inline sync point in a recording, s from its start."""
+
+    id: str = field(metadata=attribute(Id()))
+    time: float = field(metadata=attribute(Duration()))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RecordedSpeech(Speech):
+    """A speech whose sound is in a file: what a description of a `Speech` as audio means (thesis 6.2.5, example 5).
+
+    Attributes:
+        file_name: name of the file among the assets.
+        mark_times: times of marks, as far as the description states them.
+    """
+
+    file_name: str
+    mark_times: tuple[MarkTime, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

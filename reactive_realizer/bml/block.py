@@ -8,7 +8,7 @@ from typing import Final
 from reactive_realizer.bml.attribute_types import Boolean, CompositionType, Id, IdList, Text
 from reactive_realizer.bml.attributes import attribute
 from reactive_realizer.bml.behavior import Behavior
-from reactive_realizer.bml.names import Location
+from reactive_realizer.bml.names import OWN, Location
 from reactive_realizer.bml.sync_ref import SyncRef
 from reactive_realizer.bml.vocabulary import Composition
 from reactive_realizer.errors import Fault
@@ -17,6 +17,9 @@ DEFINE_PROC: Final = "defineproc"
 USE_PROC: Final = "useproc"
 PROCEDURES: Final = frozenset({DEFINE_PROC, USE_PROC})
 """Elements of continuous interaction that are written beside blocks."""
+
+ACCOMPANIES: Final = (OWN, "accompanies")
+"""The attribute of a block that accompanies another one."""
 
 
 class OrderKind(StrEnum):
@@ -145,6 +148,11 @@ class BehaviorBlock:
     unread: frozenset[str] = frozenset()
     extensions: Mapping[tuple[str, str], str] = field(default_factory=dict)
     location: Location
+
+    @property
+    def accompanies(self) -> str | None:
+        """Id of the block that it accompanies: its behaviors give way to all others, and end with that block."""
+        return self.extensions.get(ACCOMPANIES)
 
     @property
     def refs(self) -> tuple[SyncRef, ...]:

@@ -109,7 +109,7 @@ class BlockSource:
         """
         values, continuous = {}, is_continuous(tree)
         for each in attributes:
-            text = _text_of(tree, each, continuous) if each.continuous else tree.get(each.name)
+            text = _text_of(tree, each, continuous)
             if text is not None:
                 values[each.field] = self._read(tree, each, text)
             elif each.required:
@@ -253,7 +253,7 @@ def _text_of(tree: Tree, attribute: Attribute, continuous: bool) -> str | None:
     for name in attribute.spellings:
         if (text := tree.get(name)) is not None:
             return text
-    return tree.get(attribute.name) if continuous else None
+    return tree.get(attribute.name) if continuous and attribute.continuous else None
 
 
 def _behaviors_in(block: Tree) -> Iterator[Tree]:

@@ -25,9 +25,13 @@ from reactive_realizer.bml.behaviors import (
 )
 from reactive_realizer.bml.extensions import (
     Activate,
+    AudioFile,
     Controller,
     Emit,
+    FaceFap,
+    FaceKeyframe,
     FaceMorph,
+    FacePlutchik,
     Interrupt,
     Keyframe,
     Noise,
@@ -57,8 +61,8 @@ class Element:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The names of its attributes other than sync points."""
-        return tuple(each.name for each in self.attributes)
+        """The names of its attributes other than sync points, synonyms included."""
+        return tuple(name for each in self.attributes for name in each.spellings)
 
     @property
     def continuous(self) -> bool:
@@ -120,6 +124,10 @@ _BEHAVIORS = (
     Transition,
     Controller,
     FaceMorph,
+    AudioFile,
+    FaceFap,
+    FacePlutchik,
+    FaceKeyframe,
 )
 
 ELEMENTS: Mapping[str, Element] = MappingProxyType({each.name: each for each in map(_element, _BEHAVIORS)})

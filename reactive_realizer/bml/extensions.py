@@ -3,7 +3,7 @@
 Those of continuous interaction act on other blocks and behaviors (thesis 6.6 and app. C); BMLA and BMLT write them
 alike. `Emit` is an addition of this realizer. Those of BMLT alone play motion as it was made: animations, captures,
 noise, transitions (app. C). Beside their start and end, these may have sync points that only their file defines, such
-as the beats of a conducting pattern.
+as the beats of a conducting pattern. `AudioFile` plays a sound.
 """
 
 from collections.abc import Mapping
@@ -16,9 +16,12 @@ from reactive_realizer.bml.attributes import attribute
 from reactive_realizer.bml.behavior import Behavior, SyncPoints
 from reactive_realizer.bml.names import BMLA, BMLT
 from reactive_realizer.bml.sync_ref import SyncRef
-from reactive_realizer.bml.vocabulary import InterruptSpeech, Mode
+from reactive_realizer.bml.vocabulary import FacePart, InterruptSpeech, Mode
 
 _START_AND_END: SyncPoints = ("start", "end")
+_FACE_POINTS: SyncPoints = ("start", "attackPeak", "relax", "end")
+_MOST_FAPU = 100_000.0
+"""Largest value of a facial animation parameter."""
 
 
 # --- continuous interaction
@@ -217,10 +220,64 @@ class FaceMorph(Behavior):
     """
 
     NAMESPACE = BMLT
-    SYNC_POINTS: ClassVar[SyncPoints] = ("start", "attackPeak", "relax", "end")
+    SYNC_POINTS: ClassVar[SyncPoints] = _FACE_POINTS
 
     targetname: str = field(metadata=attribute(Text()))
-    intensity: float = field(metadata=attribute(Float(0, 1)))
+    intensity: float = field(default=1.0, metadata=attribute(Float(0, 1)))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FaceFap(Behavior):
+    """Facial animation parameters of MPEG-4 (thesis 8.8, which leaves their syntax open).
+
+    Attributes:
+        fap: numbers or names of one or more parameters, such as ``12 raise_r_cornerlip``.
+        value: displacement of the feature point of each of them, in the unit of the parameter (FAPU).
+    """
+
+    NAMESPACE = BMLT
+    SYNC_POINTS: ClassVar[SyncPoints] = _FACE_POINTS
+
+    fap: str = field(metadata=attribute(Text()))
+    value: float = field(metadata=attribute(Float(-_MOST_FAPU, _MOST_FAPU)))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FacePlutchik(Behavior):
+    """An emotion on Plutchik's wheel (thesis 8.8, which leaves its syntax open).
+
+    Attributes:
+        angle: on the wheel, degrees.
+        activation: 0 for none to 7.
+        intensity: factor of the activation, 0 to 1.
+    """
+
+    NAMESPACE = BMLT
+    SYNC_POINTS: ClassVar[SyncPoints] = _FACE_POINTS
+
+    angle: float = field(metadata=attribute(Float(0, 360)))
+    activation: float = field(metadata=attribute(Float(0, 7)))
+    intensity: float = field(default=1.0, metadata=attribute(Float(0, 1)))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FaceKeyframe(Behavior):
+    """Plays a keyframe animation of the face, as AsapRealizer writes it.
+
+    Attributes:
+        animation: name of its file, without suffix.
+        type: what its parts are.
+        interpolator: a ``FaceInterpolator`` written inside the behavior, as XML; played instead of a file.
+    """
+
+    NAMESPACE = BMLT
+    CHILDREN: ClassVar = ("FaceInterpolator",)
+    SYNC_POINTS = _START_AND_END
+    OPEN_POINTS = True
+
+    animation: str | None = field(default=None, metadata=attribute(Text(), "name"))
+    type: FacePart = field(default=FacePart.MORPH, metadata=attribute(Enumeration(FacePart)))
+    interpolator: str | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -243,6 +300,26 @@ MOTIONS: Final[frozenset[type[Behavior]]] = frozenset(
     {ProcAnimation, ProcAnimationGesture, Keyframe, Noise, Transition, Controller}
 )
 """The behaviors that move joints, each in its own way."""
+
+FACES: Final[frozenset[type[Behavior]]] = frozenset({FaceMorph, FaceFap, FacePlutchik, FaceKeyframe})
+"""The behaviors that move the face, each in its own way."""
+
+
+# --- sound
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AudioFile(Behavior):
+    """Plays a sound file (C.1.3).
+
+    Attributes:
+        file_name: name of the file among the assets. AsapRealizer writes ``fileName``.
+    """
+
+    NAMESPACE = BMLT
+    SYNC_POINTS = _START_AND_END
+
+    file_name: str = field(metadata=attribute(Text(), "filename", synonyms=("fileName",)))
 
 
 # --- in any behavior

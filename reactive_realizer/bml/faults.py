@@ -287,6 +287,39 @@ class UtteranceTooLong(ParsingFault):
     limit: int
 
 
+class TooMuchMarkup(ParsingFault):
+    """A text with more SSML than the limit."""
+
+    code = "too-much-markup"
+    template = "the SSML has more than {limit} elements and properties"
+    limit: int
+
+
+class TooMuchSilence(ParsingFault):
+    """A text with breaks that are too long."""
+
+    code = "too-much-silence"
+    template = "the breaks last more than {limit} s in all"
+    compared = ("limit",)
+    limit: float
+
+
+class MissingMarks(ParsingFault):
+    """SSML without sync points that its speech has."""
+
+    code = "missing-marks"
+    template = "the SSML needs a <mark> for each <sync> of the text; these are missing: {marks}"
+    marks: tuple[str, ...]
+
+
+class OtherMarkup(ParsingFault):
+    """A description of a speech in a language that no voice here understands."""
+
+    code = "other-markup"
+    template = "a description in {language} cannot be spoken; the next one, or the text, is"
+    language: str
+
+
 class EventTooLong(ParsingFault):
     """An event with a content over the limit."""
 
@@ -332,6 +365,16 @@ class UnknownReference(SchedulingFault):
     unknown = "behavior"
     reference: str
     behavior: str
+    known: tuple[str, ...]
+
+
+class UnknownMark(ParsingFault):
+    """A description of a speech that times a sync point which the speech does not have."""
+
+    code = "unknown-mark"
+    template = "the speech has no inline sync point '{mark}'; it has {known}"
+    unknown = "mark"
+    mark: str
     known: tuple[str, ...]
 
 

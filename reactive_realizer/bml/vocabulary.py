@@ -43,10 +43,11 @@ class OffsetDirection(StrEnum):
 
 
 class InterruptSpeech(StrEnum):
-    """The point at which an interrupted speech ends: immediately, or before its next word."""
+    """The point at which an interrupted speech ends: immediately, or before its next word or clause."""
 
     NOW = "now"
     WORD = "word"
+    CLAUSE = "clause"
 
 
 class Side(StrEnum):
@@ -77,3 +78,11 @@ class PosePart(StrEnum):
     RIGHT_LEG = "RIGHT_LEG"
     HEAD = "HEAD"
     WHOLEBODY = "WHOLEBODY"
+
+
+class FacePart(StrEnum):
+    """What a keyframe animation of the face moves: morph targets, action units, or facial animation parameters."""
+
+    MORPH = "MORPH"
+    FACS = "FACS"
+    FAPS = "FAPS"

@@ -5,6 +5,7 @@ from pathlib import Path
 
 from reactive_realizer.assembly.assets import PACKAGE_ASSETS
 from reactive_realizer.cli import serve
+from reactive_realizer.engines.speech.kokoro import voice as kokoro
 
 PERFORMANCES = {file.stem: file for file in sorted((PACKAGE_ASSETS / "demo").glob("*.xml"))}
 """The file of each performance by its name."""
@@ -13,8 +14,10 @@ _FIRST = "greeting"
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
-    """Give a parser the options of ``demo``: a performance, and those of ``serve``."""
+    """Give a parser the options of ``demo``: those of ``serve``, with another default voice, and a performance."""
     serve.add_options(parser)
+    if kokoro.installed():
+        parser.set_defaults(voice="kokoro")
     names = ", ".join(PERFORMANCES)
     parser.add_argument(
         "performance", nargs="?", type=performance, default=_FIRST, help=f"one of {names} (default: {_FIRST})"

@@ -19,6 +19,7 @@ from reactive_realizer.cli.output import Explainer, FeedbackWriter, FrameRecorde
 from reactive_realizer.cli.scene_options import add_scene_options, scene_options
 from reactive_realizer.clock.clock import ManualClock, SystemClock
 from reactive_realizer.clock.units import GlobalTime, is_due
+from reactive_realizer.embodiment.sound_track import SoundTrack
 from reactive_realizer.errors import Fault
 from reactive_realizer.realizer.inputs import BmlText
 from reactive_realizer.realizer.realizer import Realizer
@@ -59,7 +60,7 @@ def input_file(text: str) -> InputFile:
 
 
 _UNTIL = 600.0
-_WITH_REPLAY = ("replay", "feedback", "frames", "explain", "verbose", "log_format", "run")
+_WITH_REPLAY = ("replay", "feedback", "frames", "audio", "explain", "verbose", "log_format", "run")
 """The options that ``--replay`` allows; all others are in the recording."""
 
 
@@ -95,6 +96,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def _add_output_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--feedback", metavar="FILE|-", help="write the feedback, JSON lines; - is stdout")
     parser.add_argument("--frames", type=Path, metavar="FILE.npz", help="write all poses, a NumPy archive")
+    parser.add_argument("--audio", type=Path, metavar="FILE.wav", help="write the sound of all characters, 48 kHz")
     parser.add_argument("--explain", type=Path, metavar="FILE", help="write why each sync point has its time, JSON")
 
 
@@ -103,7 +105,7 @@ def run(parser: argparse.ArgumentParser, options: argparse.Namespace) -> int:
     _check_combination(parser, options)
     inputs = [options.replay] if options.replay else [*(entry.path for entry in options.items), options.human]
     missing = [str(path) for path in inputs if not path.is_file()]
-    outputs = [Path(name) for name in (options.feedback, options.frames, options.explain) if name]
+    outputs = [Path(name) for name in (options.feedback, options.frames, options.audio, options.explain) if name]
     missing += [str(output.parent) for output in outputs if not output.parent.is_dir()]
     if missing:
         print(f"no such file: {', '.join(missing)}", file=sys.stderr)
@@ -160,14 +162,19 @@ def _written(options: argparse.Namespace, realizer: Realizer) -> Iterator[None]:
     """Writes the output of the session to the files of the options."""
     recorder = FrameRecorder()
     explainer = Explainer(realizer) if options.explain else None
+    track = SoundTrack()
     if options.frames:
         realizer.watch(recorder)
+    if options.audio:
+        realizer.hear(track.take)
     with _feedback(options.feedback) as stream:
         if stream is not None:
             realizer.feedback.listen(FeedbackWriter(stream))
         yield
     if options.frames:
         recorder.write(options.frames, realizer)
+    if options.audio:
+        track.write(options.audio, realizer.time)
     if explainer is not None:
         explainer.write(options.explain)
 

@@ -29,6 +29,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     token.add_argument("--token-file", type=Path, metavar="FILE", help="a file that contains the token")
     parser.add_argument("--allow-origin", action="append", default=[], metavar="O", help="accept pages of this origin")
     add_scene_options(parser)
+    parser.add_argument(
+        "--sound-device", nargs="?", const="", metavar="NAME", help="play sounds on this machine, without a page"
+    )
     parser.add_argument("--record", type=Path, metavar="FILE", help="record the session for realize --replay")
     parser.add_argument(
         "--record-size",
@@ -87,6 +90,7 @@ def _server_options(options: argparse.Namespace) -> ServerOptions:
         origins=tuple(options.allow_origin),
         scene=scene_options(options),
         performance=options.performance.read_text(encoding="utf-8") if options.performance else None,
+        sound_device=options.sound_device,
         record=options.record,
         record_bytes=options.record_size * _MEGABYTE,
     )

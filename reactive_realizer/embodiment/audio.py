@@ -1,17 +1,75 @@
-"""Audio clips that start at a time, and changes to them."""
+"""Sounds, audio clips that start at a time, and changes to them."""
 
-from dataclasses import dataclass
+import io
+import wave
+from dataclasses import dataclass, replace
+from typing import Self
 
 from reactive_realizer.clock.units import GlobalTime, Time
+
+_SAMPLE_BYTES = 2
+
+
+@dataclass(frozen=True, slots=True, weakref_slot=True)
+class Sound:
+    """A sound, as a WAV file in memory, which is empty for silence; ``duration`` is in s."""
+
+    wav: bytes
+    duration: float
+
+    @classmethod
+    def from_pcm(cls, pcm: bytes, sample_rate: int, channels: int = 1) -> Self:
+        """A sound of some samples.
+
+        Args:
+            pcm: int16, little-endian; in stereo, left and right alternate.
+            sample_rate: Hz.
+            channels: 1 for mono, 2 for stereo.
+        """
+        file = io.BytesIO()
+        with wave.open(file, "wb") as sound:
+            sound.setnchannels(channels)
+            sound.setsampwidth(_SAMPLE_BYTES)
+            sound.setframerate(sample_rate)
+            sound.writeframes(pcm)
+        return cls(file.getvalue(), len(pcm) / (_SAMPLE_BYTES * channels * sample_rate))
+
+    def pcm(self, start: float, end: float) -> bytes:
+        """The samples between two times, s, as far as there are any: int16, little-endian."""
+        if not self.wav:
+            return b""
+        with wave.open(io.BytesIO(self.wav)) as sound:
+            rate, number = sound.getframerate(), sound.getnframes()
+            first, last = (min(max(0, round(time * rate)), number) for time in (start, end))
+            sound.setpos(first)
+            return bytes(sound.readframes(max(0, last - first)))
+
+
+@dataclass(frozen=True, slots=True)
+class Caption:
+    """The text of a speech, to be read while it is heard.
+
+    Attributes:
+        text: what is spoken.
+        words: of each word in their order, its start, s from the start of the speech, and its place in the text: the
+            index of its first character, and that after its last one.
+    """
+
+    text: str
+    words: tuple[tuple[float, int, int], ...]
+
+    def later(self, seconds: float) -> Self:
+        """The caption with later words, for a sound that begins earlier or within the speech."""
+        return replace(self, words=tuple((begin + seconds, first, last) for begin, first, last in self.words))
 
 
 @dataclass(frozen=True, slots=True)
 class AudioClip:
-    """A sound, as a WAV file in memory; ``duration`` is in s."""
+    """A sound that clients know by its id, with the caption of a speech."""
 
     id: str
-    wav: bytes
-    duration: float
+    sound: Sound
+    caption: Caption | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,7 +4,7 @@ import json
 import math
 import struct
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +17,7 @@ from reactive_realizer.embodiment.mixamo import JOINTS, alignment
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, conjugate, multiply, rotate
 from reactive_realizer.embodiment.vector import ZERO, Vec3, add, length
 from reactive_realizer.errors import Fault, RealizerError
+from reactive_realizer.file_cache import remembered
 
 _HEADER = struct.Struct("<4sII")
 _CHUNK = struct.Struct("<I4s")
@@ -52,6 +53,9 @@ def read_glb(path: Path) -> dict[str, Any]:
         raise RealizerError(BadAvatar(file=path.name, reason="its JSON chunk is not an object"))
     return scene
 
+
+SKIN_COLORS = ("skinBlush", "skinPallor")
+"""Weights that color the skin, beside those of morph targets."""
 
 _UNITS: tuple[Quat, ...] = ((1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0), (0.0, 0.0, 1.0, 0.0), (0.0, 0.0, 0.0, 1.0))
 _NEEDED = (ROOT, "skullbase", "l_shoulder", "l_elbow", "l_wrist", "r_shoulder", "r_elbow", "r_wrist")
@@ -90,8 +94,10 @@ class Avatar:
 
     Attributes:
         bones: of its skin, in the order of the skin's joints (glTF `skin.joints`), (B,).
-        morphs: names of the face's morph targets, in the order of the file.
+        morphs: names of the weights of its face: its morph targets in the order of the file, then the colors of its
+            skin.
         skeleton: in the H-Anim default pose, J joints; bones without an H-Anim joint are left out.
+        path: of its file; None if it was not read from one.
     """
 
     bones: tuple[Bone, ...]
@@ -100,9 +106,11 @@ class Avatar:
     _bone_of_joint: NDArray[np.intp]
     _to_bones: NDArray[np.float64]
     _at_rest: NDArray[np.float64]
+    path: Path | None = None
 
-    @classmethod
-    def read(cls, path: Path) -> "Avatar":
+    @staticmethod
+    @remembered
+    def read(path: Path) -> "Avatar":
         """Read the avatar of a GLB file.
 
         Raises:
@@ -110,12 +118,12 @@ class Avatar:
         """
         scene = read_glb(path)
         try:
-            bones, morphs = tuple(_bones(scene, path.name)), _morphs(scene)
+            bones, morphs = tuple(_bones(scene, path.name)), (*_morphs(scene), *SKIN_COLORS)
         except (LookupError, TypeError, ValueError, AttributeError) as problem:
             raise RealizerError(BadAvatar(file=path.name, reason=f"unusable skin or mesh ({problem!r})")) from problem
         if any(_is_in_a_circle(bones, index) for index in range(len(bones))):
             raise RealizerError(BadAvatar(file=path.name, reason="a bone is its own ancestor"))
-        return cls.of_bones(bones, morphs, path.name)
+        return replace(Avatar.of_bones(bones, morphs, path.name), path=path)
 
     @classmethod
     def of_bones(cls, bones: Sequence[Bone], morphs: Sequence[str], file: str) -> "Avatar":
@@ -149,6 +157,17 @@ class Avatar:
             np.array([_sandwich(conjugate(turn), alignment(joint)) for turn, joint in zip(above, names, strict=True)]),
             np.array([IDENTITY for _ in bones]),
         )
+
+    def rest_position(self, joint: str) -> Vec3 | None:
+        """Return the position of a joint in the T-pose, in the figure's frame, m; None if it has no such joint."""
+        index = next((i for i, bone in enumerate(self.bones) if JOINTS.get(bone.name) == joint), -1)
+        if index < 0:
+            return None
+        position = ZERO
+        while index >= 0:
+            position = add(self.bones[index].translation, position)
+            index = self.bones[index].parent
+        return position
 
     def bone_rotations(self, rotations: NDArray[np.float64]) -> NDArray[np.float64]:
         """Convert a pose to the avatar's own bones.

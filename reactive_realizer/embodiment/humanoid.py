@@ -1,6 +1,7 @@
 """A visible character: its avatar, its position in the world, and its current pose."""
 
 from collections.abc import Callable, Iterable, Mapping
+from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
@@ -11,6 +12,7 @@ from reactive_realizer.embodiment.avatar import Avatar
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.frame import Frame, rotation_array
 from reactive_realizer.embodiment.joints import EYES, LEFT_ARM, RIGHT_ARM, ROOT
+from reactive_realizer.embodiment.lids import with_lids
 from reactive_realizer.embodiment.pose import ComposedBody, Layer, compose
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, conjugate, from_axis_angle, multiply, rotate
 from reactive_realizer.embodiment.speed_limit import SpeedLimit, slowed
@@ -22,11 +24,13 @@ class EyePose(NamedTuple):
 
     Attributes:
         turns: eye joint -> rotation in the head.
-        lids: morph weights around the eyes, which are added to the face.
+        lids: morph weights by which the lids follow the eyes, which are added to the face.
+        blink: weights of eyeBlinkLeft and eyeBlinkRight of a blink, 0 to 1.
     """
 
     turns: Mapping[str, Quat]
     lids: Mapping[str, float]
+    blink: Mapping[str, float] = MappingProxyType({})
 
 
 Eyes = Callable[[Body], EyePose]
@@ -120,12 +124,12 @@ class Humanoid:
             faces: weights of morphs, which add up.
         """
         body = self._shown
-        turns, lids = ({}, {}) if eyes is None else eyes(body)
+        turns, lids, blink = EyePose({}, {}) if eyes is None else eyes(body)
         looking = {**{eye: body.rotation(eye) for eye in EYES if eye in body.skeleton}, **turns}
         if self._before is not None:
             looking = slowed(self._before.pose, looking, self._passed)
         self._shown = body.posed(looking)
-        weights = self._weights((*faces, lids))
+        weights = self._weights(with_lids(_sum(faces), lids, blink))
         return Frame(self._time, self._root(self._shown.root), self._rotations(self._shown.pose), weights)
 
     @property
@@ -177,12 +181,19 @@ class Humanoid:
         root = multiply(self._turn, pose.get(ROOT, IDENTITY))
         return rotation_array(self.avatar.skeleton, {**pose, ROOT: root})
 
-    def _weights(self, faces: Iterable[Mapping[str, float]]) -> NDArray[np.float64]:
+    def _weights(self, face: Mapping[str, float]) -> NDArray[np.float64]:
         weights = np.zeros(len(self._morphs))
-        for face in faces:
-            for morph in face.keys() & self._morphs.keys():
-                weights[self._morphs[morph]] += face[morph]
+        for morph in face.keys() & self._morphs.keys():
+            weights[self._morphs[morph]] = face[morph]
         return weights.clip(0.0, 1.0)
+
+
+def _sum(faces: Iterable[Mapping[str, float]]) -> dict[str, float]:
+    total: dict[str, float] = {}
+    for face in faces:
+        for morph, weight in face.items():
+            total[morph] = total.get(morph, 0.0) + weight
+    return total
 
 
 def _point(body: Body, joint: str | None) -> Vec3:

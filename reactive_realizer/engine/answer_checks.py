@@ -94,6 +94,7 @@ def check_eyes(pose: EyePose) -> EyePose:
     """
     check_rotations(expected(EyePose, pose).turns)
     check_weights(pose.lids)
+    check_weights(pose.blink)
     return pose
 
 

@@ -9,6 +9,7 @@ from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.humanoid import Humanoid
 from reactive_realizer.embodiment.world import World
 from reactive_realizer.engine.tts import TTSBinding
+from reactive_realizer.limits import Limits
 from reactive_realizer.reactive.cell import Source
 from reactive_realizer.reactive.graph import Graph
 
@@ -21,7 +22,7 @@ class LipSyncProvider(Protocol):
     """Visemes over time, from the speech engine; `assembly` gives it to the face engine."""
 
     def mouth(self, time: GlobalTime) -> Mapping[str, float] | None:
-        """Weights (0..1) of ARKit morphs at a time; empty in a pause of an utterance, None without an utterance."""
+        """Weights (0..1) of morph targets at a time; empty in a pause of an utterance, None without an utterance."""
         ...
 
 
@@ -37,12 +38,15 @@ class EngineContext:
         seed: of the random numbers of this character.
         tts: the text-to-speech binding that all characters share.
         voice: name of this character's voice, None for the binding's default.
-        bindings: the character's binding files, by kind; entries of earlier files take precedence.
+        bindings: the character's binding files, by kind, if it has any; entries of earlier files take precedence.
         lip_sync: visemes of this character's speech.
         time: the time of the present tick, s, for cells that change with time.
         trajectories: for changes of parameters, by name.
         functions: pure functions that formulas of animations may call besides the built-in ones, by name.
         idle: whether the character has idle animation.
+        blink_rate: blinks per minute of idle animation; None for the usual rate.
+        limits: on what the engines read.
+        liveliness: how lively it is while it speaks, 0 to 1; None if only a speech may ask for that.
     """
 
     character: str
@@ -58,6 +62,9 @@ class EngineContext:
     trajectories: Mapping[str, TrajectoryFunction] = field(default_factory=dict)
     functions: Mapping[str, Callable[..., float]] = field(default_factory=dict)
     idle: bool = True
+    blink_rate: float | None = None
+    limits: Limits = field(default_factory=Limits)
+    liveliness: float | None = None
 
     @property
     def graph(self) -> Graph:

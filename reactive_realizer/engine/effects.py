@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from reactive_realizer.bml.extensions import Emit
+from reactive_realizer.bml.vocabulary import InterruptSpeech
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.audio import AudioChange
 from reactive_realizer.embodiment.humanoid import Dynamics, Eyes
@@ -68,7 +69,7 @@ class InterruptBlock:
         target: id of the block.
         include: ids of the behaviors to interrupt; all if empty.
         exclude: ids of the behaviors that continue.
-        gently: whether a speech may finish its word.
+        speech: the point at which a speech ends.
         time: s, global.
     """
 
@@ -76,7 +77,7 @@ class InterruptBlock:
     target: str
     include: tuple[str, ...]
     exclude: tuple[str, ...]
-    gently: bool
+    speech: InterruptSpeech
     time: GlobalTime
 
 

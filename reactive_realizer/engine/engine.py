@@ -1,6 +1,7 @@
 """The interface of a modality (thesis 8.6), and a default implementation."""
 
-from collections.abc import Awaitable, Callable, Collection, Mapping
+from collections.abc import AsyncIterator, Awaitable, Callable, Collection, Mapping
+from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Protocol
 
@@ -17,6 +18,23 @@ from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.parameter import Range
 from reactive_realizer.planunit.plan_unit import PlanUnit
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """What slow work has done so far.
+
+    Attributes:
+        result: of all parts up to this one.
+        last: whether no other one follows.
+    """
+
+    result: object
+    last: bool
+
+
+SlowWork = Awaitable[object] | AsyncIterator[Part]
+"""Work outside of the event loop, which gives its result at once or in parts."""
 
 
 class Engine(Protocol):
@@ -72,8 +90,18 @@ class Engine(Protocol):
         """
         ...
 
-    def prepare(self, behavior: Behavior) -> Awaitable[object] | None:
-        """Slow work to be done before planning, outside of the event loop; None if there is none."""
+    def prepare(self, behavior: Behavior) -> SlowWork | None:
+        """Slow work to be done before planning; None if there is none.
+
+        Of work in parts, planning waits only for the first one; the result of each other one is given to `extend`.
+        """
+        ...
+
+    def extend(self, unit: PlanUnit, prepared: object, now: GlobalTime) -> None:
+        """Have a unit that waits or plays take a later result of its slow work.
+
+        It may get another timing, with the same points and phases of the same kind; what has begun does not change.
+        """
         ...
 
     def plan(self, block: BlockKey, behavior: Behavior, prepared: object) -> PlanUnit:
@@ -151,9 +179,12 @@ class DefaultEngine:
         """Nothing is known about a behavior before it is planned."""
         return None
 
-    def prepare(self, behavior: Behavior) -> Awaitable[object] | None:
+    def prepare(self, behavior: Behavior) -> SlowWork | None:
         """No slow work."""
         return None
+
+    def extend(self, unit: PlanUnit, prepared: object, now: GlobalTime) -> None:
+        """Do nothing: its slow work is done when a unit is planned."""
 
     def add(self, unit: PlanUnit) -> None:
         """Take a unit into the plan."""

@@ -2,7 +2,7 @@
 
 import logging
 from asyncio import CancelledError
-from collections.abc import Awaitable, Callable, Collection
+from collections.abc import AsyncIterator, Awaitable, Callable, Collection
 from dataclasses import replace
 from typing import Final, TypeVar
 
@@ -23,7 +23,7 @@ from reactive_realizer.engine.answer_checks import (
     number,
 )
 from reactive_realizer.engine.effects import Dropped, Output, Play
-from reactive_realizer.engine.engine import Engine
+from reactive_realizer.engine.engine import Engine, SlowWork
 from reactive_realizer.engine.faults import EngineFailed
 from reactive_realizer.engine.hearing import Drift, HearingEngine
 from reactive_realizer.errors import Fault, RealizerError
@@ -79,14 +79,18 @@ class GuardedEngine:
         points = _called(lambda: self.engine.check(behavior))
         return None if points is None else [expected(str, point) for point in expected(Collection, points)]
 
-    def prepare(self, behavior: Behavior) -> Awaitable[object] | None:
+    def prepare(self, behavior: Behavior) -> SlowWork | None:
         """Slow work to be done before planning.
 
         Raises:
             Exception: as the engine does, or because it returns something else.
         """
         work = _called(lambda: self.engine.prepare(behavior))
-        return None if work is None else expected(Awaitable, work)
+        return None if work is None else expected((Awaitable, AsyncIterator), work)
+
+    def extend(self, unit: PlanUnit, prepared: object, now: GlobalTime) -> None:
+        """Have a unit take a later result of its slow work."""
+        self._try(lambda: self.engine.extend(unit, prepared, now), None)
 
     def plan(self, block: BlockKey, behavior: Behavior, prepared: object) -> PlanUnit:
         """A unit for the behavior.

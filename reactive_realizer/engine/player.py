@@ -134,11 +134,14 @@ class Player:
         return dropped
 
     def _due(self, now: GlobalTime) -> tuple[list[PlanUnit], list[PlanUnit]]:
-        """The playing units with due points, and those that begin: by start, then by id, so the order is unique."""
+        """The playing units with due points, and those that begin, in a unique order.
+
+        They begin by start and then by id; those that accompany others come last.
+        """
         due = dict.fromkeys(self._agenda.take_due(now))
         if not due:
             return [], []
-        starting = sorted((unit for unit in due if unit.due(now)), key=lambda u: (u.points[0].peg.value, u.behavior.id))
+        starting = sorted((unit for unit in due if unit.due(now)), key=_rank)
         return [unit for unit in self.playing if unit in due], starting
 
     def _held(self, unit: PlanUnit, owners: Owners, now: GlobalTime, previous: GlobalTime) -> bool:
@@ -150,7 +153,7 @@ class Player:
             self._drop(unit, fault, now)
             return True
         begin = now if is_due(start, previous) else start  # a unit that joins late begins now
-        unit.settle(owners.kept(begin))
+        unit.settle(owners.kept_from(unit, begin))
         staying, leaving = owners.excluded_by(unit, begin)
         if staying:
             self._drop(unit, _taken(unit, staying[0]), now)
@@ -203,6 +206,11 @@ def height(unit: PlanUnit) -> tuple[float, float]:
     """Sort key for the height of a unit among others: the uppermost unit has the greatest."""
     start, end = unit.start_and_end
     return (inf if start is None else start, -inf if end is None else -end)
+
+
+def _rank(unit: PlanUnit) -> tuple[Time, bool, str]:
+    """Sort key for units that begin in one tick."""
+    return unit.points[0].peg.value, unit.accompanies, unit.behavior.id
 
 
 def _taken(unit: PlanUnit, owner: PlanUnit) -> Fault:

@@ -1,16 +1,21 @@
 """Utterances, and the interface of text-to-speech systems (thesis 8.10, TTSBinding)."""
 
 import re
-from collections.abc import Awaitable, Mapping
+from collections.abc import AsyncIterator, Mapping
 from dataclasses import dataclass
-from typing import Final, Protocol
+from itertools import pairwise
+from math import inf
+from typing import Final, Protocol, runtime_checkable
 
+from reactive_realizer.bml.markup import Markup
 from reactive_realizer.clock.units import RESOLUTION
 
 _BETWEEN_SPACES: Final = re.compile(r"[^\s\u2013\u2014]+")
 """The text between white space, en dashes and em dashes."""
 _PUNCTUATION: Final = ".,;:!?\u2026\"'()[]{}\u00ab\u00bb\u201c\u201d\u201e\u2018\u2019\u00a1\u00bf"
 """Characters around a word that are not part of it: stops, quotation marks, brackets."""
+_CLAUSE_ENDS: Final = frozenset(".,;:!?\u2026\u2013\u2014\n")
+"""Characters between two words that end a clause: stops, dashes and line breaks."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,14 +54,20 @@ class Phoneme:
 class Utterance:
     """A text as one voice speaks it; times and audio come from the same run.
 
+    While it is being made, it is complete up to a time, and estimated from there on: all words and marks have times.
+
     Attributes:
         text: what is spoken.
         duration: s.
         words: in the order of the text.
         marks: time of each requested mark, s from the start of the utterance.
         phonemes: in the order of time; empty if the voice provides none.
-        audio: mono PCM, int16 little-endian; empty if the voice makes no sound.
+        audio: of what is made, from the start: mono PCM, int16 little-endian; empty if the voice makes no sound.
         sample_rate: of the audio, Hz.
+        made: up to when it is made, s from the start of the utterance. Times before that are final.
+        left_out: the markup that the voice cannot follow.
+        unread: the scripts in the text whose letters the voice does not read, but spells or skips.
+        stretch: how much shorter and longer its parts may become, as factors; None for a sound, which cannot change.
     """
 
     text: str
@@ -66,6 +77,15 @@ class Utterance:
     phonemes: tuple[Phoneme, ...] = ()
     audio: bytes = b""
     sample_rate: int = 22_050
+    made: float = inf
+    left_out: tuple[Markup, ...] = ()
+    unread: tuple[str, ...] = ()
+    stretch: tuple[float, float] | None = None
+
+    @property
+    def complete(self) -> bool:
+        """Whether all of it is made."""
+        return self.made >= self.duration - RESOLUTION
 
     def words_begun(self, time: float) -> tuple[Word, ...]:
         """The words that have begun before a time, s from the start of the utterance."""
@@ -75,9 +95,32 @@ class Utterance:
         """The start of the first word at or after a time, s; the duration if there is none."""
         return next((word.start for word in self.words if word.start >= time - RESOLUTION), self.duration)
 
+    def next_clause(self, time: float) -> float:
+        """The start of the first word at or after a time that follows punctuation, s; the duration if there is none."""
+        for before, word in pairwise(self.words):
+            between = self.text[before.last : word.first]
+            if word.start >= time - RESOLUTION and not _CLAUSE_ENDS.isdisjoint(between):
+                return word.start
+        return self.duration
+
     def time_of_character(self, index: int) -> float:
         """The start of the word at or after a character, s; the duration if no word follows."""
         return next((word.start for word in self.words if index < word.last), self.duration)
+
+
+async def completed(spoken: Utterance | AsyncIterator[Utterance]) -> Utterance:
+    """The complete utterance from an answer of `TTSBinding.synthesize`.
+
+    Raises:
+        RealizerError: the synthesis failed.
+        ValueError: the iterator gives nothing.
+    """
+    if isinstance(spoken, Utterance):
+        return spoken
+    parts = [part async for part in spoken]
+    if not parts:
+        raise ValueError("the voice says nothing")
+    return parts[-1]
 
 
 def word_spans(text: str) -> tuple[tuple[int, int], ...]:
@@ -118,11 +161,13 @@ class TTSBinding(Protocol):
 
     def synthesize(
         self, text: str, marks: tuple[tuple[str, int], ...], voice: str | None
-    ) -> Utterance | Awaitable[Utterance]:
+    ) -> Utterance | AsyncIterator[Utterance]:
         """Speaks a text.
 
-        A slow system returns an awaitable, and works outside of the thread of the event loop. With a fast one, a speech
-        can start in the tick in which it is planned.
+        With a fast system, a speech can start in the tick in which it is planned. A slow one works outside of the
+        thread of the event loop, and returns an iterator, usually an async generator: it gives the utterance as it is
+        known so far, each time that more of it is made, and at last the complete one. What was made does not change. An
+        iterator of which an item is canceled is not continued.
 
         Args:
             text: plain text, no markup.
@@ -131,5 +176,26 @@ class TTSBinding(Protocol):
 
         Raises:
             RealizerError: the voice is unknown or the synthesis failed; the next call is not affected.
+        """
+        ...
+
+
+@runtime_checkable
+class MarkupTTSBinding(TTSBinding, Protocol):
+    """A text-to-speech system that follows markup, such as that of SSML."""
+
+    def synthesize_markup(
+        self, text: str, marks: tuple[tuple[str, int], ...], voice: str | None, markup: tuple[Markup, ...]
+    ) -> Utterance | AsyncIterator[Utterance]:
+        """Speaks a text with markup; see `TTSBinding.synthesize`.
+
+        Args:
+            text: plain text.
+            marks: (name, index into the text) of each mark.
+            voice: one of its names; None for its default.
+            markup: of the text, outer parts first. What the voice cannot follow is in ``left_out`` of the utterance.
+
+        Raises:
+            RealizerError: as `TTSBinding.synthesize`.
         """
         ...

@@ -8,7 +8,6 @@ from collections.abc import Callable
 
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.extensions import Activate, Interrupt
-from reactive_realizer.bml.vocabulary import InterruptSpeech
 from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.engine.context import EngineContext
@@ -98,10 +97,9 @@ class InterruptEngine(RequestEngine):
         """A unit that interrupts its target."""
         if not isinstance(behavior, Interrupt):
             raise TypeError(behavior)
-        gently = behavior.speech is InterruptSpeech.WORD
-        target, include, exclude = behavior.target, behavior.include, behavior.exclude
+        target, include, exclude, speech = behavior.target, behavior.include, behavior.exclude, behavior.speech
 
         def request(unit: PlanUnit, time: GlobalTime) -> InterruptBlock:
-            return InterruptBlock(unit, target, include, exclude, gently, time)
+            return InterruptBlock(unit, target, include, exclude, speech, time)
 
         return RequestUnit(block, behavior, request)

@@ -142,12 +142,21 @@ class PegBoard:
             peg = self.predicted(anticipator, sync)
         return peg
 
-    def first_since(self, anticipator: str, sync: str, time: GlobalTime) -> AnticipatorPeg:
-        """The peg of the last occurrence of a predicted point, unless that was before a time; else of the next one."""
-        last = self._last.get(anticipator_key(anticipator, sync))
-        if last is None or last.value is None or has_passed(last.value, time):
-            return self.upcoming(anticipator, sync)
-        return last
+    def first_since(self, anticipator: str, sync: str, time: GlobalTime, *, at_it: bool) -> AnticipatorPeg:
+        """The peg of the first of the last two occurrences of a predicted point that came since a time, or of the next.
+
+        Args:
+            anticipator: id of the anticipator.
+            sync: id of the point.
+            time: not after the present tick, s.
+            at_it: whether an occurrence at that time counts.
+        """
+        for peg in (self._last.get(anticipator_key(anticipator, sync)), self.predicted(anticipator, sync)):
+            if peg is None or not is_due(peg.value, self.time):
+                continue
+            if not (has_passed(peg.value, time) if at_it else is_due(peg.value, time)):
+                return peg
+        return self.upcoming(anticipator, sync)
 
     def renew(self, anticipator: str, sync: str) -> None:
         """Make a predicted point mean its next occurrence; pegs that depend on it already keep this one."""

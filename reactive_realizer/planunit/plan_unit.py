@@ -5,14 +5,17 @@ import logging
 from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
+from functools import cached_property
 from math import inf
 from typing import NamedTuple
 
 from reactive_realizer.bml.behavior import Behavior
+from reactive_realizer.bml.vocabulary import InterruptSpeech
 from reactive_realizer.clock.units import RESOLUTION, GlobalTime, Time, is_due
 from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.peg_key import BlockKey, PegKey
 from reactive_realizer.pegboard.time_peg import OpenPeg, TimePeg
+from reactive_realizer.planunit.body_parts import BodyPart, parts_of
 from reactive_realizer.planunit.pace import Pace
 from reactive_realizer.planunit.parameter import Parameter
 from reactive_realizer.planunit.timing import OPEN, SHORTEST, Overtaken, Timing, TooShort
@@ -108,9 +111,11 @@ class PlanUnit:
         timing: the timing that it prefers; the strategy decides.
         resources: the parts of the body that it owns while it plays; units that share one exclude each other.
         group: its replacement group (thesis 8.7.5), None without one.
+        accompanies: whether it gives way to every unit that does not accompany and moves the same parts of the body.
         yields: whether units of its group that start later replace it until they end. A unit that is replaced keeps its
             points and their feedback.
         points: its sync points in order; empty until the plan is committed.
+        unreported: ids of the points that feedback leaves out: nobody asked for them.
         open: pegs of the points that are unknown until it is ended, if it is persistent.
         parameters: those that may be changed while it plays, by name.
         wake: called when its pegs or its state have changed outside of its engine; its player sets it.
@@ -126,8 +131,10 @@ class PlanUnit:
         self.timing = timing
         self.resources = resources
         self.group: str | None = None
+        self.accompanies = False
         self.yields = False
         self.points: list[SyncPoint] = []
+        self.unreported: frozenset[str] = frozenset()
         self.open: dict[str, TimePeg] = {}
         self.parameters: dict[str, Parameter] = {}
         self.wake: Callable[[], None] = sleep
@@ -158,8 +165,20 @@ class PlanUnit:
             taken: the resources that other units own and keep.
         """
 
-    def gentle_end(self, time: GlobalTime) -> GlobalTime:
-        """The first time, not before ``time``, at which it can end without being cut, for example within a word."""
+    def lacks_from(self) -> Time:
+        """While it plays, the time from which on the results of its slow work are missing; None if none are."""
+        return None
+
+    def wait(self, until: GlobalTime) -> None:
+        """Change its timing: what is missing does not come before a time."""
+
+    def gentle_end(self, time: GlobalTime, speech: InterruptSpeech) -> GlobalTime:
+        """The first time, not before ``time``, at which it can end without being cut, for example within a word.
+
+        Args:
+            time: of the interruption, s.
+            speech: what a speech does not end within: a word or a clause.
+        """
         return time
 
     def details(self, sync: str, time: GlobalTime) -> Mapping[str, str]:
@@ -175,6 +194,11 @@ class PlanUnit:
     def key(self, sync: str) -> PegKey:
         """The name of one of its sync points."""
         return PegKey(*self.block, self.behavior.id, sync)
+
+    @cached_property
+    def parts(self) -> frozenset[BodyPart]:
+        """The parts of the body that its behavior moves."""
+        return parts_of(self.behavior)
 
     @property
     def begun(self) -> bool:
@@ -234,6 +258,8 @@ class PlanUnit:
 
     def excludes(self, other: "PlanUnit") -> bool:
         """Whether this unit and another one cannot play at the same time."""
+        if self.accompanies is not other.accompanies:
+            return bool(self.parts & other.parts)
         rivals = self.group is not None and self.group == other.group
         if rivals and (self.yields or other.yields):
             # The upper unit hides the other; if both begin and end together, neither is above.

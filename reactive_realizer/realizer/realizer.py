@@ -23,6 +23,8 @@ from reactive_realizer.errors import RealizerError, TargetFault, WarningType
 from reactive_realizer.feedback.feedback_manager import FeedbackManager
 from reactive_realizer.feedback.messages import WarningFeedback
 from reactive_realizer.limits import Limits
+from reactive_realizer.liveliness.accompanist import Accompanist
+from reactive_realizer.liveliness.word_classes import NO_CLASSES, WordClasses
 from reactive_realizer.pegboard.anticipator import Anticipator, AnticipatorContext
 from reactive_realizer.pegboard.peg_key import ANTICIPATORS
 from reactive_realizer.pegboard.pegboard import PegBoard
@@ -69,6 +71,7 @@ class Realizer:
 
     Args:
         time: the cell of the present tick's time, in the graph of the pegs; parameters of engines depend on it.
+        word_classes: the words with which speakers move.
 
     Attributes:
         feedback: of all blocks, for its listeners.
@@ -87,6 +90,7 @@ class Realizer:
         limits: Limits,
         time: Source[GlobalTime],
         *,
+        word_classes: WordClasses = NO_CLASSES,
         verify: bool = False,
     ) -> None:
         self.limits = limits
@@ -101,6 +105,7 @@ class Realizer:
         self.time = GlobalTime(0.0)
         self._time = time
         self._strategy = strategy
+        self._word_classes = word_classes
         self._verify = verify
         self._engines = {each.id: tuple(map(GuardedEngine, each.engines)) for each in characters}
         self._routing = EngineRouting(self._engines)
@@ -131,6 +136,8 @@ class Realizer:
         self.scheduler = BMLScheduler(
             self.board, self._routing, self.feedback, self._background, self._strategy, self.limits
         )
+        figures = {each.id: each.humanoid for each in self.characters.values()}
+        Accompanist(self.scheduler, figures, self.world, self.limits, self._word_classes)
         self._verifier = Verifier(self.scheduler, self.feedback) if self._verify else None
         return self
 

@@ -19,7 +19,7 @@ async def run_until_done(realizer: Realizer, clock: Clock, until: GlobalTime) ->
         await realizer.step(tick)
         if isinstance(clock, ManualClock):
             await realizer.settle()
-        if tick.time >= until or not (realizer.busy or realizer.scheduler.blocks.alive):
+        if tick.time >= until or not (realizer.busy or realizer.scheduler.blocks.asked_for):
             return
         if not (realizer.busy or realizer.expectant) and realizer.scheduler.stuck(tick.time):
             realizer.scheduler.warn_stuck()

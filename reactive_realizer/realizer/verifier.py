@@ -24,15 +24,16 @@ class Verifier:
     """Checks plans when they are committed and when they move, and reports each violated equation once.
 
     A committed plan is checked as a solution of its own problem, because its points may fire, and external times may
-    change, before the tick is over. On the board, constraints are checked only if no external time has moved;
-    otherwise, `ConstraintMonitor` reports the constraints that can no longer be satisfied.
+    change, before the tick is over. On the board, constraints are checked only if no external time has moved and no
+    behavior has begun, because it takes the time that the body needs from its present posture; otherwise,
+    `ConstraintMonitor` reports the constraints that can no longer be satisfied.
     """
 
     def __init__(self, scheduler: BMLScheduler, feedback: FeedbackManager) -> None:
         self._moves = scheduler.blocks.watch.moves()
         self._feedback = feedback
         self._reported: WeakKeyDictionary[BMLBlock, set[tuple[str, tuple[str, ...]]]] = WeakKeyDictionary()
-        self._outside: WeakKeyDictionary[BMLBlock, list[float | None]] = WeakKeyDictionary()
+        self._given: WeakKeyDictionary[BMLBlock, tuple[object, ...]] = WeakKeyDictionary()
         scheduler.listen_to_plans(self._hold)
 
     def check(self, now: GlobalTime) -> None:
@@ -46,9 +47,9 @@ class Verifier:
 
     def _judge(self, block: BMLBlock, now: GlobalTime) -> None:
         plan = PlanView.of_block(block, now)
-        before, outside = self._outside.get(block), [plan.start, *plan.outer.values()]
-        self._outside[block] = outside
-        self._verify(block, plan if outside == before else replace(plan, settled=frozenset(plan.kept)))
+        before = self._given.get(block)
+        given = self._given[block] = (plan.start, plan.lurking, *plan.outer.values())
+        self._verify(block, plan if given == before else replace(plan, settled=frozenset(plan.kept)))
 
     def _verify(self, block: BMLBlock, plan: PlanView) -> None:
         reported = self._reported.setdefault(block, set())

@@ -37,6 +37,16 @@ class CyclicComposition(SchedulingFault):
     other: str
 
 
+class NothingToAccompany(SchedulingFault):
+    """A block that accompanies one that is not alive."""
+
+    code = "nothing-to-accompany"
+    template = "there is no live block '{block}' to accompany; this block fails"
+    unknown = "block"
+    block: str
+    known: tuple[str, ...] = ()
+
+
 class BlockComposition:
     """The composition attributes of one new block, resolved to blocks that are alive.
 
@@ -46,6 +56,7 @@ class BlockComposition:
         character: of the new block.
         description: the new block as it was sent.
         replaces: whether it ends all blocks of its character.
+        accompanied: the block that it accompanies, if there is one.
         unknown: faults for the names that no block ever had.
     """
 
@@ -54,6 +65,7 @@ class BlockComposition:
         self.description = description
         self.replaces = description.composition is Composition.REPLACE
         self.unknown: list[Fault] = []
+        self.accompanied = blocks.find(character, description.accompanies) if description.accompanies else None
         self._blocks = blocks
         self._interrupted = self._known("interrupt", description.interrupts)
         self._after = self._known("appendAfter", description.append_after)
@@ -83,7 +95,13 @@ class BlockComposition:
         yield from ((later, Predecessor(block, chunk=True)) for later in self._before_chunks)
 
     def fault(self) -> Fault | None:
-        """Why the block cannot be put before another one: that has started, or would have to come first itself."""
+        """Why the block fails at its arrival.
+
+        It cannot be put before another one, which has started, or would have to come first itself; or there is no block
+        that it could accompany.
+        """
+        if self.description.accompanies is not None and self.accompanied is None:
+            return NothingToAccompany(block=self.description.accompanies, known=self._blocks.names(self.character))
         predecessors = self.predecessors
         ended = self.ended
         for block in (each for each in (*self._before, *self._before_chunks) if each not in ended):

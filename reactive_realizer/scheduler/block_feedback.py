@@ -9,7 +9,7 @@ from reactive_realizer.bml.names import BLOCK, Location
 from reactive_realizer.bml.sync_ref import OWN_BLOCK_POINTS
 from reactive_realizer.clock.units import BlockTime, GlobalTime
 from reactive_realizer.engine.effects import Reached
-from reactive_realizer.errors import Fault
+from reactive_realizer.errors import Fault, PlayingFault, SchedulingFault
 from reactive_realizer.feedback.feedback_manager import FeedbackManager, ProgressOrder
 from reactive_realizer.feedback.messages import (
     BlockProgress,
@@ -47,10 +47,10 @@ class BlockFeedback:
         self._feedback.add_progress(message, _order(block, time, *_BLOCK_ORDER[sync]))
 
     def sync_point_reached(self, reached: Reached) -> None:
-        """Report that a behavior reached a sync point."""
+        """Report that a behavior reached a sync point, unless it is one that nobody asked for."""
         unit, time = reached.unit, reached.time
         block = self._blocks.get(unit.block)
-        if block is None or block.start.value is None:
+        if block is None or block.start.value is None or reached.point.id in unit.unreported:
             return
         local = BlockTime(time - block.start.value)
         emitted = reached.emits
@@ -91,11 +91,20 @@ class BlockFeedback:
         self.warn(block.character, id_, fault, element.location)
 
     def warn(self, character: str, id_: str, fault: Fault, location: Location | None = None) -> None:
-        """Warn, if planners are warned of this fault; a block that cannot be read has no known character."""
-        if fault.warning is not None:
+        """Warn, if planners are warned of this fault; a block that cannot be read has no known character.
+
+        That a behavior which accompanies others gives way, or cannot do its part, is no problem of a planner.
+        """
+        gives_way = isinstance(fault, SchedulingFault | PlayingFault) and self._accompanies(character, id_)
+        if fault.warning is not None and not gives_way:
             known = None if id_ == BLOCK else character
             located = fault if location is None else fault.located(location.line, location.column)
             self._feedback.add(WarningFeedback(known, id_, fault.warning, str(located)))
+
+    def _accompanies(self, character: str, id_: str) -> bool:
+        """Whether a block, or the block of a behavior, accompanies another one."""
+        block = self._blocks.get(BlockKey(character, id_.partition(":")[0]))
+        return block is not None and block.accompanied is not None
 
 
 def _order(block: BMLBlock, time: GlobalTime, behavior: float, sync: int) -> ProgressOrder:

@@ -2,6 +2,8 @@
 
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 
+from reactive_realizer.bml.block import ACCOMPANIES
+from reactive_realizer.bml.vocabulary import InterruptSpeech
 from reactive_realizer.clock.units import GlobalTime, is_due
 from reactive_realizer.engine.effects import Reached
 from reactive_realizer.errors import Fault
@@ -17,13 +19,16 @@ from reactive_realizer.scheduler.block_transitions import BlockTransitions
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock, Predecessor
 from reactive_realizer.scheduler.engine_routing import EngineRouting
+from reactive_realizer.scheduler.entry_queue import Entry
 from reactive_realizer.scheduler.faults import ActivatedAlready, NotAwaited, NotPreplanned
 from reactive_realizer.scheduler.planning import Plan, Planning
 from reactive_realizer.scheduler.predictions import Predictions
 from reactive_realizer.scheduler.problem import Precedence, Tie
 from reactive_realizer.scheduler.solution import Loss
 from reactive_realizer.scheduler.tie_release import CutTie, DroppedTie, TieRelease
-from reactive_realizer.scheduler.unit_lifecycle import UnitLifecycle
+from reactive_realizer.scheduler.unit_lifecycle import ScheduledCut, UnitLifecycle
+
+PointListener = Callable[[Sequence[Reached]], None]
 
 
 class BlockLifecycle:
@@ -50,6 +55,12 @@ class BlockLifecycle:
         self._ties = TieRelease(board, blocks, self._units, feedback)
         self._transitions = BlockTransitions(board, routing, blocks, self._ties, feedback, predictions)
         self._arrivals = 0
+        self._point_listeners: list[PointListener] = []
+        self.listen(self._end_accompaniments)
+
+    def listen_to_points(self, listener: PointListener) -> None:
+        """Call ``listener(reached)`` with the points of a tick that are reached together, after they are pinned."""
+        self._point_listeners.append(listener)
 
     def listen(self, listener: Callable[[BMLBlock], None]) -> None:
         """Call ``listener(block)`` when a block has ended, while its points are still on the board."""
@@ -57,36 +68,35 @@ class BlockLifecycle:
 
     # --- arrival and planning
 
-    def accept(self, composition: BlockComposition, client: str, failed: bool, now: GlobalTime) -> None:
+    def accept(self, composition: BlockComposition, entry: Entry, now: GlobalTime) -> None:
         """Make a block, end the blocks that it replaces or interrupts, and have it prepared.
 
         Args:
             composition: of the block, without a fault.
-            client: that sent the block.
-            failed: whether something required could not be read, so that the block ends at once.
+            entry: of the block, which ends at once if something required could not be read.
             now: the time of the tick.
         """
         for other in composition.ended:  # before the new block is among those alive
             self.interrupt(other, now)
         if composition.replaces:
             self._routing.reset(composition.character, now)
-        block = self._new_block(composition, composition.predecessors, client, now)
+        block = self._new_block(composition, composition.predecessors, entry)
         with self._board.graph.transaction(f"put {block.key.block} before others"):
             for later, predecessor in composition.delayed_by(block):
                 later.set_predecessors((*later.predecessors, predecessor))
         for fault in composition.unknown:
             self._feedback.warn(block.key.character, block.key.block, fault)
-        if failed:
+        if entry.parsed.failed:
             self._transitions.end(block, BlockEvent.FAIL, now)
         elif not self._fails_by(block, self._planner.prepare(block), now):
             self._predictions.request(block)
 
-    def accept_failed(self, composition: BlockComposition, client: str, now: GlobalTime) -> None:
+    def accept_failed(self, composition: BlockComposition, entry: Entry, now: GlobalTime) -> None:
         """Make a block that cannot be put before the blocks that it names, and fail it.
 
         It is not refused, because its sender may have been told already that it is accepted.
         """
-        self._transitions.end(self._new_block(composition, (), client, now), BlockEvent.FAIL, now)
+        self._transitions.end(self._new_block(composition, (), entry), BlockEvent.FAIL, now)
 
     def plan(self, block: BMLBlock, outcome: Plan | Loss, now: GlobalTime, floor: GlobalTime) -> None:
         """Commit the plan of a block, or fail the block if something required is lost.
@@ -111,7 +121,7 @@ class BlockLifecycle:
             block.set_plan(floor, plan.units, plan.times, plan.kept, plan.bounds, holds)
         self._blocks.watch.follow(block)
         for unit in plan.units:
-            self._routing.assign(unit, self._planner.engine_of(block, unit))
+            self._routing.assign(unit, self._planner.preparation(block).engine_of(unit))
         self._transitions.take(block, BlockEvent.PREPLAN if block.awaits_activation else BlockEvent.PLAN, now)
 
     # --- start
@@ -152,6 +162,8 @@ class BlockLifecycle:
                 self._report_own(block, each)
         for key in {each.unit.block: None for each in reached}:
             self._transitions.subside(key)
+        for listener in self._point_listeners:
+            listener(reached)
 
     def _report_own(self, block: BMLBlock, reached: Reached) -> None:
         """Report the sync points of a block that a sync point of a behavior defines."""
@@ -171,6 +183,24 @@ class BlockLifecycle:
     def shift_behavior(self, unit: PlanUnit, seconds: float) -> None:
         """Move the points ahead of a playing behavior that has drifted, with what is tied to them."""
         self._units.shift(unit, seconds)
+
+    def retime_behavior(self, unit: PlanUnit, change: Callable[[], None], now: GlobalTime) -> None:
+        """Have a rigid behavior change its timing; its points ahead move, or its block is planned again if it waits."""
+        block, before = self._blocks.get(unit.block), unit.timing
+        change()
+        if block is None or not unit.live or unit.timing.offsets == before.offsets:
+            return
+        if block.state.plays:
+            self._units.retime(unit, before)
+        else:
+            self._plan_again(block, f"new timing of {unit.behavior.id}", now)
+
+    def wait_in_behavior(self, unit: PlanUnit, lacks_from: GlobalTime, until: GlobalTime, now: GlobalTime) -> None:
+        """Have a behavior wait for what it lacks; one that is about to be cut is cut there."""
+        if self._units.cut_scheduled(unit):
+            self._units.schedule_cut(unit, ScheduledCut(lacks_from, lacks_from, InterruptSpeech.NOW))
+        else:
+            self.retime_behavior(unit, lambda: unit.wait(until), now)
 
     def drop_behavior(self, unit: PlanUnit, fault: Fault, now: GlobalTime) -> None:
         """Drop a behavior that cannot be played any more, and release the behaviors that depend on it."""
@@ -198,10 +228,14 @@ class BlockLifecycle:
             if cut is not None and unit in cut.live_units:
                 self._cut(cut, [unit], time)
             self._units.forget_cut(unit)
-        over = [block for block in self._units.touched() if block.state.plays and not block.live_units]
+        touched = self._units.touched()
         self._units.forget_touched()
+        over = [block for block in touched if block.state.plays and not block.live_units]
         for block in over:
-            self._finish(block, now)
+            if not block.state.ended:  # the end of another one may have ended it
+                self._finish(block, now)
+        for block in touched:  # the end of another block may have dropped what was left before its relax
+            self._transitions.subside(block.key)
         return bool(failing or cuts or over)
 
     def fail(self, block: BMLBlock, now: GlobalTime) -> None:
@@ -211,34 +245,41 @@ class BlockLifecycle:
             self._units.cut(unit, now)
         self._transitions.end(block, BlockEvent.FAIL, now)
 
-    def interrupt(self, block: BMLBlock, time: GlobalTime, spared: Collection[str] = (), gently: bool = False) -> None:
+    def interrupt(
+        self,
+        block: BMLBlock,
+        time: GlobalTime,
+        spared: Collection[str] = (),
+        speech: InterruptSpeech = InterruptSpeech.NOW,
+    ) -> None:
         """Cut a block at a time, after its due points have fired; a block that has not started is revoked.
 
         Args:
             block: alive.
             time: not after this tick.
             spared: ids of behaviors that continue.
-            gently: whether each behavior may first end what should not be cut in the middle, as a speech its word.
+            speech: the point at which a speech ends; unless that is now, other behaviors too may first end what should
+                not be cut in the middle.
         """
         if not block.state.plays:
             self._revoke(block, time, spared)
             return
         chosen = [unit for unit in block.live_units if unit.behavior.id not in spared]
-        ends = {unit: unit.gentle_end(time) for unit in chosen if gently and unit.begun}
+        gently = speech is not InterruptSpeech.NOW
+        ends = {unit: unit.gentle_end(time, speech) for unit in chosen if gently and unit.begun}
         for unit, last in ends.items():
             if not is_due(unit.time("end"), last):
-                self._units.schedule_cut(unit, last)
+                self._units.schedule_cut(unit, ScheduledCut(last, time, speech))
         self._cut(block, [unit for unit in chosen if ends.get(unit, time) <= time], time)
 
-    def _new_block(
-        self, composition: BlockComposition, predecessors: Iterable[Predecessor], client: str, now: GlobalTime
-    ) -> BMLBlock:
+    def _new_block(self, composition: BlockComposition, predecessors: Iterable[Predecessor], entry: Entry) -> BMLBlock:
         description = composition.description
         self._arrivals += 1
         key = BlockKey(composition.character, description.id)
-        block = BMLBlock(self._board, key, description, self._arrivals, now, predecessors, client)
+        arrived, client, accompanied = entry.arrived, entry.lane.client, composition.accompanied
+        block = BMLBlock(self._board, key, description, self._arrivals, arrived, predecessors, client, accompanied)
         self._blocks.add(block)
-        self._feedback.foreign_attributes(key, description)
+        self._feedback.foreign_attributes(key, description, {ACCOMPANIES})
         return block
 
     def _fails_by(self, block: BMLBlock, losses: Sequence[Loss], now: GlobalTime) -> bool:
@@ -289,9 +330,13 @@ class BlockLifecycle:
             return
         with self._board.graph.transaction(f"wait for the next of {block.key.block}"):
             block.rename_pegs(renewed)
+        self._plan_again(block, f"plan {block.key.block} again", now)
+
+    def _plan_again(self, block: BMLBlock, cause: str, now: GlobalTime) -> None:
+        """Plan a block that waits again, from the constraints of its present plan."""
         plan = self._planning.again(block, now)
         if not self._fails_by_plan(block, plan, now):
-            with self._board.graph.transaction(f"plan {block.key.block} again"):
+            with self._board.graph.transaction(cause):
                 self._replace_plan(block, plan, now)
 
     def _replace_plan(self, block: BMLBlock, plan: Plan, now: GlobalTime) -> None:
@@ -309,6 +354,15 @@ class BlockLifecycle:
         block.dropped |= {unit.behavior.id for unit in lost}
         if missed:
             self._ties.release(block, missed, DroppedTie, now)
+
+    def _end_accompaniments(self, ended: BMLBlock) -> None:
+        """End the blocks that accompany one that has ended; if it is done, what plays of them may end by itself."""
+        time = ended.end.value or self._board.time
+        for block in list(ended.accompaniments):
+            done = ended.state is BlockState.DONE and block.state.plays
+            playing = {unit.behavior.id for unit in block.live_units if done and unit.begun}
+            if not done or len(playing) < len(block.live_units):
+                self.interrupt(block, time, playing)
 
     def _finish(self, block: BMLBlock, now: GlobalTime) -> None:
         self._transitions.end(block, BlockEvent.FINISH, now if block.end.value is None else block.end.value)

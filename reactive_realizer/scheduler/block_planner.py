@@ -9,7 +9,6 @@ from typing import NamedTuple
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.names import BML, BML_EXT
 from reactive_realizer.clock.units import GlobalTime
-from reactive_realizer.engine.engine import Engine
 from reactive_realizer.engine.faults import UnknownParameter
 from reactive_realizer.errors import CreationFault, Fault, SchedulingFault, WarningType
 from reactive_realizer.pegboard.time_peg import TimeCell
@@ -157,9 +156,9 @@ class BlockPlanner:
         self._queue.entered(name)
 
     def leave(self, block: BMLBlock) -> None:
-        """Forget a block that is planned or ends; its slow work is cancelled, except for that of a procedure."""
+        """Forget a block that is planned or has ended; the slow work of one that has ended is canceled."""
         preparation = self._preparations.pop(block, None)
-        if preparation is not None and block.description.procedure is None:
+        if preparation is not None and block.state.ended:
             preparation.cancel()
         draft = self._drafts.pop(block, None)
         if draft is not None:
@@ -168,9 +167,9 @@ class BlockPlanner:
             draft.steps.close()
         self._queue.leave(block)
 
-    def engine_of(self, block: BMLBlock, unit: PlanUnit) -> Engine:
-        """The engine that has made a unit of a block that is being planned."""
-        return self._preparations[block].engine_of(unit)
+    def preparation(self, block: BMLBlock) -> Preparation:
+        """The preparation of a block that is being planned."""
+        return self._preparations[block]
 
     @property
     def lanes(self) -> Collection[Lane]:
@@ -210,8 +209,9 @@ class BlockPlanner:
                 refused.append(made)
                 yield _UNIT
                 continue
+            made.accompanies = block.accompanied is not None
             items[made] = item_of(made)
-            size += len(made.timing.points)
+            size += len(made.timing.points) - len(made.unreported)
             if size > self._most_points:
                 fault = TooManyPoints(limit=self._most_points)
                 place = block.description.location

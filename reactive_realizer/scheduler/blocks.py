@@ -12,7 +12,7 @@ from reactive_realizer.reactive.graph import Graph
 from reactive_realizer.scheduler.block_state import BlockState
 from reactive_realizer.scheduler.block_watch import BlockWatch, in_order
 from reactive_realizer.scheduler.bml_block import BMLBlock
-from reactive_realizer.scheduler.lanes import Lane
+from reactive_realizer.scheduler.lanes import ACCOMPANIST, Lane
 
 
 class NoSuchBlock(TargetFault):
@@ -69,7 +69,7 @@ class Blocks:
         remembered: how many ended blocks are kept.
 
     Attributes:
-        numbers: how many are alive in each lane.
+        numbers: how many are alive in each lane of a client.
         starting: those that are planned, by their starts.
         watch: observes those that are alive.
     """
@@ -90,6 +90,11 @@ class Blocks:
     def alive(self) -> tuple[BMLBlock, ...]:
         """Accepted and not ended, in order of arrival."""
         return tuple(self._alive.values())
+
+    @property
+    def asked_for(self) -> tuple[BMLBlock, ...]:
+        """Those alive that do not accompany others, in order of arrival."""
+        return tuple(block for block in self._alive.values() if block.accompanied is None)
 
     @property
     def ended(self) -> tuple[EndedBlock, ...]:
@@ -147,16 +152,18 @@ class Blocks:
     def add(self, block: BMLBlock) -> None:
         """Add an accepted block."""
         self._alive[block.key] = block
-        self.numbers[block.lane] += 1
+        if block.client != ACCOMPANIST:
+            self.numbers[block.lane] += 1
         self._own.add(block.key.character, block)
-        self._last.add(block.key.character, block)
+        if block.accompanied is None:
+            self._last.add(block.key.character, block)
         self._named.add(block.key.block, block)
         self.starting.add(block)
         self.watch.follow(block)
 
     def end(self, block: BMLBlock, time: GlobalTime) -> None:
         """Move a block from those alive to those ended."""
-        if self._alive.pop(block.key, None) is not None:
+        if self._alive.pop(block.key, None) is not None and block.client != ACCOMPANIST:
             self.numbers[block.lane] -= 1
             if not self.numbers[block.lane]:
                 del self.numbers[block.lane]
@@ -195,8 +202,11 @@ def _start(block: BMLBlock) -> Time:
 
 
 def _is_awaited(block: BMLBlock) -> bool:
-    """Whether another block of its character, except for a preplanned one, waits for its end."""
+    """Whether another block of its character, which is neither preplanned nor accompanies one, waits for its end."""
     return any(
-        for_end and not other.awaits_activation and other.key.character == block.key.character
+        for_end
+        and not other.awaits_activation
+        and other.accompanied is None
+        and other.key.character == block.key.character
         for other, for_end in block.successors.items()
     )

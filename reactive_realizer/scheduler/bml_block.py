@@ -62,6 +62,8 @@ class BMLBlock:
         named_blocks: the other blocks that the description names.
         arrival: number of arrival over all characters.
         client: that sent it; empty if it is of the session itself.
+        accompanied: the block that it accompanies, None for other blocks.
+        accompaniments: the live blocks that accompany it, in order of arrival.
         started_at: time of the tick in which it started, None before; its peg may lie before that.
         predicted: the points of anticipators that it names, by anticipator and sync id: the first occurrences since it
             was ``meant``, which may have passed when it is planned or starts.
@@ -93,12 +95,17 @@ class BMLBlock:
         arrived: GlobalTime,
         predecessors: Iterable[Predecessor],
         client: str,
+        accompanied: "BMLBlock | None" = None,
     ) -> None:
         self.key = key
         self.description = description
         self.named_blocks = named_blocks(description)
         self.arrival = arrival
         self.client = client
+        self.accompanied = accompanied
+        self.accompaniments: dict[BMLBlock, None] = {}
+        if accompanied is not None:
+            accompanied.accompaniments[self] = None
         self.predecessors: tuple[Predecessor, ...] = ()
         self.successors: dict[BMLBlock, bool] = {}
         self._link(predecessors)
@@ -127,7 +134,7 @@ class BMLBlock:
         points = ((ref.behavior, ref.sync) for ref in description.refs if ref.block == ANTICIPATORS)
         for anticipator, point in dict.fromkeys(points):
             if anticipator is not None and point is not None:
-                self._name(board, anticipator, point, board.upcoming(anticipator, point))
+                self._name(board, anticipator, point, board.first_since(anticipator, point, arrived, at_it=False))
 
     @property
     def lane(self) -> Lane:
@@ -260,7 +267,7 @@ class BMLBlock:
         renewed = dict[TimeCell, AnticipatorPeg]()
         for (anticipator, sync), old in list(self.predicted.items()):
             if has_passed(old.value, meant.time):
-                renewed[old] = board.first_since(anticipator, sync, meant.time)
+                renewed[old] = board.first_since(anticipator, sync, meant.time, at_it=True)
                 self._name(board, anticipator, sync, renewed[old])
         return renewed
 
@@ -280,7 +287,9 @@ class BMLBlock:
         self.start.wait_for(self.start.floor, self._awaited())
 
     def leave(self) -> None:
-        """Leave the predecessors of an ended block to those that come after it."""
+        """Leave the predecessors of an ended block to those that come after it, and the block that it accompanies."""
+        if self.accompanied is not None:
+            self.accompanied.accompaniments.pop(self, None)
         for other in sorted(self.successors, key=lambda block: block.arrival):
             other.take_over_predecessors(self)
         self._link(())

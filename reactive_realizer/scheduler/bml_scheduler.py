@@ -16,7 +16,7 @@ from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.scheduler.admission import Admission, TooManyOfOne
 from reactive_realizer.scheduler.block_composition import BlockComposition
 from reactive_realizer.scheduler.block_feedback import BlockFeedback
-from reactive_realizer.scheduler.block_lifecycle import BlockLifecycle
+from reactive_realizer.scheduler.block_lifecycle import BlockLifecycle, PointListener
 from reactive_realizer.scheduler.block_planner import BlockPlanner
 from reactive_realizer.scheduler.block_state import BlockState
 from reactive_realizer.scheduler.blocks import Blocks
@@ -24,7 +24,7 @@ from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.scheduler.constraint_monitor import ConstraintMonitor
 from reactive_realizer.scheduler.engine_routing import EngineRouting
 from reactive_realizer.scheduler.entry_queue import Entry, EntryQueue
-from reactive_realizer.scheduler.lanes import Lane, LaneTurns
+from reactive_realizer.scheduler.lanes import ACCOMPANIST, Lane, LaneTurns
 from reactive_realizer.scheduler.planned_events import PlannedEvents
 from reactive_realizer.scheduler.planning import PlanListener, Planning
 from reactive_realizer.scheduler.predictions import Predictions
@@ -32,6 +32,7 @@ from reactive_realizer.scheduler.preparation import BackgroundWork
 from reactive_realizer.scheduler.procedures import Procedures
 from reactive_realizer.scheduler.requests import EngineRequests
 from reactive_realizer.scheduler.strategy import SchedulingStrategy
+from reactive_realizer.scheduler.unfinished_units import UnfinishedUnits
 
 _ENTRY = 60
 """Work of an entry without behaviors, and of planning it, as the planner counts work."""
@@ -99,6 +100,7 @@ class BMLScheduler:
         self._lifecycle = BlockLifecycle(
             board, routing, self.blocks, self._planner, self._planning, self._feedback, self._predictions
         )
+        self._unfinished = UnfinishedUnits(self._lifecycle)
         self._events = PlannedEvents(board)
         self._requests = EngineRequests(self.blocks, self._lifecycle, self._feedback)
         self._monitor = ConstraintMonitor(self.blocks.watch, self._lifecycle, self._feedback)
@@ -108,6 +110,10 @@ class BMLScheduler:
     def listen(self, listener: Callable[[BMLBlock], None]) -> None:
         """Call ``listener(block)`` when a block has ended, while its points are still on the board."""
         self._lifecycle.listen(listener)
+
+    def listen_to_points(self, listener: PointListener) -> None:
+        """Call ``listener(reached)`` with the points that are reached together, after they are pinned."""
+        self._lifecycle.listen_to_points(listener)
 
     def listen_to_plans(self, listener: PlanListener) -> None:
         """Call ``listener(block, problem, solution)`` of each plan that is committed."""
@@ -144,7 +150,12 @@ class BMLScheduler:
         for parsed in document:
             # Only at its arrival is it known what others have; the rest is judged when it enters.
             fault = admission.refusal(parsed, client) if client else None
-            self._turns.add(self._entries.add(parsed, client, fault if isinstance(fault, TooManyOfOne) else None))
+            refusal = fault if isinstance(fault, TooManyOfOne) else None
+            self._turns.add(self._entries.add(parsed, client, self._board.time, refusal))
+
+    def accompany(self, block: BehaviorBlock) -> None:
+        """Have a block enter that accompanies another one, behind the blocks of all clients."""
+        self._turns.add(self._entries.add(Parsed(block), ACCOMPANIST, self._board.time))
 
     def begin_planning(self) -> None:
         """Begin a tick: there is time for planning again, less what the ticks before have done too much."""
@@ -175,7 +186,10 @@ class BMLScheduler:
         if not self._entries and not self._planner:
             return None
         runnable = (lane for lane in self._turns if self._planner.waiting(lane) or self._entries.first(lane))
-        return next(runnable, None)
+        lane = next(runnable, None)
+        if lane is None or lane.client != ACCOMPANIST:
+            return lane
+        return next((other for other in runnable if other.client != ACCOMPANIST), lane)
 
     def _has_room(self, entry: Entry) -> bool:
         """Whether an entry should enter before others are planned; those that end before they play need no plan."""
@@ -187,7 +201,9 @@ class BMLScheduler:
         if planned is not None:
             # To start a block takes as long as to put it on the board: a big one does not do both in one tick.
             floor = now if work <= self._limits.planning_per_tick else next_tick(now)
+            preparation = self._planner.preparation(planned.block)
             self._lifecycle.plan(*planned, now, floor)
+            self._unfinished.add(planned.block, preparation, now)
             self._events.add(planned.block.units)
 
     def _accept(self, entry: Entry, now: GlobalTime) -> None:
@@ -200,6 +216,8 @@ class BMLScheduler:
             fault = self.admission().admit_procedure(parsed.procedure)
             if fault is None:
                 self._procedures.define(parsed.procedure)
+        elif parsed.block is not None and entry.lane.client == ACCOMPANIST:
+            self._admit_accompaniment(parsed.block, entry, now)
         elif parsed.block is not None:
             fault = self._admit(parsed.block, entry, now)
         written = parsed.written
@@ -219,6 +237,7 @@ class BMLScheduler:
     def advance(self, now: GlobalTime) -> bool:
         """Have blocks enter and plan them, then end and start those that are due; whether anything started or ended."""
         self._work(now)
+        self._unfinished.play(now)
         ended = self._lifecycle.end_due(now)
         self._events.predict(now)
         return self._lifecycle.start_due(now) or ended
@@ -280,30 +299,36 @@ class BMLScheduler:
 
     def stuck(self, now: GlobalTime) -> bool:
         """Whether, after the tick at ``now``, no block can progress without further input, and all is reported."""
-        return not self._predictions.waiting and not any(block.can_progress(now) for block in self.blocks.alive)
+        return not self._predictions.waiting and not any(block.can_progress(now) for block in self.blocks.asked_for)
 
     def warn_stuck(self) -> None:
         """Warn of every block that is alive, and of the points that it waits for."""
-        for block in self.blocks.alive:
+        for block in self.blocks.asked_for:
             fault = NeverMoves(waits=", ".join(block.awaited))
             self._feedback.warn(block.key.character, block.key.block, fault)
 
     def _count(self, ended: BMLBlock) -> None:
         self.failed += ended.state is BlockState.FAILED
 
+    def _admit_accompaniment(self, written: BehaviorBlock, entry: Entry, now: GlobalTime) -> None:
+        """Begin the life of a block that accompanies another one, unless that has ended or its id is in use."""
+        composition = BlockComposition(self.blocks, entry.character, written)
+        if composition.fault() is None and self.blocks.get(BlockKey(entry.character, written.id)) is None:
+            self._lifecycle.accept(composition, entry, now)
+
     def _admit(self, written: BehaviorBlock, entry: Entry, now: GlobalTime) -> Fault | None:
         """Begin the life of a block; the fault if it is refused."""
-        character, client = entry.character, entry.lane.client
+        character = entry.character
         fault = entry.fault or self.admission().admit(written)
         if fault is not None:
             return fault
         composition = BlockComposition(self.blocks, character, self._procedures.expand(written))
         fault = composition.fault()
         if fault is None:
-            self._lifecycle.accept(composition, client, entry.parsed.failed, now)
+            self._lifecycle.accept(composition, entry, now)
         elif self.blocks.get(BlockKey(character, written.id)) is not None:
             return fault
         else:
             self._feedback.warn(character, written.id, fault, written.location)
-            self._lifecycle.accept_failed(composition, client, now)
+            self._lifecycle.accept_failed(composition, entry, now)
         return None

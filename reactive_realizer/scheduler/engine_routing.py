@@ -1,12 +1,12 @@
 """The engines of each character, and which engine plays which behavior."""
 
 import logging
-from collections.abc import Awaitable, Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import AsyncIterator, Callable, Collection, Iterable, Mapping, Sequence
 from typing import NamedTuple, TypeVar
 
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.clock.units import GlobalTime
-from reactive_realizer.engine.engine import Engine
+from reactive_realizer.engine.engine import Engine, Part, SlowWork
 from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.plan_unit import PlanUnit
@@ -20,6 +20,20 @@ Result = object | Exception
 """The result of background work: a value, or the exception that it raised."""
 
 
+class Prepared(NamedTuple):
+    """The result of slow work for a behavior with several forms.
+
+    Attributes:
+        forms: those that can still be played, best first; the work was done for the first one.
+        result: of the work.
+        refused: the faults of better forms, for which it failed.
+    """
+
+    forms: "Sequence[Behavior]"
+    result: object
+    refused: tuple[Fault, ...]
+
+
 class RoutedBehavior(NamedTuple):
     """A behavior with the engine that plays it.
 
@@ -31,9 +45,19 @@ class RoutedBehavior(NamedTuple):
     engine: Engine
     forms: Sequence[Behavior]
 
-    def prepare(self) -> Awaitable[object] | None:
-        """The slow work to be done before planning; None if there is none."""
-        return self.engine.prepare(self.forms[0])
+    def prepare(self) -> SlowWork | None:
+        """The slow work to be done before planning; None if there is none.
+
+        With several forms, each result is a `Prepared`, for the first form whose work does not fail.
+        """
+        form, *others = self.forms
+        if not others:
+            return self.engine.prepare(form)
+        try:
+            work = self.engine.prepare(form)
+        except RealizerError as problem:
+            return self._prepare_next(problem.fault)
+        return None if work is None else self._prepare_best(work)
 
     def check(self, left_out: Callable[[Fault], None]) -> Collection[str] | None:
         """The sync points of the best form that can be made; None if only slow work can tell.
@@ -57,6 +81,10 @@ class RoutedBehavior(NamedTuple):
         Raises:
             RealizerError: the slow work failed, or no form can be made.
         """
+        if isinstance(result, Prepared):
+            for fault in result.refused:
+                left_out(fault)
+            return self._replace(forms=result.forms).plan(block, result.result, left_out)
         if isinstance(result, RealizerError):
             raise result
         if isinstance(result, Exception):
@@ -64,6 +92,29 @@ class RoutedBehavior(NamedTuple):
         unit = self._best(lambda form: self.engine.plan(block, form, result), left_out)
         unit.behavior = self.behavior  # feedback names the behavior, whatever form of it is played
         return unit
+
+    async def _prepare_best(self, work: SlowWork) -> AsyncIterator[Part]:
+        begun = False
+        try:
+            async for part in _parts(work):
+                begun = True
+                yield Part(Prepared(self.forms, part.result, ()), part.last)
+        except RealizerError as problem:
+            if begun:
+                raise
+            refused = problem.fault
+        else:
+            return
+        async for part in self._prepare_next(refused):
+            yield part
+
+    async def _prepare_next(self, refused: Fault) -> AsyncIterator[Part]:
+        following = self._replace(forms=self.forms[1:])
+        work = following.prepare()
+        async for part in _parts(_nothing() if work is None else work):
+            result = part.result
+            prepared = result if isinstance(result, Prepared) else Prepared(following.forms, result, ())
+            yield Part(prepared._replace(refused=(refused, *prepared.refused)), part.last)
 
     def _best(self, make: Callable[[Behavior], T], left_out: Callable[[Fault], None]) -> T:
         """What an engine makes of the best form that it does not refuse."""
@@ -79,6 +130,19 @@ class RoutedBehavior(NamedTuple):
         except Exception as failure:
             logger.exception("'%s' could not be made by %s", self.behavior.id, self.engine.name)
             raise RealizerError(WorkFailed(reason=str(failure))) from failure
+
+
+async def _parts(work: SlowWork) -> AsyncIterator[Part]:
+    """The results of slow work as parts."""
+    if isinstance(work, AsyncIterator):
+        async for part in work:
+            yield part
+    else:
+        yield Part(await work, last=True)
+
+
+async def _nothing() -> None:
+    """Slow work without a result."""
 
 
 class EngineRouting:

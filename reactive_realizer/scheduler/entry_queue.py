@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from reactive_realizer.bml.block import BehaviorBlock, Parsed
 from reactive_realizer.bml.extensions import Activate, Interrupt
 from reactive_realizer.bml.vocabulary import Composition
+from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.errors import Fault
 from reactive_realizer.scheduler.lanes import Lane
 from reactive_realizer.scheduler.named_blocks import named_blocks
@@ -21,6 +22,7 @@ class Entry:
 
     Attributes:
         number: of arrival.
+        arrived: time of the tick in which it arrived, s.
         parsed: as it was read.
         character: id of its character, which may not exist.
         lane: of its client, and of a character that exists.
@@ -30,6 +32,7 @@ class Entry:
     """
 
     number: int
+    arrived: GlobalTime
     parsed: Parsed
     character: str
     lane: Lane
@@ -102,13 +105,13 @@ class EntryQueue:
         """The lanes of what waits."""
         return self._lanes.keys()
 
-    def add(self, parsed: Parsed, client: str, fault: Fault | None = None) -> Lane:
-        """Add what has arrived from a client, with why it is to be refused; its lane."""
+    def add(self, parsed: Parsed, client: str, now: GlobalTime, fault: Fault | None = None) -> Lane:
+        """Add what arrives from a client now, with why it is to be refused; its lane."""
         self._arrived += 1
         character = (parsed.block and parsed.block.character) or self._characters[0]
         lane = Lane(client, character if character in self._characters else self._characters[0])
         names = frozenset(_names(parsed))
-        entry = Entry(self._arrived, parsed, character, lane, names, names.union(_needed(parsed)), fault)
+        entry = Entry(self._arrived, now, parsed, character, lane, names, names.union(_needed(parsed)), fault)
         self._entries[entry.number] = entry
         self._lanes.setdefault(lane, deque()).append(entry)
         for numbers, key in self._keys(entry):
@@ -171,4 +174,5 @@ def _needed(parsed: Parsed) -> Iterator[Name]:
 def _composed(block: BehaviorBlock) -> tuple[str, ...]:
     """The ids in the attributes that relate a block to others."""
     joined = (*block.append_after, *block.chunk_after, *block.prepend_before, *block.chunk_before)
-    return (*joined, *block.interrupts, *block.on_start)
+    accompanied = () if block.accompanies is None else (block.accompanies,)
+    return (*joined, *block.interrupts, *block.on_start, *accompanied)

@@ -1,7 +1,13 @@
 """Lanes: the work that one client asks of one character. They take turns, so that no client holds another one up."""
 
 from collections.abc import Iterator
-from typing import NamedTuple
+from typing import Final, NamedTuple
+
+ACCOMPANIST: Final = "accompanist"
+"""The client of the blocks with which the realizer itself accompanies others.
+
+They have no part in the limits on blocks, and are planned when no other lane has work.
+"""
 
 
 class Lane(NamedTuple):

@@ -7,6 +7,7 @@ from reactive_realizer.clock.units import BlockTime, GlobalTime, Time, is_due
 from reactive_realizer.feedback.feedback_manager import FeedbackManager
 from reactive_realizer.feedback.messages import BehaviorPrediction, PredictionFeedback
 from reactive_realizer.limits import Limits
+from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.scheduler.block_watch import BlockWatch, in_order
 from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.scheduler.problem import Point
@@ -86,13 +87,18 @@ class Predictions:
 
     def _publish(self, block: BMLBlock, now: GlobalTime) -> None:
         self._waiting.pop(block, None)
-        times: _Times = {unit.behavior.id: {point.id: point.peg.value for point in unit.points} for unit in block.units}
+        times: _Times = {unit.behavior.id: _reported(unit) for unit in block.units}
         times[""] = {"start": block.start.value, "end": block.end.value}
         if block in self._requested or _moved(self._published.get(block, {}), times):
             self._requested.discard(block)
             self._published[block] = times
             self._next[block] = GlobalTime(now + self._interval)
             self._feedback.add(_prediction(block, times, now))
+
+
+def _reported(unit: PlanUnit) -> dict[str, Time]:
+    """The times of the points of a behavior that are reported."""
+    return {point.id: point.peg.value for point in unit.points if point.id not in unit.unreported}
 
 
 def _cost(block: BMLBlock) -> int:

@@ -1,24 +1,25 @@
 """Preparation of a block: the background work of engines, and the units that they make with its results."""
 
-from collections.abc import Awaitable, Callable, Container, Iterator, Mapping
+from collections.abc import AsyncIterator, Awaitable, Callable, Container, Iterator, Mapping
 from functools import partial
 from typing import Protocol
 
 from reactive_realizer.clock.units import GlobalTime
-from reactive_realizer.engine.engine import Engine
+from reactive_realizer.engine.engine import Engine, Part, SlowWork
 from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.plan_unit import PlanUnit
-from reactive_realizer.scheduler.engine_routing import Result, RoutedBehavior
+from reactive_realizer.scheduler.engine_routing import Prepared, Result, RoutedBehavior
 from reactive_realizer.scheduler.solution import Loss, lost_behavior
+
+Follower = Callable[[Result, GlobalTime], None]
+"""Takes a result of slow work, and the time of the tick."""
 
 
 class BackgroundWork(Protocol):
     """Does slow work outside of ticks; a result is an input of a later tick."""
 
-    def request(
-        self, name: str, work: Awaitable[object], done: Callable[[Result, GlobalTime], None]
-    ) -> Callable[[], None]:
+    def request(self, name: str, work: Awaitable[object], done: Follower) -> Callable[[], None]:
         """Start work; ``done`` gets its result and the time, in a later tick.
 
         Returns:
@@ -28,13 +29,25 @@ class BackgroundWork(Protocol):
 
 
 class Preparation:
-    """Starts the background work of the engines of a block, and has them make units when it is done."""
+    """Starts the background work of the engines of a block, and has them make units when it is done.
 
-    def __init__(self, routed: Mapping[str, RoutedBehavior], background: BackgroundWork) -> None:
+    Of work in parts, the first one is enough; those who `follow` it get the results of the others.
+
+    Args:
+        routed: the behaviors, by id.
+        background: does the work.
+        kept: whether the work goes on whoever uses it.
+    """
+
+    def __init__(self, routed: Mapping[str, RoutedBehavior], background: BackgroundWork, *, kept: bool = False) -> None:
         self._routed = routed
+        self._background = background
+        self._kept = kept
         self._results: dict[str, Result] = {}
-        self._cancels: list[Callable[[], None]] = []
+        self._parted: set[str] = set()
+        self._cancels: dict[str, Callable[[], None]] = {}
         self._listeners: list[Callable[[], None]] = []
+        self._followers: dict[str, list[Follower]] = {}
         for id_, each in routed.items():
             try:
                 work = each.prepare()
@@ -44,8 +57,7 @@ class Preparation:
             if work is None:
                 self._results[id_] = None
             else:
-                receive = partial(self._receive, id_)
-                self._cancels.append(background.request(f"{each.engine.name} {id_}", work, receive))
+                self._request(id_, work)
 
     @property
     def complete(self) -> bool:
@@ -80,14 +92,63 @@ class Preparation:
         """The engine that has made a unit."""
         return self._routed[unit.behavior.id].engine
 
-    def cancel(self) -> None:
-        """Cancel the work."""
-        for cancel in self._cancels:
-            cancel()
+    def follow(self, unit: PlanUnit, follower: Follower, now: GlobalTime) -> Callable[[], None] | None:
+        """Call ``follower`` with the present result of a unit's work in parts, and with all later ones.
 
-    def _receive(self, id_: str, result: Result, now: GlobalTime) -> None:
+        Returns:
+            A call that ends this, and cancels the work; None if no other result follows.
+        """
+        id_ = unit.behavior.id
+        if id_ not in self._parted:
+            return None
+        follower(_result_of(self._results[id_]), now)
+        if id_ not in self._cancels:
+            return None
+        self._followers.setdefault(id_, []).append(follower)
+        return partial(self._leave, id_, follower)
+
+    def cancel(self) -> None:
+        """Cancel the work, unless it is kept."""
+        if not self._kept:
+            for cancel in self._cancels.values():
+                cancel()
+            self._cancels = {}
+
+    def _leave(self, id_: str, follower: Follower) -> None:
+        self._followers[id_].remove(follower)
+        if not self._kept and id_ in self._cancels:
+            self._cancels.pop(id_)()
+
+    def _request(self, id_: str, work: SlowWork) -> None:
+        once = _next_part(work) if isinstance(work, AsyncIterator) else work
+        name = f"{self._routed[id_].engine.name} {id_}"
+        self._cancels[id_] = self._background.request(name, once, partial(self._receive, id_, work))
+
+    def _receive(self, id_: str, work: SlowWork, result: Result, now: GlobalTime) -> None:
+        del self._cancels[id_]
+        if isinstance(result, Part):
+            if not result.last:
+                self._parted.add(id_)
+                self._request(id_, work)
+            result = result.result
+        first = id_ not in self._results
         self._results[id_] = result
-        if self.complete:
+        if not first:
+            for follower in tuple(self._followers.get(id_, ())):
+                follower(_result_of(result), now)
+        elif self.complete:
             listeners, self._listeners = self._listeners, []
             for listener in listeners:
                 listener()
+
+
+def _result_of(result: Result) -> Result:
+    """The result of the slow work for the form that is played."""
+    return result.result if isinstance(result, Prepared) else result
+
+
+async def _next_part(parts: AsyncIterator[Part]) -> Part:
+    try:
+        return await anext(parts)
+    except StopAsyncIteration as end:
+        raise EOFError("its slow work ended too early") from end

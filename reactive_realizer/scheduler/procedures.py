@@ -49,5 +49,5 @@ class Procedures:
     def _prepare(self, procedure: _Procedure, character: str) -> Preparation:
         if character not in procedure.prepared:
             routed = self._routing.route(character, procedure.definition.behaviors)
-            procedure.prepared[character] = Preparation(routed, self._background)
+            procedure.prepared[character] = Preparation(routed, self._background, kept=True)
         return procedure.prepared[character]

@@ -143,7 +143,7 @@ class EngineRequests:
         self._lifecycle.begin_behavior(request.unit, now)
         if unknown:
             self._feedback.warn_behavior(request.unit, fault)
-        self._lifecycle.interrupt(block, request.time, spared, gently=request.gently)
+        self._lifecycle.interrupt(block, request.time, spared, request.speech)
 
     def _bind(self, request: BindParameter, character: str) -> None:
         target = self._target(request, character)

@@ -1,42 +1,78 @@
 """The points at fixed distances from those of a rigid behavior."""
 
-from collections.abc import Container
+from collections.abc import Mapping, Sequence
 
 from reactive_realizer.clock.units import GlobalTime
-from reactive_realizer.pegboard.peg_view import followers_of
-from reactive_realizer.pegboard.time_peg import TimeCell, TimePeg
+from reactive_realizer.pegboard.time_peg import LatestPeg, TimeCell, TimePeg
 from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.scheduler.problem import Node, Point, Precedence, Tie
 from reactive_realizer.scheduler.verify import TOLERANCE, missed
 
 
-def shift_ahead(block: BMLBlock, unit: PlanUnit, seconds: float) -> None:
+def shift_ahead(block: BMLBlock, unit: PlanUnit, seconds: Mapping[str, float]) -> None:
     """Within a transaction, move the points ahead of a rigid behavior, and those that are tied to them.
 
     Points that a `before` or an `after` constraint keeps behind or ahead of these give way.
+
+    Args:
+        block: of the behavior.
+        unit: the behavior.
+        seconds: how much later each of its points is to come.
     """
-    points = _tied_points(block, unit)
-    pegs = {point: peg for point, peg in _pegs_ahead(block).items() if point in points}
-    followers = set[TimeCell]().union(*map(followers_of, pegs.values()))
-    for peg in dict.fromkeys(pegs.values()):
-        if peg not in followers and not peg.pinned:
-            peg.shift(seconds)
-    _keep_orders(block, points)
+    shifts = _shifts(block, unit, seconds)
+    pegs = ((peg, point) for point, peg in _pegs_ahead(block).items() if point in shifts and not peg.pinned)
+    wanted = {peg: shifts[point] for peg, point in pegs}
+    for peg, shift in wanted.items():
+        if own := shift - (_inherited(peg, wanted) or 0.0):
+            peg.shift(own)
+    _keep_orders(block, shifts)
 
 
-def _keep_orders(block: BMLBlock, moved: Container[Node]) -> None:
+def fixed_point(block: BMLBlock, unit: PlanUnit) -> str:
+    """The point of a rigid behavior that keeps its time when its timing changes before it begins.
+
+    It is the first one that is tied to a time from outside or to the start of the block, directly or through other
+    behaviors; without one, its start.
+    """
+    tied = _tied_nodes(block)
+    rigid = {each.behavior.id: each for each in block.units if each.timing.rigid and each is not unit}
+    for point in _points_of(unit):
+        seen, waiting = {point}, [point]
+        while waiting:
+            for node in tied.get(waiting.pop(), ()):
+                if not isinstance(node, Point):
+                    return point.sync
+                new = _points_of(rigid[node.behavior]) if node.behavior in rigid else [node]
+                waiting += [other for other in new if other not in seen and other.behavior != unit.behavior.id]
+                seen.update(new)
+    return unit.timing.points[0]
+
+
+def _inherited(cell: TimeCell, wanted: Mapping[TimePeg, float]) -> float | None:
+    """The shift that a peg takes over from those that it depends on; None if it depends on none that is shifted."""
+    for each in cell.dependencies:
+        if isinstance(each, TimePeg) and each in wanted:
+            return wanted[each]
+        if not isinstance(each, LatestPeg) and (inherited := _inherited(each, wanted)) is not None:
+            return inherited
+    return None
+
+
+def _keep_orders(block: BMLBlock, shifts: Mapping[Point, float]) -> None:
     """Have points give way to some that have moved."""
     pegs = _pegs_ahead(block)
     for each in block.kept:
-        if not isinstance(each, Precedence) or (each.later in moved) == (each.earlier in moved):
+        if not isinstance(each, Precedence):
             continue
-        later, earlier = (pegs.get(node) if isinstance(node, Point) else None for node in each.nodes)
-        if later is None or earlier is None or missed(each, later.value, earlier.value) <= TOLERANCE:
+        (after, later), (before, earlier) = (
+            (shifts.get(node), pegs.get(node)) if isinstance(node, Point) else (None, None) for node in each.nodes
+        )
+        if after == before or later is None or earlier is None or missed(each, later.value, earlier.value) <= TOLERANCE:
             continue
-        if each.earlier in moved and earlier.value is not None:
+        if before is not None and earlier.value is not None:
             later.keep_after(GlobalTime(earlier.value + each.offset))
-        elif each.later in moved and not earlier.pinned:
+        elif not earlier.pinned:
             earlier.keep_before(later, -each.offset)
 
 
@@ -45,15 +81,39 @@ def _pegs_ahead(block: BMLBlock) -> dict[Point, TimePeg]:
     return {Point(unit.behavior.id, point.id): point.peg for unit in block.live_units for point in unit.ahead()}
 
 
-def _tied_points(block: BMLBlock, unit: PlanUnit) -> set[Point]:
-    """The points of a behavior, those that are tied to them, those of rigid behaviors among these, and so on."""
+def _shifts(block: BMLBlock, unit: PlanUnit, seconds: Mapping[str, float]) -> dict[Point, float]:
+    """The shifts (s) of the points of a behavior, of those that are tied to them, of rigid behaviors there, and so on.
+
+    Args:
+        block: of the behavior.
+        unit: the behavior.
+        seconds: the shift of each of its points.
+    """
     rigid = {each.behavior.id: each for each in block.units if each.timing.rigid}
-    ties = [{node for node in tie.nodes if isinstance(node, Point)} for tie in block.kept if isinstance(tie, Tie)]
-    points = _points_of(unit)
-    while new := {point for tie in ties if tie & points for point in tie} - points:
-        points |= new.union(*(_points_of(rigid[point.behavior]) for point in new if point.behavior in rigid))
-    return points
+    tied = _tied_nodes(block)
+    shifts = {Point(unit.behavior.id, sync): shift for sync, shift in seconds.items()}
+    waiting = list(shifts)
+    while waiting:
+        point = waiting.pop(0)
+        for each in tied.get(point, ()):
+            if not isinstance(each, Point):
+                continue
+            own = _points_of(rigid[each.behavior]) if each.behavior in rigid else [each]
+            new = [other for other in own if other not in shifts]
+            shifts.update(dict.fromkeys(new, shifts[point]))
+            waiting += new
+    return shifts
 
 
-def _points_of(unit: PlanUnit) -> set[Point]:
-    return {Point(unit.behavior.id, sync) for sync in unit.timing.points}
+def _tied_nodes(block: BMLBlock) -> Mapping[Point, Sequence[Node]]:
+    """The nodes to which each point of a block is tied, and the point itself."""
+    tied: dict[Point, list[Node]] = {}
+    for tie in block.kept:
+        for node in tie.nodes if isinstance(tie, Tie) else ():
+            if isinstance(node, Point):
+                tied.setdefault(node, []).extend(tie.nodes)
+    return tied
+
+
+def _points_of(unit: PlanUnit) -> list[Point]:
+    return [Point(unit.behavior.id, sync) for sync in unit.timing.points]

@@ -3,9 +3,10 @@
 import logging
 from collections.abc import Collection, Iterable, Sequence
 from functools import partial
-from typing import Any
+from typing import Any, NamedTuple
 
 from reactive_realizer.bml.names import EVENTS
+from reactive_realizer.bml.vocabulary import InterruptSpeech
 from reactive_realizer.clock.units import RESOLUTION, GlobalTime, is_due
 from reactive_realizer.engine.effects import Reached
 from reactive_realizer.engine.faults import UnitFailed
@@ -14,6 +15,7 @@ from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.pegboard.time_peg import OffsetPeg, TimePeg
 from reactive_realizer.planunit.plan_unit import DuePoint, Hurry, PlanUnit, SyncPoint, UnitState
+from reactive_realizer.planunit.timing import Timing
 from reactive_realizer.reactive.graph import Cell
 from reactive_realizer.scheduler.block_feedback import BlockFeedback
 from reactive_realizer.scheduler.blocks import Blocks
@@ -21,12 +23,26 @@ from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.scheduler.duration_limits import limit_not_kept
 from reactive_realizer.scheduler.engine_routing import EngineRouting
 from reactive_realizer.scheduler.predictions import Predictions
-from reactive_realizer.scheduler.rigid_points import shift_ahead
+from reactive_realizer.scheduler.rigid_points import fixed_point, shift_ahead
 
 logger = logging.getLogger(__name__)
 
 _MOST_CORRECTIONS = 20
 """Corrections of one transaction; if behaviors that share points still disagree then, their points keep their times."""
+
+
+class ScheduledCut(NamedTuple):
+    """The end of a behavior that was interrupted and may first end what should not be cut in the middle.
+
+    Attributes:
+        time: at which it is cut, s.
+        asked: when it was interrupted, s.
+        speech: the point at which a speech ends.
+    """
+
+    time: GlobalTime
+    asked: GlobalTime
+    speech: InterruptSpeech
 
 
 class UnitLifecycle:
@@ -45,7 +61,7 @@ class UnitLifecycle:
         self._blocks = blocks
         self._feedback = feedback
         self._predictions = predictions
-        self._scheduled_cuts: dict[PlanUnit, GlobalTime] = {}
+        self._scheduled_cuts: dict[PlanUnit, ScheduledCut] = {}
         self._touched: set[BlockKey] = set()
         board.graph.before_commit(self._correct_points)
 
@@ -101,12 +117,12 @@ class UnitLifecycle:
             self.drop(unit, UnitFailed(reason=str(failure)), now)
             return True
 
-    def schedule_cut(self, unit: PlanUnit, time: GlobalTime) -> None:
+    def schedule_cut(self, unit: PlanUnit, cut: ScheduledCut) -> None:
         """Have a playing behavior cut at a later time, which is its end from now on."""
-        self._scheduled_cuts[unit] = time
+        self._scheduled_cuts[unit] = cut
         block = self._blocks.get(unit.block)
         with self._board.graph.transaction(f"cut {unit.key('end')}"):
-            unit.detach(unit.points[-1], time)
+            unit.detach(unit.points[-1], cut.time)
             if block is not None:
                 block.update_end()
 
@@ -116,9 +132,29 @@ class UnitLifecycle:
         if block is None or unit.state is not UnitState.IN_EXEC:
             return
         with self._board.graph.transaction(f"drift of {unit.behavior.id}"):
-            shift_ahead(block, unit, seconds)
-            if unit in self._scheduled_cuts:
-                self.schedule_cut(unit, GlobalTime(self._scheduled_cuts[unit] + seconds))
+            shift_ahead(block, unit, dict.fromkeys((point.id for point in unit.ahead()), seconds))
+            if (cut := self._scheduled_cuts.get(unit)) is not None:
+                time, asked = GlobalTime(cut.time + seconds), GlobalTime(cut.asked + seconds)
+                self.schedule_cut(unit, cut._replace(time=time, asked=asked))
+        unit.wake()
+
+    def retime(self, unit: PlanUnit, before: Timing) -> None:
+        """Move the points ahead of a rigid behavior of a playing block, with what is tied to them, to its new timing.
+
+        Args:
+            unit: the behavior.
+            before: the timing that it had.
+        """
+        block = self._blocks.get(unit.block)
+        if block is None:
+            return
+        offsets = zip(unit.timing.points, unit.timing.offsets, before.offsets, strict=True)
+        later = {sync: after - earlier for sync, after, earlier in offsets}
+        kept = later[unit.points[0].id if unit.begun else fixed_point(block, unit)]
+        with self._board.graph.transaction(f"new timing of {unit.behavior.id}"):
+            shift_ahead(block, unit, {point.id: later[point.id] - kept for point in unit.ahead()})
+            if (cut := self._scheduled_cuts.get(unit)) is not None:
+                self.schedule_cut(unit, cut._replace(time=unit.gentle_end(cut.asked, cut.speech)))
         unit.wake()
 
     def cut_scheduled(self, unit: PlanUnit) -> bool:
@@ -127,7 +163,7 @@ class UnitLifecycle:
 
     def due_cuts(self, now: GlobalTime) -> list[tuple[GlobalTime, PlanUnit]]:
         """The scheduled cuts that are due, in order of time."""
-        due = [(time, unit) for unit, time in self._scheduled_cuts.items() if is_due(time, now)]
+        due = [(cut.time, unit) for unit, cut in self._scheduled_cuts.items() if is_due(cut.time, now)]
         return sorted(due, key=lambda cut: cut[0])
 
     def forget_cut(self, unit: PlanUnit) -> None:

@@ -1,6 +1,7 @@
-"""Sounds that can still be played, for clients that take or fetch them and for clients that connect late."""
+"""Sounds and captions that can still be played, for clients that take or fetch them or that connect late."""
 
 import struct
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from math import inf
 
@@ -26,7 +27,7 @@ class _Sound:
     @property
     def end(self) -> float:
         start = inf if self.start.start is None else self.start.start
-        natural = start + self.start.clip.duration
+        natural = start + self.start.clip.sound.duration
         return natural if self.stop is None else min(natural, self.stop.time + self.stop.fade)
 
 
@@ -63,48 +64,53 @@ class AudioStream:
                 self._sounds[id_] = replace(self._sounds[id_], stop=change)
             case _:
                 pass
-        self.subscribers.publish(encode(message_of(change)))
+        if self.subscribers:
+            for message in messages_of(change):
+                self.subscribers.publish(encode(message))
 
     def _send_ahead(self, clip: AudioClip) -> None:
-        if self.takers and len(clip.wav) <= _MOST_AHEAD:
+        if self.takers and 0 < len(clip.sound.wav) <= _MOST_AHEAD:
             self.takers.publish(encode_sound(clip))
 
     def tidy(self, now: GlobalTime) -> None:
         """Drops sounds that have ended, and the oldest above the size limit."""
         for id_ in [id_ for id_, sound in self._sounds.items() if sound.end + _GRACE < now]:
             del self._sounds[id_]
-        while sum(len(sound.start.clip.wav) for sound in self._sounds.values()) > self._most_bytes:
+        while sum(len(sound.start.clip.sound.wav) for sound in self._sounds.values()) > self._most_bytes:
             del self._sounds[next(iter(self._sounds))]
 
     def sounding(self, now: GlobalTime) -> list[Message]:
         """The messages for a client that connects now: all sounds that have not ended."""
         ahead = [sound for sound in self._sounds.values() if sound.end > now]
         changes = [change for sound in ahead for change in (sound.start, sound.stop) if change is not None]
-        return [message_of(change) for change in changes]
+        return [message for change in changes for message in messages_of(change)]
 
     def wav(self, id_: str) -> bytes | None:
-        """The WAV file of a sound."""
+        """The WAV file of a sound; None if there is no such sound."""
         sound = self._sounds.get(id_)
-        return None if sound is None else sound.start.clip.wav
+        return None if sound is None else sound.start.clip.sound.wav or None
 
 
 def encode_sound(clip: AudioClip) -> bytes:
     """Encodes a sound (docs/protocol.md, sounds): u8 kind, u8 version, u16 length of its id, the id, and a WAV file."""
     id_ = clip.id.encode()
-    return struct.pack("<BBH", _KIND, _VERSION, len(id_)) + id_ + clip.wav
+    return struct.pack("<BBH", _KIND, _VERSION, len(id_)) + id_ + clip.sound.wav
 
 
-def message_of(change: AudioChange) -> Message:
-    """A change as a message of the protocol."""
+def messages_of(change: AudioChange) -> Iterator[Message]:
+    """A change as messages of the protocol."""
     match change:
         case AudioStart(character, clip, start, gain):
-            url = f"/audio/{clip.id}.wav"
-            times = {"start": None if start is None else round(start, 6), "duration": round(clip.duration, 6)}
-            volume = {"gain": round(gain, 6)}
-            return {"type": "audio", "character": character, "id": clip.id, "url": url, **times, **volume}
+            times = {"start": None if start is None else round(start, 6), "duration": round(clip.sound.duration, 6)}
+            common = {"character": character, "id": clip.id, **times, "gain": round(gain, 6)}
+            if clip.caption is not None:
+                words = [(round(begin, 3), first, last) for begin, first, last in clip.caption.words]
+                yield {"type": "caption", **common, "text": clip.caption.text, "words": words}
+            if clip.sound.wav:
+                yield {"type": "audio", **common, "url": f"/audio/{clip.id}.wav"}
         case AudioMove(id_, start):
-            return {"type": "audio_move", "id": id_, "start": round(start, 6)}
+            yield {"type": "audio_move", "id": id_, "start": round(start, 6)}
         case AudioGain(id_, gain, time):
-            return {"type": "audio_gain", "id": id_, "gain": round(gain, 6), "time": round(time, 6)}
+            yield {"type": "audio_gain", "id": id_, "gain": round(gain, 6), "time": round(time, 6)}
         case AudioStop(id_, time, fade):
-            return {"type": "audio_stop", "id": id_, "time": round(time, 6), "fade": fade}
+            yield {"type": "audio_stop", "id": id_, "time": round(time, 6), "fade": fade}

@@ -2,9 +2,11 @@
 
 import asyncio
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any, NamedTuple
 from xml.sax.saxutils import quoteattr
 
+from reactive_realizer.bml.behaviors import Speech
 from reactive_realizer.bml.block import Problem
 from reactive_realizer.bml.document import parse
 from reactive_realizer.bml.faults import AbsurdTime
@@ -13,6 +15,9 @@ from reactive_realizer.clock.ticker import tick_time
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.audio import AudioHeard
 from reactive_realizer.errors import Fault, RealizerError
+from reactive_realizer.feedback.feedback_manager import Report
+from reactive_realizer.feedback.messages import BlockProgress
+from reactive_realizer.limits import Limits
 from reactive_realizer.realizer.document_checker import DocumentChecker
 from reactive_realizer.realizer.inbox import TooManyNames
 from reactive_realizer.realizer.inputs import BmlText, Event, Prediction, Push, TargetMoved, WorldPosition
@@ -26,7 +31,7 @@ _LEAD_IN = 150
 """Ticks until the performance begins: by then, a page that has just opened shows its avatars."""
 
 _METRONOME = "metronome"
-"""The anticipator that the performance uses; it is restarted with the performance."""
+"""The anticipator that the performance uses; it is restarted with it, and when the figure begins to speak."""
 
 
 class Demo:
@@ -41,6 +46,7 @@ class Demo:
         self._live = live
         self._stop = stop
         self._seen = False
+        self._stop_listening: Callable[[], None] = lambda: None
 
     def page_opened(self) -> None:
         """Starts the performance when the first page opens."""
@@ -59,9 +65,27 @@ class Demo:
         self._stop()
         # Some ticks after the stop, the ids of the performance are free again.
         begin = tick_time(self._live.tick + _LEAD_IN)
+        self._stop_listening()
         if _METRONOME in self._live.realizer.anticipators:
-            self._live.realizer.put(Event(_METRONOME, "start"), begin)
+            self._live.realizer.put(Event(_METRONOME, "start"), begin)  # so that no beat of the performance has passed
+            follow = partial(self._follow, _first_spoken(self._live.performance, self._live.limits), begin)
+            self._stop_listening = self._live.realizer.feedback.listen(follow)
         self._live.realizer.put(BmlText(self._live.performance), begin)
+
+    def _follow(self, block: str, begin: GlobalTime, report: Report) -> None:
+        """Restart the metronome with a block, because the time that a voice takes to begin depends on the machine."""
+        message = report.message
+        started = isinstance(message, BlockProgress) and (message.block, message.sync) == (block, "start")
+        if started and report.time >= begin:  # not one of a performance before
+            self._live.realizer.put(Event(_METRONOME, "start"))
+            self._stop_listening()
+
+
+def _first_spoken(performance: str, limits: Limits) -> str:
+    """Id of the first block of a performance with a speech, or else of the first one."""
+    blocks = [parsed.block for parsed in parse(performance, limits) if parsed.block is not None]
+    spoken = [block for block in blocks if any(isinstance(each, Speech) for each in block.behaviors)]
+    return (spoken or blocks)[0].id
 
 
 _SMALL = 2000
@@ -174,6 +198,14 @@ class Intake:
             self._realizer.put(BmlText(f'<bml xmlns="{BML}" {attributes} composition="REPLACE"/>'))
         return [id_] * len(self._realizer.characters)
 
+    def hear(self, heard: AudioHeard, client: object) -> None:
+        """Takes a report of what a client hears.
+
+        Raises:
+            RealizerError: there is no such sound, or the report cannot be true.
+        """
+        self._heard.take(heard, client)
+
     def message(self, message: Message, client: object) -> None:
         """Handles a checked message of the socket other than BML, ping and clock.
 
@@ -194,7 +226,7 @@ class Intake:
             case "world":
                 self._move(message["set"])
             case "heard":
-                self._heard.take(AudioHeard(message["id"], message["position"], GlobalTime(message["time"])), client)
+                self.hear(AudioHeard(message["id"], message["position"], GlobalTime(message["time"])), client)
             case "push":
                 self._push(push_of(message))
             case _:  # "demo", the last type of the protocol

@@ -24,6 +24,7 @@ from reactive_realizer.server.live_scene import LiveScene, keep_from_ticks
 from reactive_realizer.server.recorder import Recorder
 from reactive_realizer.server.recording_parts import RecordingParts
 from reactive_realizer.server.security import Security
+from reactive_realizer.server.sound_device import check_sound_device, sound_device
 
 logger = logging.getLogger(__name__)
 
@@ -44,6 +45,7 @@ class ServerOptions:
         origins: origins of other pages that are accepted.
         scene: options of the scene.
         performance: BML of a demo; None for none.
+        sound_device: name of the device of this machine that plays sounds, empty for the default one; None for none.
         record: the file that the session is recorded into; None for none.
         record_bytes: the size from which the recording goes on in another file.
     """
@@ -54,6 +56,7 @@ class ServerOptions:
     origins: tuple[str, ...] = ()
     scene: SceneOptions = field(default_factory=SceneOptions)
     performance: str | None = None
+    sound_device: str | None = None
     record: Path | None = None
     record_bytes: float = inf
 
@@ -62,9 +65,11 @@ async def serve(options: ServerOptions) -> None:
     """Serves a scene in real time until cancellation, or until what plays has ended after SIGTERM.
 
     Raises:
-        RealizerError: the scene cannot be assembled, or the token is empty or missing.
+        RealizerError: the scene cannot be assembled, the sound device cannot be used, or the token is empty or missing.
         OSError: the address cannot be bound to, or the session cannot be recorded into its file.
     """
+    if options.sound_device is not None:
+        check_sound_device(options.sound_device)
     security = Security(options.host, options.token, options.origins)
     async with AsyncExitStack() as stack:
         listening = stack.enter_context(listen(options.host, options.port))
@@ -83,6 +88,8 @@ async def serve(options: ServerOptions) -> None:
         ticking = group.create_task(live.run())
         try:
             async with serving(live, security, listening) as app:
+                if options.sound_device is not None:
+                    stack.enter_context(sound_device(live, app[INTAKE], options.sound_device))
                 await _termination()
                 await drain(live, app[INTAKE])
         finally:

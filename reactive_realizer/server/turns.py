@@ -19,5 +19,8 @@ class Turns:
     async def __aexit__(
         self, kind: type[BaseException] | None, failure: BaseException | None, trace: TracebackType | None
     ) -> None:
-        self._lock.release()
-        await asyncio.sleep(0)
+        # Released only after the sleep: otherwise, tasks that wake together would all have their turns without a pause.
+        try:
+            await asyncio.sleep(0)
+        finally:
+            self._lock.release()

@@ -11,6 +11,7 @@ import pytest
 
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.names import Location
+from reactive_realizer.bml.vocabulary import InterruptSpeech
 from reactive_realizer.clock.units import RESOLUTION, GlobalTime
 from reactive_realizer.embodiment.quaternion import Quat
 from reactive_realizer.engine.context import EngineContext
@@ -276,7 +277,7 @@ class EngineContract(ABC):
             for each in (harness, other):
                 each.advance(0.13 + share * _duration(unit))
             if unit.live:
-                assert unit.gentle_end(harness.now) >= harness.now
+                assert unit.gentle_end(harness.now, InterruptSpeech.WORD) >= harness.now
                 assert all(isinstance(text, str) for pair in unit.details("end", harness.now).items() for text in pair)
             harness.interrupt(unit)
             reached = list(harness.reached)

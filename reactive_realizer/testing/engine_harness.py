@@ -1,7 +1,7 @@
 """A test harness for engines: one character, and calls like those of the scheduler and the realizer."""
 
 import asyncio
-from collections.abc import Awaitable
+from collections.abc import AsyncIterator
 from functools import cache
 from math import inf
 from pathlib import Path
@@ -36,7 +36,7 @@ from reactive_realizer.engine.effects import (
     SetParameter,
     Warn,
 )
-from reactive_realizer.engine.engine import Engine
+from reactive_realizer.engine.engine import Engine, SlowWork
 from reactive_realizer.engine.tts import TTSBinding
 from reactive_realizer.engines.speech.text_voice import TextVoice
 from reactive_realizer.limits import Limits
@@ -68,7 +68,7 @@ def minimal_context(tts: TTSBinding | None = None, *assets: Path) -> EngineConte
     world = World({"viewer": (0.0, 1.6, 2.5)})
     world.add_character(CHARACTER, humanoid.locate)
     trajectories = {name: load("trajectories", name) for name in names("trajectories")}
-    voice, bindings = tts or TextVoice(), binding_files(spec.bindings, found)
+    voice, bindings = tts or TextVoice(), binding_files(spec.bindings, found(spec.avatar), found)
     return EngineContext(CHARACTER, humanoid, world, found, 0, voice, None, bindings, trajectories=trajectories)
 
 
@@ -282,8 +282,8 @@ class EngineHarness:
         for change in self.audio:
             match change:
                 case AudioStart(clip=clip, start=start):
-                    durations[clip.id] = clip.duration
-                    ends[clip.id] = inf if start is None else start + clip.duration
+                    durations[clip.id] = clip.sound.duration
+                    ends[clip.id] = inf if start is None else start + clip.sound.duration
                 case AudioMove(id=id_, start=start):
                     ends[id_] = start + durations[id_]
                 case AudioStop(id=id_):
@@ -341,7 +341,9 @@ def _forever() -> PlanUnit:
     return PlanUnit(BLOCK, behavior, timing_at({"start": 0.0, "end": inf}))
 
 
-async def _result(work: Awaitable[object]) -> object:
+async def _result(work: SlowWork) -> object:
+    if isinstance(work, AsyncIterator):
+        return [part async for part in work][-1].result
     return await work
 
 

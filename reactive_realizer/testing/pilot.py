@@ -1,5 +1,6 @@
 """Drives a realizer in tests: gives BML, advances time, and records all output."""
 
+import asyncio
 from collections.abc import AsyncIterator, Mapping
 from contextlib import asynccontextmanager
 from textwrap import dedent
@@ -20,6 +21,9 @@ from reactive_realizer.realizer.inputs import BmlText, Event, Prediction, Push, 
 from reactive_realizer.realizer.realizer import Realizer
 from reactive_realizer.testing.feedback_list import FeedbackList
 
+_TURNS = 5
+"""Turns of the event loop after a tick, in which slow work takes notice of what has happened."""
+
 
 class RealizerPilot:
     """Gives BML to a realizer, advances its time, and records its output.
@@ -29,6 +33,7 @@ class RealizerPilot:
         feedback: all messages.
         frames: the frames of each character since `watch` was called.
         sounds: the changes of sounds.
+        patient: whether time stands still while slow work is done, as on a virtual clock.
     """
 
     def __init__(self, scene: Scene) -> None:
@@ -36,6 +41,7 @@ class RealizerPilot:
         self.feedback = FeedbackList()
         self.frames: dict[str, list[Frame]] = {}
         self.sounds: list[AudioChange] = []
+        self.patient = True
         self._bodies: dict[str, tuple[list[Frame], list[Body]]] = {}
         self._number = 0
         self._left_out = 0
@@ -115,11 +121,14 @@ class RealizerPilot:
         self._left_out += ticks
 
     async def tick(self) -> None:
-        """Plays one tick, and waits for the slow work that it started."""
+        """Plays one tick, and waits for the slow work that it started, if it is patient."""
         previous = tick_time(self._number - 1 - self._left_out)
         self._left_out = 0
         await self.realizer.step(Tick(self._number, previous, self._number % FRAME_EVERY == 0))
-        await self.realizer.settle()
+        if self.patient:
+            await self.realizer.settle()
+        for _ in range(_TURNS):
+            await asyncio.sleep(0)
         self._number += 1
 
     def _keep(self, frames: Mapping[str, Frame]) -> None:

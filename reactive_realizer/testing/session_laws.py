@@ -9,6 +9,7 @@ from tempfile import TemporaryDirectory
 from typing import NamedTuple
 
 from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.bml.behaviors import Wait
 from reactive_realizer.clock.ticker import RATE
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.feedback.feedback_manager import Report
@@ -188,7 +189,9 @@ def _wrong_durations(unit: PlanUnit) -> Iterator[str]:
         return
     timing, id_ = unit.timing.closed, unit.behavior.id
     times = [point.peg.value or GlobalTime(0.0) for point in unit.points]
-    if not timing.instant and times[-1] - times[0] < SHORTEST - _ROUNDING:
+    # A wait that has begun ends at once if the time that ends it moves to its start.
+    timed = not timing.instant and not isinstance(unit.behavior, Wait)
+    if timed and times[-1] - times[0] < SHORTEST - _ROUNDING:
         yield f"{id_} took no time"
     for point, phase, (time, after) in zip(unit.points, timing.phases, pairwise(times), strict=False):
         took = after - time

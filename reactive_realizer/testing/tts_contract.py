@@ -50,9 +50,16 @@ class Speaker:
         """Requests a text, and cancels the request."""
         self._runner.run(self._cancel(text))
 
+    def parts(self, text: str, *marks: tuple[str, int]) -> list[Utterance]:
+        """The utterance of a text each time that more of it is made; the last one is complete."""
+        return self._runner.run(self._parts(text, marks, None))
+
     async def _say(self, text: str, marks: tuple[tuple[str, int], ...], voice: str | None) -> Utterance:
+        return (await self._parts(text, marks, voice))[-1]
+
+    async def _parts(self, text: str, marks: tuple[tuple[str, int], ...], voice: str | None) -> list[Utterance]:
         spoken = self._tts.synthesize(text, marks, voice)
-        return spoken if isinstance(spoken, Utterance) else await spoken
+        return [spoken] if isinstance(spoken, Utterance) else [each async for each in spoken]
 
     async def _say_concurrently(self, texts: tuple[str, ...]) -> list[Utterance]:
         return await asyncio.gather(*(self._say(text, (), None) for text in texts))
@@ -146,6 +153,20 @@ class TTSContract(ABC):
             _assert_in_order([phoneme.start for phoneme in utterance.phonemes], utterance)
             assert all(phoneme.duration >= 0.0 for phoneme in utterance.phonemes), text
 
+    def test_what_is_made_stays_and_the_last_part_completes_the_utterance(self, speaker: Speaker) -> None:
+        for text in (*self.texts, self.long_text, *_NO_WORDS):
+            parts = speaker.parts(text, ("middle", len(text) // 2))
+            assert parts[-1].complete, text
+            for part, more in pairwise(parts):
+                assert part.made < more.made, text
+                if part.audio:
+                    assert len(part.audio) / 2 / part.sample_rate == pytest.approx(part.made, abs=1e-3), text
+                assert more.audio.startswith(part.audio), text
+                assert [word.text for word in part.words] == [word.text for word in more.words], text
+                assert _made(part, part.made) == _made(more, part.made), text
+                _assert_in_order([word.start for word in part.words], part)
+                assert 0.0 <= part.marks["middle"] <= part.duration, text
+
     def test_the_same_text_gives_the_same_utterance_after_another_one(self, speaker: Speaker) -> None:
         first = speaker.say(_SENTENCE, ("red", 15))
         speaker.say("Something else entirely.")
@@ -171,6 +192,12 @@ class TTSContract(ABC):
             with pytest.raises(RealizerError, match="nobody's"):
                 speaker.say("one two", voice="nobody's")
         assert speaker.say("one two").words
+
+
+def _made(utterance: Utterance, until: float) -> list[float]:
+    """The times of words and phonemes before a time, s."""
+    times = [*(word.start for word in utterance.words), *(phoneme.start for phoneme in utterance.phonemes)]
+    return [time for time in times if time < until - RESOLUTION]
 
 
 def _assert_in_order(times: list[float], utterance: Utterance) -> None:

@@ -66,6 +66,22 @@ async def test_a_block_subsides_when_all_its_behaviors_retract(pilot: RealizerPi
     assert pilot.feedback.status("b", "relax") == "SUBSIDING"
 
 
+async def test_a_block_subsides_while_its_behaviors_retract_when_the_last_other_one_is_dropped(
+    pilot: RealizerPilot,
+) -> None:
+    pilot.block("first", '<wait id="w" duration="9"/>')
+    pilot.block("later", '<wait id="w" duration="1"/>', composition="APPEND")
+    pilot.block("b", '<gesture id="g" lexeme="BEAT"/><wait id="w" duration="1" start="later:w:start"/>')
+    while not pilot.feedback.reached("b:g:relax"):
+        await pilot.tick()
+    pilot.block("stop", **{"bmla:interrupt": "later"})
+    await pilot.tick()
+    stopped = pilot.feedback.time("later:end")
+    await pilot.tick()
+    assert pilot.feedback.time("b:relax") == stopped
+    assert not pilot.feedback.reached("b:g:end")
+
+
 async def test_a_block_without_a_retraction_ends_without_subsiding(pilot: RealizerPilot) -> None:
     pilot.block("b", '<wait id="w" duration="0.2"/>')
     await pilot.advance(1)

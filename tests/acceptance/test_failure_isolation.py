@@ -17,7 +17,7 @@ from reactive_realizer.testing.pilot import open_pilot
         (FootPlanting, "layers", "foot planting"),
         (Idle, "layer", "idle animation"),
         (Idle, "eyes", "idle animation"),
-        (Idle, "weights", "idle animation"),
+        (Idle, "blinks", "idle animation"),
         (EyeController, "eyes", "gaze"),
     ],
 )

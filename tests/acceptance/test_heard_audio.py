@@ -14,7 +14,7 @@ pytestmark = pytest.mark.speech
 
 TEXT = 'This is the <sync id="one"/>first one, and that is the <sync id="two"/>second one of many.'
 SPEECH = f'<speech id="s" xmlns:rr="{OWN}" rr:words="true"><text>{TEXT}</text></speech>'
-CLIP = "alice-1"
+CLIP = "alice-speech-1"
 
 
 @pytest_asyncio.fixture
@@ -74,6 +74,17 @@ async def test_points_ahead_and_what_is_tied_to_them_move_to_what_is_heard(talki
         assert told.time(key) == pytest.approx(after[key], abs=1e-6)
     assert told.warnings == []
     assert told.status("b") == told.status("other") == "DONE"
+
+
+async def test_what_is_tied_to_a_point_that_was_reported_keeps_its_time() -> None:
+    async with open_pilot(SceneOptions(voice="espeak", verify=True)) as pilot:
+        pilot.block("b", SPEECH + '<faceLexeme id="brows" lexeme="RAISE_BROWS" start="s:start" end="s:one+0.9"/>')
+        while not pilot.feedback.reached("b:s:one"):
+            await pilot.tick()
+        await hear(pilot, 0.15)
+        await pilot.advance(6)
+        assert pilot.feedback.time("b:brows:end") == pytest.approx(pilot.feedback.time("b:s:one") + 0.9)
+        assert pilot.feedback.warnings == []
 
 
 @pytest.mark.parametrize("late", [0.15, -0.1])

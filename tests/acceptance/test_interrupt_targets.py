@@ -1,10 +1,12 @@
 """Targets of `interrupt` and `activate`, and the warnings if there is nothing to do."""
 
 import asyncio
+from collections.abc import AsyncIterator
 
 import pytest
 
 from reactive_realizer.clock.ticker import Tick
+from reactive_realizer.engine.tts import Utterance
 from reactive_realizer.engines.speech.text_voice import TextVoice
 from reactive_realizer.testing.pilot import RealizerPilot
 
@@ -57,8 +59,9 @@ async def test_an_interrupt_ends_those_of_its_behaviors_that_exist(pilot: Realiz
 async def test_background_work_for_an_interrupted_block_is_cancelled(
     pilot: RealizerPilot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    async def never(self: TextVoice, *said: object) -> None:
+    async def never(self: TextVoice, *said: object) -> AsyncIterator[Utterance]:
         await asyncio.Event().wait()
+        yield Utterance("", 0.0, (), {})
 
     monkeypatch.setattr(TextVoice, "synthesize", never)
     pilot.block("talk", TALK)

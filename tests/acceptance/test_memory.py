@@ -103,6 +103,7 @@ async def test_blocks_that_are_sent_again_and_again_leave_nothing_new_behind(pil
             await pilot.advance(0.1 if number % 5 == 4 else 1.5)
         await pilot.advance(2.0)
         assert pilot.feedback.messages  # parsed; the reports are freed
+        pilot.sounds.clear()
         return living()
 
     await play()
@@ -150,6 +151,7 @@ async def test_points_and_blocks_with_new_names_are_remembered_up_to_the_limits(
                 await pilot.advance(0.5)
             await pilot.advance(2.0)
             pilot.feedback.clear()
+            pilot.sounds.clear()
             return living()
 
         await play(0)

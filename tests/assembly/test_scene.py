@@ -1,6 +1,7 @@
 """A scene is built from its files; errors name the file and the line."""
 
 import os
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 
@@ -40,6 +41,15 @@ def test_missing_keys_of_a_character_have_their_defaults(human: Callable[[str], 
     assert read.limits.clients == 3
 
 
+async def test_the_viseme_binding_of_an_avatar_is_beside_it(human: Callable[[str], Path], tmp_path: Path) -> None:
+    (tmp_path / "me.visemes.toml").write_text("[visemes.aa]\nmorphs = {mouth = 1}\n", encoding="utf-8")
+    shutil.copy(PACKAGE_ASSETS / "avatars/male.glb", tmp_path / "me.glb")
+    options = SceneOptions(human(ALICE + 'avatar = "me.glb"'), "text", (tmp_path,))
+    with pytest.raises(RealizerError, match=r"me\.visemes\.toml: visemes\.aa\.morphs: 'mouth' is not a morph target"):
+        async with open_scene(options):
+            pass
+
+
 @pytest.mark.parametrize(
     ("text", "mentions"),
     [
@@ -63,7 +73,8 @@ def test_missing_keys_of_a_character_have_their_defaults(human: Callable[[str], 
         ("[" * 100_000, ["human.toml"]),
         (ALICE + "heading = 1" + "0" * 400, ["character.alice.heading"]),
         (ALICE + "heading = 1" + "0" * 5000, ["human.toml"]),
-        (ALICE + 'bindings = { foo = "x" }', ["character.alice.bindings.foo", "known are gesture"]),
+        (ALICE + 'bindings = { foo = "x" }', ["character.alice.bindings.foo", "known are gesture, face"]),
+        (ALICE + "blink_rate = 61", ["character.alice.blink_rate", "61 is not from 0 to 60 per minute"]),
         (ALICE + "bindings = { gesture = 3 }", ["character.alice.bindings.gesture"]),
         (ALICE + 'engines = ["speech", "wait", "speech"]', ["character.alice.engines", "'speech'", "twice"]),
         (ALICE + "voice = 3", ["character.alice.voice", "3"]),

@@ -21,6 +21,7 @@ SMALLEST: dict[str, dict[str, float]] = {
     "punctuality": {"seconds": 0.5},
     "scheduling": {"most": 2},
     "session": {"blocks": 4},
+    "speech": {"runs": 1},
 }
 KEYS: dict[str, set[str]] = {
     "animation": {*(f"us_per_character_frame.{n}" for n in ("1", "10", "50", "100")), "characters_at_50fps"},
@@ -76,10 +77,21 @@ KEYS: dict[str, set[str]] = {
         *(f"chain.{n}" for n in ("10", "50", "100", "200")),
     },
     "session": {"first_100_ms", "last_100_ms", "retained_bytes_per_block"},
+    "speech": {
+        "loop_lag_p99_ms",
+        *(
+            f"{voice}.{when}.{words}.{what}_ms"
+            for voice in ("espeak", "kokoro")
+            for when in ("cold", "cached")
+            for words in ("5", "11", "60")
+            for what in ("first_audio", "plan")
+        ),
+    },
 }
+SPEAKING = {"speech": pytest.mark.kokoro}
 
 
-@pytest.mark.parametrize("name", SMALLEST)
+@pytest.mark.parametrize("name", [pytest.param(name, marks=SPEAKING.get(name, ())) for name in SMALLEST])
 def test_a_benchmark_has_all_its_numbers_and_aims_only_for_these(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.syspath_prepend(ROOT)
     module = importlib.import_module(f"benchmarks.{name}")
@@ -91,7 +103,7 @@ def test_a_benchmark_has_all_its_numbers_and_aims_only_for_these(name: str, monk
 
 def test_every_benchmark_is_tested() -> None:
     modules = {path.stem for path in (ROOT / "benchmarks").glob("*.py") if not path.stem.startswith("_")}
-    assert modules == set(SMALLEST)
+    assert modules == {*SMALLEST, "lipsync"}, "lipsync, which needs a browser, is tested in tests/browser"
 
 
 def _numbers(result: Mapping[str, object], prefix: str = "") -> Iterator[tuple[str, float | None]]:

@@ -7,7 +7,8 @@ from typing import Any
 
 import pytest
 
-from reactive_realizer.binding.gesture_binding import GestureBinding, finite_numbers
+from reactive_realizer.binding.gesture_binding import GestureBinding
+from reactive_realizer.binding.spec_reader import finite_numbers
 from reactive_realizer.binding.unit_spec import CLASS_NAMES
 from reactive_realizer.bml.names import BML, BMLT
 from reactive_realizer.errors import RealizerError

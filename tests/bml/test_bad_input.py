@@ -84,7 +84,7 @@ DROPPED = {
     ),
     '<bmla:interrupt id="x" target="b1" speech="later"/>': (
         "b:x",
-        "speech='later' of <interrupt>: not one of now, word",
+        "speech='later' of <interrupt>: not one of now, word, clause",
     ),
     '<bmla:parametervaluechange id="x" target="b1:s" paramId="volume"/>': (
         "b:x",

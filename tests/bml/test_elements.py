@@ -28,9 +28,13 @@ from reactive_realizer.bml.block import BehaviorBlock
 from reactive_realizer.bml.elements import ELEMENTS
 from reactive_realizer.bml.extensions import (
     Activate,
+    AudioFile,
     Controller,
     Emit,
+    FaceFap,
+    FaceKeyframe,
     FaceMorph,
+    FacePlutchik,
     Interrupt,
     Keyframe,
     Noise,
@@ -176,11 +180,28 @@ WRITTEN: dict[str, tuple[type[Behavior], dict[str, object], tuple[str, ...]]] = 
     ),
     '<bmlt:keyframe id="x" name="walk"/>': (Keyframe, {"animation": "walk", "interpolator": None}, SHIFT),
     '<bmlt:noise id="x" type="perlin" joint="vl5"/>': (Noise, {"type": "perlin", "joint": "vl5"}, SHIFT),
+    '<bmlt:facefap id="x" fap="12 raise_r_cornerlip" value="-200"/>': (
+        FaceFap,
+        {"fap": "12 raise_r_cornerlip", "value": -200.0},
+        FACE,
+    ),
+    '<bmlt:facekeyframe id="x" name="laugh" type="FAPS"/>': (
+        FaceKeyframe,
+        {"animation": "laugh", "type": "FAPS", "interpolator": None},
+        SHIFT,
+    ),
+    '<bmlt:faceplutchik id="x" angle="315" activation="5.4" intensity="0.7"/>': (
+        FacePlutchik,
+        {"angle": 315.0, "activation": 5.4, "intensity": 0.7},
+        FACE,
+    ),
     '<bmlt:facemorph id="x" targetname="grin" intensity="0.4"/>': (
         FaceMorph,
         {"targetname": "grin", "intensity": 0.4},
         FACE,
     ),
+    '<bmlt:audiofile id="x" filename="sounds/clap.wav"/>': (AudioFile, {"file_name": "sounds/clap.wav"}, SHIFT),
+    '<bmlt:audiofile id="x" fileName="clap.wav" filename="bell.wav"/>': (AudioFile, {"file_name": "bell.wav"}, SHIFT),
     '<bmlt:transition id="x" class="SlerpTransition"/>': (Transition, {"kind": "SlerpTransition"}, SHIFT),
     '<bmlt:controller id="x" class="BalanceController"/>': (
         Controller,
@@ -238,7 +259,15 @@ def test_every_default_sync_point_is_an_attribute_with_a_reference(block: Block,
             prefix = PREFIXES[element.namespace]
             values = {"event": "go", "lexeme": "NOD", "target": "box", "au": "1", "paramId": "volume"}
             values |= {"type": "perlin", "joint": "vl5", "class": "SlerpTransition"}
-            values |= {"targetname": "grin", "intensity": "0.5"}
+            values |= {"filename": "clap.wav"}
+            values |= {
+                "targetname": "grin",
+                "intensity": "0.5",
+                "fap": "3",
+                "value": "1",
+                "angle": "0",
+                "activation": "1",
+            }
             attributes = "".join(
                 f' {each.name}="{values[each.name]}"' for each in element.attributes[1:] if each.required
             )
@@ -324,7 +353,7 @@ def test_descriptions_have_priority_type_and_content(block: Block) -> None:
     (speech,) = block(
         '<speech id="s"><text>Hi</text>'
         '<description priority="2" type="application/ssml+xml">'
-        '<speak xmlns="urn:s">Hi &amp; <b/>bye</speak></description>'
+        '<speak xmlns="http://www.w3.org/2001/10/synthesis">Hi &amp; <b/>bye</speak></description>'
         '<description priority="1" type="audiofile"/></speech>'
     ).behaviors
     first, second = speech.descriptions

@@ -1,8 +1,11 @@
 """The page in a browser."""
 
 import asyncio
+import io
 
+import numpy as np
 import pytest
+from PIL import Image
 from playwright.async_api import Page, expect
 
 from anticipators.metronome import Metronome
@@ -14,6 +17,7 @@ from .conftest import Serve, far_away
 pytestmark = [pytest.mark.browser, pytest.mark.timeout(120), pytest.mark.asyncio(loop_scope="module")]
 
 BML = 'xmlns="http://www.bml-initiative.org/bml/bml-1.0"'
+BMLT = 'xmlns:bmlt="http://hmi.ewi.utwente.nl/bmlt"'
 ALICE = '[character.alice]\nvoice = "en-us+f3"\n[anticipator.metronome]\nkind = "metronome"\n'
 TWO = ALICE + '[character.bert]\navatar = "avatars/male.glb"\nposition = [1.0, 0.0, 0.0]\n'
 GESTURE = f'<bml {BML} id="hand"><gesture id="g" lexeme="BEAT" mode="RIGHT_HAND" start="0.5"/></bml>'
@@ -50,6 +54,25 @@ async def test_bml_that_is_sent_from_the_page_moves_the_arm_and_its_feedback_app
             "before => Math.hypot(...viewer.bone('alice', 'RightHand').map((x, i) => x - before[i])) > 0.1", arg=before
         )
         await expect(page.locator("#feedback")).to_contain_text("hand:g:stroke")
+
+
+async def redness(page: Page) -> float:
+    """By how much the picture of the figure is more red than green, on average, of 255."""
+    shot = Image.open(io.BytesIO(await page.locator("#viewport canvas").screenshot())).convert("RGB")
+    red, green, _ = np.moveaxis(np.asarray(shot, dtype=float), -1, 0)
+    return float((red - green).clip(0.0).mean())
+
+
+async def test_skin_reddens_when_a_character_blushes_and_greys_when_it_turns_pale(serve: Serve) -> None:
+    async with serve(ALICE) as scene:
+        page = await scene.open()
+        shown = {"": await redness(page)}
+        for color in ("skinBlush", "skinPallor"):
+            morph = f'<bmlt:facemorph id="m" targetname="{color}" start="0" attackPeak="0.2" relax="60" end="61"/>'
+            await send(page, f'<bml {BML} {BMLT} id="{color}" composition="REPLACE">{morph}</bml>')
+            await page.wait_for_function("color => viewer.morph('alice', color) > 0.99", arg=color)
+            shown[color] = await redness(page)
+        assert shown["skinPallor"] < 0.9 * shown[""] < 1.1 * shown[""] < shown["skinBlush"]
 
 
 async def test_bml_that_is_wrong_is_answered_in_the_page_as_text(serve: Serve) -> None:
@@ -89,6 +112,43 @@ async def test_speech_sounds_and_moves_the_mouth(serve: Serve) -> None:
         await page.wait_for_function("() => viewer.morph('alice', 'jawOpen') > 0.05")
         await expect(page.locator("#feedback")).to_contain_text("say:s:end")
         await page.wait_for_function("() => viewer.morph('alice', 'jawOpen') < 0.05")
+
+
+# Notes in each animation frame what the captions say, with the word that they mark, if it is new.
+NOTE_CAPTIONS = """() => {
+  window.shown = [];
+  const captions = document.querySelector("#captions");
+  (function note() {
+    const [text, word] = [captions.textContent, captions.querySelector("mark")?.textContent ?? ""];
+    const [last] = shown.slice(-1);
+    if (last?.[0] !== text || last[1] !== word) shown.push([text, word]);
+    requestAnimationFrame(note);
+  })();
+}"""
+
+
+@pytest.mark.speech
+async def test_captions_mark_the_word_that_is_heard_end_where_it_is_cut_and_can_be_hidden(serve: Serve) -> None:
+    async with serve(ALICE, voice="espeak") as scene:
+        page = await scene.open()
+        await page.evaluate(NOTE_CAPTIONS)
+        text = "It is a story which everybody has begun to tell, but nobody ever heard its end."
+        await send(page, f'<bml {BML} id="say"><speech id="s"><text>{text}</text></speech></bml>')
+        await page.wait_for_function("() => shown.length > 4")
+        await send(page, f'<bml {BML} id="stop" composition="REPLACE"/>')
+        await page.wait_for_function("() => shown.length > 1 && shown.at(-1)[0] === ''")
+        first, *readings, cut, last = await page.evaluate("shown")
+        assert first == last == ["", ""]
+        assert {reading for reading, _ in readings} == {text}
+        words = [word for _, word in readings]
+        assert words == [word for word in text.replace(",", "").split() if word in words]
+        assert cut[0].endswith(f"{cut[1]}—")
+        assert text.startswith(cut[0].removesuffix("—"))
+
+        await page.click("#captions-switch")
+        await send(page, f'<bml {BML} id="again"><speech id="s"><text>{text}</text></speech></bml>')
+        await page.wait_for_function("before => shown.slice(before).some(([, word]) => word)", arg=len(readings) + 3)
+        await expect(page.locator("#captions")).to_be_hidden()
 
 
 @pytest.mark.speech

@@ -127,7 +127,7 @@ def test_a_recorded_session_with_late_ticks_is_replayed_with_identical_bytes(
     monkeypatch.setattr(serving, "SystemClock", HastyClock)
     caplog.set_level(logging.INFO, serving.__name__)
     file = tmp_path / "session.jsonl"
-    options = ServerOptions(port=0, scene=SceneOptions(voice=voice), record=file, record_bytes=2_000)
+    options = ServerOptions(port=0, scene=SceneOptions(voice=voice, liveliness=0.8), record=file, record_bytes=2_000)
     told = asyncio.run(live_session(options))
     assert list(tmp_path.glob("session.*.jsonl"))
     recording = read_recording(file)
@@ -140,6 +140,7 @@ def test_a_recorded_session_with_late_ticks_is_replayed_with_identical_bytes(
     feedback, frames = replayed(file, tmp_path, "one")
     assert [(time, stamped(xml, recording.started)) for time, xml in feedback] == told
     assert len(told) > 30
+    assert any(".lively" in xml for _, xml in told)
     assert replayed(file, tmp_path, "two") == (feedback, frames)
     main(["realize", "--replay", str(file), "--feedback", str(tmp_path / "unseen.jsonl")])
     assert (tmp_path / "unseen.jsonl").read_bytes() == (tmp_path / "one.jsonl").read_bytes(), "whoever looks on"

@@ -84,6 +84,17 @@ def test_a_size_of_recordings_without_a_recording_or_of_nothing_is_refused(
     assert "--record-size" in capsys.readouterr().err
 
 
+def test_the_demo_speaks_with_the_natural_voice_where_it_is_installed(
+    served: list[ServerOptions], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for installed in (True, False):
+        monkeypatch.setattr("reactive_realizer.engines.speech.kokoro.voice.installed", lambda found=installed: found)
+        main(["demo"])
+        main(["demo", "--voice", "text"])
+    main(["serve"])
+    assert [options.scene.voice for options in served] == ["kokoro", "text", "espeak", "text", "espeak"]
+
+
 def test_the_demo_serves_the_named_performance(served: list[ServerOptions], capsys: pytest.CaptureFixture[str]) -> None:
     main(["demo"])
     main(["demo", "conductor"])
@@ -92,3 +103,8 @@ def test_the_demo_serves_the_named_performance(served: list[ServerOptions], caps
     with pytest.raises(SystemExit):
         main(["demo", "dance"])
     assert "there is no performance 'dance'; available: conductor, greeting" in capsys.readouterr().err
+
+
+def test_a_sound_device_that_does_not_exist_is_an_error(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["serve", "--voice", "text", "--port", "0", "--sound-device", "no such device"]) == 2
+    assert "sound cannot be played on this machine: " in capsys.readouterr().err

@@ -3,6 +3,7 @@
 import asyncio
 import re
 from collections.abc import AsyncIterator, Iterator
+from contextlib import asynccontextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -10,7 +11,8 @@ import pytest
 from aiohttp.test_utils import TestServer
 
 from reactive_realizer.assembly.scene import SceneOptions, open_scene
-from reactive_realizer.clock.clock import SystemClock
+from reactive_realizer.clock.clock import Clock, SystemClock
+from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.server.app import create_app
 from reactive_realizer.server.live_scene import LiveScene
 from reactive_realizer.server.security import Security
@@ -46,11 +48,34 @@ class Fence:
         return f"{self.page}:{self.line}"
 
 
+class QuickClock(SystemClock):
+    """A clock that is five times as fast as the machine's."""
+
+    def now(self) -> GlobalTime:
+        return GlobalTime(5 * super().now())
+
+    async def wait_until(self, moment: GlobalTime) -> None:
+        await asyncio.sleep(max(0.0, moment - self.now()) / 5)
+
+
 @pytest.fixture
 async def server() -> AsyncIterator[str]:
     """The address of a scene that is served, on the machine's clock."""
+    async with serving(SystemClock()) as address:
+        yield address
+
+
+@pytest.fixture
+async def quick_server() -> AsyncIterator[str]:
+    """The address of a scene that is served faster than real time."""
+    async with serving(QuickClock()) as address:
+        yield address
+
+
+@asynccontextmanager
+async def serving(clock: Clock) -> AsyncIterator[str]:
     async with open_scene(SceneOptions(voice="text")) as scene, asyncio.TaskGroup() as group:
-        live = LiveScene(scene, SystemClock())
+        live = LiveScene(scene, clock)
         ticking = group.create_task(live.run())
         async with TestServer(create_app(live, Security())) as server:
             yield str(server.make_url("")).rstrip("/")

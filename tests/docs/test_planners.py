@@ -108,6 +108,37 @@ async def test_a_planner_answers_an_event_with_an_event(server: str) -> None:
     assert all(line.strip() in page(PLANNERS) for line in printed)
 
 
+async def test_a_dialogue_is_interrupted_by_a_typed_line_and_its_answers_know_what_was_heard(quick_server: str) -> None:
+    text = (EXAMPLES / "dialogue.py").read_text(encoding="utf-8").replace(ADDRESS, quick_server)
+    process = await asyncio.create_subprocess_exec(
+        *PYTHON, text, stdin=asyncio.subprocess.PIPE, stdout=asyncio.subprocess.PIPE
+    )
+    typed, output = process.stdin, process.stdout
+    assert typed is not None
+    assert output is not None
+
+    async def printed(about: str) -> str:
+        line = (await output.readline()).decode()
+        assert line.startswith(about)
+        return line.removeprefix(about).strip()
+
+    said = await printed("says:")
+    typed.write(b"Where is the mill?\n")
+    heard = await printed("heard:")
+    assert said.startswith(heard)
+    assert "mill" not in heard
+
+    said = await printed("says:")
+    assert said.startswith("I was coming to that: at the old mill you turn right. First")
+    assert await printed("heard:") == said, "nobody interrupts"
+
+    typed.write(b"And the mill?\n")
+    assert await printed("says:") == "As I said, at the old mill you turn right."
+    typed.close()
+    assert await printed("heard:") == "As I said, at the old mill you turn right."
+    assert await process.wait() == 0
+
+
 async def test_the_javascript_planner_yields_too(server: str) -> None:
     program = (EXAMPLES / "barge_in.mjs").read_text(encoding="utf-8")
     for _ in range(2):
@@ -136,9 +167,15 @@ def test_the_test_on_the_page_runs_a_planner_without_a_server() -> None:
 
 
 def test_the_page_shows_the_programs_of_the_examples() -> None:
-    planner, barge_in, events, over_http, _ = fences(PLANNERS, "python")
+    planner, barge_in, dialogue, events, over_http, _ = fences(PLANNERS, "python")
     in_javascript, _ = fences(PLANNERS, "javascript")
-    shown = {"planner.py": planner, "barge_in.py": barge_in, "events.py": events, "over_http.py": over_http}
+    shown = {
+        "planner.py": planner,
+        "barge_in.py": barge_in,
+        "dialogue.py": dialogue,
+        "events.py": events,
+        "over_http.py": over_http,
+    }
     shown["barge_in.mjs"] = in_javascript
     for name, program in shown.items():
         assert program.text == (EXAMPLES / name).read_text(encoding="utf-8")

@@ -92,7 +92,8 @@ def test_an_elbow_bent_about_x_takes_the_hand_forward_on_both_sides(avatar: Avat
 
 def test_the_avatars_have_54_joints_and_the_52_arkit_targets(avatar: Avatar) -> None:
     assert len(avatar.skeleton.joints) == 54
-    assert len(avatar.morphs) == 52
+    assert len(avatar.morphs) == 52 + 2
+    assert avatar.morphs[52:] == ("skinBlush", "skinPallor")
     assert {"jawOpen", "eyeBlinkLeft", "mouthSmileRight"} <= set(avatar.morphs)
     assert avatar.skeleton.parent("l_elbow") == "l_shoulder"
     assert avatar.skeleton.chain("skullbase") == ("HumanoidRoot", "vl5", "vt10", "vt6", "vc4", "skullbase")

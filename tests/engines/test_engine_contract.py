@@ -1,11 +1,14 @@
 """Runs the contract for engines on all built-in engines."""
 
+from collections.abc import AsyncIterator
 from dataclasses import replace
+from pathlib import Path
 
 from reactive_realizer.engine.context import EngineContext
 from reactive_realizer.engine.engine import Engine
 from reactive_realizer.engine.tts import Utterance
 from reactive_realizer.engines.animation.animation_engine import AnimationEngine
+from reactive_realizer.engines.audio_engine import AudioEngine
 from reactive_realizer.engines.block_control import ActivateEngine, InterruptEngine
 from reactive_realizer.engines.face.face_engine import FaceEngine
 from reactive_realizer.engines.parameter_value_change import ParameterValueChangeEngine
@@ -15,15 +18,17 @@ from reactive_realizer.engines.wait_engine import WaitEngine
 from reactive_realizer.testing.engine_contract import EngineContract
 from reactive_realizer.testing.engine_harness import minimal_context
 
+SOUNDS = Path(__file__).parents[1] / "data" / "sounds"
+
 
 class SlowVoice(TextVoice):
     """A voice that synthesizes asynchronously, with audio (silence)."""
 
     async def synthesize(  # type: ignore[override]  # a voice may be asynchronous
         self, text: str, marks: tuple[tuple[str, int], ...], voice: str | None = None
-    ) -> Utterance:
+    ) -> AsyncIterator[Utterance]:
         utterance = super().synthesize(text, marks, voice)
-        return replace(utterance, audio=bytes(2 * round(utterance.duration * 8000)), sample_rate=8000)
+        yield replace(utterance, audio=bytes(2 * round(utterance.duration * 8000)), sample_rate=8000)
 
 
 class TestAnimation(EngineContract):
@@ -64,6 +69,17 @@ class TestSpeech(EngineContract):
 class TestSpeechWithAudio(TestSpeech):
     def context(self) -> EngineContext:
         return minimal_context(SlowVoice())
+
+
+class TestAudio(EngineContract):
+    elements = ('<bmlt:audiofile id="a" filename="knock.wav"/>',)
+    refused = ('<bmlt:audiofile id="a" filename="nowhere.wav"/>', '<bmlt:audiofile id="a" filename="../knock.wav"/>')
+
+    def context(self) -> EngineContext:
+        return minimal_context(None, SOUNDS)
+
+    def engine(self, context: EngineContext) -> Engine:
+        return AudioEngine(context)
 
 
 class TestWait(EngineContract):

@@ -93,6 +93,20 @@ async def test_work_beyond_the_budget_of_a_tick_is_taken_from_the_next_ones(
     assert 20 * (ticks - 1) <= entries + sum(slices) <= 20 * ticks + max(slices)
 
 
+@pytest.mark.parametrize("came", [0.0, 0.03], ids=["with it", "while it waits"])
+async def test_an_event_counts_for_a_block_after_the_tick_of_its_arrival_also_if_it_waits_to_enter(
+    slow: RealizerPilot, came: float
+) -> None:
+    for i in range(4):
+        slow.block(f"b{i}", loose(5))
+    slow.block("answer", '<wait id="w" duration="0.1" start="anticipators:partner:done"/>')
+    await slow.advance(came)
+    slow.predict("partner", "done", slow.now)
+    await slow.advance(0.5)
+    assert slow.feedback.time("b3:start") > 0.05
+    assert slow.feedback.reached("answer:w:start") is (came > 0.0)
+
+
 async def test_a_small_block_of_another_character_does_not_wait_for_a_big_one(pilot: RealizerPilot) -> None:
     pilot.block("big", chain(200), characterId="alice")
     await pilot.tick()

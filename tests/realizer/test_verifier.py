@@ -111,6 +111,19 @@ async def test_a_start_at_a_time_that_is_corrected_a_little_after_it_has_come_is
         assert said(pilot) == []
 
 
+async def test_a_constraint_that_breaks_because_a_body_needs_more_time_when_it_begins_is_no_violation() -> None:
+    async with open_pilot(SceneOptions(voice="text", verify=True)) as pilot:
+        pilot.predict("partner", "hit", 3.0)
+        pilot.predict("partner", "done", 5.0)
+        times = 'stroke="anticipators:partner:hit" end="anticipators:partner:done"'
+        pilot.block("b", f'<head id="h" lexeme="NOD" {times}/>')
+        await pilot.advance(0.5)
+        pilot.predict("partner", "done", 3.01)
+        await pilot.advance(4)
+        assert pilot.feedback.warnings == [("b:h", "IMPOSSIBLE_TO_SCHEDULE")]
+        assert said(pilot) == []
+
+
 async def test_plans_are_not_verified_by_default() -> None:
     async with open_pilot() as pilot:
         await broken(pilot)

@@ -27,13 +27,13 @@ BEAT = {"start": 0.0, "ready": 0.3, "stroke": 0.5, "relax": 0.8, "end": 1.2}
 SPEECH = {"start": 0.0, "sync1": 0.5, "end": 2.0}
 
 
-def item(id_: str, offsets: dict[str, float], rigid: bool = False) -> Item:
+def item(id_: str, offsets: dict[str, float], kind: PhaseKind = PhaseKind.ELASTIC) -> Item:
     behavior = Behavior(id=id_, namespace=BML, name="test", location=LINE, order=0)
-    return Item(behavior, timing_at(offsets, PhaseKind.RIGID if rigid else PhaseKind.ELASTIC))
+    return Item(behavior, timing_at(offsets, kind))
 
 
 def speech(id_: str = "speech1") -> Item:
-    return item(id_, SPEECH, rigid=True)
+    return item(id_, SPEECH, PhaseKind.RIGID)
 
 
 def node(text: str | Node) -> Node:
@@ -235,6 +235,14 @@ def test_points_that_depend_on_an_unknown_time_are_unknown() -> None:
     assert plan.times("h") == [None] * len(NOD)
 
 
+def test_a_free_behavior_that_ends_with_an_unknown_time_does_not_start_before_its_block() -> None:
+    go, hit = outer(None), outer(0.75)
+    nod, free = item("nod", {"start": 0.0, "end": 0.5}), item("free", {"start": 0.0, "end": 0.5}, PhaseKind.FREE)
+    plan = Plan([nod, free], tie("nod:end", hit), tie("nod:start", go), tie("free:end", go, -0.2))
+    assert plan.losses == []
+    assert plan["free:start"] == 0.0
+
+
 def test_a_behavior_tied_to_an_outer_time_follows_it() -> None:
     hit = outer(2.0)
     plan = Plan([item("g", BEAT)], tie("g:stroke", hit, 0.5))
@@ -336,7 +344,10 @@ _OFFSETS = {"nod": NOD, "beat": BEAT, "speech": SPEECH}
 def problems(draw: st.DrawFn) -> tuple[list[Item], list[Tie]]:
     """Up to seven behaviors with ties to each other, the start of the block and outer times, usually in conflict."""
     kinds = draw(st.lists(st.sampled_from(sorted(_OFFSETS)), min_size=1, max_size=7))
-    items = [item(f"{kind}{i}", _OFFSETS[kind], rigid=kind == "speech") for i, kind in enumerate(kinds)]
+    items = [
+        item(f"{kind}{i}", _OFFSETS[kind], PhaseKind.RIGID if kind == "speech" else PhaseKind.ELASTIC)
+        for i, kind in enumerate(kinds)
+    ]
     points = [Point(each.behavior.id, sync) for each in items for sync in each.timing.points]
     outside = [outer(draw(st.sampled_from([None, -0.5, 0.0, 1.0, 4.0]))) for _ in range(2)]
     nodes: list[Node] = [*points, START, *outside]

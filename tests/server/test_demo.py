@@ -1,5 +1,9 @@
 """The demo: its performance starts with the first page, and again on request."""
 
+import pytest
+
+from reactive_realizer.testing.pilot import block
+
 from .conftest import ALICE, Open, wait
 
 PLAY = wait("play", 5)
@@ -33,13 +37,17 @@ async def test_the_performance_can_be_restarted_at_any_time(on_air: Open) -> Non
         assert not air.live.realizer.scheduler.refused
 
 
-async def test_the_metronome_counts_from_the_start_of_the_performance(on_air: Open) -> None:
-    beat = wait("play").replace("<wait", '<wait start="anticipators:metronome:tick2"')
-    async with on_air(ALICE, performance=beat) as air:
+@pytest.mark.parametrize("spoken", ["", "<speech id='s'><text>Hello.</text></speech>"])
+async def test_the_metronome_counts_from_the_first_block_that_speaks_or_else_from_the_first_one(
+    on_air: Open, spoken: str
+) -> None:
+    beat = '<wait id="w" start="anticipators:metronome:tick2" duration="0.1"/>'
+    intro = block("intro", '<wait id="w" duration="1"/>') if spoken else ""
+    async with on_air(ALICE, performance=intro + block("play", spoken + beat, composition="APPEND")) as air:
         page = await air.connect()
-        await air.tick_until(4.0)
+        await air.tick_until(6.0)
         begun = float((await page.hear_feedback('"play:start"'))["xml"].partition('globalTime="')[2].partition('"')[0])
-        assert f'globalTime="{begun + 2:g}"' in (await page.hear_feedback('"play:w:start"'))["xml"]
+        assert f'globalTime="{begun + 2.01:g}"' in (await page.hear_feedback('"play:w:start"'))["xml"]
 
 
 async def test_opening_a_page_starts_nothing_without_a_performance(on_air: Open) -> None:

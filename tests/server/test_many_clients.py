@@ -4,7 +4,7 @@ import aiohttp
 import pytest
 
 from reactive_realizer.clock.units import GlobalTime
-from reactive_realizer.embodiment.audio import AudioClip, AudioGain, AudioMove, AudioStart, AudioStop
+from reactive_realizer.embodiment.audio import AudioClip, AudioGain, AudioMove, AudioStart, AudioStop, Sound
 from reactive_realizer.server import client_limits
 
 from .conftest import ALICE, BML, XML, OnAir, Open, report, wait
@@ -17,7 +17,7 @@ def impatient(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def clip(id_: str, start: float) -> AudioStart:
-    return AudioStart("alice", AudioClip(id_, b"RIFF" + id_.encode(), 2.0), GlobalTime(start))
+    return AudioStart("alice", AudioClip(id_, Sound(b"RIFF" + id_.encode(), 2.0)), GlobalTime(start))
 
 
 async def test_sounds_are_announced_and_can_be_fetched(on_air: Open) -> None:
@@ -84,7 +84,7 @@ async def test_a_sound_is_sent_ahead_of_its_announcement_to_clients_that_request
 async def test_a_long_sound_is_only_announced(on_air: Open) -> None:
     async with on_air() as air:
         listener = await air.connect("?streams=audio,sound")
-        air.live.sounds.take(AudioStart("alice", AudioClip("long", bytes(2_000_000), 60.0), None))
+        air.live.sounds.take(AudioStart("alice", AudioClip("long", Sound(bytes(2_000_000), 60.0)), None))
         message = await listener.hear()
         assert (message["type"], message["start"]) == ("audio", None)
 

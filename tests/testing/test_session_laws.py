@@ -5,6 +5,7 @@ from typing import cast
 
 import pytest
 
+from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.document import parse
 from reactive_realizer.clock.units import BlockTime, GlobalTime
 from reactive_realizer.errors import WarningType
@@ -27,9 +28,9 @@ from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.testing.pilot import block
 from reactive_realizer.testing.session_laws import SessionLaws
 
-(_PARSED,) = parse(block("b", '<wait id="w" duration="1"/>'), Limits())
+(_PARSED,) = parse(block("b", '<wait id="w" duration="1"/><head id="h" lexeme="NOD"/>'), Limits())
 assert _PARSED.block is not None
-(WAIT,) = _PARSED.block.behaviors
+WAIT, NOD = _PARSED.block.behaviors
 
 
 def predicted(end: float) -> Feedback:
@@ -87,10 +88,12 @@ def test_a_breach_is_noted_with_its_law(law: str, told: list[tuple[float, Feedba
     assert law in broken(*told)
 
 
-def ended(*, cut: bool = False, kind: PhaseKind = PhaseKind.ELASTIC, **times: float) -> BMLBlock:
+def ended(
+    *, behavior: Behavior = NOD, cut: bool = False, kind: PhaseKind = PhaseKind.ELASTIC, **times: float
+) -> BMLBlock:
     """A block whose behavior has ended with points at some times; it preferred a second for each phase."""
     graph, key = Graph(), BlockKey("c", "b")
-    unit = PlanUnit(key, WAIT, timing_at({sync: float(i) for i, sync in enumerate(times)}, kind))
+    unit = PlanUnit(key, behavior, timing_at({sync: float(i) for i, sync in enumerate(times)}, kind))
     for sync, time in times.items():
         peg = OffsetPeg(graph, sync, AnticipatorPeg(graph, sync, GlobalTime(time)), 0.0)
         unit.points.append(SyncPoint(sync, peg, fired=True, cut=cut and sync == "end"))
@@ -107,7 +110,7 @@ def broken_at_end(block: BMLBlock, *told: tuple[float, Feedback]) -> list[str]:
 
 @pytest.mark.parametrize(("cut", "laws"), [(True, []), (False, ["prediction"])])
 def test_only_a_behavior_that_is_cut_may_end_earlier_than_predicted(cut: bool, laws: list[str]) -> None:
-    assert broken_at_end(ended(start=0.0, end=0.5, cut=cut), *BEGUN, (0.5, point("end", 0.5))) == laws
+    assert broken_at_end(ended(behavior=WAIT, start=0.0, end=0.5, cut=cut), *BEGUN, (0.5, point("end", 0.5))) == laws
 
 
 @pytest.mark.parametrize(
@@ -115,6 +118,7 @@ def test_only_a_behavior_that_is_cut_may_end_earlier_than_predicted(cut: bool, l
     [
         (ended(start=0.0, end=0.8), []),
         (ended(start=0.0, end=0.0), ["equation"]),
+        (ended(behavior=WAIT, start=0.0, end=0.0), []),
         (ended(start=0.0, stroke=0.9, end=0.8), ["equation"]),
         (ended(start=0.0, end=0.8, kind=PhaseKind.RIGID), ["equation"]),
         (ended(start=0.0, end=1.0, kind=PhaseKind.RIGID), []),

@@ -1,6 +1,7 @@
 """Each of these voices breaks its contract in one way, and the test for that fails."""
 
 import asyncio
+from collections.abc import AsyncIterator
 from dataclasses import replace
 from itertools import count
 
@@ -65,10 +66,22 @@ class Confused(TextVoice):
 
     async def synthesize(  # type: ignore[override]  # a voice may be asynchronous
         self, text: str, marks: Marks, voice: str | None = None
-    ) -> Utterance:
+    ) -> AsyncIterator[Utterance]:
         self.asked = text
         await asyncio.sleep(0)
-        return super().synthesize(self.asked, marks, voice)
+        yield super().synthesize(self.asked, marks, voice)
+
+
+class Fickle(TextVoice):
+    """Gives the first words other times when the rest is made."""
+
+    async def synthesize(  # type: ignore[override]  # a voice may be asynchronous
+        self, text: str, marks: Marks, voice: str | None = None
+    ) -> AsyncIterator[Utterance]:
+        whole = super().synthesize(text, marks, voice)
+        words = tuple(replace(word, start=word.start / 2) for word in whole.words)
+        yield replace(whole, made=whole.duration / 2, words=words)
+        yield whole
 
 
 class Unsorted(TextVoice):
@@ -103,6 +116,7 @@ class Mute(TextVoice):
         (Tired, "test_canceling_a_request_does_not_affect_the_next_one"),
         (Short, "test_audio_and_phonemes_last_as_long_as_the_utterance"),
         (Confused, "test_concurrent_requests_are_not_mixed_up"),
+        (Fickle, "test_what_is_made_stays_and_the_last_part_completes_the_utterance"),
         (Unsorted, "test_the_listed_voices_are_sorted_and_can_speak"),
         (Mute, "test_an_unknown_voice_raises_an_error_and_does_not_affect_the_next_text"),
     ],

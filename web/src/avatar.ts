@@ -13,6 +13,7 @@ import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 
 import type { Pose } from "./binary";
 import type { Character, Position } from "./protocol";
+import { isSkinColor, Skin } from "./skin";
 import type { Quality } from "./viewport";
 
 /** One mesh's entry for a morph's weight: a face consists of several meshes that share their morphs. */
@@ -34,6 +35,7 @@ export class Avatar {
     private readonly character: Character,
     private readonly bones: (Object3D | undefined)[],
     private readonly slots: MorphSlot[][],
+    private readonly skin: Skin,
   ) {
     this.root = bones.find((bone) => !bones.includes(bone?.parent ?? undefined));
     this.root?.getWorldQuaternion(this.unturned).invert();
@@ -46,15 +48,18 @@ export class Avatar {
     for (const mesh of meshes) prepare(mesh, quality);
     const bones = character.joints.map((name) => scene.getObjectByName(PropertyBinding.sanitizeNodeName(name)));
     const slots = character.morphs.map((name) => slotsOf(meshes, name));
-    return new Avatar(scene, character, bones, slots);
+    return new Avatar(scene, character, bones, slots, new Skin(meshes));
   }
 
-  /** Applies a pose: the root's position, rotations to the bones, weights to the morphs. */
+  /** Applies a pose: the root's position, rotations to the bones, weights to the morphs and to the colors of the skin. */
   apply(pose: Pose): void {
     this.root?.position.fromArray(pose.root);
     for (const [i, bone] of this.bones.entries()) bone?.quaternion.fromArray(pose.rotations, 4 * i);
     for (const [i, slots] of this.slots.entries()) {
       for (const slot of slots) slot.influences[slot.index] = pose.weights[i] ?? 0;
+    }
+    for (const [i, name] of this.character.morphs.entries()) {
+      if (isSkinColor(name)) this.skin.color(name, pose.weights[i] ?? 0);
     }
   }
 
@@ -75,8 +80,9 @@ export class Avatar {
     return bone === undefined ? null : worldPosition(bone);
   }
 
-  /** Present weight of a morph; null when the avatar has none of this name. */
+  /** Present weight of a morph or of a color of the skin; null when the avatar has none of this name. */
   morph(name: string): number | null {
+    if (isSkinColor(name)) return this.skin.weight(name);
     const [slot] = this.slots[this.character.morphs.indexOf(name)] ?? [];
     return slot?.influences[slot.index] ?? null;
   }

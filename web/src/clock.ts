@@ -6,8 +6,21 @@
 /** Number of recent frames of which the one that was delayed least is used: those of two seconds. */
 const SAMPLES = 100;
 
-/** Delay of the page behind the frames, s: the network jitter that it absorbs before a pose is late. */
-export const PLAYOUT_DELAY = 0.05;
+/** Bounds of the delay of the page behind the frames, s. */
+const SHORTEST_DELAY = 0.05;
+const LONGEST_DELAY = 0.3;
+
+/** Number of recent frames whose lateness counts for the delay: those of ten seconds. */
+const JUDGED = 500;
+
+/** Share of these frames that may be later than the delay. */
+const TOO_LATE = 0.02;
+
+/** Time between two frames, s: a pose is between the last frame and the next one. */
+const FRAME = 0.02;
+
+/** Share of the delay for sounds that remains after one that came in time. */
+const EASES = 0.9;
 
 /** Greatest deviation from the rate of real time while the playout clock closes a gap. */
 const GLIDE = 0.05;
@@ -40,6 +53,40 @@ export class FrameClock {
 }
 
 /**
+ * Delay of the page behind the frames, long enough that most frames and sounds arrive before their time is shown: mouth
+ * and sound are together only then. It follows the jitter of the network and the time in which sounds are decoded.
+ */
+export class PlayoutDelay {
+  private lateness: number[] = [];
+  private forFrames = SHORTEST_DELAY;
+  private forSounds = 0;
+
+  /** The delay, s. */
+  get seconds(): number {
+    return Math.min(LONGEST_DELAY, Math.max(this.forFrames, this.forSounds));
+  }
+
+  /** Takes how much later than the least delayed one a frame arrived, s. */
+  takeFrame(late: number): void {
+    this.lateness.push(late);
+    if (this.lateness.length > JUDGED) this.lateness.shift();
+    const sorted = [...this.lateness].sort((a, b) => b - a);
+    const tolerated = sorted[Math.floor(TOO_LATE * sorted.length)] ?? 0;
+    this.forFrames = Math.max(SHORTEST_DELAY, tolerated + FRAME);
+  }
+
+  /**
+   * Takes how much later than its time a sound could be played, s; not above 0 if it came in time. Returns by how much
+   * the delay grew, s.
+   */
+  takeSound(late: number): number {
+    const before = this.seconds;
+    this.forSounds = late > 0 ? Math.min(LONGEST_DELAY, before + late) : EASES * this.forSounds;
+    return Math.max(0, this.seconds - before);
+  }
+}
+
+/**
  * The realizer time that is shown now.
  *
  * It follows the frames less the playout delay, and glides towards it, so that corrections do not make motion
@@ -60,6 +107,11 @@ export class PlayoutClock {
     }
     const step = GLIDE * elapsed;
     this.offset += Math.min(step, Math.max(-step, target - this.offset));
+  }
+
+  /** Stays behind by some time more at once, s: the picture waits for a sound that has come late. */
+  wait(seconds: number): void {
+    if (this.offset !== null) this.offset -= seconds;
   }
 
   /** The time shown at a page time, s; null before the first call of `follow`. */

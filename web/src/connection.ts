@@ -8,6 +8,7 @@ import type {
   Bml,
   Board,
   Camera,
+  Caption,
   ClientMessage,
   Demo,
   Event,
@@ -25,8 +26,8 @@ import type {
 const FIRST_RETRY = 500;
 const LONGEST_RETRY = 8000;
 
-/** A message about speech audio. */
-export type AudioMessage = AudioStart | AudioMove | AudioGain | AudioStop;
+/** A message about what is heard, or read. */
+export type AudioMessage = AudioStart | Caption | AudioMove | AudioGain | AudioStop;
 
 /** A message that the realizer answers. */
 export type Request = Bml | Predict | Event | Push | Demo;
@@ -152,6 +153,7 @@ export class Connection {
         this.listener.onBoard(message);
         break;
       case "audio":
+      case "caption":
       case "audio_move":
       case "audio_gain":
       case "audio_stop":

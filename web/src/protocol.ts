@@ -38,7 +38,25 @@ export type Position = [number, number, number];
  * A message of the server. The first one is hello.
  */
 export type ServerMessage =
-  Hello | Feedback | Pong | ClockAnswer | AudioStart | AudioMove | AudioGain | AudioStop | Board | Accepted | Refused;
+  | Hello
+  | Feedback
+  | Pong
+  | ClockAnswer
+  | AudioStart
+  | Caption
+  | AudioMove
+  | AudioGain
+  | AudioStop
+  | Board
+  | Accepted
+  | Refused;
+/**
+ * The start of a word, s from the start of the sound, and its place in the text, in Unicode characters: of its first one, and after its last one.
+ *
+ * @minItems 3
+ * @maxItems 3
+ */
+export type CaptionedWord = [number, number, number];
 /**
  * The name of a peg, and its times before and after.
  *
@@ -168,7 +186,7 @@ export interface Hello {
   demo?: boolean;
 }
 /**
- * A virtual human of the scene. Its joints and morphs are those of the avatar, in the order of its frames.
+ * A virtual human of the scene. Its joints and morphs are those of the avatar, in the order of its frames; the last morphs are the colors of its skin, skinBlush and skinPallor.
  */
 export interface Character {
   id: string;
@@ -221,7 +239,23 @@ export interface AudioStart {
   gain: number;
 }
 /**
- * A new start time of a sound.
+ * The text of a speech, to be read while it is heard. Its id is that of the sound, if the speech has one; moves, gains and stops with this id are about both.
+ */
+export interface Caption {
+  type: "caption";
+  character: string;
+  id: string;
+  text: string;
+  words: CaptionedWord[];
+  start: Seconds | null;
+  duration: number;
+  /**
+   * 1 is as recorded.
+   */
+  gain: number;
+}
+/**
+ * A new start time of a sound, or of a caption.
  */
 export interface AudioMove {
   type: "audio_move";

@@ -1,5 +1,5 @@
 import type { Sound } from "./binary";
-import { heardTime, type PlayoutClock } from "./clock";
+import { heardTime, type PlayoutClock, type PlayoutDelay } from "./clock";
 import type { AudioMessage } from "./connection";
 import type { AudioStart, Heard } from "./protocol";
 import { Utterance } from "./utterance";
@@ -9,6 +9,13 @@ const REMEMBERED = 20;
 
 /** Time between two reports of what is heard, s. */
 const REPORT_INTERVAL = 0.25;
+
+/** The same just after a sound began late, and the number of such reports: the realizer follows two that agree. */
+const SOON = 0.06;
+const SOON_REPORTS = 2;
+
+/** Change of its time at which a sound that has not begun is scheduled again, s. */
+const SHIFT = 0.005;
 
 /** Drift from the plan above which a sound is heard to be off, s: that at which Elckerlyc skips (thesis 8.17). */
 const OFF = 0.07;
@@ -39,10 +46,12 @@ export class SpeechPlayer {
   /** Sounds that have been sent, by the id under which they are announced next. */
   private readonly sent = new Map<string, ArrayBuffer>();
   private nextReport = 0;
+  private soon = 0;
 
   constructor(
     private readonly context: AudioContext,
     private readonly clock: PlayoutClock,
+    private readonly delay: PlayoutDelay,
     private readonly onFailure: (reason: unknown) => void,
   ) {
     context.addEventListener("statechange", () => {
@@ -57,12 +66,19 @@ export class SpeechPlayer {
     });
   }
 
+  /** The position of a sound on the audio clock, s; negative before its start, null while it is not scheduled. */
+  position(id: string): number | null {
+    const begin = this.utterances.get(id)?.begin ?? null;
+    return begin === null || this.context.state !== "running" ? null : heardTime(this.context) - begin;
+  }
+
   /** Takes a sound that is announced next. */
   take({ id, wav }: Sound): void {
     this.sent.set(id, wav);
   }
 
   handle(message: AudioMessage): void {
+    if (message.type === "caption") return;
     if (message.type === "audio") {
       this.announce(message);
       return;
@@ -85,10 +101,10 @@ export class SpeechPlayer {
 
   /** What is heard now of each sound, a few times a second; a sound that stays off its plan skips to its place. */
   report(): Heard[] {
+    for (const utterance of this.utterances.values()) this.keepAhead(utterance);
     const page = performance.now() / 1000;
     const time = this.clock.at(page);
     if (time === null || page < this.nextReport || this.context.state !== "running") return [];
-    this.nextReport = page + REPORT_INTERVAL;
     const reports: Heard[] = [];
     for (const utterance of this.utterances.values()) {
       const position = utterance.positionAt(heardTime(this.context));
@@ -97,6 +113,8 @@ export class SpeechPlayer {
       utterance.strayed = this.onTime(utterance) ? 0 : utterance.strayed + 1;
       if (utterance.strayed >= PATIENCE) this.schedule(utterance);
     }
+    if (reports.length > 0) this.soon = Math.max(0, this.soon - 1);
+    this.nextReport = page + (this.soon > 0 ? SOON : REPORT_INTERVAL);
     return reports;
   }
 
@@ -120,14 +138,28 @@ export class SpeechPlayer {
   }
 
   /**
-   * Schedules a sound that has just come. If it comes late, it is played from its first word nevertheless: reports say
-   * so, and the speech follows. A sound that comes later than that is joined in the middle.
+   * Schedules a sound that has just come. If it comes late, it is played from its first word nevertheless: the picture
+   * waits for it, as far as the delay may grow; reports say how late it still is, and the speech follows. A sound that
+   * comes later than that is joined in the middle.
    */
   private begin(utterance: Utterance): void {
     const planned = this.beginOf(utterance);
     if (planned === null) return;
-    const now = this.context.currentTime;
-    utterance.schedule(now - planned <= FOLLOWED ? Math.max(planned, now) : planned);
+    const late = this.context.currentTime - planned;
+    utterance.schedule(late <= FOLLOWED ? planned + Math.max(late, 0) : planned);
+    if (late > FOLLOWED) return;
+    this.clock.wait(this.delay.takeSound(late));
+    if (late <= 0) return;
+    this.nextReport = 0;
+    this.soon = SOON_REPORTS;
+  }
+
+  /** Schedules a sound again that has not begun, if its time has changed with the playout clock. */
+  private keepAhead(utterance: Utterance): void {
+    if (utterance.begin === null || utterance.begin - this.context.currentTime < SHIFT) return;
+    const planned = this.beginOf(utterance);
+    if (planned === null || Math.abs(planned - utterance.begin) <= SHIFT) return;
+    utterance.schedule(Math.max(planned, this.context.currentTime));
   }
 
   /** Whether a sound is heard now, in its place. */

@@ -135,6 +135,10 @@ export class Utterance {
   private applyStop(): void {
     if (this.stopped === null || this.source === null || this.gain === null || this.begin === null) return;
     const { time, fade } = this.stopped;
+    if (time <= this.start && this.begin >= this.context.currentTime) {
+      this.silence(); // otherwise, the fade of its first samples would be heard
+      return;
+    }
     const from = Math.max(this.context.currentTime, this.begin + time - this.start);
     this.gain.gain.cancelScheduledValues(from);
     this.gain.gain.setTargetAtTime(0, from, fade * FADE_FALLS);

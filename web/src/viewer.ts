@@ -1,10 +1,12 @@
 import { Characters } from "./characters";
 import type { Frame, Sound } from "./binary";
-import { FrameClock, PLAYOUT_DELAY, PlayoutClock } from "./clock";
+import { FrameClock, PlayoutClock, PlayoutDelay } from "./clock";
 import { type AudioMessage, Connection, type ConnectionListener } from "./connection";
 import { element } from "./dom";
 import { AnticipatorsPanel } from "./panels/anticipators";
+import { Captions } from "./captions";
 import { BmlPanel } from "./panels/bml";
+import { CaptionsPanel } from "./panels/captions";
 import { FeedbackPanel } from "./panels/feedback";
 import { PegsPanel } from "./panels/pegs";
 import { PhysicsPanel } from "./panels/physics";
@@ -22,10 +24,13 @@ export class Viewer implements ConnectionListener {
   readonly feedback = new FeedbackPanel();
   private readonly frameClock = new FrameClock();
   private readonly clock = new PlayoutClock();
+  private readonly delay = new PlayoutDelay();
   private readonly audio = new AudioContext();
   private readonly viewport: Viewport;
   private readonly world: World;
   private readonly cameraReport: CameraReport;
+  private readonly captions = new Captions((id) => this.speech.position(id));
+  private readonly captionsPanel = new CaptionsPanel();
   private readonly pegs = new PegsPanel();
   private readonly physics: PhysicsPanel;
   private readonly soundButton = element("sound", HTMLButtonElement);
@@ -39,7 +44,7 @@ export class Viewer implements ConnectionListener {
     this.viewport = new Viewport(element("viewport", HTMLElement), quality);
     this.world = new World(this.viewport.scene);
     this.characters = new Characters(this.viewport.scene, quality, status.report);
-    this.speech = new SpeechPlayer(this.audio, this.clock, status.report);
+    this.speech = new SpeechPlayer(this.audio, this.clock, this.delay, status.report);
     this.connection = new Connection(socket, this);
     this.cameraReport = new CameraReport((position) => {
       this.connection.notify({ type: "camera", position });
@@ -76,7 +81,10 @@ export class Viewer implements ConnectionListener {
 
   onFrames(frames: Frame[]): void {
     const page = performance.now() / 1000;
-    for (const { time } of frames.slice(0, 1)) this.frameClock.take(page, time);
+    for (const { time } of frames.slice(0, 1)) {
+      this.frameClock.take(page, time);
+      this.delay.takeFrame((this.frameClock.at(page) ?? time) - time);
+    }
     for (const frame of frames) this.characters.push(frame);
   }
 
@@ -91,6 +99,7 @@ export class Viewer implements ConnectionListener {
 
   onAudio(message: AudioMessage): void {
     this.speech.handle(message);
+    this.captions.handle(message);
   }
 
   onBoard(board: Board): void {
@@ -101,6 +110,7 @@ export class Viewer implements ConnectionListener {
     this.characters.assign(hello.characters);
     this.physics.assign(hello.characters);
     this.speech.clear();
+    this.captions.clear();
     this.pegs.clear();
     this.feedback.mark(`Session ${hello.session.slice(0, 8)}`);
   }
@@ -108,7 +118,10 @@ export class Viewer implements ConnectionListener {
   private play(page: number): void {
     const time = this.followFrames();
     for (const report of this.speech.report()) this.connection.notify(report);
-    if (time !== null) this.characters.show(time);
+    if (time !== null) {
+      this.characters.show(time);
+      this.captionsPanel.show(this.captions.at(time));
+    }
     if (this.characters.complete) this.viewport.frame(page, this.characters.roots());
     this.viewport.draw(page);
     this.feedback.draw();
@@ -121,7 +134,7 @@ export class Viewer implements ConnectionListener {
     const page = performance.now() / 1000;
     const time = this.frameClock.at(page);
     if (time === null) return null;
-    this.clock.follow(page, time - PLAYOUT_DELAY);
+    this.clock.follow(page, time - this.delay.seconds);
     return this.clock.at(page);
   }
 

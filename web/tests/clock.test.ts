@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 
-import { FrameClock, heardTime, PlayoutClock } from "../src/clock";
+import { FrameClock, heardTime, PlayoutClock, PlayoutDelay } from "../src/clock";
 
 describe("the frame clock", () => {
   it("knows nothing before the first message", () => {
@@ -36,6 +36,32 @@ describe("the frame clock", () => {
   });
 });
 
+describe("the playout delay", () => {
+  it("is 50 ms without jitter", () => {
+    const delay = new PlayoutDelay();
+    for (let i = 0; i < 100; i++) delay.takeFrame(0);
+    expect(delay.seconds).toBeCloseTo(0.05, 9);
+  });
+
+  it("covers the jitter of all frames but a few, and a frame more", () => {
+    const delay = new PlayoutDelay();
+    for (let i = 0; i < 100; i++) delay.takeFrame(i === 50 ? 0.4 : (i % 11) / 100);
+    expect(delay.seconds).toBeCloseTo(0.12, 9);
+    for (let i = 0; i < 500; i++) delay.takeFrame(0);
+    expect(delay.seconds).toBeCloseTo(0.05, 9);
+  });
+
+  it("grows by what a sound was late, to at most 300 ms, and shrinks when sounds come in time", () => {
+    const delay = new PlayoutDelay();
+    expect(delay.takeSound(0.04)).toBeCloseTo(0.04, 9);
+    expect(delay.seconds).toBeCloseTo(0.09, 9);
+    expect(delay.takeSound(0.5)).toBeCloseTo(0.21, 9);
+    expect(delay.seconds).toBeCloseTo(0.3, 9);
+    for (let i = 0; i < 50; i++) delay.takeSound(-0.1);
+    expect(delay.seconds).toBeCloseTo(0.05, 9);
+  });
+});
+
 describe("the playout clock", () => {
   it("shows nothing before it knows the time", () => {
     expect(new PlayoutClock().at(1)).toBeNull();
@@ -55,6 +81,13 @@ describe("the playout clock", () => {
     expect(clock.at(0.4)).toBeCloseTo(10.4 + gap / 2, 9);
     clock.follow(1.4, 11.4 + gap);
     expect(clock.at(1.4)).toBeCloseTo(11.4 + gap, 9);
+  });
+
+  it("stays behind at once by the time that it waits", () => {
+    const clock = new PlayoutClock();
+    clock.follow(100, 5);
+    clock.wait(0.1);
+    expect(clock.at(100.5)).toBeCloseTo(5.4, 9);
   });
 
   it("jumps over a gap of more than a quarter of a second", () => {

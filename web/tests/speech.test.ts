@@ -1,6 +1,6 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 
-import { PlayoutClock } from "../src/clock";
+import { PlayoutClock, PlayoutDelay } from "../src/clock";
 import type { AudioStart } from "../src/protocol";
 import { SpeechPlayer } from "../src/speech";
 import { FakeAudio, played } from "./fake_audio";
@@ -13,7 +13,9 @@ function playerAt(shown: number, audioTime: number): { player: SpeechPlayer; aud
   clock.follow(performance.now() / 1000, shown);
   const audio = new FakeAudio(audioTime, LATENCY);
   const failures: string[] = [];
-  const player = new SpeechPlayer(audio as unknown as AudioContext, clock, (reason) => failures.push(String(reason)));
+  const player = new SpeechPlayer(audio as unknown as AudioContext, clock, new PlayoutDelay(), (reason) =>
+    failures.push(String(reason)),
+  );
   return { player, audio, failures };
 }
 
@@ -110,6 +112,7 @@ describe("speech", () => {
     const { player, audio } = playerAt(10, 3);
     player.handle(announced(10.5));
     await played.settled();
+    audio.currentTime += 0.3;
     expect(reported(player)).toBeNull();
     audio.currentTime = 4.5;
     expect(reported(player)).toBeCloseTo(1, 9);
@@ -117,9 +120,31 @@ describe("speech", () => {
     expect(reported(player)).toBeNull();
   });
 
+  it("is scheduled again when the playout clock has changed before it begins", async () => {
+    const { player } = playerAt(10, 3);
+    player.handle(announced(11));
+    await played.settled();
+    expect(played.last.at).toBeCloseTo(4 - LATENCY, 9);
+    vi.advanceTimersByTime(100);
+    player.report();
+    expect(played.last.at).toBeCloseTo(3.9 - LATENCY, 9);
+  });
+
+  it("is reported twice soon after it began late", async () => {
+    const { player, audio } = playerAt(1.3, 10);
+    player.handle(announced(1));
+    await vi.advanceTimersByTimeAsync(0);
+    const reports = Array.from({ length: 30 }, () => {
+      vi.advanceTimersByTime(10);
+      audio.currentTime += 0.01;
+      return player.report().length;
+    });
+    expect(reports.reduce((sum, number) => sum + number, 0)).toBe(2);
+  });
+
   it("is reported four times a second", async () => {
     const { player, audio } = playerAt(10, 3);
-    player.handle(announced(10));
+    player.handle(announced(10.05));
     await played.settled();
     audio.currentTime = 3.1;
     const reports = Array.from({ length: 60 }, () => {
@@ -127,7 +152,11 @@ describe("speech", () => {
       return player.report();
     }).flat();
     expect(reports).toHaveLength(4);
-    expect(reports[0]).toMatchObject({ type: "heard", id: "s1", position: expect.closeTo(0.1 - LATENCY, 9) as number });
+    expect(reports[0]).toMatchObject({
+      type: "heard",
+      id: "s1",
+      position: expect.closeTo(0.09 - LATENCY, 9) as number,
+    });
     expect((reports[1]?.time ?? 0) - (reports[0]?.time ?? 0)).toBeCloseTo(0.25, 1);
   });
 
@@ -161,7 +190,7 @@ describe("speech", () => {
     vi.advanceTimersByTime(600);
     player.handle({ type: "audio_move", id: "s1", start: 10.2 });
     expect(played.sources).toHaveLength(2);
-    expect(played.last.offset).toBeCloseTo(0.4 + LATENCY, 9);
+    expect(played.last.offset).toBeCloseTo(0.4, 9);
   });
 
   it("skips to its place when the realizer does not follow it", async () => {
@@ -201,6 +230,15 @@ describe("speech", () => {
     expect(reported(player)).toBeCloseTo(0.55, 9);
     audio.currentTime = 4.3;
     expect(reported(player)).toBeNull();
+  });
+
+  it("is not heard at all when it is stopped before it begins, or as it begins", async () => {
+    const { player } = playerAt(10, 3);
+    player.handle(announced(10.5));
+    await played.settled();
+    player.handle({ type: "audio_stop", id: "s1", time: 10.5, fade: 0.1 });
+    expect(played.last.stopped).toBe(true);
+    expect(played.last.stoppedAt).toBeUndefined();
   });
 
   it("stays silent when it was stopped before its sound had come", async () => {

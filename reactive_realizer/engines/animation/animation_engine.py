@@ -34,6 +34,7 @@ from reactive_realizer.engine.engine import DefaultEngine
 from reactive_realizer.engine.lexicon import LexiconEntry
 from reactive_realizer.engines.animation.animation_predictor import AnimationPredictor
 from reactive_realizer.engines.animation.animation_unit import AnimationUnit, MotionContext, keys_of
+from reactive_realizer.engines.animation.blinks import USUAL_RATE
 from reactive_realizer.engines.animation.expression.functions import plugin_functions
 from reactive_realizer.engines.animation.fade_out import DURATION as FADE_OUT
 from reactive_realizer.engines.animation.fade_out import (
@@ -100,7 +101,8 @@ class AnimationEngine(DefaultEngine):
             context.humanoid, context.world, context.asset, context.seed, self._rest, functions
         )
         self._library = MotionLibrary(binding, maker_context)
-        self._idle = Idle(Random(context.seed)) if context.idle else None
+        rate = USUAL_RATE if context.blink_rate is None else context.blink_rate
+        self._idle = Idle(Random(context.seed), rate) if context.idle else None
         self._late_hands = LateHands(context.humanoid)
         self._physical_figure = PhysicalFigure(context.humanoid)
         self._foot_planting = FootPlanting(context.humanoid.avatar.skeleton)
@@ -281,8 +283,8 @@ class AnimationEngine(DefaultEngine):
     def _look(self, now: GlobalTime, gazes: Sequence[GazeGoal], body: Body) -> EyePose:
         resting: Mapping[str, Quat] = self._idle_part(lambda idle: idle.eyes(now), {})
         turns = self._isolated("gaze", lambda: self._eye_controller.eyes(now, gazes, body, resting), resting)
-        blinks: Mapping[str, float] = self._idle_part(lambda idle: idle.weights(now), {})
-        return EyePose(turns, lid_weights(turns, blinks))
+        blinks: Mapping[str, float] = self._idle_part(lambda idle: idle.blinks(now), {})
+        return EyePose(turns, lid_weights(turns), blinks)
 
     def warnings(self) -> tuple[Warn | ReportFall, ...]:
         """Return warnings about new units, and about playing units; and a fall."""
@@ -325,13 +327,13 @@ class AnimationEngine(DefaultEngine):
         for left in self._left_hands:
             hands = over(hands, left.at(now))
         for unit in playing:
-            if unit.motion.kind is LayerKind.GESTURE and unit.subsiding(now):
+            if unit.motion.kind is LayerKind.GESTURE and unit.subsiding(now) and not unit.accompanies:
                 hands = over(hands, unit.retraction_layer(now, rest))
         return None if hands is rest else hands
 
     def _note_hands(self, unit: AnimationUnit, time: GlobalTime) -> None:
-        """Note where a gesture leaves the hands."""
-        if unit.motion.kind is LayerKind.GESTURE and unit.shortest[0] > 0.0:
+        """Note where a gesture leaves the hands; one that accompanies others must not change the times of the next."""
+        if unit.motion.kind is LayerKind.GESTURE and unit.shortest[0] > 0.0 and not unit.accompanies:
             left = FadeOut(unit.final_layer(time, self._rest.body), time)
             self._left_hands = [each for each in (*self._left_hands, left) if not each.finished(time)]
 

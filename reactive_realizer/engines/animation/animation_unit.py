@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 from reactive_realizer.bml.behavior import Behavior, SyncPoints
 from reactive_realizer.bml.behaviors import Pointing
+from reactive_realizer.bml.vocabulary import InterruptSpeech
 from reactive_realizer.clock.units import RESOLUTION, GlobalTime
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.pose import Layer, LayerKind, over
@@ -162,7 +163,7 @@ class AnimationUnit(PlanUnit):
         preparation = replace(first, duration=needed.preferred, shortest=needed.shortest)
         return replace(self.timing, phases=(preparation, *others))
 
-    def gentle_end(self, time: GlobalTime) -> GlobalTime:
+    def gentle_end(self, time: GlobalTime, speech: InterruptSpeech) -> GlobalTime:
         """Return the time of the next exit point, or the given time if there is none."""
         times = (point.peg.value for point in self._exits())
         return min((GlobalTime(at) for at in times if at is not None and at >= time), default=time)

@@ -6,7 +6,8 @@ from random import Random
 from reactive_realizer.embodiment.joints import EYES
 from reactive_realizer.embodiment.pose import Layer, LayerKind
 from reactive_realizer.embodiment.quaternion import Quat, from_euler, multiply
-from reactive_realizer.engines.animation.idle_movements import Blinks, Breath, Glances, WeightShift, leaning
+from reactive_realizer.engines.animation.blinks import USUAL_RATE, Blinks
+from reactive_realizer.engines.animation.idle_movements import Breath, Glances, WeightShift, leaning
 
 _WAVES = ((0.43, 1.9, 0.0), (0.31, 2.3, 1.0), (0.23, 1.3, 2.0))
 """Sway to the side, forward and about the vertical: for each a slow and a fast wave, rad/s, and their phase, rad."""
@@ -21,11 +22,17 @@ _UPRIGHT = 0.1
 class Idle:
     """Idle motion as functions of time. Figures with different seeds move differently."""
 
-    def __init__(self, random: Random) -> None:
-        """Draw all random choices from a generator that must not be shared."""
+    def __init__(self, random: Random, blink_rate: float = USUAL_RATE) -> None:
+        """Draw all random choices from a generator that must not be shared.
+
+        Args:
+            random: the generator.
+            blink_rate: blinks per minute; 0 for none.
+        """
         self._breath = Breath(Random(random.getrandbits(64)))
         self._sway = random.uniform(0.0, 100.0)
-        self._blinks = Blinks(Random(random.getrandbits(64)))
+        blinking = Random(random.getrandbits(64))
+        self._blinks = Blinks(blinking, blink_rate) if blink_rate > 0.0 else None
         self._shift = WeightShift(Random(random.getrandbits(64)))
         self._glances = Glances(Random(random.getrandbits(64)))
 
@@ -63,11 +70,12 @@ class Idle:
 
     def blink(self, time: float) -> None:
         """Blink at a time, s, as with a large turn of gaze."""
-        self._blinks.request_blink(time)
+        if self._blinks is not None:
+            self._blinks.request_blink(time)
 
-    def weights(self, time: float) -> dict[str, float]:
-        """Return morph weights at a time, s."""
-        closed = self._blinks.closed(time)
+    def blinks(self, time: float) -> dict[str, float]:
+        """Return the morph weights of blinks at a time, s."""
+        closed = 0.0 if self._blinks is None else self._blinks.closed(time)
         return {"eyeBlinkLeft": closed, "eyeBlinkRight": closed}
 
 

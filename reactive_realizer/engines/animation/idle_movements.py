@@ -1,4 +1,4 @@
-"""Idle movements that recur at random intervals: breaths, weight shifts, blinks and glances."""
+"""Idle movements that recur at random intervals: breaths, weight shifts and glances."""
 
 import math
 from bisect import bisect_right
@@ -139,57 +139,6 @@ def leaning(side: float) -> tuple[dict[str, Quat], Vec3]:
         "vc4": from_euler(0.0, 0.01 * side, 0.025 * side),
     }
     return turns, (_SHIFT_ASIDE * side, -_SHIFT_DOWN * side * side, 0.0)
-
-
-_BLINK = 0.2
-"""Duration of a blink, from open to open, s."""
-
-_BLINK_PAUSE = (2.0, 6.0)
-"""Shortest and longest time from one blink to the next, s."""
-
-_CLOSING = 0.41
-"""Share of a blink in which the lids close; closing is faster than opening by 40 to 47 %.
-
-C. Sforza and others, "Spontaneous blinking in healthy persons: an optoelectronic study of eyelid motion" (Ophthalmic
-and Physiological Optics 28, 2008).
-"""
-
-
-class Blinks:
-    """A blink every four seconds on average, and one with each large turn of gaze.
-
-    A person who rests and looks at nothing near blinks 8 to 21 times per minute: M. J. Doughty, "Consideration of three
-    types of spontaneous eyeblink activity in normal humans" (Optometry and Vision Science 78, 2001).
-    """
-
-    def __init__(self, random: Random) -> None:
-        """Draw from a generator that must not be shared."""
-        self._episodes = Episodes(None, lambda: (random.uniform(*_BLINK_PAUSE), None))
-        self._requested = -_BLINK
-
-    def request_blink(self, time: float) -> None:
-        """Blink at a time as well, s. People do so with large turns of gaze.
-
-        C. Evinger and others, "Not looking while leaping: the linkage of blinking and saccadic gaze shifts"
-        (Experimental Brain Research 100, 1994).
-        """
-        if time - self._requested >= _BLINK:
-            self._requested = time
-
-    def closed(self, time: float) -> float:
-        """Return how far the lids are closed, 0 to 1."""
-        now, _ = self._episodes.at(time)
-        # The first episode starts with open eyes.
-        own = _shut(time - now.since) if now.since > 0.0 else 0.0
-        return max(own, _shut(time - self._requested))
-
-
-def _shut(passed: float) -> float:
-    done = passed / _BLINK
-    if not 0.0 < done < 1.0:
-        return 0.0
-    part = share(done, 0.0, _CLOSING) if done < _CLOSING else share(1.0 - done, 0.0, 1.0 - _CLOSING)
-    return smoothstep(part)
 
 
 Direction = tuple[float, float]

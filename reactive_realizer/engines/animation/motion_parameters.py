@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Mapping
 
-from reactive_realizer.binding.gesture_binding import finite_numbers
+from reactive_realizer.binding.spec_reader import finite_numbers
 from reactive_realizer.binding.unit_spec import ASKED_OF_BEHAVIOR, UnitSpec
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.engine.faults import UnknownParameter

@@ -1,19 +1,22 @@
 """Expressions as weights of morph targets: lexemes, emotions and action units, from the tables in assets/face."""
 
-import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, Self
+from typing import Any
 
-from reactive_realizer.binding.faults import BadAsset
-from reactive_realizer.bml.behaviors import FaceFacs, FaceLexeme
 from reactive_realizer.bml.vocabulary import Side
+from reactive_realizer.embodiment.avatar import SKIN_COLORS
+from reactive_realizer.engines.face.face_timing import TIMING, FaceShape
+from reactive_realizer.engines.face.json_table import bad_entry, read_number, read_table, read_timing, read_weights
+from reactive_realizer.engines.face.weights import Weights, added, limited, scaled
 from reactive_realizer.errors import CreationFault, RealizerError
+from reactive_realizer.file_cache import remembered
+from reactive_realizer.planunit.timing import Timing
 
-Weights = Mapping[str, float]
-"""Weights of morph targets, 0 to 1."""
+_MOST = 2.0
+"""Largest weight of a lexeme in the table; it is reached at an amount of 0.5."""
 
 _HALVES = {Side.LEFT: ("Left",), Side.RIGHT: ("Right",), Side.BOTH: ("Left", "Right")}
 
@@ -45,11 +48,13 @@ class ActionUnit:
         name: in English.
         middle: weights of morph targets that have no sides.
         sides: weights of morph targets whose names end in Left or Right.
+        timing: that it prefers.
     """
 
     name: str
     middle: Weights
     sides: Weights
+    timing: Timing = TIMING
 
     def weights(self, side: Side) -> Weights:
         """Those at intensity 1. What has no sides moves whole."""
@@ -62,113 +67,96 @@ class Expressions:
     """The face lexemes and the action units.
 
     Attributes:
-        lexemes: weights at amount 1 of each lexeme, under all of its names.
+        lexemes: weights at amount 1 of each lexeme, under all of its names; one above 1 is reached at a smaller amount.
         names: of the lexemes, each once.
         units: by number.
+        timings: of lexemes with a timing of their own.
     """
 
     lexemes: Mapping[str, Weights]
     names: tuple[str, ...]
     units: Mapping[int, ActionUnit]
+    timings: Mapping[str, Timing]
 
-    @classmethod
-    def read(cls, lexemes: Path, units: Path) -> Self:
+    @staticmethod
+    @remembered
+    def read(lexemes: Path, units: Path) -> "Expressions":
         """Reads the formats of assets/face/lexemes.json and assets/face/action_units.json.
 
         Raises:
             RealizerError: "bad-asset": a file has another format; the error names the entry.
             OSError: a file cannot be read.
         """
-        by_number = {_number(units, name): _unit(units, name, entry) for name, entry in _table(units, "units").items()}
-        words = {name: _weights(lexemes, name, entry) for name, entry in _table(lexemes, "lexemes").items()}
-        for name, entry in _table(lexemes, "emotions", {}).items():
+        by_number = {
+            read_number(units, name): _unit(units, name, entry) for name, entry in read_table(units, "units").items()
+        }
+        words = {
+            name: read_weights(lexemes, name, entry, _MOST) for name, entry in read_table(lexemes, "lexemes").items()
+        }
+        for name, entry in read_table(lexemes, "emotions", {}).items():
             words[name] = _emotion(lexemes, name, entry, by_number)
         names = tuple(map(_word, words))
-        for name, meant in _table(lexemes, "synonyms", {}).items():
+        timings = {
+            name: read_timing(lexemes, name, entry) for name, entry in read_table(lexemes, "durations", {}).items()
+        }
+        for name, meant in read_table(lexemes, "synonyms", {}).items():
             if meant not in words:
-                raise _bad(lexemes, name, f"there is no lexeme {meant!r}")
+                raise bad_entry(lexemes, name, f"there is no lexeme {meant!r}")
             words[name] = words[meant]
-        return cls(MappingProxyType({_word(name): weights for name, weights in words.items()}), names, by_number)
+            if meant in timings:
+                timings[name] = timings[meant]
+        by_word = MappingProxyType({_word(name): weights for name, weights in words.items()})
+        timed = {_word(name): timing for name, timing in timings.items()}
+        return Expressions(by_word, names, by_number, timed)
 
-    def weights(self, part: FaceLexeme | FaceFacs) -> Weights:
-        """Those of an expression at amount 1.
+    def face(self, lexeme: str, amount: float) -> FaceShape:
+        """The expression of a lexeme at an amount, 0 to 1.
 
         Raises:
-            RealizerError: "no-face" or "no-action-unit".
+            RealizerError: "no-face".
         """
-        if isinstance(part, FaceLexeme):
-            weights = self.lexemes.get(_word(part.lexeme))
-            if weights is None:
-                raise RealizerError(NoFace(lexeme=part.lexeme, known=tuple(self.lexemes)))
-            return weights
-        unit = self.units.get(part.au)
+        word = _word(lexeme)
+        weights = self.lexemes.get(word)
+        if weights is None:
+            raise RealizerError(NoFace(lexeme=lexeme, known=tuple(self.lexemes)))
+        return FaceShape(limited(scaled(weights, amount)), self.timings.get(word, TIMING))
+
+    def unit(self, number: int) -> ActionUnit:
+        """The action unit with a number.
+
+        Raises:
+            RealizerError: "no-action-unit".
+        """
+        unit = self.units.get(number)
         if unit is None:
-            raise RealizerError(NoActionUnit(au=part.au, known=tuple(self.units)))
-        return unit.weights(part.side)
-
-
-def added(faces: Sequence[Weights]) -> dict[str, float]:
-    """The sum of several weights; it may exceed 1."""
-    total: dict[str, float] = {}
-    for face in faces:
-        for morph, weight in face.items():
-            total[morph] = total.get(morph, 0.0) + weight
-    return total
-
-
-def limited(weights: Weights) -> dict[str, float]:
-    """Weights that are at most 1."""
-    return {morph: min(weight, 1.0) for morph, weight in weights.items()}
+            raise RealizerError(NoActionUnit(au=number, known=tuple(self.units)))
+        return unit
 
 
 def _emotion(path: Path, name: str, entry: object, units: Mapping[int, ActionUnit]) -> Weights:
-    """The sum of action units, each written as its number and, where one half moves, its side: "12 RIGHT"."""
+    """The sum of action units, each written as its number and, where one half moves, its side: "12 RIGHT".
+
+    Colors of the skin are among them, by their names.
+    """
     parts: list[Weights] = []
-    for written, intensity in _weights(path, name, entry).items():
+    for written, intensity in read_weights(path, name, entry).items():
+        if written in SKIN_COLORS:
+            parts.append({written: intensity})
+            continue
         number, _, side = written.partition(" ")
         if not number.isdecimal() or int(number) not in units or side not in ("", *Side):
-            raise _bad(path, name, f"{written!r} is not an action unit")
+            raise bad_entry(path, name, f"{written!r} is not an action unit")
         half = Side(side) if side else Side.BOTH
-        parts.append({morph: intensity * weight for morph, weight in units[int(number)].weights(half).items()})
+        parts.append(scaled(units[int(number)].weights(half), intensity))
     return MappingProxyType(limited(added(parts)))
 
 
 def _unit(path: Path, name: str, entry: Any) -> ActionUnit:
     if not isinstance(entry, dict) or not isinstance(entry.get("name"), str):
-        raise _bad(path, name, "an action unit has a name")
-    return ActionUnit(entry["name"], *(_weights(path, name, entry.get(part, {})) for part in ("middle", "sides")))
-
-
-def _number(path: Path, name: str) -> int:
-    if not name.isdecimal():
-        raise _bad(path, name, "action units are named by their numbers")
-    return int(name)
-
-
-def _table(path: Path, name: str, default: Mapping[str, Any] | None = None) -> Mapping[str, Any]:
-    try:
-        content = json.loads(path.read_text(encoding="utf-8"))
-    except ValueError as problem:
-        row = getattr(problem, "lineno", 1)
-        raise RealizerError(BadAsset(file=path.name, row=row, element="JSON", reason=str(problem))) from problem
-    table = content.get(name, default) if isinstance(content, dict) else None
-    if not isinstance(table, Mapping):
-        raise _bad(path, name, "no object of that name")
-    return table
-
-
-def _weights(path: Path, name: str, entry: object) -> Weights:
-    if not isinstance(entry, dict) or not all(_is_weight(weight) for weight in entry.values()):
-        raise _bad(path, name, "weights are numbers from 0 to 1")
-    return MappingProxyType({morph: float(weight) for morph, weight in entry.items()})
-
-
-def _is_weight(weight: object) -> bool:
-    return isinstance(weight, int | float) and not isinstance(weight, bool) and 0.0 <= weight <= 1.0
-
-
-def _bad(path: Path, element: str, reason: str) -> RealizerError:
-    return RealizerError(BadAsset(file=path.name, row=1, element=element, reason=reason))
+        raise bad_entry(path, name, "an action unit has a name")
+    middle, sides = (read_weights(path, name, entry.get(part, {})) for part in ("middle", "sides"))
+    timing = read_timing(path, name, entry["durations"]) if "durations" in entry else TIMING
+    return ActionUnit(entry["name"], middle, sides, timing)
 
 
 def _word(lexeme: str) -> str:

@@ -1,27 +1,41 @@
 """The engine of the face (thesis 8.8): expressions and the mouth of speech, as weights of morph targets."""
 
-from collections.abc import Collection, Iterator, Mapping
+import asyncio
+from collections.abc import Awaitable, Collection, Iterator, Mapping
+from dataclasses import replace
+from functools import partial
+from types import MappingProxyType
+from typing import Any
 
+from reactive_realizer.binding.face_binding import FaceBinding
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.behaviors import Face, FaceFacs, FaceLexeme, FaceShift
-from reactive_realizer.bml.extensions import FaceMorph
+from reactive_realizer.bml.extensions import FACES, FaceKeyframe, FaceMorph, FacePlutchik
 from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.engine.context import EngineContext
 from reactive_realizer.engine.engine import DefaultEngine
 from reactive_realizer.engine.lexicon import LexiconEntry
-from reactive_realizer.engines.face.expressions import Expressions, Weights, added, limited
-from reactive_realizer.engines.face.face_mixing import Fades, MouthShare, between, greatest, resting_face_under
-from reactive_realizer.engines.face.face_unit import MOUTH_MORPHS, SHIFT_TIMING, TIMING, FaceShiftUnit, FaceUnit
-from reactive_realizer.errors import CreationFault, RealizerError
+from reactive_realizer.engines.face.face_animation import FaceAnimation, animation_path, read_face_animation
+from reactive_realizer.engines.face.face_library import FaceLibrary
+from reactive_realizer.engines.face.face_mixing import Fades, MouthShares, between, greatest, resting_face_under
+from reactive_realizer.engines.face.face_shapes import FaceShapes
+from reactive_realizer.engines.face.face_timing import SHIFT_TIMING, FaceShape
+from reactive_realizer.engines.face.face_unit import (
+    ExpressionUnit,
+    FaceAnimationUnit,
+    FaceShiftUnit,
+    FaceUnit,
+)
+from reactive_realizer.engines.face.weights import Weights, added, limited, scaled
 from reactive_realizer.pegboard.peg_key import BlockKey
+from reactive_realizer.planunit.parameter import Parameter, Range
 from reactive_realizer.planunit.plan_unit import PlanUnit
-
-_LEXEMES = "face/lexemes.json"
-_UNITS = "face/action_units.json"
 
 _MODERATE = 0.5
 """The amount of a compound face that leaves those of its parts as they are, which is its default."""
+
+_STRENGTH = Range(0.0, 1.0)
 
 _FADE = 0.25
 """Duration of the fade of an interrupted expression, s."""
@@ -29,27 +43,24 @@ _MOUTH_FADE = 0.12
 """Duration of the fade of the mouth when a word is cut off, s."""
 
 
-class NoMorph(CreationFault):
-    """The avatar has no morph target with the name."""
-
-    code = "no-morph"
-    template = "the avatar has no morph target '{morph}'; available: {known}"
-    unknown = "morph"
-    morph: str
-    known: tuple[str, ...]
-
-
 class FaceEngine(DefaultEngine):
     """Plays expressions and mixes them with the resting face and the lip sync of the character's speech."""
 
-    behaviors = frozenset({FaceLexeme, FaceFacs, Face, FaceShift, FaceMorph})
+    behaviors = FACES | {FaceLexeme, FaceFacs, Face, FaceShift}
+    parameters: Mapping[type[Behavior], Mapping[str, Range]] = MappingProxyType(
+        {
+            **{kind: MappingProxyType({"amount": _STRENGTH}) for kind in (FaceLexeme, FaceFacs, Face)},
+            **{kind: MappingProxyType({"intensity": _STRENGTH}) for kind in (FaceMorph, FacePlutchik)},
+        }
+    )
 
     def __init__(self, context: EngineContext) -> None:
         super().__init__(f"{context.character}/face")
-        self._expressions = Expressions.read(context.asset(_LEXEMES), context.asset(_UNITS))
-        self._morphs = context.humanoid.avatar.morphs
+        self._library = FaceLibrary(FaceBinding.read(*context.bindings["face"]), FaceShapes.of(context))
+        self._asset = context.asset
+        self._graph = context.graph
         self._lip_sync = context.lip_sync
-        self._share = MouthShare()
+        self._shares = MouthShares()
         self._resting: Weights = {}
         self._fading_faces = Fades(_FADE)
         self._fading_mouths = Fades(_MOUTH_FADE)
@@ -57,62 +68,84 @@ class FaceEngine(DefaultEngine):
 
     def lexicon(self) -> Iterator[LexiconEntry]:
         """The face lexemes."""
-        duration = sum(phase.duration for phase in TIMING.phases)
-        return (
-            LexiconEntry("faceLexeme", lexeme, sync_points=TIMING.points, duration=duration, file=_LEXEMES)
-            for lexeme in self._expressions.names
-        )
+        return self._library.lexicon()
 
-    def check(self, behavior: Behavior) -> Collection[str]:
-        """The points of every face.
+    def check(self, behavior: Behavior) -> Collection[str] | None:
+        """The points of a face; None for an animation whose file is yet to be read.
 
         Raises:
-            RealizerError: "no-face", "no-action-unit" or "no-morph".
+            RealizerError: the binding has no face for it that can be made.
         """
-        self._weights(behavior)
-        return SHIFT_TIMING.points if isinstance(behavior, FaceShift) else TIMING.points
+        if isinstance(behavior, FaceKeyframe):
+            path = animation_path(behavior, self._asset)
+            return tuple(self._animation(behavior).points) if path is None else None
+        timing = self._shape(behavior).timing
+        return SHIFT_TIMING.points if isinstance(behavior, FaceShift) else timing.points
+
+    def prepare(self, behavior: Behavior) -> Awaitable[object] | None:
+        """Read the file of an animation in another thread.
+
+        Raises:
+            RealizerError: "no-asset" or "no-face-animation"; the awaitable raises "bad-asset".
+        """
+        if not isinstance(behavior, FaceKeyframe) or behavior.interpolator is not None:
+            return None
+        path = animation_path(behavior, self._asset)
+        return asyncio.to_thread(read_face_animation, behavior, path, self._library.shapes)
 
     def plan(self, block: BlockKey, behavior: Behavior, prepared: object) -> PlanUnit:
         """A unit with the weights of the behavior.
 
         Raises:
-            RealizerError: "no-face", "no-action-unit" or "no-morph".
+            RealizerError: the binding has no face for it that can be made.
         """
-        weights = self._weights(behavior)
+        if isinstance(behavior, FaceKeyframe):
+            animation = prepared if isinstance(prepared, FaceAnimation) else self._animation(behavior)
+            return FaceAnimationUnit(block, behavior, animation, self._release)
+        shape = self._shape(behavior)
         if isinstance(behavior, FaceShift):
-            return FaceShiftUnit(block, behavior, weights, self._rest)
+            return FaceShiftUnit(block, behavior, shape.weights, self._rest)
         overshoot = behavior.overshoot if isinstance(behavior, FaceLexeme | Face) else 0.0
-        return FaceUnit(block, behavior, weights, overshoot, self._release)
+        unit = ExpressionUnit(block, behavior, shape, overshoot, self._release)
+        for name, values in self.parameters.get(type(behavior), {}).items():
+            parameter = Parameter(self._graph, str(unit.key(name)), getattr(behavior, name), values)
+            unit.vary(name, parameter, partial(self._weights_at, behavior, name))
+        return unit
+
+    def reset(self, time: GlobalTime) -> None:
+        """Return to the neutral resting face."""
+        self._fading_faces.add(self._resting, time)
+        self._resting = {}
 
     def face(self, tick: Tick) -> Mapping[str, float]:
         """Weights of morph targets now."""
         now = tick.time
         mouth = self._lip_sync.mouth(now) if self._lip_sync else None
-        share = self._share.at(now, speaking=mouth is not None)
+        self._shares.take(now, speaking=mouth is not None)
         playing = self.player.show(FaceUnit, lambda unit: unit.shown(now), now)
         resting = self._resting
         for shift in self.player.show(FaceShiftUnit, lambda unit: unit.shown(now), now):
             resting = between(resting, shift.weights, shift.share)
         resting = resting_face_under(resting, [(unit.weights, unit.level) for unit in playing])
         faces = [{m: w * unit.level for m, w in unit.weights.items()} for unit in playing]
-        face = added([resting, *faces, *self._fading_faces.at(now)])
-        face = {m: w * (share if m.startswith(MOUTH_MORPHS) else 1.0) for m, w in face.items()}
+        face = self._shares.of(added([resting, *faces, *self._fading_faces.at(now)]))
         return greatest(face, self._spoken(mouth or {}, now))
 
-    def _weights(self, behavior: Behavior) -> Weights:
-        """Those of a behavior at its amount."""
-        match behavior:
-            case Face():
-                parts = [_scaled(self._expressions.weights(part), part.amount) for part in behavior.parts]
-                return limited(_scaled(limited(added(parts)), behavior.amount / _MODERATE))
-            case FaceLexeme() | FaceFacs():
-                return _scaled(self._expressions.weights(behavior), behavior.amount)
-            case FaceMorph():
-                if behavior.targetname not in self._morphs:
-                    raise RealizerError(NoMorph(morph=behavior.targetname, known=self._morphs))
-                return {behavior.targetname: behavior.intensity}
-            case _:
-                raise TypeError(behavior)
+    def _animation(self, behavior: FaceKeyframe) -> FaceAnimation:
+        """That inside of a behavior."""
+        return read_face_animation(behavior, None, self._library.shapes)
+
+    def _weights_at(self, behavior: Behavior, name: str, value: float) -> Weights:
+        """Those of an expression with another value of an attribute."""
+        changed: dict[str, Any] = {name: value}
+        return self._shape(replace(behavior, **changed)).weights
+
+    def _shape(self, behavior: Behavior) -> FaceShape:
+        """The expression of a behavior at its amount."""
+        if not isinstance(behavior, Face):
+            return self._library.face(behavior)
+        parts = [self._library.face(part).weights for part in behavior.parts]
+        return FaceShape(limited(scaled(limited(added(parts)), behavior.amount / _MODERATE)))
 
     def _spoken(self, mouth: Mapping[str, float], now: GlobalTime) -> dict[str, float]:
         """The mouth of the speech; if a word is cut off, the mouth fades."""
@@ -123,11 +156,7 @@ class FaceEngine(DefaultEngine):
 
     def _release(self, unit: FaceUnit, time: GlobalTime) -> None:
         if unit.level > 0.0:
-            self._fading_faces.add(_scaled(unit.weights, unit.level), time)
+            self._fading_faces.add(scaled(unit.weights, unit.level), time)
 
     def _rest(self, shift: FaceShiftUnit) -> None:
         self._resting = between(self._resting, shift.weights, shift.share)
-
-
-def _scaled(weights: Weights, factor: float) -> dict[str, float]:
-    return {morph: factor * weight for morph, weight in weights.items()}

@@ -4,14 +4,19 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from reactive_realizer.clock.units import GlobalTime
-from reactive_realizer.engines.face.expressions import Weights
 from reactive_realizer.engines.face.face_unit import MOUTH_MORPHS
+from reactive_realizer.engines.face.weights import Weights
 
-SHARE_WHILE_SPEAKING = 0.5
-"""The share of an expression's mouth that is shown during speech."""
+CORNERS = ("mouthSmile", "mouthFrown", "mouthDimple", "mouthStretch", "mouthLeft", "mouthRight")
+"""Prefixes of the names of the morph targets that move the corners of the mouth; they do not part the lips."""
 
-_SHARE_CHANGE = 0.15
-"""Time in which the share changes from 1 to `SHARE_WHILE_SPEAKING`, or back, s."""
+_CORNERS_WHILE_SPEAKING = 0.5
+"""The share of the corners of an expression's mouth that is shown during speech."""
+
+_CHANGE = 0.15
+"""Time in which an expression yields the corners of the mouth to speech, or returns to the whole mouth, s."""
+_LIPS_YIELD = 0.05
+"""Time in which an expression yields the lips to speech, s: before the first sound for which lips have to touch."""
 
 _REGIONS = (*MOUTH_MORPHS, "nose", "cheek", "eye", "brow")
 
@@ -29,7 +34,8 @@ class Fades:
 
     def add(self, weights: Weights, now: GlobalTime) -> None:
         """Fade weights from now on."""
-        self._fades.append(_Fade(weights, now, self._duration))
+        if weights:
+            self._fades.append(_Fade(weights, now, self._duration))
 
     def at(self, now: GlobalTime) -> list[dict[str, float]]:
         """The remaining weights of each fade."""
@@ -47,20 +53,40 @@ class _Fade:
         return 1.0 - (now - self.since) / self.duration
 
 
-class MouthShare:
-    """The share of an expression's mouth that is shown; it changes at a limited speed when speech starts or stops."""
+class MouthShares:
+    """The shares of an expression's mouth that are shown: all, or half of its corners while the character speaks.
+
+    Speech determines whether the lips touch, and their shape. The shares change at a limited speed.
+    """
 
     def __init__(self) -> None:
-        self._share = 1.0
+        self._corners = _Share(1.0)
+        self._lips = _Share(1.0)
         self._time = GlobalTime(0.0)
 
-    def at(self, now: GlobalTime, *, speaking: bool) -> float:
-        """The share now, 0 to 1."""
-        furthest = (1.0 - SHARE_WHILE_SPEAKING) * (now - self._time) / _SHARE_CHANGE
-        change = (SHARE_WHILE_SPEAKING if speaking else 1.0) - self._share
-        self._share += max(-furthest, min(furthest, change))
-        self._time = now
-        return self._share
+    def take(self, now: GlobalTime, *, speaking: bool) -> None:
+        """Move the shares to a later time."""
+        elapsed, self._time = now - self._time, now
+        change = (1.0 - _CORNERS_WHILE_SPEAKING) * elapsed / _CHANGE
+        self._corners.move(_CORNERS_WHILE_SPEAKING if speaking else 1.0, change)
+        self._lips.move(0.0 if speaking else 1.0, elapsed / (_LIPS_YIELD if speaking else _CHANGE))
+
+    def of(self, face: Weights) -> dict[str, float]:
+        """The weights of a face as far as they are shown."""
+        return {morph: weight * self._share(morph) for morph, weight in face.items()}
+
+    def _share(self, morph: str) -> float:
+        if morph.startswith(CORNERS):
+            return self._corners.value
+        return self._lips.value if morph.startswith(MOUTH_MORPHS) else 1.0
+
+
+@dataclass(slots=True)
+class _Share:
+    value: float
+
+    def move(self, target: float, furthest: float) -> None:
+        self.value += max(-furthest, min(furthest, target - self.value))
 
 
 def resting_face_under(resting: Weights, expressions: Iterable[tuple[Weights, float]]) -> dict[str, float]:

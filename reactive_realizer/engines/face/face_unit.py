@@ -1,37 +1,39 @@
-"""The plan units of the face: an expression that comes and goes, and one that stays."""
+"""The plan units of the face: expressions and animations that come and go, and expressions that stay."""
 
-from collections.abc import Callable
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.clock.units import GlobalTime
-from reactive_realizer.engines.face.expressions import Weights
+from reactive_realizer.engines.face.face_animation import FaceAnimation
+from reactive_realizer.engines.face.face_timing import EXPRESSION_PHASES, SHIFT_PHASES, SHIFT_TIMING, FaceShape
+from reactive_realizer.engines.face.weights import Weights
 from reactive_realizer.pegboard.peg_key import BlockKey
+from reactive_realizer.planunit.parameter import Parameter
 from reactive_realizer.planunit.phase_clock import PhaseClock
 from reactive_realizer.planunit.plan_unit import PlanUnit, UnitState
-from reactive_realizer.planunit.timing import Phase, PhaseKind, Timing
+from reactive_realizer.planunit.timing import Timing, timing_at
 
 MOUTH = "mouth"
 MOUTH_MORPHS = ("mouth", "jaw", "tongue")
 """Prefixes of the names of the morph targets of the mouth."""
 
-_PHASES = {"start": 0.0, "attackPeak": 1.0, "relax": 2.0, "end": 3.0}
-TIMING = Timing(tuple(_PHASES), (Phase(0.5), Phase(1.0, PhaseKind.HOLD), Phase(0.5)))
-"""The attack and the decay take a quarter each of the preferred two seconds."""
-
-_SHIFT_PHASES = {"start": 0.0, "end": 1.0}
-SHIFT_TIMING = Timing(tuple(_SHIFT_PHASES), (Phase(0.5),))
+_FADE_IN = 0.1
+"""Duration in which an animation fades in, s."""
 
 
-class FaceUnit(PlanUnit):
-    """An expression: attack, hold and decay.
+class FaceUnit(PlanUnit, ABC):
+    """A face that comes and goes.
 
     Args:
-        weights: of morph targets at the amount of the behavior, 0..1.
-        overshoot: fraction by which the attack peak exceeds them.
+        timing: that it prefers.
+        phases: of its sync points, increasing.
+        weights: of morph targets, 0..1.
         released: is given what is still shown at the end.
 
     Attributes:
-        weights: of morph targets at the amount of the behavior, 0..1.
+        weights: of morph targets in the last frame, 0..1.
         level: the factor of these weights in the last frame.
     """
 
@@ -39,34 +41,114 @@ class FaceUnit(PlanUnit):
         self,
         block: BlockKey,
         behavior: Behavior,
+        timing: Timing,
+        phases: Mapping[str, float],
         weights: Weights,
-        overshoot: float,
         released: Callable[["FaceUnit", GlobalTime], None],
     ) -> None:
-        super().__init__(block, behavior, TIMING, _resources(weights))
+        super().__init__(block, behavior, timing, _resources(weights))
         self.weights = weights
         self.level = 0.0
-        self._overshoot = overshoot
-        self._clock = PhaseClock(_PHASES)
+        self._clock = PhaseClock(phases)
+        self._last_phase = max(phases.values())
         self._released = released
 
     def on_finish(self, time: GlobalTime) -> None:
         """Hands over the weights that are still shown, which then fade."""
+        if self.state is UnitState.DONE and not self.points[-1].cut:
+            self.follow(self._last_phase)
         self._released(self, time)
 
     def shown(self, now: GlobalTime) -> "FaceUnit":
-        """The unit, with its level of now."""
-        self.level = self._level(self._clock.advance(self, now))
+        """The unit, with its weights and its level of now."""
+        self.follow(self._clock.advance(self, now))
         return self
 
-    def _level(self, phase: float) -> float:
-        """The factor of the weights at a phase; BML 1.0's overshoot raises it at the attack peak."""
+    @abstractmethod
+    def follow(self, phase: float) -> None:
+        """Sets weights and level for a phase."""
+
+
+class ExpressionUnit(FaceUnit):
+    """An expression: attack, hold and decay.
+
+    Args:
+        shape: the expression at the amount of the behavior.
+        overshoot: fraction by which the attack peak exceeds them.
+        released: is given what is still shown at the end.
+    """
+
+    def __init__(
+        self,
+        block: BlockKey,
+        behavior: Behavior,
+        shape: FaceShape,
+        overshoot: float,
+        released: Callable[[FaceUnit, GlobalTime], None],
+    ) -> None:
+        super().__init__(block, behavior, shape.timing, EXPRESSION_PHASES, shape.weights, released)
+        self._overshoot = overshoot
+        self._strength: _Strength | None = None
+
+    def vary(self, name: str, parameter: Parameter, weights: Callable[[float], Weights]) -> None:
+        """Let its strength change while it plays.
+
+        Args:
+            name: of the parameter.
+            parameter: the strength.
+            weights: of morph targets at a strength.
+        """
+        self.parameters[name] = parameter
+        self._strength = _Strength(parameter, parameter.value, weights)
+
+    def follow(self, phase: float) -> None:
+        """Sets weights and level for a phase; BML 1.0's overshoot raises the level at the attack peak."""
+        strength = self._strength
+        if strength is not None and strength.shown != strength.parameter.value:
+            strength.shown = strength.parameter.value
+            self.weights = strength.weights(strength.shown)
         peak = 1.0 + self._overshoot
         if phase < 1.0:
-            return peak * eased(phase)
-        if phase < 2.0:
-            return peak + (1.0 - peak) * eased(phase - 1.0)
-        return 1.0 - eased(phase - 2.0)
+            self.level = peak * eased(phase)
+        elif phase < 2.0:
+            self.level = peak + (1.0 - peak) * eased(phase - 1.0)
+        else:
+            self.level = 1.0 - eased(phase - 2.0)
+
+
+@dataclass(slots=True)
+class _Strength:
+    """The strength of an expression, its value in the last frame, and the weights at each value."""
+
+    parameter: Parameter
+    shown: float
+    weights: Callable[[float], Weights]
+
+
+class FaceAnimationUnit(FaceUnit):
+    """A keyframe animation, which fades in so that a first row that is not neutral does not jump.
+
+    Args:
+        animation: to play.
+        released: is given what is still shown at the end.
+    """
+
+    def __init__(
+        self,
+        block: BlockKey,
+        behavior: Behavior,
+        animation: FaceAnimation,
+        released: Callable[[FaceUnit, GlobalTime], None],
+    ) -> None:
+        start = next(iter(animation.points.values()))
+        timing = timing_at({sync: time - start for sync, time in animation.points.items()})
+        super().__init__(block, behavior, timing, animation.phases, animation.weights(0.0), released)
+        self._animation = animation
+
+    def follow(self, phase: float) -> None:
+        """Sets weights and level for a phase."""
+        self.weights = self._animation.weights(phase)
+        self.level = eased(min(1.0, phase * self._animation.duration / _FADE_IN))
 
 
 class FaceShiftUnit(PlanUnit):
@@ -87,7 +169,7 @@ class FaceShiftUnit(PlanUnit):
         super().__init__(block, behavior, SHIFT_TIMING, frozenset({"resting face"}))
         self.weights = weights
         self.share = 0.0
-        self._clock = PhaseClock(_SHIFT_PHASES)
+        self._clock = PhaseClock(SHIFT_PHASES)
         self._reached = reached
 
     def on_finish(self, time: GlobalTime) -> None:

@@ -1,36 +1,18 @@
-"""Converts a text with marks to SSML for espeak-ng, and its report to an `Utterance`."""
+"""Converts the report of espeak-ng to an `Utterance`."""
 
 from bisect import bisect_right
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from itertools import accumulate, pairwise
 from types import MappingProxyType
-from xml.sax.saxutils import escape
 
 import numpy as np
 
 from reactive_realizer.engine.tts import Phoneme, Utterance, Word, word_spans
+from reactive_realizer.engines.speech.espeak_ssml import SsmlDocument
 from reactive_realizer.engines.speech.worker_messages import WorkerMessage
 
 _BYTES_PER_SAMPLE = 2
-
-
-@dataclass(frozen=True, slots=True)
-class Markup:
-    """A text as SSML.
-
-    Attributes:
-        ssml: the whole document; mark number n of the text is named ``mn``, so that no name has to be quoted.
-        origins: for each character of the SSML, the index of the corresponding character of the text; for a tag, that
-            of the character after it.
-    """
-
-    ssml: str
-    origins: tuple[int, ...]
-
-    def origin(self, position: int) -> int:
-        """The index into the text for a 1-based position in the SSML, as espeak-ng counts."""
-        return self.origins[min(max(position, 1), len(self.origins)) - 1]
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,38 +32,30 @@ class PronouncedWord:
     pause: bool
 
 
-def marked_up(text: str, marks: tuple[int, ...]) -> Markup:
-    """A plain text with empty ``<mark>`` elements at the given indices (0 to ``len(text)``)."""
-    pieces: list[tuple[str, int]] = [("<speak>", 0)]
-    pending = sorted((index, number) for number, index in enumerate(marks))
-    for index in range(len(text) + 1):
-        while pending and pending[0][0] <= index:
-            pieces.append((f'<mark name="m{pending.pop(0)[1]}"/>', index))
-        pieces.append((escape(text[index : index + 1]), index))
-    pieces.append(("</speak>", len(text)))
-    return Markup("".join(piece for piece, _ in pieces), tuple(origin for piece, origin in pieces for _ in piece))
-
-
-def as_utterance(reply: WorkerMessage, text: str, marks: tuple[tuple[str, int], ...], markup: Markup) -> Utterance:
-    """The utterance in a reply of the worker; marks are numbered as in the markup."""
+def as_utterance(
+    reply: WorkerMessage, text: str, marks: tuple[tuple[str, int], ...], document: SsmlDocument
+) -> Utterance:
+    """The utterance in a reply of the worker; marks are numbered as in the document."""
     rate: int = reply.header["sample_rate"]
     duration = len(reply.body) / _BYTES_PER_SAMPLE / rate
     phonemes = _phonemes([(sample / rate, symbol) for sample, symbol in reply.header["phonemes"]], duration)
     silent = max((phoneme.start + phoneme.duration for phoneme in phonemes if phoneme.symbol), default=duration)
-    reported_words = [(sample / rate, markup.origin(position)) for sample, position, _ in reply.header["words"]]
+    reported_words = [(sample / rate, document.origin(position)) for sample, position, _ in reply.header["words"]]
     words = timed_words(text, reported_words, silent)
-    unmarked = Utterance(text, duration, words, MappingProxyType({}), phonemes, reply.body, rate)
+    unmarked = Utterance(
+        text, duration, words, MappingProxyType({}), phonemes, reply.body, rate, left_out=document.left_out
+    )
     reported_marks = {name: sample / rate for name, sample in reply.header["marks"]}
     return replace(unmarked, marks=MappingProxyType(_marks(marks, reported_marks, unmarked)))
 
 
-def pronounced_words(reply: WorkerMessage, text: str, markup: Markup) -> tuple[PronouncedWord, ...]:
+def pronounced_words(reply: WorkerMessage, text: str, document: SsmlDocument) -> tuple[PronouncedWord, ...]:
     """The words of a text with the sounds in a reply of the worker, which has more words for a number or an address."""
     spans = word_spans(text)
     ends = [last for _, last in spans]
     symbols: list[list[str]] = [[] for _ in spans]
     reported = [symbol for _, symbol in reply.header["phonemes"]]
-    words = [(markup.origin(position), first) for _, position, first in reply.header["words"]]
+    words = [(document.origin(position), first) for _, position, first in reply.header["words"]]
     for (character, first), (_, last) in pairwise([*words, (len(text), len(reported))]):
         if (word := bisect_right(ends, character)) < len(spans):
             symbols[word] += reported[first:last]

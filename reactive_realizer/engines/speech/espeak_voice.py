@@ -1,16 +1,19 @@
 """The embedded voice: espeak-ng in a worker process."""
 
+from collections.abc import AsyncIterator
+from dataclasses import replace
 from importlib.util import find_spec
 from typing import Any
 
+from reactive_realizer.bml.markup import Markup, MarkupKind
 from reactive_realizer.engine.tts import Utterance
+from reactive_realizer.engines.speech.espeak_ssml import SsmlDocument, ssml_document
 from reactive_realizer.engines.speech.espeak_utterance import (
-    Markup,
     PronouncedWord,
     as_utterance,
-    marked_up,
     pronounced_words,
 )
+from reactive_realizer.engines.speech.scripts import unread_scripts
 from reactive_realizer.engines.speech.speech_worker import SpeechWorker
 from reactive_realizer.engines.speech.worker_messages import WorkerMessage
 from reactive_realizer.errors import CreationFault, RealizerError
@@ -72,32 +75,51 @@ class EspeakVoice:
         """
         return tuple(sorted((await self._hello())["voices"]))
 
-    async def synthesize(self, text: str, marks: tuple[tuple[str, int], ...], voice: str | None) -> Utterance:
+    def synthesize(self, text: str, marks: tuple[tuple[str, int], ...], voice: str | None) -> AsyncIterator[Utterance]:
         """Speaks a text; see `TTSBinding.synthesize`."""
-        markup = marked_up(text, tuple(index for _, index in marks))
-        return as_utterance(await self._spoken(markup, voice), text, marks, markup)
+        return self.synthesize_markup(text, marks, voice, ())
 
-    async def pronounce(self, text: str, voice: str | None) -> tuple[PronouncedWord, ...]:
+    async def synthesize_markup(
+        self, text: str, marks: tuple[tuple[str, int], ...], voice: str | None, markup: tuple[Markup, ...]
+    ) -> AsyncIterator[Utterance]:
+        """Speaks a text with markup; see `MarkupTTSBinding.synthesize_markup`."""
+        voices = (await self._hello())["voices"]
+        document = ssml_document(text, [index for _, index in marks], markup, voices)
+        utterance = as_utterance(await self._spoken(document, voice), text, marks, document)
+        unread = unread_scripts(_in_own_language(text, document, markup), (voice or self._default_voice).lower())
+        yield replace(utterance, unread=unread)
+
+    async def pronounce(
+        self, text: str, voice: str | None, markup: tuple[Markup, ...] = ()
+    ) -> tuple[PronouncedWord, ...]:
         """The words of a text with their sounds, for voices without a dictionary.
 
         Raises:
             RealizerError: as `synthesize`.
         """
-        markup = marked_up(text, ())
-        return pronounced_words(await self._spoken(markup, voice), text, markup)
+        document = ssml_document(text, (), markup)
+        return pronounced_words(await self._spoken(document, voice), text, document)
 
     async def close(self) -> None:
         """Ends the worker."""
         await self.worker.close()
 
-    async def _spoken(self, markup: Markup, voice: str | None) -> WorkerMessage:
+    async def _spoken(self, document: SsmlDocument, voice: str | None) -> WorkerMessage:
         identifier = _identifier(await self._hello(), voice or self._default_voice)
-        return await self.worker.request({"ssml": markup.ssml, "voice": identifier})
+        return await self.worker.request({"ssml": document.ssml, "voice": identifier})
 
     async def _hello(self) -> dict[str, Any]:
         if find_spec("espeakng_loader") is None:  # only the worker may import it
             raise RealizerError(VoiceNotInstalled(extra="espeak"))
         return await self.worker.hello()
+
+
+def _in_own_language(text: str, document: SsmlDocument, markup: tuple[Markup, ...]) -> str:
+    """The characters of a text for which markup names no other voice or language."""
+    kinds = {MarkupKind.VOICE, MarkupKind.LANGUAGE}
+    others = [each for each in markup if each.kind in kinds and each not in document.left_out]
+    outside = (index for index in range(len(text)) if not any(each.first <= index < each.last for each in others))
+    return "".join(text[index] for index in outside)
 
 
 def _identifier(hello: dict[str, Any], voice: str) -> str:

@@ -1,23 +1,26 @@
 """The engine of ``speech`` (thesis 8.10)."""
 
-from collections.abc import Awaitable, Collection, Mapping
+from collections.abc import AsyncIterator, Collection, Mapping
 from types import MappingProxyType
+from typing import NamedTuple
 
 from reactive_realizer.bml.behavior import Behavior
-from reactive_realizer.bml.behaviors import WORDS, Speech
-from reactive_realizer.clock.ticker import Tick
+from reactive_realizer.bml.behaviors import LIVELINESS, VOICE, WORDS, RecordedSpeech, Speech
+from reactive_realizer.bml.markup import Markup
 from reactive_realizer.clock.units import GlobalTime
-from reactive_realizer.embodiment.audio import AudioChange, AudioHeard
 from reactive_realizer.engine.context import EngineContext
-from reactive_realizer.engine.engine import DefaultEngine
-from reactive_realizer.engine.hearing import Drift
-from reactive_realizer.engine.tts import Utterance
-from reactive_realizer.engines.speech.speech_audio import SpeechAudio
-from reactive_realizer.engines.speech.speech_unit import VOLUME_RANGE, SpeechUnit, wants_words
-from reactive_realizer.engines.speech.visemes import VisemeTrack
-from reactive_realizer.errors import CreationFault, RealizerError
+from reactive_realizer.engine.effects import ReportFall, Warn
+from reactive_realizer.engine.engine import Part, SlowWork
+from reactive_realizer.engine.sound_engine import SoundEngine
+from reactive_realizer.engine.sound_unit import VOLUME_RANGE
+from reactive_realizer.engine.tts import MarkupTTSBinding, Utterance
+from reactive_realizer.engines.speech.elastic_speech import ElasticSpeech
+from reactive_realizer.engines.speech.lip_sync.binding import VisemeBinding
+from reactive_realizer.engines.speech.lip_sync.track import LipSyncTrack
+from reactive_realizer.engines.speech.recorded.recordings import Recording, Recordings
+from reactive_realizer.engines.speech.speech_unit import LIVELINESS_RANGE, SpeechUnit, liveliness_of, wants_words
+from reactive_realizer.errors import CreationFault, Fault, RealizerError
 from reactive_realizer.pegboard.peg_key import BlockKey
-from reactive_realizer.planunit.parameter import Range
 from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.sized_cache import SizedCache
 
@@ -29,8 +32,37 @@ class NothingToSay(CreationFault):
     template = "its text contains no words"
 
 
-_Text = tuple[str, tuple[tuple[str, int], ...]]
-"""A text to be synthesized, and its marks: the id of each, and the index of the character that it precedes."""
+class MarkupLeftOut(CreationFault):
+    """Markup of a speech that its voice cannot follow."""
+
+    code = "markup-left-out"
+    template = "the voice cannot do {markup}; the rest of the SSML is followed"
+    markup: tuple[str, ...]
+
+
+class OtherScript(CreationFault):
+    """Letters that the voice does not read."""
+
+    code = "other-script"
+    template = "the voice does not read {scripts} letters: it spells or skips them"
+    scripts: tuple[str, ...]
+
+
+class _Text(NamedTuple):
+    """A text to be synthesized.
+
+    Attributes:
+        text: plain.
+        marks: the id of each, and the index of the character that it precedes.
+        voice: its name; None for the default one.
+        markup: of the text.
+    """
+
+    text: str
+    marks: tuple[tuple[str, int], ...]
+    voice: str | None
+    markup: tuple[Markup, ...]
+
 
 _REMEMBERED_BYTES = 16 * 1024 * 1024
 """Size of the utterances that are remembered for repetition: six minutes of speech at 22 kHz."""
@@ -39,106 +71,146 @@ _BYTES_A_CHARACTER = 50
 """Size of an utterance without its sound: a word takes 200 to 300 bytes."""
 
 
-class SpeechEngine(DefaultEngine):
+class SpeechEngine(SoundEngine):
     """Speaks with the voice of its character, and provides its lip sync (`LipSyncProvider`)."""
 
-    behaviors = frozenset({Speech})
-    extensions = frozenset({WORDS})
-    parameters: Mapping[type[Behavior], Mapping[str, Range]] = MappingProxyType({Speech: {"volume": VOLUME_RANGE}})
+    behaviors = frozenset({Speech, RecordedSpeech})
+    extensions = frozenset({WORDS, VOICE, LIVELINESS})
 
     def __init__(self, context: EngineContext) -> None:
-        super().__init__(f"{context.character}/speech")
+        super().__init__(context, "speech")
         self._tts = context.tts
         self._voice = context.voice
+        self._liveliness = context.liveliness
+        live = {} if context.liveliness is None else {LIVELINESS[1]: LIVELINESS_RANGE}
+        self.parameters = MappingProxyType({Speech: {"volume": VOLUME_RANGE, **live}})
         self._graph = context.graph
-        self._audio = SpeechAudio(context.character)
-        # What is said again need not be synthesized again. Utterances are remembered when they are planned, not when
-        # they are synthesized: so a replay remembers the same ones at the same ticks.
+        # What is said again need not be synthesized again. Utterances are remembered when they are planned or
+        # extended, not when they are synthesized: so a replay remembers the same ones at the same ticks.
         self._spoken: SizedCache[_Text, Utterance] = SizedCache(_REMEMBERED_BYTES)
-        self._tracks: dict[SpeechUnit, VisemeTrack] = {}
+        self._recordings = Recordings(context.asset, context.limits.sound_seconds)
+        self._notes: list[Warn] = []
+        self._told: set[Fault] = set()
+        morphs = context.humanoid.avatar.morphs
+        self._visemes = VisemeBinding.read(context.bindings.get("visemes", ()), morphs, context.asset)
+        self._track: LipSyncTrack | None = None
 
     def check(self, behavior: Behavior) -> Collection[str] | None:
         """The sync points, unless its words are among them: only the voice finds these.
 
         Raises:
-            RealizerError: ``not-a-flag``.
+            RealizerError: ``not-a-flag``, ``bad-liveliness``; of a recorded speech, ``no-asset``, ``forbidden-path``.
         """
+        if isinstance(behavior, RecordedSpeech):
+            self._recordings.file(behavior)
+        liveliness_of(behavior, None)
         return None if wants_words(behavior) else behavior.sync_points
 
-    def prepare(self, behavior: Behavior) -> Awaitable[object] | None:
-        """The synthesis, unless the voice answers at once or the same text was spoken before."""
+    def prepare(self, behavior: Behavior) -> SlowWork | None:
+        """The synthesis, unless the voice answers at once or the same text was spoken before.
+
+        Of a recorded speech, the reading of its file and the search for its words.
+        """
+        if isinstance(behavior, RecordedSpeech):
+            return self._recordings.read(behavior)
         spoken = self._speak(behavior)
-        return None if isinstance(spoken, Utterance) else spoken
+        return None if isinstance(spoken, Utterance) else _parts(spoken)
 
     def plan(self, block: BlockKey, behavior: Behavior, prepared: object) -> SpeechUnit:
         """A unit with the duration of the utterance.
 
         Raises:
-            RealizerError: ``nothing-to-say`` or ``not-a-flag``.
+            RealizerError: ``nothing-to-say``, ``not-a-flag`` or ``bad-liveliness``.
         """
+        if isinstance(prepared, Recording) and isinstance(behavior, Speech):
+            return SpeechUnit(block, behavior, prepared.utterance, self._graph, self._liveliness, prepared.note)
         utterance = self._speak(behavior) if prepared is None else prepared
         if not isinstance(behavior, Speech) or not isinstance(utterance, Utterance):
             raise TypeError(behavior, utterance)
         if not utterance.words:
             raise RealizerError(NothingToSay())
         if prepared is not None:
-            text = _text(behavior)
-            self._spoken.add(text, utterance, len(utterance.audio) + _BYTES_A_CHARACTER * len(text[0]))
-        return SpeechUnit(block, behavior, utterance, self._graph)
+            self._remember(behavior, utterance)
+        make = SpeechUnit if utterance.stretch is None else ElasticSpeech
+        return make(block, behavior, utterance, self._graph, self._liveliness, self._left_out(behavior, utterance))
+
+    def extend(self, unit: PlanUnit, prepared: object, now: GlobalTime) -> None:
+        """Have a speech take its utterance when more of it is made."""
+        if not isinstance(unit, SpeechUnit) or not isinstance(prepared, Utterance):
+            raise TypeError(unit, prepared)
+        unit.extend(prepared, now)
+        self._remember(unit.speech, prepared)
 
     def add(self, unit: PlanUnit) -> None:
-        """Take a speech into the plan; a change of its volume wakes the engine."""
+        """Take a speech into the plan; what is to be told of it is told once, and of its markup for each speech."""
         super().add(unit)
-        for parameter in unit.parameters.values():
-            parameter.cell.observe(lambda _: self.player.note(unit))
+        if isinstance(unit, ElasticSpeech):
+            unit.follow()
+        if not isinstance(unit, SpeechUnit):
+            return
+        unread = OtherScript(scripts=unit.utterance.unread) if unit.utterance.unread else None
+        for fault in (unit.note, unread):
+            if fault is not None and (fault not in self._told or isinstance(fault, MarkupLeftOut)):
+                self._told.add(fault)
+                self._notes.append(Warn(unit, fault))
 
-    def audio(self, tick: Tick) -> tuple[AudioChange, ...]:
-        """The changes of sounds since the last call: starts, moves, stops, and changes of their gain."""
-        units = (unit for unit in self.player.units if isinstance(unit, SpeechUnit))
-        return self._audio.changes(units, tick.time)
+    def remove(self, unit: PlanUnit) -> None:
+        """Take a speech out of the plan."""
+        super().remove(unit)
+        if isinstance(unit, ElasticSpeech):
+            unit.leave()
+
+    def warnings(self) -> tuple[Warn | ReportFall, ...]:
+        """What is to be told of speeches, since the last call."""
+        notes, self._notes = tuple(self._notes), []
+        return notes
 
     def mouth(self, time: GlobalTime) -> Mapping[str, float] | None:
-        """Weights of ARKit morphs for the present speech, None without one; an interrupted speech ends at once."""
+        """Weights of morph targets for the present speech, None without one; an interrupted speech ends at once."""
         for unit in self.player.playing:
             if isinstance(unit, SpeechUnit) and unit.hearing is not None and unit.utterance.phonemes:
-                return self._track(unit).weights(unit.position(time))
+                return self._track_of(unit.utterance).weights(unit.position(time))
         return None
 
-    def check_heard(self, heard: AudioHeard) -> bool:
-        """Whether a report is about a speech that plays now.
+    def _speak(self, behavior: Behavior) -> Utterance | AsyncIterator[Utterance]:
+        text = self._text(behavior)
+        spoken = self._spoken.get(text)
+        if spoken is not None:
+            return spoken
+        if text.markup and isinstance(self._tts, MarkupTTSBinding):
+            return self._tts.synthesize_markup(*text)
+        return self._tts.synthesize(text.text, text.marks, text.voice)
 
-        Raises:
-            RealizerError: "outside-sound" or "far-off".
-        """
-        unit = self._audio.unit(heard.id)
-        if unit is None or unit.hearing is None:
-            return False
-        unit.hearing.check(heard)
-        return True
+    def _text(self, behavior: Behavior) -> _Text:
+        if not isinstance(behavior, Speech):
+            raise TypeError(behavior)
+        marks = tuple((mark.id, mark.char_index) for mark in behavior.marks)
+        return _Text(behavior.text, marks, behavior.extensions.get(VOICE, self._voice), behavior.markup)
 
-    def hear(self, heard: AudioHeard) -> Drift | None:
-        """Take a report of what is heard of a speech; its drift, if its points are to move."""
-        unit = self._audio.unit(heard.id)
-        if unit is None or unit.hearing is None:
-            return None
-        try:
-            unit.hearing.check(heard)
-        except RealizerError:
-            return None
-        change = unit.hearing.take(heard)
-        return Drift(unit, change) if change else None
+    def _left_out(self, speech: Speech, utterance: Utterance) -> Fault | None:
+        """The markup of a speech that the voice does not follow, each kind once."""
+        left_out = utterance.left_out if isinstance(self._tts, MarkupTTSBinding) else speech.markup
+        written = tuple(dict.fromkeys(each.written for each in left_out))
+        return MarkupLeftOut(markup=written) if written else None
 
-    def _speak(self, behavior: Behavior) -> Utterance | Awaitable[Utterance]:
-        text = _text(behavior)
-        return self._spoken.get(text) or self._tts.synthesize(*text, self._voice)
+    def _remember(self, speech: Speech, utterance: Utterance) -> None:
+        if utterance.complete:
+            size = len(utterance.audio) + _BYTES_A_CHARACTER * len(utterance.text)
+            self._spoken.add(self._text(speech), utterance, size)
 
-    def _track(self, unit: SpeechUnit) -> VisemeTrack:
-        if unit not in self._tracks:
-            self._tracks = {unit: VisemeTrack(unit.utterance)}
-        return self._tracks[unit]
+    def _track_of(self, utterance: Utterance) -> LipSyncTrack:
+        if self._track is None or self._track.utterance is not utterance:
+            self._track = LipSyncTrack(utterance, self._visemes)
+        return self._track
 
 
-def _text(behavior: Behavior) -> _Text:
-    if not isinstance(behavior, Speech):
-        raise TypeError(behavior)
-    return behavior.text, tuple((mark.id, mark.char_index) for mark in behavior.marks)
+async def _parts(spoken: AsyncIterator[Utterance]) -> AsyncIterator[Part]:
+    """An utterance as slow work, each time that more of it is made.
+
+    Raises:
+        RealizerError: ``nothing-to-say``, so that the next form of the speech is made.
+    """
+    async for utterance in spoken:
+        if not utterance.words:
+            raise RealizerError(NothingToSay())
+        yield Part(utterance, utterance.complete)

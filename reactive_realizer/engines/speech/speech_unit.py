@@ -1,78 +1,127 @@
 """The plan unit of a speech."""
 
 from collections.abc import Mapping
+from itertools import accumulate
 
 from reactive_realizer.binding.asset_file import parse_boolean
+from reactive_realizer.bml.attribute_types import Float
 from reactive_realizer.bml.behavior import Behavior
-from reactive_realizer.bml.behaviors import WORDS, Speech
+from reactive_realizer.bml.behaviors import LIVELINESS, WORDS, Speech
+from reactive_realizer.bml.vocabulary import InterruptSpeech
 from reactive_realizer.clock.units import RESOLUTION, GlobalTime, Time
-from reactive_realizer.engine.tts import Utterance, Word
-from reactive_realizer.engines.speech.hearing import Hearing
+from reactive_realizer.embodiment.audio import Caption
+from reactive_realizer.engine.sound_unit import SoundUnit
+from reactive_realizer.engine.tts import Utterance
+from reactive_realizer.engines.speech.spoken_utterance import SpokenUtterance
+from reactive_realizer.errors import CreationFault, Fault, RealizerError
+from reactive_realizer.limits import Limits
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.parameter import Parameter, Range
-from reactive_realizer.planunit.plan_unit import DuePoint, PlanUnit
-from reactive_realizer.planunit.timing import PhaseKind, timing_at
+from reactive_realizer.planunit.plan_unit import DuePoint
+from reactive_realizer.planunit.timing import PhaseKind, Timing, timing_at
 from reactive_realizer.reactive.graph import Graph
 
 VOICE = "voice"
-VOLUME_RANGE = Range(0.0, 100.0)
+LIVELINESS_RANGE = Range(0.0, 1.0)
 
-_VOLUME_OF_GAIN_1 = 50.0
-"""The volume with a gain of 1."""
+_LEAD = 0.05
+"""The shortest time from the arrival of a part to its sound, s, in which the lips can get to its first viseme."""
 
 
-class SpeechUnit(PlanUnit):
+class BadLiveliness(CreationFault):
+    """A liveliness of a speech that is not a number from 0 to 1."""
+
+    code = "bad-liveliness"
+    template = "its liveliness must be a number from {low:g} to {high:g}, not '{value}'"
+    value: str
+    low: float
+    high: float
+
+
+class SpeechUnit(SoundUnit):
     """An utterance. Its timing is rigid, and a character speaks one at a time.
 
+    It may begin when its first part is made. What is not made in time is waited for.
+
     Attributes:
-        utterance: words and audio, with their times.
-        hearing: what is known of its sound since its start, None before.
-        cut: time at which it was interrupted, None if it was not.
+        speech: the behavior, in the form that is spoken.
+        note: what is to be told of it when it is planned, None for nothing.
 
     Raises:
-        RealizerError: "not-a-flag", of the attribute for words.
+        RealizerError: "not-a-flag", of the attribute for words, or "bad-liveliness".
     """
 
-    def __init__(self, block: BlockKey, behavior: Speech, utterance: Utterance, graph: Graph) -> None:
-        marks = {mark.id: utterance.marks[mark.id] for mark in behavior.marks}
-        self._words = _word_points(behavior, utterance)
-        inside = marks | {sync: word.start for sync, (_, word) in self._words.items()}
-        offsets = {"start": 0.0, **dict(sorted(inside.items(), key=lambda each: each[1])), "end": utterance.duration}
-        super().__init__(block, behavior, timing_at(offsets, PhaseKind.RIGID), frozenset({VOICE}))
-        self.utterance = utterance
-        self.hearing: Hearing | None = None
-        self.cut: GlobalTime | None = None
-        self._volume = Parameter(graph, str(self.key("volume")), _VOLUME_OF_GAIN_1, VOLUME_RANGE)
-        self.parameters["volume"] = self._volume
+    def __init__(
+        self,
+        block: BlockKey,
+        behavior: Speech,
+        utterance: Utterance,
+        graph: Graph,
+        liveliness: float | None = None,
+        note: Fault | None = None,
+    ) -> None:
+        """Make the unit.
+
+        Args:
+            block: name of its block.
+            behavior: its description.
+            utterance: what is known of it.
+            graph: of its parameters.
+            liveliness: of the character, 0 to 1; None if it has none, so that only the speech itself may ask for some.
+            note: what is to be told of it when it is planned.
+        """
+        liveliness = liveliness_of(behavior, liveliness)
+        self.speech = behavior
+        self.note = note
+        self._words = {} if liveliness is None and not wants_words(behavior) else _word_points(behavior, utterance)
+        self._spoken = SpokenUtterance(utterance)
+        offsets = sorted(self._offsets().items(), key=lambda each: each[1])
+        timing = self._timed({"start": 0.0, **dict(offsets), "end": utterance.duration})
+        super().__init__(block, behavior, timing, self._spoken.sounds, graph, frozenset({VOICE}))
+        self.unreported = frozenset() if wants_words(behavior) else frozenset(self._words)
+        if liveliness is not None:
+            name = LIVELINESS[1]
+            self.parameters[name] = Parameter(graph, str(self.key(name)), liveliness, LIVELINESS_RANGE)
 
     @property
-    def gain(self) -> float:
-        """The gain of its audio; 1 is as synthesized."""
-        return self._volume.value / _VOLUME_OF_GAIN_1
+    def utterance(self) -> Utterance:
+        """Words and phonemes as far as they are known, with their times; those ahead of what is made may change."""
+        return self._spoken.timed
 
-    def on_start(self, time: GlobalTime) -> None:
-        """Notes the time of the start."""
-        self.hearing = Hearing(time, self.utterance.duration)
+    def extend(self, utterance: Utterance, now: GlobalTime) -> None:
+        """Take the utterance when more of it is made: its times from there on change, and its sound can be heard."""
+        if (lacks_from := self.lacks_from()) is not None and lacks_from < now + _LEAD:
+            self._spoken.pause(now + _LEAD - lacks_from)
+        self._spoken.extend(utterance)
+        self._retime()
 
-    def on_finish(self, time: GlobalTime) -> None:
-        """Notes whether the speech ends early."""
-        if self.hearing is not None and self.position(time) < self.utterance.duration - RESOLUTION:
-            self.cut = time
+    def lacks_from(self) -> Time:
+        """The time from which on nothing is made, while it plays; None if all is."""
+        begin = self._spoken.next_part
+        return None if self.hearing is None or begin is None else GlobalTime(self.hearing.origin + begin)
 
-    def position(self, time: GlobalTime) -> float:
-        """The position in the utterance that is heard at a time, s; 0 before it has started."""
-        return 0.0 if self.hearing is None else time - self.hearing.origin
+    def wait(self, until: GlobalTime) -> None:
+        """Have what is not made not begin before a time."""
+        if (lacks_from := self.lacks_from()) is not None and lacks_from < until:
+            self._spoken.pause(until - lacks_from)
+            self._retime()
 
     @property
-    def origin(self) -> Time:
-        """When its first sample is heard: at its start or, if it has drifted, as if all had been heard like this."""
-        return self.time("start") if self.hearing is None else self.hearing.origin
+    def caption(self) -> Caption:
+        """Its text, with the times of its words."""
+        words = tuple((word.start, word.first, word.last) for word in self.utterance.words)
+        return Caption(self.utterance.text, words)
 
-    def gentle_end(self, time: GlobalTime) -> GlobalTime:
-        """The end of the present word: the start of the next one, or the end of the speech."""
+    def gentle_end(self, time: GlobalTime, speech: InterruptSpeech) -> GlobalTime:
+        """The end of the present word or clause: the start of the next one, or the end of the speech."""
         if self.hearing is None:
             return time
-        return GlobalTime(self.hearing.origin + self.utterance.next_word(self.position(time)))
+        return GlobalTime(self.hearing.origin + self.next_border(time, speech))
+
+    def next_border(self, time: GlobalTime, speech: InterruptSpeech) -> float:
+        """The position of the next word or clause that begins at or after a time, s; the duration if there is none."""
+        next_ = self.utterance.next_clause if speech is InterruptSpeech.CLAUSE else self.utterance.next_word
+        return next_(self.position(time))
 
     def due_at_cut(self, now: GlobalTime, *, end: bool = True) -> list[DuePoint]:
         """The due points without a word that would begin with the cut."""
@@ -82,9 +131,27 @@ class SpeechUnit(PlanUnit):
     def details(self, sync: str, time: GlobalTime) -> Mapping[str, str]:
         """Of a word, its index and text; of the end, what was heard: the last word, and the number of characters."""
         if sync in self._words:
-            index, word = self._words[sync]
-            return {"word": str(index), "text": word.text}
+            index = self._words[sync]
+            return {"word": str(index), "text": self.utterance.words[index].text}
         return self._heard(time) if sync == "end" else {}
+
+    def _offsets(self) -> dict[str, float]:
+        """The times of its marks and words, s after its start."""
+        utterance = self._spoken.timed
+        words = {sync: utterance.words[index].start for sync, index in self._words.items()}
+        return {mark.id: utterance.marks[mark.id] for mark in self.speech.marks} | words
+
+    def _retime(self) -> None:
+        """Give its points the times that are known now, in their present order."""
+        offsets = {"start": 0.0, **self._offsets(), "end": self.utterance.duration}
+        points = self.timing.points
+        times = accumulate((offsets[sync] for sync in points), max)
+        self.timing = self._timed(dict(zip(points, times, strict=True)))
+        self.wake()
+
+    def _timed(self, offsets: Mapping[str, float]) -> Timing:
+        """A timing with its points at these times, s after its start."""
+        return timing_at(offsets, PhaseKind.RIGID)
 
     def _heard(self, time: GlobalTime) -> Mapping[str, str]:
         position = self.position(time)
@@ -105,10 +172,23 @@ def wants_words(behavior: Behavior) -> bool:
     return parse_boolean(WORDS[1], behavior.extensions.get(WORDS, "false"))
 
 
-def _word_points(behavior: Speech, utterance: Utterance) -> dict[str, tuple[int, Word]]:
-    """The sync points of words, with their indices, if the behavior wants them; a mark keeps its name."""
-    if not wants_words(behavior):
-        return {}
+def liveliness_of(behavior: Behavior, default: float | None) -> float | None:
+    """How lively a speech is to be, 0 to 1: as it says itself, or else a default.
+
+    Raises:
+        RealizerError: "bad-liveliness".
+    """
+    if (text := behavior.extensions.get(LIVELINESS)) is None:
+        return default
+    low, high = LIVELINESS_RANGE
+    try:
+        return Float(low, high).read(text, Limits())
+    except RealizerError as problem:
+        raise RealizerError(BadLiveliness(value=text, low=low, high=high)) from problem
+
+
+def _word_points(behavior: Speech, utterance: Utterance) -> dict[str, int]:
+    """The indices of words by their sync points; a mark keeps its name."""
     marks = {mark.id for mark in behavior.marks}
-    points = {f"word{index}": (index, word) for index, word in enumerate(utterance.words)}
-    return {sync: each for sync, each in points.items() if sync not in marks}
+    points = {f"word{index}": index for index in range(len(utterance.words))}
+    return {sync: index for sync, index in points.items() if sync not in marks}

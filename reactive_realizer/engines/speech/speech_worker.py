@@ -52,14 +52,14 @@ class SpeechWorker:
         """
         return _succeeded(await asyncio.shield((await self._running()).hello)).header
 
-    async def request(self, header: dict[str, Any]) -> WorkerMessage:
-        """The reply to a request.
+    async def request(self, header: dict[str, Any], rank: int = 0) -> WorkerMessage:
+        """The reply to a request; of those that wait, one of the lowest rank is next.
 
         Raises:
             RealizerError: "voice-failed".
         """
         await self.hello()
-        return _succeeded(await (await self._running()).request(header))
+        return _succeeded(await (await self._running()).request(header, rank))
 
     async def close(self) -> None:
         """Ends the process."""

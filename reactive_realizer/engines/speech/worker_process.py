@@ -3,10 +3,10 @@
 import asyncio
 import logging
 import sys
-from collections import deque
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
+from heapq import heappop, heappush
 from typing import Any, Self, cast
 
 from reactive_realizer.engines.speech.worker_messages import MessageDecoder, WorkerMessage, failure
@@ -16,16 +16,18 @@ _START_PATIENCE = 30.0
 _log = logging.getLogger(__name__)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, order=True)
 class _Request:
-    """A request to the worker, with the future of its reply."""
+    """A request to the worker, with the future of its reply; the least one is sent next."""
 
-    header: dict[str, Any]
-    reply: asyncio.Future[WorkerMessage]
+    rank: int
+    number: int
+    header: dict[str, Any] = field(compare=False)
+    reply: asyncio.Future[WorkerMessage] = field(compare=False)
 
 
 class WorkerProcess(asyncio.SubprocessProtocol):
-    """One run of the worker. Requests are sent one by one, each when the previous one is answered.
+    """One run of the worker. Requests are sent one by one, each when the previous one is answered, lowest ranks first.
 
     A request that is canceled before it is sent costs nothing; after that, its reply is discarded. When the process
     ends, all open requests fail. A worker that takes longer for a reply than the time limit is killed.
@@ -43,7 +45,8 @@ class WorkerProcess(asyncio.SubprocessProtocol):
         self.hello: asyncio.Future[WorkerMessage] = loop.create_future()
         self.ended: asyncio.Future[None] = loop.create_future()
         self._awaited: asyncio.Future[WorkerMessage] | None = self.hello
-        self._waiting: deque[_Request] = deque()
+        self._waiting: list[_Request] = []
+        self._requests = 0
         self._decoder = MessageDecoder()
         self._patience = patience
         self._hung = False
@@ -71,10 +74,11 @@ class WorkerProcess(asyncio.SubprocessProtocol):
         """Whether the worker owes a reply."""
         return self._awaited is not None
 
-    def request(self, header: dict[str, Any]) -> asyncio.Future[WorkerMessage]:
+    def request(self, header: dict[str, Any], rank: int = 0) -> asyncio.Future[WorkerMessage]:
         """Sends a request, and returns the future of its reply."""
-        request = _Request(header, asyncio.get_running_loop().create_future())
-        self._waiting.append(request)
+        self._requests += 1
+        request = _Request(rank, self._requests, header, asyncio.get_running_loop().create_future())
+        heappush(self._waiting, request)
         if self.ended.done():
             self._fail_unanswered()
         elif self._awaited is None:
@@ -112,11 +116,11 @@ class WorkerProcess(asyncio.SubprocessProtocol):
         """Sends the next request that is not canceled."""
         self._watch.cancel()
         while self._waiting and self._waiting[0].reply.done():
-            self._waiting.popleft()
+            heappop(self._waiting)
         if not self._waiting:
             self._awaited = None
             return
-        request = self._waiting.popleft()
+        request = heappop(self._waiting)
         self._awaited = request.reply
         cast("asyncio.WriteTransport", self._transport.get_pipe_transport(0)).write(
             WorkerMessage(request.header).encode()

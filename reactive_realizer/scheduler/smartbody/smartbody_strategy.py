@@ -269,10 +269,11 @@ class _Run:
     def _not_before_the_block(self, item: Item, known: dict[int, Placement]) -> dict[int, Placement]:
         """Have a behavior that would start before its block start with it, by shortening its first phases (7.13).
 
-        This does not concern clusters that are moved later.
+        This does not concern clusters that are moved later, and starts that will follow from an unknown time; that of
+        a free behavior does not.
         """
         start = fill(item, known)[0]
-        early = start.known and start.time < -SHORTEST and self._is_fixed(known)
+        early = (start.known or item.timing.free) and start.time < -SHORTEST and self._is_fixed(known)
         return {0: self._start, **known} if early else known
 
     def _is_fixed(self, known: Mapping[int, Placement]) -> bool:

@@ -74,6 +74,58 @@ async def test_a_morph_target_is_moved_by_its_name_and_an_unknown_one_is_warned_
     assert "cheekPuff" in pilot.feedback.of("warningFeedback")[0].text
 
 
+@pytest.mark.parametrize("element", ['faceLexeme lexeme="BLINK"', f'faceFacs {EXT} au="45" amount="1"'])
+async def test_a_blink_that_is_asked_for_closes_the_lids_and_opens_them_in_a_quarter_of_a_second(
+    pilot: RealizerPilot, element: str
+) -> None:
+    pilot.block("b", f'<head id="n" lexeme="NOD" stroke="1"/><{element} id="f" end="n:stroke"/>')
+    await pilot.advance(1.5)
+    closed = weight(pilot, "eyeBlinkLeft")
+    assert pilot.feedback.time("b:f:start") == pytest.approx(1.0 - 0.255)
+    assert closed[round(50 * 0.84)] > 0.95
+    assert closed[: round(50 * 0.72)].max() == closed[50:].max() == 0.0
+
+
+@pytest.mark.parametrize(
+    ("face", "parameter", "shown"),
+    [
+        (f'<faceFacs {EXT} id="f" au="12" amount="0.2" {{}}/>', "amount", 0.4),
+        (f'<face id="f" amount="0.1" {{}}><faceFacs {EXT} au="12" amount="1"/></face>', "amount", 0.8),
+        ('<bmlt:facemorph id="f" targetname="mouthSmileLeft" intensity="0.2" {}/>', "intensity", 0.4),
+    ],
+)
+async def test_the_strength_of_an_expression_changes_while_it_plays(
+    pilot: RealizerPilot, face: str, parameter: str, shown: float
+) -> None:
+    change = f'<bmla:parametervaluechange id="c" target="f" paramId="{parameter}" start="1" end="1.4">'
+    pilot.block(
+        "b",
+        f"""{face.format('start="0" attackPeak="0.4" relax="2" end="2.5"')}
+            {change}<bmla:trajectory type="linear" targetValue="0.4"/></bmla:parametervaluechange>""",
+    )
+    await pilot.advance(3)
+    assert pilot.feedback.warnings == []
+    smile = weight(pilot, "mouthSmileLeft")
+    assert smile[45] == pytest.approx(0.2)
+    assert smile[60] == pytest.approx((smile[45] + smile[80]) / 2, abs=0.03)
+    assert smile[80] == pytest.approx(shown)
+    assert smile[-1] == 0.0
+
+
+async def test_skin_blushes_and_turns_pale_by_words_and_by_weights_of_their_own(pilot: RealizerPilot) -> None:
+    pilot.block(
+        "b",
+        """<faceLexeme id="f" lexeme="BLUSHING" amount="0.6" end="6"/>
+           <bmlt:facemorph id="m" targetname="skinPallor" intensity="0.4"/>""",
+    )
+    await pilot.advance(7)
+    assert pilot.feedback.warnings == []
+    blush = weight(pilot, "skinBlush")
+    assert blush.max() == pytest.approx(0.6)
+    assert np.abs(np.diff(blush)).max() < 0.02, "blood takes seconds"
+    assert weight(pilot, "skinPallor").max() == pytest.approx(0.4)
+
+
 SAD = '<faceShift id="f" start="{}" end="{}"><faceLexeme lexeme="{}" amount="1"/></faceShift>'
 
 
@@ -99,7 +151,7 @@ async def test_a_shift_to_neutral_ends_the_one_before_and_one_that_is_interrupte
 ) -> None:
     pilot.block("b", SAD.format(0, 1, "SADNESS"))
     await pilot.advance(0.5)
-    pilot.block("stop", composition="REPLACE")
+    pilot.block("stop", **{"bmla:interrupt": "b"})
     await pilot.advance(1)
     halfway = weight(pilot, "mouthFrownLeft")
     assert halfway[30:] == pytest.approx(0.4, abs=0.03)
@@ -107,6 +159,17 @@ async def test_a_shift_to_neutral_ends_the_one_before_and_one_that_is_interrupte
     pilot.block("c", SAD.format(0, 0.5, "NEUTRAL"))
     await pilot.advance(1)
     assert weight(pilot, "mouthFrownLeft")[-1] == 0.0
+
+
+async def test_a_block_that_replaces_all_others_returns_to_the_neutral_face(pilot: RealizerPilot) -> None:
+    pilot.block("b", SAD.format(0, 1, "SADNESS"))
+    await pilot.advance(2)
+    pilot.block("all", composition="REPLACE")
+    await pilot.advance(1)
+    frown = weight(pilot, "mouthFrownLeft")
+    assert frown[90] == pytest.approx(0.8)
+    assert frown[-1] == 0.0
+    assert np.abs(np.diff(frown)).max() < 0.1
 
 
 async def test_a_moved_end_of_a_shift_is_followed_without_a_jump(pilot: RealizerPilot) -> None:

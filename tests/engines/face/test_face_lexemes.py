@@ -71,7 +71,8 @@ def test_one_sided_lexemes_move_only_that_side() -> None:
     [
         ("{", r"face\.json, line 1, <JSON>"),
         ("[]", r"<lexemes>: no object of that name"),
-        (json.dumps({"lexemes": {"SMILE": {"mouthSmileLeft": 2}}}), r"<SMILE>: weights are numbers from 0 to 1"),
+        (json.dumps({"lexemes": {"SMILE": {"mouthSmileLeft": 3}}}), r"<SMILE>: weights are numbers from 0 to 2"),
+        (json.dumps({"lexemes": {}, "durations": {"BLINK": [0.1, 0]}}), r"<BLINK>: durations are three numbers"),
         (json.dumps({"lexemes": {"SMILE": 1}}), r"<SMILE>"),
         ('{"lexemes": {"SMILE": {"mouthSmileLeft": NaN}}}', r"<SMILE>"),
         ('{"lexemes": {}, "emotions": {"JOY": {"12 UP": 1}}}', r"<JOY>: '12 UP' is not an action unit"),
@@ -89,7 +90,7 @@ def test_an_invalid_table_is_refused_with_file_and_lexeme(tmp_path: Path, conten
 @pytest.mark.parametrize(
     ("units", "message"),
     [
-        ({"one": {"name": "x"}}, r"<one>: action units are named by their numbers"),
+        ({"one": {"name": "x"}}, r"<one>: these entries are named by their numbers"),
         ({"1": {"middle": {}}}, r"<1>: an action unit has a name"),
         ({"1": {"name": "x", "sides": {"brow": -1}}}, r"<1>: weights are numbers from 0 to 1"),
     ],

@@ -8,7 +8,8 @@ from hypothesis import strategies as st
 from lxml import etree
 
 from reactive_realizer.engine.tts import Utterance
-from reactive_realizer.engines.speech.espeak_utterance import as_utterance, marked_up, pronounced_words
+from reactive_realizer.engines.speech.espeak_ssml import ssml_document
+from reactive_realizer.engines.speech.espeak_utterance import as_utterance, pronounced_words
 from reactive_realizer.engines.speech.worker_messages import WorkerMessage
 
 RATE = 1000
@@ -23,10 +24,10 @@ def utterance(
     duration: int = 2000,
 ) -> Utterance:
     """Words are reported at (time in ms, character of the text), phonemes as (time in ms, symbol)."""
-    markup = marked_up(text, tuple(place for _, place in marks))
-    positions = [(time, markup.origins.index(character) + 1, 0) for time, character in words]
+    document = ssml_document(text, tuple(place for _, place in marks))
+    positions = [(time, document.origins.index(character) + 1, 0) for time, character in words]
     header = {"sample_rate": RATE, "words": positions, "marks": reported, "phonemes": phonemes}
-    return as_utterance(WorkerMessage(header, bytes(2 * duration)), text, tuple(marks), markup)
+    return as_utterance(WorkerMessage(header, bytes(2 * duration)), text, tuple(marks), document)
 
 
 def starts(spoken: Utterance) -> list[tuple[str, float]]:
@@ -97,31 +98,31 @@ TEXTS = st.text(st.characters(exclude_categories=["Cs", "Cc"]), max_size=30)
 
 
 def test_marks_are_numbered_and_at_their_indices() -> None:
-    assert marked_up("ab", (2, 0)).ssml == '<speak><mark name="m1"/>ab<mark name="m0"/></speak>'
+    assert ssml_document("ab", (2, 0)).ssml == '<speak><mark name="m1"/>ab<mark name="m0"/></speak>'
 
 
 def test_marks_at_one_index_keep_their_order() -> None:
-    assert marked_up("a", (0, 0)).ssml == '<speak><mark name="m0"/><mark name="m1"/>a</speak>'
+    assert ssml_document("a", (0, 0)).ssml == '<speak><mark name="m0"/><mark name="m1"/>a</speak>'
 
 
 def test_a_position_in_the_ssml_counts_from_1_and_maps_to_an_index_of_the_text() -> None:
-    markup = marked_up("a & b", (4,))
-    assert markup.origin(markup.ssml.index("b") + 1) == 4
-    assert markup.origin(markup.ssml.index("amp;") + 1) == 2
+    document = ssml_document("a & b", (4,))
+    assert document.origin(document.ssml.index("b") + 1) == 4
+    assert document.origin(document.ssml.index("amp;") + 1) == 2
 
 
 def test_a_tag_maps_to_the_character_after_it_and_positions_outside_map_to_the_ends() -> None:
-    markup = marked_up("a b", (2,))
-    assert markup.origin(markup.ssml.index("<mark") + 1) == 2
-    assert (markup.origin(0), markup.origin(1000)) == (0, 3)
+    document = ssml_document("a b", (2,))
+    assert document.origin(document.ssml.index("<mark") + 1) == 2
+    assert (document.origin(0), document.origin(1000)) == (0, 3)
 
 
 @settings(derandomize=True)
 @given(text=TEXTS, data=st.data())
 def test_the_ssml_is_well_formed_and_has_the_same_text(text: str, data: st.DataObject) -> None:
     marks = tuple(data.draw(st.lists(st.integers(0, len(text)), max_size=4)))
-    markup = marked_up(text, marks)
-    root = etree.fromstring(markup.ssml)
+    document = ssml_document(text, marks)
+    root = etree.fromstring(document.ssml)
     assert "".join(map(str, root.itertext())) == text
     names = [mark.get("name", "") for mark in root]
     assert sorted(names) == sorted(f"m{n}" for n in range(len(marks)))
@@ -134,17 +135,17 @@ def test_the_ssml_is_well_formed_and_has_the_same_text(text: str, data: st.DataO
 @settings(derandomize=True)
 @given(TEXTS)
 def test_every_character_of_the_text_has_a_position_in_the_ssml(text: str) -> None:
-    origins = marked_up(text, ()).origins
+    origins = ssml_document(text, ()).origins
     assert sorted(set(origins)) == list(range(len(text) + 1))
 
 
 def test_the_sounds_of_a_word_are_those_until_the_next_one_and_a_number_has_those_of_all_its_words() -> None:
     text = '"Me", 21 of us *'
-    markup = marked_up(text, ())
-    words = [(markup.origins.index(character) + 1, first) for character, first in [(0, 0), (6, 3), (7, 5), (12, 6)]]
+    document = ssml_document(text, ())
+    words = [(document.origins.index(character) + 1, first) for character, first in [(0, 0), (6, 3), (7, 5), (12, 6)]]
     phonemes = [(time, symbol) for time, symbol in enumerate(["m", "i", "", "tw", "ɛ", "w", "ʌ", "s", ""])]
     reply = WorkerMessage({"words": [(0, *word) for word in words], "phonemes": phonemes})
-    assert [(text[word.first : word.last], word.sounds) for word in pronounced_words(reply, text, markup)] == [
+    assert [(text[word.first : word.last], word.sounds) for word in pronounced_words(reply, text, document)] == [
         ("Me", ("m", "i")),
         ("21", ("tw", "ɛ", "w")),
         ("of", ()),

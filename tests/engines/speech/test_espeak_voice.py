@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from reactive_realizer.engine.tts import Utterance
+from reactive_realizer.engine.tts import Utterance, completed
 from reactive_realizer.engines.speech.espeak_voice import EspeakVoice
 from reactive_realizer.engines.speech.worker_messages import MessageDecoder
 from reactive_realizer.engines.speech.worker_process import WorkerProcess
@@ -31,7 +31,7 @@ async def voice() -> AsyncIterator[EspeakVoice]:
 
 
 async def spoken(voice: EspeakVoice, text: str, voice_name: str | None = None, **marks: int) -> Utterance:
-    return await voice.synthesize(text, tuple(marks.items()), voice_name)
+    return await completed(voice.synthesize(text, tuple(marks.items()), voice_name))
 
 
 async def test_every_word_starts_before_the_end_of_the_audio(voice: EspeakVoice) -> None:

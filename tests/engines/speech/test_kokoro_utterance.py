@@ -1,30 +1,50 @@
 """The utterance made of what the network answers; its answers are made by hand, in frames of 25 ms."""
 
+from collections.abc import Sequence
+from itertools import repeat
+
 import numpy as np
 import pytest
 
 from reactive_realizer.engine.tts import Utterance, word_spans
 from reactive_realizer.engines.speech.espeak_utterance import PronouncedWord
 from reactive_realizer.engines.speech.kokoro.pronunciation import default_alphabet, sentences
-from reactive_realizer.engines.speech.kokoro.utterance import SpokenSentence, as_utterance
+from reactive_realizer.engines.speech.kokoro.timed_sentence import FRAME, RATE, TimedSentence
+from reactive_realizer.engines.speech.kokoro.utterance import SentenceSound, as_utterance
 
-RATE = 24_000
+
+def pronounced(text: str, *sounds: str) -> list[PronouncedWord]:
+    return [
+        PronouncedWord(first, last, tuple(own.split()), pause=True)
+        for (first, last), own in zip(word_spans(text), sounds, strict=True)
+    ]
+
+
+def timed(text: str, words: Sequence[PronouncedWord], *durations: Sequence[float]) -> list[TimedSentence]:
+    """The sentences of a text, with frames for each token."""
+    written = list(sentences(text, words, "a", default_alphabet()))
+    return [
+        TimedSentence(sentence, frames, last=sentence is written[-1])
+        for sentence, frames in zip(written, durations, strict=True)
+    ]
+
+
+def sound(sentence: TimedSentence, samples: np.ndarray, length: float = 99.0) -> list[bytes]:
+    """What is kept of the samples of a sentence, in pieces of about a length, s."""
+    spoken, pieces = SentenceSound(), sentence.pieces(repeat(length))
+    frames = [samples[piece.frames[0] * FRAME : piece.frames[1] * FRAME].tobytes() for piece in pieces]
+    return [spoken.add(piece, own, last=piece is pieces[-1]) for piece, own in zip(pieces, frames, strict=True)]
 
 
 def utterance(
     text: str, *sounds: str, durations: tuple[list[int], ...], marks: dict[str, int] | None = None
 ) -> Utterance:
     """Of words with sounds, spoken with frames for each token; the audio is a constant."""
-    words = [
-        PronouncedWord(first, last, tuple(own.split()), pause=True)
-        for (first, last), own in zip(word_spans(text), sounds, strict=True)
-    ]
-    written = sentences(text, words, "a", default_alphabet())
-    spoken = [
-        (sentence, SpokenSentence(np.full(600 * sum(frames), 1000, "<i2").tobytes(), frames))
-        for sentence, frames in zip(written, durations, strict=True)
-    ]
-    return as_utterance(text, words, tuple((marks or {}).items()), spoken)
+    words = pronounced(text, *sounds)
+    spoken = timed(text, words, *durations)
+    constants = [np.full(FRAME * sum(frames), 1000, "<i2") for frames in durations]
+    audio = [b"".join(sound(*each)) for each in zip(spoken, constants, strict=True)]
+    return as_utterance(text, words, tuple((marks or {}).items()), spoken, b"".join(audio))
 
 
 def test_sounds_and_words_have_the_times_of_their_tokens_which_are_heard_earlier() -> None:
@@ -64,6 +84,45 @@ def test_the_sound_has_no_clicks_at_its_ends() -> None:
     samples = np.frombuffer(utterance("C", "s", durations=([10, 4, 12],)).audio, "<i2")
     assert samples[0] == samples[-1] == 0
     assert samples[len(samples) // 2] == 1000
+
+
+WORDS = ["m i s i", "p i s i", "m i m i", "s i s i", "n i n i", "t i n i"]
+
+
+def long_sentence() -> TimedSentence:
+    text = "a b c, d e f"
+    words = pronounced(text, *WORDS)
+    (sentence,) = sentences(text, words, "a", default_alphabet())
+    durations = [10.0, *([6.0] * len(sentence.tokens)), 10.0]
+    comma = default_alphabet().tokens[","]
+    durations[1 + sentence.tokens.index(comma)] = 20.0
+    return TimedSentence(sentence, durations, last=True)
+
+
+def test_pieces_join_to_the_sound_of_the_sentence() -> None:
+    sentence = long_sentence()
+    samples = np.random.default_rng(1).integers(-9000, 9000, round(sum(sentence.durations)) * FRAME).astype("<i2")
+    (whole,), pieces = sound(sentence, samples), sound(sentence, samples, 0.9)
+    assert len(pieces) > 3
+    assert all(len(piece) / 2 / RATE >= 0.4 for piece in pieces)
+    joined, expected = (np.frombuffer(each, "<i2").astype(int) for each in (b"".join(pieces), whole))
+    assert np.abs(joined - expected).max() <= 1
+    assert len(joined) / RATE == pytest.approx(sentence.duration)
+
+
+def test_a_sentence_is_cut_after_a_pause_or_else_where_a_word_begins() -> None:
+    sentence = long_sentence()
+    starts = [
+        start
+        for before, own, (start, _) in zip(
+            [None, *sentence.sentence.sounds], sentence.sentence.sounds, sentence.times, strict=False
+        )
+        if before is None or before.word != own.word
+    ]
+    first, _ = (len(each) / 2 / RATE for each in sound(sentence, np.zeros(10**6, "<i2"), 2.5))
+    assert first == pytest.approx(starts[3] - 0.03), "after the comma"
+    ends = np.cumsum([len(each) / 2 / RATE for each in sound(sentence, np.zeros(10**6, "<i2"), 0.9)])[:-1]
+    assert all(min(abs(end - start) for start in starts) <= 0.0301 for end in ends)
 
 
 def test_a_text_without_sounds_has_no_audio() -> None:

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
-from reactive_realizer.engine.tts import TTSBinding, Utterance
+from reactive_realizer.engine.tts import TTSBinding, Utterance, completed
 from reactive_realizer.engines.speech.kokoro import model as model_module
 from reactive_realizer.engines.speech.kokoro.model import KokoroModel, UnusableWeights, read_styles
 from reactive_realizer.engines.speech.kokoro.voice import KokoroVoice
@@ -63,6 +63,14 @@ class TestKokoroVoice(TTSContract):
         assert level[round((pause.start + pause.duration / 2) * 100)] < 0.02
         assert all(one.start < next_.start for one, next_ in pairwise(spoken.words))
 
+    def test_a_speech_can_begin_long_before_all_of_it_is_made(self, speaker: Speaker) -> None:
+        text = "Please take the first street on the left, and walk until you see the station. It is near."
+        first, _, third, *_, last = speaker.parts(text)
+        assert first.made < 1.5
+        assert last.duration > 4.0
+        assert third.words == last.words, "all times are final with the third piece"
+        assert first.duration == pytest.approx(last.duration, rel=0.2)
+
 
 def loudness(spoken: Utterance) -> np.ndarray:
     """The root mean square of each 10 ms, as a share of the greatest."""
@@ -84,7 +92,7 @@ async def voice() -> AsyncIterator[KokoroVoice]:
 async def test_killing_the_worker_in_the_middle_fails_one_speech_and_the_next_starts_another(
     voice: KokoroVoice,
 ) -> None:
-    pending = asyncio.ensure_future(voice.synthesize("This will never be said.", (), None))
+    pending = asyncio.ensure_future(completed(voice.synthesize("This will never be said.", (), None)))
     process = voice.worker.process
     assert process
     while not process.busy:  # noqa: ASYNC110 - nothing signals a request
@@ -92,7 +100,7 @@ async def test_killing_the_worker_in_the_middle_fails_one_speech_and_the_next_st
     os.kill(process.pid, signal.SIGKILL)
     with pytest.raises(RealizerError, match="SIGKILL"):
         await pending
-    assert (await voice.synthesize("Yes.", (), None)).audio
+    assert (await completed(voice.synthesize("Yes.", (), None))).audio
     assert voice.worker.restarts == 1
 
 
@@ -121,6 +129,55 @@ async def test_the_default_scene_speaks() -> None:
         assert pilot.feedback.reached("b:s:end")
 
 
+@pytest.mark.kokoro
+async def test_a_text_begins_before_a_longer_one_is_made(voice: KokoroVoice) -> None:
+    made: list[str] = []
+
+    async def say(text: str) -> None:
+        async for part in voice.synthesize(text, (), None):
+            made.append(part.text)  # noqa: PERF401 - in turns with the other text
+
+    await asyncio.gather(say("one two three four five six seven eight nine ten eleven twelve"), say("Yes."))
+    assert "Yes." in made[:2]
+    assert len(made) > 3
+
+
+@pytest.mark.kokoro
+async def test_killing_the_worker_in_the_middle_of_a_speech_ends_it_with_a_warning_and_nothing_else() -> None:
+    async with open_pilot(SceneOptions(voice="kokoro")) as pilot:
+        pilot.patient = False
+        long = "one two three four five six seven eight nine ten, " * 10
+        pilot.block("b", f'<speech id="s"><text>{long}</text></speech><wait id="w" duration="4"/>')
+        voice = pilot.scene.tts
+        assert isinstance(voice, KokoroVoice)
+        while not pilot.feedback.reached("b:s:start"):
+            await pilot.tick()
+            await asyncio.sleep(0.01)
+        assert voice.worker.process
+        os.kill(voice.worker.process.pid, signal.SIGKILL)
+        for _ in range(500):
+            await pilot.tick()
+            await asyncio.sleep(0.001)
+        start = pilot.feedback.time("b:s:start")
+        assert start + 0.3 < pilot.feedback.time("b:s:end") < start + 4
+        assert pilot.feedback.time("b:w:end") == start + 4
+        assert pilot.feedback.status("b") == "DONE"
+        (warning,) = pilot.feedback.of("warningFeedback")
+        assert "SIGKILL" in warning.text
+
+
+@pytest.mark.kokoro
+def test_pieces_of_a_sentence_are_as_loud_as_in_one() -> None:
+    model, style = KokoroModel(None), read_styles([STYLES])["af_heart"]
+    predicted = model.predict([43, 48, 51, 16, 47, 62, 51, 16] * 10, style)
+    frames, sound = sum(predicted.durations), np.frombuffer
+    whole = sound(model.speak(predicted, 0, frames), "<i2").astype(float)
+    for first, last in pairwise([20, 60, 100, frames - 20]):
+        piece = sound(model.speak(predicted, first, last), "<i2").astype(float)
+        difference = 20 * np.log10(piece.std() / whole[first * 600 : last * 600].std())
+        assert abs(difference) < 3.0
+
+
 def test_a_file_of_the_user_that_is_no_network_and_altered_packages_are_refused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -140,7 +197,7 @@ async def test_a_voice_whose_weights_cannot_be_used_says_so_when_it_starts(
     monkeypatch.setenv("REACTIVE_REALIZER_KOKORO", str(tmp_path))
     voice = KokoroVoice()
     try:
-        with pytest.raises(RealizerError, match="protobuf"):
+        with pytest.raises(RealizerError, match="no ONNX file"):
             await voice.start()
     finally:
         await voice.close()

@@ -1,5 +1,6 @@
 """A text that was spoken before is not synthesized again."""
 
+from collections.abc import AsyncIterator
 from dataclasses import replace
 
 import pytest
@@ -24,9 +25,9 @@ class Voice(TextVoice):
 
     async def synthesize(  # type: ignore[override]  # a voice may be asynchronous
         self, text: str, marks: tuple[tuple[str, int], ...], voice: str | None = None
-    ) -> Utterance:
+    ) -> AsyncIterator[Utterance]:
         self.asked.append(text)
-        return replace(super().synthesize(text, marks, voice), audio=bytes(self.size))
+        yield replace(super().synthesize(text, marks, voice), audio=bytes(self.size))
 
 
 @pytest.fixture

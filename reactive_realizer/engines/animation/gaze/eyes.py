@@ -173,25 +173,23 @@ _HIGHEST = math.sin(EYE_RANGE_UP)
 _SIDES = dict(zip(EYES, ("Left", "Right"), strict=True))
 
 
-def lid_weights(turns: Mapping[str, Quat], blinks: Mapping[str, float]) -> dict[str, float]:
+def lid_weights(turns: Mapping[str, Quat]) -> dict[str, float]:
     """Return morph weights of the lids for given eye rotations. Without them an eye that looks up would be all white.
 
     The upper lid follows the eye over its whole range: W. Becker and A. F. Fuchs, "Lid-eye coordination during vertical
-    gaze changes in man and monkey" (Journal of Neurophysiology 60, 1988). A blinking lid closes wherever the eye looks.
+    gaze changes in man and monkey" (Journal of Neurophysiology 60, 1988).
 
     Args:
         turns: eye joint -> rotation in the head.
-        blinks: morph weights of a blink.
     """
-    weights = dict(blinks)
+    weights: dict[str, float] = {}
     for eye, turn in turns.items():
         side = _SIDES[eye]
-        open_ = 1.0 - blinks.get(f"eyeBlink{side}", 0.0)
         height = rotate(turn, FORWARD)[1]
         if height > 0.0:
             # The morph for looking up alone does not raise the lid far enough.
-            raised = open_ * min(1.0, height / _HIGHEST)
+            raised = min(1.0, height / _HIGHEST)
             weights |= {f"eyeLookUp{side}": raised, f"eyeWide{side}": raised}
         elif height < 0.0:
-            weights[f"eyeLookDown{side}"] = -open_ * height / EYE_RANGE
+            weights[f"eyeLookDown{side}"] = -height / EYE_RANGE
     return weights

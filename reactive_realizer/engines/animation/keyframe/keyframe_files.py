@@ -4,29 +4,17 @@ An animation may also be part of a BML block. The format is extended: a `<KeyPos
 in an animation names a time of the file, s, as a sync point; with `leave="true"`, the motion may be left there.
 """
 
-from itertools import pairwise
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from lxml import etree
 from numpy.typing import NDArray
 
-from reactive_realizer.binding.asset_file import (
-    ENDS,
-    XmlElement,
-    asset_error,
-    attribute,
-    boolean,
-    by_sync_id,
-    is_placed,
-    number,
-    read_xml,
-)
+from reactive_realizer.binding.asset_file import XmlElement, asset_error, attribute, boolean, read_xml
+from reactive_realizer.binding.keyframe_table import increasing_times, inline_element, key_points, number_rows
 from reactive_realizer.embodiment.pose import FARTHEST
 from reactive_realizer.embodiment.quaternion import Quat
 from reactive_realizer.engines.animation.keyframe.clip import Clip, KeyPoint, continuous
-from reactive_realizer.limits import Limits
 
 _ENCODINGS = {
     **dict.fromkeys(("quat", "quaternion", "quaternions"), "quaternions"),
@@ -39,8 +27,6 @@ _PLACED = "T1"
 """Prefix of an encoding with the position of the first part before the rotations."""
 
 _NEARLY_ZERO = 1e-6
-_LARGEST = 1e100
-"""Squares of larger numbers would overflow."""
 
 
 class PoseTable(NamedTuple):
@@ -74,25 +60,10 @@ def read_pose_table(element: XmlElement, *, timed: bool) -> PoseTable:
     if encoding not in ("R", f"{_PLACED}R"):
         raise asset_error(element, f"encoding='{encoding}' is not supported; known are R and {_PLACED}R")
     placed = encoding.startswith(_PLACED)
-    rows = _rows(element, timed + 3 * placed + 4 * len(joints))
+    rows = number_rows(element, timed + 3 * placed + 4 * len(joints))
     roots = rows[:, timed : timed + 3] if placed else None
     values = rows[:, timed + 3 * placed :].reshape(len(rows), len(joints), 4)
     return PoseTable(rows[:, :timed].ravel(), joints, _quaternions(element, values), roots)
-
-
-def _rows(element: XmlElement, width: int) -> NDArray[np.float64]:
-    texts = [element.text, *(child.tail for child in element)]
-    try:
-        numbers = np.array(" ".join(filter(None, texts)).split(), dtype=np.float64)
-    except ValueError as problem:
-        raise asset_error(element, str(problem)) from problem
-    if not numbers.size or numbers.size % width:
-        raise asset_error(element, f"{numbers.size} numbers do not form rows of {width}")
-    rows = numbers.reshape(-1, width)
-    beyond = np.argwhere(~(np.abs(rows) <= _LARGEST))
-    if beyond.size:
-        raise asset_error(element, f"a number in row {beyond[0][0] + 1} is beyond {_LARGEST:g}, or undefined")
-    return rows
 
 
 def _quaternions(element: XmlElement, values: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -141,8 +112,6 @@ def _quat(values: list[float]) -> Quat:
 
 
 _TAG = "SkeletonInterpolator"
-_POINT = "KeyPosition"
-_LONGEST = Limits().time_seconds
 
 
 def read_interpolator_file(path: Path) -> Clip:
@@ -165,10 +134,7 @@ def read_interpolator_text(text: str, name: str) -> Clip:
     Raises:
         RealizerError: "bad-asset", with the name, the line in the text and the reason.
     """
-    element = etree.fromstring(text, base_url=name)
-    for part in element.iter("*"):  # elements without a namespace of their own have that of BML
-        part.tag = etree.QName(part).localname
-    return read_interpolator(element)
+    return read_interpolator(inline_element(text, name))
 
 
 def read_interpolator(element: XmlElement) -> Clip:
@@ -180,32 +146,13 @@ def read_interpolator(element: XmlElement) -> Clip:
         RealizerError: "bad-asset", with file, line and reason.
     """
     table = read_pose_table(element, timed=True)
-    times = tuple(table.times.tolist())
-    if len(times) < 2:
-        raise asset_error(element, "a motion needs two rows")
-    if any(b <= a for a, b in pairwise(times)):
-        raise asset_error(element, "the times of the rows do not increase")
-    if times[-1] - times[0] > _LONGEST:
-        raise asset_error(element, f"it would last longer than {_LONGEST:g} s")
+    times = increasing_times(element, table.times)
     roots = None if table.roots is None else table.roots - table.roots[0]
     if roots is not None and not (np.linalg.norm(roots, axis=-1) <= FARTHEST).all():
         raise asset_error(element, f"the root moves further than {FARTHEST:g} m")
-    points = _points(element, times[0], times[-1])
+    points = {
+        sync: KeyPoint(time, leave=boolean(child, "leave", False))
+        for sync, (time, child) in key_points(element, times[0], times[-1]).items()
+    }
     name = Path(element.base or "").name
     return Clip(name, times, table.joints, continuous(table.rotations), roots, points)
-
-
-def _points(element: XmlElement, first: float, last: float) -> dict[str, KeyPoint]:
-    points: dict[str, KeyPoint] = {}
-    for child in element:
-        if child.tag != _POINT:
-            raise asset_error(child, f"only {_POINT} is allowed in {_TAG}")
-    for sync, child in by_sync_id(element).items():
-        time = number(child, "time")
-        if not is_placed(sync, (time - first) / (last - first)):
-            raise asset_error(
-                child, f"{sync} at {time:g} s: it lasts from its start at {first:g} s to its end at {last:g} s"
-            )
-        if sync not in ENDS:
-            points[sync] = KeyPoint(time, leave=boolean(child, "leave", False))
-    return points

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from contextlib import suppress
 from functools import lru_cache
 
-from reactive_realizer.binding.gesture_binding import finite_numbers
+from reactive_realizer.binding.spec_reader import finite_numbers
 from reactive_realizer.bml.behaviors import MOST_REPETITIONS
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.joints import ROOT

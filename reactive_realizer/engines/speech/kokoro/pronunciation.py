@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from importlib.resources import files
-from typing import Self
+from typing import Protocol, Self
 
 from reactive_realizer.engines.speech.espeak_utterance import PronouncedWord
 
@@ -83,20 +83,41 @@ class Sentence:
     Attributes:
         tokens: 1 to 510.
         sounds: in their order.
+        rate: how many times as fast it is spoken.
+        silence: after it, s, beside the pause of its stop.
     """
 
     tokens: list[int] = field(default_factory=list)
     sounds: list[Sound] = field(default_factory=list)
+    rate: float = 1.0
+    silence: float = 0.0
 
 
-def sentences(text: str, words: Sequence[PronouncedWord], accent: str, alphabet: Alphabet) -> Iterator[Sentence]:
+class Pace(Protocol):
+    """How fast the words of a text are spoken."""
+
+    def rate(self, word: int) -> float:
+        """How many times as fast the word that begins at a character is spoken."""
+        ...
+
+    def silence(self, word: int, following: int) -> float:
+        """The silence between a word and the following one, by their first characters, s."""
+        ...
+
+
+def sentences(
+    text: str, words: Sequence[PronouncedWord], accent: str, alphabet: Alphabet, pace: Pace | None = None
+) -> Iterator[Sentence]:
     """The sentences of a text; a long one is cut at a clause, or between words if it has none.
+
+    One is also cut at a silence, and where the rate changes.
 
     Args:
         text: plain text.
         words: all of its words.
         accent: a (American) or b (British).
         alphabet: of the network.
+        pace: of its words; None if all have the usual one.
     """
     sentence = Sentence()
     for number, word in enumerate(words):
@@ -106,8 +127,11 @@ def sentences(text: str, words: Sequence[PronouncedWord], accent: str, alphabet:
             sentence = Sentence()
         _append(sentence, number, spoken)
         following = words[number + 1].first if number + 1 < len(words) else len(text)
+        if pace is not None:
+            sentence.rate, sentence.silence = pace.rate(word.first), pace.silence(word.first, following)
         between = text[word.last : following] if word.pause else _SPACE
-        ends = following == len(text) or _ends(between, len(sentence.tokens))
+        changes = pace is not None and (sentence.silence > 0 or pace.rate(following) != sentence.rate)
+        ends = following == len(text) or changes or _ends(between, len(sentence.tokens))
         room = _MOST_TOKENS - len(sentence.tokens)
         sentence.tokens += alphabet.punctuate(between, last=ends)[:room]
         if ends and sentence.sounds:

@@ -1,7 +1,7 @@
-"""From spoken sentences to an `Utterance`."""
+"""From timed sentences and the sound that is made of them to an `Utterance`."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import accumulate, pairwise
 from types import MappingProxyType
 
@@ -10,95 +10,81 @@ import numpy.typing as npt
 
 from reactive_realizer.engine.tts import Phoneme, Utterance
 from reactive_realizer.engines.speech.espeak_utterance import PronouncedWord, timed_words
-from reactive_realizer.engines.speech.kokoro.pronunciation import Sentence
+from reactive_realizer.engines.speech.kokoro.timed_sentence import PAUSE, RATE, Piece, TimedSentence
 
-_RATE = 24_000
-_FRAME = 600
-_LAG = 0.075
-"""How much later a sound begins by the durations of the network than it is heard, s: by forced alignment of 42 words
-0.085 (standard deviation 0.025), of which 0.008 are the bias of the aligner."""
-_BEFORE, _AFTER = 0.03, 0.2
-"""Sound that is kept before the first and after the last phoneme, s."""
-_FADE = 0.01
-_PAUSE = 0.1
-"""The shortest time between two sounds that counts as a pause, s; the space between words takes 0.025 to 0.075."""
+Samples = npt.NDArray[np.int16]
+"""Mono, 24 kHz."""
+
+_FADE = 240
+"""Samples over which the ends of sentences are faded, and two pieces of a sentence are cross-faded: 10 ms."""
 _PLOSIVES = frozenset("pbtdkg\u0261")
 _CLOSURE = 0.04
 """Silence before the release of a plosive, s."""
 _STRESS = "\u02c8\u02cc"
 
 
-@dataclass(frozen=True, slots=True)
-class SpokenSentence:
-    """The answer of the network for a sentence.
-
-    Attributes:
-        audio: mono int16 PCM, 24 kHz.
-        durations: frames of 25 ms of each token, with those of the silence at both ends.
-    """
-
-    audio: bytes
-    durations: Sequence[int]
-
-
-@dataclass(frozen=True, slots=True)
-class _Piece:
-    """The audio of a sentence without most of the silence around it.
-
-    Attributes:
-        sounds: start and end of the sounds of the sentence, s from its first sample.
-        samples: mono.
-    """
-
-    sounds: Sequence[tuple[float, float]]
-    samples: npt.NDArray[np.int16]
-
-
 def as_utterance(
     text: str,
     words: Sequence[PronouncedWord],
     marks: tuple[tuple[str, int], ...],
-    spoken: Sequence[tuple[Sentence, SpokenSentence]],
+    sentences: Sequence[TimedSentence],
+    audio: bytes,
 ) -> Utterance:
-    """The utterance of a text from its sentences in their order."""
-    pieces = [_piece(*each, last=number == len(spoken) - 1) for number, each in enumerate(spoken)]
-    begins = [*accumulate((len(piece.samples) / _RATE for piece in pieces), initial=0.0)]
+    """The utterance of a text.
+
+    Args:
+        text: plain text.
+        words: all of its words.
+        marks: as for `TTSBinding.synthesize`.
+        sentences: all of its sentences in their order.
+        audio: what is made of them.
+    """
+    begins = [*accumulate((each.duration + each.sentence.silence for each in sentences), initial=0.0)]
     onsets: list[tuple[float, str]] = []
     begun: list[tuple[float, int]] = []
-    for (sentence, _), piece, begin in zip(spoken, pieces, begins, strict=False):
-        following = [*(start for start, _ in piece.sounds[1:]), float("inf")]
-        for sound, (start, end), next_ in zip(sentence.sounds, piece.sounds, following, strict=True):
+    for timed, begin in zip(sentences, begins, strict=False):
+        following = [*(start for start, _ in timed.times[1:]), float("inf")]
+        for sound, (start, end), next_ in zip(timed.sentence.sounds, timed.times, following, strict=True):
             onsets.append((begin + _onset(sound.symbol, start, end), sound.symbol))
             begun.append((begin + start, words[sound.word].first))
-            onsets += [(begin + end, "")] if next_ - end >= _PAUSE else []
+            onsets += [(begin + end, "")] if next_ - end >= PAUSE else []
     silent, duration = onsets[-1][0] if onsets else 0.0, begins[-1]
-    audio = b"".join(piece.samples.tobytes() for piece in pieces)
     phonemes = [Phoneme(symbol, at, end - at) for (at, symbol), (end, _) in pairwise([*onsets, (duration, "")])]
     spans = timed_words(text, begun, silent)
-    unmarked = Utterance(text, duration, spans, MappingProxyType({}), tuple(phonemes), audio, _RATE)
+    made = len(audio) / 2 / RATE
+    unmarked = Utterance(text, duration, spans, MappingProxyType({}), tuple(phonemes), audio, RATE, made)
     times = {name: unmarked.time_of_character(index) for name, index in marks}
     return replace(unmarked, marks=MappingProxyType(times))
 
 
-def _piece(sentence: Sentence, spoken: SpokenSentence, *, last: bool) -> _Piece:
-    """A sentence as it sounds within an utterance: with the pause of its stop, except for the last one."""
-    borders = [frames * _FRAME / _RATE - _LAG for frames in accumulate(spoken.durations, initial=0)]
-    sounds = sentence.sounds
-    samples = np.frombuffer(spoken.audio, "<i2")
-    end = borders[sounds[-1].last + 1]
-    first = max(0, round((borders[sounds[0].first + 1] - _BEFORE) * _RATE))
-    cut = round((end + _AFTER if last else max(borders[-2], end)) * _RATE)
-    times = [(borders[sound.first + 1], borders[sound.last + 1]) for sound in sounds]
-    heard = [(max(0.0, start - first / _RATE), end - first / _RATE) for start, end in times]
-    return _Piece(heard, _faded(samples[first:cut]))
+class SentenceSound:
+    """The sound of a sentence, piece by piece, without clicks between pieces and at its ends."""
+
+    def __init__(self) -> None:
+        self._tail: Samples | None = None
+
+    def add(self, piece: Piece, spoken: bytes, *, last: bool) -> bytes:
+        """The sound of a piece.
+
+        Args:
+            piece: of the sentence.
+            spoken: the sound of its frames.
+            last: whether no other piece follows.
+        """
+        samples = np.frombuffer(spoken, "<i2")
+        own = samples[piece.first : piece.last].astype(np.float64)
+        fade = min(_FADE, len(own))
+        ramp = np.arange(fade) / _FADE
+        own[:fade] *= ramp
+        if self._tail is not None:
+            before = self._tail[:fade]
+            own[: len(before)] += before * (1.0 - ramp[: len(before)])
+        self._tail = samples[piece.last : piece.last + _FADE]
+        if last and fade:
+            own[-fade:] *= ramp[::-1]
+        return own.astype("<i2").tobytes()
 
 
 def _onset(symbol: str, start: float, end: float) -> float:
     """The onset of a sound, which is the release of a plosive, s."""
     return min(start + _CLOSURE, end) if symbol.strip(_STRESS) in _PLOSIVES else start
-
-
-def _faded(samples: npt.NDArray[np.int16]) -> npt.NDArray[np.int16]:
-    """Samples without clicks at their ends."""
-    ramp = np.minimum(1.0, np.arange(len(samples)) / (_FADE * _RATE))
-    return (samples * ramp * ramp[::-1]).astype("<i2")

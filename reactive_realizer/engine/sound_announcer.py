@@ -1,0 +1,120 @@
+"""Announces the sounds and captions of planned units: early, to be there when the units start."""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+from reactive_realizer.clock.units import GlobalTime, Time
+from reactive_realizer.embodiment.audio import (
+    AudioChange,
+    AudioClip,
+    AudioGain,
+    AudioMove,
+    AudioStart,
+    AudioStop,
+    Caption,
+    Sound,
+)
+from reactive_realizer.engine.sound_unit import SoundPart, SoundUnit
+from reactive_realizer.planunit.plan_unit import UnitState
+
+_WORTH_MOVING = 1e-3
+"""The smallest change of a start time that is announced, s."""
+
+_FADE = 0.03
+"""Fade of a sound that is cut, s: long enough to avoid a click, short enough to be silent at once."""
+
+
+@dataclass(slots=True)
+class _Announced:
+    """The last announcement of a sound, and the tick of the last one of its gain, which is sent once a tick at most."""
+
+    clip: str
+    part: SoundPart
+    start: Time
+    gain: float
+    caption: Caption | None
+    gain_tick: Time = None
+
+    def ended(self, time: GlobalTime) -> bool:
+        """Whether it has ended by itself at a time."""
+        return self.start is not None and self.start + self.part.sound.duration <= time
+
+
+class SoundAnnouncer:
+    """Keeps track of the sounds of the planned units of an engine, and announces what changes.
+
+    Args:
+        character: its id.
+        prefix: of the ids of clips, unique among the engines of all characters.
+    """
+
+    def __init__(self, character: str, prefix: str) -> None:
+        self._character = character
+        self._prefix = prefix
+        self._announced: dict[SoundUnit, list[_Announced]] = {}
+        self._count = 0
+
+    def find(self, clip: str) -> tuple[SoundUnit, SoundPart] | None:
+        """The live unit that a clip was announced for, and its part."""
+        pairs = ((unit, each) for unit, announced in self._announced.items() if unit.live for each in announced)
+        return next(((unit, each.part) for unit, each in pairs if each.clip == clip), None)
+
+    def changes(self, units: Iterable[SoundUnit], now: GlobalTime) -> tuple[AudioChange, ...]:
+        """The changes since the last call."""
+        out: list[AudioChange] = []
+        for unit, announced in list(self._announced.items()):
+            if unit.live:
+                out += [change for each in announced for change in _differences(unit, each, now)]
+                out += [change for each in announced for change in self._restated(unit, each)]
+            else:
+                del self._announced[unit]
+                out += [change for each in announced for change in _silence(unit, each, now)]
+        for unit in units:
+            if unit.live:
+                announced = self._announced.setdefault(unit, [])
+                out += [self._announce(unit, part, announced) for part in unit.sounds[len(announced) :]]
+        return tuple(out)
+
+    def _announce(self, unit: SoundUnit, part: SoundPart, announced: list[_Announced]) -> AudioStart:
+        self._count += 1
+        start = _start(unit, part)
+        caption = None if unit.caption is None else unit.caption.later(-part.begin)
+        clip = AudioClip(f"{self._prefix}-{self._count}", part.sound, caption)
+        announced.append(_Announced(clip.id, part, start, unit.gain, caption))
+        return AudioStart(self._character, clip, start, unit.gain)
+
+    def _restated(self, unit: SoundUnit, announced: _Announced) -> Iterator[AudioStart]:
+        """The caption of a speech without sound again, if its words have moved."""
+        if unit.elastic and (caption := unit.caption) != announced.caption:
+            announced.caption = caption
+            announced.part = SoundPart(0.0, Sound(b"", unit.length))
+            clip = AudioClip(announced.clip, announced.part.sound, caption)
+            yield AudioStart(self._character, clip, announced.start, unit.gain)
+
+
+def _start(unit: SoundUnit, part: SoundPart) -> Time:
+    """When the first sample of a part is heard."""
+    return None if unit.origin is None else GlobalTime(unit.origin + part.begin)
+
+
+def _differences(unit: SoundUnit, announced: _Announced, now: GlobalTime) -> Iterator[AudioChange]:
+    """The changes of a sound of a live unit since its last announcement, which they update."""
+    if announced.ended(now):
+        return
+    time = _start(unit, announced.part)
+    if time is not None and (announced.start is None or abs(time - announced.start) > _WORTH_MOVING):
+        announced.start = time
+        yield AudioMove(announced.clip, time)
+    if unit.gain != announced.gain and announced.gain_tick != now:
+        announced.gain, announced.gain_tick = unit.gain, now
+        yield AudioGain(announced.clip, unit.gain, now)
+
+
+def _silence(unit: SoundUnit, announced: _Announced, now: GlobalTime) -> list[AudioChange]:
+    """The stop of a sound that was cut or never started; one that ended by itself is silent already."""
+    if unit.state is UnitState.DONE and unit.cut is None:
+        return []
+    time = next((time for time in (unit.cut, announced.start) if time is not None), now)
+    if announced.ended(time):
+        return []
+    return [AudioStop(announced.clip, time, _FADE)]

@@ -1,0 +1,175 @@
+"""MPEG-4's facial animation parameters (FAPs) as weights of morph targets, from the table in assets/face/faps.json."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+
+from reactive_realizer.embodiment.avatar import Avatar
+from reactive_realizer.embodiment.face_mesh import FaceMesh
+from reactive_realizer.embodiment.vector import Vec3, scale
+from reactive_realizer.engines.face.fapu import Fapu
+from reactive_realizer.engines.face.json_table import bad_entry, read_number, read_table, read_weights
+from reactive_realizer.engines.face.weights import Weights
+from reactive_realizer.errors import CreationFault, RealizerError
+
+_DIRECTIONS: Mapping[str, Vec3] = MappingProxyType(
+    {
+        "left": (1.0, 0.0, 0.0),
+        "right": (-1.0, 0.0, 0.0),
+        "up": (0.0, 1.0, 0.0),
+        "down": (0.0, -1.0, 0.0),
+        "forward": (0.0, 0.0, 1.0),
+    }
+)
+
+
+class NoFap(CreationFault):
+    """No facial animation parameter has the name or number."""
+
+    code = "no-fap"
+    template = "there is no facial animation parameter '{fap}'; available: {known}"
+    unknown = "fap"
+    fap: str
+    known: tuple[str, ...]
+
+
+class FapWithoutMorph(CreationFault):
+    """A facial animation parameter that no blend shape is like, at least in one direction."""
+
+    code = "fap-without-morph"
+    template = "no blend shape of the face is like {sign} values of the facial animation parameter {fap}{instead}"
+    fap: str
+    sign: str
+    instead: str
+
+
+@dataclass(frozen=True, slots=True)
+class Fap:
+    """A facial animation parameter (ISO/IEC 14496-2, table C.1).
+
+    Attributes:
+        name: of the standard.
+        unit: name of its unit in `Fapu`; empty if it is not played.
+        direction: of positive values, a unit vector in the figure's frame.
+        positive: weights of morph targets that move the feature point in this direction; their scale is measured.
+        negative: those that move it back.
+        instead: what moves the face in this way, if blend shapes do not.
+    """
+
+    name: str
+    unit: str
+    direction: Vec3
+    positive: Weights
+    negative: Weights
+    instead: str
+
+
+class FapTable:
+    """The facial animation parameters on the face of one avatar.
+
+    A feature point is the vertex that the blend shapes of its parameter move furthest in the direction of the
+    parameter. So a value moves it as far as the standard says, on any face with these blend shapes.
+
+    Args:
+        path: of a table in the format of assets/face/faps.json.
+        avatar: with the face.
+
+    Raises:
+        RealizerError: "bad-asset": the table has another format.
+        OSError: the table cannot be read.
+    """
+
+    def __init__(self, path: Path, avatar: Avatar) -> None:
+        faps = {read_number(path, key): _fap(path, key, entry) for key, entry in read_table(path, "faps").items()}
+        self._faps: Mapping[int, Fap] = faps
+        self._numbers = {str(number): number for number in faps} | {fap.name: number for number, fap in faps.items()}
+        mesh = _face_of(avatar)
+        units = None if mesh is None else _units(avatar, mesh)
+        self._weights = {} if mesh is None or units is None else _per_value(faps, mesh, units)
+
+    def numbers(self, faps: str) -> tuple[int, ...]:
+        """The numbers of parameters, from their numbers or names, separated by spaces.
+
+        Raises:
+            RealizerError: "no-fap".
+        """
+        return tuple(map(self._number, faps.split())) or (self._number(faps),)
+
+    def _number(self, fap: str) -> int:
+        number = self._numbers.get(fap.lower())
+        if number is None:
+            raise RealizerError(NoFap(fap=fap, known=tuple(self._numbers)))
+        return number
+
+    def weights(self, values: Mapping[int, float]) -> dict[str, float]:
+        """The weights for values of several parameters.
+
+        Where two parameters use the same morph target, such as both corners of a raised lip, the greater weight holds.
+
+        Args:
+            values: number of the parameter -> value, in its unit.
+
+        Raises:
+            RealizerError: "fap-without-morph".
+        """
+        weights: dict[str, float] = {}
+        for number, value in values.items():
+            for morph, weight in self._of(number, value).items():
+                weights[morph] = max(weights.get(morph, 0.0), min(abs(value) * weight, 1.0))
+        return weights
+
+    def _of(self, number: int, value: float) -> Weights:
+        """The weights of a parameter for each unit of its value."""
+        found = self._weights.get((number, value >= 0.0))
+        if found is None:
+            fap = self._faps[number]
+            instead = f"; {fap.instead}" if fap.instead else ""
+            sign = "positive" if value >= 0.0 else "negative"
+            raise RealizerError(FapWithoutMorph(fap=f"{number} ({fap.name})", sign=sign, instead=instead))
+        return found
+
+
+def _face_of(avatar: Avatar) -> FaceMesh | None:
+    if avatar.path is None:
+        return None
+    try:
+        return FaceMesh.read(avatar.path)
+    except RealizerError:
+        return None
+
+
+def _units(avatar: Avatar, mesh: FaceMesh) -> Fapu | None:
+    try:
+        return Fapu.measured(avatar, mesh)
+    except (LookupError, ValueError):
+        return None
+
+
+def _per_value(faps: Mapping[int, Fap], mesh: FaceMesh, units: Fapu) -> dict[tuple[int, bool], Weights]:
+    """The weights for each unit of value, by number and whether the value is positive."""
+    found: dict[tuple[int, bool], Weights] = {}
+    for number, fap in faps.items():
+        for positive, weights in ((True, fap.positive), (False, fap.negative)):
+            if weights and weights.keys() <= mesh.moves.keys():
+                direction = fap.direction if positive else scale(fap.direction, -1.0)
+                moved = float((mesh.displacement(weights) @ np.array(direction)).max())
+                if moved > 0.0:
+                    share = getattr(units, fap.unit) / moved
+                    found[number, positive] = {morph: share * weight for morph, weight in weights.items()}
+    return found
+
+
+def _fap(path: Path, key: str, entry: Any) -> Fap:
+    if not isinstance(entry, dict) or not isinstance(entry.get("name"), str):
+        raise bad_entry(path, key, "a facial animation parameter has a name")
+    positive, negative = (read_weights(path, key, entry.get(part, {})) for part in ("positive", "negative"))
+    unit, direction = entry.get("unit", ""), entry.get("direction", "up")
+    if (positive or negative) and unit not in Fapu.__slots__:
+        raise bad_entry(path, key, f"the unit is one of {', '.join(Fapu.__slots__)}")
+    if direction not in _DIRECTIONS:
+        raise bad_entry(path, key, f"the direction is one of {', '.join(_DIRECTIONS)}")
+    return Fap(entry["name"], unit, _DIRECTIONS[direction], positive, negative, str(entry.get("instead", "")))

@@ -1,0 +1,79 @@
+"""The viseme binding of an avatar (thesis 8.10, VisemeBinding): its mouth shape for each sound.
+
+The format is documented in docs/lipsync.md; assets/visemes contains the bindings for ARKit's blend shapes and for the
+visemes of Oculus as morph targets.
+"""
+
+import re
+from collections import ChainMap
+from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Self
+
+from reactive_realizer.engines.speech.lip_sync.binding_file import read_binding_file
+from reactive_realizer.engines.speech.lip_sync.shapes import SILENCE, VISEMES, Articulator, MouthShape
+
+_ARKIT, _OCULUS, _PHONEMES = "visemes/arkit.toml", "visemes/oculus.toml", "visemes/phonemes.toml"
+_ARKIT_MORPH, _OCULUS_MORPH = "jawOpen", "viseme_aa"
+"""Morph targets by which the two sets are recognized."""
+
+
+@dataclass(frozen=True)
+class VisemeBinding:
+    """The mouth shapes of an avatar.
+
+    Attributes:
+        phonemes: viseme of each letter or pair of letters of the International Phonetic Alphabet.
+        shapes: the mouth shape of each viseme.
+        articulators: the parts of the mouth by name.
+    """
+
+    phonemes: Mapping[str, str]
+    shapes: Mapping[str, MouthShape]
+    articulators: Mapping[str, Articulator]
+
+    @classmethod
+    def read(cls, files: Sequence[Path], morphs: Collection[str], asset: Callable[[str], Path]) -> Self:
+        """Reads the binding of an avatar.
+
+        Entries of earlier files take precedence. The last files are those in assets/visemes: for the morph targets of
+        the avatar, and for phonemes. What they say of morph targets that the avatar does not have is left out. A file
+        with articulators describes all visemes: of the files after it, only the phonemes count.
+
+        Args:
+            files: of the character and of the avatar, in order of precedence.
+            morphs: names of the avatar's morph targets.
+            asset: finds an asset by name.
+
+        Raises:
+            RealizerError: "bad-visemes": a file cannot be used, or names a morph target that the avatar does not have.
+            OSError: a file cannot be read.
+        """
+        standard = _OCULUS if _OCULUS_MORPH in morphs and _ARKIT_MORPH not in morphs else _ARKIT
+        read = [read_binding_file(file, morphs) for file in files]
+        read += [read_binding_file(asset(name), morphs, shared=True) for name in (standard, _PHONEMES)]
+        complete = next(rank for rank, file in enumerate(read) if file.articulators)
+        articulators = read[complete].articulators
+        shapes = dict.fromkeys(VISEMES, MouthShape())
+        for file in reversed(read[: complete + 1]):
+            file.check(articulators)
+            shapes |= file.shapes
+        phonemes = dict(ChainMap(*(dict(file.phonemes) for file in read)))
+        return cls(phonemes, shapes, articulators)
+
+    def visemes(self, symbol: str) -> tuple[str, ...]:
+        """The visemes of a phoneme, in order: two for a diphthong, silence for a pause, none for an unknown sound.
+
+        The symbol is read from left to right, pairs of letters first. Letters that are not bound (stress, length and
+        other diacritics) have none.
+        """
+        if not symbol:
+            return (SILENCE,)
+        return tuple(self.phonemes[letters] for letters in self._letters.findall(symbol))
+
+    @cached_property
+    def _letters(self) -> re.Pattern[str]:
+        longest_first = sorted(self.phonemes, key=len, reverse=True)
+        return re.compile("|".join(map(re.escape, longest_first)) or r"(?!)")

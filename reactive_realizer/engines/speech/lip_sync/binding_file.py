@@ -1,0 +1,172 @@
+"""Reads one file of a viseme binding, and says what is wrong with it."""
+
+import tomllib
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import chain
+from pathlib import Path
+from typing import Any
+
+from reactive_realizer.engines.speech.lip_sync.shapes import VISEMES, Articulator, MouthShape
+from reactive_realizer.errors import Fault, RealizerError
+
+_LONGEST = 1.0
+"""Upper limit of the time constant of an articulator, s."""
+
+
+class BadVisemes(Fault):
+    """An entry of a viseme binding that cannot be used."""
+
+    code = "bad-visemes"
+    template = "{file}: {key}: {reason}"
+    unknown = "name"
+    file: str
+    key: str
+    reason: str
+    name: str = ""
+    known: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class BindingFile:
+    """What a file says, as in `VisemeBinding`; each table may be empty."""
+
+    name: str
+    phonemes: Mapping[str, str]
+    shapes: Mapping[str, MouthShape]
+    articulators: Mapping[str, Articulator]
+
+    def check(self, articulators: Mapping[str, Articulator]) -> None:
+        """Checks the shapes of this file.
+
+        Args:
+            articulators: by name, of this file or of the next one that has any.
+
+        Raises:
+            RealizerError: "bad-visemes".
+        """
+        moved = set(chain.from_iterable(articulator.morphs for articulator in articulators.values()))
+        for viseme, shape in self.shapes.items():
+            key = f"visemes.{viseme}"
+            for name in (*shape.dominance, *shape.contact):
+                if name not in articulators:
+                    raise _unknown(self.name, key, name, "an articulator", articulators)
+            for morph in shape.morphs:
+                if morph not in moved:
+                    raise RealizerError(BadVisemes(file=self.name, key=key, reason=f"no articulator moves '{morph}'"))
+
+
+def read_binding_file(path: Path, morphs: Collection[str], *, shared: bool = False) -> BindingFile:
+    """Reads a file.
+
+    Args:
+        path: of the file.
+        morphs: names of the avatar's morph targets.
+        shared: whether the file is for many avatars; morph targets that this one does not have are then left out.
+
+    Raises:
+        RealizerError: "bad-visemes".
+        OSError: the file cannot be read.
+    """
+    try:
+        table = tomllib.loads(path.read_text(encoding="utf-8"))
+    except (ValueError, RecursionError) as problem:
+        raise RealizerError(BadVisemes(file=path.name, key="the file", reason=str(problem))) from problem
+    reader = _Reader(path.name, morphs, shared=shared)
+    reader.know("the file", table, ("phonemes", "visemes", "articulators"))
+    return BindingFile(
+        path.name,
+        reader.phonemes(reader.table("phonemes", table.get("phonemes", {}))),
+        {viseme: reader.shape(viseme, own) for viseme, own in reader.section(table, "visemes", VISEMES)},
+        reader.articulators(table),
+    )
+
+
+class _Reader:
+    """Reads the tables of a file; every mistake names its key."""
+
+    def __init__(self, file: str, morphs: Collection[str], *, shared: bool) -> None:
+        self._file = file
+        self._morphs = morphs
+        self._shared = shared
+
+    def phonemes(self, table: Mapping[str, Any]) -> dict[str, str]:
+        self.know("phonemes", table, VISEMES)
+        bound: dict[str, str] = {}
+        for viseme, listed in table.items():
+            for letters in self._names(f"phonemes.{viseme}", listed):
+                if not 1 <= len(letters) <= 2:
+                    raise self._bad(f"phonemes.{viseme}", f"{letters!r} is not one letter or two")
+                if bound.setdefault(letters, viseme) != viseme:
+                    raise self._bad(f"phonemes.{viseme}", f"{letters!r} is also listed under {bound[letters]}")
+        return bound
+
+    def shape(self, viseme: str, table: Mapping[str, Any]) -> MouthShape:
+        key = f"visemes.{viseme}"
+        self.know(key, table, ("morphs", "dominance", "contact"))
+        morphs = self._numbers(f"{key}.morphs", table.get("morphs", {}), 0.0)
+        dominance = self._numbers(f"{key}.dominance", table.get("dominance", {}), 1e-3)
+        used = self._of_avatar(f"{key}.morphs", morphs)
+        contact = self._names(f"{key}.contact", table.get("contact", []))
+        return MouthShape({morph: morphs[morph] for morph in used}, dominance, contact)
+
+    def articulators(self, table: Mapping[str, Any]) -> dict[str, Articulator]:
+        found: dict[str, Articulator] = {}
+        owner: dict[str, str] = {}
+        for name, own in self.section(table, "articulators"):
+            key = f"articulators.{name}"
+            self.know(key, own, ("morphs", "before", "after"))
+            morphs = self._of_avatar(f"{key}.morphs", self._names(f"{key}.morphs", own.get("morphs")))
+            for morph in morphs:
+                if owner.setdefault(morph, name) != name:
+                    raise self._bad(f"{key}.morphs", f"'{morph}' also belongs to {owner[morph]}")
+            times = (self._number(f"{key}.{side}", own.get(side), 1e-3, _LONGEST) for side in ("before", "after"))
+            found[name] = Articulator(morphs, *times)
+        return found
+
+    def section(
+        self, table: Mapping[str, Any], name: str, known: Sequence[str] | None = None
+    ) -> list[tuple[str, Mapping[str, Any]]]:
+        """The tables in a table of the file, by name."""
+        tables = self.table(name, table.get(name, {}))
+        if known is not None:
+            self.know(name, tables, known)
+        return [(own, self.table(f"{name}.{own}", entry)) for own, entry in tables.items()]
+
+    def table(self, key: str, value: object) -> Mapping[str, Any]:
+        if not isinstance(value, dict):
+            raise self._bad(key, "expected a table")
+        return value
+
+    def know(self, key: str, table: Mapping[str, Any], known: Sequence[str]) -> None:
+        for name in table:
+            if name not in known:
+                raise _unknown(self._file, key, name, "known", known)
+
+    def _of_avatar(self, key: str, names: Collection[str]) -> tuple[str, ...]:
+        """The morph targets that the avatar has; in a file of its own, these have to be all."""
+        for name in names:
+            if name not in self._morphs and not self._shared:
+                raise _unknown(self._file, key, name, "a morph target of the avatar", self._morphs)
+        return tuple(name for name in names if name in self._morphs)
+
+    def _numbers(self, key: str, value: object, least: float) -> dict[str, float]:
+        return {name: self._number(f"{key}.{name}", each, least, 1.0) for name, each in self.table(key, value).items()}
+
+    def _number(self, key: str, value: object, least: float, most: float) -> float:
+        if not isinstance(value, int | float) or isinstance(value, bool) or not least <= value <= most:
+            raise self._bad(key, f"{value!r} is not a number from {least:g} to {most:g}")
+        return float(value)
+
+    def _names(self, key: str, value: object) -> tuple[str, ...]:
+        if not isinstance(value, list) or not all(isinstance(each, str) for each in value):
+            raise self._bad(key, "expected a list of names")
+        return tuple(value)
+
+    def _bad(self, key: str, reason: str) -> RealizerError:
+        return RealizerError(BadVisemes(file=self._file, key=key, reason=reason))
+
+
+def _unknown(file: str, key: str, name: str, kind: str, known: Collection[str]) -> RealizerError:
+    reason = f"'{name}' is not {kind}"
+    return RealizerError(BadVisemes(file=file, key=key, reason=reason, name=name, known=tuple(known)))

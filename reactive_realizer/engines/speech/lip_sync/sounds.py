@@ -1,0 +1,57 @@
+"""The visemes of an utterance with the times at which the mouth makes them."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import groupby, pairwise
+
+from reactive_realizer.engine.tts import Phoneme, Utterance
+from reactive_realizer.engines.speech.lip_sync.binding import VisemeBinding
+from reactive_realizer.engines.speech.lip_sync.shapes import SILENCE
+
+CLOSURE = 0.04
+"""Silence before the release of a plosive, s; the release is its onset in an utterance (espeak-ng: 0.030-0.045 s)."""
+
+_PAUSE = 0.08
+"""Duration below which a pause does not close the mouth, s: espeak-ng has such within words."""
+
+_LIP_PLOSIVES = frozenset("pb")
+_PLOSIVES = _LIP_PLOSIVES | frozenset("tdkgcɟqɢʈɖ\u0261")
+_STRESS = "ˈˌ"
+
+
+@dataclass(frozen=True, slots=True)
+class Sound:
+    """A viseme from `start` to `end`, s from the start of the utterance."""
+
+    viseme: str
+    start: float
+    end: float
+
+
+def sounds_of(utterance: Utterance, binding: VisemeBinding) -> list[Sound]:
+    """The visemes of an utterance in order, without gaps, with silence before and after it; neighbors differ."""
+    onsets = [(SILENCE, 0.0), *_onsets(utterance, binding), (SILENCE, utterance.duration)]
+    changes = [next(same) for _, same in groupby(onsets, key=lambda onset: onset[0])]
+    ends = [start for _, start in changes[1:]]
+    return [Sound(*onset, end) for onset, end in zip(changes, [*ends, utterance.duration], strict=True)]
+
+
+def _onsets(utterance: Utterance, binding: VisemeBinding) -> Iterator[tuple[str, float]]:
+    sounding = [phoneme for phoneme in utterance.phonemes if phoneme.duration > 0.0]
+    starts = [_start(before, phoneme) for before, phoneme in pairwise([Phoneme("", 0.0, 0.0), *sounding])]
+    ends = [*starts[1:], *(phoneme.start + phoneme.duration for phoneme in sounding[-1:])]
+    for phoneme, start, end in zip(sounding, starts, ends, strict=True):
+        if not phoneme.symbol and end - start < _PAUSE:
+            continue
+        visemes = binding.visemes(phoneme.symbol)
+        for number, viseme in enumerate(visemes):
+            yield viseme, start + (end - start) * number / len(visemes)
+    if ends:
+        yield SILENCE, min(ends[-1], utterance.duration)
+
+
+def _start(before: Phoneme, phoneme: Phoneme) -> float:
+    """The start of the viseme of a phoneme, s: that of a plosive is its closure, and the lips open at its release."""
+    if phoneme.symbol.strip(_STRESS) in _PLOSIVES:
+        return max((before.start + phoneme.start) / 2, phoneme.start - CLOSURE)
+    return before.start if before.symbol.strip(_STRESS) in _LIP_PLOSIVES else phoneme.start

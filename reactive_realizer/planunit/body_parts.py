@@ -1,0 +1,61 @@
+"""The parts of the body that behaviors move: a behavior that accompanies others gives way to those on the same part."""
+
+from enum import Enum, auto
+
+from reactive_realizer.bml.behavior import Behavior
+from reactive_realizer.bml.behaviors import (
+    Face,
+    FaceFacs,
+    FaceLexeme,
+    FaceShift,
+    Gaze,
+    GazeShift,
+    Gesture,
+    Head,
+    HeadDirectionShift,
+    Locomotion,
+    Pointing,
+    Posture,
+    PostureShift,
+    RecordedSpeech,
+    Speech,
+)
+from reactive_realizer.bml.extensions import FACES, MOTIONS
+from reactive_realizer.bml.vocabulary import PosePart
+
+
+class BodyPart(Enum):
+    """A part of the body, as an observer names it."""
+
+    VOICE = auto()
+    HEAD = auto()
+    EYES = auto()
+    FACE = auto()
+    ARMS = auto()
+    TRUNK = auto()
+
+
+_PARTS: dict[type[Behavior], frozenset[BodyPart]] = {
+    **dict.fromkeys((Speech, RecordedSpeech), frozenset({BodyPart.VOICE})),
+    Gesture: frozenset({BodyPart.ARMS}),
+    Pointing: frozenset({BodyPart.ARMS}),
+    Head: frozenset({BodyPart.HEAD}),
+    HeadDirectionShift: frozenset({BodyPart.HEAD}),
+    # The eyes stay on their target while the head nods, so a gaze leaves it free.
+    **dict.fromkeys((Gaze, GazeShift), frozenset({BodyPart.EYES})),
+    **dict.fromkeys((Face, FaceFacs, FaceLexeme, FaceShift, *FACES), frozenset({BodyPart.FACE})),
+    Locomotion: frozenset({BodyPart.TRUNK}),
+    **dict.fromkeys(MOTIONS, frozenset({BodyPart.HEAD, BodyPart.EYES, BodyPart.ARMS, BodyPart.TRUNK})),
+}
+
+_ARM_POSES = frozenset({PosePart.ARMS, PosePart.LEFT_ARM, PosePart.RIGHT_ARM, PosePart.WHOLEBODY})
+
+
+def parts_of(behavior: Behavior) -> frozenset[BodyPart]:
+    """The parts that a behavior moves; none for one of another kind, which controls others or is foreign."""
+    if isinstance(behavior, Posture | PostureShift):
+        parts = {pose.part for pose in behavior.poses}
+        arms = {BodyPart.ARMS} if parts & _ARM_POSES else set()
+        head = {BodyPart.HEAD} if PosePart.HEAD in parts else set()
+        return frozenset({BodyPart.TRUNK, *arms, *head})
+    return _PARTS.get(type(behavior), frozenset())

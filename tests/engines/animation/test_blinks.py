@@ -1,0 +1,69 @@
+"""Blinks of a figure: their rate, their intervals and their course."""
+
+from itertools import pairwise
+from pathlib import Path
+from random import Random
+from statistics import mean, median
+
+import pytest
+
+from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.engines.animation.blinks import Blinks
+from reactive_realizer.engines.animation.idle import Idle
+from reactive_realizer.testing.pilot import open_pilot
+
+
+def begins(blinks: Blinks, seconds: float) -> list[float]:
+    """The times at which the lids begin to close, s."""
+    frames = [blinks.closed(i / 100) for i in range(round(seconds * 100))]
+    return [i / 100 for i, (a, b) in enumerate(pairwise(frames)) if a == 0.0 < b]
+
+
+@pytest.mark.parametrize("rate", [5.0, 17.0, 26.0])
+def test_intervals_have_the_mean_of_the_rate_most_are_short_and_a_few_long(rate: float) -> None:
+    times = begins(Blinks(Random(7), rate), 1200.0)
+    gaps = [after - before for before, after in pairwise(times)]
+    assert len(times) / 20.0 == pytest.approx(rate, rel=0.15)
+    assert median(gaps) < 0.9 * mean(gaps)
+    assert max(gaps) > 2.5 * mean(gaps)
+    assert min(gaps) >= 0.49
+
+
+def test_lids_close_within_100_ms_and_open_within_150_ms() -> None:
+    """They close faster by 40 to 47 %: C. Sforza and others (Ophthalmic and Physiological Optics 28, 2008)."""
+    blinks = Blinks(Random(7), 17.0)
+    (start, *_) = begins(blinks, 20.0)
+    closed = [blinks.closed(start + i / 1000) for i in range(300)]
+    shut = closed.index(max(closed))
+    assert max(closed) > 0.999
+    assert 75 <= shut <= 100
+    assert sum(weight > 0.0 for weight in closed[shut:]) == pytest.approx(150, abs=11)
+
+
+def test_a_requested_blink_starts_at_once_and_a_second_one_within_it_is_none_of_its_own() -> None:
+    blinks = Blinks(Random(7), 17.0)
+    asked = begins(blinks, 20.0)[0] + 0.4
+    blinks.request_blink(asked)
+    blinks.request_blink(asked + 0.1)
+    closed = [blinks.closed(asked + i / 1000) for i in range(250)]
+    assert closed[0] == 0.0 < closed[10]
+    assert max(closed) > 0.99
+    assert closed[236] == 0.0
+
+
+def test_a_figure_with_a_rate_of_0_does_not_blink_even_if_it_turns_its_gaze_far() -> None:
+    idle = Idle(Random(7), 0.0)
+    idle.blink(5.0)
+    assert {idle.blinks(i / 50)["eyeBlinkLeft"] for i in range(3000)} == {0.0}
+
+
+async def test_with_a_blink_rate_of_0_a_character_blinks_only_when_it_is_asked_to(tmp_path: Path) -> None:
+    human = tmp_path / "human.toml"
+    human.write_text("[character.alice]\nblink_rate = 0\n")
+    async with open_pilot(SceneOptions(human, "text")) as pilot:
+        pilot.watch()
+        pilot.block("b", '<faceLexeme id="f" lexeme="BLINK" start="15"/>')
+        await pilot.advance(20)
+        lid = pilot.realizer.characters["alice"].humanoid.avatar.morphs.index("eyeBlinkLeft")
+        closed = [frame.time for frame in pilot.frames["alice"] if frame.weights[lid] > 0.0]
+        assert 15.0 < min(closed) < max(closed) < 15.3

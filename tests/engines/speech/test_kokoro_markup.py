@@ -1,0 +1,86 @@
+"""Markup of which the network of the natural voice is told."""
+
+from dataclasses import replace
+
+import pytest
+
+from reactive_realizer.bml.markup import Markup, MarkupKind
+from reactive_realizer.engine.tts import Utterance, completed, word_spans
+from reactive_realizer.engines.speech.espeak_utterance import PronouncedWord
+from reactive_realizer.engines.speech.kokoro.markup import MarkedPace, with_phonemes, with_stops
+from reactive_realizer.engines.speech.kokoro.pronunciation import default_alphabet, sentences
+from reactive_realizer.engines.speech.kokoro.voice import KokoroVoice
+
+TEXT = "Take model A4 now"
+
+
+def markup(kind: MarkupKind, part: str, text: str = "") -> Markup:
+    first = TEXT.index(part)
+    return Markup(kind, first, first + len(part), f"<{kind}>", text=text)
+
+
+def test_a_marked_sentence_gets_a_stop_that_moves_no_character() -> None:
+    assert with_stops(TEXT, [markup(MarkupKind.SENTENCE, "Take model")]) == "Take model.A4 now"
+    assert with_stops(TEXT, [markup(MarkupKind.SENTENCE, "A4 now")]) == TEXT
+    assert with_stops("Take it! Now", [Markup(MarkupKind.SENTENCE, 0, 8, "<s>")]) == "Take it! Now"
+
+
+def test_sentences_are_cut_where_the_rate_changes_and_at_silences() -> None:
+    rate = replace(markup(MarkupKind.RATE, "model A4"), number=0.8)
+    inner = replace(markup(MarkupKind.RATE, "A4"), number=0.1)
+    silence = Markup(MarkupKind.BREAK, TEXT.index("now"), TEXT.index("now"), "<break>", number=1.5)
+    words = [PronouncedWord(first, last, ("t",), pause=False) for first, last in word_spans(TEXT)]
+    cut = sentences(TEXT, words, "a", default_alphabet(), MarkedPace([rate, inner, silence]))
+    assert [([sound.word for sound in each.sounds], each.rate, each.silence) for each in cut] == [
+        ([0], 1.0, 0.0),
+        ([1], 0.8, 0.0),
+        ([2], 0.5, 1.5),
+        ([3], 1.0, 0.0),
+    ]
+
+
+def test_a_pronunciation_replaces_the_sounds_of_its_words() -> None:
+    words = [PronouncedWord(first, last, ("t",), pause=False) for first, last in word_spans(TEXT)]
+    sounds = "\u02c8e\u026ane\u02d0 b\u0303"
+    said = with_phonemes(words, [markup(MarkupKind.PHONEME, "model A4", sounds)], "a", default_alphabet())
+    assert [word.sounds for word in said] == [("t",), ("\u02c8e\u026a", "n", "e\u02d0", "b\u0303"), (), ("t",)]
+
+
+@pytest.mark.kokoro
+async def test_what_is_said_instead_is_heard_and_what_the_voice_cannot_do_is_left_out() -> None:
+    spelled, other = (
+        markup(MarkupKind.SUB, "A4", "A four, the black one,"),
+        markup(MarkupKind.EMPHASIS, "now", "strong"),
+    )
+    voice = KokoroVoice()
+    try:
+        plain = await completed(voice.synthesize(TEXT, (), None))
+        said = await completed(voice.synthesize_markup(TEXT, (("m", TEXT.index("now")),), None, (spelled, other)))
+    finally:
+        await voice.close()
+    assert said.left_out == (other,)
+    assert said.marks["m"] == said.words[3].start > plain.words[3].start + 0.5
+    assert [word.text for word in said.words] == TEXT.split()
+
+
+@pytest.mark.kokoro
+async def test_a_rate_and_a_break_are_heard() -> None:
+    slow = replace(markup(MarkupKind.RATE, "model A4"), number=0.5)
+    silence = Markup(MarkupKind.BREAK, TEXT.index("now"), TEXT.index("now"), "<break>", number=1.5)
+    voice = KokoroVoice()
+    try:
+        plain = await completed(voice.synthesize(TEXT, (), None))
+        slower = await completed(voice.synthesize_markup(TEXT, (), None, (slow,)))
+        later = await completed(voice.synthesize_markup(TEXT, (), None, (silence,)))
+    finally:
+        await voice.close()
+    assert slower.left_out == later.left_out == ()
+    begin, end = (TEXT.split().index(word) for word in ("model", "now"))
+    assert _between(slower, begin, end) > 1.6 * _between(plain, begin, end)
+    assert 1.5 < _between(later, end - 1, end) - _between(plain, end - 1, end) < 1.9
+    assert later.duration == pytest.approx(len(later.audio) / 2 / later.sample_rate, abs=0.01)
+
+
+def _between(utterance: Utterance, first: int, last: int) -> float:
+    """The time from one word to another, s."""
+    return utterance.words[last].start - utterance.words[first].start
