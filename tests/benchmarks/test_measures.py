@@ -16,6 +16,7 @@ SMALLEST: dict[str, dict[str, float]] = {
     "idle": {"seconds": 0.05, "most": 1},
     "latency": {"runs": 2},
     "load": {"seconds": 0.05, "behaviors": 20, "viewers": 2},
+    "motion": {"scenes": 2},
     "physics": {"seconds": 0.05, "most": 1},
     "propagation": {"largest": 1000},
     "punctuality": {"seconds": 0.5},
@@ -47,6 +48,14 @@ KEYS: dict[str, set[str]] = {
             for audience in ("viewers_200", "viewers_500", "characters_10")
             for what in ("cpu_share", "frames_arrived", "late_p99_ms")
         ),
+    },
+    "motion": {
+        *(
+            f"{law}.{part}"
+            for law in ("wrist_m_s2", "wrist_rad_s2", "elbow_rad_s2", "head_deg_s")
+            for part in ("p50", "p90", "p99", "max")
+        ),
+        *(f"{way}_deg" for way in ("pronation", "supination", "radial", "ulnar")),
     },
     "physics": {
         *(f"momentum_error.{whose}.{step}" for whose in ("ours", "all_physical") for step in ("5", "2.5", "1")),

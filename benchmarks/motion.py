@@ -1,0 +1,51 @@
+"""Measures how smoothly a figure moves in random scenes, and the range of its arms, from frames."""
+
+import asyncio
+from collections.abc import Sequence
+
+import numpy as np
+
+from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.embodiment.body import Body
+from reactive_realizer.testing.motion_laws import arm_ranges, worst_motion
+from reactive_realizer.testing.motion_scenes import play_scene
+from reactive_realizer.testing.pilot import open_pilot
+
+AIMS = {
+    "wrist_m_s2.p99": 60,
+    "wrist_rad_s2.p99": 300,
+    "head_deg_s.p99": 400,
+    "pronation_deg": 85,
+    "supination_deg": 85,
+    "radial_deg": 25,
+    "ulnar_deg": 35,
+}
+
+_PERCENTILES = {"p50": 50, "p90": 90, "p99": 99, "max": 100}
+
+
+def measure(scenes: int = 200) -> dict[str, object]:
+    """Percentiles over the scenes of the worst value in each, and the furthest that the arms turn in any of them.
+
+    Args:
+        scenes: number of scenes; the first ones are always the same.
+    """
+    worst, ranges = [], []
+    for seed in range(scenes):
+        bodies = asyncio.run(_bodies(seed))
+        worst.append(worst_motion(bodies))
+        ranges.append(arm_ranges(bodies))
+    return {
+        **{law: _percentiles([each[law] for each in worst]) for law in worst[0]},
+        **{name: max(each[name] for each in ranges) for name in ranges[0]},
+    }
+
+
+async def _bodies(seed: int) -> list[Body]:
+    async with open_pilot(SceneOptions(voice="text")) as pilot:
+        await play_scene(seed, pilot)
+        return pilot.bodies()
+
+
+def _percentiles(values: Sequence[float]) -> dict[str, float]:
+    return {name: round(float(np.percentile(values, part)), 1) for name, part in _PERCENTILES.items()}
