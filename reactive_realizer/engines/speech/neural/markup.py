@@ -1,4 +1,4 @@
-"""Markup that the network can follow: what is said, how it is pronounced, and how fast."""
+"""Markup that a network can follow: what is said, how it is pronounced, and how fast."""
 
 import re
 from collections.abc import Sequence
@@ -8,7 +8,7 @@ from typing import Final
 
 from reactive_realizer.bml.markup import Markup, MarkupKind
 from reactive_realizer.engines.speech.espeak_utterance import PronouncedWord
-from reactive_realizer.engines.speech.kokoro.pronunciation import Alphabet
+from reactive_realizer.engines.speech.neural.pronunciation import Alphabet
 
 DICTIONARY: Final = frozenset({MarkupKind.SUB, MarkupKind.SAY_AS})
 """What espeak-ng, which pronounces the words, follows for the network."""
@@ -52,11 +52,12 @@ def with_stops(text: str, markup: Sequence[Markup]) -> str:
 
 
 def with_phonemes(
-    words: Sequence[PronouncedWord], markup: Sequence[Markup], accent: str, alphabet: Alphabet
+    words: Sequence[PronouncedWord], markup: Sequence[Markup], alphabet: Alphabet
 ) -> tuple[PronouncedWord, ...]:
     """Words with the sounds that markup gives; those of several words belong to the first of them."""
-    known = sorted(alphabet.sounds[accent], key=len, reverse=True)
-    sound = re.compile(rf"[{_STRESS}]*(?:{'|'.join(map(re.escape, known))}|[^\s.{_STRESS}]){_LONGER}")
+    known = sorted(alphabet.sounds, key=len, reverse=True)
+    any_of_these = "|".join([*map(re.escape, known), rf"[^\s.{_STRESS}]"])
+    sound = re.compile(rf"[{_STRESS}]*(?:{any_of_these}){_LONGER}")
     pronounced = list(words)
     for each in markup:
         if each.kind is MarkupKind.PHONEME:

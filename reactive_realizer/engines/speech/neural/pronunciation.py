@@ -1,11 +1,8 @@
-"""From a text and the sounds of its words to the tokens of the network, sentence by sentence."""
+"""From a text and the sounds of its words to the tokens of a network, sentence by sentence."""
 
-import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cache
-from importlib.resources import files
-from typing import Protocol, Self
+from typing import Protocol
 
 from reactive_realizer.engines.speech.espeak_utterance import PronouncedWord
 
@@ -13,7 +10,6 @@ _MOST_TOKENS = 510
 _LONG = 300
 """Tokens after which a sentence is cut at the next comma: the sooner it is spoken, and it has to fit."""
 _STRESS = "\u02c8\u02cc"
-_LENGTH_MARK = "\u02d0"
 _SENTENCE_ENDS = frozenset(".!?\u2026\n")
 _CLAUSE_ENDS = frozenset(",;:\u2014")
 _SPACE = " "
@@ -21,28 +17,24 @@ _SPACE = " "
 
 @dataclass(frozen=True, slots=True)
 class Alphabet:
-    """The characters that the network knows.
+    """The characters that a network knows.
 
     Attributes:
         tokens: the number of each character.
-        sounds: how sounds in IPA are written, for American (a) and British (b) voices.
+        sounds: how sounds in IPA are written; one that is not listed is written as it is, without the omitted signs.
+        omitted: signs of IPA that are not written.
     """
 
     tokens: Mapping[str, int]
-    sounds: Mapping[str, Mapping[str, str]]
+    sounds: Mapping[str, str]
+    omitted: str = ""
 
-    @classmethod
-    def from_toml(cls, text: str) -> Self:
-        """Reads the format of assets/voices/kokoro/symbols.toml."""
-        table = tomllib.loads(text)
-        return cls(table["tokens"], table["sounds"])
-
-    def write(self, sound: str, accent: str) -> list[int]:
+    def write(self, sound: str) -> list[int]:
         """The tokens of a sound in IPA, with stress marks in front; none for one that it cannot write."""
         bare = sound.lstrip(_STRESS)
-        written = self.sounds[accent].get(bare)
+        written = self.sounds.get(bare)
         if written is None:
-            written = bare if accent == "b" else bare.replace(_LENGTH_MARK, "")
+            written = "".join(each for each in bare if each not in self.omitted)
         return [self.tokens[each] for each in sound[: len(sound) - len(bare)] + written if each in self.tokens]
 
     def punctuate(self, between: str, *, last: bool) -> list[int]:
@@ -51,12 +43,6 @@ class Alphabet:
         joined = _SPACE.join(words)
         spaced = (_SPACE * between[:1].isspace() + joined + _SPACE * between[-1:].isspace()) if joined else _SPACE
         return [self.tokens[each] for each in (spaced.rstrip() if last else spaced) if each in self.tokens]
-
-
-@cache
-def default_alphabet() -> Alphabet:
-    """The alphabet in the package."""
-    return Alphabet.from_toml((files("reactive_realizer") / "assets/voices/kokoro/symbols.toml").read_text("utf-8"))
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,7 +92,7 @@ class Pace(Protocol):
 
 
 def sentences(
-    text: str, words: Sequence[PronouncedWord], accent: str, alphabet: Alphabet, pace: Pace | None = None
+    text: str, words: Sequence[PronouncedWord], alphabet: Alphabet, pace: Pace | None = None
 ) -> Iterator[Sentence]:
     """The sentences of a text; a long one is cut at a clause, or between words if it has none.
 
@@ -115,13 +101,12 @@ def sentences(
     Args:
         text: plain text.
         words: all of its words.
-        accent: a (American) or b (British).
         alphabet: of the network.
         pace: of its words; None if all have the usual one.
     """
     sentence = Sentence()
     for number, word in enumerate(words):
-        spoken = [(sound, alphabet.write(sound, accent)) for sound in word.sounds]
+        spoken = [(sound, alphabet.write(sound)) for sound in word.sounds]
         if len(sentence.tokens) + sum(len(tokens) for _, tokens in spoken) > _MOST_TOKENS and sentence.sounds:
             yield sentence
             sentence = Sentence()

@@ -7,9 +7,9 @@ import pytest
 from reactive_realizer.bml.markup import Markup, MarkupKind
 from reactive_realizer.engine.tts import Utterance, completed, word_spans
 from reactive_realizer.engines.speech.espeak_utterance import PronouncedWord
-from reactive_realizer.engines.speech.kokoro.markup import MarkedPace, with_phonemes, with_stops
-from reactive_realizer.engines.speech.kokoro.pronunciation import default_alphabet, sentences
-from reactive_realizer.engines.speech.kokoro.voice import KokoroVoice
+from reactive_realizer.engines.speech.kokoro.voice import KokoroVoice, alphabet
+from reactive_realizer.engines.speech.neural.markup import MarkedPace, with_phonemes, with_stops
+from reactive_realizer.engines.speech.neural.pronunciation import sentences
 
 TEXT = "Take model A4 now"
 
@@ -30,7 +30,7 @@ def test_sentences_are_cut_where_the_rate_changes_and_at_silences() -> None:
     inner = replace(markup(MarkupKind.RATE, "A4"), number=0.1)
     silence = Markup(MarkupKind.BREAK, TEXT.index("now"), TEXT.index("now"), "<break>", number=1.5)
     words = [PronouncedWord(first, last, ("t",), pause=False) for first, last in word_spans(TEXT)]
-    cut = sentences(TEXT, words, "a", default_alphabet(), MarkedPace([rate, inner, silence]))
+    cut = sentences(TEXT, words, alphabet("a"), MarkedPace([rate, inner, silence]))
     assert [([sound.word for sound in each.sounds], each.rate, each.silence) for each in cut] == [
         ([0], 1.0, 0.0),
         ([1], 0.8, 0.0),
@@ -42,7 +42,7 @@ def test_sentences_are_cut_where_the_rate_changes_and_at_silences() -> None:
 def test_a_pronunciation_replaces_the_sounds_of_its_words() -> None:
     words = [PronouncedWord(first, last, ("t",), pause=False) for first, last in word_spans(TEXT)]
     sounds = "\u02c8e\u026ane\u02d0 b\u0303"
-    said = with_phonemes(words, [markup(MarkupKind.PHONEME, "model A4", sounds)], "a", default_alphabet())
+    said = with_phonemes(words, [markup(MarkupKind.PHONEME, "model A4", sounds)], alphabet("a"))
     assert [word.sounds for word in said] == [("t",), ("\u02c8e\u026a", "n", "e\u02d0", "b\u0303"), (), ("t",)]
 
 

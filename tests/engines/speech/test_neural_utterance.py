@@ -8,9 +8,12 @@ import pytest
 
 from reactive_realizer.engine.tts import Utterance, word_spans
 from reactive_realizer.engines.speech.espeak_utterance import PronouncedWord
-from reactive_realizer.engines.speech.kokoro.pronunciation import default_alphabet, sentences
-from reactive_realizer.engines.speech.kokoro.timed_sentence import FRAME, RATE, TimedSentence
-from reactive_realizer.engines.speech.kokoro.utterance import SentenceSound, as_utterance
+from reactive_realizer.engines.speech.kokoro.voice import FORMAT, alphabet
+from reactive_realizer.engines.speech.neural.pronunciation import sentences
+from reactive_realizer.engines.speech.neural.timed_sentence import TimedSentence
+from reactive_realizer.engines.speech.neural.utterance import SentenceSound, as_utterance
+
+RATE, FRAME = FORMAT.rate, FORMAT.length
 
 
 def pronounced(text: str, *sounds: str) -> list[PronouncedWord]:
@@ -22,16 +25,16 @@ def pronounced(text: str, *sounds: str) -> list[PronouncedWord]:
 
 def timed(text: str, words: Sequence[PronouncedWord], *durations: Sequence[float]) -> list[TimedSentence]:
     """The sentences of a text, with frames for each token."""
-    written = list(sentences(text, words, "a", default_alphabet()))
+    written = list(sentences(text, words, alphabet("a")))
     return [
-        TimedSentence(sentence, frames, last=sentence is written[-1])
+        TimedSentence(sentence, frames, last=sentence is written[-1], format=FORMAT)
         for sentence, frames in zip(written, durations, strict=True)
     ]
 
 
 def sound(sentence: TimedSentence, samples: np.ndarray, length: float = 99.0) -> list[bytes]:
     """What is kept of the samples of a sentence, in pieces of about a length, s."""
-    spoken, pieces = SentenceSound(), sentence.pieces(repeat(length))
+    spoken, pieces = SentenceSound(RATE), sentence.pieces(repeat(length))
     frames = [samples[piece.frames[0] * FRAME : piece.frames[1] * FRAME].tobytes() for piece in pieces]
     return [spoken.add(piece, own, last=piece is pieces[-1]) for piece, own in zip(pieces, frames, strict=True)]
 
@@ -44,7 +47,7 @@ def utterance(
     spoken = timed(text, words, *durations)
     constants = [np.full(FRAME * sum(frames), 1000, "<i2") for frames in durations]
     audio = [b"".join(sound(*each)) for each in zip(spoken, constants, strict=True)]
-    return as_utterance(text, words, tuple((marks or {}).items()), spoken, b"".join(audio))
+    return as_utterance(text, words, tuple((marks or {}).items()), spoken, b"".join(audio), RATE)
 
 
 def test_sounds_and_words_have_the_times_of_their_tokens_which_are_heard_earlier() -> None:
@@ -92,11 +95,11 @@ WORDS = ["m i s i", "p i s i", "m i m i", "s i s i", "n i n i", "t i n i"]
 def long_sentence() -> TimedSentence:
     text = "a b c, d e f"
     words = pronounced(text, *WORDS)
-    (sentence,) = sentences(text, words, "a", default_alphabet())
+    (sentence,) = sentences(text, words, alphabet("a"))
     durations = [10.0, *([6.0] * len(sentence.tokens)), 10.0]
-    comma = default_alphabet().tokens[","]
+    comma = alphabet("a").tokens[","]
     durations[1 + sentence.tokens.index(comma)] = 20.0
-    return TimedSentence(sentence, durations, last=True)
+    return TimedSentence(sentence, durations, last=True, format=FORMAT)
 
 
 def test_pieces_join_to_the_sound_of_the_sentence() -> None:
