@@ -84,10 +84,17 @@ class AudioStart:
 
 @dataclass(frozen=True, slots=True)
 class AudioMove:
-    """An announced clip starts at another time."""
+    """An announced clip starts at another time.
+
+    Attributes:
+        id: of the clip.
+        start: of its first sample, s.
+        time: of the first frame that shows so, s.
+    """
 
     id: str
     start: GlobalTime
+    time: GlobalTime
 
 
 @dataclass(frozen=True, slots=True)

@@ -104,7 +104,7 @@ def _differences(unit: SoundUnit, announced: _Announced, now: GlobalTime) -> Ite
     time = _start(unit, announced.part)
     if time is not None and (announced.start is None or abs(time - announced.start) > _WORTH_MOVING):
         announced.start = time
-        yield AudioMove(announced.clip, time)
+        yield AudioMove(announced.clip, time, now)
     if unit.gain != announced.gain and announced.gain_tick != now:
         announced.gain, announced.gain_tick = unit.gain, now
         yield AudioGain(announced.clip, unit.gain, now)

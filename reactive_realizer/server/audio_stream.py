@@ -108,8 +108,8 @@ def messages_of(change: AudioChange) -> Iterator[Message]:
                 yield {"type": "caption", **common, "text": clip.caption.text, "words": words}
             if clip.sound.wav:
                 yield {"type": "audio", **common, "url": f"/audio/{clip.id}.wav"}
-        case AudioMove(id_, start):
-            yield {"type": "audio_move", "id": id_, "start": round(start, 6)}
+        case AudioMove(id_, start, time):
+            yield {"type": "audio_move", "id": id_, "start": round(start, 6), "time": round(time, 6)}
         case AudioGain(id_, gain, time):
             yield {"type": "audio_gain", "id": id_, "gain": round(gain, 6), "time": round(time, 6)}
         case AudioStop(id_, time, fade):

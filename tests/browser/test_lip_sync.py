@@ -23,6 +23,4 @@ async def test_the_mouth_is_with_the_sound_through_interruptions_and_jitter(
     for condition in ("near", "jitter"):
         figures = measured[condition]
         assert figures["frames"] > 60, measured
-        # On a busy machine, a sound begins late now and then, and the speech follows within half a second; so this is
-        # about most frames, and the benchmark about all.
-        assert figures["p50_ms"] < 40, measured
+        assert figures["p90_ms"] < 40, measured

@@ -105,7 +105,7 @@ def test_a_start_that_becomes_known_later_counts() -> None:
     device = Device()
     device.mixer.take(start(None, steady()))
     device.play(0.3)
-    device.mixer.take(AudioMove("s", GlobalTime(10.6)))
+    device.mixer.take(AudioMove("s", GlobalTime(10.6), GlobalTime(device.now)))
     device.play(0.5)
     assert onset(device) == pytest.approx(10.6, abs=0.0015)
 

@@ -82,7 +82,7 @@ def test_a_moved_start_is_announced(scene: Scene) -> None:
     scene.changes(0.0)
     with scene.graph.transaction("move"):
         scene.start.set(GlobalTime(2.5))
-    assert scene.changes(0.01) == (AudioMove("alice-audio-1", GlobalTime(2.5)),)
+    assert scene.changes(0.01) == (AudioMove("alice-audio-1", GlobalTime(2.5), GlobalTime(0.01)),)
 
 
 def test_a_sound_is_announced_before_its_start_is_known(scene: Scene) -> None:
@@ -93,7 +93,7 @@ def test_a_sound_is_announced_before_its_start_is_known(scene: Scene) -> None:
     assert start.start is None
     with scene.graph.transaction("known"):
         scene.start.set(GlobalTime(2.5))
-    assert scene.changes(0.01) == (AudioMove("alice-audio-1", GlobalTime(2.5)),)
+    assert scene.changes(0.01) == (AudioMove("alice-audio-1", GlobalTime(2.5), GlobalTime(0.01)),)
 
 
 def test_a_sound_whose_start_never_became_known_is_stopped_with_its_unit(scene: Scene) -> None:

@@ -37,8 +37,8 @@ async def test_sounds_are_announced_and_can_be_fetched(on_air: Open) -> None:
         async with air.client.get(told["url"]) as answer:
             assert answer.content_type == "audio/wav"
             assert await answer.read() == b"RIFFc1"
-        air.live.sounds.take(AudioMove("c1", GlobalTime(0.75)))
-        assert await socket.hear("audio_move") == {"type": "audio_move", "id": "c1", "start": 0.75}
+        air.live.sounds.take(AudioMove("c1", GlobalTime(0.75), GlobalTime(0.6)))
+        assert await socket.hear("audio_move") == {"type": "audio_move", "id": "c1", "start": 0.75, "time": 0.6}
         air.live.sounds.take(AudioGain("c1", 1.5, GlobalTime(0.8)))
         assert await socket.hear("audio_gain") == {"type": "audio_gain", "id": "c1", "gain": 1.5, "time": 0.8}
         air.live.sounds.take(AudioStop("c1", GlobalTime(1.0), 0.03))
@@ -53,7 +53,7 @@ async def test_a_late_client_gets_the_current_state_of_sounds_that_have_not_ende
             clip("stopped", 0.5),
             AudioStop("stopped", GlobalTime(0.6), 0.1),
             clip("moved", 1.0),
-            AudioMove("moved", GlobalTime(2.5)),
+            AudioMove("moved", GlobalTime(2.5), GlobalTime(2.0)),
             AudioGain("moved", 0.5, GlobalTime(2.8)),
             clip("ending", 2.0),
             AudioStop("ending", GlobalTime(3.5), 0.1),

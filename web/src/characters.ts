@@ -2,6 +2,7 @@ import type { Object3D } from "three";
 
 import { Avatar } from "./avatar";
 import type { Frame } from "./binary";
+import { FaceClock } from "./clock";
 import { Playout } from "./playout";
 import type { Character, Position } from "./protocol";
 import type { Quality } from "./viewport";
@@ -10,6 +11,7 @@ import type { Quality } from "./viewport";
 interface LoadedCharacter {
   character: Character;
   playout: Playout;
+  face: FaceClock;
   avatar: Avatar | null;
 }
 
@@ -60,10 +62,14 @@ export class Characters {
     this.byIndex.get(frame.character)?.playout.push(frame);
   }
 
-  /** Poses all characters as of a realizer time (s). An avatar enters the scene with its first pose. */
-  show(time: number): void {
-    for (const { playout, avatar } of this.byIndex.values()) {
-      const pose = playout.sample(time);
+  /**
+   * Poses all characters as of a realizer time (s). An avatar enters the scene with its first pose.
+   *
+   * `heard` gives the time of the frame that shows what is heard of a character, null if nothing is.
+   */
+  show(time: number, heard: (character: string) => number | null): void {
+    for (const { character, playout, face, avatar } of this.byIndex.values()) {
+      const pose = playout.sample(time, face.at(time, heard(character.id)));
       if (pose === null || avatar === null) continue;
       avatar.apply(pose);
       if (avatar.object.parent === null) this.scene.add(avatar.object);
@@ -99,7 +105,7 @@ export class Characters {
   }
 
   private add(character: Character): void {
-    const added: LoadedCharacter = { character, playout: new Playout(), avatar: null };
+    const added: LoadedCharacter = { character, playout: new Playout(), face: new FaceClock(), avatar: null };
     this.byIndex.set(character.index, added);
     Avatar.load(character, this.quality).then(
       (avatar) => {

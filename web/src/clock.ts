@@ -25,6 +25,12 @@ const EASES = 0.9;
 /** Greatest deviation from the rate of real time while the playout clock closes a gap. */
 const GLIDE = 0.05;
 
+/** Greatest distance of the time of a face from the time shown, s. */
+export const FURTHEST_FACE = 0.3;
+
+/** Rate at which a face returns to the time shown, when nothing of it is heard any more, s per s. */
+const FACE_RETURNS = 0.5;
+
 /** Gap above which the playout clock jumps, because gliding would take too long, s. */
 const JUMP = 0.25;
 
@@ -117,6 +123,25 @@ export class PlayoutClock {
   /** The time shown at a page time, s; null before the first call of `follow`. */
   at(page: number): number | null {
     return this.offset === null ? null : page + this.offset;
+  }
+}
+
+/**
+ * The time of the frame that shows the face of a character: that of the sound that is heard, so that lips and sound are
+ * together also before the realizer knows that a sound came late.
+ */
+export class FaceClock {
+  /** From the time shown, s. */
+  private shift = 0;
+  private lastTime = 0;
+
+  /** The time for a time shown, and for that of the frame of what is heard, null if nothing is; all in s. */
+  at(time: number, heard: number | null): number {
+    const step = FACE_RETURNS * Math.max(0, time - this.lastTime);
+    this.lastTime = time;
+    if (heard === null) this.shift -= Math.min(step, Math.max(-step, this.shift));
+    else this.shift = Math.min(FURTHEST_FACE, Math.max(-FURTHEST_FACE, heard - time));
+    return time + this.shift;
   }
 }
 

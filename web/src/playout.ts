@@ -1,15 +1,23 @@
 import { MathUtils, Quaternion } from "three";
 
 import { emptyPose, type Frame, type Pose } from "./binary";
+import { FURTHEST_FACE } from "./clock";
 
 /** Most frames kept: two seconds at 50 frames a second, far more than the playout delay needs. */
 const CAPACITY = 100;
 
+/** Two frames, and the share of the second one in the pose between them. */
+interface Between {
+  from: Frame;
+  to: Frame;
+  ratio: number;
+}
+
 /**
  * The playout buffer of one character: takes frames as they arrive, and gives the pose at any time.
  *
- * Between two frames the pose is interpolated by their times; after the last one it holds. Past frames are dropped;
- * without samples, the oldest ones.
+ * Between two frames the pose is interpolated by their times; after the last one it holds. Frames are dropped when no
+ * face can need them any more; without samples, the oldest ones.
  */
 export class Playout {
   /** Number of frames whose time has come, including those skipped between two samples. */
@@ -31,39 +39,52 @@ export class Playout {
   }
 
   /**
-   * The pose at a realizer time (s); null before the first frame. The next call overwrites it.
+   * The pose at a realizer time, with the face at another one, which is close to it (s); null before the first frame.
+   * The next call overwrites it.
    *
    * Time must not go back: earlier frames are dropped.
    */
-  sample(time: number): Pose | null {
-    this.dropPassed(time);
-    const [from, to] = this.frames;
-    if (from === undefined) return null;
-    if (time >= from.time) this.note(from);
-    if (to === undefined || time <= from.time) return from;
-    return this.between(from, to, (time - from.time) / (to.time - from.time));
+  sample(time: number, face = time): Pose | null {
+    this.note(time);
+    this.drop(time - FURTHEST_FACE);
+    const [body, head] = [this.around(time), this.around(face)];
+    return body === null || head === null ? null : this.between(body, head);
   }
 
-  private dropPassed(time: number): void {
+  private note(time: number): void {
+    for (const frame of this.frames) {
+      if (frame.time > time || (this.lastTime !== null && frame.time <= this.lastTime)) continue;
+      this.played++;
+      this.lastTime = frame.time;
+    }
+  }
+
+  /** Drops the frames before the last one at or before a time. */
+  private drop(time: number): void {
     let passed = 0;
-    while (passed + 1 < this.frames.length && (this.frames[passed + 1]?.time ?? Infinity) <= time) passed++;
-    for (const frame of this.frames.splice(0, passed)) this.note(frame);
+    while ((this.frames[passed + 1]?.time ?? Infinity) <= time) passed++;
+    this.frames.splice(0, passed);
   }
 
-  private note(frame: Frame): void {
-    if (this.lastTime !== null && frame.time <= this.lastTime) return;
-    this.played++;
-    this.lastTime = frame.time;
+  private around(time: number): Between | null {
+    const next = this.frames.findIndex((frame) => frame.time > time);
+    const to = this.frames.at(next);
+    const from = this.frames[next - 1] ?? to;
+    if (from === undefined || to === undefined) return null;
+    return from === to || next < 0
+      ? { from: to, to, ratio: 0 }
+      : { from, to, ratio: (time - from.time) / (to.time - from.time) };
   }
 
-  private between(from: Frame, to: Frame, ratio: number): Pose {
-    const pose = this.poseLike(from);
+  private between(body: Between, face: Between): Pose {
+    const pose = this.poseLike(body.from);
     for (let i = 0; i < pose.rotations.length; i += 4) {
-      this.rotation.fromArray(from.rotations, i).slerp(this.target.fromArray(to.rotations, i), ratio);
+      this.target.fromArray(body.to.rotations, i);
+      this.rotation.fromArray(body.from.rotations, i).slerp(this.target, body.ratio);
       this.rotation.toArray(pose.rotations, i);
     }
-    interpolate(pose.weights, from.weights, to.weights, ratio);
-    interpolate(pose.root, from.root, to.root, ratio);
+    interpolate(pose.root, body.from.root, body.to.root, body.ratio);
+    interpolate(pose.weights, face.from.weights, face.to.weights, face.ratio);
     return pose;
   }
 

@@ -255,12 +255,13 @@ export interface Caption {
   gain: number;
 }
 /**
- * A new start time of a sound, or of a caption.
+ * A new start time of a sound, or of a caption, which the frames of time and later show.
  */
 export interface AudioMove {
   type: "audio_move";
   id: string;
   start: Seconds;
+  time: Seconds;
 }
 /**
  * A new gain of a sound from time on; at most one per tick and sound.

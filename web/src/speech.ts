@@ -23,6 +23,9 @@ const OFF = 0.07;
 /** Delay up to which a sound that comes late is played from its first word, s: that up to which the realizer follows. */
 const FOLLOWED = 1;
 
+/** Time before a sound in which the lips move towards its first shape, s. */
+const APPROACH = 0.2;
+
 /** Number of reports for which a sound may be off, before it skips: the realizer follows another page. */
 const PATIENCE = 8;
 
@@ -45,6 +48,8 @@ export class SpeechPlayer {
   private utterances = new Map<string, Utterance>();
   /** Sounds that have been sent, by the id under which they are announced next. */
   private readonly sent = new Map<string, ArrayBuffer>();
+  /** The id of the last caption: the sound that follows it is spoken. */
+  private captioned = "";
   private nextReport = 0;
   private soon = 0;
 
@@ -72,13 +77,28 @@ export class SpeechPlayer {
     return begin === null || this.context.state !== "running" ? null : heardTime(this.context) - begin;
   }
 
+  /** The time of the frame that shows what is heard of the speech of a character, s; null if nothing is. */
+  frameTime(character: string): number | null {
+    if (this.context.state !== "running") return null;
+    const heard = heardTime(this.context);
+    for (const utterance of this.utterances.values()) {
+      if (utterance.announced.character !== character || !utterance.spoken) continue;
+      const position = utterance.positionAt(heard, APPROACH);
+      if (position !== null) return utterance.frameTime(position);
+    }
+    return null;
+  }
+
   /** Takes a sound that is announced next. */
   take({ id, wav }: Sound): void {
     this.sent.set(id, wav);
   }
 
   handle(message: AudioMessage): void {
-    if (message.type === "caption") return;
+    if (message.type === "caption") {
+      this.captioned = message.id;
+      return;
+    }
     if (message.type === "audio") {
       this.announce(message);
       return;
@@ -87,7 +107,7 @@ export class SpeechPlayer {
     if (utterance === undefined) return;
     switch (message.type) {
       case "audio_move":
-        utterance.move(message.start);
+        utterance.move(message.start, message.time);
         if (!this.onTime(utterance)) this.schedule(utterance);
         break;
       case "audio_gain":
@@ -127,7 +147,7 @@ export class SpeechPlayer {
 
   private announce(message: AudioStart): void {
     this.utterances.get(message.id)?.silence();
-    const utterance = new Utterance(message, this.context);
+    const utterance = new Utterance(message, message.id === this.captioned, this.context);
     this.utterances.set(message.id, utterance);
     this.forgetOldest();
     const sent = this.sent.get(message.id);

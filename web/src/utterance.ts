@@ -12,6 +12,12 @@ export interface Entry {
   offset: number;
 }
 
+/** A realizer time of the first sample (s, Infinity while it is unknown), which the frames from `shown` on show. */
+interface Start {
+  time: number;
+  shown: number;
+}
+
 /** A gain (1: as recorded) from a realizer time on. */
 interface GainChange {
   time: number;
@@ -25,8 +31,8 @@ export function entry(begin: number, now: number): Entry {
 
 /** One utterance: its samples, and the audio nodes that play them once it is scheduled. */
 export class Utterance {
-  /** Realizer time of its first sample, s; `audio_move` changes it. Infinity while it is unknown. */
-  start: number;
+  /** Its starts, in order; `audio_move` adds one. */
+  private readonly starts: Start[];
   /** How many times in a row it was heard far off its plan. */
   strayed = 0;
   /** Audio time at which its first sample is (or would have been) played, s; null while not scheduled. */
@@ -39,11 +45,18 @@ export class Utterance {
   private source: AudioBufferSourceNode | null = null;
   private gain: GainNode | null = null;
 
+  /** @param spoken - whether lips move with it */
   constructor(
     readonly announced: AudioStart,
+    readonly spoken: boolean,
     private readonly context: AudioContext,
   ) {
-    this.start = announced.start ?? Infinity;
+    this.starts = [{ time: announced.start ?? Infinity, shown: -Infinity }];
+  }
+
+  /** Realizer time of its first sample, s; Infinity while it is unknown. */
+  get start(): number {
+    return this.starts.at(-1)?.time ?? Infinity;
   }
 
   /** Realizer time after which it is silent, s. */
@@ -87,16 +100,23 @@ export class Utterance {
     this.applyStop();
   }
 
-  /** The position that is heard at an audio time, s; null while nothing of it is heard. */
-  positionAt(audio: number): number | null {
+  /** The position that is heard at an audio time, s, negative for up to `ahead` s; null while nothing of it is heard. */
+  positionAt(audio: number, ahead = 0): number | null {
     if (this.begin === null) return null;
     const position = audio - this.begin;
-    return position >= 0 && position < this.end - this.start ? position : null;
+    return position >= -ahead && position < this.end - this.start ? position : null;
   }
 
-  /** Changes the realizer time of the first sample, without a change of what is played. */
-  move(start: number): void {
-    this.start = start;
+  /** The time of the frame that shows a position; both s. */
+  frameTime(position: number): number {
+    return this.starts.reduce((time, { time: start, shown }) => {
+      return time < shown ? time : Math.max(shown, start + position);
+    }, Infinity);
+  }
+
+  /** Changes the realizer time of the first sample, in the frames from `shown` on, without a change of what is played. */
+  move(start: number, shown: number): void {
+    this.starts.push({ time: start, shown });
     this.applyStop();
   }
 

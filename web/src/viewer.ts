@@ -119,7 +119,7 @@ export class Viewer implements ConnectionListener {
     const time = this.followFrames();
     for (const report of this.speech.report()) this.connection.notify(report);
     if (time !== null) {
-      this.characters.show(time);
+      this.characters.show(time, (id) => this.speech.frameTime(id));
       this.captionsPanel.show(this.captions.at(time));
     }
     if (this.characters.complete) this.viewport.frame(page, this.characters.roots());

@@ -60,7 +60,7 @@ describe("captions", () => {
     const captions = new Captions(silent);
     captions.handle(caption("One, two three.", { start: null }));
     expect(read(captions, 10.7)).toEqual([]);
-    captions.handle({ type: "audio_move", id: "s1", start: 10.6 });
+    captions.handle({ type: "audio_move", id: "s1", start: 10.6, time: 10 });
     expect(read(captions, 10.7)).toEqual(["[One], two three."]);
   });
 

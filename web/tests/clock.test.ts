@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 
-import { FrameClock, heardTime, PlayoutClock, PlayoutDelay } from "../src/clock";
+import { FaceClock, FrameClock, heardTime, PlayoutClock, PlayoutDelay } from "../src/clock";
 
 describe("the frame clock", () => {
   it("knows nothing before the first message", () => {
@@ -112,5 +112,20 @@ describe("the playout clock", () => {
 describe("what is heard", () => {
   it("was played one output latency ago", () => {
     expect(heardTime({ currentTime: 3, outputLatency: 0.04, baseLatency: 0.01 })).toBeCloseTo(2.96, 9);
+  });
+});
+
+describe("the face clock", () => {
+  it("shows the time of what is heard, within limits", () => {
+    const face = new FaceClock();
+    expect(face.at(10, 9.92)).toBeCloseTo(9.92, 9);
+    expect(face.at(10.1, 12)).toBeCloseTo(10.4, 9);
+  });
+
+  it("glides back to the time shown when nothing is heard any more", () => {
+    const face = new FaceClock();
+    face.at(10, 9.9);
+    expect(face.at(10.1, null)).toBeCloseTo(10.05, 9);
+    expect(face.at(10.3, null)).toBeCloseTo(10.3, 9);
   });
 });

@@ -57,11 +57,11 @@ describe("a connection", () => {
     FakeSocket.last.greet("a");
     FakeSocket.last.deliverBinary(encodeFrame({ time: 2 }));
     FakeSocket.last.deliverBinary(new Uint8Array([2, 1, 1, 0, 115, 82, 73]).buffer);
-    FakeSocket.last.deliver({ type: "audio_move", id: "s", start: 3 });
+    FakeSocket.last.deliver({ type: "audio_move", id: "s", start: 3, time: 2.5 });
     FakeSocket.last.deliver({ type: "board", time: 1, pegs: [], commits: [] });
     expect(listener.onFrames).toHaveBeenCalledWith([expect.objectContaining({ time: 2 })]);
     expect(listener.onSound).toHaveBeenCalledWith(expect.objectContaining({ id: "s" }));
-    expect(listener.onAudio).toHaveBeenCalledWith({ type: "audio_move", id: "s", start: 3 });
+    expect(listener.onAudio).toHaveBeenCalledWith({ type: "audio_move", id: "s", start: 3, time: 2.5 });
     expect(listener.onBoard).toHaveBeenCalledOnce();
   });
 });

@@ -80,4 +80,13 @@ describe("the playout buffer", () => {
     expect(playout.played).toBe(10);
     expect(playout.lastTime).toBeCloseTo(0.18, 9);
   });
+
+  it("shows the face of another time than the body", () => {
+    const playout = playoutOf(
+      ...counted(30).map((frame, i) => ({ ...frame, root: [i, 0, 0] as [number, number, number] })),
+    );
+    const pose = playout.sample(0.4, 0.15);
+    expect(pose?.root[0]).toBeCloseTo(20, 4);
+    expect(pose?.weights[0]).toBeCloseTo(0.075, 4);
+  });
 });

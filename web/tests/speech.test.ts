@@ -1,7 +1,7 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 
 import { PlayoutClock, PlayoutDelay } from "../src/clock";
-import type { AudioStart } from "../src/protocol";
+import type { AudioMove, AudioStart } from "../src/protocol";
 import { SpeechPlayer } from "../src/speech";
 import { FakeAudio, played } from "./fake_audio";
 
@@ -27,6 +27,18 @@ function reported(player: SpeechPlayer): number | null {
 
 function announced(start: number, duration = 2): AudioStart {
   return { type: "audio", character: "alice", id: "s1", url: "/audio/s1.wav", start, duration, gain: 0.8 };
+}
+
+/** A new start, which the frames from `time` on show. */
+function moved(start: number, time: number): AudioMove {
+  return { type: "audio_move", id: "s1", start, time };
+}
+
+/** Has the player play a speech that is planned for `start`. */
+async function spoken(player: SpeechPlayer, start: number): Promise<void> {
+  player.handle({ ...announced(start), type: "caption", text: "One.", words: [] });
+  player.handle(announced(start));
+  await played.settled();
 }
 
 beforeEach(() => {
@@ -68,7 +80,7 @@ describe("speech", () => {
     player.handle({ ...announced(0), start: null });
     await played.settled();
     expect(played.sources).toEqual([]);
-    player.handle({ type: "audio_move", id: "s1", start: 10.5 });
+    player.handle(moved(10.5, 10));
     expect(played.last.at).toBeCloseTo(3.5 - LATENCY, 9);
   });
 
@@ -175,7 +187,7 @@ describe("speech", () => {
     await played.settled();
     audio.currentTime = 3.4; // 0.2 s late
     vi.advanceTimersByTime(600);
-    player.handle({ type: "audio_move", id: "s1", start: 10.2 });
+    player.handle(moved(10.2, 10.6));
     expect(played.sources).toHaveLength(1);
     expect(player.records[0]).toMatchObject({ start: 10.2, end: 12.2 });
     player.handle({ type: "audio_stop", id: "s1", time: 11.2, fade: 0 });
@@ -188,7 +200,7 @@ describe("speech", () => {
     await played.settled();
     audio.currentTime = 3.6;
     vi.advanceTimersByTime(600);
-    player.handle({ type: "audio_move", id: "s1", start: 10.2 });
+    player.handle(moved(10.2, 10.6));
     expect(played.sources).toHaveLength(2);
     expect(played.last.offset).toBeCloseTo(0.4, 9);
   });
@@ -214,7 +226,7 @@ describe("speech", () => {
     player.handle(announced(10.5));
     await played.settled();
     const first = played.last;
-    player.handle({ type: "audio_move", id: "s1", start: 10.8 });
+    player.handle(moved(10.8, 10));
     expect(first.stopped).toBe(true);
     expect(played.sources).toHaveLength(2);
     expect(played.last.at).toBeCloseTo(3.8 - LATENCY, 9);
@@ -309,5 +321,61 @@ describe("speech", () => {
     player.clear();
     expect(played.last.stopped).toBe(true);
     expect(player.records).toEqual([]);
+  });
+});
+
+describe("the face of a speech", () => {
+  /** Has the audio clock play the last sound until a position is heard, s. */
+  function hear(audio: FakeAudio, position: number): void {
+    audio.currentTime = played.last.at + position + LATENCY;
+  }
+
+  it("is that of the frame which shows the position that is heard", async () => {
+    const { player, audio } = playerAt(9.9, 3);
+    await spoken(player, 10);
+    hear(audio, 0.5);
+    expect(player.frameTime("alice")).toBeCloseTo(10.5, 9);
+  });
+
+  it("is that of an earlier frame than the body while a sound plays late", async () => {
+    const { player, audio } = playerAt(10.1, 3);
+    await spoken(player, 10);
+    hear(audio, 0);
+    expect(player.frameTime("alice")).toBeCloseTo(10, 9);
+  });
+
+  it("passes without a jump to the frames that show the speech as late as it is", async () => {
+    const { player, audio } = playerAt(10, 3);
+    await spoken(player, 10.5);
+    vi.advanceTimersByTime(1100);
+    hear(audio, 0.5); // 0.1 s late
+    player.handle(moved(10.6, 11.1));
+    const times = [0.5, 0.59, 0.61, 0.7].map((position) => {
+      hear(audio, position);
+      return player.frameTime("alice");
+    });
+    expect(times).toEqual([11, 11.09, 11.21, 11.3].map((time) => expect.closeTo(time, 6) as number));
+  });
+
+  it("approaches its first shape before the sound, and is free after it", async () => {
+    const { player, audio } = playerAt(10, 3);
+    await spoken(player, 10.5);
+    const times = [-0.3, -0.1, 1.9, 2.1].map((position) => {
+      hear(audio, position);
+      return player.frameTime("alice");
+    });
+    expect(times).toEqual([null, expect.closeTo(10.4, 6), expect.closeTo(12.4, 6), null]);
+  });
+
+  it("does not follow the speech of others, nor a sound that is not spoken", async () => {
+    const { player, audio } = playerAt(10, 3);
+    player.handle(announced(10));
+    await played.settled();
+    hear(audio, 0.5);
+    expect(player.frameTime("alice")).toBeNull();
+    await spoken(player, 10);
+    hear(audio, 0.5);
+    expect(player.frameTime("alice")).not.toBeNull();
+    expect(player.frameTime("bert")).toBeNull();
   });
 });
