@@ -27,6 +27,12 @@ Changes of less than three semitones are hardly noticed: J. 't Hart, "Differenti
 particularly in speech" (Journal of the Acoustical Society of America 69, 1981).
 """
 
+_LONGEST: Final = 15.0
+"""The longest phrase of which the pitch is estimated, s; it takes 3 ms of a tick per second.
+
+Few phrases last more than 5 s, but a word can have thousands of letters, and a recording of one word many minutes.
+"""
+
 _WEIGHTS: Final = (0.35, 0.4, 0.25)
 """Shares of stress, pitch and content in the prominence of a word; our choice."""
 
@@ -182,7 +188,9 @@ def _with_items(phrases: list[Phrase]) -> list[Phrase]:
 
 
 def _rises(phrase: Phrase, rate: int, sounds: Iterable[SoundPart]) -> list[float | None]:
-    """How much the pitch of each word stands out in its phrase, 0 to 1; None where no voice is heard."""
+    """How much the pitch of each word stands out in its phrase, 0 to 1; None where it is not found."""
+    if phrase.end - phrase.start > _LONGEST:
+        return [None] * len(phrase.words)
     heard = np.zeros(max(0, int((phrase.end - phrase.start) * rate)), "<i2")
     for begin, sound in sounds:
         own = np.frombuffer(sound.pcm(phrase.start - begin, phrase.end - begin), "<i2")

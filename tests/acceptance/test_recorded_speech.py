@@ -3,7 +3,8 @@
 import asyncio
 import io
 import json
-from collections.abc import AsyncIterator
+import threading
+from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager
 from pathlib import Path
 from typing import Any
@@ -17,7 +18,8 @@ from reactive_realizer.bml.names import OWN
 from reactive_realizer.embodiment.audio import AudioStart, AudioStop
 from reactive_realizer.engine.tts import Utterance, completed
 from reactive_realizer.engines.speech.espeak_voice import EspeakVoice
-from reactive_realizer.engines.speech.recorded import aligner
+from reactive_realizer.engines.speech.recorded import aligner, recordings
+from reactive_realizer.engines.speech.recorded.spread import spread
 from reactive_realizer.testing.assertions import assert_time
 from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
@@ -262,6 +264,28 @@ async def test_of_many_recordings_that_come_at_once_one_is_searched_at_a_time(
         assert pilot.feedback.reached("b:u:end")
 
 
+async def test_samples_are_read_mixed_and_searched_in_other_threads_so_that_ticks_go_on(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    threads: list[threading.Thread] = []
+
+    def noting(work: Callable[..., object]) -> Callable[..., object]:
+        def noted(*arguments: object) -> object:
+            threads.append(threading.current_thread())
+            return work(*arguments)
+
+        return noted
+
+    monkeypatch.setattr(recordings, "read_mono", noting(recordings.read_mono))
+    monkeypatch.setattr(recordings, "spread", noting(spread))
+    monkeypatch.setattr(aligner, "find_spec", lambda _: None)
+    (folder / "a.json").unlink()
+    async with played(folder, speech()) as pilot:
+        assert pilot.feedback.reached("b:s:end")
+    assert len(threads) == 2
+    assert threading.main_thread() not in threads
+
+
 async def test_a_recording_without_a_text_plays(folder: Path) -> None:
     async with played(folder, speech(text="")) as pilot:
         assert warnings(pilot) == []
@@ -282,6 +306,11 @@ BAD: dict[str, tuple[str, dict[str, str], str]] = {
     "other words": ('<file ref="a.wav"/>', {"a.json": '{"words": [["Hi", 0]]}'}, "'Hi' instead of 'My mother is here'"),
     "no JSON": ('<file ref="a.wav"/>', {"a.json": "words"}, "a.json: not JSON"),
     "other JSON": ('<file ref="a.wav"/>', {"a.json": '{"words": [["Hi"]]}'}, "a.json: $.words[0]"),
+    "a time with too many digits": (
+        '<file ref="a.wav"/>',
+        {"a.json": f'{{"words": [["My", 0], ["mother", 1], ["is", 1], ["here", {"9" * 4000}]]}}'},
+        "the times of the words are not in order from 0 to 2.00 s",
+    ),
     "no order": (
         '<file ref="a.wav"/>',
         {"a.json": '{"words": [["My", 0.2], ["mother", 0.1], ["is", 1], ["here", NaN]]}'},

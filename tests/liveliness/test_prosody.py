@@ -87,6 +87,13 @@ def test_the_pitch_is_that_of_the_sound_as_it_is_heard() -> None:
     assert last > max(others) + 0.3
 
 
+def test_the_pitch_of_a_phrase_that_lasts_for_long_is_not_estimated() -> None:
+    said = utterance("old new of", voice(150.0) + voice(200.0) + voice(150.0, seconds=20.0))
+    (phrase,) = phrases_of(replace(said, duration=21.0), FUNCTION_WORDS)
+    low, high, _ = with_prominence(phrase, said, sounds(said)).words
+    assert low.prominence == high.prominence
+
+
 def test_without_sound_and_phonemes_content_words_are_prominent() -> None:
     said = utterance("the top of it")
     (phrase,) = phrases_of(said, FUNCTION_WORDS)

@@ -74,8 +74,7 @@ class Recordings:
             RealizerError: the file or its times cannot be read, or a mark lies after its end.
         """
         path = self.file(speech)
-        stereo, rate = await asyncio.to_thread(read_samples, path, self._longest)
-        samples = stereo.mean(axis=1).astype("<i2")
+        samples, rate = await asyncio.to_thread(read_mono, path, self._longest)
         duration = len(samples) / rate
         spans = word_spans(speech.text)
         spoken = [speech.text[first:last] for first, last in spans]
@@ -105,7 +104,7 @@ class Recordings:
             async with self._aligning:  # a client may send hundreds of recordings at once
                 return await aligned(path.name, words, samples, rate), None
         except RealizerError as problem:
-            return spread(words, samples, rate), problem.fault
+            return await asyncio.to_thread(spread, words, samples, rate), problem.fault
 
     def _beside(self, speech: RecordedSpeech, suffix: str) -> Path | None:
         """The file with the times of a recording, which has its name and another suffix."""
@@ -115,3 +114,9 @@ class Recordings:
             if isinstance(problem.fault, NoAsset):
                 return None
             raise
+
+
+def read_mono(path: Path, longest: float) -> tuple[NDArray[np.int16], int]:
+    """The samples (N,) of a sound file, mixed to mono, and their rate; see `read_samples`."""
+    samples, rate = read_samples(path, longest)
+    return samples.mean(axis=1).astype("<i2"), rate

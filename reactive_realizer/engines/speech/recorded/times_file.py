@@ -58,7 +58,7 @@ def read_times(path: Path, words: Sequence[str], duration: float) -> SpeechTimes
 
 def _read_json(path: Path, duration: float) -> tuple[_Timed, tuple[Phoneme, ...]]:
     try:
-        table: dict[str, Any] = json.loads(read_bytes(path))
+        table: dict[str, Any] = json.loads(read_bytes(path), parse_int=float)
         jsonschema.validate(table, _SCHEMA)
     except jsonschema.ValidationError as problem:
         raise _bad(path, f"{problem.json_path}: {problem.message}") from problem
