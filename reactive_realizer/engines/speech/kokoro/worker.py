@@ -11,10 +11,10 @@ FOLDER = "REACTIVE_REALIZER_KOKORO"
 """The environment variable that names a folder with weights or styles of the user."""
 
 
-def _load() -> KokoroModel:
+def _load() -> list[KokoroModel]:
     own = Path(os.environ[FOLDER]) if FOLDER in os.environ else None
     packaged = Path(str(files("reactive_realizer") / "assets/voices/kokoro"))
-    return KokoroModel(own, read_styles([packaged, *([own] if own else [])]))
+    return [KokoroModel(own, read_styles([packaged, *([own] if own else [])]))]
 
 
 if __name__ == "__main__":

@@ -37,17 +37,15 @@ class Predicted:
 
 
 class SpeakingNetwork(Protocol):
-    """A network of a voice.
+    """A network with one or more voices.
 
     Attributes:
-        hello: what the realizer is told of it.
-        voices: the names of its voices.
-        vowel: the token of a vowel, with which it is warmed up.
+        hello: what the realizer is told of it, with the names of its ``voices``.
+        trial: tokens with which it is tried out and warmed up.
     """
 
     hello: Mapping[str, Any]
-    voices: Sequence[str]
-    vowel: int
+    trial: Sequence[int]
 
     def predict(self, tokens: Sequence[int], voice: str, rate: float) -> Predicted:
         """The times and the melody of a sentence.

@@ -1,15 +1,15 @@
-"""What a worker with a network does: it answers requests until its input ends.
+"""What a worker with networks does: it answers requests until its input ends.
 
-Its first message tells of the network. A request names a voice, and contains the tokens and the rate of a sentence. The
-reply contains the frames of each token or, if the request names frames, the sound of these.
+Its first message tells of the networks. A request names a voice, and contains the tokens and the rate of a sentence.
+The reply contains the frames of each token or, if the request names frames, the sound of these.
 """
 
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache
 from typing import Any
 
-from reactive_realizer.engines.speech.neural.network import SpeakingNetwork, UnusableNetwork
+from reactive_realizer.engines.speech.neural.network import Predicted, SpeakingNetwork, UnusableNetwork
 from reactive_realizer.engines.speech.worker_messages import WorkerMessage, WorkerPipe
 
 _REMEMBERED = 32
@@ -20,41 +20,46 @@ _WARMING = 20
 """Frames that are spoken for nothing."""
 
 
-def run(load: Callable[[], SpeakingNetwork]) -> None:
+def run(load: Callable[[], Sequence[SpeakingNetwork]]) -> None:
     """Answers the requests on standard input, in order, on standard output.
 
     Args:
-        load: loads the network; if it cannot be used, the first message says why, and is the only one.
+        load: loads the networks; if one cannot be used, the first message says why, and is the only one.
     """
     pipe = WorkerPipe()
     os.nice(_NICENESS)
     try:
-        network = load()
+        networks = load()
+        for network in networks:
+            _try_out(network)
     except (UnusableNetwork, OSError, ValueError) as problem:
         pipe.send(WorkerMessage({"failed": str(problem)}).encode())
         return
-    speaker = _Speaker(network)
-    speaker.warm_up()
-    pipe.send(WorkerMessage(dict(network.hello)).encode())
+    speaker = _Speaker(networks)
+    pipe.send(WorkerMessage({"networks": [dict(network.hello) for network in networks]}).encode())
     for request in pipe.requests():
         pipe.send(speaker.answer(request.header).encode())
 
 
-class _Speaker:
-    """The network, with the last sentences that it has predicted, of which it will be asked to speak some frames."""
+def _try_out(network: SpeakingNetwork) -> None:
+    """Speak something: the first time takes longer."""
+    predicted = network.predict(network.trial, network.hello["voices"][0], 1.0)
+    network.speak(predicted, 0, min(_WARMING, sum(predicted.durations)))
 
-    def __init__(self, network: SpeakingNetwork) -> None:
-        self._network = network
-        self._predict = lru_cache(_REMEMBERED)(network.predict)
+
+class _Speaker:
+    """Networks, with the last sentences that they have predicted, of which they will be asked to speak some frames."""
+
+    def __init__(self, networks: Sequence[SpeakingNetwork]) -> None:
+        self._networks = {voice: network for network in networks for voice in network.hello["voices"]}
+        self._predict = lru_cache(_REMEMBERED)(self._predicted)
 
     def answer(self, request: Mapping[str, Any]) -> WorkerMessage:
         """The reply to a request."""
         predicted = self._predict(tuple(request["tokens"]), request["voice"], request["rate"])
         if "frames" not in request:
             return WorkerMessage({"durations": predicted.durations})
-        return WorkerMessage({}, self._network.speak(predicted, *request["frames"]))
+        return WorkerMessage({}, self._networks[request["voice"]].speak(predicted, *request["frames"]))
 
-    def warm_up(self) -> None:
-        """Speak something: the first time takes longer."""
-        predicted = self._network.predict((self._network.vowel,), self._network.voices[0], 1.0)
-        self._network.speak(predicted, 0, min(_WARMING, sum(predicted.durations)))
+    def _predicted(self, tokens: tuple[int, ...], voice: str, rate: float) -> Predicted:
+        return self._networks[voice].predict(tokens, voice, rate)

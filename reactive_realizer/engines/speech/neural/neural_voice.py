@@ -48,10 +48,12 @@ class NetworkVoice:
     Attributes:
         language: the voice of espeak-ng that tells how words are pronounced.
         alphabet: in which the network is told the sounds.
+        format: of the frames in which the network counts time.
     """
 
     language: str
     alphabet: Alphabet
+    format: FrameFormat
 
 
 class NeuralVoice(ABC):
@@ -78,16 +80,12 @@ class NeuralVoice(ABC):
         self._replies: SizedCache[_Key, WorkerMessage] = SizedCache(_REMEMBERED_BYTES)
 
     @abstractmethod
-    def network_voices(self, hello: Mapping[str, Any]) -> Mapping[str, NetworkVoice]:
+    def network_voices(self, networks: Sequence[Mapping[str, Any]]) -> Mapping[str, NetworkVoice]:
         """The voices by their names, of which the first one is the default.
 
         Args:
-            hello: what the worker says of the network.
+            networks: what the worker says of each of its networks.
         """
-
-    @abstractmethod
-    def frame_format(self, hello: Mapping[str, Any]) -> FrameFormat:
-        """The frames in which the network counts time."""
 
     @classmethod
     def installed(cls) -> bool:
@@ -116,7 +114,7 @@ class NeuralVoice(ABC):
         Raises:
             RealizerError: as `start`.
         """
-        return tuple(sorted(self.network_voices(await self.worker.hello())))
+        return tuple(sorted(await self._known()))
 
     def synthesize(self, text: str, marks: tuple[tuple[str, int], ...], voice: str | None) -> AsyncIterator[Utterance]:
         """Speaks a text; see `TTSBinding.synthesize`."""
@@ -126,29 +124,31 @@ class NeuralVoice(ABC):
         self, text: str, marks: tuple[tuple[str, int], ...], voice: str | None, markup: tuple[Markup, ...]
     ) -> AsyncIterator[Utterance]:
         """Speaks a text with markup; see `MarkupTTSBinding.synthesize_markup`."""
-        hello = await self.worker.hello()
-        name, own = _named(self.network_voices(hello), voice)
-        format_ = self.frame_format(hello)
+        name, own = _named(await self._known(), voice)
+        rate = own.format.rate
         words, written = await self._write(text, markup, own)
         left_out = tuple(each for each in markup if each.kind not in FOLLOWED)
         unread = unread_scripts(text, own.language)
         timed: list[TimedSentence] = []
         lengths, audio, step = piece_lengths(), b"", 0
         for number in range(len(written)):
-            await self._predict(written, timed, number + 1, format_, name, step)
-            sound, pieces = SentenceSound(format_.rate), timed[number].pieces(lengths)
+            await self._predict(written, timed, number + 1, own.format, name, step)
+            sound, pieces = SentenceSound(rate), timed[number].pieces(lengths)
             for index, piece in enumerate(pieces, 1):
                 if step == 2:  # the first two pieces have no time to lose
-                    await self._predict(written, timed, len(written), format_, name, step)
+                    await self._predict(written, timed, len(written), own.format, name, step)
                 spoken = await self._ask(written[number], name, step, piece.frames)
                 audio += sound.add(piece, spoken.body, last=index == len(pieces))
                 if index == len(pieces):
-                    audio += bytes(2 * round(written[number].silence * format_.rate))
+                    audio += bytes(2 * round(written[number].silence * rate))
                 step += 1
-                made = as_utterance(text, words, marks, estimated(written, timed, format_), audio, format_.rate)
+                made = as_utterance(text, words, marks, estimated(written, timed, own.format), audio, rate)
                 yield replace(made, left_out=left_out, unread=unread)
         if not written:
-            yield replace(as_utterance(text, words, marks, (), b"", format_.rate), left_out=left_out, unread=unread)
+            yield replace(as_utterance(text, words, marks, (), b"", rate), left_out=left_out, unread=unread)
+
+    async def _known(self) -> Mapping[str, NetworkVoice]:
+        return self.network_voices((await self.worker.hello())["networks"])
 
     async def _write(
         self, text: str, markup: tuple[Markup, ...], voice: NetworkVoice

@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Protocol
+from unicodedata import normalize
 
 from reactive_realizer.engines.speech.espeak_utterance import PronouncedWord
 
@@ -20,13 +21,15 @@ class Alphabet:
     """The characters that a network knows.
 
     Attributes:
-        tokens: the number of each character.
+        tokens: the number of each letter and sign of IPA.
+        stops: the number of each character that may be between two words, or after the last one.
         sounds: how sounds in IPA are written; one that is not listed is written as it is, without the omitted signs.
         omitted: signs of IPA that are not written.
     """
 
     tokens: Mapping[str, int]
-    sounds: Mapping[str, str]
+    stops: Mapping[str, int]
+    sounds: Mapping[str, str] = field(default_factory=dict)
     omitted: str = ""
 
     def write(self, sound: str) -> list[int]:
@@ -35,14 +38,15 @@ class Alphabet:
         written = self.sounds.get(bare)
         if written is None:
             written = "".join(each for each in bare if each not in self.omitted)
-        return [self.tokens[each] for each in sound[: len(sound) - len(bare)] + written if each in self.tokens]
+        characters = sound[: len(sound) - len(bare)] + written
+        known = (each if each in self.tokens else normalize("NFD", each) for each in characters)
+        return [self.tokens[each] for each in "".join(known) if each in self.tokens]
 
     def punctuate(self, between: str, *, last: bool) -> list[int]:
         """The tokens of the text between two words, or after the last one: stops, quotation marks and one space."""
-        words = between.replace("\u2013", "\u2014").split()
-        joined = _SPACE.join(words)
+        joined = _SPACE.join(between.split())
         spaced = (_SPACE * between[:1].isspace() + joined + _SPACE * between[-1:].isspace()) if joined else _SPACE
-        return [self.tokens[each] for each in (spaced.rstrip() if last else spaced) if each in self.tokens]
+        return [self.stops[each] for each in (spaced.rstrip() if last else spaced) if each in self.stops]
 
 
 @dataclass(frozen=True, slots=True)
