@@ -138,6 +138,8 @@ _AROUND = """\
 | `words="true"` of `urn:reactive-realizer:1` on `speech` | yes | each word is a sync point `wordN`, counted from 0 |
 | `liveliness="0.5"` of `urn:reactive-realizer:1` on `speech` | yes | how much the speaker moves of itself, 0 to 1 \
 ([liveliness](liveliness.md)) |
+| `generatefiller="true"` of `http://www.asap-project.org/bmlis` on `speech` | yes | fillers \
+[hold the floor](planners.md#holding-the-floor) after it |
 | `accompanies="b1"` of `urn:reactive-realizer:1` on `bml` | yes | its behaviors \
 [give way](liveliness.md#accompanying-blocks) to all others, and end with `b1` |
 | other attributes | no | warning `CUSTOM_ATTRIBUTE_NOT_SUPPORTED`; their behavior plays |

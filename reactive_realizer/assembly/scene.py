@@ -24,6 +24,7 @@ from reactive_realizer.engine.guarded_engine import FAILURES
 from reactive_realizer.engine.tts import TTSBinding
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.limits import Limits
+from reactive_realizer.liveliness.fillers import read_fillers
 from reactive_realizer.liveliness.word_classes import read_word_classes
 from reactive_realizer.pegboard.anticipator import Anticipator, AnticipatorContext
 from reactive_realizer.reactive.cell import Source
@@ -36,7 +37,7 @@ _log = logging.getLogger(__name__)
 
 DEFAULT_HUMAN = PACKAGE_ASSETS / "humans" / "default.toml"
 
-WORD_CLASSES = "liveliness/english.toml"
+WORD_CLASSES, FILLERS = "liveliness/english.toml", "liveliness/fillers.toml"
 """The asset with the words with which speakers move."""
 
 
@@ -98,7 +99,7 @@ async def open_scene(options: SceneOptions) -> AsyncIterator[Scene]:
     ]
     anticipators = _anticipators(options.human.name, specification.anticipators)
     strategy: SchedulingStrategy = load("strategies", options.strategy)()
-    classes = read_word_classes(assets(WORD_CLASSES))
+    classes, fillers = read_word_classes(assets(WORD_CLASSES)), read_fillers(assets(FILLERS))
     realizer = Realizer(
         characters,
         world,
@@ -107,6 +108,7 @@ async def open_scene(options: SceneOptions) -> AsyncIterator[Scene]:
         specification.limits,
         time,
         word_classes=classes,
+        fillers=fillers,
         verify=options.verify,
     )
     await tts.start()
@@ -154,7 +156,7 @@ def _character(
     )
     engines: list[Engine] = [load("engines", name)(context) for name in spec.engines]
     mouth.voices = [engine for engine in engines if isinstance(engine, LipSyncProvider)]
-    return Character(id_, humanoid, tuple(engines))
+    return Character(id_, humanoid, tuple(engines), spec.voice_of(options.voice))
 
 
 class _Mouth:

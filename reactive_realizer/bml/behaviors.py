@@ -14,7 +14,7 @@ from reactive_realizer.bml.attributes import attribute
 from reactive_realizer.bml.behavior import Behavior, SyncPoints
 from reactive_realizer.bml.faults import TwoEnds
 from reactive_realizer.bml.markup import Markup
-from reactive_realizer.bml.names import ANTICIPATORS, BML_EXT, BMLT, EVENTS, OWN
+from reactive_realizer.bml.names import ANTICIPATORS, BML_EXT, BMLIS, BMLT, EVENTS, OWN
 from reactive_realizer.bml.sync_ref import SyncRef
 from reactive_realizer.bml.vocabulary import Influence, Mode, OffsetDirection, PosePart, Side, StanceType
 from reactive_realizer.errors import RealizerError
@@ -32,6 +32,9 @@ VOICE: Final = (BMLT, "voice")
 
 LIVELINESS: Final = (OWN, "liveliness")
 """The attribute of a speech that says how lively the character is while it speaks."""
+
+FILLER: Final = (BMLIS, "generatefiller")
+"""The attribute of a speech after which the character holds the floor with fillers."""
 
 MOST_REPETITIONS: Final = 100
 """Limit on the strokes of a head behavior; each stroke is a sync point."""

@@ -14,6 +14,8 @@ BMLA: Final = "http://www.asap-project.org/bmla"
 """BMLA: continuous interaction, of AsapRealizer."""
 BMLT: Final = "http://hmi.ewi.utwente.nl/bmlt"
 """BMLT: the extensions of Elckerlyc, from Twente."""
+BMLIS: Final = "http://www.asap-project.org/bmlis"
+"""BMLIS: incremental speech, of AsapRealizer."""
 CONTINUOUS: Final = (BMLA, BMLT)
 """The namespaces of continuous interaction; a name that both have means the same in both."""
 OWN: Final = "urn:reactive-realizer:1"

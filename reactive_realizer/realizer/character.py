@@ -13,11 +13,12 @@ from reactive_realizer.engine.engine import Engine
 
 @dataclass(frozen=True, slots=True)
 class Character:
-    """A figure with its engines, in rank order."""
+    """A figure with its engines, in rank order, and the name of its voice; None for the default one."""
 
     id: str
     humanoid: Humanoid
     engines: tuple[Engine, ...]
+    voice: str | None = None
 
     def move(self, time: GlobalTime, outputs: Sequence[Output]) -> list[Callable[[], None]]:
         """Move the figure to the pose that its engines give for a time.

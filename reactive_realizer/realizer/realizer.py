@@ -24,6 +24,9 @@ from reactive_realizer.feedback.feedback_manager import FeedbackManager
 from reactive_realizer.feedback.messages import WarningFeedback
 from reactive_realizer.limits import Limits
 from reactive_realizer.liveliness.accompanist import Accompanist
+from reactive_realizer.liveliness.fillers import NO_FILLERS, Fillers
+from reactive_realizer.liveliness.floor_holder import FloorHolder
+from reactive_realizer.liveliness.listeners import Listeners
 from reactive_realizer.liveliness.word_classes import NO_CLASSES, WordClasses
 from reactive_realizer.pegboard.anticipator import Anticipator, AnticipatorContext
 from reactive_realizer.pegboard.peg_key import ANTICIPATORS
@@ -72,6 +75,7 @@ class Realizer:
     Args:
         time: the cell of the present tick's time, in the graph of the pegs; parameters of engines depend on it.
         word_classes: the words with which speakers move.
+        fillers: what they say to hold the floor.
 
     Attributes:
         feedback: of all blocks, for its listeners.
@@ -91,6 +95,7 @@ class Realizer:
         time: Source[GlobalTime],
         *,
         word_classes: WordClasses = NO_CLASSES,
+        fillers: Fillers = NO_FILLERS,
         verify: bool = False,
     ) -> None:
         self.limits = limits
@@ -106,6 +111,7 @@ class Realizer:
         self._time = time
         self._strategy = strategy
         self._word_classes = word_classes
+        self._fillers = fillers
         self._verify = verify
         self._engines = {each.id: tuple(map(GuardedEngine, each.engines)) for each in characters}
         self._routing = EngineRouting(self._engines)
@@ -137,7 +143,10 @@ class Realizer:
             self.board, self._routing, self.feedback, self._background, self._strategy, self.limits
         )
         figures = {each.id: each.humanoid for each in self.characters.values()}
-        Accompanist(self.scheduler, figures, self.world, self.limits, self._word_classes)
+        listeners = Listeners(self.scheduler, figures, self.world)
+        Accompanist(self.scheduler, listeners, self.limits, self._word_classes)
+        voices = {each.id: each.voice for each in self.characters.values()}
+        self._floor = FloorHolder(self.scheduler, listeners, self.limits, self._fillers, voices)
         self._verifier = Verifier(self.scheduler, self.feedback) if self._verify else None
         return self
 
@@ -322,6 +331,7 @@ class Realizer:
         """Deliver the results of slow work, then have new blocks enter."""
         self.scheduler.begin_planning()
         self._background.deliver(entered.work, now)
+        self._floor.advance(now)
         for entry in entered.inputs:
             if isinstance(entry, BmlText):
                 parsed = parse(entry.text, self.limits) if entry.parsed is None else entry.parsed

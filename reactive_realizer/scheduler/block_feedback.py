@@ -95,16 +95,16 @@ class BlockFeedback:
 
         That a behavior which accompanies others gives way, or cannot do its part, is no problem of a planner.
         """
-        gives_way = isinstance(fault, SchedulingFault | PlayingFault) and self._accompanies(character, id_)
+        gives_way = isinstance(fault, SchedulingFault | PlayingFault) and self._gives_way(character, id_)
         if fault.warning is not None and not gives_way:
             known = None if id_ == BLOCK else character
             located = fault if location is None else fault.located(location.line, location.column)
             self._feedback.add(WarningFeedback(known, id_, fault.warning, str(located)))
 
-    def _accompanies(self, character: str, id_: str) -> bool:
-        """Whether a block, or the block of a behavior, accompanies another one."""
+    def _gives_way(self, character: str, id_: str) -> bool:
+        """Whether a block, or the block of a behavior, gives way to others."""
         block = self._blocks.get(BlockKey(character, id_.partition(":")[0]))
-        return block is not None and block.accompanied is not None
+        return block is not None and block.gives_way
 
 
 def _order(block: BMLBlock, time: GlobalTime, behavior: float, sync: int) -> ProgressOrder:

@@ -29,6 +29,7 @@ from reactive_realizer.scheduler.tie_release import CutTie, DroppedTie, TieRelea
 from reactive_realizer.scheduler.unit_lifecycle import ScheduledCut, UnitLifecycle
 
 PointListener = Callable[[Sequence[Reached]], None]
+BlockListener = Callable[[BMLBlock], None]
 
 
 class BlockLifecycle:
@@ -56,13 +57,18 @@ class BlockLifecycle:
         self._transitions = BlockTransitions(board, routing, blocks, self._ties, feedback, predictions)
         self._arrivals = 0
         self._point_listeners: list[PointListener] = []
+        self._start_listeners: list[BlockListener] = []
         self.listen(self._end_accompaniments)
 
     def listen_to_points(self, listener: PointListener) -> None:
         """Call ``listener(reached)`` with the points of a tick that are reached together, after they are pinned."""
         self._point_listeners.append(listener)
 
-    def listen(self, listener: Callable[[BMLBlock], None]) -> None:
+    def listen_to_starts(self, listener: BlockListener) -> None:
+        """Call ``listener(block)`` when a block has started."""
+        self._start_listeners.append(listener)
+
+    def listen(self, listener: BlockListener) -> None:
         """Call ``listener(block)`` when a block has ended, while its points are still on the board."""
         self._transitions.listeners.append(listener)
 
@@ -323,6 +329,8 @@ class BlockLifecycle:
             fault = self.activate(block.key.character, name, time)
             if fault is not None:
                 self._feedback.warn_element(block.key, block.description, fault)
+        for listener in self._start_listeners:
+            listener(block)
 
     def _wait_for_next(self, block: BMLBlock, renewed: Mapping[TimeCell, TimeCell], now: GlobalTime) -> None:
         """Plan a block again that was activated, if points that it names had passed: it waits for the next ones."""

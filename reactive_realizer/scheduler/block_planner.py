@@ -209,7 +209,7 @@ class BlockPlanner:
                 refused.append(made)
                 yield _UNIT
                 continue
-            made.accompanies = block.accompanied is not None
+            made.accompanies = block.gives_way
             items[made] = item_of(made)
             size += len(made.timing.points) - len(made.unreported)
             if size > self._most_points:

@@ -93,8 +93,8 @@ class Blocks:
 
     @property
     def asked_for(self) -> tuple[BMLBlock, ...]:
-        """Those alive that do not accompany others, in order of arrival."""
-        return tuple(block for block in self._alive.values() if block.accompanied is None)
+        """Those alive that do not give way to others, in order of arrival."""
+        return tuple(block for block in self._alive.values() if not block.gives_way)
 
     @property
     def ended(self) -> tuple[EndedBlock, ...]:
@@ -155,7 +155,7 @@ class Blocks:
         if block.client != ACCOMPANIST:
             self.numbers[block.lane] += 1
         self._own.add(block.key.character, block)
-        if block.accompanied is None:
+        if not block.gives_way:
             self._last.add(block.key.character, block)
         self._named.add(block.key.block, block)
         self.starting.add(block)
@@ -202,11 +202,8 @@ def _start(block: BMLBlock) -> Time:
 
 
 def _is_awaited(block: BMLBlock) -> bool:
-    """Whether another block of its character, which is neither preplanned nor accompanies one, waits for its end."""
+    """Whether another block of its character, which is neither preplanned nor gives way, waits for its end."""
     return any(
-        for_end
-        and not other.awaits_activation
-        and other.accompanied is None
-        and other.key.character == block.key.character
+        for_end and not other.awaits_activation and not other.gives_way and other.key.character == block.key.character
         for other, for_end in block.successors.items()
     )

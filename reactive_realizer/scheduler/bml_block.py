@@ -14,7 +14,7 @@ from reactive_realizer.pegboard.time_peg import AnticipatorPeg, BMLBlockPeg, Lat
 from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
 from reactive_realizer.planunit.wait_unit import WaitUnit
 from reactive_realizer.scheduler.block_state import BlockEvent, BlockState, BlockTransition, transition
-from reactive_realizer.scheduler.lanes import Lane
+from reactive_realizer.scheduler.lanes import ACCOMPANIST, Lane
 from reactive_realizer.scheduler.late_ties import Bounds
 from reactive_realizer.scheduler.named_blocks import named_blocks
 from reactive_realizer.scheduler.problem import Origin, Point, Precedence, Tie
@@ -63,6 +63,8 @@ class BMLBlock:
         arrival: number of arrival over all characters.
         client: that sent it; empty if it is of the session itself.
         accompanied: the block that it accompanies, None for other blocks.
+        gives_way: whether it is of the realizer itself or accompanies another one: its behaviors give way to those of
+            other blocks, and nothing waits for it.
         accompaniments: the live blocks that accompany it, in order of arrival.
         started_at: time of the tick in which it started, None before; its peg may lie before that.
         predicted: the points of anticipators that it names, by anticipator and sync id: the first occurrences since it
@@ -103,6 +105,7 @@ class BMLBlock:
         self.arrival = arrival
         self.client = client
         self.accompanied = accompanied
+        self.gives_way = accompanied is not None or client == ACCOMPANIST
         self.accompaniments: dict[BMLBlock, None] = {}
         if accompanied is not None:
             accompanied.accompaniments[self] = None

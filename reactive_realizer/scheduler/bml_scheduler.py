@@ -1,6 +1,6 @@
 """The scheduler: takes blocks in, and has them planned, started, played and ended tick by tick (thesis 7.3.4)."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 
 from reactive_realizer.bml.block import BehaviorBlock, Parsed
 from reactive_realizer.clock.ticker import next_tick
@@ -16,7 +16,7 @@ from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.scheduler.admission import Admission, TooManyOfOne
 from reactive_realizer.scheduler.block_composition import BlockComposition
 from reactive_realizer.scheduler.block_feedback import BlockFeedback
-from reactive_realizer.scheduler.block_lifecycle import BlockLifecycle, PointListener
+from reactive_realizer.scheduler.block_lifecycle import BlockLifecycle, BlockListener, PointListener
 from reactive_realizer.scheduler.block_planner import BlockPlanner
 from reactive_realizer.scheduler.block_state import BlockState
 from reactive_realizer.scheduler.blocks import Blocks
@@ -107,13 +107,17 @@ class BMLScheduler:
         self._hearing = [engine for engine in routing.engines if isinstance(engine, HearingEngine)]
         self._lifecycle.listen(self._count)
 
-    def listen(self, listener: Callable[[BMLBlock], None]) -> None:
+    def listen(self, listener: BlockListener) -> None:
         """Call ``listener(block)`` when a block has ended, while its points are still on the board."""
         self._lifecycle.listen(listener)
 
     def listen_to_points(self, listener: PointListener) -> None:
         """Call ``listener(reached)`` with the points that are reached together, after they are pinned."""
         self._lifecycle.listen_to_points(listener)
+
+    def listen_to_starts(self, listener: BlockListener) -> None:
+        """Call ``listener(block)`` when a block has started."""
+        self._lifecycle.listen_to_starts(listener)
 
     def listen_to_plans(self, listener: PlanListener) -> None:
         """Call ``listener(block, problem, solution)`` of each plan that is committed."""
@@ -154,8 +158,15 @@ class BMLScheduler:
             self._turns.add(self._entries.add(parsed, client, self._board.time, refusal))
 
     def accompany(self, block: BehaviorBlock) -> None:
-        """Have a block enter that accompanies another one, behind the blocks of all clients."""
+        """Have a block of the realizer itself enter, which gives way to others, behind the blocks of all clients."""
         self._turns.add(self._entries.add(Parsed(block), ACCOMPANIST, self._board.time))
+
+    def withdraw(self, character: str, id_: str, now: GlobalTime) -> bool:
+        """Interrupt a block of the realizer itself, if it is alive; whether it has entered."""
+        block = self.blocks.get(BlockKey(character, id_))
+        if block is not None and block.client == ACCOMPANIST:
+            self._lifecycle.interrupt(block, now)
+        return id_ not in self._entries
 
     def begin_planning(self) -> None:
         """Begin a tick: there is time for planning again, less what the ticks before have done too much."""
@@ -217,7 +228,7 @@ class BMLScheduler:
             if fault is None:
                 self._procedures.define(parsed.procedure)
         elif parsed.block is not None and entry.lane.client == ACCOMPANIST:
-            self._admit_accompaniment(parsed.block, entry, now)
+            self._admit_own(parsed.block, entry, now)
         elif parsed.block is not None:
             fault = self._admit(parsed.block, entry, now)
         written = parsed.written
@@ -310,8 +321,8 @@ class BMLScheduler:
     def _count(self, ended: BMLBlock) -> None:
         self.failed += ended.state is BlockState.FAILED
 
-    def _admit_accompaniment(self, written: BehaviorBlock, entry: Entry, now: GlobalTime) -> None:
-        """Begin the life of a block that accompanies another one, unless that has ended or its id is in use."""
+    def _admit_own(self, written: BehaviorBlock, entry: Entry, now: GlobalTime) -> None:
+        """Begin the life of a block of the realizer itself, unless its id is in use or it accompanies nothing alive."""
         composition = BlockComposition(self.blocks, entry.character, written)
         if composition.fault() is None and self.blocks.get(BlockKey(entry.character, written.id)) is None:
             self._lifecycle.accept(composition, entry, now)

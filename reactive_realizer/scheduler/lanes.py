@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from typing import Final, NamedTuple
 
 ACCOMPANIST: Final = "accompanist"
-"""The client of the blocks with which the realizer itself accompanies others.
+"""The client of the blocks that the realizer itself sends: movements with words, and fillers.
 
 They have no part in the limits on blocks, and are planned when no other lane has work.
 """

@@ -118,8 +118,8 @@ class TieRelease:
                 continue
             never = [peg for peg in tied if peg in lost and peg.value is None]
             point = self._as_written(unit, owner, followed[(never or tied)[0]])
-            accompanies = block.accompanied is not None and block.key != owner
-            if never or not (began or unit.begun) or (accompanies and not unit.begun):
+            gives_way = block.gives_way and block.key != owner
+            if never or not (began or unit.begun) or (gives_way and not unit.begun):
                 self._units.drop(unit, NeverComes(point=point), now)
                 warned.add(unit)
             elif block.key != owner and _tied_point(unit.behavior.id, gone, block.kept) is not None:

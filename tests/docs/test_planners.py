@@ -90,7 +90,7 @@ async def test_a_planner_that_is_interrupted_yields_and_knows_which_words_were_h
     ],
 )
 async def test_a_story_plays_on_while_an_interrupt_waits(barges_in: float | None, statuses: dict[str, str]) -> None:
-    (story,) = fences(PLANNERS, "xml")
+    story, _ = fences(PLANNERS, "xml")
     async with open_pilot() as pilot:
         pilot.perform(story.text)
         await pilot.advance(0.5)
@@ -185,3 +185,15 @@ def test_the_programs_that_the_page_names_exist() -> None:
     named = re.findall(r"^\| `(\w+\.py)` \|", page(PLANNERS), re.MULTILINE)
     assert len(named) > 5
     assert [name for name in named if not (EXAMPLES / name).exists()] == []
+
+
+async def test_the_floor_is_held_until_the_route_is_known() -> None:
+    _, held = fences(PLANNERS, "xml")
+    async with open_pilot() as pilot:
+        pilot.perform(held.text)
+        await pilot.advance(5)
+        assert pilot.feedback.reached("first.words.filler:filler1:end")
+        pilot.predict("route", "known", pilot.now)
+        await pilot.advance(5)
+        assert pilot.feedback.status("first.words.filler") == "INTERRUPTED"
+        assert pilot.feedback.status("next") == "DONE"

@@ -5,7 +5,7 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 from reactive_realizer.bml.behavior import Behavior
-from reactive_realizer.bml.behaviors import LIVELINESS, VOICE, WORDS, RecordedSpeech, Speech
+from reactive_realizer.bml.behaviors import FILLER, LIVELINESS, VOICE, WORDS, RecordedSpeech, Speech
 from reactive_realizer.bml.markup import Markup
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.engine.context import EngineContext
@@ -18,7 +18,13 @@ from reactive_realizer.engines.speech.elastic_speech import ElasticSpeech
 from reactive_realizer.engines.speech.lip_sync.binding import VisemeBinding
 from reactive_realizer.engines.speech.lip_sync.track import LipSyncTrack
 from reactive_realizer.engines.speech.recorded.recordings import Recording, Recordings
-from reactive_realizer.engines.speech.speech_unit import LIVELINESS_RANGE, SpeechUnit, liveliness_of, wants_words
+from reactive_realizer.engines.speech.speech_unit import (
+    LIVELINESS_RANGE,
+    SpeechUnit,
+    holds_floor,
+    liveliness_of,
+    wants_words,
+)
 from reactive_realizer.errors import CreationFault, Fault, RealizerError
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.plan_unit import PlanUnit
@@ -75,7 +81,7 @@ class SpeechEngine(SoundEngine):
     """Speaks with the voice of its character, and provides its lip sync (`LipSyncProvider`)."""
 
     behaviors = frozenset({Speech, RecordedSpeech})
-    extensions = frozenset({WORDS, VOICE, LIVELINESS})
+    extensions = frozenset({WORDS, VOICE, LIVELINESS, FILLER})
 
     def __init__(self, context: EngineContext) -> None:
         super().__init__(context, "speech")
@@ -104,6 +110,7 @@ class SpeechEngine(SoundEngine):
         if isinstance(behavior, RecordedSpeech):
             self._recordings.file(behavior)
         liveliness_of(behavior, None)
+        holds_floor(behavior)
         return None if wants_words(behavior) else behavior.sync_points
 
     def prepare(self, behavior: Behavior) -> SlowWork | None:
@@ -122,6 +129,7 @@ class SpeechEngine(SoundEngine):
         Raises:
             RealizerError: ``nothing-to-say``, ``not-a-flag`` or ``bad-liveliness``.
         """
+        holds_floor(behavior)
         if isinstance(prepared, Recording) and isinstance(behavior, Speech):
             return SpeechUnit(block, behavior, prepared.utterance, self._graph, self._liveliness, prepared.note)
         utterance = self._speak(behavior) if prepared is None else prepared

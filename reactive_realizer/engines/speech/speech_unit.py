@@ -6,7 +6,7 @@ from itertools import accumulate
 from reactive_realizer.binding.asset_file import parse_boolean
 from reactive_realizer.bml.attribute_types import Float
 from reactive_realizer.bml.behavior import Behavior
-from reactive_realizer.bml.behaviors import LIVELINESS, WORDS, Speech
+from reactive_realizer.bml.behaviors import FILLER, LIVELINESS, WORDS, Speech
 from reactive_realizer.bml.vocabulary import InterruptSpeech
 from reactive_realizer.clock.units import RESOLUTION, GlobalTime, Time
 from reactive_realizer.embodiment.audio import Caption
@@ -170,6 +170,15 @@ def wants_words(behavior: Behavior) -> bool:
         RealizerError: "not-a-flag".
     """
     return parse_boolean(WORDS[1], behavior.extensions.get(WORDS, "false"))
+
+
+def holds_floor(behavior: Behavior) -> bool:
+    """Whether the character says fillers after a speech, until its next words are there.
+
+    Raises:
+        RealizerError: "not-a-flag".
+    """
+    return parse_boolean(FILLER[1], behavior.extensions.get(FILLER, "false"))
 
 
 def liveliness_of(behavior: Behavior, default: float | None) -> float | None:
