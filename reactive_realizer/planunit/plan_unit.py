@@ -121,6 +121,7 @@ class PlanUnit:
         wake: called when its pegs or its state have changed outside of its engine; its player sets it.
         shortest: duration that the body needs for each phase, s.
         hurries: the points that come later than they were asked for, by sync id.
+        ends_early: whether it will be cut at its end, which was brought forward for that.
     """
 
     def __init__(
@@ -140,6 +141,7 @@ class PlanUnit:
         self.wake: Callable[[], None] = sleep
         self.shortest = [phase.shortest for phase in timing.phases]
         self.hurries: dict[str, Hurry] = {}
+        self.ends_early = False
         self.state = UnitState.PENDING
         self._pace: Pace | None = None
 
@@ -228,6 +230,14 @@ class PlanUnit:
             if point.id == sync:
                 return point
         raise KeyError(sync)
+
+    def coming(self) -> list[SyncPoint]:
+        """Its points, except for those that will be cut because it ends early."""
+        end = self.points[-1].peg.value if self.points else None
+        if not self.ends_early or end is None:
+            return self.points
+        kept = {*OPEN, *(due.point.id for due in self.due_at_cut(end, end=False))}
+        return [point for point in self.points if point.fired or point.id in kept]
 
     def was_cut(self, sync: str) -> bool:
         """Whether a point that it was planned with was cut: it was reported early, or never will be."""

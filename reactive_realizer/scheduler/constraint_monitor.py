@@ -180,9 +180,14 @@ def _outer(constraint: Tie | Precedence) -> OuterTie | None:
 
 
 def _cut(constraint: Tie | Precedence, units: Mapping[str, PlanUnit]) -> bool:
-    """Whether a point of it was dropped or interrupted, which gives a warning of its own."""
+    """Whether a point of it was dropped, or is interrupted now or soon, which gives a warning of its own."""
     points = (node for node in constraint.nodes if isinstance(node, Point))
-    return any(point.behavior not in units or units[point.behavior].was_cut(point.sync) for point in points)
+    return any(point.behavior not in units or _loses(units[point.behavior], point.sync) for point in points)
+
+
+def _loses(unit: PlanUnit, sync: str) -> bool:
+    coming = unit.coming()[:-1] if unit.ends_early else unit.points
+    return unit.was_cut(sync) or all(point.id != sync for point in coming)
 
 
 def _fired(constraint: Tie | Precedence, block: BMLBlock, units: Mapping[str, PlanUnit]) -> bool:

@@ -20,7 +20,7 @@ class PlanView:
 
     Attributes:
         timings: the preferred timing of each behavior, by id.
-        times: of the points, None while unknown; points that were cut are missing.
+        times: of the points, None while unknown; points that were cut or will be are missing.
         past: the points whose times are final: fired, or pinned.
         kept: the constraints of the plan.
         outer: times of the pegs outside of the block that these name.
@@ -59,7 +59,7 @@ class PlanView:
     @classmethod
     def of_block(cls, block: BMLBlock, now: GlobalTime) -> Self:
         """A block on the board, in global times, at the end of the tick at ``now``."""
-        points = {Point(unit.behavior.id, p.id): p for unit in block.units for p in unit.points}
+        points = {Point(unit.behavior.id, p.id): p for unit in block.units for p in unit.coming()}
         start = block.start.value
         # The start of the block waits for these, and may come later; a body was too slow for the others. Until the
         # block starts, ties to times from outside may be late.

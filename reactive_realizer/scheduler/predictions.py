@@ -98,7 +98,7 @@ class Predictions:
 
 def _reported(unit: PlanUnit) -> dict[str, Time]:
     """The times of the points of a behavior that are reported."""
-    return {point.id: point.peg.value for point in unit.points if point.id not in unit.unreported}
+    return {point.id: point.peg.value for point in unit.coming() if point.id not in unit.unreported}
 
 
 def _cost(block: BMLBlock) -> int:

@@ -120,11 +120,14 @@ class UnitLifecycle:
     def schedule_cut(self, unit: PlanUnit, cut: ScheduledCut) -> None:
         """Have a playing behavior cut at a later time, which is its end from now on."""
         self._scheduled_cuts[unit] = cut
+        unit.ends_early = True
         block = self._blocks.get(unit.block)
         with self._board.graph.transaction(f"cut {unit.key('end')}"):
             unit.detach(unit.points[-1], cut.time)
             if block is not None:
                 block.update_end()
+                self._blocks.watch.follow(block)
+                self._predictions.request(block)  # the end may be another peg, which has not moved
 
     def shift(self, unit: PlanUnit, seconds: float) -> None:
         """Move the points ahead of a playing rigid behavior, with what is tied to them, because it has drifted."""

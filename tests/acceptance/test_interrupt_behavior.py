@@ -81,6 +81,21 @@ async def test_other_behaviors_end_at_once_while_a_speech_finishes_its_word(pilo
     )
 
 
+async def test_points_that_a_speech_will_not_reach_are_not_predicted_while_it_finishes_its_clause(
+    pilot: RealizerPilot,
+) -> None:
+    text = 'one two, three <sync id="m"/>four, five <sync id="n"/>six'
+    send(pilot, "talk", f'<speech id="s"><text>{text}</text></speech><head id="nod" lexeme="NOD" end="s:end"/>')
+    send(pilot, "stop", '<bmla:interrupt id="i" target="talk" include="s" start="1" speech="clause"/>')
+    await pilot.advance(1.1)
+    (speech,) = (each for each in pilot.feedback.predictions("talk")[-1].element if each.get("id") == "talk:s")
+    assert [each.get("id") for each in speech.iter("{*}sync") if each.get(f"{OWN}time")] == ["m"]
+    await pilot.advance(2)
+    assert pilot.feedback.time("talk:s:m") < pilot.feedback.time("talk:s:end") < 2
+    (warning,) = pilot.feedback.of("warningFeedback")
+    assert warning.text.endswith("talk:s:end was interrupted; this behavior keeps the last predicted time")
+
+
 async def test_a_behavior_tied_to_an_interrupted_point_keeps_its_time_with_a_warning(pilot: RealizerPilot) -> None:
     send(pilot, "talk", TALK + '<head id="n" lexeme="NOD" start="s:m"/>')
     await pilot.tick()
