@@ -4,7 +4,7 @@ import asyncio
 from typing import Any
 
 from reactive_realizer.engines.speech.worker_messages import WorkerMessage
-from reactive_realizer.engines.speech.worker_process import WorkerProcess
+from reactive_realizer.engines.speech.worker_process import UNSENT, WorkerProcess
 from reactive_realizer.errors import CreationFault, RealizerError
 
 
@@ -17,7 +17,7 @@ class VoiceFailed(CreationFault):
 
 
 class SpeechWorker:
-    """Requests to a worker. When it ends or hangs, they fail, and the next request starts a new worker.
+    """Requests to a worker. When it ends or hangs, the one that it works on fails; a new worker answers the others.
 
     Args:
         module: the one that the worker runs.
@@ -58,8 +58,11 @@ class SpeechWorker:
         Raises:
             RealizerError: "voice-failed".
         """
-        await self.hello()
-        return _succeeded(await (await self._running()).request(header, rank))
+        reply = UNSENT
+        while reply is UNSENT:  # each worker that ends fails a request, or all if it does not even begin
+            await self.hello()
+            reply = await (await self._running()).request(header, rank)
+        return _succeeded(reply)
 
     async def close(self) -> None:
         """Ends the process."""

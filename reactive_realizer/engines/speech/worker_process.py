@@ -7,12 +7,15 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import partial
 from heapq import heappop, heappush
-from typing import Any, Self, cast
+from typing import Any, Final, Self, cast
 
 from reactive_realizer.engines.speech.worker_messages import MessageDecoder, WorkerMessage, failure
 
 _START_PATIENCE = 30.0
 """Time limit for the first message of a worker, which has to load a library or a model, s."""
+UNSENT: Final = WorkerMessage({"failed": "it was not sent"})
+"""The reply to a request that waited when the worker ended: another worker can answer it."""
+
 _log = logging.getLogger(__name__)
 
 
@@ -30,7 +33,8 @@ class WorkerProcess(asyncio.SubprocessProtocol):
     """One run of the worker. Requests are sent one by one, each when the previous one is answered, lowest ranks first.
 
     A request that is canceled before it is sent costs nothing; after that, its reply is discarded. When the process
-    ends, all open requests fail. A worker that takes longer for a reply than the time limit is killed.
+    ends, the request that it worked on fails, and the reply to the others is `UNSENT`. A worker that takes longer for a
+    reply than the time limit is killed.
 
     Attributes:
         hello: the first message of the worker, when it is ready.
@@ -50,6 +54,7 @@ class WorkerProcess(asyncio.SubprocessProtocol):
         self._decoder = MessageDecoder()
         self._patience = patience
         self._hung = False
+        self._closing = False
 
     @classmethod
     async def start(cls, worker: str, patience: float) -> Self:
@@ -86,7 +91,8 @@ class WorkerProcess(asyncio.SubprocessProtocol):
         return request.reply
 
     async def close(self) -> None:
-        """Kills the process."""
+        """Kills the process; all open requests fail."""
+        self._closing = True
         self._kill()
         await asyncio.shield(self.ended)
 
@@ -141,9 +147,10 @@ class WorkerProcess(asyncio.SubprocessProtocol):
         failed = (
             WorkerMessage({"failed": "no answer"}) if self._hung else failure(self._transport.get_returncode() or 0)
         )
-        for reply in (self._awaited, *(request.reply for request in self._waiting)):
-            if reply is not None:
-                _answer(reply, failed)
+        if self._awaited is not None:
+            _answer(self._awaited, failed)
+        for request in sorted(self._waiting):
+            _answer(request.reply, failed if self._closing else UNSENT)
         self._waiting.clear()
 
 

@@ -96,16 +96,26 @@ async def test_the_error_of_an_unknown_voice_lists_known_ones(voice: EspeakVoice
     assert "en-us" in str(failure.value)
 
 
-async def test_killing_the_worker_fails_its_requests_and_the_next_one_starts_a_new_worker(voice: EspeakVoice) -> None:
-    pending = [asyncio.ensure_future(spoken(voice, LONG)) for _ in range(2)]
-    await asyncio.sleep(0)
+async def test_killing_the_worker_fails_the_request_that_it_works_on_and_a_new_one_answers_the_others(
+    voice: EspeakVoice,
+) -> None:
+    pending = [asyncio.ensure_future(spoken(voice, LONG)) for _ in range(3)]
+    await until_sent(voice)
     os.kill(worker_of(voice), signal.SIGKILL)
-    for outcome in await asyncio.gather(*pending, return_exceptions=True):
-        assert isinstance(outcome, RealizerError)
-        assert (outcome.fault.code, outcome.fault.details["reason"]) == ("voice-failed", "SIGKILL")
-    assert (voice.worker.alive, voice.worker.restarts) == (False, 0)
-    assert (await spoken(voice, "hello")).audio
+    failed, *others = await asyncio.gather(*pending, return_exceptions=True)
+    assert isinstance(failed, RealizerError)
+    assert (failed.fault.code, failed.fault.details["reason"]) == ("voice-failed", "SIGKILL")
+    assert all(isinstance(other, Utterance) for other in others)
     assert (voice.worker.alive, voice.worker.restarts) == (True, 1)
+
+
+async def test_closing_the_voice_fails_all_requests_and_starts_no_worker(voice: EspeakVoice) -> None:
+    pending = [asyncio.ensure_future(spoken(voice, LONG)) for _ in range(3)]
+    await until_sent(voice)
+    await voice.close()
+    outcomes = await asyncio.gather(*pending, return_exceptions=True)
+    assert all(isinstance(outcome, RealizerError) for outcome in outcomes)
+    assert (voice.worker.alive, voice.worker.restarts) == (False, 0)
 
 
 async def test_killing_an_idle_worker_fails_no_request(voice: EspeakVoice) -> None:
@@ -122,18 +132,16 @@ async def test_two_requests_after_the_end_of_a_worker_start_one_new_worker(voice
     assert voice.worker.restarts == 1
 
 
-async def test_a_worker_that_hangs_is_killed_and_the_next_request_starts_a_new_one() -> None:
+async def test_a_worker_that_hangs_is_killed_and_a_new_one_answers_the_next_request() -> None:
     voice = EspeakVoice(patience=1.0)
     await voice.start()
     try:
         os.kill(worker_of(voice), signal.SIGSTOP)
         async with asyncio.timeout(20):
-            outcomes = await asyncio.gather(spoken(voice, "one"), spoken(voice, "two"), return_exceptions=True)
-        faults = [outcome.fault for outcome in outcomes if isinstance(outcome, RealizerError)]
-        assert [fault.code for fault in faults] == ["voice-failed"] * 2
-        assert faults[0].details["reason"] == "no answer"
-        assert (voice.worker.alive, voice.worker.restarts) == (False, 0)
-        assert (await spoken(voice, "hello")).audio
+            one, two = await asyncio.gather(spoken(voice, "one"), spoken(voice, "two"), return_exceptions=True)
+        assert isinstance(one, RealizerError)
+        assert (one.fault.code, one.fault.details["reason"]) == ("voice-failed", "no answer")
+        assert isinstance(two, Utterance)
         assert voice.worker.restarts == 1
     finally:
         await voice.close()
@@ -224,6 +232,13 @@ def test_the_worker_ends_when_its_input_ends() -> None:
 def test_only_the_worker_loads_the_library() -> None:
     check = "import sys, reactive_realizer.engines.speech.espeak_voice; sys.exit('espeakng_loader' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", check], check=False).returncode == 0
+
+
+async def until_sent(voice: EspeakVoice) -> None:
+    """Let tasks send their requests, the first of which the worker answers."""
+    for _ in range(20):
+        await asyncio.sleep(0)
+    assert process_of(voice).busy
 
 
 def process_of(voice: EspeakVoice) -> WorkerProcess:
