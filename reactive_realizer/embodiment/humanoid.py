@@ -13,9 +13,10 @@ from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.frame import Frame, rotation_array
 from reactive_realizer.embodiment.joints import EYES, LEFT_ARM, RIGHT_ARM, ROOT
 from reactive_realizer.embodiment.lids import with_lids
-from reactive_realizer.embodiment.pose import ComposedBody, Layer, compose
+from reactive_realizer.embodiment.pose import ComposedBody, Layer, LayerKind, compose
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, conjugate, from_axis_angle, multiply, rotate
 from reactive_realizer.embodiment.speed_limit import SpeedLimit, slowed
+from reactive_realizer.embodiment.turn_weights import turns
 from reactive_realizer.embodiment.vector import UP, ZERO, Vec3, add, distance, scale, subtract
 
 
@@ -68,6 +69,7 @@ class Humanoid:
         self._position = position
         self._turn = from_axis_angle(UP, heading)
         self._morphs = {morph: i for i, morph in enumerate(avatar.morphs)}
+        self._faced = frozenset(avatar.skeleton.joints).difference(EYES)
         self._arms = [joint for joint in avatar.skeleton.joints if joint in LEFT_ARM | RIGHT_ARM]
         self._limit: SpeedLimit | None = None
         self._shown = Body(avatar.skeleton)
@@ -84,13 +86,15 @@ class Humanoid:
         """Set the body until the first frame."""
         self.body = self._shown = body
 
-    def move(self, time: GlobalTime, layers: Iterable[Layer]) -> None:
-        """Move to the pose that layers compose for a time, without a jump.
+    def move(self, time: GlobalTime, layers: Iterable[Layer], faces: Iterable[Mapping[str, float]] = ()) -> None:
+        """Move to the pose that layers compose for a time, turned further by the weights of faces, without a jump.
 
         Then come `simulate`, if forces move the figure, and `look`: figures look at each other, so all of them move
         first.
         """
-        composed = compose(self.avatar.skeleton, layers)
+        turned = turns(_sum(faces), self._faced)
+        added = (Layer(LayerKind.ADDITIVE, turned),) if turned else ()
+        composed = compose(self.avatar.skeleton, (*layers, *added))
         self._passed, self._time, self._wanted = time - self._time, time, composed.shown
         if self._limit is None:
             self._limit = SpeedLimit(composed.shown)
@@ -121,15 +125,17 @@ class Humanoid:
 
         Args:
             eyes: None leaves the eyes as the layers pose them.
-            faces: weights of morphs, which add up.
+            faces: weights of morphs and of turns of the eyes, which add up.
         """
         body = self._shown
-        turns, lids, blink = EyePose({}, {}) if eyes is None else eyes(body)
-        looking = {**{eye: body.rotation(eye) for eye in EYES if eye in body.skeleton}, **turns}
+        face = _sum(faces)
+        looks, lids, blink = EyePose({}, {}) if eyes is None else eyes(body)
+        looking = {**{eye: body.rotation(eye) for eye in EYES if eye in body.skeleton}, **looks}
+        looking |= {eye: multiply(looking[eye], turn) for eye, turn in turns(face, looking).items()}
         if self._before is not None:
             looking = slowed(self._before.pose, looking, self._passed)
         self._shown = body.posed(looking)
-        weights = self._weights(with_lids(_sum(faces), lids, blink))
+        weights = self._weights(with_lids(face, lids, blink))
         return Frame(self._time, self._root(self._shown.root), self._rotations(self._shown.pose), weights)
 
     @property

@@ -12,6 +12,8 @@ TRUNK = (ROOT, "vl5", "vt10", "vt6")
 HEAD = ("vc4", "skullbase")
 """Neck and head."""
 
+JAW = "temporomandibular"
+
 EYES = ("l_eyeball_joint", "r_eyeball_joint")
 
 FINGERS = ("thumb", "index", "middle", "ring", "pinky")

@@ -7,6 +7,7 @@ T-pose to the default pose, in the figure's axes. A bone that turned as its join
 import math
 from collections.abc import Mapping
 
+from reactive_realizer.embodiment.joints import JAW
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, from_axis_angle
 
 _FINGERS = {"Thumb": "thumb", "Index": "index", "Middle": "middle", "Ring": "ring", "Pinky": "pinky"}
@@ -30,6 +31,7 @@ _TRUNK = {"Hips": "HumanoidRoot", "Spine": "vl5", "Spine1": "vt10", "Spine2": "v
 
 JOINTS: Mapping[str, str] = {
     **_TRUNK,
+    "Jaw": JAW,
     **{f"Left{bone}": f"l_{joint}" for bone, joint in _SIDE.items()},
     **{f"Right{bone}": f"r_{joint}" for bone, joint in _SIDE.items()},
 }

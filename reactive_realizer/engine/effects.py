@@ -194,7 +194,7 @@ class Output:
 
     Attributes:
         layers: joint rotations.
-        face: weights of morphs, 0..1; those of several engines are added.
+        face: weights of morphs, and of turns of joints (`turn_weights`), 0..1; those of several engines are added.
         eyes: movement of the eyes, applied after the head.
         effects: of showing: units that failed, and warnings.
         dynamics: movement of joints by forces, applied before that of the eyes; None for a figure that none moves.

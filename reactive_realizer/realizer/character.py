@@ -26,7 +26,8 @@ class Character:
         Returns:
             Simulations that move it further, each of which may run in a thread of its own; call `look` after that.
         """
-        self.humanoid.move(time, [layer for output in outputs for layer in output.layers])
+        layers = [layer for output in outputs for layer in output.layers]
+        self.humanoid.move(time, layers, [output.face for output in outputs])
         return [partial(self.humanoid.simulate, each.dynamics) for each in outputs if each.dynamics is not None]
 
     def look(self, outputs: Sequence[Output]) -> Frame:

@@ -1,5 +1,6 @@
 """docs/lipsync.md: its bindings can be used as described."""
 
+import math
 import re
 from pathlib import Path
 
@@ -7,6 +8,7 @@ import pytest
 
 from reactive_realizer.assembly.assets import Assets
 from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.embodiment.joints import JAW
 from reactive_realizer.engine.tts import Phoneme, Utterance, Word
 from reactive_realizer.engines.speech.lip_sync.binding import VisemeBinding
 from reactive_realizer.engines.speech.text_voice import TextVoice
@@ -55,3 +57,9 @@ def test_a_mistyped_morph_target_is_answered_as_shown(tmp_path: Path) -> None:
     with pytest.raises(RealizerError) as refused:
         VisemeBinding.read([file], ("jawOpen", "mouthLowerDownLeft", "mouthLowerDownRight"), Assets())
     assert str(refused.value) == message
+
+
+def test_the_jaw_of_the_robot_turns(tmp_path: Path) -> None:
+    written(tmp_path)
+    robot = VisemeBinding.read([tmp_path / "robot.visemes.toml"], (), Assets(), (JAW,))
+    assert robot.shapes["aa"].morphs == {f"{JAW}+x": pytest.approx(math.radians(18))}

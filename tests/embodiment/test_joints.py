@@ -2,10 +2,20 @@ from collections import Counter
 
 import pytest
 
-from reactive_realizer.embodiment.joints import EYES, HEAD, LEFT_ARM, LEFT_LEG, RIGHT_ARM, RIGHT_LEG, TRUNK, other_side
+from reactive_realizer.embodiment.joints import (
+    EYES,
+    HEAD,
+    JAW,
+    LEFT_ARM,
+    LEFT_LEG,
+    RIGHT_ARM,
+    RIGHT_LEG,
+    TRUNK,
+    other_side,
+)
 from reactive_realizer.embodiment.mixamo import JOINTS
 
-PARTS = (TRUNK, HEAD, EYES, LEFT_ARM, RIGHT_ARM, LEFT_LEG, RIGHT_LEG)
+PARTS = (TRUNK, HEAD, (JAW,), EYES, LEFT_ARM, RIGHT_ARM, LEFT_LEG, RIGHT_LEG)
 
 
 def test_each_joint_of_an_avatar_belongs_to_one_part_of_the_body() -> None:

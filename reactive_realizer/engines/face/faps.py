@@ -1,15 +1,17 @@
-"""MPEG-4's facial animation parameters (FAPs) as weights of morph targets, from the table in assets/face/faps.json."""
+"""MPEG-4's facial animation parameters (FAPs) as weights of morph targets and joints, from assets/face/faps.json."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 
 from reactive_realizer.embodiment.avatar import Avatar
+from reactive_realizer.embodiment.body import Skeleton
 from reactive_realizer.embodiment.face_mesh import FaceMesh
+from reactive_realizer.embodiment.turn_weights import turned_joint
 from reactive_realizer.embodiment.vector import Vec3, scale
 from reactive_realizer.engines.face.fapu import Fapu
 from reactive_realizer.engines.face.json_table import bad_entry, read_number, read_table, read_weights
@@ -27,6 +29,11 @@ _DIRECTIONS: Mapping[str, Vec3] = MappingProxyType(
 )
 
 
+_ANGLE: Final = "AU"
+_ANGLE_UNIT: Final = 1e-5
+"""The unit of angles, rad; a weight of 1 turns a joint by one radian."""
+
+
 class NoFap(CreationFault):
     """No facial animation parameter has the name or number."""
 
@@ -38,7 +45,7 @@ class NoFap(CreationFault):
 
 
 class FapWithoutMorph(CreationFault):
-    """A facial animation parameter that no blend shape is like, at least in one direction."""
+    """A facial animation parameter that no blend shape and no joint is like, at least in one direction."""
 
     code = "fap-without-morph"
     template = "no blend shape of the face is like {sign} values of the facial animation parameter {fap}{instead}"
@@ -53,9 +60,10 @@ class Fap:
 
     Attributes:
         name: of the standard.
-        unit: name of its unit in `Fapu`; empty if it is not played.
+        unit: name of its unit in `Fapu`, AU for an angle; empty if it is not played.
         direction: of positive values, a unit vector in the figure's frame.
-        positive: weights of morph targets that move the feature point in this direction; their scale is measured.
+        positive: weights of morph targets that move the feature point in this direction, of which the scale is
+            measured, or of turns of joints.
         negative: those that move it back.
         instead: what moves the face in this way, if blend shapes do not.
     """
@@ -89,7 +97,8 @@ class FapTable:
         self._numbers = {str(number): number for number in faps} | {fap.name: number for number, fap in faps.items()}
         mesh = _face_of(avatar)
         units = None if mesh is None else _units(avatar, mesh)
-        self._weights = {} if mesh is None or units is None else _per_value(faps, mesh, units)
+        turning = _turning(faps, avatar.skeleton)
+        self._weights = turning if mesh is None or units is None else turning | _per_value(faps, mesh, units)
 
     def numbers(self, faps: str) -> tuple[int, ...]:
         """The numbers of parameters, from their numbers or names, separated by spaces.
@@ -149,6 +158,17 @@ def _units(avatar: Avatar, mesh: FaceMesh) -> Fapu | None:
         return None
 
 
+def _turning(faps: Mapping[int, Fap], skeleton: Skeleton) -> dict[tuple[int, bool], Weights]:
+    """The weights of turns of joints for each unit of value, by number and whether the value is positive."""
+    return {
+        (number, positive): {name: _ANGLE_UNIT * weight for name, weight in weights.items()}
+        for number, fap in faps.items()
+        if fap.unit == _ANGLE
+        for positive, weights in ((True, fap.positive), (False, fap.negative))
+        if all(turned_joint(name) in skeleton.joints for name in weights)
+    }
+
+
 def _per_value(faps: Mapping[int, Fap], mesh: FaceMesh, units: Fapu) -> dict[tuple[int, bool], Weights]:
     """The weights for each unit of value, by number and whether the value is positive."""
     found: dict[tuple[int, bool], Weights] = {}
@@ -168,8 +188,9 @@ def _fap(path: Path, key: str, entry: Any) -> Fap:
         raise bad_entry(path, key, "a facial animation parameter has a name")
     positive, negative = (read_weights(path, key, entry.get(part, {})) for part in ("positive", "negative"))
     unit, direction = entry.get("unit", ""), entry.get("direction", "up")
-    if (positive or negative) and unit not in Fapu.__slots__:
-        raise bad_entry(path, key, f"the unit is one of {', '.join(Fapu.__slots__)}")
+    units = (*Fapu.__slots__, _ANGLE)
+    if (positive or negative) and unit not in units:
+        raise bad_entry(path, key, f"the unit is one of {', '.join(units)}")
     if direction not in _DIRECTIONS:
         raise bad_entry(path, key, f"the direction is one of {', '.join(_DIRECTIONS)}")
     return Fap(entry["name"], unit, _DIRECTIONS[direction], positive, negative, str(entry.get("instead", "")))

@@ -97,8 +97,9 @@ class SpeechEngine(SoundEngine):
         self._recordings = Recordings(context.asset, context.limits.sound_seconds)
         self._notes: list[Warn] = []
         self._told: set[Fault] = set()
-        morphs = context.humanoid.avatar.morphs
-        self._visemes = VisemeBinding.read(context.bindings.get("visemes", ()), morphs, context.asset)
+        avatar = context.humanoid.avatar
+        files = context.bindings.get("visemes", ())
+        self._visemes = VisemeBinding.read(files, avatar.morphs, context.asset, avatar.skeleton.joints)
         self._track: LipSyncTrack | None = None
 
     def check(self, behavior: Behavior) -> Collection[str] | None:

@@ -6,11 +6,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.embodiment.avatar import Avatar
 from reactive_realizer.embodiment.face_mesh import FaceMesh
+from reactive_realizer.embodiment.quaternion import rotate
 from reactive_realizer.engines.face.faps import FapTable
 from reactive_realizer.engines.face.fapu import Fapu
-from reactive_realizer.testing.pilot import RealizerPilot
+from reactive_realizer.errors import RealizerError
+from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 from .conftest import weight
 
@@ -90,12 +93,62 @@ async def test_several_parameters_play_as_one_behavior(pilot: RealizerPilot) -> 
 async def test_what_is_no_parameter_or_moves_no_blend_shape_is_warned_of(pilot: RealizerPilot) -> None:
     pilot.block(
         "b",
-        """<bmlt:facefap id="none" fap="69" value="1"/><bmlt:facefap id="eye" fap="23" value="1000"/>
+        """<bmlt:facefap id="none" fap="69" value="1"/><bmlt:facefap id="eye" fap="27" value="1000"/>
            <bmlt:facefap id="jaw" fap="open_jaw" value="-100"/><wait id="w" duration="0.1"/>""",
     )
     await pilot.advance(1)
     told = [each.text for each in pilot.feedback.of("warningFeedback")]
     assert "there is no facial animation parameter '69'" in told[0]
-    assert "positive values of the facial animation parameter 23 (yaw_l_eyeball); a gaze turns the eyes" in told[1]
+    assert "positive values of the facial animation parameter 27 (thrust_l_eyeball); eyes only turn" in told[1]
     assert "negative values of the facial animation parameter 3 (open_jaw)" in told[2]
     assert pilot.feedback.reached("b:w:end")
+
+
+@pytest.mark.parametrize(
+    ("fap", "value", "joint", "axis"),
+    [
+        ("head_pitch", 20_000, "skullbase", DOWN),
+        ("head_yaw", 20_000, "skullbase", LEFT),
+        ("head_yaw", -20_000, "skullbase", RIGHT),
+        ("yaw_l_eyeball", 20_000, "l_eyeball_joint", LEFT),
+        ("pitch_r_eyeball", 20_000, "r_eyeball_joint", DOWN),
+    ],
+)
+async def test_an_angle_turns_a_joint_by_hundred_thousandths_of_a_radian(
+    fap: str, value: float, joint: str, axis: tuple[int, int, int], tmp_path: Path
+) -> None:
+    human = tmp_path / "still.toml"
+    human.write_text('[character.alice]\navatar = "avatars/female.glb"\nidle = false\n')
+    async with open_pilot(SceneOptions(human)) as pilot:
+        pilot.watch()
+        pilot.block("b", f'<bmlt:facefap id="f" fap="{fap}" value="{value}" start="0.1" relax="1" end="1.4"/>')
+        await pilot.advance(2)
+        assert pilot.feedback.warnings == []
+        ahead = [rotate(body.transform(joint).rotation, (0.0, 0.0, 1.0)) for body in pilot.bodies()]
+        toward = np.array(ahead) @ np.array(axis)
+        assert np.arcsin(toward[45]) - np.arcsin(toward[0]) == pytest.approx(0.2, abs=0.002)
+        assert toward[-1] == pytest.approx(toward[0], abs=0.002)
+
+
+async def test_a_rolled_head_tilts_to_its_right(tmp_path: Path) -> None:
+    human = tmp_path / "still.toml"
+    human.write_text('[character.alice]\navatar = "avatars/female.glb"\nidle = false\n')
+    async with open_pilot(SceneOptions(human)) as pilot:
+        pilot.watch()
+        pilot.block("b", '<bmlt:facefap id="f" fap="50" value="20000" start="0.1" relax="1" end="1.4"/>')
+        await pilot.advance(1)
+        crown = rotate(pilot.bodies()[45].transform("skullbase").rotation, (0.0, 1.0, 0.0))
+        assert crown[0] == pytest.approx(-np.sin(0.2), abs=0.003)
+
+
+def test_all_parameters_but_fifteen_are_played() -> None:
+    table = FapTable(TABLE, AVATARS[0])
+    played = {number for number in range(1, 69) if _plays(table, number)}
+    assert set(range(1, 69)) - played == {1, 2, 27, 28, 29, 30, 43, 44, 46, 47, 64, 65, 66, 67, 68}
+
+
+def _plays(table: FapTable, number: int) -> bool:
+    try:
+        return bool(table.weights({number: 100.0}))
+    except RealizerError:
+        return False

@@ -35,7 +35,13 @@ class VisemeBinding:
     articulators: Mapping[str, Articulator]
 
     @classmethod
-    def read(cls, files: Sequence[Path], morphs: Collection[str], asset: Callable[[str], Path]) -> Self:
+    def read(
+        cls,
+        files: Sequence[Path],
+        morphs: Collection[str],
+        asset: Callable[[str], Path],
+        joints: Collection[str] = (),
+    ) -> Self:
         """Reads the binding of an avatar.
 
         Entries of earlier files take precedence. The last files are those in assets/visemes: for the morph targets of
@@ -46,14 +52,15 @@ class VisemeBinding:
             files: of the character and of the avatar, in order of precedence.
             morphs: names of the avatar's morph targets.
             asset: finds an asset by name.
+            joints: of its skeleton.
 
         Raises:
-            RealizerError: "bad-visemes": a file cannot be used, or names a morph target that the avatar does not have.
+            RealizerError: "bad-visemes": a file cannot be used, or names something that the avatar does not have.
             OSError: a file cannot be read.
         """
         standard = _OCULUS if _OCULUS_MORPH in morphs and _ARKIT_MORPH not in morphs else _ARKIT
-        read = [read_binding_file(file, morphs) for file in files]
-        read += [read_binding_file(asset(name), morphs, shared=True) for name in (standard, _PHONEMES)]
+        read = [read_binding_file(file, morphs, joints) for file in files]
+        read += [read_binding_file(asset(name), morphs, joints, shared=True) for name in (standard, _PHONEMES)]
         complete = next(rank for rank, file in enumerate(read) if file.articulators)
         articulators = read[complete].articulators
         shapes = dict.fromkeys(VISEMES, MouthShape())

@@ -1,17 +1,22 @@
 """Reads one file of a viseme binding, and says what is wrong with it."""
 
 import tomllib
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import chain
+from math import radians
 from pathlib import Path
 from typing import Any
 
+from reactive_realizer.embodiment.turn_weights import turn_weights, turned_joint, weights_of_joint
 from reactive_realizer.engines.speech.lip_sync.shapes import VISEMES, Articulator, MouthShape
 from reactive_realizer.errors import Fault, RealizerError
 
 _LONGEST = 1.0
 """Upper limit of the time constant of an articulator, s."""
+_WIDEST = 45.0
+"""Limit of a turn of a joint about an axis, degrees."""
+_AXES = ("x", "y", "z")
 
 
 class BadVisemes(Fault):
@@ -53,15 +58,19 @@ class BindingFile:
                     raise _unknown(self.name, key, name, "an articulator", articulators)
             for morph in shape.morphs:
                 if morph not in moved:
-                    raise RealizerError(BadVisemes(file=self.name, key=key, reason=f"no articulator moves '{morph}'"))
+                    reason = f"no articulator moves '{turned_joint(morph) or morph}'"
+                    raise RealizerError(BadVisemes(file=self.name, key=key, reason=reason))
 
 
-def read_binding_file(path: Path, morphs: Collection[str], *, shared: bool = False) -> BindingFile:
+def read_binding_file(
+    path: Path, morphs: Collection[str], joints: Collection[str], *, shared: bool = False
+) -> BindingFile:
     """Reads a file.
 
     Args:
         path: of the file.
         morphs: names of the avatar's morph targets.
+        joints: of its skeleton.
         shared: whether the file is for many avatars; morph targets that this one does not have are then left out.
 
     Raises:
@@ -72,7 +81,7 @@ def read_binding_file(path: Path, morphs: Collection[str], *, shared: bool = Fal
         table = tomllib.loads(path.read_text(encoding="utf-8"))
     except (ValueError, RecursionError) as problem:
         raise RealizerError(BadVisemes(file=path.name, key="the file", reason=str(problem))) from problem
-    reader = _Reader(path.name, morphs, shared=shared)
+    reader = _Reader(path.name, morphs, joints, shared=shared)
     reader.know("the file", table, ("phonemes", "visemes", "articulators"))
     return BindingFile(
         path.name,
@@ -85,9 +94,10 @@ def read_binding_file(path: Path, morphs: Collection[str], *, shared: bool = Fal
 class _Reader:
     """Reads the tables of a file; every mistake names its key."""
 
-    def __init__(self, file: str, morphs: Collection[str], *, shared: bool) -> None:
+    def __init__(self, file: str, morphs: Collection[str], joints: Collection[str], *, shared: bool) -> None:
         self._file = file
         self._morphs = morphs
+        self._joints = joints
         self._shared = shared
 
     def phonemes(self, table: Mapping[str, Any]) -> dict[str, str]:
@@ -103,23 +113,30 @@ class _Reader:
 
     def shape(self, viseme: str, table: Mapping[str, Any]) -> MouthShape:
         key = f"visemes.{viseme}"
-        self.know(key, table, ("morphs", "dominance", "contact"))
+        self.know(key, table, ("morphs", "joints", "dominance", "contact"))
         morphs = self._numbers(f"{key}.morphs", table.get("morphs", {}), 0.0)
         dominance = self._numbers(f"{key}.dominance", table.get("dominance", {}), 1e-3)
         used = self._of_avatar(f"{key}.morphs", morphs)
         contact = self._names(f"{key}.contact", table.get("contact", []))
-        return MouthShape({morph: morphs[morph] for morph in used}, dominance, contact)
+        turned = self._turns(f"{key}.joints", table.get("joints", {}))
+        return MouthShape({morph: morphs[morph] for morph in used} | turned, dominance, contact)
 
     def articulators(self, table: Mapping[str, Any]) -> dict[str, Articulator]:
         found: dict[str, Articulator] = {}
         owner: dict[str, str] = {}
         for name, own in self.section(table, "articulators"):
             key = f"articulators.{name}"
-            self.know(key, own, ("morphs", "before", "after"))
-            morphs = self._of_avatar(f"{key}.morphs", self._names(f"{key}.morphs", own.get("morphs")))
-            for morph in morphs:
-                if owner.setdefault(morph, name) != name:
-                    raise self._bad(f"{key}.morphs", f"'{morph}' also belongs to {owner[morph]}")
+            self.know(key, own, ("morphs", "joints", "before", "after"))
+            morphs = self._of_avatar(f"{key}.morphs", self._names(f"{key}.morphs", own.get("morphs", [])))
+            joints = self._names(f"{key}.joints", own.get("joints", []))
+            if not own.keys() & {"morphs", "joints"}:
+                raise self._bad(key, "it has neither morphs nor joints")
+            for part, moved in (("morphs", morphs), ("joints", joints)):
+                for each in moved:
+                    if owner.setdefault(each, name) != name:
+                        raise self._bad(f"{key}.{part}", f"'{each}' also belongs to {owner[each]}")
+            self._check_joints(f"{key}.joints", joints)
+            morphs += tuple(chain.from_iterable(map(weights_of_joint, joints)))
             times = (self._number(f"{key}.{side}", own.get(side), 1e-3, _LONGEST) for side in ("before", "after"))
             found[name] = Articulator(morphs, *times)
         return found
@@ -149,6 +166,23 @@ class _Reader:
             if name not in self._morphs and not self._shared:
                 raise _unknown(self._file, key, name, "a morph target of the avatar", self._morphs)
         return tuple(name for name in names if name in self._morphs)
+
+    def _turns(self, key: str, value: object) -> dict[str, float]:
+        """The weights for rotation vectors of joints, degrees."""
+        weights: dict[str, float] = {}
+        table = self.table(key, value)
+        self._check_joints(key, table)
+        for joint, vector in table.items():
+            if not isinstance(vector, list) or len(vector) != len(_AXES):
+                raise self._bad(f"{key}.{joint}", "expected degrees about x, y and z")
+            x, y, z = (radians(self._number(f"{key}.{joint}", each, -_WIDEST, _WIDEST)) for each in vector)
+            weights |= turn_weights(joint, (x, y, z))
+        return weights
+
+    def _check_joints(self, key: str, joints: Iterable[str]) -> None:
+        for joint in joints:
+            if joint not in self._joints:
+                raise _unknown(self._file, key, joint, "a joint of the avatar", self._joints)
 
     def _numbers(self, key: str, value: object, least: float) -> dict[str, float]:
         return {name: self._number(f"{key}.{name}", each, least, 1.0) for name, each in self.table(key, value).items()}

@@ -15,7 +15,7 @@ class Articulator:
     """A part of the mouth that sounds move independently of the others, such as the jaw.
 
     Attributes:
-        morphs: names of the morph targets that move it.
+        morphs: names of the weights that move it: of morph targets, and of turns of joints (`turn_weights`).
         before: time constant of the dominance of a sound before it begins, s: how early the part moves towards it.
         after: that after the sound has ended, s.
     """
@@ -30,7 +30,7 @@ class MouthShape:
     """The mouth of a viseme.
 
     Attributes:
-        morphs: weights of morph targets, 0..1; all others are 0.
+        morphs: weights of morph targets and of turns of joints, 0..1; all others are 0.
         dominance: of the sound over its neighbors, above 0 and up to 1, for each articulator; 1 if it is not listed.
         contact: articulators that neighbors do not change, because lips or teeth touch; none for most visemes.
     """

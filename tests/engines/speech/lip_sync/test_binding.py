@@ -112,7 +112,15 @@ def test_a_file_with_articulators_describes_all_visemes(tmp_path: Path) -> None:
         ('[phonemes]\nQQ = ["q"]', r"phonemes: 'QQ' is not known"),
         ('[phonemes]\naa = ["abc"]', r"phonemes\.aa: 'abc' is not one letter or two"),
         ('[phonemes]\naa = ["a"]\nE = ["a"]', r"phonemes\.E: 'a' is also listed under aa"),
-        ("[articulators.a]\nbefore = 1\nafter = 1", r"articulators\.a\.morphs: expected a list of names"),
+        ("[articulators.a]\nbefore = 1\nafter = 1", r"articulators\.a: it has neither morphs nor joints"),
+        (
+            '[articulators.a]\njoints = ["jaw"]\nbefore = 1\nafter = 1',
+            r"articulators\.a\.joints: 'jaw' is not a joint of",
+        ),
+        (
+            "[visemes.aa]\njoints = {temporomandibular = [9, 0, 0]}",
+            r"joints: 'temporomandibular' is not a joint of the av",
+        ),
         ('[articulators.a]\nmorphs = ["jawOpen"]\nbefore = 0.1', r"articulators\.a\.after: None is not a number"),
         (
             "".join(f'[articulators.{n}]\nmorphs = ["jawOpen"]\nbefore = 1\nafter = 1\n' for n in "ab"),
