@@ -6,6 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from reactive_realizer.engines.speech.piper.voice import PLACE
+
 ROOT = Path(__file__).parents[2]
 
 SIZES = ("10", "1000", "100000")
@@ -103,6 +105,7 @@ SPEAKING = {"speech": pytest.mark.kokoro}
 @pytest.mark.parametrize("name", [pytest.param(name, marks=SPEAKING.get(name, ())) for name in SMALLEST])
 def test_a_benchmark_has_all_its_numbers_and_aims_only_for_these(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.syspath_prepend(ROOT)
+    monkeypatch.delenv(PLACE, raising=False)
     module = importlib.import_module(f"benchmarks.{name}")
     numbers = dict(_numbers(module.measure(**SMALLEST[name])))
     assert numbers.keys() == KEYS[name]

@@ -72,7 +72,7 @@ def test_the_help_of_a_command_lists_plug_ins(command: str, capsys: pytest.Captu
     with pytest.raises(SystemExit, match="0"):
         main([command, "--help"])
     told = capsys.readouterr().out
-    assert "--voice {beep,captions,espeak,kokoro,text}" in told
+    assert "--voice {beep,captions,espeak,kokoro,piper,text}" in told
     assert "earliest" in told
 
 

@@ -25,8 +25,8 @@ _SILENT = -40.0
 _MOST_GAIN = 8.0
 """dB."""
 
-_A = 43
-"""The token of the vowel a."""
+_A, _WARMING = 43, 20
+"""A token, and the number of its frames that are spoken for nothing."""
 
 Style = Floats
 """Of a voice: (510, 256), a vector for each number of tokens."""
@@ -45,10 +45,11 @@ class KokoroModel(SpeakingNetwork):
 
     def __init__(self, folder: Path | None, styles: Mapping[str, Style]) -> None:
         self.hello = {"voices": sorted(styles)}
-        self.trial = (_A,)
         self._styles = styles
         weights = _own_weights(folder) or _packaged_weights()
         self._predictor, self._synthesizer = open_networks(*halves(weights))
+        predicted = self.predict((_A,), min(styles), 1.0)
+        self.speak(predicted, 0, min(_WARMING, sum(predicted.durations)))
 
     def predict(self, tokens: Sequence[int], voice: str, rate: float) -> Predicted:
         """See `SpeakingNetwork.predict`; it takes 1 to 510 tokens, and a frame is 25 ms long."""

@@ -37,15 +37,13 @@ class Predicted:
 
 
 class SpeakingNetwork(Protocol):
-    """A network with one or more voices.
+    """A network with one or more voices, which has spoken something already: the first time takes longer.
 
     Attributes:
         hello: what the realizer is told of it, with the names of its ``voices``.
-        trial: tokens with which it is tried out and warmed up.
     """
 
     hello: Mapping[str, Any]
-    trial: Sequence[int]
 
     def predict(self, tokens: Sequence[int], voice: str, rate: float) -> Predicted:
         """The times and the melody of a sentence.

@@ -16,8 +16,6 @@ _REMEMBERED = 32
 """Sentences whose predictions are kept, of which a minute takes 5 MB."""
 _NICENESS = 5
 """How much the worker yields to the realizer, which has frames to show while it works."""
-_WARMING = 20
-"""Frames that are spoken for nothing."""
 
 
 def run(load: Callable[[], Sequence[SpeakingNetwork]]) -> None:
@@ -30,8 +28,6 @@ def run(load: Callable[[], Sequence[SpeakingNetwork]]) -> None:
     os.nice(_NICENESS)
     try:
         networks = load()
-        for network in networks:
-            _try_out(network)
     except (UnusableNetwork, OSError, ValueError) as problem:
         pipe.send(WorkerMessage({"failed": str(problem)}).encode())
         return
@@ -39,12 +35,6 @@ def run(load: Callable[[], Sequence[SpeakingNetwork]]) -> None:
     pipe.send(WorkerMessage({"networks": [dict(network.hello) for network in networks]}).encode())
     for request in pipe.requests():
         pipe.send(speaker.answer(request.header).encode())
-
-
-def _try_out(network: SpeakingNetwork) -> None:
-    """Speak something: the first time takes longer."""
-    predicted = network.predict(network.trial, network.hello["voices"][0], 1.0)
-    network.speak(predicted, 0, min(_WARMING, sum(predicted.durations)))
 
 
 class _Speaker:

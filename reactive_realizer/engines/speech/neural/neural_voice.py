@@ -21,7 +21,7 @@ from reactive_realizer.engines.speech.neural.pronunciation import Alphabet, Sent
 from reactive_realizer.engines.speech.neural.timed_sentence import FrameFormat, TimedSentence
 from reactive_realizer.engines.speech.neural.utterance import SentenceSound, as_utterance
 from reactive_realizer.engines.speech.scripts import unread_scripts
-from reactive_realizer.engines.speech.speech_worker import SpeechWorker
+from reactive_realizer.engines.speech.speech_worker import SpeechWorker, VoiceFailed
 from reactive_realizer.engines.speech.worker_messages import WorkerMessage
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.sized_cache import SizedCache
@@ -49,11 +49,13 @@ class NetworkVoice:
         language: the voice of espeak-ng that tells how words are pronounced.
         alphabet: in which the network is told the sounds.
         format: of the frames in which the network counts time.
+        stop: silence between two sentences, s, beside the pause that the network makes.
     """
 
     language: str
     alphabet: Alphabet
     format: FrameFormat
+    stop: float = 0.0
 
 
 class NeuralVoice(ABC):
@@ -100,8 +102,9 @@ class NeuralVoice(ABC):
         """
         if not self.installed():
             raise RealizerError(VoiceNotInstalled(extra=self.extra))
-        await self._dictionary.start()
-        await self.worker.hello()
+        languages = {each.language for each in (await self._known()).values()}
+        for unknown in languages.difference(await self._dictionary.voices()):
+            raise RealizerError(VoiceFailed(reason=f"espeak-ng has no voice '{unknown}'"))
 
     async def close(self) -> None:
         """Ends both workers."""
@@ -158,7 +161,9 @@ class NeuralVoice(ABC):
         dictionary = tuple(each for each in markup if each.kind in DICTIONARY)
         pronounced = await self._dictionary.pronounce(stopped, voice.language, dictionary)
         words = with_phonemes(pronounced, markup, voice.alphabet)
-        return words, list(sentences(stopped, words, voice.alphabet, MarkedPace(markup) if markup else None))
+        return words, list(
+            sentences(stopped, words, voice.alphabet, MarkedPace(markup) if markup else None, voice.stop)
+        )
 
     async def _predict(
         self,

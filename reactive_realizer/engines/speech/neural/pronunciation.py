@@ -96,7 +96,7 @@ class Pace(Protocol):
 
 
 def sentences(
-    text: str, words: Sequence[PronouncedWord], alphabet: Alphabet, pace: Pace | None = None
+    text: str, words: Sequence[PronouncedWord], alphabet: Alphabet, pace: Pace | None = None, stop: float = 0.0
 ) -> Iterator[Sentence]:
     """The sentences of a text; a long one is cut at a clause, or between words if it has none.
 
@@ -107,6 +107,7 @@ def sentences(
         words: all of its words.
         alphabet: of the network.
         pace: of its words; None if all have the usual one.
+        stop: silence between two sentences, s, beside the pause that the network makes.
     """
     sentence = Sentence()
     for number, word in enumerate(words):
@@ -120,7 +121,9 @@ def sentences(
             sentence.rate, sentence.silence = pace.rate(word.first), pace.silence(word.first, following)
         between = text[word.last : following] if word.pause else _SPACE
         changes = pace is not None and (sentence.silence > 0 or pace.rate(following) != sentence.rate)
-        ends = following == len(text) or changes or _ends(between, len(sentence.tokens))
+        stops = _ends(between, len(sentence.tokens))
+        ends = following == len(text) or changes or stops
+        sentence.silence += stop if stops and following < len(text) else 0.0
         room = _MOST_TOKENS - len(sentence.tokens)
         sentence.tokens += alphabet.punctuate(between, last=ends)[:room]
         if ends and sentence.sounds:
