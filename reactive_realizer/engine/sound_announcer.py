@@ -68,7 +68,9 @@ class SoundAnnouncer:
                 out += [change for each in announced for change in self._restated(unit, each)]
             else:
                 del self._announced[unit]
-                out += [change for each in announced for change in _silence(unit, each, now)]
+                later = (*announced[1:], None)
+                pairs = zip(announced, later, strict=True)
+                out += [change for each, following in pairs for change in _silence(unit, each, following, now)]
         for unit in units:
             if unit.live:
                 announced = self._announced.setdefault(unit, [])
@@ -110,11 +112,17 @@ def _differences(unit: SoundUnit, announced: _Announced, now: GlobalTime) -> Ite
         yield AudioGain(announced.clip, unit.gain, now)
 
 
-def _silence(unit: SoundUnit, announced: _Announced, now: GlobalTime) -> list[AudioChange]:
-    """The stop of a sound that was cut or never started; one that ended by itself is silent already."""
+def _silence(
+    unit: SoundUnit, announced: _Announced, following: _Announced | None, now: GlobalTime
+) -> list[AudioChange]:
+    """The stop of a sound that was cut or never started.
+
+    One that ended by itself is silent already. But its caption is still shown in the pause before the following sound.
+    """
     if unit.state is UnitState.DONE and unit.cut is None:
         return []
     time = next((time for time in (unit.cut, announced.start) if time is not None), now)
-    if announced.ended(time):
+    shown = announced.caption is not None and (following is None or following.start is None or following.start > time)
+    if announced.ended(time) and not shown:
         return []
     return [AudioStop(announced.clip, time, _FADE)]

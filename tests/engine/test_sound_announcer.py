@@ -8,7 +8,7 @@ import pytest
 from reactive_realizer.bml.behaviors import Wait
 from reactive_realizer.bml.names import BML, Location
 from reactive_realizer.clock.units import GlobalTime
-from reactive_realizer.embodiment.audio import AudioGain, AudioMove, AudioStart, AudioStop, Sound
+from reactive_realizer.embodiment.audio import AudioGain, AudioMove, AudioStart, AudioStop, Caption, Sound
 from reactive_realizer.engine.sound_announcer import SoundAnnouncer
 from reactive_realizer.engine.sound_unit import SoundPart, SoundUnit
 from reactive_realizer.pegboard.peg_key import BlockKey
@@ -20,15 +20,21 @@ from reactive_realizer.reactive.graph import Graph
 SECOND = Sound.from_pcm(b"\0\0" * 22_050, 22_050)
 
 
-class Scene:
-    """One sound from 2 s to 3 s."""
+class Captioned(SoundUnit):
+    """A speech of two words, of which the first one sounds."""
 
-    def __init__(self) -> None:
+    caption = Caption("One two", ((0.0, 0, 3), (3.0, 4, 7)))
+
+
+class Scene:
+    """One sound from 2 s to 3 s, of a unit that may be longer."""
+
+    def __init__(self, kind: type[SoundUnit] = SoundUnit, duration: float = 1.0) -> None:
         self.graph = Graph()
         self.start = AnticipatorPeg(self.graph, "start", GlobalTime(2.0))
         behavior = Wait(id="s", namespace=BML, name="wait", location=Location(1, 1), order=0)
-        timing = timing_at({"start": 0.0, "end": 1.0}, PhaseKind.RIGID)
-        self.unit = SoundUnit(BlockKey("alice", "b"), behavior, timing, [SoundPart(0.0, SECOND)], self.graph)
+        timing = timing_at({"start": 0.0, "end": duration}, PhaseKind.RIGID)
+        self.unit = kind(BlockKey("alice", "b"), behavior, timing, [SoundPart(0.0, SECOND)], self.graph)
         offsets = zip(self.unit.timing.points, self.unit.timing.offsets, strict=True)
         self.unit.points = [
             SyncPoint(sync, OffsetPeg(self.graph, sync, self.start, offset)) for sync, offset in offsets
@@ -114,6 +120,17 @@ def test_an_interrupted_sound_is_stopped_and_a_whole_one_is_not(scene: Scene) ->
     whole.changes(0.0)
     whole.play(3.0)
     assert whole.changes(3.0) == ()
+
+
+def test_the_caption_of_a_speech_that_is_cut_in_a_pause_between_its_sounds_is_stopped() -> None:
+    for kind, stops in ((Captioned, (AudioStop("alice-audio-1", GlobalTime(4.5), 0.03),)), (SoundUnit, ())):
+        scene = Scene(kind, 5.0)
+        scene.changes(0.0)
+        scene.play(2.0)
+        assert scene.changes(4.0) == ()
+        with scene.graph.transaction("interrupt"):
+            scene.unit.interrupt(GlobalTime(4.5))
+        assert scene.changes(4.5) == stops
 
 
 def test_a_wav_file_has_the_samples_of_the_sound() -> None:

@@ -41,6 +41,8 @@ class CaptionedSpeech {
   private readonly words: Word[];
   /** The first word of each page, in order. */
   private readonly pages: number[];
+  /** Whether the speech goes on after its sound, with another part, which has a caption of its own. */
+  private readonly goesOn: boolean;
 
   constructor(readonly announced: Caption) {
     this.start = announced.start ?? Infinity;
@@ -48,20 +50,27 @@ class CaptionedSpeech {
     this.text = Array.from(announced.text); // places are in Unicode characters
     this.words = announced.words.map(([start, first, last]) => ({ start, first, last }));
     this.pages = pagesOf(this.text, this.words);
+    this.goesOn = this.words.some(({ start }) => start >= announced.duration);
   }
 
-  /** Whether anything of it is shown at a position. */
-  visible(position: number): boolean {
-    return position >= 0 && position < this.end + LINGER && this.end > 0;
+  /** Whether it has begun at a position. */
+  begun(position: number): boolean {
+    return position >= 0 && this.end > 0;
+  }
+
+  /** Whether it goes on at a position, or has ended only a moment ago. */
+  shown(position: number): boolean {
+    return position < this.end + LINGER;
   }
 
   read(position: number): Reading {
     const { character } = this.announced;
-    const number = this.words.filter(({ start }) => start < Math.min(position, this.end)).length - 1;
+    const heard = Math.min(position, this.end, this.announced.duration);
+    const number = this.words.filter(({ start }) => start < heard).length - 1;
     const [from, to] = this.page(Math.max(number, 0));
     const word = this.words[number];
     const ended = position >= this.end;
-    const cut = ended && this.end < this.announced.duration;
+    const cut = ended && (this.goesOn || this.end < this.announced.duration);
     if (word === undefined || (ended && !cut)) {
       return { character, before: this.slice(from, to), word: "", after: "", cut, gain: this.gain };
     }
@@ -69,9 +78,9 @@ class CaptionedSpeech {
     return { character, before, word: this.slice(word.first, word.last), after, cut, gain: this.gain };
   }
 
-  /** The position at which it ends, or is cut. */
+  /** The position at which it ends, or is cut; Infinity while it waits for its next part. */
   private get end(): number {
-    return Math.min(this.announced.duration, this.stop - this.start);
+    return Math.min(this.goesOn ? Infinity : this.announced.duration, this.stop - this.start);
   }
 
   /** The place in the text of the page with a word. */
@@ -104,15 +113,15 @@ export class Captions {
 
   /** What is read at a realizer time, s: of each character the speech that began last. */
   at(time: number): Reading[] {
-    const readings = new Map<string, { begun: number; reading: Reading }>();
+    const last = new Map<string, { speech: CaptionedSpeech; position: number }>();
     for (const [id, speech] of this.speeches) {
       const position = this.heardPosition(id) ?? time - speech.start;
       const { character } = speech.announced;
-      const begun = readings.get(character)?.begun ?? -Infinity;
-      if (speech.visible(position) && speech.start >= begun)
-        readings.set(character, { begun: speech.start, reading: speech.read(position) });
+      const before = last.get(character)?.speech.start ?? -Infinity;
+      if (speech.begun(position) && speech.start >= before) last.set(character, { speech, position });
     }
-    return [...readings.values()].map(({ reading }) => reading);
+    const shown = [...last.values()].filter(({ speech, position }) => speech.shown(position));
+    return shown.map(({ speech, position }) => speech.read(position));
   }
 
   /** Forgets everything: the realizer is new. */

@@ -56,6 +56,43 @@ describe("captions", () => {
     expect(read(captions, 12.6)).toEqual([]);
   });
 
+  it("stay in a pause between two parts of a speech, however long", () => {
+    const captions = new Captions(silent);
+    const text = "One, two three.";
+    const [one, two, three]: Caption["words"] = caption(text).words;
+    if (!one || !two || !three) throw new Error("three words");
+    const moved = (words: Caption["words"], by: number): Caption["words"] =>
+      words.map(([start, first, last]) => [start + by, first, last]);
+    captions.handle(caption(text, { duration: 0.5, words: [one, ...moved([two, three], 4)] }));
+    expect(read(captions, 13.9)).toEqual(["[One], two three."]);
+    captions.handle(
+      caption(text, {
+        id: "s2",
+        start: 14.5,
+        duration: 1,
+        words: [...moved([one], -4.5), ...moved([two, three], -0.5)],
+      }),
+    );
+    expect([14.4, 14.6, 15.2, 16, 17.1].map((time) => read(captions, time).join())).toEqual([
+      "[One], two three.",
+      "One, [two] three.",
+      "One, two [three].",
+      "One, two three.[]",
+      "",
+    ]);
+  });
+
+  it("end when the speech is cut in such a pause", () => {
+    const captions = new Captions(silent);
+    captions.handle(caption("One, two three.", { duration: 0.7 }));
+    captions.handle({ type: "audio_stop", id: "s1", time: 12, fade: 0.03 });
+    expect([11.9, 12.1, 13.6].map((time) => read(captions, time).join())).toEqual([
+      "One, [two] three.",
+      "One, [two]—",
+      "",
+    ]);
+  });
+
   it("move with the speech, and wait while its start is unknown", () => {
     const captions = new Captions(silent);
     captions.handle(caption("One, two three.", { start: null }));
