@@ -3,6 +3,7 @@
 from collections.abc import Mapping, Sequence
 
 from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.pegboard.time_peg import LatestPeg, TimeCell, TimePeg
 from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.scheduler.bml_block import BMLBlock
@@ -10,22 +11,32 @@ from reactive_realizer.scheduler.problem import Node, Point, Precedence, Tie
 from reactive_realizer.scheduler.verify import TOLERANCE, missed
 
 
-def shift_ahead(block: BMLBlock, unit: PlanUnit, seconds: Mapping[str, float]) -> None:
+def shift_ahead(block: BMLBlock, unit: PlanUnit, seconds: Mapping[str, float], board: PegBoard) -> None:
     """Within a transaction, move the points ahead of a rigid behavior, and those that are tied to them.
 
-    Points that a `before` or an `after` constraint keeps behind or ahead of these give way.
+    A point that would come before the last tick is pinned at this one. Points that a `before` or an `after` constraint
+    keeps behind or ahead of these give way.
 
     Args:
         block: of the behavior.
         unit: the behavior.
         seconds: how much later each of its points is to come.
+        board: of the pegs.
     """
     shifts = _shifts(block, unit, seconds)
     pegs = ((peg, point) for point, peg in _pegs_ahead(block).items() if point in shifts and not peg.pinned)
-    wanted = {peg: shifts[point] for peg, point in pegs}
-    for peg, shift in wanted.items():
-        if own := shift - (_inherited(peg, wanted) or 0.0):
-            peg.shift(own)
+    wanted = {peg: (peg.value, shifts[point]) for peg, point in pegs}
+    moved: dict[TimePeg, float] = {}
+    for peg in sorted(wanted, key=lambda each: each.rank):
+        time, shift = wanted[peg]
+        if time is not None and time + shift < board.previous:
+            moved[peg] = board.time - time
+            peg.pin(board.time)
+        else:
+            own = shift - (_inherited(peg, moved) or 0.0)
+            moved[peg] = shift
+            if own:
+                peg.shift(own)
     _keep_orders(block, shifts)
 
 
@@ -49,12 +60,12 @@ def fixed_point(block: BMLBlock, unit: PlanUnit) -> str:
     return unit.timing.points[0]
 
 
-def _inherited(cell: TimeCell, wanted: Mapping[TimePeg, float]) -> float | None:
+def _inherited(cell: TimeCell, moved: Mapping[TimePeg, float]) -> float | None:
     """The shift that a peg takes over from those that it depends on; None if it depends on none that is shifted."""
     for each in cell.dependencies:
-        if isinstance(each, TimePeg) and each in wanted:
-            return wanted[each]
-        if not isinstance(each, LatestPeg) and (inherited := _inherited(each, wanted)) is not None:
+        if isinstance(each, TimePeg) and each in moved:
+            return moved[each]
+        if not isinstance(each, LatestPeg) and (inherited := _inherited(each, moved)) is not None:
             return inherited
     return None
 

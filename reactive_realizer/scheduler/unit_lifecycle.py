@@ -135,7 +135,7 @@ class UnitLifecycle:
         if block is None or unit.state is not UnitState.IN_EXEC:
             return
         with self._board.graph.transaction(f"drift of {unit.behavior.id}"):
-            shift_ahead(block, unit, dict.fromkeys((point.id for point in unit.ahead()), seconds))
+            shift_ahead(block, unit, dict.fromkeys((point.id for point in unit.ahead()), seconds), self._board)
             if (cut := self._scheduled_cuts.get(unit)) is not None:
                 time, asked = GlobalTime(cut.time + seconds), GlobalTime(cut.asked + seconds)
                 self.schedule_cut(unit, cut._replace(time=time, asked=asked))
@@ -155,7 +155,7 @@ class UnitLifecycle:
         later = {sync: after - earlier for sync, after, earlier in offsets}
         kept = later[unit.points[0].id if unit.begun else fixed_point(block, unit)]
         with self._board.graph.transaction(f"new timing of {unit.behavior.id}"):
-            shift_ahead(block, unit, {point.id: later[point.id] - kept for point in unit.ahead()})
+            shift_ahead(block, unit, {point.id: later[point.id] - kept for point in unit.ahead()}, self._board)
             if (cut := self._scheduled_cuts.get(unit)) is not None:
                 self.schedule_cut(unit, cut._replace(time=unit.gentle_end(cut.asked, cut.speech)))
         unit.wake()

@@ -114,6 +114,23 @@ async def test_words_are_reported_when_they_are_heard(talking: RealizerPilot) ->
     assert [talking.feedback.time(key) - before[key] for key in late] == pytest.approx([0.12] * len(late), abs=1e-6)
 
 
+async def test_words_are_reported_when_they_are_heard_after_a_tied_one_that_was_heard_before_this_was_known() -> None:
+    async with open_pilot(SceneOptions(voice="espeak", verify=True)) as pilot:
+        pilot.block("b", SPEECH + '<head id="nod" lexeme="NOD" end="s:one"/>')
+        while not pilot.feedback.reached("b:s:start"):
+            await pilot.tick()
+        before = planned(pilot)
+        while pilot.now < before["b:s:one"] - 0.05:
+            await pilot.tick()
+        report(pilot, -0.1)
+        report(pilot, -0.1)
+        known = pilot.now
+        await pilot.advance(5)
+        assert pilot.feedback.time("b:nod:end") == pilot.feedback.time("b:s:one") == known
+        later = [f"b:s:word{index}" for index in range(4, 12)]
+        assert [pilot.feedback.time(key) - before[key] for key in later] == pytest.approx([-0.1] * len(later), abs=1e-6)
+
+
 async def test_the_new_times_are_predicted_and_announced_once(talking: RealizerPilot) -> None:
     announced, told = len(talking.sounds), len(talking.feedback.of("predictionFeedback"))
     await hear(talking, 0.15, 6)
