@@ -95,13 +95,15 @@ def _pegs_ahead(block: BMLBlock) -> dict[Point, TimePeg]:
 def _shifts(block: BMLBlock, unit: PlanUnit, seconds: Mapping[str, float]) -> dict[Point, float]:
     """The shifts (s) of the points of a behavior, of those that are tied to them, of rigid behaviors there, and so on.
 
+    Points that have fired stay, and what is tied to them.
+
     Args:
         block: of the behavior.
         unit: the behavior.
         seconds: the shift of each of its points.
     """
     rigid = {each.behavior.id: each for each in block.units if each.timing.rigid}
-    tied = _tied_nodes(block)
+    tied, ahead = _tied_nodes(block), _pegs_ahead(block)
     shifts = {Point(unit.behavior.id, sync): shift for sync, shift in seconds.items()}
     waiting = list(shifts)
     while waiting:
@@ -110,7 +112,7 @@ def _shifts(block: BMLBlock, unit: PlanUnit, seconds: Mapping[str, float]) -> di
             if not isinstance(each, Point):
                 continue
             own = _points_of(rigid[each.behavior]) if each.behavior in rigid else [each]
-            new = [other for other in own if other not in shifts]
+            new = [other for other in own if other in ahead and other not in shifts]
             shifts.update(dict.fromkeys(new, shifts[point]))
             waiting += new
     return shifts

@@ -76,9 +76,13 @@ async def test_points_ahead_and_what_is_tied_to_them_move_to_what_is_heard(talki
     assert told.status("b") == told.status("other") == "DONE"
 
 
-async def test_what_is_tied_to_a_point_that_was_reported_keeps_its_time() -> None:
+@pytest.mark.parametrize(
+    "other", ["", '<gesture id="beat" lexeme="BEAT" stroke="s:two"/>'], ids=["alone", "with other"]
+)
+async def test_what_is_tied_to_a_point_that_was_reported_keeps_its_time(other: str) -> None:
     async with open_pilot(SceneOptions(voice="espeak", verify=True)) as pilot:
-        pilot.block("b", SPEECH + '<faceLexeme id="brows" lexeme="RAISE_BROWS" start="s:start" end="s:one+0.9"/>')
+        brows = '<faceLexeme id="brows" lexeme="RAISE_BROWS" start="s:start" end="s:one+0.9"/>'
+        pilot.block("b", SPEECH + brows + other)
         while not pilot.feedback.reached("b:s:one"):
             await pilot.tick()
         await hear(pilot, 0.15)

@@ -122,6 +122,29 @@ async def test_a_speech_waits_for_a_clause_that_is_not_there_and_no_word_is_told
     assert pilot.feedback.warnings == []
 
 
+async def test_what_is_tied_to_words_before_a_pause_keeps_its_time_and_what_is_tied_to_words_after_it_waits(
+    pilot: RealizerPilot, voice: FakeStreamingVoice
+) -> None:
+    voice.hold(1)
+    start = await begin(
+        pilot,
+        '<faceLexeme id="brows" lexeme="RAISE_BROWS" end="s:word1+1"/><head id="nod" lexeme="NOD" stroke="s:m"/>'
+        '<gaze id="away" target="camera" start="nod:stroke+0.4"/>',
+    )
+    pilot.block("mine", f'<faceLexeme id="smile" lexeme="SMILE" start="b:s:word1+1" end="b:s:m+1" xmlns:rr="{OWN}"/>')
+    while pilot.now < start + 1.0:
+        await pilot.tick()
+    voice.let()
+    await pilot.advance(6)
+    told = pilot.feedback
+    assert told.time("b:s:word2") > start + 1.0
+    assert told.time("b:brows:end") == told.time("mine:smile:start") == pytest.approx(told.time("b:s:word1") + 1.0)
+    assert told.time("b:nod:stroke") == told.time("b:s:m")
+    assert told.time("mine:smile:end") == pytest.approx(told.time("b:s:m") + 1.0)
+    assert told.time("b:away:start") == pytest.approx(told.time("b:nod:stroke") + 0.4)
+    assert told.warnings == []
+
+
 @settings(max_examples=20, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(st.lists(st.integers(0, 150), min_size=2, max_size=2), st.integers(0, 20))
 async def test_every_clause_sounds_when_its_words_are_told_whenever_it_is_made(
