@@ -26,7 +26,7 @@ class Entry:
         face: whether the picture shows the face only.
         mouth: whether the picture shows the mouth only.
         avatar: name of its file without the suffix.
-        caption: is shown in place of the behaviors, if it is not empty.
+        caption: is shown below the picture, if it is not empty.
     """
 
     name: str
@@ -58,9 +58,9 @@ def entries(lexicon: Iterable[LexiconEntry]) -> list[Entry]:
 
 def _action_units() -> Iterator[Entry]:
     face = PACKAGE_ASSETS / "face"
-    for number in Expressions.read(face / "lexemes.json", face / "action_units.json").units:
+    for number, unit in Expressions.read(face / "lexemes.json", face / "action_units.json").units.items():
         behavior = f'<faceFacs xmlns="{BML_EXT}" id="f" au="{number}" amount="1"/>'
-        yield Entry(f"facefacs-{number:02}", behavior, face=True)
+        yield Entry(f"facefacs-{number:02}", behavior, face=True, caption=unit.name)
 
 
 def _visemes() -> Iterator[Entry]:
@@ -125,6 +125,8 @@ _FACES = (
     Entry("facefap-jaw", '<bmlt:facefap id="f" fap="open_jaw" value="900"/>', face=True),
     Entry("facefap-corners", '<bmlt:facefap id="f" fap="raise_l_cornerlip raise_r_cornerlip" value="450"/>', face=True),
     Entry("facefap-brow", '<bmlt:facefap id="f" fap="raise_l_m_eyebrow raise_l_o_eyebrow" value="130"/>', face=True),
+    Entry("facefap-eyes", '<bmlt:facefap id="f" fap="yaw_l_eyeball yaw_r_eyeball" value="25000"/>', face=True),
+    Entry("facefap-head", '<bmlt:facefap id="f" fap="head_yaw head_roll" value="20000"/>', face=True),
     *(
         Entry(
             f"faceplutchik-{name}",

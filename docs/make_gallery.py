@@ -50,6 +50,21 @@ PUSH_AFTER = 1.0
 LONGEST = 20.0
 """Maximum duration of a strip, s, for behaviors without an end."""
 
+OTHERS = "Other motions"
+SECTIONS = {
+    "Words of the face": ("facelexeme",),
+    "Action units": ("facefacs",),
+    "Further faces": ("facefap", "faceplutchik", "facekeyframe"),
+    "Visemes": ("visemes",),
+    "Head": ("head", "headdirectionshift"),
+    "Gaze": ("gaze", "gazeshift"),
+    "Gestures": ("gesture", "pointing"),
+    "Postures": ("pose", "stance", "postureshift"),
+    "Procedural animations": ("procanimation", "procanimationgesture"),
+    OTHERS: (),
+}
+"""The sections of the page, with the first words of the names of their entries."""
+
 _NOTICEABLE = 24
 """Smallest difference of a pixel that counts, of 255: software renderers differ by less."""
 
@@ -257,20 +272,39 @@ def _described(share: float | None) -> str:
 
 
 def index(all_entries: Iterable[Entry]) -> str:
-    """The page that shows all strips."""
+    """The page that shows all strips, in sections."""
+    by_section: dict[str, list[Entry]] = {section: [] for section in SECTIONS}
+    for entry in all_entries:
+        by_section[section_of(entry)].append(entry)
     lines = [
         "# Gallery",
         "",
-        "Every lexeme and motion unit at seven moments from start to end. `make gallery` generates this page.",
+        "Every lexeme, action unit, viseme and motion unit at seven moments from start to end.",
+        "`make gallery` generates this page.",
+        "",
+        *(f"- [{section}](#{section.lower().replace(' ', '-')}): {len(own)}" for section, own in by_section.items()),
         "",
     ]
-    for entry in all_entries:
-        picture = f"![{entry.name}]({entry.name}.webp)"
-        described = [entry.caption] if entry.caption else ["```xml", entry.behaviors, "```"]
-        lines += [f"### {entry.name}", "", picture, "", *described, ""]
-        if entry.push is not None:
-            lines += [f"pushed with {max(map(abs, entry.push)):g} N for 0.2 s", ""]
+    for section, own in by_section.items():
+        lines += [f"## {section}", "", *(line for entry in own for line in _lines(entry))]
     return "\n".join(lines)
+
+
+def section_of(entry: Entry) -> str:
+    """The section in which an entry is shown: that of the first word of its name."""
+    kind = entry.name.partition("-")[0]
+    return next((section for section, kinds in SECTIONS.items() if kind in kinds), OTHERS)
+
+
+def _lines(entry: Entry) -> list[str]:
+    lines = [f"### {entry.name}", "", f"![{entry.name}]({entry.name}.webp)", ""]
+    if entry.caption:
+        lines += [entry.caption, ""]
+    if not entry.mouth:  # its keyframes are long
+        lines += ["```xml", entry.behaviors, "```", ""]
+    if entry.push is not None:
+        lines += [f"pushed with {max(map(abs, entry.push)):g} N for 0.2 s", ""]
+    return lines
 
 
 async def known(options: SceneOptions) -> list[Entry]:
