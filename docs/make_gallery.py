@@ -38,12 +38,10 @@ WITH_SOUND = "--autoplay-policy=no-user-gesture-required"
 WIDE: ViewportSize = {"width": 1000, "height": 560}
 HIGH: ViewportSize = {"width": 1000, "height": 1200}
 """A high window shows legs and feet."""
-LARGE: ViewportSize = {"width": 2000, "height": 1120}
-"""A large window shows enough of a face."""
 NEAR: ViewportSize = {"width": 1000, "height": 600}
 """A window in which the camera comes near to a mouth."""
-MOUTH = {"female": -0.012, "male": 0.012}
-"""Height of the mouth above the joint of the head, m."""
+MOUTH = {"female": 0.183, "male": 0.21}
+"""Distance of the mouth from the crown in the picture of a face, m."""
 MOMENTS = 7
 PUSH_AFTER = 1.0
 """Time from the start of a strip to the push, s."""
@@ -110,7 +108,7 @@ class Framing:
         if entry.mouth:
             return cls(NEAR, (150, 120), (140, 460))
         if entry.face:
-            return cls(LARGE, (150, 180), (95, 440))
+            return cls(WIDE, (150, 180), (45, 430))
         return cls(HIGH, (150, 300)) if entry.whole_body else cls(WIDE, (180, 240))
 
     def picture(self, canvas: Image.Image) -> Image.Image:
@@ -157,6 +155,9 @@ async def strip(camera: Camera, entry: Entry) -> Image.Image:
     if entry.push is not None:
         push = Push(next(iter(live.realizer.characters)), "vl5", entry.push, 0.2)
         live.realizer.put(push, GlobalTime(begun + PUSH_AFTER))
+    if entry.face or entry.mouth:
+        await camera.page.wait_for_function("viewer.morph('alice', 'jawOpen') !== null")
+        await camera.page.click("#shot-face")
     if entry.mouth:
         await approach_mouth(camera.page, entry.avatar)
     pictures = []
@@ -191,13 +192,10 @@ def with_avatar(options: SceneOptions, avatar: str) -> Iterator[SceneOptions]:
 
 
 async def approach_mouth(page: Page, avatar: str) -> None:
-    """Moves the camera near to the mouth of a character, as a user does: by dragging and with the wheel."""
-    await page.wait_for_function("viewer.morph('alice', 'jawOpen') !== null")
-    hips, head = [(await page.evaluate(f"viewer.bone('alice', '{bone}')"))[1] for bone in ("Hips", "Head")]
+    """Moves the camera from a face near to its mouth, as a user does: by dragging and with the wheel."""
     box = await page.locator("#viewport canvas").bounding_box()
     assert box is not None
-    top, height = hips / 0.53 + 0.05, box["height"] / box["width"]  # what web/src/viewport.ts shows, m
-    up = (head + MOUTH[avatar] - (top - height / 2)) / height * box["height"]
+    up = (0.16 - MOUTH[avatar]) / 0.42 * box["height"]  # the middle of the shot and its height (web/src/framing.ts)
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
     await page.mouse.move(x, y)
     await page.mouse.down(button="right")

@@ -56,6 +56,25 @@ async def test_bml_that_is_sent_from_the_page_moves_the_arm_and_its_feedback_app
         await expect(page.locator("#feedback")).to_contain_text("hand:g:stroke")
 
 
+async def test_buttons_and_keys_choose_a_shot_until_the_user_moves_the_camera(serve: Serve) -> None:
+    async with serve(ALICE) as scene:
+        page = await scene.open()
+        pressed = page.locator(".shots [aria-pressed=true]")
+        await expect(pressed).to_have_text("Upper body")
+        whole = await page.locator("#viewport canvas").screenshot()
+        await page.keyboard.press("1")
+        await expect(pressed).to_have_text("Face")
+        await page.click("#shot-full")
+        await expect(pressed).to_have_text("Full body")
+        assert await page.locator("#viewport canvas").screenshot() != whole
+        await page.fill("#bml-text", "")
+        await page.type("#bml-text", "1")
+        await expect(pressed).to_have_text("Full body")
+        await page.mouse.move(200, 200)
+        await page.mouse.wheel(0, -100)
+        await expect(pressed).to_have_count(0)
+
+
 async def redness(page: Page) -> float:
     """By how much the picture of the figure is more red than green, on average, of 255."""
     shot = Image.open(io.BytesIO(await page.locator("#viewport canvas").screenshot())).convert("RGB")

@@ -1,4 +1,5 @@
 import {
+  Box3,
   type Material,
   Mesh,
   MeshLambertMaterial,
@@ -12,9 +13,13 @@ import {
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 
 import type { Pose } from "./binary";
+import type { Figure } from "./framing";
 import type { Character, Position } from "./protocol";
 import { isSkinColor, Skin } from "./skin";
 import type { Quality } from "./viewport";
+
+/** Names of the bone of a head, also with a prefix: `Head`, `mixamorig:Head`. */
+const HEAD = /(^|[^a-z])head$/i;
 
 /** One mesh's entry for a morph's weight: a face consists of several meshes that share their morphs. */
 interface MorphSlot {
@@ -26,6 +31,10 @@ interface MorphSlot {
 export class Avatar {
   /** The topmost bone, which carries the root's position. */
   private readonly root: Object3D | undefined;
+
+  /** The bone of the head, and the height of the crown above it, m. */
+  private readonly head: Object3D | undefined;
+  private readonly crown: number;
 
   /** The inverse of the root's orientation in the model, in which the character faces +z. */
   private readonly unturned = new Quaternion();
@@ -39,6 +48,8 @@ export class Avatar {
   ) {
     this.root = bones.find((bone) => !bones.includes(bone?.parent ?? undefined));
     this.root?.getWorldQuaternion(this.unturned).invert();
+    this.head = bones.find((bone) => bone !== undefined && HEAD.test(bone.name));
+    this.crown = new Box3().setFromObject(object).max.y - worldPosition(this.head ?? object)[1];
   }
 
   /** Loads the character's model; rejects when it cannot be loaded. */
@@ -63,9 +74,10 @@ export class Avatar {
     }
   }
 
-  /** World position of the root, m. */
-  get position(): Position {
-    return worldPosition(this.root ?? this.object);
+  /** Where it is. */
+  get figure(): Figure {
+    const [x, y, z] = worldPosition(this.head ?? this.object);
+    return { crown: [x, y + this.crown, z], root: worldPosition(this.root ?? this.object) };
   }
 
   /** Where the root faces in the world, horizontally, of length 1. */

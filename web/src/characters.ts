@@ -3,6 +3,7 @@ import type { Object3D } from "three";
 import { Avatar } from "./avatar";
 import type { Frame } from "./binary";
 import { FaceClock } from "./clock";
+import type { Figure } from "./framing";
 import { Playout } from "./playout";
 import type { Character, Position } from "./protocol";
 import type { Quality } from "./viewport";
@@ -91,9 +92,9 @@ export class Characters {
     return this.find(characterId)?.morph(name) ?? null;
   }
 
-  /** World position of each loaded avatar's root, m. */
-  roots(): Position[] {
-    return this.list().flatMap(({ avatar }) => (avatar === null ? [] : [avatar.position]));
+  /** The characters whose avatars are loaded, as the camera sees them. */
+  figures(): Figure[] {
+    return this.list().flatMap(({ avatar }) => (avatar === null ? [] : [avatar.figure]));
   }
 
   private list(): LoadedCharacter[] {

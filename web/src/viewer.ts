@@ -10,6 +10,7 @@ import { CaptionsPanel } from "./panels/captions";
 import { FeedbackPanel } from "./panels/feedback";
 import { PegsPanel } from "./panels/pegs";
 import { PhysicsPanel } from "./panels/physics";
+import { ShotsPanel } from "./panels/shots";
 import type { StatusPanel } from "./panels/status";
 import type { Board, Feedback, Hello } from "./protocol";
 import { SpeechPlayer } from "./speech";
@@ -41,7 +42,12 @@ export class Viewer implements ConnectionListener {
     readonly quality: Quality,
     private readonly status: StatusPanel,
   ) {
-    this.viewport = new Viewport(element("viewport", HTMLElement), quality);
+    const shots = new ShotsPanel((shot) => {
+      this.viewport.show(shot, this.characters.figures());
+    });
+    this.viewport = new Viewport(element("viewport", HTMLElement), quality, (shot) => {
+      shots.mark(shot);
+    });
     this.world = new World(this.viewport.scene);
     this.characters = new Characters(this.viewport.scene, quality, status.report);
     this.speech = new SpeechPlayer(this.audio, this.clock, this.delay, status.report);
@@ -122,7 +128,7 @@ export class Viewer implements ConnectionListener {
       this.characters.show(time, (id) => this.speech.frameTime(id));
       this.captionsPanel.show(this.captions.at(time));
     }
-    if (this.characters.complete) this.viewport.frame(page, this.characters.roots());
+    if (this.characters.complete) this.viewport.frame(page, this.characters.figures());
     this.viewport.draw(page);
     this.feedback.draw();
     this.pegs.draw();

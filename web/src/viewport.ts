@@ -1,11 +1,9 @@
 import {
-  Box3,
   CanvasTexture,
   CircleGeometry,
   Color,
   DirectionalLight,
   HemisphereLight,
-  MathUtils,
   Mesh,
   MeshLambertMaterial,
   MeshStandardMaterial,
@@ -15,13 +13,13 @@ import {
   Scene,
   SRGBColorSpace,
   type Texture,
-  Vector3,
   WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { RoomEnvironment } from "three/addons/environments/RoomEnvironment.js";
 
 import { Follow } from "./follow";
+import { type Figure, framing, type Shot } from "./framing";
 import type { Position } from "./protocol";
 
 /** How much the page spends on looks: `?quality=low` is for machines without a graphics card. */
@@ -42,17 +40,6 @@ const FLOOR_RADIUS = 5;
 const LOW_PIXELS = 320 * 240;
 const LOW_RATE = 12;
 
-/** Hip height of a standing human as a fraction of stature: gives the stature of a character by its root. */
-const HIPS = 0.53;
-
-/** Hip height assumed while no character is known, m. */
-const USUAL_HIPS = 0.9;
-
-/** Space above the head and below the hips, reach of a gesture to each side, and camera height of the first view, m. */
-const MARGIN = 0.05;
-const REACH = 0.5;
-const EYE_HEIGHT = 1.6;
-
 /** The quality that the page's address asks for. */
 export function qualityOf(address: string): Quality {
   return new URL(address).searchParams.get("quality") === "low" ? "low" : "normal";
@@ -64,8 +51,9 @@ export class Viewport {
   private readonly camera = new PerspectiveCamera(30, 1, 0.05, 60);
   private readonly renderer: WebGLRenderer;
   private readonly controls: OrbitControls;
-  /** Roots of the characters that the camera keeps in view, m; null once the user has moved the camera. */
-  private framed: Position[] | null = [];
+  /** How much of the characters the camera keeps in view; null once the user has moved the camera. */
+  private shot: Shot | null = "upper";
+  private figures: Figure[] = [];
   private readonly follow = new Follow();
   private nextDraw = 0;
 
@@ -73,6 +61,7 @@ export class Viewport {
   constructor(
     private readonly container: HTMLElement,
     private readonly quality: Quality,
+    private readonly onShot: (shot: Shot | null) => void,
   ) {
     const canvas = document.createElement("canvas");
     this.renderer = new WebGLRenderer({
@@ -95,10 +84,18 @@ export class Viewport {
     return this.camera.position.toArray();
   }
 
-  /** Shows all characters at a page time (ms), by their roots (m), unless the user has moved the camera. */
-  frame(page: number, roots: Position[]): void {
-    if (this.framed === null || !this.follow.update(page, roots)) return;
-    this.framed = roots;
+  /** Keeps all characters in view, at a page time (ms), unless the user has moved the camera. */
+  frame(page: number, figures: Figure[]): void {
+    const roots = figures.map(({ root }) => root);
+    if (this.shot === null || !this.follow.update(page, roots)) return;
+    this.figures = figures;
+    this.look();
+  }
+
+  /** Shows as much of the characters as a shot asks for. */
+  show(shot: Shot, figures: Figure[]): void {
+    this.figures = figures;
+    this.take(shot);
     this.look();
   }
 
@@ -116,10 +113,16 @@ export class Viewport {
     controls.minDistance = 0.4;
     controls.maxDistance = 8;
     controls.maxPolarAngle = 0.52 * Math.PI;
+    controls.zoomToCursor = true;
     controls.addEventListener("start", () => {
-      this.framed = null;
+      this.take(null);
     });
     return controls;
+  }
+
+  private take(shot: Shot | null): void {
+    this.shot = shot;
+    this.onShot(shot);
   }
 
   private light(): void {
@@ -171,10 +174,10 @@ export class Viewport {
   }
 
   private look(): void {
-    if (this.framed === null) return;
-    const { target, distance } = framing(this.framed, this.camera);
+    if (this.shot === null) return;
+    const { target, eye } = framing(this.shot, this.figures, this.camera.aspect, this.camera.fov);
     this.controls.target.copy(target);
-    this.camera.position.set(target.x, EYE_HEIGHT, target.z + distance);
+    this.camera.position.copy(eye);
     this.controls.update();
   }
 }
@@ -202,21 +205,6 @@ export class CameraReport {
 
 function distance(a: Position, b: Position): number {
   return Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-}
-
-/** The camera's target and its distance in front of it (m) that show all characters, by their roots (m). */
-function framing(roots: Position[], camera: PerspectiveCamera): { target: Vector3; distance: number } {
-  const standing = roots.length === 0 ? [new Vector3(0, USUAL_HIPS, 0)] : roots.map((root) => new Vector3(...root));
-  const { min, max } = new Box3().setFromPoints(standing);
-  const top = max.y / HIPS + MARGIN;
-  const width = max.x - min.x + 2 * REACH;
-  const height = Math.max(top - min.y + MARGIN, width / camera.aspect);
-  // A narrow window shows more height: it shows more of the legs, and at most as much above the heads as below.
-  const target = new Vector3((min.x + max.x) / 2, Math.max(top - height / 2, top / 2), max.z);
-  return {
-    target,
-    distance: height / 2 / Math.tan(MathUtils.degToRad(camera.fov / 2)),
-  };
 }
 
 /** A disc that fades into the backdrop. */

@@ -1,0 +1,65 @@
+import { Box3, MathUtils, Vector3 } from "three";
+
+import type { Position } from "./protocol";
+
+/** How much of the characters the camera shows. */
+export type Shot = "face" | "upper" | "full";
+
+/** A character as the camera sees it: places in the world, m. */
+export interface Figure {
+  crown: Position;
+  root: Position;
+}
+
+/** The camera: the point that it looks at, its position (m), both in front of the characters. */
+export interface View {
+  target: Vector3;
+  eye: Vector3;
+}
+
+/** A figure that is shown while no character is known. */
+const USUAL: Figure = { crown: [0, 1.7, 0], root: [0, 0.9, 0] };
+
+/** Space above the head and below what is shown, m: hands are raised above the head. */
+const ABOVE: Record<Shot, number> = { face: 0.05, upper: 0.13, full: 0.13 };
+const BELOW = 0.05;
+
+/** Space to each side of the characters, m: a gesture reaches farther than a face. */
+const REACH: Record<Shot, number> = { face: 0.16, upper: 0.5, full: 0.5 };
+
+/** Height of a face, with hair and neck, m. */
+const FACE = 0.32;
+
+/** Distance of the eyes from the crown, m. */
+const EYES = 0.12;
+
+/** Usual and lowest height of the camera, m: it looks at those who lie from above. */
+const EYE_HEIGHT = 1.6;
+const LOWEST = 0.5;
+
+/** The view that shows all figures as a shot asks for; `fov` is the camera's vertical angle of view, in degrees. */
+export function framing(shot: Shot, figures: Figure[], aspect: number, fov: number): View {
+  const shown = figures.length === 0 ? [USUAL] : figures;
+  const { min, max } = new Box3().setFromPoints(shown.flatMap((figure) => outline(shot, figure)));
+  const top = max.y + ABOVE[shot];
+  const width = max.x - min.x + 2 * REACH[shot];
+  const height = Math.max(top - min.y + BELOW, width / aspect);
+  // A narrow window shows more height: it shows more of the legs, and at most as much above the heads as below.
+  const target = new Vector3((min.x + max.x) / 2, Math.max(top - height / 2, shot === "face" ? min.y : top / 2), max.z);
+  const distance = height / 2 / Math.tan(MathUtils.degToRad(fov / 2));
+  const above = shot === "face" ? Math.max(LOWEST, max.y - EYES) : EYE_HEIGHT;
+  return { target, eye: new Vector3(target.x, above, target.z + distance) };
+}
+
+/** Points of a figure that a shot shows. */
+function outline(shot: Shot, { crown, root }: Figure): Vector3[] {
+  const [x, y, z] = crown;
+  switch (shot) {
+    case "face":
+      return [new Vector3(x, y, z), new Vector3(x, y - FACE, z)];
+    case "upper":
+      return [new Vector3(...root), new Vector3(x, y, root[2])];
+    case "full":
+      return [new Vector3(root[0], 0, root[2]), new Vector3(...root), new Vector3(x, y, root[2])];
+  }
+}
