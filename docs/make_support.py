@@ -127,7 +127,7 @@ _AROUND = """\
 | `required` | yes | its contents must succeed; otherwise the block ends as FAILED and stops |
 | `constraint`, `synchronize` | yes | its `<sync ref="..."/>` sync points coincide; an absolute time fixes them |
 | `constraint`, `before`, `after` | yes | also while the block plays; `smartbody` drops them with a warning |
-| `description` | yes | by priority; of a `speech` also [audio](audio.md#recorded-speech), [SSML](voices.md#ssml) |
+| `description` | yes | by priority; of a `speech` also [audio](audio.md), [SSML](voices.md#ssml) |
 
 ## Other namespaces
 

@@ -60,7 +60,11 @@ class Limits:
     sound_bytes: int = 64 * 1024 * 1024
     """Bytes of audio stored for clients to fetch."""
     sound_seconds: float = 300.0
-    """Duration of a sound file, s."""
+    """Duration of a sound file, and of a streamed speech, s."""
+    streams: int = 8
+    """Streamed speeches at a time; the words of each are found in a process of its own."""
+    stream_seconds: float = 20.0
+    """Time within which a streamed speech must begin to arrive, or go on to, s."""
     remembered_feedback: int = 10_000
     """Feedback messages stored for clients that reconnect."""
     remembered_feedback_bytes: int = 256 * 1024 * 1024

@@ -21,6 +21,7 @@ from reactive_realizer.engine.answer_checks import check_weights
 from reactive_realizer.engine.context import EngineContext, LipSyncProvider
 from reactive_realizer.engine.engine import Engine
 from reactive_realizer.engine.guarded_engine import FAILURES
+from reactive_realizer.engine.speech_streams import SpeechStreams
 from reactive_realizer.engine.tts import TTSBinding
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.limits import Limits
@@ -93,8 +94,9 @@ async def open_scene(options: SceneOptions) -> AsyncIterator[Scene]:
     world = World({target: spec.position for target, spec in specification.targets.items()})
     tts: TTSBinding = load("tts", options.voice)()
     time = Source(Graph(), "time", GlobalTime(0.0))
+    streams = SpeechStreams(specification.limits)
     characters = [
-        _character(id_, spec, specification.limits, world, assets, tts, options, options.seed + rank, time)
+        _character(id_, spec, specification.limits, world, assets, tts, options, options.seed + rank, time, streams)
         for rank, (id_, spec) in enumerate(specification.characters.items())
     ]
     anticipators = _anticipators(options.human.name, specification.anticipators)
@@ -107,6 +109,7 @@ async def open_scene(options: SceneOptions) -> AsyncIterator[Scene]:
         strategy,
         specification.limits,
         time,
+        speech_streams=streams,
         word_classes=classes,
         fillers=fillers,
         verify=options.verify,
@@ -130,6 +133,7 @@ def _character(
     options: SceneOptions,
     seed: int,
     time: Source[GlobalTime],
+    streams: SpeechStreams,
 ) -> Character:
     heading = math.radians(spec.heading)
     file = assets(spec.avatar)
@@ -153,6 +157,7 @@ def _character(
         blink_rate=spec.blink_rate,
         limits=limits,
         liveliness=options.liveliness if spec.liveliness is None else spec.liveliness,
+        speech_streams=streams,
     )
     engines: list[Engine] = [load("engines", name)(context) for name in spec.engines]
     mouth.voices = [engine for engine in engines if isinstance(engine, LipSyncProvider)]

@@ -7,7 +7,7 @@ from typing import Any, Final
 
 from reactive_realizer.bml.attributes import attributes_of
 from reactive_realizer.bml.behavior import Behavior
-from reactive_realizer.bml.behaviors import Face, Mark, MarkTime, Pose, Posture, Speech, Stance
+from reactive_realizer.bml.behaviors import Face, Mark, MarkTime, Pose, Posture, SoundStream, Speech, Stance
 from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.elements import ELEMENTS
 from reactive_realizer.bml.extensions import BehaviorParameter, ParameterValueChange, Trajectory
@@ -19,6 +19,7 @@ from reactive_realizer.bml.faults import (
     UnknownMark,
     UtteranceTooLong,
 )
+from reactive_realizer.bml.names import OWN
 from reactive_realizer.bml.trees import PARAMETER, Tree, children_of, is_core, name_of
 from reactive_realizer.bml.vocabulary import PosePart
 from reactive_realizer.errors import Fault, RealizerError
@@ -70,6 +71,16 @@ def read_recording(description: Tree, marks: Sequence[Mark], source: BlockSource
             raise RealizerError(source.located(sync, UnknownMark(mark=time.id, known=known)))
         times.append(time)
     return {"file_name": file_name, "mark_times": tuple(times)}
+
+
+def read_stream(description: Tree, source: BlockSource, notes: list[Fault]) -> SoundStream | None:
+    """The stream of a speech that is described as one: its ``<stream>`` in our own namespace; None without one.
+
+    Raises:
+        RealizerError: an attribute is missing or bad.
+    """
+    stream = description.find(f"{{{OWN}}}stream")
+    return None if stream is None else SoundStream(**_values(stream, SoundStream, source, notes))
 
 
 def read_face(tree: Tree, source: BlockSource, notes: list[Fault]) -> dict[str, Any]:

@@ -4,7 +4,7 @@ The name of an element is the name of its class with a lowercase first letter. W
 about a default, it is the one of OpenBMLParser.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Final
@@ -108,6 +108,37 @@ class RecordedSpeech(Speech):
 
     file_name: str
     mark_times: tuple[MarkTime, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SoundStream:
+    """Sound that a client sends while it is made.
+
+    Attributes:
+        name: under which it is sent.
+        rate: of its samples, Hz.
+    """
+
+    name: str = field(metadata=attribute(Id()))
+    rate: int = field(metadata=attribute(Integer(16_000, 48_000)))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StreamedSpeech(Speech):
+    """A speech whose sound a client sends while it is made, as a description of a `Speech` may say.
+
+    Attributes:
+        stream: its sound.
+    """
+
+    stream: SoundStream
+
+
+def streams_of(behaviors: Iterable[Behavior]) -> Iterator[SoundStream]:
+    """The sound of those behaviors that may be spoken by a client."""
+    for form in (each.behavior for behavior in behaviors for each in behavior.descriptions):
+        if isinstance(form, StreamedSpeech):
+            yield form.stream
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

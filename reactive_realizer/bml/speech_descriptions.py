@@ -6,16 +6,18 @@ from types import MappingProxyType
 from typing import Any, Final
 
 from reactive_realizer.bml.behavior import Description
-from reactive_realizer.bml.behavior_parts import read_recording
-from reactive_realizer.bml.behaviors import Mark, RecordedSpeech, Speech
+from reactive_realizer.bml.behavior_parts import read_recording, read_stream
+from reactive_realizer.bml.behaviors import Mark, RecordedSpeech, Speech, StreamedSpeech
 from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.faults import MissingElement, MissingMarks, OtherMarkup
+from reactive_realizer.bml.names import OWN
 from reactive_realizer.bml.ssml_reader import read_ssml
 from reactive_realizer.bml.trees import Tree, name_of
 from reactive_realizer.errors import Fault, RealizerError
 
 _AUDIO: Final = "audio/"
-"""Prefix of the languages that are recordings."""
+"""Prefix of the languages that are sound."""
+_STREAM: Final = "audio/x-stream"
 _SSML: Final = "application/ssml+xml"
 _OTHERS: Final[Mapping[str, str]] = MappingProxyType(
     {
@@ -32,7 +34,7 @@ _OTHERS: Final[Mapping[str, str]] = MappingProxyType(
 def read_speech_description(
     description: Tree, type_: str, core: Mapping[str, Any], source: BlockSource, notes: list[Fault]
 ) -> Speech | None:
-    """The speech that a description describes, in SSML or as a recording; None if it does neither.
+    """The speech that a description describes, in SSML, as a recording or as a stream; None if it does none of these.
 
     Args:
         description: its element.
@@ -44,10 +46,13 @@ def read_speech_description(
     Raises:
         RealizerError: it cannot be read, or lacks a sync point of the speech.
     """
+    if (stream := read_stream(description, source, notes)) is not None:
+        return StreamedSpeech(**core, stream=stream)
     if (recording := read_recording(description, core["marks"], source)) is not None:
         return RecordedSpeech(**core, **recording)
     if type_.startswith(_AUDIO):
-        fault = MissingElement(element=name_of(description), children='<file ref="..."/>')
+        wanted = f'<stream xmlns="{OWN}"/>' if type_ == _STREAM else '<file ref="..."/>'
+        fault = MissingElement(element=name_of(description), children=wanted)
         raise RealizerError(source.located(description, fault))
     if type_ != _SSML:
         return None

@@ -2,7 +2,7 @@
 
 import io
 import wave
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Self
 
 from reactive_realizer.clock.units import GlobalTime, Time
@@ -128,6 +128,23 @@ class AudioHeard:
     id: str
     position: float
     time: GlobalTime
+
+
+@dataclass(frozen=True, slots=True)
+class StreamedAudio:
+    """A client sends sound of a speech that it streams.
+
+    Attributes:
+        stream: its name.
+        audio: mono PCM, int16 little-endian; it may be cut anywhere, also in the middle of a sample.
+        words: further words of the text, each with its start in s from the start of the stream.
+        end: whether nothing follows.
+    """
+
+    stream: str
+    audio: bytes = field(default=b"", repr=False)
+    words: tuple[tuple[str, float], ...] = ()
+    end: bool = False
 
 
 AudioChange = AudioStart | AudioMove | AudioGain | AudioStop

@@ -8,6 +8,7 @@ from typing import Protocol, runtime_checkable
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.humanoid import Humanoid
 from reactive_realizer.embodiment.world import World
+from reactive_realizer.engine.speech_streams import SpeechStreams
 from reactive_realizer.engine.tts import TTSBinding
 from reactive_realizer.limits import Limits
 from reactive_realizer.reactive.cell import Source
@@ -47,6 +48,7 @@ class EngineContext:
         blink_rate: blinks per minute of idle animation; None for the usual rate.
         limits: on what the engines read.
         liveliness: how lively it is while it speaks, 0 to 1; None if only a speech may ask for that.
+        speech_streams: the sound of speeches that clients send, of all characters.
     """
 
     character: str
@@ -65,6 +67,7 @@ class EngineContext:
     blink_rate: float | None = None
     limits: Limits = field(default_factory=Limits)
     liveliness: float | None = None
+    speech_streams: SpeechStreams = field(default_factory=lambda: SpeechStreams(Limits()))
 
     @property
     def graph(self) -> Graph:

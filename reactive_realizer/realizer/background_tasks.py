@@ -4,8 +4,10 @@ import asyncio
 from collections.abc import Awaitable, Callable, Sequence
 from dataclasses import dataclass
 from inspect import CORO_CREATED, getcoroutinestate, iscoroutine
+from typing import Any
 
 from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.engine.speech_streams import SpeechStreams
 from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.realizer.inputs import Delivery
 from reactive_realizer.scheduler.engine_routing import Result
@@ -39,10 +41,16 @@ class _Job:
 
 
 class BackgroundTasks:
-    """Runs each piece of work in a task of the realizer's group, and delivers results in order of request."""
+    """Runs each piece of work in a task of the realizer's group, and delivers results in order of request.
 
-    def __init__(self, group: asyncio.TaskGroup) -> None:
+    Args:
+        group: of the realizer.
+        streams: sound for which work may wait.
+    """
+
+    def __init__(self, group: asyncio.TaskGroup, streams: SpeechStreams) -> None:
         self._group = group
+        self._streams = streams
         self._requests = 0
         self._jobs: dict[int, _Job] = {}
 
@@ -70,8 +78,11 @@ class BackgroundTasks:
         self._jobs = {}
 
     async def settle(self) -> None:
-        """Wait for all requested work, as a virtual clock does before it advances."""
-        await asyncio.gather(*(job.task for job in self._jobs.values()))
+        """Wait for all requested work, as a virtual clock does before it advances; not for what waits for an input."""
+        waiting = self._streams.waiting
+        while working := [each.task for each in self._jobs.values() if not (each.task.done() or each.task in waiting)]:
+            awaited: list[asyncio.Future[Any]] = [*working, self._streams.wait_begun]
+            await asyncio.wait(awaited, return_when=asyncio.FIRST_COMPLETED)
 
     def ready(self) -> tuple[Delivery, ...]:
         """The results that are ready, in order of request."""

@@ -6,7 +6,7 @@ from math import isfinite
 from typing import ParamSpec, TypeVar
 
 from reactive_realizer.clock.units import GlobalTime, is_due
-from reactive_realizer.embodiment.audio import AudioHeard
+from reactive_realizer.embodiment.audio import AudioHeard, StreamedAudio
 from reactive_realizer.embodiment.world import World
 from reactive_realizer.engine.guarded_engine import FAILURES
 from reactive_realizer.errors import Fault, NotANumber, RealizerError
@@ -126,7 +126,7 @@ class Inbox:
             case Event(id_, name, value, text):
                 self._anticipator(id_).check_heard(name)
                 return id_, AnticipatorEvent(name, value, text, now)
-            case BmlText() | TargetMoved() | AudioHeard() | Push():
+            case BmlText() | TargetMoved() | AudioHeard() | Push() | StreamedAudio():
                 return None
 
     def _anticipator(self, id_: str) -> Anticipator:

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 from reactive_realizer.bml.block import Parsed
 from reactive_realizer.clock.units import Time
-from reactive_realizer.embodiment.audio import AudioHeard
+from reactive_realizer.embodiment.audio import AudioHeard, StreamedAudio
 from reactive_realizer.embodiment.vector import Vec3
 from reactive_realizer.errors import Fault
 
@@ -71,7 +71,7 @@ class Push:
     duration: float
 
 
-Input = BmlText | Prediction | Event | TargetMoved | AudioHeard | Push
+Input = BmlText | Prediction | Event | TargetMoved | AudioHeard | Push | StreamedAudio
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,20 +5,23 @@ import logging
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AsyncExitStack
+from dataclasses import replace
 from types import TracebackType
 from typing import Self
 
+from reactive_realizer.bml.behaviors import streams_of
 from reactive_realizer.bml.block import Parsed
 from reactive_realizer.bml.document import parse
 from reactive_realizer.bml.names import EVENTS
 from reactive_realizer.clock.ticker import Tick, first_tick
 from reactive_realizer.clock.units import GlobalTime, Time, is_due
-from reactive_realizer.embodiment.audio import AudioChange, AudioHeard
+from reactive_realizer.embodiment.audio import AudioChange, AudioHeard, StreamedAudio
 from reactive_realizer.embodiment.frame import Frame
 from reactive_realizer.embodiment.world import World
 from reactive_realizer.engine.effects import Output
 from reactive_realizer.engine.engine_task import EngineTasks
 from reactive_realizer.engine.guarded_engine import GuardedEngine
+from reactive_realizer.engine.speech_streams import SpeechStreams
 from reactive_realizer.errors import RealizerError, TargetFault, WarningType
 from reactive_realizer.feedback.feedback_manager import FeedbackManager
 from reactive_realizer.feedback.messages import WarningFeedback
@@ -74,6 +77,7 @@ class Realizer:
 
     Args:
         time: the cell of the present tick's time, in the graph of the pegs; parameters of engines depend on it.
+        speech_streams: the sound of speeches that clients send.
         word_classes: the words with which speakers move.
         fillers: what they say to hold the floor.
 
@@ -94,6 +98,7 @@ class Realizer:
         limits: Limits,
         time: Source[GlobalTime],
         *,
+        speech_streams: SpeechStreams | None = None,
         word_classes: WordClasses = NO_CLASSES,
         fillers: Fillers = NO_FILLERS,
         verify: bool = False,
@@ -110,6 +115,7 @@ class Realizer:
         self.time = GlobalTime(0.0)
         self._time = time
         self._strategy = strategy
+        self._speech_streams = speech_streams or SpeechStreams(limits)
         self._word_classes = word_classes
         self._fillers = fillers
         self._verify = verify
@@ -137,7 +143,7 @@ class Realizer:
         self._stack.callback(lambda: [task.cancel() for task in running])
         self._stack.callback(self._streams.close)
         self._streams.open(group)
-        self._background = BackgroundTasks(group)
+        self._background = BackgroundTasks(group, self._speech_streams)
         self._stack.callback(self._background.close)
         self.scheduler = BMLScheduler(
             self.board, self._routing, self.feedback, self._background, self._strategy, self.limits
@@ -177,6 +183,15 @@ class Realizer:
             RealizerError: "outside-sound" or "far-off".
         """
         return self.scheduler.check_heard(heard)
+
+    def check_streamed(self, audio: StreamedAudio) -> None:
+        """Check whether sound of a speech can be taken after all earlier inputs.
+
+        Raises:
+            RealizerError: it cannot; "stream-over" if its stream or its speech has ended.
+        """
+        waiting = (parsed.block for parsed, _ in self._waiting if parsed.block is not None)
+        self._speech_streams.check(audio, {each.name for block in waiting for each in streams_of(block.behaviors)})
 
     def check_push(self, push: Push) -> None:
         """Check whether there is such a character with such a joint.
@@ -263,6 +278,7 @@ class Realizer:
         entered = await self._enter(tick) if recorded is None else recorded
         for listener in self._entry_listeners:
             listener(entered)
+        entered = self._read(entered)
         if recorded is not None:
             self._streams.replay(recorded.forecasts)
         self._apply(entered, tick.time)
@@ -283,7 +299,7 @@ class Realizer:
         return TickInputs(tick.number, inputs, work, predicted, watched=bool(self._frame_listeners))
 
     def _apply(self, entered: TickInputs, now: GlobalTime) -> None:
-        """Move targets, write predictions, have speech follow what is heard, and push characters."""
+        """Move targets, write predictions, have speech follow what is heard, take sound, and push characters."""
         with self.board.graph.transaction("inputs"):
             self._inbox.apply(entered.inputs)
             self._streams.apply(entered.predicted, now)
@@ -292,11 +308,32 @@ class Realizer:
                 self.scheduler.follow_heard(entry)
             if isinstance(entry, Push):
                 self._push(entry)
+            if isinstance(entry, StreamedAudio):
+                self._speech_streams.take(entry)
+            if isinstance(entry, BmlText):
+                self._open_streams(entry)
+        self._speech_streams.advance(now)
         for each in entered.predicted:
             if isinstance(each, StreamFailure):
                 fault = AnticipatorFailed(anticipator=each.anticipator, reason=each.reason)
                 id_ = f"{ANTICIPATORS}:{each.anticipator}"
                 self.feedback.add(WarningFeedback(None, id_, WarningType.EXECUTION_FAILURE, str(fault)))
+
+    def _read(self, entered: TickInputs) -> TickInputs:
+        """The inputs of a tick with their documents parsed."""
+        inputs = (
+            replace(each, parsed=parse(each.text, self.limits))
+            if isinstance(each, BmlText) and each.parsed is None
+            else each
+            for each in entered.inputs
+        )
+        return replace(entered, inputs=tuple(inputs))
+
+    def _open_streams(self, document: BmlText) -> None:
+        """Have the streams of a document take sound, which its sender may send right after it."""
+        for parsed in document.parsed or ():
+            for stream in streams_of(parsed.block.behaviors if parsed.block is not None else ()):
+                self._speech_streams.open(stream)
 
     def _push(self, push: Push) -> None:
         try:
@@ -334,8 +371,7 @@ class Realizer:
         self._floor.advance(now)
         for entry in entered.inputs:
             if isinstance(entry, BmlText):
-                parsed = parse(entry.text, self.limits) if entry.parsed is None else entry.parsed
-                self.scheduler.take(parsed, entry.client)
+                self.scheduler.take(entry.parsed or (), entry.client)
 
     async def _play(self, tick: Tick) -> list[Output]:
         """Play rounds of the tick until nothing changes, then show its frame, if one is due; the outputs."""

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from itertools import islice
 
 from reactive_realizer.bml.behavior import Behavior
+from reactive_realizer.bml.behaviors import StreamedSpeech
 from reactive_realizer.bml.block import BehaviorBlock, DefineProc, Problem
 from reactive_realizer.engine.engine import Engine
 from reactive_realizer.errors import Fault, RealizerError
@@ -58,6 +59,9 @@ async def rehearse_slowly(block: BehaviorBlock | DefineProc, routing: EngineRout
     """
     rehearsing = _Rehearsing(block, routing)
     for each in rehearsing.routed.values():
+        if any(isinstance(form, StreamedSpeech) for form in each.forms):
+            rehearsing.note(each, each.check)  # nobody sends its sound
+            continue
         result = await _prepared(each)
 
         def points(left_out: Callable[[Fault], None], each: RoutedBehavior = each, result: Result = result) -> Points:

@@ -93,17 +93,19 @@ def _pegs_ahead(block: BMLBlock) -> dict[Point, TimePeg]:
 
 
 def _shifts(block: BMLBlock, unit: PlanUnit, seconds: Mapping[str, float]) -> dict[Point, float]:
-    """The shifts (s) of the points of a behavior, of those that are tied to them, of rigid behaviors there, and so on.
+    """The shifts (s) of the points of a behavior, of those that are tied to them, of behaviors there, and so on.
 
-    Points that have fired stay, and what is tied to them.
+    A rigid behavior moves as a whole, and so does one that has not begun and is tied by a single point, so that it
+    keeps its preferred durations. Of others, only the tied points move. Points that have fired stay, and what is tied
+    to them.
 
     Args:
         block: of the behavior.
         unit: the behavior.
         seconds: the shift of each of its points.
     """
-    rigid = {each.behavior.id: each for each in block.units if each.timing.rigid}
     tied, ahead = _tied_nodes(block), _pegs_ahead(block)
+    whole = {each.behavior.id: each for each in block.units if each.timing.rigid or _hangs_by_one_point(each, tied)}
     shifts = {Point(unit.behavior.id, sync): shift for sync, shift in seconds.items()}
     waiting = list(shifts)
     while waiting:
@@ -111,11 +113,16 @@ def _shifts(block: BMLBlock, unit: PlanUnit, seconds: Mapping[str, float]) -> di
         for each in tied.get(point, ()):
             if not isinstance(each, Point):
                 continue
-            own = _points_of(rigid[each.behavior]) if each.behavior in rigid else [each]
+            own = _points_of(whole[each.behavior]) if each.behavior in whole else [each]
             new = [other for other in own if other in ahead and other not in shifts]
             shifts.update(dict.fromkeys(new, shifts[point]))
             waiting += new
     return shifts
+
+
+def _hangs_by_one_point(unit: PlanUnit, tied: Mapping[Point, Sequence[Node]]) -> bool:
+    """Whether a behavior has not begun and only one of its points is tied."""
+    return not unit.begun and sum(point in tied for point in _points_of(unit)) == 1
 
 
 def _tied_nodes(block: BMLBlock) -> Mapping[Point, Sequence[Node]]:

@@ -96,6 +96,14 @@ class NoClip(Fault):
     clip: str
 
 
+class ForeignStream(Fault):
+    """Sound for a stream that another client sends."""
+
+    code = "foreign-stream"
+    template = "another client sends the stream '{stream}'"
+    stream: str
+
+
 class NoPage(Fault):
     """A server without a built page."""
 

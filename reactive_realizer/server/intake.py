@@ -24,7 +24,8 @@ from reactive_realizer.realizer.inputs import BmlText, Event, Prediction, Push, 
 from reactive_realizer.server.faults import GoingAway, NoDemo, NotMovable, UnknownAnticipator
 from reactive_realizer.server.heard_reports import HeardReports
 from reactive_realizer.server.live_scene import LiveScene
-from reactive_realizer.server.protocol import Message, push_of
+from reactive_realizer.server.protocol import Message, push_of, streamed_of
+from reactive_realizer.server.stream_senders import StreamSenders
 from reactive_realizer.server.turns import Turns
 
 _LEAD_IN = 150
@@ -144,6 +145,7 @@ class Intake:
         self.closed = False
         self.turns = Turns()
         self._heard = HeardReports(live)
+        self._senders = StreamSenders(live.realizer)
         self.demo = Demo(live, self.stop)
 
     async def document(self, text: str | bytes, client: str = "") -> Answer:
@@ -229,8 +231,14 @@ class Intake:
                 self.hear(AudioHeard(message["id"], message["position"], GlobalTime(message["time"])), client)
             case "push":
                 self._push(push_of(message))
+            case "speech":
+                self._senders.take(streamed_of(message), client)
             case _:  # "demo", the last type of the protocol
                 self.demo.perform()
+
+    def leave(self, client: object) -> None:
+        """Forgets a client that has disconnected."""
+        self._senders.leave(client)
 
     async def _judge(self, text: str | bytes, client: str) -> _Judged:
         if self.closed:

@@ -1,15 +1,17 @@
 """Reads, checks and writes the text messages of the socket (protocol.json)."""
 
 import json
+from base64 import b64decode
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Final
 
 from reactive_realizer.bml.block import Problem
+from reactive_realizer.embodiment.audio import StreamedAudio
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.realizer.inputs import Push
-from reactive_realizer.server.faults import BadJson, UnknownMessage
+from reactive_realizer.server.faults import BadJson, BadMessage, UnknownMessage
 from reactive_realizer.server.schema import Schema, shown
 
 VERSION: Final = 2
@@ -84,6 +86,20 @@ def push_of(message: Message) -> Push:
     """The push that a checked message requests."""
     x, y, z = message["force"]
     return Push(message["character"], message["joint"], (float(x), float(y), float(z)), message["duration"])
+
+
+def streamed_of(message: Message) -> StreamedAudio:
+    """The sound in a checked message.
+
+    Raises:
+        RealizerError: "bad-message": it is not in base64.
+    """
+    try:
+        audio = b64decode(message.get("audio", ""), validate=True)
+    except ValueError as problem:
+        raise RealizerError(BadMessage(place="audio", reason="it is not in base64")) from problem
+    words = tuple((str(word), float(begin)) for word, begin in message.get("words", ()))
+    return StreamedAudio(message["stream"], audio, words, message.get("end", False))
 
 
 def ref_of(message: Any) -> str | int | None:

@@ -1,6 +1,7 @@
 """Reads recorded sessions, and converts inputs to and from JSON lines."""
 
 import json
+from base64 import b64encode
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -10,7 +11,7 @@ from reactive_realizer.assembly.registry import load_all
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.bml.faults import BadEncoding
 from reactive_realizer.clock.units import GlobalTime
-from reactive_realizer.embodiment.audio import AudioHeard
+from reactive_realizer.embodiment.audio import AudioHeard, StreamedAudio
 from reactive_realizer.errors import FAULTS, Fault, RealizerError
 from reactive_realizer.realizer.inputs import (
     BmlText,
@@ -36,7 +37,7 @@ from reactive_realizer.server.faults import (
     PartsOutOfOrder,
     TicksOutOfOrder,
 )
-from reactive_realizer.server.protocol import Message, check, decode, push_of
+from reactive_realizer.server.protocol import Message, check, decode, push_of, streamed_of
 from reactive_realizer.server.recording_parts import part_path
 from reactive_realizer.server.schema import Schema, shown
 
@@ -63,6 +64,9 @@ def message_of(entry: Input) -> Message:
             return {"type": "heard", "id": id_, "position": position, "time": time}
         case Push(character, joint, force, duration):
             return {"type": "push", "character": character, "joint": joint, "force": force, "duration": duration}
+        case StreamedAudio(stream, audio, words, end):
+            sound = b64encode(audio).decode()
+            return {"type": "speech", "stream": stream, "audio": sound, "words": words, "end": end}
         case _:
             assert_never(entry)
 
@@ -85,6 +89,8 @@ def input_of(message: Message, client: str = "") -> Input:
             return AudioHeard(id_, position, GlobalTime(time))
         case {"type": "push"}:
             return push_of(message)
+        case {"type": "speech"}:
+            return streamed_of(message)
         case {"type": "world", "set": targets} if len(targets) == 1:
             return _moved(targets)
         case _:

@@ -71,6 +71,7 @@ class SocketClient:
         """Serves the client until it disconnects or is disconnected."""
         with ExitStack() as stack:
             stack.enter_context(self._live.clients.served(self._queue))
+            stack.callback(self._intake.leave, self)
             self._follow(stack)
             async with asyncio.TaskGroup() as group:
                 reading = group.create_task(self._read())

@@ -12,7 +12,7 @@ from reactive_realizer.assembly.scene import Scene, SceneOptions, open_scene
 from reactive_realizer.bml.names import BML, BMLA, BMLT
 from reactive_realizer.clock.ticker import FRAME_EVERY, RATE, Tick, tick_time
 from reactive_realizer.clock.units import GlobalTime
-from reactive_realizer.embodiment.audio import AudioChange, AudioHeard
+from reactive_realizer.embodiment.audio import AudioChange, AudioHeard, StreamedAudio
 from reactive_realizer.embodiment.body import Body, Skeleton
 from reactive_realizer.embodiment.frame import Frame
 from reactive_realizer.embodiment.joints import ROOT
@@ -77,6 +77,10 @@ class RealizerPilot:
     def heard(self, clip: str, position: float, time: float) -> None:
         """Reports at the next tick that a position (s) of a clip was heard at a time (s)."""
         self.realizer.put(AudioHeard(clip, position, GlobalTime(time)), self.now)
+
+    def stream(self, name: str, audio: bytes = b"", *words: tuple[str, float], end: bool = False) -> None:
+        """Sends sound of a streamed speech at the next tick: mono PCM, int16, with the starts (s) of words in it."""
+        self.realizer.put(StreamedAudio(name, audio, words, end), self.now)
 
     def move(self, target: str, position: tuple[float, float, float] | None) -> None:
         """Moves a target at the next tick; None removes it."""

@@ -6,6 +6,7 @@ import re
 import shutil
 import subprocess
 import sys
+import wave
 from pathlib import Path
 
 import pytest
@@ -106,6 +107,20 @@ async def test_a_planner_answers_an_event_with_an_event(server: str) -> None:
     printed = await run("events.py", server, TO_ITS_END)
     assert printed == ["asked: the way\n", "the wait ended with its event\n"]
     assert all(line.strip() in page(PLANNERS) for line in printed)
+
+
+async def test_a_voice_from_elsewhere_is_spoken_and_heard(server: str, tmp_path: Path) -> None:
+    with wave.open(str(tmp_path / "hello.wav"), "wb") as sound:
+        sound.setparams((1, 2, 16_000, 0, "NONE", ""))
+        sound.writeframes(b"\0\x20\0\xe0" * 12_000)
+    text = (EXAMPLES / "cloud_voice.py").read_text(encoding="utf-8").replace(ADDRESS, server)
+    process = await asyncio.create_subprocess_exec(
+        *PYTHON, text, str(tmp_path / "hello.wav"), "Hello there.", stdout=asyncio.subprocess.PIPE
+    )
+    printed, _ = await process.communicate()
+    *words, end = printed.decode().splitlines()
+    assert [line.split()[-1] for line in words] == ["Hello", "there"]
+    assert end == " 1.50 s  heard 12 characters"
 
 
 async def test_a_dialogue_is_interrupted_by_a_typed_line_and_its_answers_know_what_was_heard(quick_server: str) -> None:

@@ -25,7 +25,7 @@ from .conftest import Fence, fences, page
 Client = TestClient[Any, Any]
 
 SCHEMA = json.loads(DOCUMENT)
-PAGES = ("docs/protocol.md", "docs/anticipators.md", "docs/planners.md")
+PAGES = ("docs/protocol.md", "docs/anticipators.md", "docs/planners.md", "docs/audio.md")
 EXAMPLES = [example for name in PAGES for example in fences(name, "json")]
 MESSAGES = [example for example in EXAMPLES if not example.note]
 ANSWERS = [example for example in EXAMPLES if example.note]

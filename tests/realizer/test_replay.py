@@ -7,8 +7,10 @@ import pytest
 
 from reactive_realizer.binding.faults import NoAsset
 from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.engine.speech_streams import SpeechStreams
 from reactive_realizer.engines.speech.speech_worker import VoiceFailed
 from reactive_realizer.errors import RealizerError
+from reactive_realizer.limits import Limits
 from reactive_realizer.realizer.background_tasks import BackgroundTasks
 from reactive_realizer.realizer.inputs import BmlText, Delivery, TickInputs
 from reactive_realizer.realizer.session import replay
@@ -21,7 +23,7 @@ NOW = GlobalTime(0.5)
 @pytest.fixture
 async def background() -> AsyncIterator[BackgroundTasks]:
     async with asyncio.TaskGroup() as group:
-        background = BackgroundTasks(group)
+        background = BackgroundTasks(group, SpeechStreams(Limits()))
         yield background
         background.close()
 

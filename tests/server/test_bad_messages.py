@@ -57,6 +57,10 @@ BAD = {
     "a position before the sound": ('{"type":"heard","id":"alice-1","position":-1,"time":0}', "bad-message"),
     "a sound without a name": ('{"type":"heard","position":0,"time":0}', "bad-message"),
     "a time of hearing that is text": ('{"type":"heard","id":"alice-1","position":0,"time":"now"}', "bad-message"),
+    "sound for no speech": ('{"type":"speech","stream":"x","audio":"AAAA"}', "unknown-stream"),
+    "sound that is no base64": ('{"type":"speech","stream":"x","audio":"~~~~"}', "bad-message"),
+    "sound that is a list": ('{"type":"speech","stream":"x","audio":[0,0]}', "bad-message"),
+    "a word without a time": ('{"type":"speech","stream":"x","words":[["Hi"]]}', "bad-message"),
     "a demo where there is none": ('{"type":"demo"}', "no-demo"),
     "half a letter": ('{"type":"world","set":{"\\ud800":"there"}}', "bad-message"),
 }

@@ -10,7 +10,8 @@ export type Message = ClientMessage | ServerMessage;
 /**
  * A message of a client. If it has a ref, the answer is accepted or error with the same ref.
  */
-export type ClientMessage = Bml | Predict | Event | Ping | Clock | Camera | WorldChange | Heard | Push | Demo;
+export type ClientMessage =
+  Bml | Predict | Event | Ping | Clock | Camera | WorldChange | Heard | Push | SpeechAudio | Demo;
 /**
  * Chosen by the client, and repeated in the answer.
  */
@@ -34,6 +35,16 @@ export type Seconds = number;
  * @maxItems 3
  */
 export type Position = [number, number, number];
+/**
+ * A part of a sync reference: 1 to 200 characters, no white space, control character, colon, plus sign or half of a surrogate pair.
+ */
+export type Name1 = string;
+/**
+ * A word and its start, s.
+ *
+ * @minItems 2
+ */
+export type TimedWord = never[];
 /**
  * A message of the server. The first one is hello.
  */
@@ -160,6 +171,25 @@ export interface Push {
    */
   force: [number, number, number];
   duration: number;
+  ref?: Ref;
+}
+/**
+ * Sound of a speech whose description is a stream: mono PCM, 16 bits, little-endian, at the rate of the stream, in base64. It may be cut anywhere.
+ */
+export interface SpeechAudio {
+  type: "speech";
+  stream: Name1;
+  audio?: string;
+  /**
+   * Further words of the text, in its order, each with its start, s from the start of the stream.
+   *
+   * @maxItems 10000
+   */
+  words?: TimedWord[];
+  /**
+   * Whether nothing follows.
+   */
+  end?: boolean;
   ref?: Ref;
 }
 /**

@@ -5,7 +5,7 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 from reactive_realizer.bml.behavior import Behavior
-from reactive_realizer.bml.behaviors import FILLER, LIVELINESS, VOICE, WORDS, RecordedSpeech, Speech
+from reactive_realizer.bml.behaviors import FILLER, LIVELINESS, VOICE, WORDS, RecordedSpeech, Speech, StreamedSpeech
 from reactive_realizer.bml.markup import Markup
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.engine.context import EngineContext
@@ -25,6 +25,7 @@ from reactive_realizer.engines.speech.speech_unit import (
     liveliness_of,
     wants_words,
 )
+from reactive_realizer.engines.speech.streamed.streamed_speech import spoken_stream
 from reactive_realizer.errors import CreationFault, Fault, RealizerError
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.plan_unit import PlanUnit
@@ -80,7 +81,7 @@ _BYTES_A_CHARACTER = 50
 class SpeechEngine(SoundEngine):
     """Speaks with the voice of its character, and provides its lip sync (`LipSyncProvider`)."""
 
-    behaviors = frozenset({Speech, RecordedSpeech})
+    behaviors = frozenset({Speech, RecordedSpeech, StreamedSpeech})
     extensions = frozenset({WORDS, VOICE, LIVELINESS, FILLER})
 
     def __init__(self, context: EngineContext) -> None:
@@ -95,6 +96,7 @@ class SpeechEngine(SoundEngine):
         # extended, not when they are synthesized: so a replay remembers the same ones at the same ticks.
         self._spoken: SizedCache[_Text, Utterance] = SizedCache(_REMEMBERED_BYTES)
         self._recordings = Recordings(context.asset, context.limits.sound_seconds)
+        self._streams = context.speech_streams
         self._notes: list[Warn] = []
         self._told: set[Fault] = set()
         avatar = context.humanoid.avatar
@@ -117,10 +119,16 @@ class SpeechEngine(SoundEngine):
     def prepare(self, behavior: Behavior) -> SlowWork | None:
         """The synthesis, unless the voice answers at once or the same text was spoken before.
 
-        Of a recorded speech, the reading of its file and the search for its words.
+        Of a recorded speech, the reading of its file and the search for its words; of a streamed one, the search for
+        words in what arrives.
+
+        Raises:
+            RealizerError: of a streamed speech, "stream-taken" or "too-many-streams".
         """
         if isinstance(behavior, RecordedSpeech):
             return self._recordings.read(behavior)
+        if isinstance(behavior, StreamedSpeech):
+            return spoken_stream(behavior, self._streams.claim(behavior.stream))
         spoken = self._speak(behavior)
         return None if isinstance(spoken, Utterance) else _parts(spoken)
 
@@ -145,6 +153,10 @@ class SpeechEngine(SoundEngine):
 
     def extend(self, unit: PlanUnit, prepared: object, now: GlobalTime) -> None:
         """Have a speech take its utterance when more of it is made."""
+        if isinstance(unit, SpeechUnit) and isinstance(prepared, Recording):
+            unit.extend(prepared.utterance, now)
+            self._tell(unit, prepared.note)
+            return
         if not isinstance(unit, SpeechUnit) or not isinstance(prepared, Utterance):
             raise TypeError(unit, prepared)
         unit.extend(prepared, now)
@@ -159,9 +171,7 @@ class SpeechEngine(SoundEngine):
             return
         unread = OtherScript(scripts=unit.utterance.unread) if unit.utterance.unread else None
         for fault in (unit.note, unread):
-            if fault is not None and (fault not in self._told or isinstance(fault, MarkupLeftOut)):
-                self._told.add(fault)
-                self._notes.append(Warn(unit, fault))
+            self._tell(unit, fault)
 
     def remove(self, unit: PlanUnit) -> None:
         """Take a speech out of the plan."""
@@ -180,6 +190,12 @@ class SpeechEngine(SoundEngine):
             if isinstance(unit, SpeechUnit) and unit.hearing is not None and unit.utterance.phonemes:
                 return self._track_of(unit.utterance).weights(unit.position(time))
         return None
+
+    def _tell(self, unit: SpeechUnit, fault: Fault | None) -> None:
+        """Have clients told of a fault, once."""
+        if fault is not None and (fault not in self._told or isinstance(fault, MarkupLeftOut)):
+            self._told.add(fault)
+            self._notes.append(Warn(unit, fault))
 
     def _speak(self, behavior: Behavior) -> Utterance | AsyncIterator[Utterance]:
         text = self._text(behavior)

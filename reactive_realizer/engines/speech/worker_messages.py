@@ -17,7 +17,7 @@ class WorkerMessage:
 
     Attributes:
         header: as JSON.
-        body: the audio of a reply.
+        body: audio.
     """
 
     header: dict[str, Any]

@@ -25,7 +25,7 @@ class _Request:
 
     rank: int
     number: int
-    header: dict[str, Any] = field(compare=False)
+    message: WorkerMessage = field(compare=False)
     reply: asyncio.Future[WorkerMessage] = field(compare=False)
 
 
@@ -79,10 +79,12 @@ class WorkerProcess(asyncio.SubprocessProtocol):
         """Whether the worker owes a reply."""
         return self._awaited is not None
 
-    def request(self, header: dict[str, Any], rank: int = 0) -> asyncio.Future[WorkerMessage]:
+    def request(self, header: dict[str, Any], rank: int = 0, body: bytes = b"") -> asyncio.Future[WorkerMessage]:
         """Sends a request, and returns the future of its reply."""
         self._requests += 1
-        request = _Request(rank, self._requests, header, asyncio.get_running_loop().create_future())
+        request = _Request(
+            rank, self._requests, WorkerMessage(header, body), asyncio.get_running_loop().create_future()
+        )
         heappush(self._waiting, request)
         if self.ended.done():
             self._fail_unanswered()
@@ -128,9 +130,7 @@ class WorkerProcess(asyncio.SubprocessProtocol):
             return
         request = heappop(self._waiting)
         self._awaited = request.reply
-        cast("asyncio.WriteTransport", self._transport.get_pipe_transport(0)).write(
-            WorkerMessage(request.header).encode()
-        )
+        cast("asyncio.WriteTransport", self._transport.get_pipe_transport(0)).write(request.message.encode())
         self._watch = asyncio.get_running_loop().call_later(self._patience, self._give_up)
 
     def _give_up(self) -> None:

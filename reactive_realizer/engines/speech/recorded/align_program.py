@@ -24,10 +24,20 @@ def align(words: Sequence[str], samples: bytes) -> list[list[Phone]]:
     Raises:
         ValueError, RuntimeError: the words do not fit the sound.
     """
+    return align_with(new_decoder(words), words, samples)
+
+
+def new_decoder(words: Sequence[str]) -> Decoder:
+    """A decoder that knows some words."""
     decoder = Decoder(loglevel="FATAL", bestpath=False, **_BEAMS)
     for word in words:
         if decoder.lookup_word(word) is None:
             decoder.add_word(word, _pronunciation(word, decoder), True)
+    return decoder
+
+
+def align_with(decoder: Decoder, words: Sequence[str], samples: bytes) -> list[list[Phone]]:
+    """As `align`, with a decoder that knows the words."""
     decoder.set_align_text(" ".join(words))
     _decode(decoder, samples)
     decoder.set_alignment()

@@ -22,7 +22,7 @@ from reactive_realizer.errors import CreationFault, RealizerError
 _PROGRAM = "reactive_realizer.engines.speech.recorded.align_program"
 _RATE = 16_000
 _FRAME = 0.01
-_LAG = 0.008
+LAG = 0.008
 """By how much the aligner is early, s: the median of ten sentences of a voice with known durations."""
 _PATIENCE = 30.0
 """Time limit for one recording, besides its duration, s: the program takes 0.5 s to start, then 0.07 s per second."""
@@ -32,7 +32,10 @@ class NoAligner(CreationFault):
     """The extra that finds words in recordings is not installed."""
 
     code = "no-aligner"
-    template = "times of words in recordings are estimated; for exact ones: pip install 'reactive-realizer[align]'"
+    template = (
+        "times of words in recorded and streamed speech are estimated; for exact ones: "
+        "pip install 'reactive-realizer[align]'"
+    )
 
 
 class CannotAlign(CreationFault):
@@ -64,7 +67,7 @@ async def aligned(file: str, words: Sequence[str], samples: NDArray[np.int16], r
     resampled = await asyncio.to_thread(soxr.resample, samples, rate, _RATE)
     duration = len(samples) / rate
     found = await _run(file, json.dumps(plain).encode() + b"\n" + resampled.tobytes(), _PATIENCE + duration)
-    return SpeechTimes(tuple(phones[0][1] * _FRAME + _LAG for phones in found), tuple(_phonemes(found, duration)))
+    return SpeechTimes(tuple(phones[0][1] * _FRAME + LAG for phones in found), tuple(_phonemes(found, duration)))
 
 
 async def _run(file: str, request: bytes, patience: float) -> list[list[tuple[str, int, int]]]:
@@ -92,7 +95,7 @@ def _phonemes(words: Iterable[Sequence[tuple[str, int, int]]], end: float) -> It
     """The sounds of all words, with the silences around and between them."""
     until = 0.0
     for name, first, frames in (phone for word in words for phone in word):
-        begin = first * _FRAME + _LAG
+        begin = first * _FRAME + LAG
         if begin > until + _FRAME / 2:
             yield Phoneme("", until, begin - until)
         until = min(begin + frames * _FRAME, end)

@@ -34,11 +34,11 @@ class MarkAfterEnd(CreationFault):
 
 @dataclass(frozen=True, slots=True)
 class Recording:
-    """A recorded speech.
+    """A speech whose sound comes from elsewhere: from a file, or from a client as far as it has arrived.
 
     Attributes:
         utterance: its sound and times.
-        note: why its times are estimated, if they are.
+        note: what is to be told of it, such as why its times are estimated.
     """
 
     utterance: Utterance

@@ -1,0 +1,82 @@
+"""How loud and how bright sound is that arrives, in frames; and when somebody speaks in it."""
+
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+FRAME: Final = 0.02
+"""Duration of a frame, s."""
+_QUIETEST: Final = 0.02
+"""The least level of speech, as a share of full scale, so that noise alone is not taken for it."""
+AUDIBLE: Final = 0.08
+"""Share of the level of loud speech from which on somebody speaks."""
+_BRIGHT: Final = 3000.0
+"""Frequency above which most of the energy of an s is, Hz."""
+
+Floats = NDArray[np.float64]
+
+
+class SoundLevels:
+    """The levels of sound that arrives.
+
+    Args:
+        rate: of its samples, Hz.
+
+    Attributes:
+        loudness: of each frame, 1 for loud speech, (F,).
+        brightness: share of the energy of each frame above 3 kHz, 0 to 1, (F,).
+        pitch_of_energy: center of the spectrum of each frame, Hz, (F,).
+    """
+
+    def __init__(self, rate: int) -> None:
+        self._size = round(rate * FRAME)
+        self._frequencies = np.fft.rfftfreq(self._size, 1 / rate)
+        self._window = np.hanning(self._size)
+        self._rest = np.zeros(0)
+        self._levels = np.zeros(0)
+        self.loudness = np.zeros(0)
+        self.brightness = np.zeros(0)
+        self.pitch_of_energy = np.zeros(0)
+
+    def add(self, samples: bytes) -> None:
+        """Add samples: mono PCM, int16 little-endian."""
+        heard = np.concatenate([self._rest, np.frombuffer(samples, "<i2") / 32768])
+        count = len(heard) // self._size
+        frames, self._rest = heard[: count * self._size].reshape(count, self._size), heard[count * self._size :]
+        energy = np.abs(np.fft.rfft(frames * self._window)) ** 2
+        total = energy.sum(axis=1) + 1e-9
+        self._levels = np.append(self._levels, np.sqrt((frames**2).mean(axis=1)))
+        self.brightness = np.append(self.brightness, energy[:, self._frequencies > _BRIGHT].sum(axis=1) / total)
+        self.pitch_of_energy = np.append(self.pitch_of_energy, energy @ self._frequencies / total)
+        loud = max(float(np.percentile(self._levels, 95)) if len(self._levels) else 0.0, _QUIETEST)
+        # What was heard keeps its loudness, because it may have been shown.
+        self.loudness = np.append(self.loudness, self._levels[len(self.loudness) :] / loud)
+
+
+class SpokenTime:
+    """The time in which somebody speaks, without pauses; after what is heard, somebody speaks on.
+
+    Args:
+        loudness: of each frame.
+        heard: until when, s.
+    """
+
+    def __init__(self, loudness: Floats, heard: float) -> None:
+        self._heard = heard
+        self._audible = np.flatnonzero(loudness > AUDIBLE)
+        self.total = len(self._audible) * FRAME
+
+    def at(self, time: float) -> float:
+        """How long somebody has spoken before a time, s."""
+        first = int(time / FRAME + 1e-6)
+        before = int(np.searchsorted(self._audible, first))
+        within = time - first * FRAME if before < len(self._audible) and self._audible[before] == first else 0.0
+        return before * FRAME + within + max(0.0, time - self._heard)
+
+    def time(self, spoken: float) -> float:
+        """When somebody has spoken for so long, and goes on to speak, s."""
+        number = int(spoken / FRAME + 1e-6)
+        if number >= len(self._audible):
+            return self._heard + spoken - self.total
+        return float(self._audible[number]) * FRAME + spoken - number * FRAME

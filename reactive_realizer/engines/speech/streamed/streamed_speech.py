@@ -1,0 +1,153 @@
+"""Speech whose sound a client streams, as an utterance that grows."""
+
+from collections.abc import AsyncIterator, Sequence
+from dataclasses import replace
+from types import MappingProxyType
+
+from reactive_realizer.bml.behaviors import StreamedSpeech
+from reactive_realizer.engine.engine import Part
+from reactive_realizer.engine.speech_streams import SoundPiece, SpeechStream
+from reactive_realizer.engine.tts import Phoneme, Utterance, Word, word_spans
+from reactive_realizer.engines.speech.recorded.aligner import CannotAlign, NoAligner
+from reactive_realizer.engines.speech.recorded.recordings import Recording
+from reactive_realizer.engines.speech.streamed.seen_sound import SeenSound
+from reactive_realizer.engines.speech.streamed.sound_levels import SoundLevels, SpokenTime
+from reactive_realizer.engines.speech.streamed.stream_aligner import StreamAligner
+from reactive_realizer.engines.speech.streamed.word_times import GivenWords, word_begins
+from reactive_realizer.errors import CreationFault, Fault, RealizerError
+
+_AHEAD = 0.3
+"""The shortest time from what has arrived to the expected end, s, as long as more may arrive."""
+
+
+class NoSound(CreationFault):
+    """A stream that has ended without sound."""
+
+    code = "no-sound"
+    template = "the stream '{stream}' has ended without sound"
+    stream: str
+
+
+class HalfSample(CreationFault):
+    """A stream that has ended in the middle of a sample."""
+
+    code = "half-sample"
+    template = "the stream '{stream}' has ended in the middle of a sample; is it mono, with 16 bits?"
+    stream: str
+
+
+async def spoken_stream(speech: StreamedSpeech, stream: SpeechStream) -> AsyncIterator[Part]:
+    """A streamed speech as slow work: a `Recording` each time that a piece has arrived.
+
+    Raises:
+        RealizerError: "stream-silent" or "no-sound".
+    """
+    growing = _GrowingSpeech(speech)
+    try:
+        await growing.open()
+        last = False
+        while not last:
+            piece = await stream.next_piece()
+            last = piece.last
+            yield Part(await growing.add(piece), last)
+    finally:
+        stream.close()
+        await growing.close()
+
+
+class _GrowingSpeech:
+    """What is known of a streamed speech.
+
+    Words have the times that its client gives, or else those that are found in the sound, or else estimated ones. The
+    lips follow the sounds of the words that are found, and of all else how loud and bright it is.
+    """
+
+    def __init__(self, speech: StreamedSpeech) -> None:
+        self._speech = speech
+        self._name = speech.stream.name
+        self._spans = word_spans(speech.text)
+        self._words = [speech.text[first:last] for first, last in self._spans]
+        self._given = GivenWords(self._name, self._words)
+        self._levels = SoundLevels(speech.stream.rate)
+        self._seen = SeenSound(self._levels)
+        self._audio = b""
+        self._aligner: StreamAligner | None = None
+        self._finding = False
+        """Whether words are being looked for."""
+        self._note: Fault | None = None
+
+    async def open(self) -> None:
+        """Look for words from now on, if there are any."""
+        try:
+            if self._words:
+                self._aligner = await StreamAligner.start(self._words, self._speech.stream.rate, self._name)
+                self._finding = True
+        except RealizerError as problem:
+            self._note = problem.fault
+
+    async def close(self) -> None:
+        """Look for words no longer."""
+        if self._aligner is not None:
+            await self._aligner.close()
+
+    async def add(self, piece: SoundPiece) -> Recording:
+        """The speech with a further piece.
+
+        Raises:
+            RealizerError: "no-sound".
+        """
+        self._audio += piece.samples
+        self._levels.add(piece.samples)
+        if not self._audio:
+            raise RealizerError(NoSound(stream=self._name))
+        if self._finding and self._aligner is not None:
+            await self._align(self._aligner, piece)
+        try:
+            self._given.add(piece.words)
+            if self._given.begins and isinstance(self._note, NoAligner | CannotAlign):
+                self._note = None  # their times are not estimated
+        except RealizerError as problem:
+            self._note = problem.fault
+        if piece.cut:
+            self._note = HalfSample(stream=self._name)
+        return Recording(self._utterance(ended=piece.last), self._note)
+
+    async def _align(self, aligner: StreamAligner, piece: SoundPiece) -> None:
+        try:
+            await aligner.hear(piece.samples, last=piece.last)
+            if piece.last and len(aligner.begins) < len(self._words):
+                reason = "the text does not fit it"
+                self._note = CannotAlign(file=f"the stream '{self._name}'", reason=reason)
+        except RealizerError as problem:
+            self._note = problem.fault
+            self._finding = False
+            await aligner.close()
+
+    def _utterance(self, *, ended: bool) -> Utterance:
+        made = len(self._audio) / 2 / self._speech.stream.rate
+        begins, end = self._begins(made, ended=ended)
+        duration = made if ended else max(end, made + _AHEAD)
+        words = tuple(
+            Word(text, min(start, duration), first, last)
+            for text, start, (first, last) in zip(self._words, begins, self._spans, strict=True)
+        )
+        rate = self._speech.stream.rate
+        unmarked = Utterance(self._speech.text, duration, words, {}, tuple(self._phonemes()), self._audio, rate, made)
+        marks = {mark.id: unmarked.time_of_character(mark.char_index) for mark in self._speech.marks}
+        return replace(unmarked, marks=MappingProxyType(marks))
+
+    def _begins(self, made: float, *, ended: bool) -> tuple[Sequence[float], float]:
+        """The starts of all words, and the end of the last one, s."""
+        spoken = SpokenTime(self._levels.loudness, made)
+        found = self._given.begins or (self._aligner.begins if self._aligner is not None else ())
+        begins, end = word_begins(self._words, found, spoken, ended=ended)
+        if ended or not (self._given.begins or self._finding):
+            return begins, end
+        # A word that is neither given nor found has not been heard.
+        delay = max(0.0, made - (begins[len(found)] if len(found) < len(begins) else end))
+        return [*begins[: len(found)], *(begin + delay for begin in begins[len(found) :])], end + delay
+
+    def _phonemes(self) -> list[Phoneme]:
+        if self._aligner is None:
+            return self._seen.phonemes(0.0)
+        return [*self._aligner.phonemes, *self._seen.phonemes(self._aligner.settled)]

@@ -1,0 +1,47 @@
+"""Clients that send the sound of speeches: one for each stream."""
+
+from reactive_realizer.embodiment.audio import StreamedAudio
+from reactive_realizer.engine.speech_streams import StreamOver
+from reactive_realizer.errors import RealizerError
+from reactive_realizer.realizer.realizer import Realizer
+from reactive_realizer.server.faults import ForeignStream
+
+
+class StreamSenders:
+    """Passes the sound of each stream from the client that began to send it.
+
+    When this client has disconnected, another one may go on, such as the same planner after it has connected again.
+    """
+
+    def __init__(self, realizer: Realizer) -> None:
+        self._realizer = realizer
+        self._senders: dict[str, object] = {}
+        self._told: set[str] = set()
+        """Streams of which a client has been told that they are over."""
+
+    def take(self, audio: StreamedAudio, client: object) -> None:
+        """Takes sound of a client. What comes after the end of its speech is ignored; that is told once.
+
+        Raises:
+            RealizerError: it is refused.
+        """
+        try:
+            self._realizer.check_streamed(audio)
+        except RealizerError as problem:
+            if not isinstance(problem.fault, StreamOver):
+                raise
+            self._senders.pop(audio.stream, None)
+            if audio.stream in self._told:
+                return
+            self._told.add(audio.stream)
+            raise
+        self._told.discard(audio.stream)
+        if self._senders.setdefault(audio.stream, client) is not client:
+            raise RealizerError(ForeignStream(stream=audio.stream))
+        self._realizer.put(audio)
+        if audio.end:
+            del self._senders[audio.stream]
+
+    def leave(self, client: object) -> None:
+        """Has others send the streams of a client that has disconnected."""
+        self._senders = {stream: sender for stream, sender in self._senders.items() if sender is not client}
