@@ -4,7 +4,7 @@ import re
 
 import numpy as np
 
-from reactive_realizer.engine.tts import Utterance, Word
+from reactive_realizer.engine.tts import Utterance, VoiceCapabilities, Word
 
 _RATE = 16_000
 _WORD = 0.4
@@ -22,6 +22,10 @@ class BeepVoice:
     async def voices(self) -> tuple[str, ...]:
         """No names, since there is only one voice."""
         return ()
+
+    async def capabilities(self) -> VoiceCapabilities:
+        """Sound, for texts in any language."""
+        return VoiceCapabilities(sound=True)
 
     def synthesize(self, text: str, marks: tuple[tuple[str, int], ...], voice: str | None) -> Utterance:
         """Beeps for a text; a mark has the time of the word after it."""

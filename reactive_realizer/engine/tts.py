@@ -7,7 +7,7 @@ from itertools import pairwise
 from math import inf
 from typing import Final, Protocol, runtime_checkable
 
-from reactive_realizer.bml.markup import Markup
+from reactive_realizer.bml.markup import Markup, MarkupKind
 from reactive_realizer.clock.units import RESOLUTION
 
 _BETWEEN_SPACES: Final = re.compile(r"[^\s\u2013\u2014]+")
@@ -138,6 +138,21 @@ def _without_punctuation(first: int, run: str) -> tuple[int, int]:
     return first, first + len(run.strip(_PUNCTUATION))
 
 
+@dataclass(frozen=True, slots=True)
+class VoiceCapabilities:
+    """What a text-to-speech system can do.
+
+    Attributes:
+        sound: whether its utterances have audio.
+        languages: language tags in lower case, such as ``en-us``, sorted; none if it is not bound to any.
+        markup: the kinds that it follows, at least some values of each; none if it follows no markup.
+    """
+
+    sound: bool
+    languages: tuple[str, ...] = ()
+    markup: frozenset[MarkupKind] = frozenset()
+
+
 class TTSBinding(Protocol):
     """A text-to-speech system, which all characters of a scene share."""
 
@@ -153,6 +168,14 @@ class TTSBinding(Protocol):
 
     async def voices(self) -> tuple[str, ...]:
         """The names that `synthesize` accepts, sorted; none if the system has only one voice.
+
+        Raises:
+            RealizerError: as `start`.
+        """
+        ...
+
+    async def capabilities(self) -> VoiceCapabilities:
+        """What it can do, for clients that choose what to ask of it.
 
         Raises:
             RealizerError: as `start`.

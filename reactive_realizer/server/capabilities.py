@@ -8,6 +8,7 @@ from reactive_realizer.assembly.scene import Scene
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.elements import ELEMENTS, Element
 from reactive_realizer.engine.lexicon import lexicon_of
+from reactive_realizer.engine.tts import VoiceCapabilities
 from reactive_realizer.pegboard.anticipator import Anticipator
 from reactive_realizer.planunit.parameter import Range
 
@@ -16,7 +17,7 @@ Found = Mapping[str, object]
 
 
 async def capabilities_of(scene: Scene, found: Found) -> dict[str, Any]:
-    """The answer: elements with their attributes and points, lexemes, voices, targets, anticipators and plug-ins."""
+    """The answer: elements, lexemes, voices and what they can do, targets, anticipators and plug-ins."""
     engines = [engine for character in scene.realizer.characters.values() for engine in character.engines]
     realized = frozenset[type[Behavior]]().union(*(engine.behaviors for engine in engines))
     changeable = {behavior: ranges for engine in engines for behavior, ranges in engine.parameters.items()}
@@ -29,6 +30,7 @@ async def capabilities_of(scene: Scene, found: Found) -> dict[str, Any]:
             if changeable.get(element.behavior)
         },
         "voices": await scene.tts.voices(),
+        "tts": _tts(await scene.tts.capabilities()),
         "targets": list(scene.realizer.world.targets),
         "anticipators": {id_: _anticipator(scene, each) for id_, each in scene.realizer.anticipators.items()},
     }
@@ -45,6 +47,15 @@ def _element(
         "attributes": [attribute.name for attribute in element.attributes],
         "syncPoints": element.sync_points,
         "parameters": {name: range_._asdict() for name, range_ in parameters.items()},
+    }
+
+
+def _tts(capabilities: VoiceCapabilities) -> dict[str, Any]:
+    """The entry of the text-to-speech system."""
+    return {
+        "sound": capabilities.sound,
+        "languages": capabilities.languages,
+        "markup": sorted(capabilities.markup),
     }
 
 

@@ -8,8 +8,9 @@ from typing import ClassVar
 
 import pytest
 
+from reactive_realizer.bml.markup import Markup, MarkupKind
 from reactive_realizer.clock.units import RESOLUTION
-from reactive_realizer.engine.tts import TTSBinding, Utterance
+from reactive_realizer.engine.tts import MarkupTTSBinding, TTSBinding, Utterance, VoiceCapabilities, completed
 from reactive_realizer.errors import RealizerError
 
 _SENTENCE = "Please put the red box on the green table, Dr. Smith."
@@ -26,6 +27,16 @@ _TEXTS = (
     "Gr\u00fc\u00dfe, \u00e7a va? \u041f\u0440\u0438\u0432\u0435\u0442.",
 )
 
+_MARKUP = {
+    MarkupKind.EMPHASIS: "strong",
+    MarkupKind.SUB: "four",
+    MarkupKind.SAY_AS: "characters",
+    MarkupKind.PHONEME: "tu\u02d0",
+    MarkupKind.VOICE: "nobody's",
+    MarkupKind.LANGUAGE: "en-us",
+}
+"""Texts of markup that a voice may follow."""
+
 
 class Speaker:
     """A started text-to-speech system with its event loop."""
@@ -37,6 +48,17 @@ class Speaker:
     def voices(self) -> tuple[str, ...]:
         """The names of its voices."""
         return self._runner.run(self._tts.voices())
+
+    def capabilities(self) -> VoiceCapabilities:
+        """What it can do."""
+        return self._runner.run(self._tts.capabilities())
+
+    def left_out(self, text: str, markup: Markup) -> bool:
+        """Whether it cannot follow some markup of a text."""
+        if not isinstance(self._tts, MarkupTTSBinding):
+            return True
+        spoken = self._tts.synthesize_markup(text, (), None, (markup,))
+        return markup in self._runner.run(completed(spoken)).left_out
 
     def say(self, text: str, *marks: tuple[str, int], voice: str | None = None) -> Utterance:
         """The utterance of a text with marks, each a name and an index into the text."""
@@ -152,6 +174,18 @@ class TTSContract(ABC):
                 assert one.start + one.duration == pytest.approx(next_.start, abs=1e-3), text
             _assert_in_order([phoneme.start for phoneme in utterance.phonemes], utterance)
             assert all(phoneme.duration >= 0.0 for phoneme in utterance.phonemes), text
+
+    def test_it_does_what_its_capabilities_say_and_nothing_else(self, speaker: Speaker) -> None:
+        capabilities = speaker.capabilities()
+        assert bool(speaker.say("one two").audio) == capabilities.sound
+        languages = capabilities.languages
+        assert languages == tuple(sorted({language.lower() for language in languages}))
+        known = {MarkupKind.VOICE: speaker.voices(), MarkupKind.LANGUAGE: languages}
+        texts = {**_MARKUP, **{kind: names[0] for kind, names in known.items() if names}}
+        for kind in MarkupKind:
+            last = 4 if kind is MarkupKind.BREAK else 7
+            markup = Markup(kind, 4, last, f"<{kind}>", 0.8, texts.get(kind, ""))
+            assert speaker.left_out("one two three", markup) == (kind not in capabilities.markup), kind
 
     def test_what_is_made_stays_and_the_last_part_completes_the_utterance(self, speaker: Speaker) -> None:
         for text in (*self.texts, self.long_text, *_NO_WORDS):

@@ -110,6 +110,7 @@ async def test_the_capabilities_list_elements_and_lexemes(on_air: Open) -> None:
         lexemes = {"gesture": "BEAT", "head": "TOSS", "faceLexeme": "RAISE_BROWS", "pose": "ARMS_CROSSED"}
         assert all(word in capabilities["lexemes"][element] for element, word in lexemes.items())
         assert "alice" in capabilities["targets"]
+        assert capabilities["tts"] == {"sound": False, "languages": [], "markup": []}
 
 
 async def test_the_capabilities_list_anticipators_and_their_events(on_air: Open) -> None:

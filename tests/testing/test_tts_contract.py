@@ -7,7 +7,8 @@ from itertools import count
 
 import pytest
 
-from reactive_realizer.engine.tts import Utterance
+from reactive_realizer.bml.markup import MarkupKind
+from reactive_realizer.engine.tts import Utterance, VoiceCapabilities
 from reactive_realizer.engines.speech.text_voice import TextVoice
 from reactive_realizer.testing.tts_contract import Speaker, TTSContract
 
@@ -84,6 +85,21 @@ class Fickle(TextVoice):
         yield whole
 
 
+class Boastful(TextVoice):
+    """Says that it can do more than it can."""
+
+    claims = VoiceCapabilities(sound=True)
+
+    async def capabilities(self) -> VoiceCapabilities:
+        return self.claims
+
+
+class Learned(Boastful):
+    """Says that it follows markup."""
+
+    claims = VoiceCapabilities(sound=False, markup=frozenset({MarkupKind.RATE}))
+
+
 class Unsorted(TextVoice):
     """Lists its voices in arbitrary order."""
 
@@ -117,6 +133,8 @@ class Mute(TextVoice):
         (Short, "test_audio_and_phonemes_last_as_long_as_the_utterance"),
         (Confused, "test_concurrent_requests_are_not_mixed_up"),
         (Fickle, "test_what_is_made_stays_and_the_last_part_completes_the_utterance"),
+        (Boastful, "test_it_does_what_its_capabilities_say_and_nothing_else"),
+        (Learned, "test_it_does_what_its_capabilities_say_and_nothing_else"),
         (Unsorted, "test_the_listed_voices_are_sorted_and_can_speak"),
         (Mute, "test_an_unknown_voice_raises_an_error_and_does_not_affect_the_next_text"),
     ],

@@ -3,7 +3,7 @@
 from types import MappingProxyType
 from typing import Final
 
-from reactive_realizer.engine.tts import Utterance, Word, word_spans
+from reactive_realizer.engine.tts import Utterance, VoiceCapabilities, Word, word_spans
 
 _WORD: Final = 0.5
 """Duration of every word, s (thesis 8.11)."""
@@ -23,6 +23,10 @@ class CaptionVoice:
     async def voices(self) -> tuple[str, ...]:
         """No names: the one voice accepts every name."""
         return ()
+
+    async def capabilities(self) -> VoiceCapabilities:
+        """Silence, in any language, without markup."""
+        return VoiceCapabilities(sound=False)
 
     def synthesize(self, text: str, marks: tuple[tuple[str, int], ...], voice: str | None = None) -> Utterance:
         """The utterance of a plain text; see `TTSBinding.synthesize`. The voice is ignored."""

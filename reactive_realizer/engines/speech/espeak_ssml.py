@@ -9,6 +9,9 @@ from xml.sax.saxutils import escape, quoteattr
 
 from reactive_realizer.bml.markup import Markup, MarkupKind
 
+FOLLOWED: Final = frozenset(MarkupKind) - {MarkupKind.PHONEME, MarkupKind.OTHER}
+"""The kinds of markup that espeak-ng follows; of voices and languages, those that it has."""
+
 _NO_VOICES: Final[Mapping[str, str]] = MappingProxyType({})
 _STOPS: Final = ".,;:!?\u2026"
 _STRONG: Final = '<break strength="strong"/>'

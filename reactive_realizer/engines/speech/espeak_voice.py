@@ -6,8 +6,8 @@ from importlib.util import find_spec
 from typing import Any
 
 from reactive_realizer.bml.markup import Markup, MarkupKind
-from reactive_realizer.engine.tts import Utterance
-from reactive_realizer.engines.speech.espeak_ssml import SsmlDocument, ssml_document
+from reactive_realizer.engine.tts import Utterance, VoiceCapabilities
+from reactive_realizer.engines.speech.espeak_ssml import FOLLOWED, SsmlDocument, ssml_document
 from reactive_realizer.engines.speech.espeak_utterance import (
     PronouncedWord,
     as_utterance,
@@ -74,6 +74,14 @@ class EspeakVoice:
             RealizerError: as `start`.
         """
         return tuple(sorted((await self._hello())["voices"]))
+
+    async def capabilities(self) -> VoiceCapabilities:
+        """Its voices are named after their languages.
+
+        Raises:
+            RealizerError: as `start`.
+        """
+        return VoiceCapabilities(sound=True, languages=await self.voices(), markup=FOLLOWED)
 
     def synthesize(self, text: str, marks: tuple[tuple[str, int], ...], voice: str | None) -> AsyncIterator[Utterance]:
         """Speaks a text; see `TTSBinding.synthesize`."""

@@ -4,7 +4,7 @@ from dataclasses import replace
 from itertools import pairwise
 from types import MappingProxyType
 
-from reactive_realizer.engine.tts import Utterance, Word, word_spans
+from reactive_realizer.engine.tts import Utterance, VoiceCapabilities, Word, word_spans
 
 _CHARACTER = 0.06
 """Duration of a character, s; with five letters and a space a word, about 170 words a minute (espeak-ng: 175)."""
@@ -29,6 +29,10 @@ class TextVoice:
     async def voices(self) -> tuple[str, ...]:
         """No names: the one voice accepts every name."""
         return ()
+
+    async def capabilities(self) -> VoiceCapabilities:
+        """Silence, in any language, without markup."""
+        return VoiceCapabilities(sound=False)
 
     def synthesize(self, text: str, marks: tuple[tuple[str, int], ...], voice: str | None = None) -> Utterance:
         """The utterance of a plain text, without phonemes and sound.

@@ -7,7 +7,7 @@ from importlib.util import find_spec
 from typing import Any, ClassVar
 
 from reactive_realizer.bml.markup import Markup
-from reactive_realizer.engine.tts import Utterance
+from reactive_realizer.engine.tts import Utterance, VoiceCapabilities
 from reactive_realizer.engines.speech.espeak_utterance import PronouncedWord
 from reactive_realizer.engines.speech.espeak_voice import EspeakVoice, UnknownVoice, VoiceNotInstalled
 from reactive_realizer.engines.speech.neural.markup import (
@@ -118,6 +118,15 @@ class NeuralVoice(ABC):
             RealizerError: as `start`.
         """
         return tuple(sorted(await self._known()))
+
+    async def capabilities(self) -> VoiceCapabilities:
+        """The languages are those of its voices.
+
+        Raises:
+            RealizerError: as `start`.
+        """
+        languages = {each.language for each in (await self._known()).values()}
+        return VoiceCapabilities(sound=True, languages=tuple(sorted(languages)), markup=FOLLOWED)
 
     def synthesize(self, text: str, marks: tuple[tuple[str, int], ...], voice: str | None) -> AsyncIterator[Utterance]:
         """Speaks a text; see `TTSBinding.synthesize`."""

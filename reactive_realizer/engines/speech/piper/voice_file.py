@@ -62,6 +62,8 @@ def voice_files(place: Path) -> Iterator[VoiceFile]:
     Raises:
         UnusableNetwork: there is none, or a JSON file is missing or wrong; the message names it.
     """
+    if not place.exists():
+        raise UnusableNetwork(f"{place} does not exist")
     networks = sorted(place.glob("*.onnx")) if place.is_dir() else [place]
     if not networks:
         raise UnusableNetwork(f"{place} contains no .onnx file")
