@@ -136,6 +136,7 @@ _AROUND = """\
 | `dynamic="true"` of `http://hmi.ewi.utwente.nl/bmlt` on `gaze` and its shifts | yes | follows a moving target |
 | `voice="NAME"` of `http://hmi.ewi.utwente.nl/bmlt` on `speech` | yes | another [voice](voices.md) |
 | `words="true"` of `urn:reactive-realizer:1` on `speech` | yes | each word is a sync point `wordN`, counted from 0 |
+| `rigid="true"` of `urn:reactive-realizer:1` on `speech` | yes | it is not [stretched](voices.md#stretching) |
 | `liveliness="0.5"` of `urn:reactive-realizer:1` on `speech` | yes | how much the speaker moves of itself, 0 to 1 \
 ([liveliness](liveliness.md)) |
 | `generatefiller="true"` of `http://www.asap-project.org/bmlis` on `speech` | yes | fillers \

@@ -30,6 +30,9 @@ WORDS: Final = (OWN, "words")
 VOICE: Final = (BMLT, "voice")
 """The attribute of a speech that names a voice other than that of its character."""
 
+RIGID: Final = (OWN, "rigid")
+"""The attribute of a speech that is never stretched."""
+
 LIVELINESS: Final = (OWN, "liveliness")
 """The attribute of a speech that says how lively the character is while it speaks."""
 

@@ -130,6 +130,21 @@ class EndUnit:
 
 
 @dataclass(frozen=True, slots=True)
+class MovePoint:
+    """Requests that a point ahead come at another time than its peg says, with what is tied to it.
+
+    Attributes:
+        unit: of the point, which plays.
+        point: the sync point; if its time is unknown, it keeps the new one.
+        time: s, global.
+    """
+
+    unit: PlanUnit
+    point: SyncPoint
+    time: GlobalTime
+
+
+@dataclass(frozen=True, slots=True)
 class Warn:
     """A warning about a unit that continues to play.
 
@@ -167,7 +182,9 @@ class ParameterUser(PlanUnit, ABC):
         """
 
 
-Request = ActivateBlock | InterruptBlock | BindParameter | SetParameter | FollowCell | EndUnit | Warn | ReportFall
+Request = (
+    ActivateBlock | InterruptBlock | BindParameter | SetParameter | FollowCell | EndUnit | MovePoint | Warn | ReportFall
+)
 """Requests of an engine to the scheduler, carried out in the same tick."""
 
 

@@ -1,6 +1,6 @@
 """Announces the sounds and captions of planned units: early, to be there when the units start."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from reactive_realizer.clock.units import GlobalTime, Time
@@ -52,6 +52,8 @@ class SoundAnnouncer:
         self._character = character
         self._prefix = prefix
         self._announced: dict[SoundUnit, list[_Announced]] = {}
+        self._sources: dict[SoundUnit, list[SoundPart]] = {}
+        """The sounds of each unit, which are others when it makes all of them again."""
         self._count = 0
 
     def find(self, clip: str) -> tuple[SoundUnit, SoundPart] | None:
@@ -63,17 +65,18 @@ class SoundAnnouncer:
         """The changes since the last call."""
         out: list[AudioChange] = []
         for unit, announced in list(self._announced.items()):
-            if unit.live:
+            if unit.live and unit.sounds is not self._sources[unit]:
+                del self._announced[unit]
+                out += _silences(unit, announced, now)
+            elif unit.live:
                 out += [change for each in announced for change in _differences(unit, each, now)]
                 out += [change for each in announced for change in self._restated(unit, each)]
             else:
-                del self._announced[unit]
-                later = (*announced[1:], None)
-                pairs = zip(announced, later, strict=True)
-                out += [change for each, following in pairs for change in _silence(unit, each, following, now)]
+                del self._announced[unit], self._sources[unit]
+                out += _silences(unit, announced, now)
         for unit in units:
             if unit.live:
-                announced = self._announced.setdefault(unit, [])
+                announced, self._sources[unit] = self._announced.setdefault(unit, []), unit.sounds
                 out += [self._announce(unit, part, announced) for part in unit.sounds[len(announced) :]]
         return tuple(out)
 
@@ -110,6 +113,12 @@ def _differences(unit: SoundUnit, announced: _Announced, now: GlobalTime) -> Ite
     if unit.gain != announced.gain and announced.gain_tick != now:
         announced.gain, announced.gain_tick = unit.gain, now
         yield AudioGain(announced.clip, unit.gain, now)
+
+
+def _silences(unit: SoundUnit, announced: Sequence[_Announced], now: GlobalTime) -> Iterator[AudioChange]:
+    """The stops of the sounds of a unit."""
+    for each, following in zip(announced, (*announced[1:], None), strict=True):
+        yield from _silence(unit, each, following, now)
 
 
 def _silence(

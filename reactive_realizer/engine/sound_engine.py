@@ -49,6 +49,9 @@ class SoundEngine(DefaultEngine):
             return None
         unit, hearing, heard = found
         change = hearing.take(heard)
+        if change and unit.loose:
+            self.player.note(unit)
+            return None
         return Drift(unit, change) if change else None
 
     def _found(self, heard: AudioHeard) -> tuple[SoundUnit, Hearing, AudioHeard] | None:

@@ -73,6 +73,11 @@ class SoundUnit(PlanUnit):
         self.parameters["volume"] = self._volume
 
     @property
+    def loose(self) -> bool:
+        """Whether its sound follows its points, so that these need not follow what is heard."""
+        return False
+
+    @property
     def caption(self) -> Caption | None:
         """What is read while it is heard; None if nothing is."""
         return None

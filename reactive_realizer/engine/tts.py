@@ -67,7 +67,8 @@ class Utterance:
         made: up to when it is made, s from the start of the utterance. Times before that are final.
         left_out: the markup that the voice cannot follow.
         unread: the scripts in the text whose letters the voice does not read, but spells or skips.
-        stretch: how much shorter and longer its parts may become, as factors; None for a sound, which cannot change.
+        stretch: how much shorter and longer its parts may become, as factors; None if the voice does not say: then a
+            sound can be stretched as far as it sounds natural, and an utterance without sound cannot.
     """
 
     text: str

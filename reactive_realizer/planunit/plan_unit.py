@@ -167,6 +167,17 @@ class PlanUnit:
             taken: the resources that other units own and keep.
         """
 
+    def loose_timing(self, named: Container[str]) -> Timing | None:
+        """The timing of a rigid behavior that can be stretched after all, where constraints ask for it.
+
+        Args:
+            named: the points that constraints name.
+        """
+        return None
+
+    def loosen(self, timing: Timing) -> None:
+        """Take a `loose_timing` from now on."""
+
     def lacks_from(self) -> Time:
         """While it plays, the time from which on the results of its slow work are missing; None if none are."""
         return None

@@ -10,7 +10,7 @@ from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.pegboard.time_peg import TimeCell
-from reactive_realizer.planunit.plan_unit import PlanUnit, UnitState
+from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint, UnitState
 from reactive_realizer.scheduler.block_composition import BlockComposition
 from reactive_realizer.scheduler.block_feedback import BlockFeedback
 from reactive_realizer.scheduler.block_planner import BlockPlanner
@@ -189,6 +189,10 @@ class BlockLifecycle:
     def shift_behavior(self, unit: PlanUnit, seconds: float) -> None:
         """Move the points ahead of a playing behavior that has drifted, with what is tied to them."""
         self._units.shift(unit, seconds)
+
+    def move_point(self, unit: PlanUnit, point: SyncPoint, time: GlobalTime) -> None:
+        """Have a point ahead of a playing behavior come at a time, with what is tied to it."""
+        self._units.move(unit, point, time)
 
     def retime_behavior(self, unit: PlanUnit, change: Callable[[], None], now: GlobalTime) -> None:
         """Have a rigid behavior change its timing; its points ahead move, or its block is planned again if it waits."""

@@ -2,7 +2,7 @@
 
 import logging
 from collections import deque
-from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Container, Generator, Iterable, Iterator, Mapping, Sequence
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, field, replace
 from itertools import islice
@@ -13,13 +13,14 @@ from reactive_realizer.pegboard.peg_key import PegKey
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.pegboard.time_peg import Bound, LateTiePeg, OffsetPeg, OpenPeg, TimeCell, TimePeg
 from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
-from reactive_realizer.planunit.timing import OPEN
+from reactive_realizer.planunit.timing import OPEN, Timing
 from reactive_realizer.planunit.wait_unit import WaitUnit
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.scheduler.constraints import ReferenceResolver, bound_on_start, constraints_of
 from reactive_realizer.scheduler.duration_limits import limits_not_kept
 from reactive_realizer.scheduler.faults import WorkFailed
+from reactive_realizer.scheduler.following_outside import following_outside
 from reactive_realizer.scheduler.free_points import through_free
 from reactive_realizer.scheduler.late_ties import LateTies, tie_bounds
 from reactive_realizer.scheduler.passed_moments import without_passed
@@ -56,6 +57,7 @@ class BlockProblem:
         holds: constraints that the block satisfies by starting later, with the bounds that they put on its start.
         late: the times from outside that count as unknown, because ties to them are late for the expected start.
         awaited: the points for which behaviors wait; empty if they wait already.
+        loose: timings of the rigid behaviors that can be stretched in this problem, by id.
     """
 
     units: tuple[PlanUnit, ...]
@@ -65,6 +67,26 @@ class BlockProblem:
     holds: Mapping[Tie | Precedence, Bound]
     late: AbstractSet[TimeCell]
     awaited: Mapping[WaitUnit, Node] = field(default_factory=dict)
+    loose: Mapping[str, Timing] = field(default_factory=dict)
+
+    def loosened(self, behaviors: Container[str], constraints: Iterable[Tie | Precedence]) -> "BlockProblem | None":
+        """The same problem, in which some behaviors are stretched where they can be; None if none of them can.
+
+        Args:
+            behaviors: their ids.
+            constraints: those for which they are.
+        """
+        named: dict[str, set[str]] = {}
+        for node in (node for each in constraints for node in each.nodes):
+            if isinstance(node, Point) and node.behavior in behaviors:
+                named.setdefault(node.behavior, set()).add(node.sync)
+        rigid = {unit.behavior.id: unit for unit in self.units if unit.timing.rigid and unit.behavior.id in named}
+        found = {id_: unit.loose_timing(named[id_]) for id_, unit in rigid.items()}
+        timings = {id_: timing for id_, timing in found.items() if timing is not None}
+        if not timings:
+            return None
+        items = (replace(each, timing=timings.get(each.behavior.id, each.timing)) for each in self.problem.items)
+        return replace(self, problem=replace(self.problem, items=tuple(items)), loose=timings)
 
 
 class Plan:
@@ -142,6 +164,8 @@ class Plan:
         """
         for unit, points in self.points.items():
             unit.points = points
+            if (timing := self.posed.loose.get(unit.behavior.id)) is not None:
+                unit.loosen(timing)
             unit.wake()
         for unit, node in self.posed.awaited.items():
             if unit in self.points:
@@ -191,8 +215,28 @@ class Planning:
     def solve(self, posed: BlockProblem) -> Plan:
         """A plan by the strategy; thread-safe, because it reads only the problem.
 
-        If the strategy raises, only this block fails.
+        A speech that can be stretched is planned as a rigid one first, and stretched only if more can be kept so. One
+        that is tied to times from outside can be stretched later.
         """
+        plan, problem = self._solve(posed), posed.problem
+        if not plan.solution.losses:
+            loosened = posed.loosened(following_outside(problem), problem.constraints)
+            return plan if loosened is None else Plan(loosened, plan.solution)
+        stretched = self._stretched(posed, problem.constraints, len(plan.losses) - 1)
+        if stretched is not None and stretched.solution.losses:
+            # What is lost is no reason to stretch anything.
+            kept = stretched.layout.kept.constraints
+            stretched = self._stretched(posed, kept, len(stretched.losses)) or stretched
+        return stretched or plan
+
+    def _stretched(self, posed: BlockProblem, constraints: Sequence[Tie | Precedence], most: int) -> Plan | None:
+        """A plan in which speeches are stretched for some constraints, if no more than a number of things are lost."""
+        loosened = posed.loosened({item.behavior.id for item in posed.problem.items}, constraints)
+        plan = None if loosened is None else self._solve(loosened)
+        return None if plan is None or len(plan.losses) > most else plan
+
+    def _solve(self, posed: BlockProblem) -> Plan:
+        """A plan of a problem as it is; if the strategy raises, only this block fails."""
         try:
             return Plan(posed, solve(self._strategy, posed.problem))
         except Exception as failure:

@@ -141,6 +141,18 @@ class UnitLifecycle:
                 self.schedule_cut(unit, cut._replace(time=time, asked=asked))
         unit.wake()
 
+    def move(self, unit: PlanUnit, point: SyncPoint, time: GlobalTime) -> None:
+        """Have a point ahead of a playing behavior come at a time; what is tied to it follows."""
+        peg = point.peg
+        if unit.state is not UnitState.IN_EXEC or point.fired or peg.pinned:
+            return
+        with self._board.graph.transaction(f"sound of {unit.key(point.id)}"):
+            if peg.value is None:
+                peg.pin(time)
+            else:
+                peg.shift(time - peg.value)
+        unit.wake()
+
     def retime(self, unit: PlanUnit, before: Timing) -> None:
         """Move the points ahead of a rigid behavior of a playing block, with what is tied to them, to its new timing.
 

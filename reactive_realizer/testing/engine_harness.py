@@ -29,6 +29,7 @@ from reactive_realizer.engine.effects import (
     EndUnit,
     FollowCell,
     InterruptBlock,
+    MovePoint,
     Output,
     Play,
     ReportFall,
@@ -328,6 +329,9 @@ class EngineHarness:
                 with self._graph.transaction("end"):
                     unit.interrupt(time)
                 self.engine.remove(unit)
+            case MovePoint(point=point, time=time):
+                with self._graph.transaction("move"):
+                    point.peg.pin(time)
             case ActivateBlock() | InterruptBlock() | Warn() | ReportFall():
                 pass  # there are no other blocks, and no client
 

@@ -5,11 +5,22 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 from reactive_realizer.bml.behavior import Behavior
-from reactive_realizer.bml.behaviors import FILLER, LIVELINESS, VOICE, WORDS, RecordedSpeech, Speech, StreamedSpeech
+from reactive_realizer.bml.behaviors import (
+    FILLER,
+    LIVELINESS,
+    RIGID,
+    VOICE,
+    WORDS,
+    RecordedSpeech,
+    Speech,
+    StreamedSpeech,
+)
 from reactive_realizer.bml.markup import Markup
+from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.embodiment.audio import AudioChange
 from reactive_realizer.engine.context import EngineContext
-from reactive_realizer.engine.effects import ReportFall, Warn
+from reactive_realizer.engine.effects import ReportFall, Request, Warn
 from reactive_realizer.engine.engine import Part, SlowWork
 from reactive_realizer.engine.sound_engine import SoundEngine
 from reactive_realizer.engine.sound_unit import VOLUME_RANGE
@@ -22,6 +33,7 @@ from reactive_realizer.engines.speech.speech_unit import (
     LIVELINESS_RANGE,
     SpeechUnit,
     holds_floor,
+    is_rigid,
     liveliness_of,
     wants_words,
 )
@@ -82,7 +94,7 @@ class SpeechEngine(SoundEngine):
     """Speaks with the voice of its character, and provides its lip sync (`LipSyncProvider`)."""
 
     behaviors = frozenset({Speech, RecordedSpeech, StreamedSpeech})
-    extensions = frozenset({WORDS, VOICE, LIVELINESS, FILLER})
+    extensions = frozenset({WORDS, VOICE, LIVELINESS, FILLER, RIGID})
 
     def __init__(self, context: EngineContext) -> None:
         super().__init__(context, "speech")
@@ -114,6 +126,7 @@ class SpeechEngine(SoundEngine):
             self._recordings.file(behavior)
         liveliness_of(behavior, None)
         holds_floor(behavior)
+        is_rigid(behavior)
         return None if wants_words(behavior) else behavior.sync_points
 
     def prepare(self, behavior: Behavior) -> SlowWork | None:
@@ -148,7 +161,7 @@ class SpeechEngine(SoundEngine):
             raise RealizerError(NothingToSay())
         if prepared is not None:
             self._remember(behavior, utterance)
-        make = SpeechUnit if utterance.stretch is None else ElasticSpeech
+        make = SpeechUnit if utterance.stretch is None or utterance.audio else ElasticSpeech
         return make(block, behavior, utterance, self._graph, self._liveliness, self._left_out(behavior, utterance))
 
     def extend(self, unit: PlanUnit, prepared: object, now: GlobalTime) -> None:
@@ -184,11 +197,24 @@ class SpeechEngine(SoundEngine):
         notes, self._notes = tuple(self._notes), []
         return notes
 
+    def audio(self, tick: Tick) -> tuple[AudioChange, ...]:
+        """The changes of sounds since the last call, with the sound of stretched speeches that is heard soon."""
+        for unit in self.player.units:
+            if isinstance(unit, SpeechUnit) and unit.loose:
+                unit.make_sound(tick.time)
+        return super().audio(tick)
+
+    def requests(self, tick: Tick) -> tuple[Request, ...]:
+        """That points come when their sounds do."""
+        playing = (unit for unit in self.player.playing if isinstance(unit, SpeechUnit))
+        return tuple(each for unit in playing for each in unit.misplaced(tick.time))
+
     def mouth(self, time: GlobalTime) -> Mapping[str, float] | None:
         """Weights of morph targets for the present speech, None without one; an interrupted speech ends at once."""
         for unit in self.player.playing:
             if isinstance(unit, SpeechUnit) and unit.hearing is not None and unit.utterance.phonemes:
-                return self._track_of(unit.utterance).weights(unit.position(time))
+                utterance, position = unit.reading(time)
+                return self._track_of(utterance).weights(position)
         return None
 
     def _tell(self, unit: SpeechUnit, fault: Fault | None) -> None:
