@@ -141,10 +141,10 @@ class SpeechStream:
         """Take no more of it."""
         self._streams.forget(self)
 
-    def add(self, audio: StreamedAudio) -> None:
-        """Add what has arrived."""
+    def add(self, audio: StreamedAudio, most_words: int) -> None:
+        """Add what has arrived, with a limit on the number of words that wait for their sound."""
         self._pending += audio.audio
-        self._words += audio.words
+        self._words += audio.words[: most_words - len(self._words)]
         self.seconds += len(audio.audio) / _SAMPLE / self.source.rate
         self.ended |= audio.end
 
@@ -254,6 +254,11 @@ class SpeechStreams:
             if len(self._over) > _REMEMBERED:
                 del self._over[next(iter(self._over))]
 
+    @property
+    def names(self) -> Collection[str]:
+        """The names of the streams that take sound."""
+        return self._open.keys()
+
     def check(self, audio: StreamedAudio, announced: Collection[str] = ()) -> None:
         """Check whether sound can be taken.
 
@@ -286,8 +291,9 @@ class SpeechStreams:
         except RealizerError:
             return
         stream = self._open[audio.stream]
-        stream.add(audio)
-        self._put_off(stream)
+        stream.add(audio, self._limits.utterance_characters)
+        if audio.audio:
+            self._put_off(stream)
 
     def advance(self, now: GlobalTime) -> None:
         """After the inputs of a tick, give speeches what has arrived, and give up the streams that do not arrive."""

@@ -3,7 +3,7 @@
 import asyncio
 import logging
 import os
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import AsyncExitStack
 from dataclasses import replace
 from types import TracebackType
@@ -192,6 +192,11 @@ class Realizer:
         """
         waiting = (parsed.block for parsed, _ in self._waiting if parsed.block is not None)
         self._speech_streams.check(audio, {each.name for block in waiting for each in streams_of(block.behaviors)})
+
+    @property
+    def streams(self) -> Collection[str]:
+        """The names of the streams of speech that take sound."""
+        return self._speech_streams.names
 
     def check_push(self, push: Push) -> None:
         """Check whether there is such a character with such a joint.

@@ -105,7 +105,7 @@ def _shifts(block: BMLBlock, unit: PlanUnit, seconds: Mapping[str, float]) -> di
         seconds: the shift of each of its points.
     """
     tied, ahead = _tied_nodes(block), _pegs_ahead(block)
-    whole = {each.behavior.id: each for each in block.units if each.timing.rigid or _hangs_by_one_point(each, tied)}
+    whole = {each.behavior.id: each for each in block.units if each.timing.rigid or _tied_by_one_point(each, tied)}
     shifts = {Point(unit.behavior.id, sync): shift for sync, shift in seconds.items()}
     waiting = list(shifts)
     while waiting:
@@ -120,7 +120,7 @@ def _shifts(block: BMLBlock, unit: PlanUnit, seconds: Mapping[str, float]) -> di
     return shifts
 
 
-def _hangs_by_one_point(unit: PlanUnit, tied: Mapping[Point, Sequence[Node]]) -> bool:
+def _tied_by_one_point(unit: PlanUnit, tied: Mapping[Point, Sequence[Node]]) -> bool:
     """Whether a behavior has not begun and only one of its points is tied."""
     return not unit.begun and sum(point in tied for point in _points_of(unit)) == 1
 

@@ -6,6 +6,9 @@ from reactive_realizer.errors import RealizerError
 from reactive_realizer.realizer.realizer import Realizer
 from reactive_realizer.server.faults import ForeignStream
 
+_MOST_TOLD = 1000
+"""Streams that are remembered because a client was told that they are over."""
+
 
 class StreamSenders:
     """Passes the sound of each stream from the client that began to send it.
@@ -33,9 +36,13 @@ class StreamSenders:
             self._senders.pop(audio.stream, None)
             if audio.stream in self._told:
                 return
+            if len(self._told) == _MOST_TOLD:
+                self._told.clear()
             self._told.add(audio.stream)
             raise
         self._told.discard(audio.stream)
+        if audio.stream not in self._senders:
+            self._forget_ended()
         if self._senders.setdefault(audio.stream, client) is not client:
             raise RealizerError(ForeignStream(stream=audio.stream))
         self._realizer.put(audio)
@@ -45,3 +52,7 @@ class StreamSenders:
     def leave(self, client: object) -> None:
         """Has others send the streams of a client that has disconnected."""
         self._senders = {stream: sender for stream, sender in self._senders.items() if sender is not client}
+
+    def _forget_ended(self) -> None:
+        taking = self._realizer.streams
+        self._senders = {stream: sender for stream, sender in self._senders.items() if stream in taking}

@@ -90,6 +90,8 @@ async def test_points_ahead_move_when_more_is_made_and_what_is_tied_to_them_foll
     assert after["b:s:end"] == DURATION
     assert after["b:beat:stroke"] == after["b:s:m"] == 1.22
     assert after["b:nod:stroke"] == SECOND + 0.1
+    preparation = before["b:nod:stroke"] - before["b:nod:start"]
+    assert after["b:nod:stroke"] - after["b:nod:start"] == pytest.approx(preparation), "it had not begun"
     assert after["b:after:start"] == DURATION + 0.2
     assert after["next:w:start"] == after["b:end"] == DURATION + 0.5
     assert [after[f"b:own:{sync}"] for sync in ("start", "end")] == [0.1, 0.9]

@@ -212,6 +212,20 @@ async def spoken() -> Utterance:
         await voice.close()
 
 
+async def test_when_the_search_for_words_fails_the_speech_goes_on_with_estimated_ones_which_is_told(
+    pilot: RealizerPilot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(stream_aligner, "find_spec", lambda _: True)
+    monkeypatch.setattr(stream_aligner, "_WORKER", "reactive_realizer.errors")  # a process that ends at once
+    pilot.block("b", speech())
+    pilot.stream("x", voice(2.0), end=True)
+    await pilot.advance(4)
+    (warning,) = warnings(pilot)
+    assert "the times of words in the stream 'x' are estimated: the search for them failed" in warning
+    assert offsets(pilot, "word1", "end") == pytest.approx([2.0 * 4 / 18, 2.0], abs=0.1)
+    assert pilot.feedback.status("b") == "DONE"
+
+
 # --- late, too much, too little
 
 

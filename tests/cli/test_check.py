@@ -354,3 +354,9 @@ def test_targets_are_those_of_the_human_file(
 def test_the_exit_status_of_check_is_2_for_a_missing_file(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["check", "no-such-file.xml"]) == 2
     assert "no-such-file.xml" in capsys.readouterr().err
+
+
+def test_a_streamed_speech_is_checked_without_its_sound(bml: Callable[..., str]) -> None:
+    stream = "<stream xmlns='urn:reactive-realizer:1' name='x' rate='24000'/>"
+    described = f'<text>Hello.</text><description priority="1" type="audio/x-stream">{stream}</description>'
+    assert main(["check", bml(block("b", f'<speech id="s">{described}</speech>'))]) == 0

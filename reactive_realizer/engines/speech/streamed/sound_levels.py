@@ -26,7 +26,7 @@ class SoundLevels:
     Attributes:
         loudness: of each frame, 1 for loud speech, (F,).
         brightness: share of the energy of each frame above 3 kHz, 0 to 1, (F,).
-        pitch_of_energy: center of the spectrum of each frame, Hz, (F,).
+        centers: center of the spectrum of each frame, Hz, (F,).
     """
 
     def __init__(self, rate: int) -> None:
@@ -37,7 +37,7 @@ class SoundLevels:
         self._levels = np.zeros(0)
         self.loudness = np.zeros(0)
         self.brightness = np.zeros(0)
-        self.pitch_of_energy = np.zeros(0)
+        self.centers = np.zeros(0)
 
     def add(self, samples: bytes) -> None:
         """Add samples: mono PCM, int16 little-endian."""
@@ -48,7 +48,7 @@ class SoundLevels:
         total = energy.sum(axis=1) + 1e-9
         self._levels = np.append(self._levels, np.sqrt((frames**2).mean(axis=1)))
         self.brightness = np.append(self.brightness, energy[:, self._frequencies > _BRIGHT].sum(axis=1) / total)
-        self.pitch_of_energy = np.append(self.pitch_of_energy, energy @ self._frequencies / total)
+        self.centers = np.append(self.centers, energy @ self._frequencies / total)
         loud = max(float(np.percentile(self._levels, 95)) if len(self._levels) else 0.0, _QUIETEST)
         # What was heard keeps its loudness, because it may have been shown.
         self.loudness = np.append(self.loudness, self._levels[len(self.loudness) :] / loud)

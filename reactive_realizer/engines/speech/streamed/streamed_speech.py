@@ -10,8 +10,8 @@ from reactive_realizer.engine.speech_streams import SoundPiece, SpeechStream
 from reactive_realizer.engine.tts import Phoneme, Utterance, Word, word_spans
 from reactive_realizer.engines.speech.recorded.aligner import CannotAlign, NoAligner
 from reactive_realizer.engines.speech.recorded.recordings import Recording
-from reactive_realizer.engines.speech.streamed.seen_sound import SeenSound
 from reactive_realizer.engines.speech.streamed.sound_levels import SoundLevels, SpokenTime
+from reactive_realizer.engines.speech.streamed.sound_lips import SoundLips
 from reactive_realizer.engines.speech.streamed.stream_aligner import StreamAligner
 from reactive_realizer.engines.speech.streamed.word_times import GivenWords, word_begins
 from reactive_realizer.errors import CreationFault, Fault, RealizerError
@@ -69,7 +69,7 @@ class _GrowingSpeech:
         self._words = [speech.text[first:last] for first, last in self._spans]
         self._given = GivenWords(self._name, self._words)
         self._levels = SoundLevels(speech.stream.rate)
-        self._seen = SeenSound(self._levels)
+        self._lips = SoundLips(self._levels)
         self._audio = b""
         self._aligner: StreamAligner | None = None
         self._finding = False
@@ -149,5 +149,5 @@ class _GrowingSpeech:
 
     def _phonemes(self) -> list[Phoneme]:
         if self._aligner is None:
-            return self._seen.phonemes(0.0)
-        return [*self._aligner.phonemes, *self._seen.phonemes(self._aligner.settled)]
+            return self._lips.phonemes(0.0)
+        return [*self._aligner.phonemes, *self._lips.phonemes(self._aligner.settled)]

@@ -11,7 +11,9 @@ from reactive_realizer.engines.speech.streamed.sound_levels import SpokenTime
 from reactive_realizer.errors import CreationFault, RealizerError
 
 _CHARACTER: Final = 0.065
-"""Duration of a character that has not been heard, s; with five letters and a space a word, 150 words a minute."""
+"""Duration of a character, s, before anything is known: with five letters and a space a word, 150 words a minute."""
+_ENOUGH: Final = 20
+"""Characters from which the rate of a voice is known."""
 
 
 class OtherWords(CreationFault):
@@ -71,7 +73,7 @@ def word_begins(
     """The starts of all words, and the end of the last one, s.
 
     Words that are not known are spread over the time in which somebody speaks, by their numbers of characters. As long
-    as the sound goes on, they take the usual time.
+    as the sound goes on, they are spoken as fast as those before.
 
     Args:
         words: of the text.
@@ -83,7 +85,8 @@ def word_begins(
     anchors = {places[number]: spoken.at(begin) for number, begin in enumerate(known)} or {0: 0.0}
     if len(known) < len(words) or not ended:
         last, at = max(anchors.items())
-        end = spoken.total if ended else at + (places[-1] - last) * _CHARACTER
+        character = at / last if last >= _ENOUGH else _CHARACTER
+        end = spoken.total if ended else at + (places[-1] - last) * character
         anchors[places[-1]] = max(end, at)
     estimated = [spoken.time(float(each)) for each in np.interp(places, [*anchors], [*anchors.values()])]
     begins = [*known, *estimated[len(known) :]]

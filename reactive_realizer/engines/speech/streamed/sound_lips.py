@@ -16,7 +16,7 @@ _DARK: Final = 450.0
 """Center of the spectrum below which a sound is rounded, Hz."""
 
 
-class SeenSound:
+class SoundLips:
     """Sounds for the lips, from the sound alone, as it arrives.
 
     Args:
@@ -31,7 +31,7 @@ class SeenSound:
         """What is heard since a time, s."""
         levels = self._levels
         for frame in range(len(self._symbols), len(levels.loudness)):
-            loudness, bright, center = levels.loudness[frame], levels.brightness[frame], levels.pitch_of_energy[frame]
+            loudness, bright, center = levels.loudness[frame], levels.brightness[frame], levels.centers[frame]
             self._symbols.append(_symbol(float(loudness), float(bright), float(center)))
         frame, at = round(since / FRAME), since
         phonemes = []
