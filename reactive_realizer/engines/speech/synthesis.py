@@ -18,7 +18,7 @@ _BYTES_A_CHARACTER: Final = 50
 
 
 class NothingToSay(CreationFault):
-    """A speech without words."""
+    """A speech without words that sound."""
 
     code = "nothing-to-say"
     template = "its text contains no words"
@@ -88,12 +88,12 @@ class Synthesis:
 
 
 def check_words(utterance: Utterance) -> None:
-    """Check that there is something to say.
+    """Check that there is something to say, and that any of it sounds: signs may be words and have no sound.
 
     Raises:
         RealizerError: ``nothing-to-say``.
     """
-    if not utterance.words:
+    if not utterance.words or utterance.duration == 0.0:
         raise RealizerError(NothingToSay())
 
 
