@@ -57,7 +57,9 @@ async def test_a_client_that_hears_the_speech_late_moves_it(on_air: Open) -> Non
             assert (await told.report(0.2))["type"] == "accepted"
         await air.tick()
         move = await told.socket.hear("audio_move")
-        assert move == {"type": "audio_move", "id": "alice-speech-1", "start": pytest.approx(told.sound["start"] + 0.2)}
+        start = pytest.approx(told.sound["start"] + 0.2)
+        now = air.live.realizer.time
+        assert move == {"type": "audio_move", "id": "alice-speech-1", "start": start, "time": now}
         late = await air.connect("?streams=audio")
         assert (await late.hear("audio"))["start"] == move["start"]
 
