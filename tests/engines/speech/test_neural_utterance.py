@@ -83,6 +83,12 @@ def test_sentences_follow_each_other_after_the_pause_of_their_stop() -> None:
     assert spoken.duration == pytest.approx(second.start + 0.1 + 0.2)
 
 
+def test_a_sentence_that_ends_before_its_lag_has_no_sound_and_takes_no_time() -> None:
+    spoken = utterance("C. C.", "s", "s", durations=([1, 1, 0, 1], [10, 4, 12, 5]))
+    assert [word.start for word in spoken.words] == pytest.approx([0.0, 0.03])
+    assert len(spoken.audio) == 2 * round(spoken.duration * RATE)
+
+
 def test_the_sound_has_no_clicks_at_its_ends() -> None:
     samples = np.frombuffer(utterance("C", "s", durations=([10, 4, 12],)).audio, "<i2")
     assert samples[0] == samples[-1] == 0

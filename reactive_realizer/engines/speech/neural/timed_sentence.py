@@ -125,7 +125,7 @@ class TimedSentence:
     def _borders(self) -> list[float]:
         """When each token begins to be heard, s, and when the last one ends."""
         rate, length, lag, _ = self.format
-        return [frames * length / rate - lag for frames in accumulate(self.durations, initial=0.0)]
+        return [max(0.0, frames * length / rate - lag) for frames in accumulate(self.durations, initial=0.0)]
 
     @cached_property
     def _first(self) -> int:
