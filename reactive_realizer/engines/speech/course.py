@@ -2,14 +2,14 @@
 
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
 
 from reactive_realizer.clock.units import RESOLUTION
 
-_BEFORE = 0.025
-"""How long before a word a pause ends that the voice does not make by itself, s: its first frame is not heard before.
+REACH: Final = 0.03
+"""How long before its place on the course a sound may be heard, s: half a frame, and how far that is off its place.
 """
 
 
@@ -84,7 +84,7 @@ class Pace(NamedTuple):
             rest = lasts - self.most * span
             if rest > RESOLUTION:
                 pauses = [each for each in self.pauses if here - RESOLUTION < each < there]
-                borders = pauses or [max(here, there - _BEFORE)]
+                borders = pauses or [max(here, there - REACH)]
                 for border in borders:
                     begin, before = knots[-1]
                     until = begin + self.most * (border - before)

@@ -11,15 +11,13 @@ from reactive_realizer.clock.units import RESOLUTION
 from reactive_realizer.embodiment.audio import Sound
 from reactive_realizer.engine.sound_unit import SoundPart
 from reactive_realizer.engine.tts import Utterance
-from reactive_realizer.engines.speech.course import Course, Pace
+from reactive_realizer.engines.speech.course import REACH, Course, Pace
 from reactive_realizer.engines.speech.time_scale import TimeScale
 
 STRETCH: Final = (0.8, 1.3)
 """How much shorter and longer speech may become and still sound natural, as factors."""
 _PAUSE: Final = 0.1
 """The shortest silence that is a pause between clauses, s."""
-_BEFORE: Final = 0.025
-"""How long before a word parts end, s: more than half a frame, and what it may be off its place."""
 _LONGEST_PART: Final = 0.5
 """The most sound that is made at once, s."""
 
@@ -88,7 +86,7 @@ class StretchedUtterance:
 
     def _border(self, time: float) -> float:
         """A time after another one at which a frame cannot contain a part of the next word, or the end of all, s."""
-        borders = (word.start - _BEFORE for word in self._timed.words if word.start - _BEFORE > time)
+        borders = (word.start - REACH for word in self._timed.words if word.start - REACH > time)
         return next(borders, max(self._timed.duration, time))
 
     def _retime(self) -> None:

@@ -9,8 +9,8 @@ _HOP = 0.012
 """Half the length of a frame, s: a frame has two periods of a low voice."""
 _TOLERANCE = 0.01
 """How far a frame may be taken from its place, s."""
-_SEARCH_RATE = 22_050
-"""Samples a second at which frames are compared, Hz."""
+_SEARCH_RATE = 11_025
+"""Samples a second at which frames are compared, Hz: enough for the sounds of a voice that have a pitch."""
 _SILENCE = 1e4
 """Energy of a frame that is compared as if it were silent."""
 
