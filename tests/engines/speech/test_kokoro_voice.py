@@ -154,8 +154,13 @@ async def test_killing_the_worker_in_the_middle_of_a_speech_ends_it_with_a_warni
         while not pilot.feedback.reached("b:s:start"):
             await pilot.tick()
             await asyncio.sleep(0.01)
-        assert voice.worker.process
-        os.kill(voice.worker.process.pid, signal.SIGKILL)
+        process = voice.worker.process
+        assert process
+        os.kill(process.pid, signal.SIGSTOP)  # so that a request is open when it is killed
+        for _ in range(20):
+            await asyncio.sleep(0.001)
+        assert process.busy
+        os.kill(process.pid, signal.SIGKILL)
         for _ in range(500):
             await pilot.tick()
             await asyncio.sleep(0.001)
