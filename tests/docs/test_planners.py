@@ -76,10 +76,23 @@ def test_the_program_of_the_readme_prints_the_output_in_the_readme() -> None:
 PLANNERS = "docs/planners.md"
 
 
+STORY = "It is a long story, and nobody has ever heard the end of it."
+
+
+def heard_in(printed: str) -> int:
+    """The number of characters of the story that were heard, as an example says it: up to the end of a word."""
+    said = re.search(r"heard (\d+) characters, up to the word '(\w+)'", printed)
+    assert said is not None
+    heard = STORY[: int(said[1])]
+    assert heard.endswith(said[2])
+    return len(heard)
+
+
 async def test_a_planner_that_is_interrupted_yields_and_knows_which_words_were_heard(server: str) -> None:
     for _ in range(2):  # the second time, blocks of the first run have ended
         (printed,) = await run("barge_in.py", server, TO_ITS_END)
-        assert printed.strip() in page(PLANNERS)
+        # On a busy machine, the interruption comes later than on the page.
+        assert heard_in(page(PLANNERS)) <= heard_in(printed) < len(STORY)
 
 
 @pytest.mark.parametrize(
@@ -158,7 +171,7 @@ async def test_the_javascript_planner_yields_too(server: str) -> None:
     program = (EXAMPLES / "barge_in.mjs").read_text(encoding="utf-8")
     for _ in range(2):
         (printed,) = await run_program(program, server, TO_ITS_END, node())
-        assert printed.strip() in page(PLANNERS)
+        assert heard_in(page(PLANNERS)) <= heard_in(printed) < len(STORY)
 
 
 async def test_a_planner_can_use_http_alone(server: str) -> None:
