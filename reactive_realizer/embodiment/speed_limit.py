@@ -7,13 +7,19 @@ from reactive_realizer.embodiment.body import Body, JointRotations
 from reactive_realizer.embodiment.feet import depth, drawn, feet, leg, soles, walks
 from reactive_realizer.embodiment.joints import EYES, HEAD, LOWER_BODY, ROOT, SIDES, TRUNK
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, angle, difference, slerp
-from reactive_realizer.embodiment.vector import UP, ZERO, Vec3, add, dot, length, scale, subtract
+from reactive_realizer.embodiment.vector import UP, ZERO, Vec3, add, distance, dot, length, scale, subtract
 
 WRIST_SPEED = 2.4
 """Limit for each wrist relative to the root, m/s: less than 5 cm in 20 ms. Conversational gestures stay below 2 m/s."""
 
 WRIST_ACCELERATION = 37.5
 """Limit for each wrist that starts or turns back, m/s^2: 1.5 cm more in each 20 ms than in the 20 ms before."""
+
+WRIST_BRAKE = 50.0
+"""Limit for each wrist that has fallen behind and catches up, m/s^2: it slows down before it arrives."""
+
+_JOINT_BRAKE = 200.0
+"""The same for the turn of a joint, rad/s^2."""
 
 ROOT_SPEED = 2.0
 """Limit for the root, m/s: a brisk walk. Sitting down and standing up stay below 1 m/s."""
@@ -33,6 +39,9 @@ _SPEEDS = {
     **dict.fromkeys(EYES, _EYE),
     **dict.fromkeys(_WRISTS, _WRIST),
 }
+_BEHIND = 1e-3
+"""A wrist nearer than this to where it is wanted follows it, m."""
+
 _ALL_SPEEDS = frozenset((_LIMB, *_SPEEDS.values()))
 
 
@@ -66,7 +75,8 @@ class SpeedLimit:
 
     No joint turns faster than its limit, no wrist moves faster than `WRIST_SPEED` or accelerates more than
     `WRIST_ACCELERATION`, and the root moves no faster than `ROOT_SPEED`. A faster pose is followed as fast as that
-    allows; ordinary motion is not affected. Deceleration of wrists is not limited, so they never overshoot.
+    allows; ordinary motion is not affected. What has fallen behind slows down before it arrives, by `WRIST_BRAKE` or
+    `_JOINT_BRAKE`, so it never overshoots.
 
     If legs and root were limited separately, the feet would leave their places and go below the ground. So the knees
     bend or stretch for a root that lags behind; what they cannot compensate raises the figure, within the limit of the
@@ -78,15 +88,18 @@ class SpeedLimit:
         self._shown = shown
         self._default = dict.fromkeys(shown.skeleton.joints, IDENTITY)
         self._arms = {wrist: shown.skeleton.chain(wrist)[:-1] for wrist in _WRISTS}
+        self._goal = shown
         self._places = {wrist: _from_root(wrist, shown) for wrist in _WRISTS}
         self._velocities: dict[str, Vec3] = dict.fromkeys(_WRISTS, ZERO)
+        self._upper = [joint for joint in shown.skeleton.joints if joint not in LOWER_BODY and joint not in EYES]
         self._soles = soles(shown.skeleton)
         self._walks = walks(shown.skeleton)
 
     def release(self, wanted: Body, joints: Collection[str]) -> None:
         """Let joints, and the root if it is one of them, be at once where they are wanted, when they are shown next."""
         root = wanted.root if ROOT in joints else self._shown.root
-        self._shown = self._shown.posed({joint: wanted.rotation(joint) for joint in joints}, root)
+        released = {joint: wanted.rotation(joint) for joint in joints}
+        self._shown, self._goal = self._shown.posed(released, root), self._goal.posed(released)
         self._places = {wrist: _from_root(wrist, self._shown) for wrist in _WRISTS}
 
     def __call__(self, wanted: Body, duration: float) -> Body:
@@ -97,9 +110,9 @@ class SpeedLimit:
             duration: since the last body was shown, s, more than 0.
         """
         pose = slowed(self._shown.pose, {**self._default, **wanted.pose}, duration)
-        body = Body(wanted.skeleton, pose, self._root(wanted.root, duration))
+        body = Body(wanted.skeleton, pose | self._braking(wanted, duration), self._root(wanted.root, duration))
         # The wrists share the trunk, so slowing one may change the other: repeat until both are within their limits.
-        while (hasty := self._hasty(body, duration)) is not None:
+        while (hasty := self._hasty(body, wanted, duration)) is not None:
             wrist, fraction = hasty
             body = body.posed(
                 {j: slerp(self._shown.rotation(j), body.rotation(j), fraction) for j in self._arms[wrist]}
@@ -107,17 +120,33 @@ class SpeedLimit:
         body = self._on_its_feet(body, wanted, duration)
         places = {wrist: _from_root(wrist, body) for wrist in _WRISTS}
         self._velocities = {w: scale(subtract(at, self._places[w]), 1.0 / duration) for w, at in places.items()}
-        self._places, self._shown = places, body
+        self._places, self._shown, self._goal = places, body, wanted
         return body
 
-    def _hasty(self, body: Body, duration: float) -> tuple[str, float] | None:
+    def _braking(self, wanted: Body, duration: float) -> dict[str, Quat]:
+        """Return rotations of the joints that have fallen behind, and would stop abruptly where they are wanted."""
+        turns, shown, goals = {}, self._shown.pose, self._goal.pose
+        for joint in self._upper:
+            start, before, goal = shown.get(joint, IDENTITY), goals.get(joint, IDENTITY), wanted.rotation(joint)
+            if start is before or start is goal:
+                continue
+            gap = angle(difference(start, goal))
+            reach = _catching_up(gap, angle(difference(before, goal)), _JOINT_BRAKE, duration)
+            if gap > (furthest := min(reach, fastest(joint) * duration)):
+                turns[joint] = slerp(start, goal, furthest / gap)
+        return turns
+
+    def _hasty(self, body: Body, wanted: Body, duration: float) -> tuple[str, float] | None:
         """Return a wrist that would move too far, and the factor for the turns of the joints above it."""
         for wrist in _WRISTS:
             way = subtract(_from_root(wrist, body), self._places[wrist])
             moved = length(way)
             if moved == 0.0:
                 continue
-            reach = self._speed(wrist, scale(way, 1.0 / moved), duration) * duration
+            direction = scale(way, 1.0 / moved)
+            reach = min(
+                self._speed(wrist, direction, duration) * duration, self._braked(wrist, direction, wanted, duration)
+            )
             if moved > reach:
                 # A little less than in proportion: the path is an arc. This converges after a step or two.
                 return wrist, 0.995 * reach / moved
@@ -127,6 +156,14 @@ class SpeedLimit:
         """Return the speed limit of a wrist in a direction (a unit vector), m/s; a reversing wrist starts from rest."""
         before = max(0.0, dot(self._velocities[wrist], direction))
         return min(WRIST_SPEED, before + WRIST_ACCELERATION * duration)
+
+    def _braked(self, wrist: str, direction: Vec3, wanted: Body, duration: float) -> float:
+        """Return how far a wrist may go in a direction (a unit vector), m; any distance if it has not fallen behind."""
+        before, goal, place = _from_root(wrist, self._goal), _from_root(wrist, wanted), self._places[wrist]
+        if distance(before, place) < _BEHIND:
+            return math.inf
+        step = max(0.0, dot(subtract(goal, before), direction))
+        return _catching_up(distance(goal, place), step, WRIST_BRAKE, duration)
 
     def _on_its_feet(self, body: Body, wanted: Body, duration: float) -> Body:
         """Return the body with its feet in place as far as possible, and no deeper below the ground than requested."""
@@ -158,6 +195,19 @@ class SpeedLimit:
         way, furthest = subtract(wanted, self._shown.root), ROOT_SPEED * duration
         moved = length(way)
         return wanted if moved <= furthest else add(self._shown.root, scale(way, furthest / moved))
+
+
+def _catching_up(gap: float, step: float, brake: float, duration: float) -> float:
+    """Return how far something that has fallen behind may go in a frame, so that it can brake until it arrives.
+
+    Args:
+        gap: from it to its goal, at the end of the frame.
+        step: of the goal in the frame.
+        brake: deceleration, in units of the gap.
+        duration: of the frame, s.
+    """
+    most = brake * duration * duration
+    return step + math.sqrt(most * most + 2.0 * most * max(0.0, gap - step)) - most
 
 
 def _from_root(wrist: str, body: Body) -> Vec3:

@@ -6,13 +6,18 @@ from functools import lru_cache
 from itertools import accumulate, pairwise
 
 from reactive_realizer.embodiment.body import Body
-from reactive_realizer.embodiment.joints import SIDES
+from reactive_realizer.embodiment.joints import LEFT_ARM, RIGHT_ARM, SIDES
 from reactive_realizer.embodiment.quaternion import angle, difference
-from reactive_realizer.embodiment.speed_limit import WRIST_ACCELERATION, WRIST_SPEED, fastest
+from reactive_realizer.embodiment.speed_limit import WRIST_ACCELERATION, WRIST_BRAKE, WRIST_SPEED, fastest
 from reactive_realizer.embodiment.vector import distance
 
 _STARTING = WRIST_SPEED / (2.0 * WRIST_ACCELERATION)
-"""Time that a wrist loses while it accelerates to its highest speed, s."""
+"""Time that a wrist loses while it accelerates to its highest speed, s; other joints lose no more."""
+
+_BRAKING = WRIST_SPEED / (2.0 * WRIST_BRAKE)
+"""Time that a wrist loses while it brakes from its highest speed, s."""
+
+_ARMS = LEFT_ARM | RIGHT_ARM
 
 Profile = Callable[[float], float]
 """The completed share of a movement, 0 to 1, after a share of its time."""
@@ -42,10 +47,16 @@ def turning_time(before: Body, after: Body, joints: Iterable[str]) -> float:
     return max((angle(difference(one, two)) / fastest(joint) for joint, one, two in pairs if one != two), default=0.0)
 
 
-def from_rest(moving: float) -> float:
-    """Return the duration of a movement that starts at rest and would take some time at its highest speed, s."""
-    # On the way of a short movement, the speed only rises.
-    return moving + _STARTING if moving > _STARTING else 2.0 * math.sqrt(moving * _STARTING)
+def from_rest(moving: float, joints: Collection[str] = ()) -> float:
+    """Return the duration of a movement that starts at rest and would take some time at its highest speed, s.
+
+    Args:
+        moving: that time, s.
+        joints: that turn; hands that arms carry end at rest, too.
+    """
+    lost = _STARTING if _ARMS.isdisjoint(joints) else _STARTING + _BRAKING
+    # On a short way, the highest speed is not reached.
+    return moving + lost if moving > lost else 2.0 * math.sqrt(moving * lost)
 
 
 @lru_cache
@@ -76,7 +87,7 @@ def shortest_duration(
     count = min(max(_FEWEST, math.ceil(duration / _STEP)), _MOST)
     bodies = [body_at(begin + (end - begin) * number / count) for number in range(count + 1)]
     left = accumulate(reversed(_step_times(bodies, list(joints))))
-    return min(duration, from_rest(max(time * count / number for number, time in enumerate(left, 1))))
+    return min(duration, from_rest(max(time * count / number for number, time in enumerate(left, 1)), joints))
 
 
 def shortest_parts(

@@ -98,7 +98,7 @@ class PostureMotionUnit(MotionUnit):
         goal = self.body.posed({}, self._from.root)
         limbs = moving_time((self._from, goal), self.joints)
         pelvis = 0.0 if self._root is None else distance(self._from.root, self._root) / ROOT_SPEED
-        return min(self.fade_in or 0.0, from_rest(lag(minimum_jerk) * max(limbs, pelvis)))
+        return min(self.fade_in or 0.0, from_rest(lag(minimum_jerk) * max(limbs, pelvis), self.joints))
 
     def _update_goal(self, base: BodyPosture) -> None:
         """Determine the goal from a base posture."""

@@ -33,7 +33,7 @@ def reach(start: Body, goal: Body, joints: frozenset[str], profile: Profile = mi
     sides = [side for side in SIDES if f"{side}_shoulder" in joints]
     halves = bodies[::2]
     preferred = max(0.25 + 0.75 * path_length("wrist", sides, halves), 0.84 * path_length("middle3", sides, halves))
-    shortest = from_rest(lag(profile) * moving_time(bodies, joints))
+    shortest = from_rest(lag(profile) * moving_time(bodies, joints), joints)
     return PhaseDuration(max(preferred, shortest), shortest)
 
 
