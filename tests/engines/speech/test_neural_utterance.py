@@ -134,6 +134,14 @@ def test_a_sentence_is_cut_after_a_pause_or_else_where_a_word_begins() -> None:
     assert all(min(abs(end - start) for start in starts) <= 0.0301 for end in ends)
 
 
+def test_a_word_of_many_seconds_is_cut_too() -> None:
+    words = pronounced("a", "s " * 100)
+    (sentence,) = timed("a", words, [10, *[8] * 100, 10])
+    lengths = [len(each) / 2 / RATE for each in sound(sentence, np.zeros(10**6, "<i2"), 2.5)]
+    assert sum(lengths) == pytest.approx(sentence.duration)
+    assert max(lengths) < 4.5
+
+
 def test_a_text_without_sounds_has_no_audio() -> None:
     spoken = utterance("...", durations=(), marks={"m": 1})
     assert (spoken.words, spoken.duration, spoken.audio, spoken.marks["m"]) == ((), 0.0, b"", 0.0)

@@ -98,7 +98,7 @@ class Pace(Protocol):
 def sentences(
     text: str, words: Sequence[PronouncedWord], alphabet: Alphabet, pace: Pace | None = None, stop: float = 0.0
 ) -> Iterator[Sentence]:
-    """The sentences of a text; a long one is cut at a clause, or between words if it has none.
+    """The sentences of a text; a long one is cut at a clause, or between words if it has none, or else within a word.
 
     One is also cut at a silence, and where the rate changes.
 
@@ -115,10 +115,14 @@ def sentences(
         if len(sentence.tokens) + sum(len(tokens) for _, tokens in spoken) > _MOST_TOKENS and sentence.sounds:
             yield sentence
             sentence = Sentence()
-        _append(sentence, number, spoken)
         following = words[number + 1].first if number + 1 < len(words) else len(text)
-        if pace is not None:
-            sentence.rate, sentence.silence = pace.rate(word.first), pace.silence(word.first, following)
+        sentence.rate = 1.0 if pace is None else pace.rate(word.first)
+        for symbol, tokens in spoken:
+            if len(sentence.tokens) + len(tokens) > _MOST_TOKENS:
+                yield from [sentence] if sentence.sounds else ()
+                sentence = Sentence(rate=sentence.rate)
+            _append(sentence, Sound(symbol, number, len(sentence.tokens), len(sentence.tokens) + len(tokens)), tokens)
+        sentence.silence = 0.0 if pace is None else pace.silence(word.first, following)
         between = text[word.last : following] if word.pause else _SPACE
         changes = pace is not None and (sentence.silence > 0 or pace.rate(following) != sentence.rate)
         stops = _ends(between, len(sentence.tokens))
@@ -131,12 +135,10 @@ def sentences(
             sentence = Sentence()
 
 
-def _append(sentence: Sentence, word: int, spoken: Sequence[tuple[str, list[int]]]) -> None:
-    for symbol, tokens in spoken:
-        first = len(sentence.tokens)
-        sentence.tokens += tokens[: _MOST_TOKENS - first]
-        if len(sentence.tokens) > first:
-            sentence.sounds.append(Sound(symbol, word, first, len(sentence.tokens)))
+def _append(sentence: Sentence, sound: Sound, tokens: Sequence[int]) -> None:
+    sentence.tokens += tokens
+    if tokens:
+        sentence.sounds.append(sound)
 
 
 def _ends(between: str, length: int) -> bool:

@@ -17,6 +17,10 @@ _SHORTEST = 0.4
 """The shortest piece of a sentence that is spoken alone, s."""
 _MOST = 1.4
 """The longest piece, if it can be cut at all, in wanted durations."""
+_LONG_WORD = 2.0
+"""The longest part of a word that is not cut, s: a sound that a voice makes of an address, or of a hundred digits."""
+_WITHIN_WORD = 1.5
+"""The cost of a cut in a word."""
 _VOICELESS, _STOPS = frozenset("ptkfsʃθhç"), frozenset("bdg\u0261")
 _STRESS = "ˈˌ"
 
@@ -81,7 +85,7 @@ class TimedSentence:
         return (self._end - self._first) / self.format.rate
 
     def pieces(self, wanted: Iterator[float]) -> list[Piece]:
-        """Cut it where words begin, best after a pause.
+        """Cut it where words begin, best after a pause, and a word of several seconds in its middle.
 
         Args:
             wanted: the duration of each piece, s; as many are taken as there are pieces.
@@ -119,6 +123,8 @@ class TimedSentence:
                 places.append((start - _BEFORE, 0.0))
             elif before.word != after.word:
                 places.append((start, _cost(after)))
+            elif start - (places[-1][0] if places else 0.0) >= _LONG_WORD:
+                places.append((start, _WITHIN_WORD))
         return places
 
     @cached_property
