@@ -166,7 +166,7 @@ async def test_killing_the_worker_in_the_middle_of_a_speech_ends_it_with_a_warni
             await asyncio.sleep(0.001)
         start = pilot.feedback.time("b:s:start")
         assert start + 0.3 < pilot.feedback.time("b:s:end") < start + 4
-        assert pilot.feedback.time("b:w:end") == start + 4
+        assert pilot.feedback.time("b:w:end") == pytest.approx(start + 4)
         assert pilot.feedback.status("b") == "DONE"
         (warning,) = pilot.feedback.of("warningFeedback")
         assert "SIGKILL" in warning.text
