@@ -113,9 +113,9 @@ async def test_a_prediction_wakes_the_engines_that_wait_for_it_once_each(
     await pilot.advance(1)
     assert calls["post"] == 5
     await pilot.advance(7)
-    pilot.predict("partner", "hit", 8.5)
+    pilot.predict("partner", "hit", 8.6)
     await pilot.advance(5)
-    assert pilot.feedback.time("b:s:start") == pilot.feedback.time("b:g:stroke") == 8.5
+    assert pilot.feedback.time("b:s:start") == pilot.feedback.time("b:g:stroke") == 8.6
 
 
 async def test_behaviors_that_wait_for_a_prediction_are_not_asked_again_when_it_is_put_off(
