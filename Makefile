@@ -27,7 +27,7 @@ PAGE := $(STATIC)/index.html
 PAGE_SOURCES := $(shell find web \( -name node_modules -o -name dist -o -name avatars -o -name tests \) -prune -o -type f -print 2>/dev/null)
 
 .DEFAULT_GOAL := help
-.PHONY: help install page demo test bench check check-python check-viewer format docs gallery wheel avatars clean
+.PHONY: help install page demo test test-viewer test-measured test-others bench check check-python check-viewer format docs gallery wheel avatars clean
 .DELETE_ON_ERROR:
 
 help: ## List the targets
@@ -40,9 +40,15 @@ page: $(PAGE) ## Build the viewer into the server's static files
 demo: $(INSTALLED) $(PAGE) ## Serve a virtual human that performs when the first page opens
 	$(BIN)/reactive-realizer demo
 
-test: $(INSTALLED) $(PAGE) ## Run all tests (BROWSER=none leaves out the browser tests)
+test: test-viewer test-measured test-others ## Run all tests (BROWSER=none leaves out the browser tests)
+
+test-viewer: $(NODE_MODULES)
 	$(NPM) test
+
+test-measured: $(INSTALLED)
 	$(PYTEST) $(MEASURED) --cov --cov-fail-under $(COVERAGE)
+
+test-others: $(INSTALLED) $(PAGE)
 	$(PYTEST) $(addprefix --ignore=,$(MEASURED))
 
 bench: $(INSTALLED) ## Run the benchmarks, and compare with the last results in benchmarks/history.jsonl
