@@ -86,16 +86,19 @@ class Rhythm:
         if self._onset is not None and onset - self._onset < self._shortest:
             return False
         self._onset = onset
-        return self._begin(onset) if self._next is None else self._compare(onset, self._next)
+        unpredicted = self._next is None and self._heard == self.passed
+        return self._begin(onset) if unpredicted else self._compare(onset)
 
-    def _compare(self, onset: GlobalTime, coming: GlobalTime) -> bool:
-        last = self._passed[-1]
+    def _compare(self, onset: GlobalTime) -> bool:
+        """Process an onset of a beat that was predicted, or of none."""
+        last, coming = self._passed[-1], self._next
+        interval = last - self._passed[-2] if coming is None else coming - last
         for beat, time in ((self.passed, last), (self.passed + 1, coming)):
-            if abs(onset - time) <= _WINDOW * (coming - last):
+            if time is not None and abs(onset - time) <= _WINDOW * interval:
                 self._stray = None
                 return self._follow(beat, time, onset - time)
         # After a long silence, an onset later than all predictions continues the rhythm.
-        return self._begin(onset) if onset > coming else self._ignore(onset)
+        return self._begin(onset) if coming is None or onset > coming else self._ignore(onset)
 
     def _follow(self, beat: int, time: GlobalTime, error: float) -> bool:
         """Correct phase and interval by a beat that was predicted at ``time``."""

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 from hypothesis import settings
+from hypothesis.internal.conjecture import providers
 
 from reactive_realizer.server.routes_page import STATIC
 
@@ -14,7 +15,9 @@ pytest.register_assert_rewrite(
     *(f"reactive_realizer.testing.{kind}_contract" for kind in ("anticipator", "engine", "strategy", "tts"))
 )
 
-# The same examples in every run and on every machine, without a time limit.
+# The same examples in every run and on every machine, without a time limit. Hypothesis would also try the constants of
+# our modules, of which another part is imported in each process.
+vars(providers)["is_local_module_file"] = lambda _: False
 settings.register_profile("same", derandomize=True, deadline=None, database=None)
 settings.load_profile("same")
 

@@ -35,11 +35,11 @@ async def test_future_points_are_cut_except_relax_and_end_which_happen_now(pilot
 
 
 async def test_a_behavior_past_its_relax_only_gets_its_end(pilot: RealizerPilot) -> None:
-    pilot.block("b", '<gesture id="g" lexeme="BEAT" start="0" relax="0.5" end="4"/>')
+    pilot.block("b", '<gesture id="g" lexeme="BEAT" start="0" relax="0.7" end="4"/>')
     await pilot.advance(1)
-    assert points(pilot, "b:g")[-1] == ("relax", 0.5)
+    assert points(pilot, "b:g")[-1] == ("relax", 0.7)
     await replace(pilot)
-    assert points(pilot, "b:g")[-2:] == [("relax", 0.5), ("end", 1.0)]
+    assert points(pilot, "b:g")[-2:] == [("relax", 0.7), ("end", 1.0)]
 
 
 async def test_points_that_are_due_come_first_with_their_own_times(pilot: RealizerPilot) -> None:

@@ -161,15 +161,14 @@ async def test_a_block_whose_last_behavior_is_dropped_ends_at_the_planned_start_
 
 
 @pytest.mark.parametrize("late", [(), range(41, 150)], ids=["on time", "late"])
-async def test_a_speech_finishes_its_word_in_a_late_tick_and_losses_are_reported(
+async def test_a_speech_finishes_its_word_in_a_late_tick_and_its_lost_end_is_no_mistake(
     pilot: RealizerPilot, late: Iterable[int]
 ) -> None:
     pilot.block("one", SPEECH.format(' end="1.58"'))
     pilot.block("two", '<bmla:interrupt id="i" target="one" start="0.812" speech="word"/>')
     await skip(pilot, late)
     assert pilot.feedback.time("one:s:end") == 0.98
-    ((_, text),) = [(line.id, line.text) for line in pilot.feedback.of("warningFeedback")]
-    assert "s:end = 1.58 no longer holds" in text
+    assert pilot.feedback.warnings == []
 
 
 @pytest.mark.parametrize("late", [(), range(91, 150)], ids=["on time", "late"])

@@ -33,7 +33,7 @@ async def test_a_behavior_before_a_point_follows_it_after_the_source_of_the_poin
 
 
 @pytest.mark.parametrize("planned", [1.0, 2.5])
-@pytest.mark.parametrize("moved", [0.6, 3.0])
+@pytest.mark.parametrize("moved", [0.7, 3.0])
 @pytest.mark.parametrize("start", ["1.5", GO])
 async def test_a_point_stays_after_two_earlier_behaviors_when_either_moves(
     pilot: RealizerPilot, planned: float, moved: float, start: str

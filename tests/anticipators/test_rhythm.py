@@ -154,6 +154,14 @@ def test_an_onset_reported_late_counts_at_its_own_time() -> None:
     assert heard.time(4) == pytest.approx(2.05 + 1.02)
 
 
+@pytest.mark.parametrize("late", [0.0, 0.05])
+def test_a_predicted_beat_after_which_none_is_known_counts_once(late: float) -> None:
+    # Of two intervals that repeat, only that of 1 s is known, and the next beat would be at 6.
+    heard = hear(rhythm(cycle=2), 0.0, 1.0, 5.0, 6.0 + late)
+    assert heard.passed == 4
+    assert heard.coming is None
+
+
 def test_onsets_out_of_order_are_ignored() -> None:
     heard = hear(rhythm(), 0.0, 1.0, 2.0)
     assert not heard.hear(GlobalTime(1.5), GlobalTime(2.1))
