@@ -50,7 +50,7 @@ LONGEST = 20.0
 
 OTHERS = "Other motions"
 SECTIONS = {
-    "Words of the face": ("facelexeme",),
+    "Face lexemes": ("facelexeme",),
     "Action units": ("facefacs",),
     "Further faces": ("facefap", "faceplutchik", "facekeyframe"),
     "Visemes": ("visemes",),

@@ -1,8 +1,8 @@
-"""Has the virtual human speak with the voice of somebody else, whose sound arrives while it is made.
+"""Has the virtual human speak with a voice from elsewhere, whose sound arrives as it is generated.
 
     python examples/cloud_voice.py SOUND.wav "What the sound says."
 
-The file, with one channel and 16 bits, plays the part of a voice in the cloud. Without a text, only the lips move.
+The file (mono, 16 bits) stands in for the service of a cloud voice. Without a text, only the lips move.
 """
 
 import asyncio
@@ -29,7 +29,7 @@ SAY = """
 
 
 async def made_in_the_cloud(sound: wave.Wave_read) -> AsyncIterator[bytes]:
-    """The sound in pieces of 0.1 s, three times as fast as it is spoken; put a request to your voice here."""
+    """The sound in pieces of 0.1 s, three times as fast as it is spoken; request them from your voice instead."""
     while samples := sound.readframes(sound.getframerate() // 10):
         yield samples
         await asyncio.sleep(0.033)

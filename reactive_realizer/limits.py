@@ -64,7 +64,7 @@ class Limits:
     streams: int = 8
     """Streamed speeches at a time; the words of each are found in a process of its own."""
     stream_seconds: float = 20.0
-    """Time within which a streamed speech must begin to arrive, or go on to, s."""
+    """Longest time in which no sound of a streamed speech arrives, before it begins or while it plays, s."""
     remembered_feedback: int = 10_000
     """Feedback messages stored for clients that reconnect."""
     remembered_feedback_bytes: int = 256 * 1024 * 1024

@@ -115,7 +115,7 @@ class RecordedSpeech(Speech):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SoundStream:
-    """Sound that a client sends while it is made.
+    """A stream of sound that a client sends as it is generated.
 
     Attributes:
         name: under which it is sent.
@@ -128,7 +128,7 @@ class SoundStream:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StreamedSpeech(Speech):
-    """A speech whose sound a client sends while it is made, as a description of a `Speech` may say.
+    """A speech whose sound a client streams, from a description of a `Speech`.
 
     Attributes:
         stream: its sound.
@@ -138,7 +138,7 @@ class StreamedSpeech(Speech):
 
 
 def streams_of(behaviors: Iterable[Behavior]) -> Iterator[SoundStream]:
-    """The sound of those behaviors that may be spoken by a client."""
+    """The streams that descriptions of some behaviors name."""
     for form in (each.behavior for behavior in behaviors for each in behavior.descriptions):
         if isinstance(form, StreamedSpeech):
             yield form.stream

@@ -16,7 +16,7 @@ from reactive_realizer.bml.trees import Tree, name_of
 from reactive_realizer.errors import Fault, RealizerError
 
 _AUDIO: Final = "audio/"
-"""Prefix of the languages that are sound."""
+"""Prefix of the types of descriptions that are sound."""
 _STREAM: Final = "audio/x-stream"
 _SSML: Final = "application/ssml+xml"
 _OTHERS: Final[Mapping[str, str]] = MappingProxyType(

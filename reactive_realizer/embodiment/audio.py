@@ -89,7 +89,7 @@ class AudioMove:
     Attributes:
         id: of the clip.
         start: of its first sample, s.
-        time: of the first frame that shows so, s.
+        time: of the first frame that shows the new start, s.
     """
 
     id: str

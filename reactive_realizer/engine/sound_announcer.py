@@ -53,7 +53,7 @@ class SoundAnnouncer:
         self._prefix = prefix
         self._announced: dict[SoundUnit, list[_Announced]] = {}
         self._sources: dict[SoundUnit, list[SoundPart]] = {}
-        """The sounds of each unit, which are others when it makes all of them again."""
+        """The sounds of each unit; a unit that makes all of them again has new ones."""
         self._count = 0
 
     def find(self, clip: str) -> tuple[SoundUnit, SoundPart] | None:

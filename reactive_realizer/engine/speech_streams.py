@@ -1,4 +1,4 @@
-"""Speech whose sound clients send while it is made: what has arrived of it, until it is spoken."""
+"""Speech whose sound clients stream: keeps what has arrived until it is spoken."""
 
 import asyncio
 from collections import deque
@@ -15,38 +15,38 @@ from reactive_realizer.limits import Limits
 _SAMPLE: Final = 2
 """Bytes of a sample."""
 _FIRST: Final = (0.6, 1.0)
-"""Shortest and longest first piece, s: what is in reserve when a speech begins that arrives just as it is spoken."""
+"""Shortest and longest first piece, s: the reserve with which a speech begins whose sound arrives in real time."""
 _OTHERS: Final = (0.25, 2.0)
 """Shortest and longest other piece, s; the last one may be shorter."""
 _HEADERS: Final = (b"RIFF", b"OggS", b"fLaC", b"ID3", b"\x1aE\xdf\xa3")
-"""How files begin that are no bare samples: WAV, Ogg, FLAC, MP3 and WebM."""
+"""The first bytes of files with a header: WAV, Ogg, FLAC, MP3 and WebM."""
 _REMEMBERED: Final = 1000
-"""Names of streams that are over."""
+"""Number of ended streams whose names are remembered."""
 
 
 class UnknownStream(Fault):
-    """Sound for a stream that no speech has."""
+    """Sound for a stream that no speech uses."""
 
     code = "unknown-stream"
-    template = "no speech that has been accepted has the stream '{stream}'; those that wait for sound: {known}"
+    template = "no accepted speech uses the stream '{stream}'; streams that wait for sound: {known}"
     unknown = "stream"
     stream: str
     known: tuple[str, ...]
 
 
 class StreamOver(Fault):
-    """Sound for a stream that has ended, or whose speech has."""
+    """Sound for a stream that has ended, or whose speech has ended."""
 
     code = "stream-over"
-    template = "the stream '{stream}', or its speech, has ended; what is sent for it is ignored"
+    template = "the stream '{stream}', or its speech, has ended; further messages for it are ignored"
     stream: str
 
 
 class NotSamples(Fault):
-    """A stream that begins like a file."""
+    """A stream that begins with the header of a file."""
 
     code = "not-samples"
-    template = "the stream '{stream}' begins like a file; send bare samples: mono, 16 bits, little-endian"
+    template = "the stream '{stream}' begins with the header of a file; send raw samples: mono, 16 bits, little-endian"
     stream: str
 
 
@@ -54,7 +54,7 @@ class StreamTooLong(Fault):
     """A stream that exceeds the limit on its duration, s."""
 
     code = "stream-too-long"
-    template = "the stream '{stream}' would last longer than {limit:g} s; this message is left out"
+    template = "the stream '{stream}' would last longer than {limit:g} s; this message is ignored"
     stream: str
     limit: float
 
@@ -63,12 +63,12 @@ class StreamTaken(CreationFault):
     """A second speech with the same stream."""
 
     code = "stream-taken"
-    template = "another speech has the stream '{stream}'"
+    template = "another speech uses the stream '{stream}'"
     stream: str
 
 
 class TooManyStreams(CreationFault):
-    """A stream above the limit."""
+    """A stream beyond the limit on their number."""
 
     code = "too-many-streams"
     template = "the limit of {limit} streamed speeches has been reached"
@@ -76,7 +76,7 @@ class TooManyStreams(CreationFault):
 
 
 class StreamSilent(CreationFault):
-    """A stream that does not arrive."""
+    """A stream whose sound does not arrive."""
 
     code = "stream-silent"
     template = "no sound of the stream '{stream}' has arrived for {limit:g} s"
@@ -106,10 +106,10 @@ class SpeechStream:
 
     Attributes:
         source: its name and rate.
-        claimed: whether its speech takes it.
+        claimed: whether a speech uses it.
         ended: whether its client has ended it.
-        seconds: how much has arrived.
-        deadline: when it fails if nothing arrives.
+        seconds: duration of what has arrived.
+        deadline: when it fails if nothing more arrives, s.
     """
 
     def __init__(self, source: SoundStream, streams: "SpeechStreams") -> None:
@@ -138,7 +138,7 @@ class SpeechStream:
         return self._pieces.popleft()
 
     def close(self) -> None:
-        """Take no more of it."""
+        """Stop taking its sound."""
         self._streams.forget(self)
 
     def add(self, audio: StreamedAudio, most_words: int) -> None:
@@ -211,7 +211,7 @@ class SpeechStreams:
 
     @property
     def wait_begun(self) -> "asyncio.Future[None]":
-        """Is done when a further task begins to wait."""
+        """A future that is done when another task begins to wait."""
         if self._wait_begun is None or self._wait_begun.done():
             self._wait_begun = asyncio.get_running_loop().create_future()
         return self._wait_begun
@@ -246,7 +246,7 @@ class SpeechStreams:
         return stream
 
     def forget(self, stream: SpeechStream) -> None:
-        """Take nothing more of a stream."""
+        """Stop taking sound for a stream."""
         name = stream.source.name
         if self._open.get(name) is stream:
             del self._open[name]
@@ -285,7 +285,7 @@ class SpeechStreams:
                 raise RealizerError(StreamTooLong(stream=name, limit=self._limits.sound_seconds))
 
     def take(self, audio: StreamedAudio) -> None:
-        """Take sound; what cannot be taken is left out."""
+        """Take sound; ignore what cannot be taken."""
         try:
             self.check(audio)
         except RealizerError:
@@ -296,7 +296,7 @@ class SpeechStreams:
             self._put_off(stream)
 
     def advance(self, now: GlobalTime) -> None:
-        """After the inputs of a tick, give speeches what has arrived, and give up the streams that do not arrive."""
+        """After the inputs of a tick, pass what has arrived to the speeches, and fail the streams that are silent."""
         self._now = now
         for stream in tuple(self._open.values()):
             stream.cut()

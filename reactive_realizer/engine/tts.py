@@ -64,7 +64,7 @@ class Utterance:
         phonemes: in the order of time; empty if the voice provides none.
         audio: of what is made, from the start: mono PCM, int16 little-endian; empty if the voice makes no sound.
         sample_rate: of the audio, Hz.
-        made: up to when it is made, s from the start of the utterance. Times before that are final; those of
+        made: how much of it is made, s from the start of the utterance. Times before that are final; those of
             streamed speech are corrected until they sound.
         left_out: the markup that the voice cannot follow.
         unread: the scripts in the text whose letters the voice does not read, but spells or skips.

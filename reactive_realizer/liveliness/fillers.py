@@ -10,7 +10,7 @@ from typing import Any, Final
 from reactive_realizer.errors import Fault, RealizerError
 
 _DEFAULT: Final = "en"
-"""The language of a voice whose name is no tag of a language with fillers."""
+"""The language if the name of a voice is not the tag of a language with fillers."""
 
 _MOST: Final = 20
 _LONGEST: Final = 60.0
@@ -57,7 +57,7 @@ class Fillers:
 
 
 NO_FILLERS: Final = Fillers(0.0, (0.0, 0.0), 0, {})
-"""Those of a realizer whose characters never hold the floor."""
+"""Fillers for a realizer whose characters never hold the floor."""
 
 
 def read_fillers(path: Path) -> Fillers:
@@ -101,5 +101,5 @@ def _between(name: str, value: object, low: float, high: float) -> float:
 def _texts(language: str, table: Mapping[str, Any], key: str) -> tuple[str, ...]:
     texts = table[key]
     if not isinstance(texts, list) or not texts or not all(isinstance(text, str) and text.strip() for text in texts):
-        raise ValueError(f"words.{language}.{key} is no list of texts")
+        raise ValueError(f"words.{language}.{key} is not a list of texts")
     return tuple(texts)

@@ -1,4 +1,4 @@
-"""Holds the floor: has a character say fillers after a speech that asks for them, until its next words are there.
+"""Holds the floor: has a character say fillers after a speech that asks for them, until its next words arrive.
 
 A speaker who needs time before the next words says so, lest others take the turn (H. H. Clark and J. E. Fox Tree,
 "Using uh and um in spontaneous speaking", 2002), and looks away from the listener (A. Kendon, "Some functions of

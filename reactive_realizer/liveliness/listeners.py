@@ -12,7 +12,7 @@ from reactive_realizer.engine.effects import Reached
 from reactive_realizer.scheduler.bml_scheduler import BMLScheduler
 
 _AHEAD: Final = radians(30.0)
-"""A target that is further aside is nobody to whom a character speaks, rad, unless it was asked to look there."""
+"""Largest angle from straight ahead to a listener, rad, unless the character was asked to look there."""
 
 
 class Listeners:

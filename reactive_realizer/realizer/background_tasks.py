@@ -78,7 +78,7 @@ class BackgroundTasks:
         self._jobs = {}
 
     async def settle(self) -> None:
-        """Wait for all requested work, as a virtual clock does before it advances; not for what waits for an input."""
+        """Wait for all requested work but that which waits for an input, as a virtual clock does before it advances."""
         waiting = self._streams.waiting
         while working := [each.task for each in self._jobs.values() if not (each.task.done() or each.task in waiting)]:
             awaited: list[asyncio.Future[Any]] = [*working, self._streams.wait_begun]

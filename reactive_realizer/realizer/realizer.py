@@ -335,7 +335,7 @@ class Realizer:
         return replace(entered, inputs=tuple(inputs))
 
     def _open_streams(self, document: BmlText) -> None:
-        """Have the streams of a document take sound, which its sender may send right after it."""
+        """Open the streams of a document, because its sender may send their sound right after it."""
         for parsed in document.parsed or ():
             for stream in streams_of(parsed.block.behaviors if parsed.block is not None else ()):
                 self._speech_streams.open(stream)

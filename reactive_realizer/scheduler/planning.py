@@ -215,8 +215,8 @@ class Planning:
     def solve(self, posed: BlockProblem) -> Plan:
         """A plan by the strategy; thread-safe, because it reads only the problem.
 
-        A speech that can be stretched is planned as a rigid one first, and stretched only if more can be kept so. One
-        that is tied to times from outside can be stretched later.
+        A speech that can be stretched is first planned as rigid, and stretched only if more constraints are kept that
+        way. One that is tied to times from outside can be stretched later.
         """
         plan, problem = self._solve(posed), posed.problem
         if not plan.solution.losses:
@@ -224,7 +224,7 @@ class Planning:
             return plan if loosened is None else Plan(loosened, plan.solution)
         stretched = self._stretched(posed, problem.constraints, len(plan.losses) - 1)
         if stretched is not None and stretched.solution.losses:
-            # What is lost is no reason to stretch anything.
+            # A constraint that is lost anyway must not stretch anything.
             kept = stretched.layout.kept.constraints
             stretched = self._stretched(posed, kept, len(stretched.losses)) or stretched
         return stretched or plan

@@ -60,7 +60,7 @@ async def rehearse_slowly(block: BehaviorBlock | DefineProc, routing: EngineRout
     rehearsing = _Rehearsing(block, routing)
     for each in rehearsing.routed.values():
         if any(isinstance(form, StreamedSpeech) for form in each.forms):
-            rehearsing.note(each, each.check)  # nobody sends its sound
+            rehearsing.note(each, each.check)  # no client sends its sound
             continue
         result = await _prepared(each)
 

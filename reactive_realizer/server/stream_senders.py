@@ -7,7 +7,7 @@ from reactive_realizer.realizer.realizer import Realizer
 from reactive_realizer.server.faults import ForeignStream
 
 _MOST_TOLD = 1000
-"""Streams that are remembered because a client was told that they are over."""
+"""Number of streams that are remembered because a client was told that they are over."""
 
 
 class StreamSenders:
@@ -23,10 +23,10 @@ class StreamSenders:
         """Streams of which a client has been told that they are over."""
 
     def take(self, audio: StreamedAudio, client: object) -> None:
-        """Takes sound of a client. What comes after the end of its speech is ignored; that is told once.
+        """Takes sound of a client. What comes after the end of its speech is ignored, after one error.
 
         Raises:
-            RealizerError: it is refused.
+            RealizerError: the sound is refused.
         """
         try:
             self._realizer.check_streamed(audio)
@@ -50,7 +50,7 @@ class StreamSenders:
             del self._senders[audio.stream]
 
     def leave(self, client: object) -> None:
-        """Has others send the streams of a client that has disconnected."""
+        """Lets other clients send the streams of a client that has disconnected."""
         self._senders = {stream: sender for stream, sender in self._senders.items() if sender is not client}
 
     def _forget_ended(self) -> None:

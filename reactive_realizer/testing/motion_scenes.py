@@ -8,7 +8,7 @@ from typing import NamedTuple
 from reactive_realizer.testing.pilot import RealizerPilot
 
 _DURATION = 6.0
-"""Of a scene, s."""
+"""Duration of a scene, s."""
 
 _GESTURES = (
     "BEAT",

@@ -1,4 +1,4 @@
-"""Speech whose sound a client sends while it is made."""
+"""Speech whose sound a client sends as it is generated."""
 
 from collections.abc import AsyncIterator, Callable
 from pathlib import Path
@@ -147,7 +147,7 @@ async def test_times_that_do_not_fit_the_text_are_ignored_which_is_told(
     assert pilot.feedback.status("b") == "DONE"
 
 
-async def test_without_the_aligner_words_are_spread_over_the_time_in_which_somebody_speaks(
+async def test_without_the_aligner_words_are_spread_over_the_time_that_is_speech(
     pilot: RealizerPilot,
 ) -> None:
     pilot.block("b", speech("aaaa bbbb cccc dddd"))
@@ -292,7 +292,7 @@ async def test_a_second_speech_with_the_same_stream_is_spoken_by_the_voice(pilot
     pilot.block("b", speech())
     pilot.block("c", speech())
     await pilot.advance(0.1)
-    assert "another speech has the stream 'x'" in warnings(pilot)[0]
+    assert "another speech uses the stream 'x'" in warnings(pilot)[0]
 
 
 async def test_a_stream_that_ends_in_the_middle_of_a_sample_is_told(pilot: RealizerPilot) -> None:

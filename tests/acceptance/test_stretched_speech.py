@@ -111,7 +111,7 @@ async def test_a_rigid_speech_is_not_stretched(pilot: RealizerPilot) -> None:
     assert len(clips(pilot)) == 1
 
 
-async def test_a_flag_that_is_none_is_told(pilot: RealizerPilot) -> None:
+async def test_a_value_that_is_neither_true_nor_false_is_reported(pilot: RealizerPilot) -> None:
     pilot.block("b", speech('rr:rigid="perhaps"'))
     await pilot.advance(1.0)
     (warning,) = pilot.feedback.of("warningFeedback")

@@ -39,7 +39,7 @@ def test_no_filler_is_said_twice_in_a_row_and_pauses_are_within_their_limits() -
         ("most = 3", "most = 0", "most is 0"),
         ("wait = 0.4", "", "'wait' is missing"),
         ("[words.en]", "[words.eo]", "no words for 'en'"),
-        ('first = ["uh", "um", "uhm"]', "first = []", "words.en.first is no list of texts"),
+        ('first = ["uh", "um", "uhm"]', "first = []", "words.en.first is not a list of texts"),
         ("pauses = [1.1, 1.7]", "pauses = [1.1]", "pauses"),
     ],
 )

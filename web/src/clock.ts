@@ -131,11 +131,11 @@ export class PlayoutClock {
  * together also before the realizer knows that a sound came late.
  */
 export class FaceClock {
-  /** From the time shown, s. */
+  /** Offset from the time shown, s. */
   private shift = 0;
   private lastTime = 0;
 
-  /** The time for a time shown, and for that of the frame of what is heard, null if nothing is; all in s. */
+  /** The time of the face for a time shown and that of the frame of what is heard (null if nothing is), s. */
   at(time: number, heard: number | null): number {
     const step = FACE_RETURNS * Math.max(0, time - this.lastTime);
     this.lastTime = time;

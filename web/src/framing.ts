@@ -11,7 +11,7 @@ export interface Figure {
   root: Position;
 }
 
-/** The camera: the point that it looks at, its position (m), both in front of the characters. */
+/** The point that the camera looks at, and its position, m. */
 export interface View {
   target: Vector3;
   eye: Vector3;
@@ -33,7 +33,7 @@ const FACE = 0.32;
 /** Distance of the eyes from the crown, m. */
 const EYES = 0.12;
 
-/** Usual and lowest height of the camera, m: it looks at those who lie from above. */
+/** Usual and lowest height of the camera, m: it looks down on characters that lie on the floor. */
 const EYE_HEIGHT = 1.6;
 const LOWEST = 0.5;
 

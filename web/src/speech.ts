@@ -48,7 +48,7 @@ export class SpeechPlayer {
   private utterances = new Map<string, Utterance>();
   /** Sounds that have been sent, by the id under which they are announced next. */
   private readonly sent = new Map<string, ArrayBuffer>();
-  /** The id of the last caption: the sound that follows it is spoken. */
+  /** The id of the last caption; the sound with that id, which follows it, is speech. */
   private captioned = "";
   private nextReport = 0;
   private soon = 0;

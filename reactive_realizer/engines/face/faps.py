@@ -45,7 +45,7 @@ class NoFap(CreationFault):
 
 
 class FapWithoutMorph(CreationFault):
-    """A facial animation parameter that no blend shape and no joint is like, at least in one direction."""
+    """A facial animation parameter that no blend shape and no joint can play, at least in one direction."""
 
     code = "fap-without-morph"
     template = "no blend shape of the face is like {sign} values of the facial animation parameter {fap}{instead}"

@@ -9,12 +9,11 @@ import numpy as np
 from reactive_realizer.clock.units import RESOLUTION
 
 REACH: Final = 0.03
-"""How long before its place on the course a sound may be heard, s: half a frame, and how far that is off its place.
-"""
+"""How much earlier than its course says a sound may be heard, s: half a frame of a `TimeScale` and its tolerance."""
 
 
 class Course(NamedTuple):
-    """When some positions of an utterance come, in order; those between come evenly, and those after at their own pace.
+    """When some positions of an utterance come, in order; linear between them, and at the pace of the voice after them.
 
     Attributes:
         times: s.
@@ -66,13 +65,13 @@ class Pace(NamedTuple):
     pauses: Sequence[float]
 
     def course(self, time: float, position: float, goals: Iterable[tuple[float, float]]) -> Course:
-        """The course from a time and a position on that reaches some positions in time, as far as it can.
+        """The course from a time and a position that reaches some positions on time, as far as it can.
 
         A part that lasts too long is spoken as slowly as can be, and its pauses, or else one at its end, take the rest.
 
         Args:
-            time: s.
-            position: s.
+            time: of the start of the course, s.
+            position: at that time, s from the start of the utterance.
             goals: times and positions, in order, s.
         """
         knots = [(time, position)]

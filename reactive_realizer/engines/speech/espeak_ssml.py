@@ -10,7 +10,7 @@ from xml.sax.saxutils import escape, quoteattr
 from reactive_realizer.bml.markup import Markup, MarkupKind
 
 FOLLOWED: Final = frozenset(MarkupKind) - {MarkupKind.PHONEME, MarkupKind.OTHER}
-"""The kinds of markup that espeak-ng follows; of voices and languages, those that it has."""
+"""The kinds of markup that espeak-ng follows; for voices and languages, only those that it has."""
 
 _NO_VOICES: Final[Mapping[str, str]] = MappingProxyType({})
 _STOPS: Final = ".,;:!?\u2026"

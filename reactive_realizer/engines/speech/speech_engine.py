@@ -139,18 +139,18 @@ class SpeechEngine(SoundEngine):
             unit.leave()
 
     def warnings(self) -> tuple[Warn | ReportFall, ...]:
-        """What is to be told of speeches, since the last call."""
+        """The warnings about speeches since the last call."""
         return self._notes.take()
 
     def audio(self, tick: Tick) -> tuple[AudioChange, ...]:
-        """The changes of sounds since the last call, with the sound of stretched speeches that is heard soon."""
+        """The changes of sounds since the last call, with those of stretched speeches that will be heard soon."""
         for unit in self.player.units:
             if isinstance(unit, SpeechUnit) and unit.loose:
                 unit.make_sound(tick.time)
         return super().audio(tick)
 
     def requests(self, tick: Tick) -> tuple[Request, ...]:
-        """That points come when their sounds do."""
+        """The requests that points come when their sounds do."""
         playing = (unit for unit in self.player.playing if isinstance(unit, SpeechUnit))
         return tuple(each for unit in playing for each in unit.misplaced(tick.time))
 

@@ -1,4 +1,4 @@
-"""What is told of speeches that play, although something of them is not as it was asked for."""
+"""Warnings about speeches that play, but not entirely as they were requested."""
 
 from reactive_realizer.engine.effects import Warn
 from reactive_realizer.engines.speech.speech_unit import SpeechUnit
@@ -22,14 +22,14 @@ class OtherScript(CreationFault):
 
 
 class SpeechNotes:
-    """Collects what is to be told of the speeches of a character: once, but of the markup of each speech."""
+    """Collects the warnings about the speeches of a character: each once, but one about markup for each speech."""
 
     def __init__(self) -> None:
         self._notes: list[Warn] = []
         self._told: set[Fault] = set()
 
     def add(self, unit: SpeechUnit) -> None:
-        """Note what is to be told of a speech that is planned."""
+        """Note the warnings about a speech that is planned."""
         self.tell(unit, unit.note)
         self.tell(unit, OtherScript(scripts=unit.utterance.unread) if unit.utterance.unread else None)
 

@@ -49,7 +49,7 @@ class BadLiveliness(CreationFault):
 class SpeechUnit(SoundUnit):
     """An utterance. A character speaks one at a time.
 
-    It may begin when its first part is made. What is not made in time is waited for. Its timing is rigid until it is
+    It may begin when its first part is made. It waits for what is not made in time. Its timing is rigid until it is
     loosened: from then on, its sound follows its sync points within limits, until it is cut.
 
     Attributes:
@@ -112,7 +112,7 @@ class SpeechUnit(SoundUnit):
         return self.utterance.duration if self.loose else super().duration
 
     def loose_timing(self, named: Container[str]) -> Timing | None:
-        """The timing in which parts last as short and as long as they may; None if it has no sound, or not all.
+        """The timing with the shortest and longest durations of parts; None if it has no sound, or only some of it.
 
         After the last point that a constraint names, it is spoken at its own pace.
         """
@@ -137,7 +137,7 @@ class SpeechUnit(SoundUnit):
         self.shortest = [phase.shortest for phase in timing.phases]
 
     def make_sound(self, now: GlobalTime) -> None:
-        """Make the sound of a stretched speech that is heard soon."""
+        """Make the sound of a stretched speech that will be heard soon."""
         if self._stretched is None or (origin := self.origin) is None:
             return
         if self._follows:
@@ -180,7 +180,7 @@ class SpeechUnit(SoundUnit):
         return making if due is None else min(due, making)
 
     def detach(self, point: SyncPoint, time: GlobalTime) -> None:
-        """As `PlanUnit.detach`, when it is cut: its end does not say any more how fast it is spoken."""
+        """As `PlanUnit.detach`, when it is cut: its end no longer determines how fast it is spoken."""
         self._follows = False
         super().detach(point, time)
 
@@ -290,7 +290,7 @@ def wants_words(behavior: Behavior) -> bool:
 
 
 def holds_floor(behavior: Behavior) -> bool:
-    """Whether the character says fillers after a speech, until its next words are there.
+    """Whether the character says fillers after a speech, until its next words arrive.
 
     Raises:
         RealizerError: "not-a-flag".

@@ -30,8 +30,8 @@ class StretchedUtterance:
     Attributes:
         utterance: as the voice speaks it.
         pace: how it can be stretched.
-        course: when its positions are heard, s from its start: up to ``made`` for good, then as planned now.
-        made: up to when its sound is made, s.
+        course: when its positions are heard, s from its start: final up to ``made``, and after that as planned now.
+        made: how much of its sound is made, s from its start.
         sounds: its parts.
     """
 

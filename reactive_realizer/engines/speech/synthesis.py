@@ -88,7 +88,7 @@ class Synthesis:
 
 
 def check_words(utterance: Utterance) -> None:
-    """Check that there is something to say, and that any of it sounds: signs may be words and have no sound.
+    """Check that there is something to say, and that some of it has sound: a sign can be a word without sound.
 
     Raises:
         RealizerError: ``nothing-to-say``.

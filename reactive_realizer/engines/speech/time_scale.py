@@ -12,13 +12,13 @@ _TOLERANCE = 0.01
 _SEARCH_RATE = 11_025
 """Samples a second at which frames are compared, Hz: enough for the sounds of a voice that have a pitch."""
 _SILENCE = 1e4
-"""Energy of a frame that is compared as if it were silent."""
+"""Energy that is added to that of frames in comparisons, so that noise in silence does not count."""
 
 Samples = npt.NDArray[np.float64]
 
 
 class TimeScale:
-    """Sound in frames that overlap, each from about its place in the source, and similar to what would go on there.
+    """Sound in overlapping frames, each taken near its place in the source, where it continues the previous one best.
 
     This is WSOLA (W. Verhelst and M. Roelands, "An overlap-add technique based on waveform similarity (WSOLA) for high
     quality time-scale modification of speech", 1993). A frame goes on where the one before it ended, as long as it
@@ -53,7 +53,7 @@ class TimeScale:
 
         Args:
             course: when which position of the source is heard, s.
-            count: of frames.
+            count: number of frames.
         """
         added = np.zeros((count + 1) * self.hop)
         for begin in range(0, count * self.hop, self.hop):

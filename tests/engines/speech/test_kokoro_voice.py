@@ -203,7 +203,7 @@ async def test_a_voice_whose_weights_cannot_be_used_says_so_when_it_starts(
     monkeypatch.setenv("REACTIVE_REALIZER_KOKORO", str(tmp_path))
     voice = KokoroVoice()
     try:
-        with pytest.raises(RealizerError, match="no ONNX file"):
+        with pytest.raises(RealizerError, match="not an ONNX file"):
             await voice.start()
     finally:
         await voice.close()

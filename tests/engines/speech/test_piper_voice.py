@@ -1,4 +1,4 @@
-"""Voices of Piper: files of the user. Most tests write a tiny one; the last one needs a real one."""
+"""Piper voices, which are files of the user. Most tests write a tiny one; the last one needs a real one."""
 
 import asyncio
 import os
@@ -222,7 +222,7 @@ def test_a_wrong_description_is_refused_with_the_place_of_the_mistake(
 
 
 @pytest.mark.parametrize("text", ["", "{", "[1]", "[" * 100_000])
-def test_a_description_that_is_no_json_is_refused(tmp_path: Path, text: str) -> None:
+def test_a_description_that_is_not_json_is_refused(tmp_path: Path, text: str) -> None:
     write_voice(tmp_path, "mine").with_name("mine.onnx.json").write_text(text)
     assert "mine.onnx.json" in refusal(tmp_path)
 
@@ -230,9 +230,9 @@ def test_a_description_that_is_no_json_is_refused(tmp_path: Path, text: str) -> 
 @pytest.mark.parametrize(
     ("network", "told"),
     [
-        (b"not a network", "it is no ONNX file"),
+        (b"not a network", "it is not an ONNX file"),
         (b"", "its network is not one of Piper"),
-        (tiny_network()[:-500], "it is no ONNX file"),
+        (tiny_network()[:-500], "it is not an ONNX file"),
         (tiny_network(opset=99), "support for domain ai.onnx is till opset"),
         (tiny_network(speakers=2), "its network fails"),
     ],

@@ -30,7 +30,7 @@ def halves(weights: bytes) -> tuple[bytes, bytes]:
     takes ``style`` and the features, and gives ``audio``.
 
     Raises:
-        UnusableNetwork: the file is no network, or not an export of Kokoro-82M v1.0.
+        UnusableNetwork: the file is not a network, or not an export of Kokoro-82M v1.0.
     """
     model = read_network(weights)
     made = {value for node in model.graph.node for value in node.output}

@@ -26,7 +26,7 @@ _MOST_GAIN = 8.0
 """dB."""
 
 _A, _WARMING = 43, 20
-"""A token, and the number of its frames that are spoken for nothing."""
+"""A token, and the number of its frames that are spoken to warm up the network."""
 
 Style = Floats
 """Of a voice: (510, 256), a vector for each number of tokens."""

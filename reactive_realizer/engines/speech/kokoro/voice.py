@@ -17,7 +17,7 @@ _DEFAULT = "af_heart"
 _LANGUAGES = {"a": "en-us", "b": "en-gb"}
 """The first letter of the name of a voice, which is its accent, and the dictionary of espeak-ng for it."""
 _OMITTED = {"a": "\u02d0", "b": ""}
-"""American voices are told no length marks."""
+"""Signs of IPA that are left out, by accent: American voices get no length marks."""
 
 
 class KokoroVoice(NeuralVoice):

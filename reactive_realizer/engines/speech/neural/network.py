@@ -11,17 +11,17 @@ Floats = npt.NDArray[np.float32]
 
 
 class UnusableNetwork(Exception):
-    """A network is not the one that is expected; the message is for people."""
+    """A network is not the expected one; the message is shown to the user."""
 
 
 @dataclass(frozen=True, slots=True)
 class Predicted:
-    """What a network predicts of a sentence.
+    """What a network predicts for a sentence.
 
     Attributes:
-        durations: frames of each token, with those of the silence at both ends.
-        features: of its frames, which are in the last axis; a feature may have several values for each frame.
-        constants: what it needs for any of the frames.
+        durations: number of frames of each token, with the silence at both ends.
+        features: arrays with the frames along the last axis; a feature may have several values for each frame.
+        constants: arrays that the network needs for any of the frames.
     """
 
     durations: list[int]
@@ -37,10 +37,10 @@ class Predicted:
 
 
 class SpeakingNetwork(Protocol):
-    """A network with one or more voices, which has spoken something already: the first time takes longer.
+    """A network with one or more voices, which has been warmed up: the first sentence takes longer.
 
     Attributes:
-        hello: what the realizer is told of it, with the names of its ``voices``.
+        hello: its properties, for the realizer, among them the names of its ``voices``.
     """
 
     hello: Mapping[str, Any]
@@ -51,7 +51,7 @@ class SpeakingNetwork(Protocol):
         Args:
             tokens: without those for the silence at both ends.
             voice: one of its voices.
-            rate: how many times as fast as usual it is.
+            rate: as a multiple of the usual one.
         """
         ...
 

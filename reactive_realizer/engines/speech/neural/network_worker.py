@@ -1,6 +1,6 @@
-"""What a worker with networks does: it answers requests until its input ends.
+"""The loop of a worker with networks, which answers requests until its input ends.
 
-Its first message tells of the networks. A request names a voice, and contains the tokens and the rate of a sentence.
+Its first message describes the networks. A request names a voice, and contains the tokens and the rate of a sentence.
 The reply contains the frames of each token or, if the request names frames, the sound of these.
 """
 
@@ -15,7 +15,7 @@ from reactive_realizer.engines.speech.worker_messages import WorkerMessage, Work
 _REMEMBERED = 32
 """Sentences whose predictions are kept, of which a minute takes 5 MB."""
 _NICENESS = 5
-"""How much the worker yields to the realizer, which has frames to show while it works."""
+"""Added to the nice value of the worker, because the realizer has frames to show while the worker is busy."""
 
 
 def run(load: Callable[[], Sequence[SpeakingNetwork]]) -> None:
@@ -38,7 +38,7 @@ def run(load: Callable[[], Sequence[SpeakingNetwork]]) -> None:
 
 
 class _Speaker:
-    """Networks, with the last sentences that they have predicted, of which they will be asked to speak some frames."""
+    """Networks, with their last predictions: requests for the sound of frames of the same sentences follow."""
 
     def __init__(self, networks: Sequence[SpeakingNetwork]) -> None:
         self._networks = {voice: network for network in networks for voice in network.hello["voices"]}

@@ -31,7 +31,7 @@ _REMEMBERED_BYTES = 16 * 1024 * 1024
 _BYTES_OF_TIMES = 2000
 """Size of an answer without sound."""
 _EXAMPLES = 20
-"""How many names of voices a message lists at most; a network may have hundreds."""
+"""The most names of voices that a message lists; a network may have hundreds."""
 _PATIENCE = 60.0
 """Time limit for one answer, s: the longest piece of Kokoro-82M takes 4 s on two processors."""
 _FIRST_PIECE, _GROWTH, _LONGEST_PIECE = 0.9, 1.6, 5.0
@@ -147,7 +147,7 @@ class NeuralVoice(ABC):
             await self._predict(written, timed, number + 1, own.format, name, step)
             sound, pieces = SentenceSound(rate), timed[number].pieces(lengths)
             for index, piece in enumerate(pieces, 1):
-                if step == 2:  # the first two pieces have no time to lose
+                if step == 2:  # the first two pieces are urgent
                     await self._predict(written, timed, len(written), own.format, name, step)
                 spoken = await self._ask(written[number], name, step, piece.frames)
                 audio += sound.add(piece, spoken.body, last=index == len(pieces))
@@ -165,7 +165,7 @@ class NeuralVoice(ABC):
     async def _write(
         self, text: str, markup: tuple[Markup, ...], voice: NetworkVoice
     ) -> tuple[tuple[PronouncedWord, ...], list[Sentence]]:
-        """The words of a text with their sounds, and the sentences of which the network is told."""
+        """The words of a text with their sounds, and the sentences that the network gets."""
         stopped = with_stops(text, markup)
         dictionary = tuple(each for each in markup if each.kind in DICTIONARY)
         pronounced = await self._dictionary.pronounce(stopped, voice.language, dictionary)
@@ -224,7 +224,7 @@ def estimated(written: Sequence[Sentence], timed: Sequence[TimedSentence], forma
 
 
 def _named(known: Mapping[str, NetworkVoice], name: str | None) -> tuple[str, NetworkVoice]:
-    """The name and the voice of a name; without one, the default."""
+    """A voice with its name; the default one if no name is given."""
     if not name:
         return next(iter(known.items()))
     if name not in known:

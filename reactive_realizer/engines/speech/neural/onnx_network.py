@@ -35,12 +35,12 @@ def read_network(file: bytes) -> ModelProto:
     """The network in an ONNX file.
 
     Raises:
-        UnusableNetwork: the file contains none.
+        UnusableNetwork: the file is not in the ONNX format.
     """
     try:
         return onnx.load_from_string(file)
     except Exception as problem:  # the parser has classes of its own for each kind of fault
-        raise UnusableNetwork(f"it is no ONNX file: {problem}") from problem
+        raise UnusableNetwork(f"it is not an ONNX file: {problem}") from problem
 
 
 def part_of(model: ModelProto, inputs: Sequence[ValueInfoProto], outputs: Sequence[ValueInfoProto]) -> bytes:

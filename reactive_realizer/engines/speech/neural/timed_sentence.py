@@ -18,7 +18,7 @@ _SHORTEST = 0.4
 _MOST = 1.4
 """The longest piece, if it can be cut at all, in wanted durations."""
 _LONG_WORD = 2.0
-"""The longest part of a word that is not cut, s: a sound that a voice makes of an address, or of a hundred digits."""
+"""The longest part of a word that is not cut, s; an address or a hundred digits are one long word to a voice."""
 _WITHIN_WORD = 1.5
 """The cost of a cut in a word."""
 _VOICELESS, _STOPS = frozenset("ptkfsʃθhç"), frozenset("bdg\u0261")

@@ -1,1 +1,1 @@
-"""Voices of Piper: files of the user, one network each, with the pronunciation of espeak-ng."""
+"""Piper voices: files that the user provides, one network each, with the pronunciation of espeak-ng."""

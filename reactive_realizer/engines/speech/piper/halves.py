@@ -42,7 +42,7 @@ def halves(file: bytes) -> Halves:
         file: in the ONNX format.
 
     Raises:
-        UnusableNetwork: the file is no network, or not one of Piper.
+        UnusableNetwork: the file is not a network, or not one of Piper.
     """
     model = read_network(file)
     inputs = {each.name for each in model.graph.input}

@@ -15,9 +15,9 @@ from reactive_realizer.engines.speech.piper.halves import halves
 from reactive_realizer.engines.speech.piper.voice_file import END, PAD, START, VoiceFile
 
 _WARMING = 20
-"""Frames that are spoken for nothing."""
+"""Frames that are spoken to warm up the network."""
 _NOISE = 0.0
-"""Of the durations and of the sound: with noise, the same text would not always give the same bytes."""
+"""Scale of the noise in durations and sound: with noise, the same text would not always give the same bytes."""
 
 
 class PiperModel(SpeakingNetwork):
@@ -74,8 +74,8 @@ class PiperModel(SpeakingNetwork):
     def _frame(self) -> int:
         """The length of a frame, samples.
 
-        All characters are told to the network for this, so that one that it does not have is found now, and the last
-        speaker, for the same reason.
+        The network is given all characters and the last speaker for this, so that a number that it does not know is
+        found now.
         """
         try:
             predicted = self.predict(sorted(self._file.ids.values()), [*self._file.speakers][-1], 1.0)

@@ -1,4 +1,4 @@
-"""Voices of Piper in a worker process."""
+"""Piper voices in a worker process."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar, Final
@@ -14,7 +14,7 @@ _LAG = 0.045
 """How much later a sound begins by the durations of a network than it is heard, s: by forced alignment of 42 words of
 one voice 0.053 (standard deviation 0.028), of which 0.008 are the bias of the aligner."""
 _MARGIN = 12
-"""Frames from which a decoder makes one: with so many on each side, a piece is equal to its part of the sentence."""
+"""Frames on each side that the sound of a frame depends on: with them, a piece equals its part of the sentence."""
 _STOP = 0.2
 """Silence between two sentences, s: the networks make a pause of 0.1 s."""
 _STOPS = {
@@ -29,18 +29,18 @@ _STOPS = {
     "\u2013": ";",
     "\u2014": ";",
 }
-"""Characters between words, and how the networks are told them: they were trained with the clauses of espeak-ng."""
+"""Characters between words, and how they are written for the networks, which learned the clauses of espeak-ng."""
 
 
 class PiperVoice(NeuralVoice):
-    """A `TTSBinding` with the voices of Piper that the user has, which are named after their files."""
+    """A `TTSBinding` with the Piper voices that the user provides, which are named after their files."""
 
     module: ClassVar = "reactive_realizer.engines.speech.piper.worker"
     packages: ClassVar = ("onnx", "onnxruntime")
     extra: ClassVar = "piper"
 
     def network_voices(self, networks: Sequence[Mapping[str, Any]]) -> Mapping[str, NetworkVoice]:
-        """All voices; those of a network sound different and are told the same."""
+        """All voices; the speakers of a network sound different, but share an alphabet and a language."""
         voices = {}
         for network in networks:
             format_ = FrameFormat(network["rate"], network["frame"], _LAG, _MARGIN)
@@ -50,7 +50,7 @@ class PiperVoice(NeuralVoice):
 
 
 def alphabet(ids: Mapping[str, int]) -> Alphabet:
-    """The characters of a network, which was trained with letters and diacritics apart.
+    """The characters of a network, which was trained with diacritics as separate characters.
 
     Args:
         ids: the number of each character.

@@ -1,4 +1,4 @@
-"""The files of a voice of Piper: a network (``NAME.onnx``), and what belongs to it (``NAME.onnx.json``)."""
+"""The files of a Piper voice: a network (``NAME.onnx``), and what belongs to it (``NAME.onnx.json``)."""
 
 import json
 from collections.abc import Iterator, Mapping
@@ -11,7 +11,7 @@ import jsonschema
 from reactive_realizer.engines.speech.neural.network import UnusableNetwork
 
 START, PAD, END = "^", "_", "$"
-"""The characters of the id before a sentence, of that after each character, and of that after the sentence."""
+"""The characters whose ids stand before a sentence, after each of its characters, and after the sentence."""
 
 _POSITIVE: Final = {"type": "number", "exclusiveMinimum": 0}
 _ID: Final = {"type": "array", "prefixItems": [{"type": "integer", "minimum": 0}], "minItems": 1, "items": False}
@@ -36,7 +36,7 @@ _SCHEMA: Final = {
 
 @dataclass(frozen=True, slots=True)
 class VoiceFile:
-    """A voice of Piper, without its network.
+    """A Piper voice, without its network.
 
     Attributes:
         path: of the network.

@@ -12,7 +12,7 @@ from reactive_realizer.engines.speech.piper.voice_file import voice_files
 
 def _load() -> list[PiperModel]:
     if not os.environ.get(PLACE):
-        raise UnusableNetwork(f"set {PLACE} to a folder with voices of Piper, each NAME.onnx and NAME.onnx.json")
+        raise UnusableNetwork(f"set {PLACE} to a folder with Piper voices, each NAME.onnx and NAME.onnx.json")
     return [PiperModel(file) for file in voice_files(Path(os.environ[PLACE]))]
 
 

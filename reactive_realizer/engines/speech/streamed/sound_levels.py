@@ -1,4 +1,4 @@
-"""How loud and how bright sound is that arrives, in frames; and when somebody speaks in it."""
+"""Loudness and brightness of sound as it arrives, frame by frame, and the time in it that is speech."""
 
 from typing import Final
 
@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 FRAME: Final = 0.02
 """Duration of a frame, s."""
 _QUIETEST: Final = 0.02
-"""The least level of speech, as a share of full scale, so that noise alone is not taken for it."""
+"""The lowest level of loud speech, as a share of full scale, so that noise alone is not taken for it."""
 AUDIBLE: Final = 0.08
-"""Share of the level of loud speech from which on somebody speaks."""
+"""Share of the level of loud speech above which a frame is speech."""
 _BRIGHT: Final = 3000.0
 """Frequency above which most of the energy of an s is, Hz."""
 
@@ -55,11 +55,11 @@ class SoundLevels:
 
 
 class SpokenTime:
-    """The time in which somebody speaks, without pauses; after what is heard, somebody speaks on.
+    """Time that is speech, without pauses; after what has arrived, speech is assumed to go on.
 
     Args:
-        loudness: of each frame.
-        heard: until when, s.
+        loudness: of each frame, (F,).
+        heard: duration of what has arrived, s.
     """
 
     def __init__(self, loudness: Floats, heard: float) -> None:
@@ -68,14 +68,14 @@ class SpokenTime:
         self.total = len(self._audible) * FRAME
 
     def at(self, time: float) -> float:
-        """How long somebody has spoken before a time, s."""
+        """How much speech there is before a time, s."""
         first = int(time / FRAME + 1e-6)
         before = int(np.searchsorted(self._audible, first))
         within = time - first * FRAME if before < len(self._audible) and self._audible[before] == first else 0.0
         return before * FRAME + within + max(0.0, time - self._heard)
 
     def time(self, spoken: float) -> float:
-        """When somebody has spoken for so long, and goes on to speak, s."""
+        """The time before which there is this much speech, and at which it goes on, s."""
         number = int(spoken / FRAME + 1e-6)
         if number >= len(self._audible):
             return self._heard + spoken - self.total

@@ -1,4 +1,4 @@
-"""The mouth of sound whose words are not known: open as it is loud, wide or round as it is bright or dark."""
+"""Lips for sound whose words are unknown: open where it is loud, spread where bright, and rounded where dark."""
 
 from itertools import groupby
 from typing import Final
@@ -7,11 +7,11 @@ from reactive_realizer.engine.tts import Phoneme
 from reactive_realizer.engines.speech.streamed.sound_levels import AUDIBLE, FRAME, SoundLevels
 
 _OPENINGS: Final = ((0.2, "n"), (0.45, "\u026a"), (0.75, "\u025b"))
-"""Sounds with a wider and wider mouth, each below a loudness; an a above them."""
+"""Sounds that open the mouth further and further, each below a loudness; louder sound is an a."""
 _ROUND: Final = ((0.45, "u"), (float("inf"), "o"))
 """Rounded sounds, each below a loudness."""
 _HISSING: Final = 0.5
-"""Share of the energy in high frequencies from which on a sound is an s."""
+"""Share of the energy in high frequencies above which a sound is an s."""
 _DARK: Final = 450.0
 """Center of the spectrum below which a sound is rounded, Hz."""
 
@@ -52,7 +52,7 @@ def _symbol(loudness: float, bright: float, center: float) -> str:
 
 
 def _steady(symbols: list[str]) -> list[str]:
-    """Without sounds of a single frame, between two others."""
+    """The sounds of all frames; one of a single frame between two others takes the sound before it."""
     return [
         before if before != symbol != after else symbol
         for before, symbol, after in zip(symbols[:1] + symbols[:-1], symbols, symbols[1:] + symbols[-1:], strict=True)

@@ -17,7 +17,7 @@ from reactive_realizer.errors import RealizerError
 
 _WORKER = "reactive_realizer.engines.speech.streamed.align_worker"
 _PATIENCE = 30.0
-"""Time limit for one answer, s: it takes 0.2 s per second of speech, and loading the models 2 s."""
+"""Time limit for one answer, s: an answer takes 0.2 s per second of speech, and loading the models 2 s."""
 _GAP = 0.015
 """Duration above which there is silence between two sounds, s."""
 

@@ -13,7 +13,7 @@ from reactive_realizer.errors import CreationFault, RealizerError
 _CHARACTER: Final = 0.065
 """Duration of a character, s, before anything is known: with five letters and a space a word, 150 words a minute."""
 _ENOUGH: Final = 20
-"""Characters from which the rate of a voice is known."""
+"""Number of characters after which the rate of a voice is known."""
 
 
 class OtherWords(CreationFault):
@@ -72,13 +72,13 @@ def word_begins(
 ) -> tuple[list[float], float]:
     """The starts of all words, and the end of the last one, s.
 
-    Words that are not known are spread over the time in which somebody speaks, by their numbers of characters. As long
-    as the sound goes on, they are spoken as fast as those before.
+    Words whose starts are unknown are spread over the time that is speech, in proportion to their numbers of
+    characters. As long as more may arrive, they are assumed to be spoken as fast as those before.
 
     Args:
         words: of the text.
         known: starts of the first words, s.
-        spoken: what is heard so far.
+        spoken: the time that is speech in what has arrived.
         ended: whether nothing follows.
     """
     places = [*accumulate((len(word) + 1 for word in words), initial=0)]
@@ -94,5 +94,5 @@ def word_begins(
 
 
 def _plain(word: str) -> str:
-    """A word without marks, for comparison."""
+    """A word without punctuation, for comparison."""
     return "".join(letter for letter in unicodedata.normalize("NFKC", word).casefold() if letter.isalnum())
