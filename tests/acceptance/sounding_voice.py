@@ -19,7 +19,7 @@ _GAP = 0.08
 PAUSE = 0.3
 """Silence after a comma, s."""
 PITCH = 150.0
-"""Of the tones, Hz."""
+"""Frequency of the tones, Hz."""
 _QUIET = 200.0
 
 

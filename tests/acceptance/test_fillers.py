@@ -1,4 +1,4 @@
-"""Fillers hold the floor: a speech may ask the character to go on with "uhm" while its next words are not there."""
+"""Fillers hold the floor: a speech may ask the character to go on with "uhm" until its next words arrive."""
 
 import pytest
 

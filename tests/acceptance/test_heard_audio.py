@@ -118,7 +118,7 @@ async def test_words_are_reported_when_they_are_heard(talking: RealizerPilot) ->
     assert [talking.feedback.time(key) - before[key] for key in late] == pytest.approx([0.12] * len(late), abs=1e-6)
 
 
-async def test_words_are_reported_when_they_are_heard_after_a_tied_one_that_was_heard_before_this_was_known() -> None:
+async def test_words_are_reported_when_heard_even_if_a_tied_word_before_them_was_heard_before_the_report() -> None:
     async with open_pilot(SceneOptions(voice="espeak", verify=True)) as pilot:
         pilot.block("b", SPEECH + '<head id="nod" lexeme="NOD" end="s:one"/>')
         while not pilot.feedback.reached("b:s:start"):

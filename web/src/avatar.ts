@@ -74,7 +74,7 @@ export class Avatar {
     }
   }
 
-  /** Where it is. */
+  /** Its crown and its root in the world, m. */
   get figure(): Figure {
     const [x, y, z] = worldPosition(this.head ?? this.object);
     return { crown: [x, y + this.crown, z], root: worldPosition(this.root ?? this.object) };

@@ -285,7 +285,7 @@ export interface Caption {
   gain: number;
 }
 /**
- * A new start time of a sound, or of a caption, which the frames of time and later show.
+ * A new start time of a sound, or of a caption; frames show it from the given time on.
  */
 export interface AudioMove {
   type: "audio_move";

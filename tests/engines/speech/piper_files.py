@@ -12,9 +12,9 @@ from onnx.numpy_helper import from_array
 
 RATE: Final = 16_000
 _FRAME: Final = 256
-"""Samples."""
+"""Length of a frame, samples."""
 _FRAMES: Final = 4.0
-"""Duration of each character; that of the padding after it, and of the ends of a sentence, is one frame."""
+"""Duration of each character, frames; that of the padding after it, and of the ends of a sentence, is one frame."""
 
 _STOPS: Final = "_^$ .,?!:;"
 _SIGNS: Final = "\u02c8\u02cc\u02d0\u0303\u0329"

@@ -47,9 +47,9 @@ class NetworkVoice:
 
     Attributes:
         language: the voice of espeak-ng that tells how words are pronounced.
-        alphabet: in which the network is told the sounds.
+        alphabet: in which sounds are written for the network.
         format: of the frames in which the network counts time.
-        stop: silence between two sentences, s, beside the pause that the network makes.
+        stop: silence between two sentences, s, in addition to the pause that the network makes.
     """
 
     language: str
@@ -62,8 +62,8 @@ class NeuralVoice(ABC):
     """A `TTSBinding` with the voices of a network; base class.
 
     espeak-ng, in a worker of its own, tells how words are pronounced. The network predicts the times of whole
-    sentences, and speaks them in pieces. Of several texts, the one of which less is made goes first. What was made is
-    not made again.
+    sentences, and speaks them in pieces. Of several texts, the one of which less has been made goes first. What was
+    made is not made again.
 
     Attributes:
         module: what the worker runs; it calls `network_worker.run`.
@@ -86,7 +86,7 @@ class NeuralVoice(ABC):
         """The voices by their names, of which the first one is the default.
 
         Args:
-            networks: what the worker says of each of its networks.
+            networks: the properties of each network, from the worker.
         """
 
     @classmethod

@@ -107,7 +107,7 @@ def sentences(
         words: all of its words.
         alphabet: of the network.
         pace: of its words; None if all have the usual one.
-        stop: silence between two sentences, s, beside the pause that the network makes.
+        stop: silence between two sentences, s, in addition to the pause that the network makes.
     """
     sentence = Sentence()
     for number, word in enumerate(words):

@@ -31,7 +31,7 @@ class FrameFormat(NamedTuple):
     Attributes:
         rate: sample rate, Hz.
         length: of a frame, samples.
-        lag: how much later a sound begins by the durations of the network than it is heard, s.
+        lag: start of a sound by the durations of the network, minus the time at which it is heard, s.
         margin: frames that are spoken before and after a piece and cut off, so that its ends sound as in the whole
             sentence.
     """

@@ -11,8 +11,8 @@ from reactive_realizer.engines.speech.neural.timed_sentence import FrameFormat
 PLACE: Final = "REACTIVE_REALIZER_PIPER"
 """The environment variable that names a folder with voices, or the network of one."""
 _LAG = 0.045
-"""How much later a sound begins by the durations of a network than it is heard, s: by forced alignment of 42 words of
-one voice 0.053 (standard deviation 0.028), of which 0.008 are the bias of the aligner."""
+"""Start of a sound by the durations of a network, minus the time at which it is heard, s: by forced alignment of 42
+words of one voice 0.053 (standard deviation 0.028), of which 0.008 are the bias of the aligner."""
 _MARGIN = 12
 """Frames on each side that the sound of a frame depends on: with them, a piece equals its part of the sentence."""
 _STOP = 0.2

@@ -58,8 +58,8 @@ async def spoken_stream(speech: StreamedSpeech, stream: SpeechStream) -> AsyncIt
 class _GrowingSpeech:
     """What is known of a streamed speech.
 
-    Words have the times that its client gives, or else those that are found in the sound, or else estimated ones. The
-    lips follow the sounds of the words that are found, and of all else how loud and bright it is.
+    The times of words come from the client, or else are found in the sound, or else are estimated. The lips follow the
+    sounds of the words that are found, and elsewhere how loud and bright the sound is.
     """
 
     def __init__(self, speech: StreamedSpeech) -> None:
@@ -77,7 +77,7 @@ class _GrowingSpeech:
         self._note: Fault | None = None
 
     async def open(self) -> None:
-        """Look for words from now on, if there are any."""
+        """Start to look for the words of the text, if it has any."""
         try:
             if self._words:
                 self._aligner = await StreamAligner.start(self._words, self._speech.stream.rate, self._name)
@@ -86,12 +86,12 @@ class _GrowingSpeech:
             self._note = problem.fault
 
     async def close(self) -> None:
-        """Look for words no longer."""
+        """Stop looking for words."""
         if self._aligner is not None:
             await self._aligner.close()
 
     async def add(self, piece: SoundPiece) -> Recording:
-        """The speech with a further piece.
+        """The speech up to the end of a new piece.
 
         Raises:
             RealizerError: "no-sound".

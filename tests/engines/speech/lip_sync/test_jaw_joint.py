@@ -33,7 +33,7 @@ joints = {{ {JAW} = [12, 0, 0] }}
 
 
 def with_jaw(path: Path) -> None:
-    """Writes the avatar of the package with a bone more, the jaw, and without morph targets."""
+    """Writes the avatar of the package with one more bone, the jaw, and without morph targets."""
     glb = Assets()("avatars/female.glb").read_bytes()
     length = struct.unpack_from("<I", glb, 12)[0]
     scene = json.loads(glb[20 : 20 + length])
