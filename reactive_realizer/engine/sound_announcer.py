@@ -20,7 +20,7 @@ from reactive_realizer.planunit.plan_unit import UnitState
 _WORTH_MOVING = 1e-3
 """The smallest change of a start time that is announced, s."""
 
-_FADE = 0.03
+_FADE = 0.02
 """Fade of a sound that is cut, s: long enough to avoid a click, short enough to be silent at once."""
 
 

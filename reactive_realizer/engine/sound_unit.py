@@ -45,7 +45,7 @@ class Speaking(Protocol):
 
 
 class SoundUnit(PlanUnit):
-    """A sound with a rigid timing. Its parameter ``volume`` may be changed while it plays.
+    """A sound. Its parameter ``volume`` may be changed while it plays.
 
     Attributes:
         sounds: its parts in the order of time, as far as they are there.

@@ -154,7 +154,7 @@ async def test_an_interrupted_sound_fades_within_30_milliseconds(folder: Path) -
         pilot.block("c", '<bmla:interrupt id="i" target="b" include="s"/>')
         await pilot.advance(1)
         (stop,) = (change for change in pilot.sounds if isinstance(change, AudioStop))
-        assert (stop.id, stop.time, stop.fade) == (starts(pilot)[0].clip.id, pilot.feedback.time("b:s:end"), 0.03)
+        assert (stop.id, stop.time, stop.fade) == (starts(pilot)[0].clip.id, pilot.feedback.time("b:s:end"), 0.02)
         assert_time(pilot.feedback, "b:t:end", pilot.feedback.time("b:t:start") + DURATION)
 
 

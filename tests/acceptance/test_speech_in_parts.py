@@ -1,4 +1,4 @@
-"""A speech begins when its first clause is made; the rest is made while it sounds."""
+"""A speech begins when its first part is made; the rest is made while it sounds."""
 
 from collections.abc import AsyncIterator
 from itertools import pairwise
@@ -187,7 +187,7 @@ async def test_an_interruption_stops_all_its_sounds_and_cancels_what_is_not_made
     await pilot.advance(0.1)
     stops = [each for each in pilot.sounds if isinstance(each, AudioStop)]
     assert [each.id for each in stops] == ["alice-speech-1", "alice-speech-2"]
-    assert all(each.time == pilot.feedback.time("b:s:end") and each.fade <= 0.03 for each in stops)
+    assert all(each.time == pilot.feedback.time("b:s:end") and each.fade <= 0.02 for each in stops)
     assert voice.canceled == ["One two, three four, five six."]
     voice.let()
     await pilot.advance(3)

@@ -107,7 +107,7 @@ def test_a_sound_whose_start_never_became_known_is_stopped_with_its_unit(scene: 
         scene.start.set(None)
     scene.changes(0.0)
     scene.unit.drop(GlobalTime(1.0))
-    assert scene.changes(1.0) == (AudioStop("alice-audio-1", GlobalTime(1.0), 0.03),)
+    assert scene.changes(1.0) == (AudioStop("alice-audio-1", GlobalTime(1.0), 0.02),)
 
 
 def test_an_interrupted_sound_is_stopped_and_a_whole_one_is_not(scene: Scene) -> None:
@@ -115,7 +115,7 @@ def test_an_interrupted_sound_is_stopped_and_a_whole_one_is_not(scene: Scene) ->
     scene.play(2.0)
     with scene.graph.transaction("interrupt"):
         scene.unit.interrupt(GlobalTime(2.4))
-    assert scene.changes(2.4) == (AudioStop("alice-audio-1", GlobalTime(2.4), 0.03),)
+    assert scene.changes(2.4) == (AudioStop("alice-audio-1", GlobalTime(2.4), 0.02),)
     whole = Scene()
     whole.changes(0.0)
     whole.play(3.0)
@@ -123,7 +123,7 @@ def test_an_interrupted_sound_is_stopped_and_a_whole_one_is_not(scene: Scene) ->
 
 
 def test_the_caption_of_a_speech_that_is_cut_in_a_pause_between_its_sounds_is_stopped() -> None:
-    for kind, stops in ((Captioned, (AudioStop("alice-audio-1", GlobalTime(4.5), 0.03),)), (SoundUnit, ())):
+    for kind, stops in ((Captioned, (AudioStop("alice-audio-1", GlobalTime(4.5), 0.02),)), (SoundUnit, ())):
         scene = Scene(kind, 5.0)
         scene.changes(0.0)
         scene.play(2.0)

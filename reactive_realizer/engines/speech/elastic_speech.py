@@ -1,14 +1,12 @@
-"""The plan unit of a speech that can be stretched (thesis 8.11)."""
+"""The plan unit of a speech without sound (thesis 8.11)."""
 
 from collections.abc import Container, Mapping
 from itertools import pairwise
-from typing import NamedTuple
-
-import numpy as np
 
 from reactive_realizer.bml.vocabulary import InterruptSpeech
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.audio import Caption
+from reactive_realizer.engines.speech.course import Course
 from reactive_realizer.engines.speech.speech_unit import SpeechUnit
 from reactive_realizer.pegboard.time_peg import TimePeg
 from reactive_realizer.planunit.plan_unit import SyncPoint
@@ -16,31 +14,11 @@ from reactive_realizer.planunit.timing import Phase, PhaseKind, Timing
 from reactive_realizer.reactive.graph import Subscription
 
 
-class _Course(NamedTuple):
-    """When the positions of an utterance are read, at some of its points, in order; between them, evenly.
-
-    Attributes:
-        times: s, global.
-        positions: s from the start of the utterance.
-    """
-
-    times: list[float]
-    positions: list[float]
-
-    def position(self, time: float) -> float:
-        """The position at a time, s."""
-        return float(np.interp(time, self.times, self.positions)) + max(0.0, time - self.times[-1])
-
-    def time(self, position: float) -> float:
-        """The time of a position, s."""
-        return float(np.interp(position, self.positions, self.times)) + max(0.0, position - self.positions[-1])
-
-
 class ElasticSpeech(SpeechUnit):
     """An utterance without sound. Its words are spread evenly between its sync points, also when these move."""
 
     elastic = True
-    _cut_course: _Course | None = None
+    _cut_course: Course | None = None
     _subscriptions: tuple[Subscription, ...] = ()
 
     def follow(self) -> None:
@@ -107,10 +85,10 @@ class ElasticSpeech(SpeechUnit):
         )
         return Timing(tuple(offsets), tuple(phases))
 
-    def _course(self) -> _Course:
+    def _course(self) -> Course:
         if self._cut_course is not None:
             return self._cut_course
         positions = dict(zip(self.timing.points, self.timing.offsets, strict=True))
         times = {point.id: point.peg.value for point in self.points}
         known = {sync: time for sync, time in times.items() if time is not None} or {"start": GlobalTime(0.0)}
-        return _Course([*known.values()], [positions[sync] for sync in known])
+        return Course([*known.values()], [positions[sync] for sync in known])

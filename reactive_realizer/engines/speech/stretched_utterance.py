@@ -96,6 +96,10 @@ class StretchedUtterance:
             duration=time(spoken.duration),
             words=tuple(replace(word, start=time(word.start)) for word in spoken.words),
             marks=MappingProxyType({name: time(at) for name, at in spoken.marks.items()}),
+            phonemes=tuple(
+                replace(each, start=time(each.start), duration=time(each.start + each.duration) - time(each.start))
+                for each in spoken.phonemes
+            ),
         )
 
 

@@ -28,7 +28,7 @@ def test_every_lexeme_of_bml_is_defined() -> None:
 
 
 def test_the_basic_emotions_move_eyes_brows_and_mouth_together() -> None:
-    for emotion in ("JOY", "SADNESS", "ANGER", "FEAR", "SURPRISE"):
+    for emotion in ("JOY", "SADNESS", "ANGER", "FEAR", "DISGUST", "SURPRISE"):
         assert {"mouth", "jaw"} & set(map(region, OURS[emotion])), emotion
         assert {"brow", "cheek"} & set(map(region, OURS[emotion])), emotion
         assert "eye" in map(region, OURS[emotion]), emotion

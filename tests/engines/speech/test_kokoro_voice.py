@@ -184,6 +184,13 @@ def test_pieces_of_a_sentence_are_as_loud_as_in_one() -> None:
         assert abs(difference) < 3.0
 
 
+@pytest.mark.parametrize("size", [0, 4 * 256, 4 * 510 * 256 + 3])
+def test_a_style_of_another_size_is_refused(tmp_path: Path, size: int) -> None:
+    (tmp_path / "af_mine.bin").write_bytes(bytes(size))
+    with pytest.raises(UnusableNetwork, match="af_mine"):
+        read_styles([tmp_path])
+
+
 def test_a_file_of_the_user_that_is_no_network_and_altered_packages_are_refused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

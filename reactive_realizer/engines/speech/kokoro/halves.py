@@ -34,9 +34,9 @@ def halves(weights: bytes) -> tuple[bytes, bytes]:
     """
     model = read_network(weights)
     made = {value for node in model.graph.node for value in node.output}
-    if missing := {DURATIONS, *FEATURES} - made:
-        raise UnusableNetwork(f"its network has no value {', '.join(sorted(missing))}")
     given = {each.name: each for each in model.graph.input}
+    if missing := ({DURATIONS, *FEATURES} - made) | ({"tokens", "style", "speed"} - given.keys()):
+        raise UnusableNetwork(f"its network has no value {', '.join(sorted(missing))}")
     between = {name: make_tensor_value_info(name, TensorProto.FLOAT, shape) for name, shape in FEATURES.items()}
     durations = make_tensor_value_info(DURATIONS, TensorProto.FLOAT, None)
     first = part_of(model, list(given.values()), [durations, *between.values()])

@@ -5,6 +5,7 @@ kokoro-v1.0.int8.onnx, which four packages on PyPI contain in parts.
 """
 
 import hashlib
+import math
 from collections.abc import Mapping, Sequence
 from importlib import resources
 from pathlib import Path
@@ -30,6 +31,7 @@ _A, _WARMING = 43, 20
 
 Style = Floats
 """Of a voice: (510, 256), a vector for each number of tokens."""
+_STYLE_SHAPE = (510, 256)
 
 
 class KokoroModel(SpeakingNetwork):
@@ -83,9 +85,20 @@ def _gain(audio: Floats, energy: Floats) -> float:
 
 
 def read_styles(folders: Sequence[Path]) -> dict[str, Style]:
-    """The styles in folders by the names of their files; those of later folders take precedence."""
+    """The styles in folders by the names of their files; those of later folders take precedence.
+
+    Raises:
+        UnusableNetwork: a file does not have the size of a style.
+    """
     files = sorted(file for folder in folders for file in folder.glob("*.bin"))
-    return {file.stem: np.fromfile(file, np.float32).reshape(-1, 256) for file in files}
+    return {file.stem: _read_style(file) for file in files}
+
+
+def _read_style(file: Path) -> Style:
+    numbers = np.fromfile(file, np.float32)
+    if numbers.size != math.prod(_STYLE_SHAPE) or file.stat().st_size != numbers.nbytes:
+        raise UnusableNetwork(f"{file.name} is not a style of 510 x 256 floats")
+    return numbers.reshape(_STYLE_SHAPE)
 
 
 def _own_weights(folder: Path | None) -> bytes | None:
