@@ -23,6 +23,7 @@ settings.load_profile("same")
 
 SHARED = Path(__file__).resolve().parents[2] / "shared"
 WITHOUT_BROWSER = os.environ.get("BROWSER") == "none"
+WITHOUT_PIPER = "REACTIVE_REALIZER_PIPER" not in os.environ
 
 
 def pytest_report_header() -> list[str]:
@@ -31,6 +32,8 @@ def pytest_report_header() -> list[str]:
         lines.append("BROWSER=none: the browser tests are left out")
     if not SHARED.is_dir():
         lines.append("no ../shared: tests that read files of other projects are left out; our own files test the same")
+    if WITHOUT_PIPER:
+        lines.append("no REACTIVE_REALIZER_PIPER: a test of its voice is left out; networks of our own test the same")
     return lines
 
 
@@ -47,7 +50,8 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 def _is_left_out(item: pytest.Item) -> bool:
     if WITHOUT_BROWSER and item.get_closest_marker("browser"):
         return True
-    return not SHARED.is_dir() and "shared" in getattr(item, "fixturenames", ())
+    needed = getattr(item, "fixturenames", ())
+    return (not SHARED.is_dir() and "shared" in needed) or (WITHOUT_PIPER and "piper_voice_of_user" in needed)
 
 
 @pytest.fixture(scope="session")

@@ -279,14 +279,17 @@ async def test_the_error_without_the_packages_says_what_to_install(monkeypatch: 
         await PiperVoice().start()
 
 
-@pytest.mark.piper
-@pytest.mark.skipif(PLACE not in os.environ, reason=f"{PLACE} names no voice")
-async def test_a_real_voice_speaks_with_the_times_that_are_heard() -> None:
+@pytest.fixture
+async def piper_voice_of_user() -> AsyncIterator[PiperVoice]:
+    """A real voice, of the files that the environment names."""
     voice = PiperVoice()
-    try:
-        spoken = await completed(voice.synthesize("Stop. Papa stops.", (), None))
-    finally:
-        await voice.close()
+    yield voice
+    await voice.close()
+
+
+@pytest.mark.piper
+async def test_a_real_voice_speaks_with_the_times_that_are_heard(piper_voice_of_user: PiperVoice) -> None:
+    spoken = await completed(piper_voice_of_user.synthesize("Stop. Papa stops.", (), None))
     level = loudness(spoken)
     for word in spoken.words:
         assert max(level[round(word.start * 100) :][:30]) > 0.3, word
