@@ -156,11 +156,17 @@ async def test_a_smile_has_half_its_mouth_during_the_whole_speech_and_never_jump
 @pytest.mark.speech
 async def test_killing_the_speech_worker_drops_only_the_speech() -> None:
     async with open_pilot(SceneOptions()) as pilot:
-        pilot.block("b", '<speech id="s"><text>Never heard.</text></speech><head id="h" lexeme="NOD"/>')
         voice = pilot.scene.tts
         assert isinstance(voice, EspeakVoice)
-        assert voice.worker.process
-        os.kill(voice.worker.process.pid, signal.SIGKILL)
+        process = voice.worker.process
+        assert process
+        os.kill(process.pid, signal.SIGSTOP)  # so that the request of the speech is open when it is killed
+        pilot.patient = False
+        pilot.block("b", '<speech id="s"><text>Never heard.</text></speech><head id="h" lexeme="NOD"/>')
+        while not process.busy:
+            await pilot.tick()
+        os.kill(process.pid, signal.SIGKILL)
+        pilot.patient = True
         await pilot.advance(2)
         assert pilot.feedback.warnings == [("b:s", "CANNOT_CREATE_BEHAVIOR")]
         assert pilot.feedback.reached("b:h:end")
