@@ -88,7 +88,7 @@ class Speech(Behavior):
 
     @property
     def open_points(self) -> bool:
-        """Whether it may have more sync points: words, whose number depends on the voice, or marks of SSML."""
+        """Whether the speech may have further sync points: its words, which only the voice counts, or marks in SSML."""
         return WORDS in self.extensions or any(each.behavior is not None for each in self.descriptions)
 
 

@@ -1,4 +1,4 @@
-"""What the elements of SSML say of their content."""
+"""Reads elements of SSML as markup of the text inside them."""
 
 from collections.abc import Callable, Iterator, Mapping
 from functools import partial
@@ -50,12 +50,12 @@ _FACTORS: Final[Mapping[str, tuple[MarkupKind, Callable[[str], float | None]]]] 
 
 
 def is_ssml(tree: Tree) -> bool:
-    """Whether an element is in the namespace of SSML, or in none."""
+    """Returns whether an element has the namespace of SSML, or none."""
     return namespace_of(tree) in {"", SSML}
 
 
 def properties_of(tree: Tree, source: BlockSource, notes: list[Fault]) -> Iterator[Markup]:
-    """What an element says of its content, whose place is not given.
+    """Yields the markup of the text inside an element, without its place in the text.
 
     Args:
         tree: the element.

@@ -29,7 +29,7 @@ _SEPARATE: Final = frozenset({"p", "s"})
 
 
 class MarkedUpText(NamedTuple):
-    """What SSML says is spoken.
+    """The text of an SSML document, with its marks and markup.
 
     Attributes:
         text: runs of white space reduced to single spaces.
@@ -74,7 +74,7 @@ class _Reading:
         self._replacing = 0  # characters that are spoken instead of others
 
     def result(self) -> MarkedUpText:
-        """What was read."""
+        """Returns the text that has been read, with its marks and markup."""
         text = self._text.rstrip()
         marks = tuple(Mark(id=name, char_index=min(at, len(text))) for name, at in self._places.items())
         end = len(text)
