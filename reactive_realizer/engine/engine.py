@@ -1,6 +1,6 @@
 """The interface of a modality (thesis 8.6), and a default implementation."""
 
-from collections.abc import AsyncIterator, Awaitable, Callable, Collection, Mapping
+from collections.abc import AsyncGenerator, Awaitable, Callable, Collection, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Protocol
@@ -33,7 +33,7 @@ class Part:
     last: bool
 
 
-SlowWork = Awaitable[object] | AsyncIterator[Part]
+SlowWork = Awaitable[object] | AsyncGenerator[Part, None]
 """Work outside of the event loop, which gives its result at once or in parts."""
 
 

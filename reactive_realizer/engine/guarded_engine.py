@@ -2,7 +2,7 @@
 
 import logging
 from asyncio import CancelledError
-from collections.abc import AsyncIterator, Awaitable, Callable, Collection
+from collections.abc import AsyncGenerator, Awaitable, Callable, Collection
 from dataclasses import replace
 from typing import Final, TypeVar
 
@@ -86,7 +86,7 @@ class GuardedEngine:
             Exception: as the engine does, or because it returns something else.
         """
         work = _called(lambda: self.engine.prepare(behavior))
-        return None if work is None else expected((Awaitable, AsyncIterator), work)
+        return None if work is None else expected((Awaitable, AsyncGenerator), work)
 
     def extend(self, unit: PlanUnit, prepared: object, now: GlobalTime) -> None:
         """Have a unit take a later result of its slow work."""

@@ -1,7 +1,8 @@
 """The engines of each character, and which engine plays which behavior."""
 
 import logging
-from collections.abc import AsyncIterator, Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import AsyncGenerator, Callable, Collection, Iterable, Mapping, Sequence
+from contextlib import aclosing
 from typing import NamedTuple, TypeVar
 
 from reactive_realizer.bml.behavior import Behavior
@@ -93,28 +94,31 @@ class RoutedBehavior(NamedTuple):
         unit.behavior = self.behavior  # feedback names the behavior, whatever form of it is played
         return unit
 
-    async def _prepare_best(self, work: SlowWork) -> AsyncIterator[Part]:
+    async def _prepare_best(self, work: SlowWork) -> AsyncGenerator[Part, None]:
         begun = False
         try:
-            async for part in _parts(work):
-                begun = True
-                yield Part(Prepared(self.forms, part.result, ()), part.last)
+            async with aclosing(_parts(work)) as parts:
+                async for part in parts:
+                    begun = True
+                    yield Part(Prepared(self.forms, part.result, ()), part.last)
         except RealizerError as problem:
             if begun:
                 raise
             refused = problem.fault
         else:
             return
-        async for part in self._prepare_next(refused):
-            yield part
+        async with aclosing(self._prepare_next(refused)) as parts:
+            async for part in parts:
+                yield part
 
-    async def _prepare_next(self, refused: Fault) -> AsyncIterator[Part]:
+    async def _prepare_next(self, refused: Fault) -> AsyncGenerator[Part, None]:
         following = self._replace(forms=self.forms[1:])
         work = following.prepare()
-        async for part in _parts(_nothing() if work is None else work):
-            result = part.result
-            prepared = result if isinstance(result, Prepared) else Prepared(following.forms, result, ())
-            yield Part(prepared._replace(refused=(refused, *prepared.refused)), part.last)
+        async with aclosing(_parts(_nothing() if work is None else work)) as parts:
+            async for part in parts:
+                result = part.result
+                prepared = result if isinstance(result, Prepared) else Prepared(following.forms, result, ())
+                yield Part(prepared._replace(refused=(refused, *prepared.refused)), part.last)
 
     def _best(self, make: Callable[[Behavior], T], left_out: Callable[[Fault], None]) -> T:
         """What an engine makes of the best form that it does not refuse."""
@@ -132,11 +136,12 @@ class RoutedBehavior(NamedTuple):
             raise RealizerError(WorkFailed(reason=str(failure))) from failure
 
 
-async def _parts(work: SlowWork) -> AsyncIterator[Part]:
+async def _parts(work: SlowWork) -> AsyncGenerator[Part, None]:
     """The results of slow work as parts."""
-    if isinstance(work, AsyncIterator):
-        async for part in work:
-            yield part
+    if isinstance(work, AsyncGenerator):
+        async with aclosing(work):
+            async for part in work:
+                yield part
     else:
         yield Part(await work, last=True)
 

@@ -1,6 +1,6 @@
 """Preparation of a block: the background work of engines, and the units that they make with its results."""
 
-from collections.abc import AsyncIterator, Awaitable, Callable, Container, Iterator, Mapping
+from collections.abc import Callable, Container, Iterator, Mapping
 from functools import partial
 from typing import Protocol
 
@@ -19,8 +19,8 @@ Follower = Callable[[Result, GlobalTime], None]
 class BackgroundWork(Protocol):
     """Does slow work outside of ticks; a result is an input of a later tick."""
 
-    def request(self, name: str, work: Awaitable[object], done: Follower) -> Callable[[], None]:
-        """Start work; ``done`` gets its result and the time, in a later tick.
+    def request(self, name: str, work: SlowWork, done: Follower) -> Callable[[], None]:
+        """Start work; ``done`` gets its result and the time, in a later tick; of work in parts, each one in turn.
 
         Returns:
             A call that cancels the work; ``done`` is not called then.
@@ -41,7 +41,6 @@ class Preparation:
 
     def __init__(self, routed: Mapping[str, RoutedBehavior], background: BackgroundWork, *, kept: bool = False) -> None:
         self._routed = routed
-        self._background = background
         self._kept = kept
         self._results: dict[str, Result] = {}
         self._parted: set[str] = set()
@@ -57,7 +56,8 @@ class Preparation:
             if work is None:
                 self._results[id_] = None
             else:
-                self._request(id_, work)
+                name = f"{each.engine.name} {id_}"
+                self._cancels[id_] = background.request(name, work, partial(self._receive, id_))
 
     @property
     def complete(self) -> bool:
@@ -119,18 +119,15 @@ class Preparation:
         if not self._kept and id_ in self._cancels:
             self._cancels.pop(id_)()
 
-    def _request(self, id_: str, work: SlowWork) -> None:
-        once = _next_part(work) if isinstance(work, AsyncIterator) else work
-        name = f"{self._routed[id_].engine.name} {id_}"
-        self._cancels[id_] = self._background.request(name, once, partial(self._receive, id_, work))
-
-    def _receive(self, id_: str, work: SlowWork, result: Result, now: GlobalTime) -> None:
-        del self._cancels[id_]
+    def _receive(self, id_: str, result: Result, now: GlobalTime) -> None:
         if isinstance(result, Part):
-            if not result.last:
+            if result.last:
+                del self._cancels[id_]
+            else:
                 self._parted.add(id_)
-                self._request(id_, work)
             result = result.result
+        else:
+            del self._cancels[id_]
         first = id_ not in self._results
         self._results[id_] = result
         if not first:
@@ -145,10 +142,3 @@ class Preparation:
 def _result_of(result: Result) -> Result:
     """The result of the slow work for the form that is played."""
     return result.result if isinstance(result, Prepared) else result
-
-
-async def _next_part(parts: AsyncIterator[Part]) -> Part:
-    try:
-        return await anext(parts)
-    except StopAsyncIteration as end:
-        raise EOFError("its slow work ended too early") from end

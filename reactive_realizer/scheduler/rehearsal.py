@@ -1,6 +1,6 @@
 """Rehearsal of a block: which of its behaviors can be played, and with which sync points."""
 
-from collections.abc import AsyncIterator, Callable, Collection, Mapping, Sequence
+from collections.abc import AsyncGenerator, Callable, Collection, Mapping, Sequence
 from contextlib import AbstractAsyncContextManager
 from dataclasses import dataclass
 from itertools import islice
@@ -109,7 +109,7 @@ class _Rehearsing:
 async def _prepared(routed: RoutedBehavior) -> Result:
     try:
         work = routed.prepare()
-        if isinstance(work, AsyncIterator):
+        if isinstance(work, AsyncGenerator):
             return [part async for part in work][-1].result
         return None if work is None else await work
     except Exception as failure:

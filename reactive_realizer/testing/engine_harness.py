@@ -1,7 +1,7 @@
 """A test harness for engines: one character, and calls like those of the scheduler and the realizer."""
 
 import asyncio
-from collections.abc import AsyncIterator
+from collections.abc import AsyncGenerator
 from functools import cache
 from math import inf
 from pathlib import Path
@@ -346,7 +346,7 @@ def _forever() -> PlanUnit:
 
 
 async def _result(work: SlowWork) -> object:
-    if isinstance(work, AsyncIterator):
+    if isinstance(work, AsyncGenerator):
         return [part async for part in work][-1].result
     return await work
 

@@ -1,7 +1,8 @@
 """A unit that fails is dropped, an engine that fails drops its units; everything else goes on."""
 
 import asyncio
-from collections.abc import AsyncIterator, Awaitable
+from collections.abc import AsyncGenerator, AsyncIterator
+from contextlib import asynccontextmanager
 
 import pytest
 
@@ -12,7 +13,7 @@ from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.pose import Layer
 from reactive_realizer.embodiment.world import World
 from reactive_realizer.engine.effects import Play
-from reactive_realizer.engine.engine import DefaultEngine
+from reactive_realizer.engine.engine import DefaultEngine, Part, SlowWork
 from reactive_realizer.limits import Limits
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.plan_unit import PlanUnit
@@ -63,14 +64,17 @@ class FailingEngine(DefaultEngine):
     def __init__(self, name: str) -> None:
         super().__init__(name)
         self.played: list[int] = []
+        self.closed = 0
 
     def supports(self, behavior: Behavior) -> bool:
         return isinstance(behavior, ForeignBehavior) and behavior.namespace == TESTS
 
-    def prepare(self, behavior: Behavior) -> Awaitable[object] | None:
+    def prepare(self, behavior: Behavior) -> SlowWork | None:
         fail = said(behavior, "fail")
         if fail == "prepare":
             raise ValueError("prepare")
+        if parts := said(behavior, "parts"):
+            return self._work_in_parts(int(parts))
         takes = said(behavior, "takes")
         return None if takes is None else self._work(float(takes), fail)
 
@@ -80,6 +84,13 @@ class FailingEngine(DefaultEngine):
         if fail == "work":
             raise ValueError("work")
         return takes
+
+    async def _work_in_parts(self, count: int) -> AsyncGenerator[Part, None]:
+        try:
+            for part in range(count):
+                yield Part(None, last=part == count - 1)
+        finally:
+            self.closed += 1
 
     def plan(self, block: BlockKey, behavior: Behavior, prepared: object) -> FailingUnit:
         if said(behavior, "fail") == "plan":
@@ -97,11 +108,16 @@ class FailingEngine(DefaultEngine):
 
 
 @pytest.fixture
-async def pilot() -> AsyncIterator[RealizerPilot]:
-    """Alice, with two engines of the tests beside her own waits."""
+def failing() -> FailingEngine:
+    return FailingEngine("alice/failing")
+
+
+@asynccontextmanager
+async def opened(failing: FailingEngine) -> AsyncIterator[RealizerPilot]:
+    """Alice, with an engine of the tests beside her own."""
     async with open_scene(SceneOptions(voice="text")) as scene:
         alice = scene.realizer.characters["alice"]
-        engines = (FailingEngine("alice/failing"), *alice.engines)
+        engines = (failing, *alice.engines)
         character = Character("alice", alice.humanoid, engines)
         time = Source(Graph(), "time", GlobalTime(0.0))
         async with Realizer(
@@ -113,6 +129,12 @@ async def pilot() -> AsyncIterator[RealizerPilot]:
 def own(fail: str, id_: str = "x", **attributes: int) -> str:
     more = "".join(f' {name}="{value}"' for name, value in attributes.items())
     return f'<thing xmlns="{TESTS}" id="{id_}" fail="{fail}"{more}/>'
+
+
+@pytest.fixture
+async def pilot(failing: FailingEngine) -> AsyncIterator[RealizerPilot]:
+    async with opened(failing) as pilot:
+        yield pilot
 
 
 WAIT = '<wait id="w" duration="2"/>'
@@ -230,6 +252,35 @@ async def test_background_work_for_a_block_that_is_replaced_is_cancelled(pilot: 
     assert not pilot.realizer.busy
     assert pilot.feedback.progress == ["slow:end", "new:start", "new:end"]
     assert pilot.feedback.status("slow") == "REVOKED"
+
+
+async def test_work_in_parts_is_closed_when_its_last_part_is_made(pilot: RealizerPilot, failing: FailingEngine) -> None:
+    pilot.block("slow", own("", parts=3))
+    await pilot.advance(0.1)
+    assert (failing.closed, pilot.realizer.busy) == (1, False)
+
+
+async def test_work_in_parts_is_closed_when_its_behavior_ends_between_two_of_them(
+    pilot: RealizerPilot, failing: FailingEngine
+) -> None:
+    pilot.block("slow", own("", parts=1_000_000))
+    for number in range(10):
+        await pilot.realizer.step(_tick(number))
+        await asyncio.sleep(0)
+    pilot.block("new", composition="REPLACE")
+    await pilot.realizer.step(_tick(10))
+    await pilot.realizer.step(_tick(11))
+    assert (failing.closed, pilot.realizer.busy) == (1, False)
+
+
+async def test_work_in_parts_is_closed_with_the_session(failing: FailingEngine) -> None:
+    async with opened(failing) as pilot:
+        pilot.block("slow", own("", parts=1_000_000))
+        for number in range(10):
+            await pilot.realizer.step(_tick(number))
+            await asyncio.sleep(0)
+        assert failing.closed == 0
+    assert failing.closed == 1
 
 
 async def test_inputs_of_a_tick_enter_by_time_and_then_in_the_order_in_which_they_were_put(

@@ -1,6 +1,6 @@
 """The voice of a character: texts of speeches become utterances, which are remembered."""
 
-from collections.abc import AsyncIterator
+from collections.abc import AsyncGenerator, AsyncIterator
 from typing import Final, NamedTuple
 
 from reactive_realizer.bml.behaviors import VOICE, Speech
@@ -56,7 +56,7 @@ class Synthesis:
         self._voice = voice
         self._spoken: SizedCache[_Text, Utterance] = SizedCache(_REMEMBERED_BYTES)
 
-    def speak(self, speech: Speech) -> Utterance | AsyncIterator[Part]:
+    def speak(self, speech: Speech) -> Utterance | AsyncGenerator[Part, None]:
         """The utterance of a speech if it is known or made at once; otherwise the slow work that makes it.
 
         Raises:
@@ -97,7 +97,7 @@ def check_words(utterance: Utterance) -> None:
         raise RealizerError(NothingToSay())
 
 
-async def _parts(spoken: AsyncIterator[Utterance]) -> AsyncIterator[Part]:
+async def _parts(spoken: AsyncIterator[Utterance]) -> AsyncGenerator[Part, None]:
     """An utterance as slow work, each time that more of it is made.
 
     Raises:

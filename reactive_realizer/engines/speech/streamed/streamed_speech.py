@@ -1,6 +1,6 @@
 """Speech whose sound a client streams, as an utterance that grows."""
 
-from collections.abc import AsyncIterator, Sequence
+from collections.abc import AsyncGenerator, Sequence
 from dataclasses import replace
 from types import MappingProxyType
 
@@ -36,7 +36,7 @@ class HalfSample(CreationFault):
     stream: str
 
 
-async def spoken_stream(speech: StreamedSpeech, stream: SpeechStream) -> AsyncIterator[Part]:
+async def spoken_stream(speech: StreamedSpeech, stream: SpeechStream) -> AsyncGenerator[Part, None]:
     """A streamed speech as slow work: a `Recording` each time that a piece has arrived.
 
     Raises:
