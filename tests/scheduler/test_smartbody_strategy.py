@@ -12,7 +12,7 @@ from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.names import BML, Location
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.pegboard.time_peg import AnticipatorPeg, TimeCell
-from reactive_realizer.planunit.timing import PhaseKind, timing_at
+from reactive_realizer.planunit.timing import Phase, PhaseKind, Timing, timing_at
 from reactive_realizer.reactive.cell import Source
 from reactive_realizer.reactive.graph import Graph
 from reactive_realizer.scheduler.peg_layout.peg_layout import PegLayout
@@ -156,6 +156,13 @@ def test_phases_between_two_ties_stretch_by_the_same_factor() -> None:
 def test_phases_outside_of_two_ties_stretch_by_the_average_factor() -> None:
     plan = Plan([item("g", BEAT)], tie("g:ready", START, 1.0), tie("g:relax", START, 2.0))
     assert plan.times("g") == pytest.approx([1 - 0.3 * 2, 1.0, 1.4, 2.0, 2.0 + 0.4 * 2])
+
+
+def test_rigid_phases_outside_of_two_ties_keep_their_durations() -> None:
+    phases = Phase(0.5, PhaseKind.RIGID), Phase(1.0), Phase(0.5, PhaseKind.RIGID)
+    loose = Item(item("s", NOD).behavior, Timing(("start", "word1", "word2", "end"), phases))
+    plan = Plan([loose], tie("s:word1", START, 1.0), tie("s:word2", START, 2.2))
+    assert plan.times("s") == pytest.approx([0.5, 1.0, 2.2, 2.7])
 
 
 def test_each_part_between_three_ties_has_its_own_factor_and_phases_outside_have_the_average() -> None:

@@ -123,7 +123,11 @@ def _place(
 
 
 def _durations(phases: Sequence[Phase], stretch: float) -> list[float]:
-    return [max(phase.shortest, phase.duration * stretch) for phase in phases]
+    """Of phases outside of the given points, s; rigid ones keep theirs, such as the end of a stretched speech."""
+    return [
+        each.duration if each.kind is PhaseKind.RIGID else max(each.shortest, each.duration * stretch)
+        for each in phases
+    ]
 
 
 def _average_stretch(offsets: Sequence[float], known: Mapping[int, float]) -> float:
