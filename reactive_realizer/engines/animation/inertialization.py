@@ -123,3 +123,42 @@ class InertializedGoal:
         if rest == 0.0 or not self._left:
             return goal
         return inertialized(goal, self._left, rest)
+
+
+_CHANGE_DURATION = 0.3
+"""Time in which the offset of a parameter that jumps decays, s: a change takes about as long as a movement."""
+
+
+class InertializedChange:
+    """Inertializes jumps of the parameters of a motion; the motion itself, and slower changes, are followed.
+
+    The motion says by which poses it jumped: those of the old and of the new parameters at the same time. A fast motion
+    is therefore never taken for a jump.
+    """
+
+    def __init__(self) -> None:
+        self._last = self._since = GlobalTime(-_CHANGE_DURATION)
+        self._left: Mapping[str, Quat] = {}
+
+    def change(self, before: Mapping[str, Quat], after: Mapping[str, Quat], now: GlobalTime) -> None:
+        """Take note of a change of parameters.
+
+        Args:
+            before: joint -> rotation now, with the old parameters.
+            after: the same, with the new ones.
+            now: s.
+        """
+        ways = {joint: difference(turn, before[joint]) for joint, turn in after.items() if joint in before}
+        if max(map(angle, ways.values()), default=0.0) > _FOLLOWED * (now - self._last):
+            shown = self._offset(before, now)
+            self._since = now
+            self._left = {joint: difference(turn, shown.get(joint, turn)) for joint, turn in after.items()}
+
+    def __call__(self, goal: Mapping[str, Quat], now: GlobalTime) -> Mapping[str, Quat]:
+        """Return the pose to show in a frame, joint -> rotation."""
+        self._last = now
+        return self._offset(goal, now)
+
+    def _offset(self, goal: Mapping[str, Quat], now: GlobalTime) -> Mapping[str, Quat]:
+        rest = 1.0 - minimum_jerk(share(now, self._since, self._since + _CHANGE_DURATION))
+        return inertialized(goal, self._left, rest) if rest > 0.0 and self._left else goal
