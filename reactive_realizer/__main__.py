@@ -19,6 +19,7 @@ _COMMANDS = MappingProxyType(
         "realize": "play BML files and write feedback and frames",
         "check": "check BML files for mistakes",
         "lexicon": "list the available lexemes with their sync points and parameters",
+        "avatar": "say what an avatar file contains",
         "physics": "write the physical model of a character",
         "conformance": "test a realizer over the protocol",
     }

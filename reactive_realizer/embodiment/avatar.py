@@ -3,7 +3,7 @@
 import json
 import math
 import struct
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -13,15 +13,15 @@ from numpy.typing import NDArray
 
 from reactive_realizer.embodiment.body import Skeleton
 from reactive_realizer.embodiment.joints import ROOT
-from reactive_realizer.embodiment.mixamo import JOINTS, alignment
-from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, conjugate, multiply, rotate
-from reactive_realizer.embodiment.vector import ZERO, Vec3, add, length
+from reactive_realizer.embodiment.mixamo import alignment
+from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, angle, between, conjugate, multiply, rotate
+from reactive_realizer.embodiment.rig import Bone, bones_of
+from reactive_realizer.embodiment.vector import ZERO, Vec3, add, length, unit
 from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.file_cache import remembered
 
 _HEADER = struct.Struct("<4sII")
 _CHUNK = struct.Struct("<I4s")
-_MOST_BONES = 1_000
 _LONGEST_SCENE = 16 * 1024 * 1024
 """Size limit of the JSON chunk, bytes. That of a detailed avatar has less than one MiB."""
 
@@ -62,6 +62,7 @@ _NEEDED = (ROOT, "skullbase", "l_shoulder", "l_elbow", "l_wrist", "r_shoulder", 
 # Bones that motions aim or solve limbs with. They need a length to have a direction.
 _FAR_FROM_PARENT = frozenset({"elbow", "wrist", "knee", "ankle", "index2", "index3"})
 _SHORTEST = 1e-3
+_IN_T_POSE = 1e-3  # rad
 
 
 class BadAvatar(Fault):
@@ -73,27 +74,12 @@ class BadAvatar(Fault):
     reason: str
 
 
-@dataclass(frozen=True, slots=True)
-class Bone:
-    """A bone of the avatar's skin at rest.
-
-    Attributes:
-        name: in the file.
-        parent: index of the parent among the skin's bones, -1 for none.
-        translation: from the parent bone, m.
-    """
-
-    name: str
-    parent: int
-    translation: Vec3
-
-
 @dataclass(frozen=True, slots=True, eq=False)
 class Avatar:
-    """A humanoid with Mixamo bone names that rests in a T-pose without rotations.
+    """A humanoid that rests in a T-pose or with lowered arms, whatever the axes of its bones.
 
     Attributes:
-        bones: of its skin, in the order of the skin's joints (glTF `skin.joints`), (B,).
+        bones: its hips and the bones below them, in the order of the skins' joints (glTF `skin.joints`), (B,).
         morphs: names of the weights of its face: its morph targets in the order of the file, then the colors of its
             skin.
         skeleton: in the H-Anim default pose, J joints; bones without an H-Anim joint are left out.
@@ -114,15 +100,15 @@ class Avatar:
         """Read the avatar of a GLB file.
 
         Raises:
-            RealizerError: "bad-avatar": not a GLB file, no skin, missing bones, or bones with a rest rotation.
+            RealizerError: "bad-avatar": not a GLB file, no skin, missing bones, or bones without a usable rest pose.
         """
         scene = read_glb(path)
         try:
-            bones, morphs = tuple(_bones(scene, path.name)), (*_morphs(scene), *SKIN_COLORS)
-        except (LookupError, TypeError, ValueError, AttributeError) as problem:
+            bones, morphs = bones_of(scene), (*_morphs(scene), *SKIN_COLORS)
+        except ValueError as problem:
+            raise RealizerError(BadAvatar(file=path.name, reason=str(problem))) from problem
+        except (LookupError, TypeError, AttributeError) as problem:
             raise RealizerError(BadAvatar(file=path.name, reason=f"unusable skin or mesh ({problem!r})")) from problem
-        if any(_is_in_a_circle(bones, index) for index in range(len(bones))):
-            raise RealizerError(BadAvatar(file=path.name, reason="a bone is its own ancestor"))
         return replace(Avatar.of_bones(bones, morphs, path.name), path=path)
 
     @classmethod
@@ -137,16 +123,21 @@ class Avatar:
         Raises:
             RealizerError: "bad-avatar": a bone is missing, or has no length but needs one.
         """
-        names = tuple(JOINTS[bone.name] for bone in bones if bone.name in JOINTS)
+        indices = [i for i, bone in enumerate(bones) if bone.joint is not None]
+        names = tuple(bone.joint for bone in bones if bone.joint is not None)
         missing = [joint for joint in _NEEDED if joint not in names]
         if missing:
             raise RealizerError(
-                BadAvatar(file=file, reason=f"no bone for {', '.join(missing)} (Mixamo names are expected)")
+                BadAvatar(
+                    file=file,
+                    reason=f"no bone for {', '.join(missing)} (known:  Mixamo, VRM, Unreal, Rigify or H-Anim)",
+                )
             )
-        indices = [i for i, bone in enumerate(bones) if bone.name in JOINTS]
         links = [_link(bones, i) for i in indices]
         parents = tuple(-1 if parent is None else names.index(parent) for parent, _ in links)
-        above = [_alignment_of(parent) for parent, _ in links]
+        raised = _raised(dict(zip(names, (way for _, way in links), strict=True)))
+        turns = {joint: multiply(alignment(joint), _with_arm(raised, joint)) for joint in names}
+        above = [IDENTITY if parent is None else turns[parent] for parent, _ in links]
         offsets = tuple(rotate(turn, way) for turn, (_, way) in zip(above, links, strict=True))
         _check_lengths(dict(zip(names, offsets, strict=True)), file)
         return cls(
@@ -154,13 +145,18 @@ class Avatar:
             tuple(morphs),
             Skeleton(names, parents, offsets),
             np.array(indices),
-            np.array([_sandwich(conjugate(turn), alignment(joint)) for turn, joint in zip(above, names, strict=True)]),
-            np.array([IDENTITY for _ in bones]),
+            np.array(
+                [
+                    _sandwich(conjugate(multiply(turn, bones[i].above)), multiply(turns[joint], bones[i].turn))
+                    for turn, i, joint in zip(above, indices, names, strict=True)
+                ]
+            ),
+            np.array([bone.rotation for bone in bones]),
         )
 
     def rest_position(self, joint: str) -> Vec3 | None:
-        """Return the position of a joint in the T-pose, in the figure's frame, m; None if it has no such joint."""
-        index = next((i for i, bone in enumerate(self.bones) if JOINTS.get(bone.name) == joint), -1)
+        """Return the position of a joint at rest, in the figure's frame, m; None if it has no such joint."""
+        index = next((i for i, bone in enumerate(self.bones) if bone.joint == joint), -1)
         if index < 0:
             return None
         position = ZERO
@@ -172,8 +168,9 @@ class Avatar:
     def bone_rotations(self, rotations: NDArray[np.float64]) -> NDArray[np.float64]:
         """Convert a pose to the avatar's own bones.
 
-        With G the rotations in the figure's axes, a bone is at G_j A_j. Local to its parent bone that is A_p^-1 (G_p^-1
-        G_j) A_j: the local rotation of the pose between two constants.
+        With G the rotations in the figure's axes, W the orientations at rest and A the turns from the rest pose to the
+        default pose, a bone is at G_j A_j W_j. Local to the node q above it, which moves with the joint p, that is
+        (A_p W_q)^-1 (G_p^-1 G_j) (A_j W_j): the local rotation of the pose between two constants.
 
         Args:
             rotations: (J, 4) H-Anim pose, w x y z local to the parent, in the order of the skeleton.
@@ -186,37 +183,8 @@ class Avatar:
         return out
 
 
-def _bones(scene: dict[str, Any], file: str) -> Iterator[Bone]:
-    nodes = scene["nodes"]
-    joints: list[int] = scene["skins"][0]["joints"]
-    if len(joints) > _MOST_BONES:
-        raise RealizerError(BadAvatar(file=file, reason=f"it has more than {_MOST_BONES} bones"))
-    above = {child: i for i, node in enumerate(nodes) for child in node.get("children", ())}
-    for joint in joints:
-        node = nodes[joint]
-        x, y, z = map(float, node.get("translation", ZERO))
-        rotation = node.get("rotation", (0.0, 0.0, 0.0, 1.0))
-        if "matrix" in node or max(map(abs, rotation[:3])) > 1e-4:
-            raise RealizerError(
-                BadAvatar(
-                    file=file, reason=f"the bone {node['name']} has a rotation at rest; only translations are supported"
-                )
-            )
-        parent = above.get(joint)
-        yield Bone(node["name"].removeprefix("mixamorig:"), joints.index(parent) if parent in joints else -1, (x, y, z))
-
-
-def _is_in_a_circle(bones: Sequence[Bone], index: int) -> bool:
-    above = bones[index].parent
-    for _ in bones:
-        if above < 0:
-            return False
-        above = bones[above].parent
-    return True
-
-
 def _morphs(scene: dict[str, Any]) -> tuple[str, ...]:
-    for mesh in scene["meshes"]:
+    for mesh in scene.get("meshes", ()):
         names = mesh.get("extras", {}).get("targetNames")
         if names:
             return tuple(map(str, names))
@@ -224,13 +192,36 @@ def _morphs(scene: dict[str, Any]) -> tuple[str, ...]:
 
 
 def _link(bones: Sequence[Bone], index: int) -> tuple[str | None, Vec3]:
-    """Return the nearest ancestor of a bone that is a joint, and the offset from there in the T-pose."""
+    """Return the nearest ancestor of a bone that is a joint, and the offset from there at rest."""
     way = bones[index].translation
     index = bones[index].parent
-    while index >= 0 and bones[index].name not in JOINTS:
+    while index >= 0 and bones[index].joint is None:
         way = add(bones[index].translation, way)
         index = bones[index].parent
-    return (JOINTS[bones[index].name] if index >= 0 else None), way
+    return (bones[index].joint if index >= 0 else None), way
+
+
+def _raised(ways: Mapping[str, Vec3]) -> dict[str, Quat]:
+    """Return the turns that raise the arms to the T-pose, for upper arms and forearms.
+
+    Args:
+        ways: joint -> offset from the joint above it, at rest.
+    """
+    turns = {}
+    for side, outward in (("l", (1.0, 0.0, 0.0)), ("r", (-1.0, 0.0, 0.0))):
+        for joint, end in ((f"{side}_shoulder", f"{side}_elbow"), (f"{side}_elbow", f"{side}_wrist")):
+            way = ways[end]
+            if math.isfinite(length(way)) and length(way) > _SHORTEST:
+                turn = between(unit(way), outward)
+                turns[joint] = turn if angle(turn) > _IN_T_POSE else IDENTITY
+    return turns
+
+
+def _with_arm(raised: Mapping[str, Quat], joint: str) -> Quat:
+    """Return the turn of a joint to the T-pose. A hand is straight with its forearm."""
+    if joint in raised or alignment(joint) == IDENTITY:
+        return raised.get(joint, IDENTITY)
+    return raised.get(f"{joint[0]}_elbow", IDENTITY)
 
 
 def _check_lengths(offsets: Mapping[str, Vec3], file: str) -> None:
@@ -238,10 +229,6 @@ def _check_lengths(offsets: Mapping[str, Vec3], file: str) -> None:
         far = length(offset)
         if not math.isfinite(far) or (joint[2:] in _FAR_FROM_PARENT and far < _SHORTEST):
             raise RealizerError(BadAvatar(file=file, reason=f"{joint} is {far:g} m from the joint above"))
-
-
-def _alignment_of(joint: str | None) -> Quat:
-    return IDENTITY if joint is None else alignment(joint)
 
 
 def _sandwich(before: Quat, after: Quat) -> NDArray[np.float64]:

@@ -48,7 +48,7 @@ async def avatar(request: web.Request) -> web.StreamResponse:
     """The file of an avatar. No other assets are served."""
     name = "avatars/" + request.match_info["name"]
     path = await asyncio.to_thread(request.app[LIVE].scene.assets, name)
-    if path.suffix != ".glb":
+    if path.suffix not in (".glb", ".vrm"):
         raise RealizerError(NoAsset(name=name))
     return web.FileResponse(path, headers={"Content-Type": "model/gltf-binary", **_CHECKED})
 

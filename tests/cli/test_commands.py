@@ -10,7 +10,9 @@ from reactive_realizer.__main__ import main
 from reactive_realizer.testing.pilot import block
 
 
-@pytest.mark.parametrize("command", ["serve", "demo", "realize", "check", "lexicon", "physics", "conformance"])
+@pytest.mark.parametrize(
+    "command", ["serve", "demo", "realize", "check", "lexicon", "avatar", "physics", "conformance"]
+)
 def test_every_command_has_help_with_an_example(command: str, capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as ended:
         main([command, "--help"])

@@ -1,6 +1,7 @@
 import {
   Box3,
   type Material,
+  Matrix4,
   Mesh,
   MeshLambertMaterial,
   MeshStandardMaterial,
@@ -32,6 +33,9 @@ export class Avatar {
   /** The topmost bone, which carries the root's position. */
   private readonly root: Object3D | undefined;
 
+  /** From the world to the nodes above the root, which may be scaled and turned. */
+  private readonly fromWorld = new Matrix4();
+
   /** The bone of the head, and the height of the crown above it, m. */
   private readonly head: Object3D | undefined;
   private readonly crown: number;
@@ -47,6 +51,7 @@ export class Avatar {
     private readonly skin: Skin,
   ) {
     this.root = bones.find((bone) => !bones.includes(bone?.parent ?? undefined));
+    if (this.root?.parent) this.fromWorld.copy(this.root.parent.matrixWorld).invert();
     this.root?.getWorldQuaternion(this.unturned).invert();
     this.head = bones.find((bone) => bone !== undefined && HEAD.test(bone.name));
     this.crown = new Box3().setFromObject(object).max.y - worldPosition(this.head ?? object)[1];
@@ -55,6 +60,7 @@ export class Avatar {
   /** Loads the character's model; rejects when it cannot be loaded. */
   static async load(character: Character, quality: Quality): Promise<Avatar> {
     const { scene } = await new GLTFLoader().loadAsync(character.avatar);
+    scene.updateMatrixWorld(true);
     const meshes = meshesOf(scene);
     for (const mesh of meshes) prepare(mesh, quality);
     const bones = character.joints.map((name) => scene.getObjectByName(PropertyBinding.sanitizeNodeName(name)));
@@ -64,7 +70,7 @@ export class Avatar {
 
   /** Applies a pose: the root's position, rotations to the bones, weights to the morphs and to the colors of the skin. */
   apply(pose: Pose): void {
-    this.root?.position.fromArray(pose.root);
+    this.root?.position.fromArray(pose.root).applyMatrix4(this.fromWorld);
     for (const [i, bone] of this.bones.entries()) bone?.quaternion.fromArray(pose.rotations, 4 * i);
     for (const [i, slots] of this.slots.entries()) {
       for (const slot of slots) slot.influences[slot.index] = pose.weights[i] ?? 0;
