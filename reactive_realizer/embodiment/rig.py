@@ -1,7 +1,7 @@
 """Finds the humanoid in the nodes of a glTF scene: which bone is which joint, and where bones are at rest."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -45,8 +45,8 @@ class Bone:
 def bones_of(scene: Mapping[str, Any]) -> list[Bone]:
     """Return the bones of the humanoid in a scene: its hips, and the bones of all skins below them.
 
-    Joints are found by the VRM humanoid of the file, if it has one, otherwise by the names of bones. A figure that
-    faces another way than +z is turned by quarters.
+    Joints are found by the VRM humanoid of the file, if it has one; those that it does not name, by the names of bones.
+    A figure that faces another way than +z is turned by quarters.
 
     Raises:
         ValueError: the figure cannot be used; the message says why.
@@ -64,7 +64,8 @@ class _Rig:
         skinned = dict.fromkeys(joint for skin in scene["skins"] for joint in skin["joints"])
         if sum(len(skin["joints"]) for skin in scene["skins"][:1]) > _MOST_BONES or len(skinned) > _MOST_BONES:
             raise ValueError(f"it has more than {_MOST_BONES} bones")
-        self._joints = _vrm_joints(scene) or self._named(skinned)
+        humanoid = _vrm_joints(scene)
+        self._joints = {**self._named(node for node in skinned if node not in humanoid.values()), **humanoid}
         self._candidates = tuple(dict.fromkeys((*skinned, *self._joints.values())))
         self._places = {node: self._place(node) for each in self._candidates for node in self._line(each)}
 
@@ -91,7 +92,7 @@ class _Rig:
             self._rotation(_local(self._nodes[node]), node),
         )
 
-    def _named(self, nodes: Mapping[int, None]) -> dict[str, int]:
+    def _named(self, nodes: Iterable[int]) -> dict[str, int]:
         found: dict[str, int] = {}
         for node in nodes:
             joint = joint_named(self._name(node))

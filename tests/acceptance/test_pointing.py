@@ -219,7 +219,8 @@ async def test_the_other_hand_points_at_a_target_out_of_reach_of_the_nearer_one(
 async def test_missing_index_fingers_are_reported(tmp_path: Path) -> None:
     avatar = (PACKAGE_ASSETS / "avatars" / "female.glb").read_bytes()
     (tmp_path / "avatars").mkdir()
-    (tmp_path / "avatars" / "female.glb").write_bytes(avatar.replace(b"HandIndex", b"HandOther"))
+    lacking = avatar.replace(b"HandIndex", b"HandOther").replace(b"IndexProximal", b"OtherProximal")
+    (tmp_path / "avatars" / "female.glb").write_bytes(lacking)
     async with open_pilot(SceneOptions(voice="text", assets=(tmp_path,))) as pilot:
         pilot.block("b", '<pointing id="p" target="bluebox"/><gesture id="g" lexeme="BEAT"/>')
         await pilot.advance(3)

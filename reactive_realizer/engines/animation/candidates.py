@@ -11,6 +11,9 @@ from reactive_realizer.planunit.parameter import Range
 _SHORT = 0.6
 """A motion looks hurried below this share of its preferred duration."""
 
+_ALIKE = 1.01
+"""Factor between durations that makes no difference, such as between those of two arms of about the same length."""
+
 
 @dataclass(frozen=True, slots=True)
 class Candidate:
@@ -63,7 +66,8 @@ class Candidates:
 def select(candidates: Iterable[Candidate], taken: frozenset[str], time: float | None) -> Candidate:
     """Select the candidate to play: the first free one that has enough time, or else the shortest free one.
 
-    Thesis 8.17 names both as uses of a binding with several motions for one behavior.
+    Of those that are about as short, the first is selected. Thesis 8.17 names both as uses of a binding with several
+    motions for one behavior.
 
     Args:
         candidates: one or more, best first.
@@ -77,7 +81,10 @@ def select(candidates: Iterable[Candidate], taken: frozenset[str], time: float |
         if not candidate.motion.resources & taken and (time is None or not _hurried(candidate.motion, time)):
             return candidate
     free = [candidate for candidate in tried if not candidate.motion.resources & taken]
-    return min(free, key=lambda candidate: candidate.motion.preferred_duration) if free else tried[0]
+    if not free:
+        return tried[0]
+    enough = _ALIKE * min(candidate.motion.preferred_duration for candidate in free)
+    return next(candidate for candidate in free if candidate.motion.preferred_duration <= enough)
 
 
 def _hurried(motion: MotionUnit, time: float) -> bool:

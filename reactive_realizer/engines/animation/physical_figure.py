@@ -105,10 +105,13 @@ class PhysicalFigure:
     ) -> tuple[frozenset[str], frozenset[str]]:
         """Return the joints that are physical from now on, and those that motions claim.
 
-        In the first frame none is physical, so that the simulation learns the velocities of the figure.
+        In the first frame none is physical, so that the simulation learns the velocities of the figure. A figure that
+        still returns from the ground is not simulated: it could not keep its balance there.
         """
         if not controllers:
             self._simulation, self._lies = None, False
+        elif self._simulation is None and ROOT in self._returns:
+            pass
         elif self._simulation is None:
             steps = self._humanoid.simulation_steps
             substep = SUBSTEP if steps is None else 1.0 / (steps * RATE)

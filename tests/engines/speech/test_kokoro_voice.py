@@ -139,7 +139,7 @@ async def test_a_text_begins_before_a_longer_one_is_made(voice: KokoroVoice) -> 
             made.append(part.text)  # noqa: PERF401 - in turns with the other text
 
     await asyncio.gather(say("one two three four five six seven eight nine ten eleven twelve"), say("Yes."))
-    assert "Yes." in made[:2]
+    assert made[-1] != "Yes."
     assert len(made) > 3
 
 
