@@ -12,7 +12,7 @@ from reactive_realizer.embodiment.body import Body, Skeleton
 from reactive_realizer.embodiment.joints import ROOT, SIDES
 from reactive_realizer.embodiment.quaternion import Quat, conjugate, difference, multiply, rotate, rotation_vector
 from reactive_realizer.embodiment.vector import Vec3, add, scale, subtract
-from reactive_realizer.physics.controllers.controller import Controller
+from reactive_realizer.physics.controllers.controller import PhysicalController
 from reactive_realizer.physics.joint_limits import LimitSpring
 from reactive_realizer.physics.links import Links
 from reactive_realizer.physics.mjcf import TO_WORLD, inertia, mjcf
@@ -174,7 +174,7 @@ class Simulation:
     def advance(
         self,
         body: Body,
-        controllers: Sequence[Controller] = (),
+        controllers: Sequence[PhysicalController] = (),
         steps: int = 1,
         torques: NDArray[np.float64] | None = None,
     ) -> None:
@@ -214,7 +214,9 @@ class Simulation:
         for push in self._pushes:
             data.xfrc_applied[push.body, :3] += min(1.0, (push.until - data.time) / duration) * push.force
 
-    def _exert(self, body: Body, controllers: Sequence[Controller], torques: NDArray[np.float64] | None) -> None:
+    def _exert(
+        self, body: Body, controllers: Sequence[PhysicalController], torques: NDArray[np.float64] | None
+    ) -> None:
         """Set the torques that the present state causes, and add its forces, for a period."""
         model, data, own = self.model, self.data, self._degrees
         self.touching = frozenset(data.contact.geom.ravel().tolist())
@@ -347,7 +349,7 @@ class Simulation:
     def pull(
         self, joint: str, wanted: Quat, stiffness: Vec3, dampers: Vec3, torques: list[float], damping: list[float]
     ) -> None:
-        """Add springs and dampers about the axes of a joint, which are stable however stiff (`Controller.act`).
+        """Add springs and dampers about the axes of a joint, which are stable however stiff (`PhysicalController.act`).
 
         Args:
             joint: of a segment, but not the root.

@@ -39,7 +39,7 @@ class ContradictoryTie(SchedulingFault):
     gap: float
 
 
-class OuterTie(SchedulingFault):
+class OuterTieDropped(SchedulingFault):
     """A constraint between two times that are both set outside the block."""
 
     code = "outer-tie"

@@ -32,7 +32,7 @@ BlockName = tuple[str, str]
 
 
 @dataclass(frozen=True, slots=True)
-class Entry:
+class LogEntry:
     """A feedback message with its number.
 
     Attributes:
@@ -67,12 +67,12 @@ class FeedbackLog:
 
     def __init__(self, session: str, epoch: float, limits: Limits) -> None:
         self.seq = 0
-        self.subscribers: Subscribers[Entry] = Subscribers()
+        self.subscribers: Subscribers[LogEntry] = Subscribers()
         self.ticks: Subscribers[GlobalTime] = Subscribers()
         self._session = session
         self._epoch = epoch
         self._limits = limits
-        self._kept: deque[Entry] = deque()
+        self._kept: deque[LogEntry] = deque()
         self._bytes = 0
         self._left = _AT_ONCE
         self._waiting: deque[Report | GlobalTime] = deque()
@@ -141,11 +141,11 @@ class FeedbackLog:
         }
         about = report.message
         block = None if isinstance(about, WarningFeedback) else (about.character, about.block)
-        entry = Entry(self.seq, encode(message), report.time, block, isinstance(about, PredictionFeedback))
+        entry = LogEntry(self.seq, encode(message), report.time, block, isinstance(about, PredictionFeedback))
         self._keep(entry)
         self.subscribers.publish(entry)
 
-    def after(self, seq: int) -> list[Entry]:
+    def after(self, seq: int) -> list[LogEntry]:
         """The messages after a number that are still kept."""
         return [entry for entry in self._kept if entry.seq > seq]
 
@@ -159,7 +159,7 @@ class FeedbackLog:
         """Number of the last message that is no longer kept; 0 if all are."""
         return self._kept[0].seq - 1 if self._kept else self.seq
 
-    def _keep(self, entry: Entry) -> None:
+    def _keep(self, entry: LogEntry) -> None:
         self._kept.append(entry)
         self._bytes += len(entry.text)
         most, most_bytes = self._limits.remembered_feedback, self._limits.remembered_feedback_bytes

@@ -4,10 +4,10 @@ from collections.abc import Callable
 from contextlib import ExitStack
 
 from reactive_realizer.clock.units import GlobalTime, is_due
-from reactive_realizer.server.feedback_log import BlockName, Entry, FeedbackLog
+from reactive_realizer.server.feedback_log import BlockName, FeedbackLog, LogEntry
 
 
-def follow_feedback(log: FeedbackLog, rate: float | None, send: Callable[[Entry], None], stack: ExitStack) -> None:
+def follow_feedback(log: FeedbackLog, rate: float | None, send: Callable[[LogEntry], None], stack: ExitStack) -> None:
     """Send the messages of a log to a client until ``stack`` closes, with all predictions or at a rate (1/s)."""
     thinned = None if rate is None else PredictionRate(rate, send)
     stack.callback(log.subscribers.subscribe(send if thinned is None else thinned.take))
@@ -25,13 +25,13 @@ class PredictionRate:
         send: passes a message to the client.
     """
 
-    def __init__(self, rate: float, send: Callable[[Entry], object]) -> None:
+    def __init__(self, rate: float, send: Callable[[LogEntry], object]) -> None:
         self._interval = 1.0 / rate if rate else None
         self._send = send
         self._next: dict[BlockName, GlobalTime] = {}
-        self._waiting: dict[BlockName, Entry] = {}
+        self._waiting: dict[BlockName, LogEntry] = {}
 
-    def take(self, entry: Entry) -> None:
+    def take(self, entry: LogEntry) -> None:
         """Take the next message."""
         if entry.block is None:
             self._send(entry)
@@ -51,7 +51,7 @@ class PredictionRate:
                 self._pass(block, entry, now)
         self._next = {block: time for block, time in self._next.items() if not is_due(time, now)}
 
-    def _pass(self, block: BlockName, entry: Entry, now: GlobalTime) -> None:
+    def _pass(self, block: BlockName, entry: LogEntry, now: GlobalTime) -> None:
         if self._interval is not None:
             self._next[block] = GlobalTime(now + self._interval)
         self._send(entry)

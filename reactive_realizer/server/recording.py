@@ -128,7 +128,7 @@ _LINES: Final = Schema(json.loads(Path(__file__).with_name("recording.json").rea
 
 
 @dataclass(frozen=True, slots=True)
-class Recording:
+class SessionRecording:
     """A recorded session.
 
     Attributes:
@@ -154,7 +154,7 @@ class Recording:
         return SceneOptions(**{**self.scene, "human": human, "assets": tuple(map(Path, self.scene["assets"]))})
 
 
-def read_recording(path: Path) -> Recording:
+def read_recording(path: Path) -> SessionRecording:
     """Reads a recorded session from a file, and from the parts that follow it.
 
     Lines after the last complete tick are ignored: the recording ended in the middle of a tick.
@@ -167,7 +167,9 @@ def read_recording(path: Path) -> Recording:
     while read < reader.parts:
         read += 1
         _read_part(reader, path, read)
-    return Recording(reader.header["version"], reader.header["started"], reader.header["scene"], tuple(reader.ticks))
+    return SessionRecording(
+        reader.header["version"], reader.header["started"], reader.header["scene"], tuple(reader.ticks)
+    )
 
 
 def _read_part(reader: "_Reader", path: Path, number: int) -> None:

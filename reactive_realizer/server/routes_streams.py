@@ -8,7 +8,7 @@ from contextlib import ExitStack
 from aiohttp import web
 
 from reactive_realizer.server.client_limits import ClientQueue
-from reactive_realizer.server.feedback_log import Entry, FeedbackLog
+from reactive_realizer.server.feedback_log import FeedbackLog, LogEntry
 from reactive_realizer.server.keys import CLIENTS, INTAKE, LIVE, SHUTDOWN
 from reactive_realizer.server.prediction_rate import follow_feedback
 from reactive_realizer.server.socket_client import SocketClient
@@ -112,7 +112,7 @@ def _missed(log: FeedbackLog, after: int | None) -> list[str]:
     return [*([] if gap is None else [f"event: gone\ndata: {gap}\n\n"]), *map(_event, log.after(after))]
 
 
-def _event(entry: Entry) -> str:
+def _event(entry: LogEntry) -> str:
     return f"id: {entry.seq}\ndata: {entry.text}\n\n"
 
 

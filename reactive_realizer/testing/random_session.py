@@ -105,7 +105,7 @@ class Block:
 
 
 @dataclass(frozen=True, slots=True)
-class Prediction:
+class RandomPrediction:
     """A prediction of a point of the anticipator ``t``, s from now; None withdraws it."""
 
     sync: str
@@ -117,7 +117,7 @@ class Prediction:
 
 
 @dataclass(frozen=True, slots=True)
-class Event:
+class RandomEvent:
     """An event of an anticipator of the scene."""
 
     anticipator: str
@@ -130,21 +130,21 @@ class Event:
 
 
 _EVENTS = (
-    Event("spacebar", "press"),
-    Event("spacebar", "release"),
-    Event("events", "asked"),
-    Event("metronome", "tempo", 40),
-    Event("metronome", "tempo", 150),
+    RandomEvent("spacebar", "press"),
+    RandomEvent("spacebar", "release"),
+    RandomEvent("events", "asked"),
+    RandomEvent("metronome", "tempo", 40),
+    RandomEvent("metronome", "tempo", 150),
 )
 
 
 @dataclass(frozen=True, slots=True)
-class Step:
+class SessionStep:
     """An input after a pause, s, and before a tick that leaves out some others because it is late."""
 
     pause: float
     left_out: int
-    input: Block | Prediction | Event
+    input: Block | RandomPrediction | RandomEvent
 
 
 @dataclass(frozen=True, slots=True)
@@ -155,7 +155,7 @@ class Session:
         planning: work of planning in a tick, as in the limits; with little, blocks are planned over many ticks.
     """
 
-    steps: tuple[Step, ...]
+    steps: tuple[SessionStep, ...]
     planning: int = _PLANNING
 
     @property
@@ -196,18 +196,20 @@ class _Mix:
 def random_session(random: Random, blocks: int = 25) -> Session:
     """A session with a number of blocks, and with predictions and events between them."""
     mix = _Mix(random)
-    steps: list[Step] = []
+    steps: list[SessionStep] = []
     kinds: list[dict[str, str]] = []
     for _ in range(blocks):
         while random.random() < mix.moving:
             predicts = random.random() < 0.75
             drawn = (
-                Prediction(random.choice(_REMOTE), random.choice(mix.ahead)) if predicts else random.choice(mix.events)
+                RandomPrediction(random.choice(_REMOTE), random.choice(mix.ahead))
+                if predicts
+                else random.choice(mix.events)
             )
-            steps.append(Step(random.choice(mix.pauses), random.choice(mix.left_out), drawn))
+            steps.append(SessionStep(random.choice(mix.pauses), random.choice(mix.left_out), drawn))
         kinds.append(dict(zip(_IDS, random.choices(mix.kinds, k=random.choice(_SIZES)), strict=False)))
         steps.append(
-            Step(random.choice(mix.pauses), random.choice(mix.left_out), _BlockDraw(random, mix, kinds).block())
+            SessionStep(random.choice(mix.pauses), random.choice(mix.left_out), _BlockDraw(random, mix, kinds).block())
         )
     return Session(tuple(steps), mix.planning)
 

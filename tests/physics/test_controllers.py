@@ -10,7 +10,7 @@ from reactive_realizer.embodiment.quaternion import angle, difference, from_rota
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.physics.controllers.catalog import CONTROLLERS, new_controller
 from reactive_realizer.physics.controllers.compound import CompoundController
-from reactive_realizer.physics.controllers.controller import Controller, RagdollController
+from reactive_realizer.physics.controllers.controller import PhysicalController, RagdollController
 from reactive_realizer.physics.simulation import Exploded, Simulation
 
 from .skeletons import without
@@ -18,7 +18,7 @@ from .skeletons import without
 ARM = ("l_shoulder", "l_elbow", "l_wrist")
 
 
-def simulated(skeleton: Skeleton, controller: Controller, goal: Body, seconds: float) -> Simulation:
+def simulated(skeleton: Skeleton, controller: PhysicalController, goal: Body, seconds: float) -> Simulation:
     """A simulation in which a controller has acted on its joints for some time."""
     simulation = Simulation(skeleton)
     simulation.place(Body(skeleton))

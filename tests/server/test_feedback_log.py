@@ -11,7 +11,7 @@ from reactive_realizer.errors import WarningType
 from reactive_realizer.feedback.feedback_manager import Report
 from reactive_realizer.feedback.messages import BehaviorPrediction, Feedback, PredictionFeedback, WarningFeedback
 from reactive_realizer.limits import Limits
-from reactive_realizer.server.feedback_log import Entry, FeedbackLog
+from reactive_realizer.server.feedback_log import FeedbackLog, LogEntry
 from reactive_realizer.testing.pilot import block
 
 TICK = GlobalTime(1.0)
@@ -37,7 +37,7 @@ def opened() -> tuple[FeedbackLog, list[str]]:
     """A log, and what it has published: the kinds of messages, and ``tick``."""
     log, told = FeedbackLog("session", 0.0, Limits()), list[str]()
 
-    def take(entry: Entry) -> None:
+    def take(entry: LogEntry) -> None:
         told.append("prediction" if entry.predicts else "warning")
 
     log.subscribers.subscribe(take)
@@ -103,7 +103,7 @@ async def test_many_messages_of_a_tick_are_written_in_turns() -> None:
 async def test_a_listener_that_fails_does_not_end_the_feedback() -> None:
     log, told = opened()
 
-    def fail(entry: Entry) -> None:
+    def fail(entry: LogEntry) -> None:
         raise RuntimeError
 
     log.subscribers.subscribe(fail)

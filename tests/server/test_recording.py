@@ -32,7 +32,7 @@ from reactive_realizer.realizer.inputs import (
 )
 from reactive_realizer.server import recording as recording_module
 from reactive_realizer.server.recorder import Recorder
-from reactive_realizer.server.recording import Recording, read_recording
+from reactive_realizer.server.recording import SessionRecording, read_recording
 from reactive_realizer.server.recording_parts import RecordingParts
 
 INPUTS: list[Input] = [
@@ -93,8 +93,8 @@ def record(session: list[TickInputs], write: Callable[[str], None], options: Sce
 
 
 @pytest.fixture
-def read(tmp_path: Path) -> Callable[[str | bytes], Recording]:
-    def read(text: str | bytes) -> Recording:
+def read(tmp_path: Path) -> Callable[[str | bytes], SessionRecording]:
+    def read(text: str | bytes) -> SessionRecording:
         file = tmp_path / "session.jsonl"
         file.write_bytes(text if isinstance(text, bytes) else text.encode())
         return read_recording(file)
@@ -102,7 +102,7 @@ def read(tmp_path: Path) -> Callable[[str | bytes], Recording]:
     return read
 
 
-def test_a_session_is_read_as_it_was_recorded(read: Callable[[str | bytes], Recording]) -> None:
+def test_a_session_is_read_as_it_was_recorded(read: Callable[[str | bytes], SessionRecording]) -> None:
     recording = read(recorded(SESSION))
     assert list(recording.ticks) == SESSION
     assert recording.started == 1234.5
@@ -120,7 +120,9 @@ def test_the_examples_cover_every_kind_of_prediction() -> None:
     assert {type(each) for each in PREDICTED} == set(get_args(Predicted))
 
 
-def test_every_option_of_a_scene_is_read_as_it_was(read: Callable[[str | bytes], Recording], tmp_path: Path) -> None:
+def test_every_option_of_a_scene_is_read_as_it_was(
+    read: Callable[[str | bytes], SessionRecording], tmp_path: Path
+) -> None:
     options = SceneOptions(DEFAULT_HUMAN, "text", (tmp_path,), 7)
     again = read(recorded([], options)).options(tmp_path)
     assert again.human.read_text("utf-8") == DEFAULT_HUMAN.read_text("utf-8")
@@ -143,14 +145,14 @@ def test_ticks_in_which_nothing_enters_share_a_line_up_to_a_hundred_or_a_skipped
     assert [line.get("count") for line in lines[5:]] == [None, None, 3, None, None, 2, None]
 
 
-def test_ticks_that_share_a_line_are_all_watched_or_none_is(read: Callable[[str | bytes], Recording]) -> None:
+def test_ticks_that_share_a_line_are_all_watched_or_none_is(read: Callable[[str | bytes], SessionRecording]) -> None:
     session = [TickInputs(number, watched=3 <= number < 7) for number in range(10)]
     _, *lines = map(json.loads, recorded(session).splitlines())
     assert lines == [{"tick": 0, "count": 3}, {"tick": 3, "count": 4, "watched": True}, {"tick": 7, "count": 3}]
     assert list(read(recorded(session)).ticks) == session
 
 
-def test_ticks_that_share_a_line_are_read_one_by_one(read: Callable[[str | bytes], Recording]) -> None:
+def test_ticks_that_share_a_line_are_read_one_by_one(read: Callable[[str | bytes], SessionRecording]) -> None:
     session = [*map(TickInputs, range(250)), *SHARED]
     assert list(read(recorded(session)).ticks) == session
 
@@ -172,7 +174,7 @@ def test_every_line_satisfies_the_schema() -> None:
         Draft202012Validator({"$ref": f"#/$defs/{kind}", "$defs": schema["$defs"]}).validate(line)
 
 
-def test_all_complete_ticks_of_a_truncated_file_are_read(read: Callable[[str | bytes], Recording]) -> None:
+def test_all_complete_ticks_of_a_truncated_file_are_read(read: Callable[[str | bytes], SessionRecording]) -> None:
     session = [
         TickInputs(0, (Event("metronome", "start"),)),
         TickInputs(3),
@@ -226,7 +228,7 @@ FORECAST = '{"tick": 9, "forecast": {"anticipator": "m", "sync": "tick1", "time"
     ],
 )
 def test_an_invalid_recording_is_refused_with_line_and_reason(
-    read: Callable[[str | bytes], Recording], lines: Any, row: int, part: str
+    read: Callable[[str | bytes], SessionRecording], lines: Any, row: int, part: str
 ) -> None:
     with pytest.raises(RealizerError) as refused:
         read("".join(line + "\n" for line in lines))
@@ -234,7 +236,7 @@ def test_an_invalid_recording_is_refused_with_line_and_reason(
     assert part in str(refused.value)
 
 
-def test_invalid_utf_8_is_refused_with_its_line(read: Callable[[str | bytes], Recording]) -> None:
+def test_invalid_utf_8_is_refused_with_its_line(read: Callable[[str | bytes], SessionRecording]) -> None:
     with pytest.raises(RealizerError, match="line 2: not valid JSON"):
         read(GOOD[0].encode() + b"\n\xff\xff\n")
 

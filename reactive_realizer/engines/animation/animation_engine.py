@@ -63,7 +63,7 @@ from reactive_realizer.engines.animation.posture.foot_planting import FootPlanti
 from reactive_realizer.engines.animation.posture.posture_library import BodyPosture, PostureLibrary
 from reactive_realizer.engines.animation.posture.rest_posture import RestPosture
 from reactive_realizer.pegboard.peg_key import BlockKey
-from reactive_realizer.physics.controllers.controller import Controller
+from reactive_realizer.physics.controllers.controller import PhysicalController
 from reactive_realizer.planunit.parameter import Range
 from reactive_realizer.planunit.plan_unit import PlanUnit, UnitState
 from reactive_realizer.reactive.graph import Graph
@@ -269,7 +269,7 @@ class AnimationEngine(DefaultEngine):
                 claimed |= unit.shown.rotations.keys()
         return self._physical_figure.dynamics(list(self._controlling().values()), claimed)
 
-    def _controlling(self) -> dict[AnimationUnit, Controller]:
+    def _controlling(self) -> dict[AnimationUnit, PhysicalController]:
         """Return the controllers that act, the latest last: in each replacement group, only the uppermost unit does."""
         units = {unit.group or unit: unit for unit in self.player.stacked(AnimationUnit)}
         motions = ((unit, unit.motion) for unit in units.values())

@@ -12,7 +12,7 @@ from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, difference, 
 from reactive_realizer.embodiment.vector import ZERO, Vec3, add, length, scale, subtract
 from reactive_realizer.engines.animation.easing import minimum_jerk
 from reactive_realizer.engines.animation.motions.rotation_curves import CurveEnd, HermiteCurve
-from reactive_realizer.physics.controllers.controller import Controller
+from reactive_realizer.physics.controllers.controller import PhysicalController
 from reactive_realizer.physics.simulation import SUBSTEP, Exploded, Simulation
 
 _RETURN = 0.6
@@ -69,7 +69,7 @@ class PhysicalFigure:
         falls, self._falls = self._falls, False
         return falls
 
-    def dynamics(self, controllers: Sequence[Controller], claimed: Collection[str]) -> Dynamics | None:
+    def dynamics(self, controllers: Sequence[PhysicalController], claimed: Collection[str]) -> Dynamics | None:
         """Return the movement by forces in the next frame; None if there is none.
 
         Args:
@@ -82,7 +82,9 @@ class PhysicalFigure:
             self._frames = (_Frame(0.0, self._humanoid.shown, self._humanoid.shown),)
         return partial(self._move, controllers, claimed)
 
-    def _move(self, controllers: Sequence[Controller], claimed: Collection[str], body: Body, duration: float) -> Body:
+    def _move(
+        self, controllers: Sequence[PhysicalController], claimed: Collection[str], body: Body, duration: float
+    ) -> Body:
         physical, taken = self._chosen(controllers, claimed)
         for joint in self._physical - physical:
             self._returns[joint] = self._leave(joint, body, 0.0 if joint in taken else duration)
@@ -101,7 +103,7 @@ class PhysicalFigure:
         return shown
 
     def _chosen(
-        self, controllers: Sequence[Controller], claimed: Collection[str]
+        self, controllers: Sequence[PhysicalController], claimed: Collection[str]
     ) -> tuple[frozenset[str], frozenset[str]]:
         """Return the joints that are physical from now on, and those that motions claim.
 
@@ -123,7 +125,7 @@ class PhysicalFigure:
             return self._simulation.segments(moved) - taken, taken
         return frozenset(), frozenset()
 
-    def _simulated(self, controllers: Sequence[Controller], goal: Body, duration: float) -> Body:
+    def _simulated(self, controllers: Sequence[PhysicalController], goal: Body, duration: float) -> Body:
         simulation = self._simulation
         if simulation is None:
             return goal

@@ -9,7 +9,7 @@ from reactive_realizer.embodiment.body import Body, Skeleton
 from reactive_realizer.embodiment.joints import ROOT, SIDES
 from reactive_realizer.embodiment.quaternion import difference, rotate, rotation_vector
 from reactive_realizer.embodiment.vector import Vec3, add, dot, scale, subtract
-from reactive_realizer.physics.controllers.controller import Controller
+from reactive_realizer.physics.controllers.controller import PhysicalController
 
 if TYPE_CHECKING:
     from reactive_realizer.physics.simulation import Simulation
@@ -63,7 +63,7 @@ _UPRIGHTING = 80.0
 _LEGS = tuple(tuple(f"{side}_{joint}" for joint in ("hip", "knee", "ankle")) for side in SIDES)
 
 
-class BalanceController(Controller):
+class BalanceController(PhysicalController):
     """Keeps the center of mass above the middle between the feet, and the pelvis upright at a height.
 
     A spring and a damper on the center of mass give the force F that the ground should exert on the figure. If it acts

@@ -8,7 +8,7 @@ from reactive_realizer.embodiment.body import Skeleton
 from reactive_realizer.embodiment.joints import ROOT
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.physics.controllers.balance import BalanceController
-from reactive_realizer.physics.controllers.controller import Controller, NoController, RagdollController
+from reactive_realizer.physics.controllers.controller import NoController, PhysicalController, RagdollController
 from reactive_realizer.physics.controllers.joints import AXES, BallJointController, HingeJointController, PoseController
 from reactive_realizer.physics.faults import BadAxis, MissingJoint, NoLegs, NoSegment, UnknownController
 from reactive_realizer.physics.mjcf import segment_joints
@@ -17,7 +17,7 @@ Parameters = Mapping[str, str]
 """Name -> value, as written."""
 
 
-def new_controller(kind: str, parameters: Parameters, skeleton: Skeleton) -> Controller:
+def new_controller(kind: str, parameters: Parameters, skeleton: Skeleton) -> PhysicalController:
     """Return a new controller.
 
     Args:
@@ -34,27 +34,27 @@ def new_controller(kind: str, parameters: Parameters, skeleton: Skeleton) -> Con
     return CONTROLLERS[name](parameters, skeleton)
 
 
-def _balance(parameters: Parameters, skeleton: Skeleton) -> Controller:
+def _balance(parameters: Parameters, skeleton: Skeleton) -> PhysicalController:
     missing = BalanceController.needed() - set(segment_joints(skeleton))
     if missing:
         raise RealizerError(NoLegs(joints=tuple(sorted(missing))))
     return BalanceController(skeleton)
 
 
-def _ragdoll(parameters: Parameters, skeleton: Skeleton) -> Controller:
+def _ragdoll(parameters: Parameters, skeleton: Skeleton) -> PhysicalController:
     return RagdollController(_joints(parameters, skeleton) or segment_joints(skeleton))
 
 
-def _pose(parameters: Parameters, skeleton: Skeleton) -> Controller:
+def _pose(parameters: Parameters, skeleton: Skeleton) -> PhysicalController:
     every = (joint for joint in segment_joints(skeleton) if joint != ROOT)
     return PoseController(_joints(parameters, skeleton) or tuple(every))
 
 
-def _ball(parameters: Parameters, skeleton: Skeleton) -> Controller:
+def _ball(parameters: Parameters, skeleton: Skeleton) -> PhysicalController:
     return BallJointController(_joint("BallJointController", parameters, skeleton))
 
 
-def _hinge(parameters: Parameters, skeleton: Skeleton) -> Controller:
+def _hinge(parameters: Parameters, skeleton: Skeleton) -> PhysicalController:
     axis = parameters.get("axis", "0")
     if axis not in ("0", "1", "2", *AXES):
         raise RealizerError(BadAxis(axis=axis))
@@ -80,7 +80,7 @@ def _checked(joint: str, skeleton: Skeleton) -> str:
     return joint
 
 
-CONTROLLERS: Mapping[str, Callable[[Parameters, Skeleton], Controller]] = MappingProxyType(
+CONTROLLERS: Mapping[str, Callable[[Parameters, Skeleton], PhysicalController]] = MappingProxyType(
     {
         "BalanceController": _balance,
         "BallJointController": _ball,

@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, TypeVar
 
 from reactive_realizer.embodiment.body import Body
-from reactive_realizer.physics.controllers.controller import Controller
+from reactive_realizer.physics.controllers.controller import PhysicalController
 
 if TYPE_CHECKING:
     from reactive_realizer.physics.simulation import Simulation
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 
 
-class CompoundController(Controller):
+class CompoundController(PhysicalController):
     """Several controllers as one.
 
     A parameter of a part is ``part:parameter``.
@@ -22,7 +22,7 @@ class CompoundController(Controller):
         desired: id -> part that acts only if its joints are physical anyway.
     """
 
-    def __init__(self, required: Mapping[str, Controller], desired: Mapping[str, Controller]) -> None:
+    def __init__(self, required: Mapping[str, PhysicalController], desired: Mapping[str, PhysicalController]) -> None:
         self._required, self._parts = required, {**required, **desired}
         self.joints = _joints(list(required.values()))
         self.desired = _joints(list(desired.values()))
@@ -36,10 +36,12 @@ class CompoundController(Controller):
             part.act(simulation, goal, torques, damping)
 
 
-def _named(parts: Mapping[str, Controller], values: Callable[[Controller], Mapping[str, T]]) -> dict[str, T]:
+def _named(
+    parts: Mapping[str, PhysicalController], values: Callable[[PhysicalController], Mapping[str, T]]
+) -> dict[str, T]:
     """Return values of all parts by the names of their parameters."""
     return {f"{id_}:{name}": value for id_, part in parts.items() for name, value in values(part).items()}
 
 
-def _joints(parts: Sequence[Controller]) -> frozenset[str]:
+def _joints(parts: Sequence[PhysicalController]) -> frozenset[str]:
     return frozenset(joint for part in parts for joint in part.joints)

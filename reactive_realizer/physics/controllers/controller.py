@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from reactive_realizer.physics.simulation import Simulation
 
 
-class Controller(ABC):
+class PhysicalController(ABC):
     """Moves physical joints by torques.
 
     Attributes:
@@ -46,7 +46,7 @@ class Controller(ABC):
         """
 
 
-class RagdollController(Controller):
+class RagdollController(PhysicalController):
     """Lets joints hang loosely.
 
     Args:
@@ -62,7 +62,7 @@ class RagdollController(Controller):
         """Add nothing: the damping of joints and the springs at their limits are part of every simulation."""
 
 
-class NoController(Controller):
+class NoController(PhysicalController):
     """Moves nothing: it takes the place of another controller of its replacement group (thesis example 19)."""
 
     joints = frozenset()

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.quaternion import from_euler
 from reactive_realizer.embodiment.vector import Vec3
-from reactive_realizer.physics.controllers.controller import Controller
+from reactive_realizer.physics.controllers.controller import PhysicalController
 
 if TYPE_CHECKING:
     from reactive_realizer.physics.simulation import Simulation
@@ -22,7 +22,7 @@ _USUAL_SPRING, _USUAL_DAMPER = 5.0, 0.5
 """Of a joint that hangs loosely, Nm/rad and Nms/rad."""
 
 
-class BallJointController(Controller):
+class BallJointController(PhysicalController):
     """Holds a joint at angles about its three axes by springs and dampers.
 
     Parameters for each axis a: ``anglea``, rad (Euler angles, x first), the stiffness ``ksa``, Nm/rad, and the damping
@@ -58,7 +58,7 @@ class BallJointController(Controller):
         return (values[f"{name}x"], values[f"{name}y"], values[f"{name}z"])
 
 
-class HingeJointController(Controller):
+class HingeJointController(PhysicalController):
     """Holds a joint at an angle about one of its axes by a spring and a damper; about the others, it turns freely.
 
     Parameters: ``angle``, rad, its stiffness ``ks``, Nm/rad, and its damping ``ds``, Nms/rad.
@@ -86,7 +86,7 @@ class HingeJointController(Controller):
         return (x, y, z)
 
 
-class PoseController(Controller):
+class PoseController(PhysicalController):
     """Holds joints in the pose of the animation, so that they follow it softly and give way to forces.
 
     Parameters: ``stiffnessmultiplier`` and ``damping``, 1 for critical.

@@ -10,7 +10,7 @@ from reactive_realizer.scheduler.faults import (
     ContradictoryTie,
     NamesDropped,
     NeverHolds,
-    OuterTie,
+    OuterTieDropped,
     Rigid,
     TooHurried,
 )
@@ -95,7 +95,7 @@ class Relaxation:
 
     def _constraint_fault(self, dropped: Requirement, constraint: Tie | Precedence, conflict: Conflict) -> Fault:
         if conflict.outer:
-            return OuterTie(tie=constraint.text)
+            return OuterTieDropped(tie=constraint.text)
         if (hurried := self._hurried(dropped, conflict)) is not None:
             return hurried
         if all(each.rank is Rank.TIE for each in conflict.requirements):

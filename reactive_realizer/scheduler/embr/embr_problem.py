@@ -10,7 +10,7 @@ from reactive_realizer.scheduler.embr.differences import Row
 from reactive_realizer.scheduler.problem import Item, Node, Point, Precedence, Tie
 
 
-class Segment(NamedTuple):
+class PhaseGroup(NamedTuple):
     """The part of a behavior between two knots, which is stretched as a whole: its phases keep their proportions.
 
     Attributes:
@@ -91,7 +91,7 @@ def _knots(item: Item, named: Iterable[Node]) -> list[int]:
     return sorted(own | {0, len(rigid)})
 
 
-def _segments(item: Item, knots: Sequence[int]) -> list[Segment]:
+def _segments(item: Item, knots: Sequence[int]) -> list[PhaseGroup]:
     points = [Point(item.behavior.id, sync) for sync in item.timing.points]
     offsets, phases = item.timing.offsets, item.timing.phases
     segments = []
@@ -99,5 +99,5 @@ def _segments(item: Item, knots: Sequence[int]) -> list[Segment]:
         rigid = phases[first].kind is PhaseKind.RIGID
         shortest = 0.0 if rigid else sum(phase.shortest for phase in phases[first:last])
         preferred = offsets[last] - offsets[first]
-        segments.append(Segment(points[first], points[last], preferred, rigid, shortest, phases[first:last]))
+        segments.append(PhaseGroup(points[first], points[last], preferred, rigid, shortest, phases[first:last]))
     return segments

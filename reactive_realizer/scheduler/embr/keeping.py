@@ -5,7 +5,7 @@ from itertools import groupby
 
 from reactive_realizer.scheduler.embr.differences import Differences, Row, Unmet
 from reactive_realizer.scheduler.embr.embr_problem import EmbrProblem
-from reactive_realizer.scheduler.faults import ContradictoryTie, OuterTie, TooHurried
+from reactive_realizer.scheduler.faults import ContradictoryTie, OuterTieDropped, TooHurried
 from reactive_realizer.scheduler.offset_union_find import TIE_TOLERANCE, OffsetUnionFind
 from reactive_realizer.scheduler.problem import Node, Point, Precedence, Tie
 from reactive_realizer.scheduler.solution import Loss, lost_constraint
@@ -82,7 +82,7 @@ class _Admission:
         if isinstance(constraint, Precedence):
             unmet = self._add(Row(constraint.later, constraint.earlier, constraint.offset))
         elif self._outer(constraint):
-            self._losses.append(lost_constraint(constraint, OuterTie(tie=constraint.text)))
+            self._losses.append(lost_constraint(constraint, OuterTieDropped(tie=constraint.text)))
             return False
         else:
             unmet = self._differences.add(*_equal(constraint.left, constraint.right, constraint.offset))

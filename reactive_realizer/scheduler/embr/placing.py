@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from math import inf
 
 from reactive_realizer.scheduler.embr.differences import TOLERANCE, Differences, Row
-from reactive_realizer.scheduler.embr.embr_problem import EmbrProblem, Segment
+from reactive_realizer.scheduler.embr.embr_problem import EmbrProblem, PhaseGroup
 from reactive_realizer.scheduler.embr.keeping import Kept
 from reactive_realizer.scheduler.embr.linear_program import Wish, least_deviations
 from reactive_realizer.scheduler.offset_union_find import TIE_TOLERANCE, OffsetUnionFind
@@ -36,7 +36,7 @@ class _Group:
     def __init__(self, problem: EmbrProblem, kept: Kept) -> None:
         self._problem = problem
         self._kept = kept
-        self.segments: list[Segment] = []
+        self.segments: list[PhaseGroup] = []
         self.ties: list[Tie] = []
         self.rows: list[Row[Node]] = []
 

@@ -9,7 +9,7 @@ from reactive_realizer.planunit.timing import SHORTEST
 from reactive_realizer.scheduler.faults import (
     ContradictoryTie,
     NoOrder,
-    OuterTie,
+    OuterTieDropped,
     Rigid,
 )
 from reactive_realizer.scheduler.offset_union_find import TIE_TOLERANCE, OffsetUnionFind
@@ -94,7 +94,7 @@ class _Run:
             self._tied.update(tie.nodes)
         elif abs(gap) > TIE_TOLERANCE:
             contradiction = ContradictoryTie(tie=tie.text, gap=abs(gap))
-            self._losses.append(lost_constraint(tie, contradiction if isfinite(gap) else OuterTie(tie=tie.text)))
+            self._losses.append(lost_constraint(tie, contradiction if isfinite(gap) else OuterTieDropped(tie=tie.text)))
 
     def _place(self, item: Item) -> None:
         """Place every point of a behavior; the placements of earlier behaviors stay, if possible."""
@@ -172,7 +172,7 @@ class _Run:
             if gap is None or abs(gap) > _SAME:
                 tie = self._least(item, i, first)
                 rigid = Rigid(tie=tie.text, point=":".join(points[i]), gap=abs(gap or 0.0))
-                self._give_up(item, tie, OuterTie(tie=tie.text) if gap is None else rigid)
+                self._give_up(item, tie, OuterTieDropped(tie=tie.text) if gap is None else rigid)
                 return True
         return False
 

@@ -16,7 +16,7 @@ from reactive_realizer.embodiment.humanoid import Humanoid
 from reactive_realizer.embodiment.pose import Layer, LayerKind
 from reactive_realizer.embodiment.quaternion import Quat, angle, difference, from_rotation_vector, rotation_vector
 from reactive_realizer.engines.animation.physical_figure import PhysicalFigure
-from reactive_realizer.physics.controllers.controller import Controller, RagdollController
+from reactive_realizer.physics.controllers.controller import PhysicalController, RagdollController
 
 FRAME = 0.02
 AVATAR = Avatar.read(Path(str(files("reactive_realizer"))) / "assets/avatars/female.glb")
@@ -52,7 +52,7 @@ class Session:
         self.speeds: list[np.ndarray] = []
         self.frames = 0
 
-    def show(self, controllers: list[Controller], claimed: set[str]) -> None:
+    def show(self, controllers: list[PhysicalController], claimed: set[str]) -> None:
         time = GlobalTime(self.frames * FRAME)
         before = self.humanoid.shown
         dynamics = self.figure.dynamics(controllers, claimed)
@@ -87,7 +87,7 @@ def test_limbs_that_become_loose_or_are_claimed_at_any_time_keep_their_speed(
         session.show([], set())
     for frames, loose, claimed in switches:
         joints = {joint for limb in loose for joint in LIMBS[limb]}
-        controllers: list[Controller] = [RagdollController(joints)] if joints else []
+        controllers: list[PhysicalController] = [RagdollController(joints)] if joints else []
         changes.append(session.frames)
         for _ in range(frames):
             session.show(controllers, {joint for limb in claimed for joint in LIMBS[limb]})

@@ -14,7 +14,7 @@ from reactive_realizer.engines.animation.motion_unit import FILE, NAME, Moment, 
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.physics.controllers.catalog import new_controller
 from reactive_realizer.physics.controllers.compound import CompoundController
-from reactive_realizer.physics.controllers.controller import Controller
+from reactive_realizer.physics.controllers.controller import PhysicalController
 from reactive_realizer.physics.faults import SimulationFailed
 from reactive_realizer.planunit.parameter import Range
 
@@ -36,7 +36,7 @@ class ControllerMotionUnit(MotionUnit):
     kind = LayerKind.POSTURE
     preferred_duration = 1.0
 
-    def __init__(self, controller: Controller) -> None:
+    def __init__(self, controller: PhysicalController) -> None:
         self.controller = controller
         self.parameters = dict(controller.parameters)
         self.ranges = {name: Range(*limits) for name, limits in controller.ranges.items()}
@@ -78,7 +78,7 @@ class ControllerMaker:
         }
         return ControllerMotionUnit(controller)
 
-    def _controller(self, request: MotionRequest) -> Controller:
+    def _controller(self, request: MotionRequest) -> PhysicalController:
         skeleton, kind = self._context.humanoid.avatar.skeleton, request.parameters.get(CLASS, _COMPOUND)
         if kind.rpartition(".")[2] == _COMPOUND:
             return read_compound(self._context.file_of(request, "xml"), skeleton)
@@ -100,7 +100,7 @@ def read_compound(path: Path, skeleton: Skeleton) -> CompoundController:
     return CompoundController(dict(_parts(root, "required", skeleton)), dict(_parts(root, "desired", skeleton)))
 
 
-def _parts(root: XmlElement, need: str, skeleton: Skeleton) -> Iterator[tuple[str, Controller]]:
+def _parts(root: XmlElement, need: str, skeleton: Skeleton) -> Iterator[tuple[str, PhysicalController]]:
     for element in root.iterfind(f"{need}/Controller"):
         try:
             yield attribute(element, "id"), _part(element, skeleton)
@@ -110,7 +110,7 @@ def _parts(root: XmlElement, need: str, skeleton: Skeleton) -> Iterator[tuple[st
             _log.warning("%s; it is left out", problem.fault.sentence)
 
 
-def _part(element: XmlElement, skeleton: Skeleton) -> Controller:
+def _part(element: XmlElement, skeleton: Skeleton) -> PhysicalController:
     given = {attribute(each, "name"): attribute(each, "value") for each in element.iterfind(f"{{{BMLT}}}parameter")}
     try:
         controller = new_controller(attribute(element, "class"), given, skeleton)
